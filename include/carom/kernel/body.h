@@ -1,0 +1,40 @@
+// Bodies: a collidable is a shape with a pose and the few properties that decide whom it meets.
+#pragma once
+
+#include <Eigen/Core>
+#include <compare>
+#include <cstdint>
+
+#include "carom/kernel/shape.h"
+
+namespace carom {
+
+// Names a body for as long as it lives: an index is used again after removal, with the next
+// generation, so an old id never names a newer body.
+struct BodyId {
+  uint32_t index = 0xffffffffu;
+  uint32_t generation = 0;
+
+  friend auto operator<=>(const BodyId&, const BodyId&) = default;
+};
+
+enum class Motion : uint8_t { fixed = 0, kinematic = 1, dynamic = 2 };
+
+// Storage of positions, chosen once a world (or a call) from what the scene needs.
+enum class PositionType : uint8_t { float32, float64 };
+
+// Two bodies may meet if each one's layer is in the other's mask, they do not share a non-zero
+// owner, and not both are fixed (static).
+struct BodyDesc {
+  Shape shape = Sphere{};
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world frame, metres
+  Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();  // world frame, metres a second
+  Motion motion = Motion::dynamic;
+  uint32_t layer = 0xffffffffu;
+  uint32_t mask = 0xffffffffu;
+  uint32_t owner = 0;     // 0: none
+  bool sensor = false;    // reports overlap and events, never contacts
+  uint64_t user = 0;      // handed back untouched
+};
+
+}  // namespace carom

@@ -1,0 +1,65 @@
+// Results of the narrow phase.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+namespace carom {
+
+// How much is asked for; nothing beyond it is computed.
+enum class Detail : uint8_t {
+  pairs,    // candidate pairs only, no narrow phase
+  overlap,  // the decision
+  contact,  // decision, normal, separation, witness points
+};
+
+enum class Status : uint8_t {
+  ok = 0,
+  budget = 1,      // iteration budget reached: the result is the best bound
+  degenerate = 2,  // degenerate input handled: the answer is defined, the normal is a convention
+  invalid = 3,     // NaN, infinite or negative size: there is no answer
+};
+
+// One contact of a world, 64 bytes.
+//   normal      unit, world frame, from body A to body B
+//   separation  metres; <= 0: overlap by that much. Moving B by -separation * normal makes the two
+//               touch
+//   arm_a/_b    witness point of each body relative to that body's position, world axes:
+//               position_a + arm_a is on A, position_b + arm_b on B, and
+//               (position_b + arm_b) - (position_a + arm_a) = separation * normal
+//   normal_velocity  rate of change of the separation, (v_b - v_a) . normal, metres a second;
+//               negative: approaching; 0 where no velocities are given
+struct Contact {
+  uint32_t a;  // body indices, a < b
+  uint32_t b;
+  uint32_t sub_a;  // sub-shape (child, triangle) of each; 0 for simple shapes
+  uint32_t sub_b;
+  Eigen::Vector3f normal;
+  float separation;
+  Eigen::Vector3f arm_a;
+  float normal_velocity;
+  Eigen::Vector3f arm_b;
+  Status status;
+  std::array<uint8_t, 3> reserved{};  // zero, so that contacts compare and hash as bytes
+};
+static_assert(sizeof(Contact) == 64);
+
+// Where stateless calls write; one entry a pair in every column that is not nullptr. Columns are
+// dense. A pair that has no answer gets overlap 0, status 3 and NaN elsewhere.
+struct ResultColumns {
+  uint8_t* overlap = nullptr;  // 1 overlap, 0 separate
+  uint8_t* status = nullptr;   // Status
+  float* separation = nullptr;
+  std::array<float*, 3> normal{};
+  std::array<float*, 3> point_a{};
+  std::array<float*, 3> point_b{};
+};
+
+// The frame of the witness points in ResultColumns.
+enum class WitnessFrame : uint8_t {
+  world,  // world coordinates, rounded to float32
+  body,   // relative to the body's own position, world axes: exact far from the origin, too
+};
+
+}  // namespace carom

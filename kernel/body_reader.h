@@ -1,0 +1,96 @@
+// Single bodies of a view, and what counts as a valid one: finite position, finite and not negative
+// size. One rule for bounds, kernels and queries; comparisons are ordered so that NaN fails them.
+#pragma once
+
+#include <cfloat>
+#include <cmath>
+#include <cstring>
+
+#include "carom/kernel/views.h"
+
+namespace carom {
+
+inline bool is_valid_radius(float radius) { return radius >= 0 && radius <= FLT_MAX; }
+
+inline bool is_valid_box_axis(float lower, float upper) {
+  return lower >= -FLT_MAX && upper <= FLT_MAX && lower <= upper;
+}
+
+// Element i of an array with a stride in bytes, at any alignment.
+template <class T>
+T load_strided(const void* base, size_t stride, size_t i) {
+  T value;
+  std::memcpy(&value, static_cast<const char*>(base) + i * stride, sizeof(T));
+  return value;
+}
+
+template <class T>
+struct Position {
+  T x, y, z;
+};
+
+template <class T>
+bool is_finite(const Position<T>& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+// Reads single bodies of a view: for rare paths, scalar stages and set-up.
+struct BodyReader {
+  const Collidables& bodies;
+
+  ShapeKind kind(size_t i) const { return bodies.kind ? bodies.kind[i] : bodies.uniform_kind; }
+
+  size_t box(size_t i) const { return bodies.box_slot ? bodies.box_slot[i] : i; }
+
+  bool is_float64() const { return bodies.position.type == PositionType::float64; }
+
+  // Zero where the view has no positions.
+  template <class T>
+  Position<T> position(size_t i) const {
+    const PositionView& view = bodies.position;
+    if (!view.data) return {};
+    if (is_float64()) {
+      const auto p = load_strided<Position<double>>(view.data, view.stride, i);
+      return {static_cast<T>(p.x), static_cast<T>(p.y), static_cast<T>(p.z)};
+    }
+    const auto p = load_strided<Position<float>>(view.data, view.stride, i);
+    return {p.x, p.y, p.z};
+  }
+
+  // The radius of a sphere.
+  float radius(size_t i) const {
+    const PositionView& view = bodies.position;
+    switch (view.radius_layout) {
+      case RadiusLayout::none:
+        return 0;
+      case RadiusLayout::column:
+        return load_strided<float>(view.radius, view.radius_stride, i);
+      case RadiusLayout::fourth:
+        break;
+    }
+    const char* base = static_cast<const char*>(view.data);
+    if (is_float64()) {
+      return static_cast<float>(
+          load_strided<double>(base + sizeof(Position<double>), view.stride, i));
+    }
+    return load_strided<float>(base + sizeof(Position<float>), view.stride, i);
+  }
+
+  float lower(size_t axis, size_t i) const {
+    return load_strided<float>(bodies.boxes.lower[axis], bodies.boxes.stride, box(i));
+  }
+  float upper(size_t axis, size_t i) const {
+    return load_strided<float>(bodies.boxes.upper[axis], bodies.boxes.stride, box(i));
+  }
+
+  bool is_valid(size_t i) const {
+    if (bodies.position.data && !is_finite(position<double>(i))) return false;
+    if (kind(i) == ShapeKind::sphere) return is_valid_radius(radius(i));
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (!is_valid_box_axis(lower(axis, i), upper(axis, i))) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace carom

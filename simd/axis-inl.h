@@ -1,0 +1,55 @@
+// Choosing one of the three axes, lane by lane.
+#if defined(CAROM_SIMD_AXIS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_SIMD_AXIS_INL_H_
+#undef CAROM_SIMD_AXIS_INL_H_
+#else
+#define CAROM_SIMD_AXIS_INL_H_
+#endif
+
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+struct Mask3 {
+  Mask x, y, z;
+};
+
+// Exactly one of the three is set in every lane.
+using AxisMasks = Mask3;
+
+HWY_INLINE F3 select(const Mask3& mask, const F3& yes, const F3& no) {
+  return {hn::IfThenElse(mask.x, yes.x, no.x), hn::IfThenElse(mask.y, yes.y, no.y),
+          hn::IfThenElse(mask.z, yes.z, no.z)};
+}
+
+HWY_INLINE AxisMasks first_of(Mask x, Mask y_not_z) {
+  const Mask y = hn::AndNot(x, y_not_z);
+  return {x, y, hn::Not(hn::Or(x, y))};
+}
+
+// The axis of the least component; the first of equals.
+HWY_INLINE AxisMasks least_axis(const F3& v) {
+  return first_of(hn::And(hn::Le(v.x, v.y), hn::Le(v.x, v.z)), hn::Le(v.y, v.z));
+}
+
+// The axis of the greatest component; the first of equals.
+HWY_INLINE AxisMasks greatest_axis(const F3& v) {
+  return first_of(hn::And(hn::Ge(v.x, v.y), hn::Ge(v.x, v.z)), hn::Ge(v.y, v.z));
+}
+
+HWY_INLINE F pick(const AxisMasks& axis, const F3& v) {
+  return hn::IfThenElse(axis.x, v.x, hn::IfThenElse(axis.y, v.y, v.z));
+}
+
+// The unit vector along the axis, against it where `negative`; zeros elsewhere are +0.
+HWY_INLINE F3 signed_axis(const AxisMasks& axis, const Mask3& negative) {
+  const F3 unit = select(negative, splat3(-1), splat3(1));
+  return {hn::IfThenElseZero(axis.x, unit.x), hn::IfThenElseZero(axis.y, unit.y),
+          hn::IfThenElseZero(axis.z, unit.z)};
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_SIMD_AXIS_INL_H_

@@ -1,0 +1,23 @@
+// Calls the version of a kernel that was compiled for the ISA in use.
+#pragma once
+
+#include "simd/targets.h"
+// After the targets.
+#include <hwy/highway.h>
+
+namespace carom::simd {
+
+// Carom's own choice, apart from Highway's process-wide one: forcing an ISA here changes nothing
+// for other libraries that use Highway.
+hwy::ChosenTarget& chosen_target();
+
+}  // namespace carom::simd
+
+// CAROM_DISPATCH(f)(args): f from the HWY_EXPORT table of the ISA in use. A macro, since Highway's
+// tables are named by one.
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
+#define CAROM_DISPATCH(function) HWY_STATIC_DISPATCH(function)
+#else
+#define CAROM_DISPATCH(function) \
+  (*(HWY_DISPATCH_TABLE(function)[::carom::simd::chosen_target().GetIndex()]))
+#endif

@@ -1,0 +1,81 @@
+// Records of four floats at any addresses -> four vectors of lanes. Plain 16-byte loads and a
+// transpose beat hardware gathers by about four times.
+#if defined(CAROM_SIMD_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_SIMD_GATHER_INL_H_
+#undef CAROM_SIMD_GATHER_INL_H_
+#else
+#define CAROM_SIMD_GATHER_INL_H_
+#endif
+
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+struct F4 {
+  F x, y, z, w;
+};
+
+// A source of records gives record i of the lanes as
+//   hn::Vec<Quad> quad(size_t i)         on ISAs with vectors
+//   float component(size_t i, size_t c)  on the scalar one
+#if HWY_TARGET != HWY_SCALAR
+
+using Quad = hn::FixedTag<float, 4>;
+using DoublePair = hn::FixedTag<double, 2>;
+
+// A vector whose 128-bit block j is record k + 4 j.
+template <class Tag, class Source>
+HWY_INLINE hn::Vec<Tag> interleaved_row(Tag tag, const Source& source, size_t k) {
+  if constexpr (hn::MaxLanes(Tag()) == 4) {
+    return source.quad(k);
+  } else {
+    const hn::Half<Tag> half;
+    return hn::Combine(tag, interleaved_row(half, source, k + hn::MaxLanes(half)),
+                       interleaved_row(half, source, k));
+  }
+}
+
+template <class Source>
+HWY_INLINE F4 transpose_records(const Source& source) {
+  const FloatTag tag;
+  const F r0 = interleaved_row(tag, source, 0);
+  const F r1 = interleaved_row(tag, source, 1);
+  const F r2 = interleaved_row(tag, source, 2);
+  const F r3 = interleaved_row(tag, source, 3);
+  const F xy02 = hn::InterleaveLower(tag, r0, r2);
+  const F xy13 = hn::InterleaveLower(tag, r1, r3);
+  const F zw02 = hn::InterleaveUpper(tag, r0, r2);
+  const F zw13 = hn::InterleaveUpper(tag, r1, r3);
+  return {hn::InterleaveLower(tag, xy02, xy13), hn::InterleaveUpper(tag, xy02, xy13),
+          hn::InterleaveLower(tag, zw02, zw13), hn::InterleaveUpper(tag, zw02, zw13)};
+}
+
+// Four doubles, rounded to float32.
+HWY_INLINE hn::Vec<Quad> demote_quad(hn::Vec<DoublePair> xy, hn::Vec<DoublePair> zw) {
+  const hn::Half<Quad> half;
+  return hn::Combine(Quad(), hn::DemoteTo(half, zw), hn::DemoteTo(half, xy));
+}
+
+#else
+
+template <class Source>
+HWY_INLINE F4 transpose_records(const Source& source) {
+  return {splat(source.component(0, 0)), splat(source.component(0, 1)),
+          splat(source.component(0, 2)), splat(source.component(0, 3))};
+}
+
+#endif
+
+// Lane i is at(i).
+template <class At>
+HWY_INLINE F lanes_from(const At& at) {
+  HWY_ALIGN float values[kLanes];
+  for (size_t i = 0; i < kLanes; ++i) values[i] = at(i);
+  return hn::Load(FloatTag(), values);
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_SIMD_GATHER_INL_H_

@@ -1,0 +1,115 @@
+// The lane types that kernels are written in, and the arithmetic that must give the same bits on
+// every ISA. No fused multiply-add, no approximate reciprocals.
+#if defined(CAROM_SIMD_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_SIMD_LANES_INL_H_
+#undef CAROM_SIMD_LANES_INL_H_
+#else
+#define CAROM_SIMD_LANES_INL_H_
+#endif
+
+#include <cfloat>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// As many float lanes as the ISA has: 4, 8 or 16; one on the scalar target.
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using F = hn::Vec<FloatTag>;
+using I = hn::Vec<IntTag>;
+using Mask = hn::Mask<FloatTag>;
+inline constexpr size_t kLanes = HWY_LANES(float);
+
+HWY_INLINE Mask no_lanes() { return hn::MaskFromVec(hn::Zero(FloatTag())); }
+HWY_INLINE F splat(float value) { return hn::Set(FloatTag(), value); }
+
+// a < b ? a : b and a > b ? a : b, to the bit: of equal operands (+0 and -0) the second. Highway's
+// own Min and Max do that on x86 only.
+HWY_INLINE F min(F a, F b) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+  return hn::Min(a, b);
+#else
+  return hn::IfThenElse(hn::Lt(a, b), a, b);
+#endif
+}
+
+HWY_INLINE F max(F a, F b) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
+  return hn::Max(a, b);
+#else
+  return hn::IfThenElse(hn::Gt(a, b), a, b);
+#endif
+}
+
+HWY_INLINE F clamp_to_finite(F v) { return min(max(v, splat(-FLT_MAX)), splat(FLT_MAX)); }
+
+struct F3 {
+  F x, y, z;
+};
+
+HWY_INLINE F3 splat3(float value) { return {splat(value), splat(value), splat(value)}; }
+HWY_INLINE F3 operator+(const F3& a, const F3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE F3 operator-(const F3& a, const F3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE F3 operator*(const F3& a, F s) {
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
+HWY_INLINE F3 operator-(const F3& a) { return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)}; }
+HWY_INLINE F3 min(const F3& a, const F3& b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+HWY_INLINE F3 max(const F3& a, const F3& b) {
+  return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+HWY_INLINE F3 clamp_to_finite(const F3& v) {
+  return {clamp_to_finite(v.x), clamp_to_finite(v.y), clamp_to_finite(v.z)};
+}
+HWY_INLINE F3 select(Mask mask, const F3& yes, const F3& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+HWY_INLINE F3 zero_unless(Mask mask, const F3& v) {
+  return {hn::IfThenElseZero(mask, v.x), hn::IfThenElseZero(mask, v.y),
+          hn::IfThenElseZero(mask, v.z)};
+}
+
+// The length of a vector and its direction. `is_zero`: the vector is exactly zero, and the
+// direction not a number.
+struct Length {
+  F length;
+  F3 direction;
+  Mask is_zero;
+};
+
+// Scales by a power of two first (exact), so that squares neither overflow nor vanish: right for
+// every finite vector. A length beyond the largest float is the largest float.
+HWY_INLINE Length measure(const F3& v) {
+  const FloatTag tag;
+  const IntTag bits;
+  const F largest = max(max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
+  // 2^k with the exponent of the largest component, kept where 2^-k is a normal float, too.
+  I exponent = hn::And(hn::BitCast(bits, largest), hn::Set(bits, 0x7f800000));
+  exponent = hn::Min(hn::Max(exponent, hn::Set(bits, 0x00800000)), hn::Set(bits, 0x7e800000));
+  const F up = hn::BitCast(tag, exponent);
+  const F down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 0x7f000000), exponent));
+
+  const F3 s = v * down;
+  const F square = hn::Add(hn::Add(hn::Mul(s.x, s.x), hn::Mul(s.y, s.y)), hn::Mul(s.z, s.z));
+  const F length = hn::Sqrt(square);
+  return {.length = min(hn::Mul(length, up), splat(FLT_MAX)),
+          .direction = s * hn::Div(splat(1), length),
+          .is_zero = hn::Eq(length, hn::Zero(tag))};
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_SIMD_LANES_INL_H_
