@@ -1,0 +1,47 @@
+// One batch: pairs of one pair of kinds, and where their data lies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "carom/kernel/contact.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/views.h"
+
+namespace carom {
+
+// How the positions of both sides are stored.
+enum class PositionLayout : uint8_t {
+  none,      // both at the origin: boxes in world coordinates
+  records32, // x, y, z, w float32
+  records64, // x, y, z, w float64
+};
+
+// One side of the batch. Records and boxes as in Collidables, restricted to what kernels load.
+struct BatchSide {
+  const void* records = nullptr;
+  size_t record_stride = 0;
+  AabbColumns boxes;
+  const uint32_t* box_slot = nullptr;  // nullptr: the body's own index
+};
+
+// Row i tests a[pairs[i].a] against b[pairs[i].b], or a[first + i] against b[first + i] without a
+// list; the result goes to row i of `out`.
+struct Batch {
+  BatchSide a;
+  BatchSide b;
+  PositionLayout layout = PositionLayout::records32;
+  const Pair* pairs = nullptr;
+  size_t first = 0;
+  size_t count = 0;
+  Detail detail = Detail::contact;
+  WitnessFrame frame = WitnessFrame::world;
+  ResultColumns out;
+};
+
+// run_NAME(batch) for every pair kind, on the ISA in use.
+#define CAROM_PAIR(name, kind_a, kind_b) void run_##name(const Batch& batch);
+#include "narrowphase/pair_list.inc"
+#undef CAROM_PAIR
+
+}  // namespace carom

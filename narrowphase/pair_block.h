@@ -1,0 +1,32 @@
+// A block of pairs of any kinds and layouts: the step between the public call and the kernels.
+#pragma once
+
+#include <cstddef>
+
+#include "carom/kernel/contact.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/views.h"
+
+namespace carom {
+
+// Small enough for the scratch of a block to stay in L2, large enough to amortise a task.
+inline constexpr size_t kPairsPerBlock = 1024;
+
+struct PairBlock {
+  const Collidables& a;
+  const Collidables& b;
+  const Pair* pairs;  // of the block; nullptr: row i is (a[first + i], b[first + i])
+  size_t first;
+  size_t count;  // <= kPairsPerBlock
+  Detail detail;
+  WitnessFrame frame;
+  ResultColumns out;  // of the block
+};
+
+// All pairs of kinds in the block must have a kernel.
+void run_pair_block(const PairBlock& block);
+
+// The columns from row `row` on.
+ResultColumns from_row(const ResultColumns& columns, size_t row);
+
+}  // namespace carom

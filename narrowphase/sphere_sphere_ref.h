@@ -1,0 +1,24 @@
+// Sphere against sphere. A point is a sphere of radius zero.
+//
+// Source: C. Ericson, Real-Time Collision Detection, 2005, section 4.3.1; the separation is the
+// distance of the centres less both radii.
+#pragma once
+
+#include "narrowphase/length_ref.h"
+#include "narrowphase/separation_ref.h"
+
+namespace carom::reference {
+
+// `d` is the centre of B relative to that of A.
+inline Separation sphere_sphere(float radius_a, float radius_b, const Vector3f& d) {
+  const Length distance = length_of(d);
+  // The larger radius first: near touch it is at least half the distance, so the first difference
+  // is exact (Sterbenz) and the sign of the second is right.
+  const float separation = (distance.length - max(radius_a, radius_b)) - min(radius_a, radius_b);
+  // Concentric spheres separate equally well in every direction: x, by convention.
+  const Vector3f normal = distance.is_zero ? Vector3f(1, 0, 0) : distance.direction;
+  return {separation, normal, radius_a * normal, -(radius_b * normal),
+          distance.is_zero ? Status::degenerate : Status::ok};
+}
+
+}  // namespace carom::reference
