@@ -1,0 +1,76 @@
+#include "broadphase/point_candidates.h"
+
+#include <algorithm>
+
+#include "broadphase/box_columns.h"
+#include "broadphase/scan.h"
+#include "broadphase/sort_pairs.h"
+#include "broadphase/sweep_order.h"
+#include "kernel/block_lists.h"
+
+namespace carom {
+namespace {
+
+constexpr size_t kBoxesPerBlock = 4096;
+
+class CandidateSink final : public HitSink {
+ public:
+  CandidateSink(const BoxColumns& points, std::vector<Pair>& out) : points_(points), out_(out) {}
+
+  void add(size_t box, const uint32_t* rows, size_t count) override {
+    for (size_t i = 0; i < count; ++i) {
+      out_.push_back({points_.body[rows[i]], static_cast<uint32_t>(box)});
+    }
+  }
+
+ private:
+  const BoxColumns& points_;
+  std::vector<Pair>& out_;
+};
+
+// Box i with `first_axis` as axis 0.
+Box turned_box(const BoundsView& bounds, size_t i, size_t first_axis) {
+  const auto at = [&](const float* column) {
+    return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(column) +
+                                           i * bounds.stride);
+  };
+  Box box;
+  for (size_t k = 0; k < 3; ++k) {
+    box.lower[k] = at(bounds.lower[(first_axis + k) % 3]);
+    box.upper[k] = at(bounds.upper[(first_axis + k) % 3]);
+  }
+  return box;
+}
+
+}  // namespace
+
+std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t stride,
+                                        const BoundsView& bounds, Parallelism parallelism) {
+  const std::array<const float*, 3> columns = {xyz, xyz + 1, xyz + 2};
+  const BoundsView as_boxes{columns, columns, count, stride};
+  const size_t axis = axis_of_largest_spread(as_boxes);
+  SweepOrder order;
+  BoxColumns points;
+  order.update(as_boxes, axis, parallelism, points.body);
+  points.fill(as_boxes, axis, parallelism);
+
+  BlockLists<Pair> found;
+  found.reset(block_count(bounds.count, kBoxesPerBlock));
+  for_each_block(bounds.count, kBoxesPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   CandidateSink sink(points, found[block]);
+                   const auto first = points.lower[0].begin();
+                   for (size_t i = begin; i < end; ++i) {
+                     if (!takes_part(bounds, i)) continue;
+                     const Box box = turned_box(bounds, i, axis);
+                     const auto row = std::lower_bound(
+                         first, first + static_cast<ptrdiff_t>(points.count), box.lower[0]);
+                     sweep_box(points, box, i, static_cast<size_t>(row - first), sink);
+                   }
+                 });
+  std::vector<Pair> pairs;
+  PairSorter().sort(found, count, parallelism, pairs);
+  return pairs;
+}
+
+}  // namespace carom

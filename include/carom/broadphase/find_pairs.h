@@ -1,0 +1,71 @@
+// Bounds -> pairs whose closed boxes overlap.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "carom/export.h"
+#include "carom/kernel/body.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/parallelism.h"
+#include "carom/kernel/views.h"
+
+namespace carom {
+
+enum class BroadphaseMethod : uint8_t {
+  automatic,
+  brute,  // every box against every other; the reference
+  sweep,  // sort and sweep along the axis of largest spread
+};
+
+// "auto", "brute", "sweep".
+CAROM_EXPORT const char* name(BroadphaseMethod method);
+
+// Who may meet whom; one entry a box, nullptr: everybody. Decided inside the search, so that
+// filtered pairs cost no output.
+struct PairFilter {
+  const uint32_t* layer = nullptr;  // with mask: (layer_a & mask_b) and (layer_b & mask_a)
+  const uint32_t* mask = nullptr;   // both or neither
+  const uint32_t* owner = nullptr;  // the same non-zero owner: never
+  const Motion* motion = nullptr;   // two fixed boxes: never
+};
+
+// Finds pairs again and again: keeps its memory and the order of the last call, which makes the
+// next one cheaper when boxes move little. The result depends on the arguments alone.
+class CAROM_EXPORT PairFinder {
+ public:
+  PairFinder();
+  ~PairFinder();
+  PairFinder(PairFinder&&) noexcept;
+  PairFinder& operator=(PairFinder&&) noexcept;
+
+  // Replaces `out` by all pairs a < b whose boxes overlap and which the filter lets through,
+  // sorted. Boxes that are empty or hold a NaN meet nothing.
+  void find(const BoundsView& bounds, const PairFilter& filter, std::vector<Pair>& out,
+            BroadphaseMethod method = BroadphaseMethod::automatic,
+            Parallelism parallelism = Parallelism::none);
+
+  // Forgets the order of the last call, not the memory.
+  void forget();
+
+  // The method the last find() ran.
+  BroadphaseMethod last_method() const;
+
+  // Memory held, in bytes.
+  size_t bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Without state: writes the sorted pairs to `out` and returns how many there are. If they do not
+// fit, nothing is written: call again with room for the number returned.
+CAROM_EXPORT size_t find_pairs(const BoundsView& bounds, const PairFilter& filter,
+                               std::span<Pair> out,
+                               BroadphaseMethod method = BroadphaseMethod::automatic,
+                               Parallelism parallelism = Parallelism::none);
+
+}  // namespace carom
