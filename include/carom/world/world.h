@@ -1,0 +1,123 @@
+// The collision world: bodies in flat arrays, one step a frame, contacts and events out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "carom/broadphase/find_pairs.h"
+#include "carom/export.h"
+#include "carom/kernel/body.h"
+#include "carom/kernel/contact.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/parallelism.h"
+#include "carom/world/event.h"
+#include "carom/world/step_report.h"
+
+namespace carom {
+
+struct WorldSettings {
+  PositionType positions = PositionType::float32;
+  Detail detail = Detail::contact;
+  BroadphaseMethod broadphase = BroadphaseMethod::automatic;
+  Parallelism parallelism = Parallelism::arena;
+  bool events = true;         // begin, persist and end of overlaps
+  bool carry_results = true;  // false: every pair is tested anew every step
+};
+
+// Writable arrays of a world, indexed by BodyId::index. They move when bodies are added: ask again
+// then. Rows of indices that no body has are ignored.
+struct BodyArrays {
+  size_t count = 0;  // highest index in use + 1
+  // Records of x, y, z, w, in the world's position type (the other pointer is nullptr). w is the
+  // radius of a sphere; leave it alone for other kinds.
+  float* record32 = nullptr;
+  double* record64 = nullptr;
+};
+
+// Corners of aabb bodies relative to their positions, in six columns, indexed by box slot.
+struct BoxArrays {
+  size_t count = 0;
+  std::array<float*, 3> lower{};
+  std::array<float*, 3> upper{};
+};
+
+// A point inside a body or on its surface.
+struct PointHit {
+  uint32_t point;  // index into the query
+  uint32_t body;   // body index
+  float separation;  // <= 0: how deep it lies, in metres
+};
+
+// All functions take ids of living bodies unless they say otherwise; a dead id is a programming
+// mistake where it is not answered with false. A World is used by one thread at a time.
+class CAROM_EXPORT World {
+ public:
+  explicit World(const WorldSettings& settings = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  const WorldSettings& settings() const;
+
+  // Bodies. Indices are handed out from 0; the lowest free one is used again first.
+  BodyId add(const BodyDesc& body);
+  void add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids);  // appends to ids
+  bool remove(BodyId id);                                 // false if it is dead already
+  size_t remove(std::span<const BodyId> ids);             // how many were alive
+  bool contains(BodyId id) const;
+  size_t size() const;                                    // living bodies
+  BodyId id_of(uint32_t index) const;                     // of the body that lives there
+
+  // Properties, one body at a time.
+  Eigen::Vector3d position(BodyId id) const;
+  void set_position(BodyId id, const Eigen::Vector3d& position);
+  void set_positions(std::span<const BodyId> ids, std::span<const Eigen::Vector3d> positions);
+  Shape shape(BodyId id) const;
+  void set_shape(BodyId id, const Shape& shape);
+  Eigen::Vector3f linear_velocity(BodyId id) const;
+  void set_linear_velocity(BodyId id, const Eigen::Vector3f& velocity);
+  Motion motion(BodyId id) const;
+  void set_motion(BodyId id, Motion motion);
+  void set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner);
+  void set_sensor(BodyId id, bool sensor);
+  bool is_sensor(BodyId id) const;
+  uint64_t user(BodyId id) const;
+  void set_user(BodyId id, uint64_t user);
+
+  // Properties, straight in the arrays. Changes are noticed by comparing with the last step.
+  BodyArrays arrays();
+  BoxArrays boxes();
+  uint32_t box_slot(BodyId id) const;  // of an aabb body
+  // One a body index; made on first use, and contacts carry normal velocities from then on.
+  std::span<Eigen::Vector3f> linear_velocities();
+
+  // Finds pairs, contacts and events for the bodies as they are now. Memory grows as needed and is
+  // kept: a step like the last one allocates nothing.
+  const StepReport& step();
+
+  // Results of the last step, sorted by (a, b); valid until the next one.
+  std::span<const Pair> pairs() const;         // bodies whose bounds overlap
+  std::span<const uint8_t> overlaps() const;   // one a pair: 1 overlap, 0 separate
+  std::span<const Contact> contacts() const;   // overlapping pairs without sensors
+  std::span<const Event> events() const;
+  std::span<const BodyId> quarantined() const;  // bodies left out: NaN, infinite or negative size
+  const StepReport& report() const;
+
+  // Replaces `hits` by all bodies that hold each point (x, y, z float32, `stride` bytes apart),
+  // sorted by (point, body). Asks the bounds of the last step: bodies must not have changed since.
+  // Points that are not finite are in no body.
+  void find_points(const float* xyz, size_t count, size_t stride,
+                   std::vector<PointHit>& hits) const;
+
+  // Memory held, in bytes.
+  size_t bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace carom

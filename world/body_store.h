@@ -1,0 +1,102 @@
+// The bodies of a world in flat arrays. A column that no body needs does not exist.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "carom/broadphase/find_pairs.h"
+#include "carom/kernel/body.h"
+#include "carom/kernel/views.h"
+
+namespace carom {
+
+class BodyStore {
+ public:
+  explicit BodyStore(PositionType positions) : positions_(positions) {}
+
+  BodyId add(const BodyDesc& body);
+  void remove(BodyId id);
+  bool contains(BodyId id) const {
+    return id.index < alive_.size() && alive_[id.index] && generation_[id.index] == id.generation;
+  }
+
+  size_t rows() const { return alive_.size(); }
+  size_t size() const { return alive_.size() - free_.size(); }
+  bool is_alive(uint32_t index) const { return alive_[index]; }
+  BodyId id_of(uint32_t index) const { return {index, generation_[index]}; }
+
+  Eigen::Vector3d position(uint32_t index) const;
+  void set_position(uint32_t index, const Eigen::Vector3d& position);
+  Shape shape(uint32_t index) const;
+  void set_shape(uint32_t index, const Shape& shape);
+  uint32_t box_slot(uint32_t index) const { return box_slot_[index]; }
+
+  Motion motion(uint32_t index) const;
+  void set_motion(uint32_t index, Motion motion);
+  void set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner);
+  bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
+  void set_sensor(uint32_t index, bool sensor);
+  uint64_t user(uint32_t index) const { return user_.empty() ? 0 : user_[index]; }
+  void set_user(uint32_t index, uint64_t user);
+  Eigen::Vector3f linear_velocity(uint32_t index) const;
+  void set_linear_velocity(uint32_t index, const Eigen::Vector3f& velocity);
+
+  // The arrays themselves.
+  std::vector<float>& records32() { return records32_; }
+  std::vector<double>& records64() { return records64_; }
+  std::array<std::vector<float>, 6>& boxes() { return boxes_; }
+  std::span<Eigen::Vector3f> linear_velocities();
+  bool has_velocities() const { return has_velocities_; }
+
+  // What the stages read.
+  Collidables view() const;
+  PairFilter filter() const;
+  const std::vector<uint32_t>& free_indices() const { return free_; }
+
+  // One byte a row: what was done through the calls above since clear_touched(). Writes into the
+  // arrays are not seen here.
+  static constexpr uint8_t kShapeTouched = 1;  // shape, or what a result depends on beside the pose
+  static constexpr uint8_t kReplaced = 2;      // the body is not the one of the last step
+  uint8_t touched(uint32_t index) const { return touched_[index]; }
+  bool any_touched() const { return any_touched_; }
+  void clear_touched();
+
+  size_t bytes() const;
+
+ private:
+  uint32_t take_index();
+  void grow();
+  void touch(uint32_t index, uint8_t how);
+  void store_shape(uint32_t index, const Shape& shape);
+  uint32_t take_box();
+  void set_radius(uint32_t index, float radius);
+
+  PositionType positions_;
+  std::vector<uint8_t> alive_;
+  std::vector<uint32_t> generation_;
+  std::vector<ShapeKind> kind_;
+  std::vector<uint8_t> touched_;
+  bool any_touched_ = false;
+  std::vector<uint32_t> free_;  // min-heap: the lowest index is used again first
+  std::array<size_t, kShapeKindCount> bodies_of_kind_{};
+
+  std::vector<float> records32_;  // x, y, z, w a row; one of the two is empty
+  std::vector<double> records64_;
+
+  // Lower and upper corners; rows are slots, handed out to aabb bodies.
+  std::array<std::vector<float>, 6> boxes_;
+  std::vector<uint32_t> free_boxes_;
+  std::vector<uint32_t> box_slot_;  // empty until there is a box
+
+  // Empty while every body has the default.
+  std::vector<Motion> motion_;
+  std::vector<uint32_t> layer_, mask_, owner_;
+  std::vector<uint8_t> sensor_;
+  std::vector<uint64_t> user_;
+  std::vector<Eigen::Vector3f> velocity_;
+  bool has_velocities_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,114 @@
+#include "world/contact_stage.h"
+
+#include <atomic>
+#include <utility>
+
+#include "kernel/parallel.h"
+
+namespace carom {
+namespace {
+
+constexpr size_t kFloatColumns = 10;
+
+}  // namespace
+
+ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail) {
+  rows_ = pairs;
+  overlap_.resize(pairs);
+  if (detail == Detail::overlap) return {.overlap = overlap_.data()};
+  status_.resize(pairs);
+  floats_.resize(pairs * kFloatColumns);
+  return {overlap_.data(),
+          status_.data(),
+          column(0),
+          {column(1), column(2), column(3)},
+          {column(4), column(5), column(6)},
+          {column(7), column(8), column(9)}};
+}
+
+Eigen::Vector3f ResultBuffer::vector(size_t column, size_t row) const {
+  const float* first = floats_.data() + column * rows_ + row;
+  return {first[0], first[rows_], first[2 * rows_]};
+}
+
+Contact ResultBuffer::contact(size_t row, Pair pair) const {
+  return {.a = pair.a,
+          .b = pair.b,
+          .sub_a = 0,
+          .sub_b = 0,
+          .normal = vector(1, row),
+          .separation = floats_[row],
+          .arm_a = vector(4, row),
+          .normal_velocity = 0,
+          .arm_b = vector(7, row),
+          .status = static_cast<Status>(status_[row])};
+}
+
+size_t ResultBuffer::bytes() const {
+  return overlap_.capacity() + status_.capacity() + floats_.capacity() * sizeof(float);
+}
+
+void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
+                       const BodyStore& bodies, Detail detail, Parallelism parallelism,
+                       PairHistory& now) {
+  const size_t pairs = now.pairs.size();
+  now.overlaps.resize(pairs);
+  now.contact.resize(pairs);
+  block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
+  std::atomic<size_t> overlaps{0};
+  // First what every pair is, and how many contacts each block makes ...
+  for_each_block(pairs, kPairsPerMergeBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   size_t overlapping = 0;
+                   for (size_t i = begin; i < end; ++i) {
+                     const uint32_t row = plan.test_row(i);
+                     const bool overlap = row == CarryPlan::kCarried
+                                              ? last.overlaps[plan.last_index(i)]
+                                              : results.overlap(row);
+                     const Pair pair = now.pairs[i];
+                     const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
+                     now.overlaps[i] = overlap;
+                     now.contact[i] =
+                         overlap && sensor ? PairHistory::kSensor : PairHistory::kNone;
+                     overlapping += overlap;
+                     block_first_[block] += overlap && !sensor;
+                   }
+                   overlaps += overlapping;
+                 });
+  overlaps_ = overlaps;
+  now.contacts.clear();
+  if (detail != Detail::contact) return;
+
+  // ... then every contact in its place.
+  size_t contacts = 0;
+  for (size_t& first : block_first_) contacts += std::exchange(first, contacts);
+  now.contacts.resize(contacts);
+  for_each_block(pairs, kPairsPerMergeBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   size_t next = block_first_[block];
+                   for (size_t i = begin; i < end; ++i) {
+                     if (!now.overlaps[i] || now.contact[i] == PairHistory::kSensor) continue;
+                     const uint32_t row = plan.test_row(i);
+                     now.contacts[next] =
+                         row == CarryPlan::kCarried
+                             ? last.contacts[last.contact[plan.last_index(i)]]
+                             : results.contact(row, now.pairs[i]);
+                     now.contact[i] = static_cast<uint32_t>(next++);
+                   }
+                 });
+}
+
+void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,
+                           std::vector<Contact>& contacts) {
+  for_each_block(contacts.size(), kPairsPerMergeBlock, parallelism,
+                 [&](size_t, size_t begin, size_t end) {
+                   for (size_t i = begin; i < end; ++i) {
+                     Contact& c = contacts[i];
+                     const Eigen::Vector3f v = velocities[c.b] - velocities[c.a];
+                     c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) +
+                                         v.z() * c.normal.z();
+                   }
+                 });
+}
+
+}  // namespace carom

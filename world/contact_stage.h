@@ -1,0 +1,52 @@
+// Results of pair tests, new and carried -> the step's overlaps and contacts, in order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "carom/kernel/contact.h"
+#include "carom/kernel/parallelism.h"
+#include "world/body_store.h"
+#include "world/pair_history.h"
+
+namespace carom {
+
+// Columns for the narrow phase to write to.
+class ResultBuffer {
+ public:
+  // Room for `pairs` results; at Detail::overlap for the decisions alone.
+  ResultColumns prepare(size_t pairs, Detail detail);
+
+  bool overlap(size_t row) const { return overlap_[row]; }
+  Contact contact(size_t row, Pair pair) const;
+
+  size_t bytes() const;
+
+ private:
+  float* column(size_t i) { return floats_.data() + i * rows_; }
+  Eigen::Vector3f vector(size_t column, size_t row) const;
+
+  size_t rows_ = 0;
+  std::vector<uint8_t> overlap_, status_;
+  std::vector<float> floats_;  // ten columns: separation, normal, arm_a, arm_b
+};
+
+// Fills overlaps, contact indices and contacts of `now`.
+class ContactStage {
+ public:
+  void run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
+           const BodyStore& bodies, Detail detail, Parallelism parallelism, PairHistory& now);
+
+  size_t overlaps() const { return overlaps_; }
+  size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
+
+ private:
+  size_t overlaps_ = 0;
+  std::vector<size_t> block_first_;
+};
+
+// Sets the normal velocity of every contact.
+void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,
+                           std::vector<Contact>& contacts);
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+// The overlaps of two steps -> begin, persist and end events.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "carom/kernel/parallelism.h"
+#include "carom/world/event.h"
+#include "kernel/block_lists.h"
+#include "world/body_store.h"
+#include "world/pair_history.h"
+
+namespace carom {
+
+class EventStage {
+ public:
+  // `last` may be `now` itself: nothing changed, and every overlap persists.
+  void run(const PairHistory& last, const PairHistory& now, const BodyStore& bodies,
+           Parallelism parallelism, std::vector<Event>& events);
+
+  // Remembers the generations of all bodies, which name the bodies of ended overlaps next time.
+  void remember(const BodyStore& bodies);
+
+  size_t bytes() const { return lists_.bytes() + generation_.capacity() * sizeof(uint32_t); }
+
+ private:
+  BodyId last_id(uint32_t index) const { return {index, generation_[index]}; }
+
+  BlockLists<Event> lists_;
+  std::vector<uint32_t> generation_;  // as of the last step
+};
+
+}  // namespace carom

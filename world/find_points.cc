@@ -1,0 +1,24 @@
+#include "broadphase/point_candidates.h"
+#include "carom/narrowphase/collide.h"
+#include "world/world_state.h"
+
+namespace carom {
+
+void World::find_points(const float* xyz, size_t count, size_t stride,
+                        std::vector<PointHit>& hits) const {
+  hits.clear();
+  const Parallelism parallelism = state_->settings.parallelism;
+  const std::vector<Pair> candidates =
+      find_point_candidates(xyz, count, stride, state_->bounds_view(), parallelism);
+  std::vector<uint8_t> overlap(candidates.size());
+  std::vector<float> separation(candidates.size());
+  // Every kind in a world has a kernel against spheres, which is what points are here.
+  (void)collide(points(xyz, count, stride), state_->bodies.view(), candidates, Detail::contact,
+                {.overlap = overlap.data(), .separation = separation.data()}, WitnessFrame::body,
+                parallelism);
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (overlap[i]) hits.push_back({candidates[i].a, candidates[i].b, separation[i]});
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,73 @@
+#include "world/pair_history.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace carom {
+
+void PairHistory::clear() {
+  pairs.clear();
+  overlaps.clear();
+  contact.clear();
+  contacts.clear();
+}
+
+size_t PairHistory::bytes() const {
+  return pairs.capacity() * sizeof(Pair) + overlaps.capacity() +
+         contact.capacity() * sizeof(uint32_t) + contacts.capacity() * sizeof(Contact);
+}
+
+MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now,
+                          size_t begin, size_t end) {
+  const auto place = [&](size_t i) -> size_t {
+    return std::lower_bound(last.begin(), last.end(), now[i]) - last.begin();
+  };
+  return {begin == 0 ? 0 : place(begin), end == now.size() ? last.size() : place(end)};
+}
+
+void CarryPlan::test_all(size_t pairs) {
+  tests_all_ = true;
+  tested_ = pairs;
+}
+
+void CarryPlan::match(const PairHistory& last, const std::vector<Pair>& now,
+                      const ChangeTracker& changes, Parallelism parallelism) {
+  row_.resize(now.size());
+  last_.resize(now.size());
+  block_first_.assign(block_count(now.size(), kPairsPerMergeBlock), 0);
+  for_each_block(
+      now.size(), kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
+        const MergeRange range = matching_range(last.pairs, now, begin, end);
+        size_t candidate = range.begin;
+        for (size_t i = begin; i < end; ++i) {
+          const Pair pair = now[i];
+          while (candidate < range.end && last.pairs[candidate] < pair) ++candidate;
+          const bool known = candidate < range.end && last.pairs[candidate] == pair;
+          const bool carried = known && !changes.changed(pair.a) && !changes.changed(pair.b);
+          row_[i] = carried ? kCarried : 0;
+          last_[i] = static_cast<uint32_t>(candidate);
+          block_first_[block] += !carried;
+        }
+      });
+  tested_ = 0;
+  for (size_t& first : block_first_) tested_ += std::exchange(first, tested_);
+  tests_all_ = tested_ == now.size();
+  if (tests_all_) return;
+  to_test_.resize(tested_);
+  for_each_block(now.size(), kPairsPerMergeBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   size_t row = block_first_[block];
+                   for (size_t i = begin; i < end; ++i) {
+                     if (row_[i] == kCarried) continue;
+                     to_test_[row] = now[i];
+                     row_[i] = static_cast<uint32_t>(row++);
+                   }
+                 });
+}
+
+size_t CarryPlan::bytes() const {
+  return (row_.capacity() + last_.capacity()) * sizeof(uint32_t) +
+         to_test_.capacity() * sizeof(Pair) + block_first_.capacity() * sizeof(size_t);
+}
+
+}  // namespace carom

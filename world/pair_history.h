@@ -1,0 +1,79 @@
+// The pairs of one step with their outcome, and how the next step's pairs relate to them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "carom/kernel/contact.h"
+#include "carom/kernel/pair.h"
+#include "kernel/parallel.h"
+#include "world/change_tracker.h"
+
+namespace carom {
+
+inline constexpr size_t kPairsPerMergeBlock = 4096;
+
+// One entry a candidate pair in every list, sorted by (a, b).
+struct PairHistory {
+  // Values of `contact` that are no index.
+  static constexpr uint32_t kNone = 0xffffffffu;
+  static constexpr uint32_t kSensor = 0xfffffffeu;  // overlap without contact: a sensor's
+
+  std::vector<Pair> pairs;
+  std::vector<uint8_t> overlaps;
+  std::vector<uint32_t> contact;  // index into `contacts`
+  std::vector<Contact> contacts;
+
+  void clear();
+  size_t bytes() const;
+};
+
+// The part of `last` that belongs to block [begin, end) of `now`: blocks of `now` together cover
+// all of `last`.
+struct MergeRange {
+  size_t begin;
+  size_t end;
+};
+MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now,
+                          size_t begin, size_t end);
+
+// What is tested and what is carried over from the last step.
+class CarryPlan {
+ public:
+  static constexpr uint32_t kCarried = 0xffffffffu;
+
+  // Everything is tested.
+  void test_all(size_t pairs);
+
+  // Nothing is: the step repeats the last one.
+  void carry_all() { tested_ = 0; }
+
+  // Carries the pairs that `last` holds, too, and of which neither body changed.
+  void match(const PairHistory& last, const std::vector<Pair>& now, const ChangeTracker& changes,
+             Parallelism parallelism);
+
+  size_t tested() const { return tested_; }
+
+  // The pairs to test: all of `now`, or a list of its own.
+  const std::vector<Pair>& pairs_to_test(const std::vector<Pair>& now) const {
+    return tests_all_ ? now : to_test_;
+  }
+
+  // Row of pair i among those, or kCarried.
+  uint32_t test_row(size_t i) const { return tests_all_ ? static_cast<uint32_t>(i) : row_[i]; }
+
+  // Index of a carried pair in the last step.
+  uint32_t last_index(size_t i) const { return last_[i]; }
+
+  size_t bytes() const;
+
+ private:
+  bool tests_all_ = true;
+  size_t tested_ = 0;
+  std::vector<uint32_t> row_;
+  std::vector<uint32_t> last_;
+  std::vector<Pair> to_test_;
+  std::vector<size_t> block_first_;
+};
+
+}  // namespace carom

@@ -1,0 +1,160 @@
+#include "carom/world/world.h"
+
+#include <array>
+#include <cassert>
+
+#include "world/world_state.h"
+
+namespace carom {
+
+const char* name(Stage stage) {
+  static constexpr std::array<const char*, kStageCount> kNames = {
+      "changes",  "bounds",     "broadphase", "pairs", "narrowphase",
+      "contacts", "velocities", "events"};
+  return kNames[static_cast<size_t>(stage)];
+}
+
+World::World(const WorldSettings& settings) : state_(std::make_unique<State>(settings)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+const WorldSettings& World::settings() const { return state_->settings; }
+
+BodyId World::add(const BodyDesc& body) { return state_->bodies.add(body); }
+
+void World::add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids) {
+  ids.reserve(ids.size() + bodies.size());
+  for (const BodyDesc& body : bodies) ids.push_back(add(body));
+}
+
+bool World::remove(BodyId id) {
+  if (!contains(id)) return false;
+  state_->bodies.remove(id);
+  return true;
+}
+
+size_t World::remove(std::span<const BodyId> ids) {
+  size_t removed = 0;
+  for (const BodyId id : ids) removed += remove(id);
+  return removed;
+}
+
+bool World::contains(BodyId id) const { return state_->bodies.contains(id); }
+size_t World::size() const { return state_->bodies.size(); }
+
+BodyId World::id_of(uint32_t index) const {
+  assert(index < state_->bodies.rows() && state_->bodies.is_alive(index));
+  return state_->bodies.id_of(index);
+}
+
+Eigen::Vector3d World::position(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.position(id.index);
+}
+
+void World::set_position(BodyId id, const Eigen::Vector3d& position) {
+  assert(contains(id));
+  state_->bodies.set_position(id.index, position);
+}
+
+void World::set_positions(std::span<const BodyId> ids,
+                          std::span<const Eigen::Vector3d> positions) {
+  assert(ids.size() == positions.size());
+  for (size_t i = 0; i < ids.size(); ++i) set_position(ids[i], positions[i]);
+}
+
+Shape World::shape(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.shape(id.index);
+}
+
+void World::set_shape(BodyId id, const Shape& shape) {
+  assert(contains(id));
+  state_->bodies.set_shape(id.index, shape);
+}
+
+Eigen::Vector3f World::linear_velocity(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.linear_velocity(id.index);
+}
+
+void World::set_linear_velocity(BodyId id, const Eigen::Vector3f& velocity) {
+  assert(contains(id));
+  state_->bodies.set_linear_velocity(id.index, velocity);
+}
+
+Motion World::motion(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.motion(id.index);
+}
+
+void World::set_motion(BodyId id, Motion motion) {
+  assert(contains(id));
+  state_->bodies.set_motion(id.index, motion);
+}
+
+void World::set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner) {
+  assert(contains(id));
+  state_->bodies.set_filter(id.index, layer, mask, owner);
+}
+
+void World::set_sensor(BodyId id, bool sensor) {
+  assert(contains(id));
+  state_->bodies.set_sensor(id.index, sensor);
+}
+
+bool World::is_sensor(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.is_sensor(id.index);
+}
+
+uint64_t World::user(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.user(id.index);
+}
+
+void World::set_user(BodyId id, uint64_t user) {
+  assert(contains(id));
+  state_->bodies.set_user(id.index, user);
+}
+
+BodyArrays World::arrays() {
+  BodyStore& bodies = state_->bodies;
+  BodyArrays arrays{.count = bodies.rows()};
+  if (settings().positions == PositionType::float64) {
+    arrays.record64 = bodies.records64().data();
+  } else {
+    arrays.record32 = bodies.records32().data();
+  }
+  return arrays;
+}
+
+BoxArrays World::boxes() {
+  auto& columns = state_->bodies.boxes();
+  return {.count = columns[0].size(),
+          .lower = {columns[0].data(), columns[1].data(), columns[2].data()},
+          .upper = {columns[3].data(), columns[4].data(), columns[5].data()}};
+}
+
+uint32_t World::box_slot(BodyId id) const {
+  assert(contains(id) && std::holds_alternative<Aabb>(shape(id)));
+  return state_->bodies.box_slot(id.index);
+}
+
+std::span<Eigen::Vector3f> World::linear_velocities() {
+  return state_->bodies.linear_velocities();
+}
+
+const StepReport& World::step() { return state_->step(); }
+
+std::span<const Pair> World::pairs() const { return state_->now.pairs; }
+std::span<const uint8_t> World::overlaps() const { return state_->now.overlaps; }
+std::span<const Contact> World::contacts() const { return state_->now.contacts; }
+std::span<const Event> World::events() const { return state_->events; }
+std::span<const BodyId> World::quarantined() const { return state_->quarantined; }
+const StepReport& World::report() const { return state_->report; }
+
+size_t World::bytes() const { return state_->bytes(); }
+
+}  // namespace carom
