@@ -2,6 +2,7 @@
 // size. One rule for bounds, kernels and queries; comparisons are ordered so that NaN fails them.
 #pragma once
 
+#include <cassert>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -19,6 +20,7 @@ inline bool is_valid_box_axis(float lower, float upper) {
 // Element i of an array with a stride in bytes, at any alignment.
 template <class T>
 T load_strided(const void* base, size_t stride, size_t i) {
+  assert(base);
   T value;
   std::memcpy(&value, static_cast<const char*>(base) + i * stride, sizeof(T));
   return value;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "carom/kernel/parallelism.h"
-#include "carom/world/event.h"
+#include "carom/kernel/event.h"
 #include "kernel/block_lists.h"
 #include "world/body_store.h"
 #include "world/pair_history.h"

@@ -13,7 +13,7 @@
 #include "carom/kernel/contact.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
-#include "carom/world/event.h"
+#include "carom/kernel/event.h"
 #include "carom/world/step_report.h"
 
 namespace carom {

@@ -1,0 +1,104 @@
+// Writes the seed corpus: make_corpus FOLDER. The seeds in fuzz/corpus came from here.
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/pairs_file.h"
+#include "io/recording.h"
+#include "io/scene.h"
+
+namespace {
+
+using namespace carom::io;
+
+// A sphere, a hull, a mesh and a compound of the first two.
+SceneShapes all_arrays() {
+  SceneShapes shapes;
+  shapes.kind = {0, 5, 6, 7};
+  shapes.params = {{1}, {}, {}, {}};
+  shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}, {0, 0}};
+  shapes.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}, {0, 0}};
+  shapes.triangles = {{0, 1, 2}};
+  shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}};
+  shapes.child_shape = {0, 1};
+  shapes.child_position = {{1, 0, 0}, {0, 1, 0}};
+  shapes.child_orientation = {{0, 0, 0, 1}, {0, 0, 0, 1}};
+  return shapes;
+}
+
+bool write_scene(const std::string& path, bool full, Compression compression) {
+  SceneInfo info;
+  info.bodies = 2;
+  info.shapes = all_arrays();
+  if (!full) {
+    info.shapes = {};
+    info.shapes.kind = {0};
+    info.shapes.params = {{1}};
+  }
+  info.body_shape = {0, full ? 3u : 0u};
+  info.float64_positions = full;
+  info.has_orientation = info.has_linear_velocity = info.has_angular_velocity = full;
+  if (full) {
+    info.body_motion = {0, 2};
+    info.layer = info.mask = {1, 3};
+    info.owner = {0, 0};
+    info.sensor = {0, 1};
+  }
+  auto writer = SceneWriter::create(path, info, compression);
+  if (!writer) return false;
+  SceneFrame frame;
+  frame.position32 = {0, 0, 0, 1, 2, 3};
+  frame.position64 = {0, 0, 0, 1, 2, 3};
+  frame.orientation = {0, 0, 0, 1, 0, 0, 0, 1};
+  frame.linear_velocity = frame.angular_velocity = {0, 0, 0, 1, 2, 3};
+  return writer->write_frame(frame) && writer->write_frame(frame) && writer->finish();
+}
+
+bool write_recording(const std::string& path, size_t frames) {
+  auto writer = RecordingWriter::create(path, "seed", "Cubes", 2);
+  if (!writer) return false;
+  const std::vector<float> boxes = {0, 0, 0, 0, 1, 1, 1, 0, 1, 1, 1, 0, 2, 2, 2, 0};
+  for (size_t i = 0; i < frames; ++i) {
+    if (!writer->write_frame(boxes)) return false;
+  }
+  return bool(writer->finish());
+}
+
+bool write_seed_pairs(const std::string& path, bool full) {
+  PairsFile pairs;
+  pairs.shapes = all_arrays();
+  pairs.float64_positions = full;
+  for (PairSide* side : {&pairs.a, &pairs.b}) {
+    side->shape = {0, 1};
+    side->position32 = {{0, 0, 0}, {1, 2, 3}};
+    if (!full) continue;
+    side->position64 = {{0, 0, 0}, {1, 2, 3}};
+    side->orientation = {{0, 0, 0, 1}, {0, 0, 0, 1}};
+    side->displacement = side->rotation = {{1, 0, 0}, {0, 1, 0}};
+  }
+  return bool(write_pairs(path, pairs));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: make_corpus FOLDER\n");
+    return 2;
+  }
+  const std::string folder = std::string(argv[1]) + "/";
+  for (const char* kind : {"recording_fuzz", "scene_fuzz", "pairs_fuzz"}) {
+    std::filesystem::create_directories(folder + kind);
+  }
+  const bool done = write_scene(folder + "scene_fuzz/small.npz", false, Compression::kStored) &&
+                    write_scene(folder + "scene_fuzz/full.npz", true, Compression::kStored) &&
+                    write_scene(folder + "scene_fuzz/deflated.npz", true, Compression::kDeflated) &&
+                    write_recording(folder + "recording_fuzz/one.aabb", 1) &&
+                    write_recording(folder + "recording_fuzz/three.aabb", 3) &&
+                    write_seed_pairs(folder + "pairs_fuzz/small.npz", false) &&
+                    write_seed_pairs(folder + "pairs_fuzz/full.npz", true);
+  if (!done) std::fprintf(stderr, "the corpus could not be written\n");
+  return done ? 0 : 1;
+}

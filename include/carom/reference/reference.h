@@ -1,0 +1,75 @@
+// The whole of Carom again, as plain scalar C++ that can be read beside a textbook: bounds, brute
+// force pairs, one test a pair, contacts, events. The kernels give the same bits.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "carom/export.h"
+#include "carom/kernel/body.h"
+#include "carom/kernel/bounds.h"
+#include "carom/kernel/contact.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/views.h"
+#include "carom/kernel/event.h"
+
+namespace carom::reference {
+
+// A box in world coordinates; lower = +inf, upper = -inf is empty.
+struct Box {
+  Eigen::Vector3f lower;
+  Eigen::Vector3f upper;
+};
+
+// What one pair test yields; names and signs as in Contact.
+struct PairResult {
+  bool overlap;
+  Status status;
+  float separation;
+  Eigen::Vector3f normal;
+  Eigen::Vector3f arm_a;
+  Eigen::Vector3f arm_b;
+};
+
+// The smallest float32 box that contains the body; empty if the body is not valid. `positions` says
+// in which type the position is stored: float32 positions are rounded first.
+CAROM_EXPORT Box bounds(const Shape& shape, const Eigen::Vector3d& position,
+                        PositionType positions);
+
+// Finite position, finite and not negative size.
+CAROM_EXPORT bool is_valid(const Shape& shape, const Eigen::Vector3d& position,
+                           PositionType positions);
+
+// Closed boxes: touching is overlap.
+CAROM_EXPORT bool overlap(const Box& a, const Box& b);
+
+// Whether layers, masks, owners and motion let two bodies meet.
+CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b);
+
+// Tests A against B, whatever their kinds.
+CAROM_EXPORT PairResult collide(const Shape& shape_a, const Eigen::Vector3d& position_a,
+                                const Shape& shape_b, const Eigen::Vector3d& position_b,
+                                PositionType positions);
+
+// A body as the world sees it in one frame. bodies[i].id.index need not be i, but must ascend.
+struct Body {
+  BodyId id;
+  BodyDesc desc;
+};
+
+// The results of one frame, as those of World after step().
+struct Frame {
+  std::vector<Pair> pairs;
+  std::vector<uint8_t> overlaps;
+  std::vector<Contact> contacts;
+  std::vector<Event> events;
+  std::vector<BodyId> quarantined;
+  std::vector<Event> touching;  // what the next frame needs of this one: the overlaps with ids
+};
+
+// `previous` is the frame before; nullptr: there was none. `velocities`: contacts carry normal
+// velocities. Every pair of boxes is looked at: O(n^2).
+CAROM_EXPORT Frame step(std::span<const Body> bodies, PositionType positions, Detail detail,
+                        bool velocities, const Frame* previous);
+
+}  // namespace carom::reference

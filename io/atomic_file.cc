@@ -1,0 +1,108 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace carom::io {
+namespace {
+
+std::optional<Error> refuse_special_target(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;  // it does not exist yet
+  if (S_ISDIR(status.st_mode)) {
+    return file_error(path, "is a directory (a name for a file was expected)");
+  }
+  if (!S_ISREG(status.st_mode)) {
+    return file_error(path, "is not a regular file, so it cannot be replaced");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path, std::string temporary_path, File file)
+    : path_(std::move(path)), temporary_path_(std::move(temporary_path)), file_(std::move(file)) {}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_path_(std::exchange(other.temporary_path_, {})),
+      file_(std::move(other.file_)),
+      offset_(other.offset_) {}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(temporary_path_, other.temporary_path_);
+  std::swap(file_, other.file_);
+  std::swap(offset_, other.offset_);
+  return *this;
+}
+
+AtomicFile::~AtomicFile() { remove_temporary(); }
+
+Result<AtomicFile> AtomicFile::create(const std::string& path) {
+  if (path.empty() || path.back() == '/') {
+    return file_error(path, "is not the name of a file");
+  }
+  if (std::optional<Error> error = refuse_special_target(path)) return *error;
+  const std::string prefix = path + ".tmp" + std::to_string(::getpid());
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const std::string temporary = prefix + "-" + std::to_string(attempt);
+    // Not mkstemp: the file shall get the permissions that the umask grants.
+    File file(::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file) return AtomicFile(path, temporary, std::move(file));
+    if (errno != EEXIST) return system_error(path, "cannot be created", errno);
+  }
+  return file_error(path, "cannot be created: too many temporary files beside it");
+}
+
+Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
+  Result<void> done = write_at(offset_, bytes);
+  if (done) offset_ += bytes.size();
+  return done;
+}
+
+Result<void> AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  return file_.write_at(offset, bytes, path_);
+}
+
+Result<void> AtomicFile::commit() {
+  Result<void> closed = file_.close(path_);
+  if (!closed) return closed;
+  if (std::optional<Error> error = refuse_special_target(path_)) return *error;
+  if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0) {
+    return system_error(path_, "cannot be created", errno);
+  }
+  temporary_path_.clear();
+  return {};
+}
+
+void AtomicFile::remove_temporary() {
+  if (!temporary_path_.empty()) ::unlink(temporary_path_.c_str());
+  temporary_path_.clear();
+}
+
+Result<File> open_spool(const std::string& path) {
+  const std::string name = folder_of(path) + ".carom-spool-XXXXXX";
+  std::vector<char> pattern(name.c_str(), name.c_str() + name.size() + 1);
+  File file(::mkostemp(pattern.data(), O_CLOEXEC));
+  if (!file) return system_error(path, "cannot be created", errno);
+  ::unlink(pattern.data());
+  return file;
+}
+
+Result<void> write_text_file(const std::string& path, std::string_view text) {
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file) return file.error();
+  Result<void> written = file->write(std::as_bytes(std::span(text.data(), text.size())));
+  if (!written) return written;
+  return file->commit();
+}
+
+}  // namespace carom::io

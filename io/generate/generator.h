@@ -1,0 +1,16 @@
+// Generated scenes, streamed like files.
+#pragma once
+
+#include <memory>
+
+#include "carom/kernel/result.h"
+#include "io/generate/spec.h"
+#include "io/scene.h"
+
+namespace carom::io {
+
+// The same spec gives the same bits with every compiler and on every machine. In each frame
+// position(f + 1) = position(f) + dt * linear_velocity(f), except for bodies that meet a wall.
+std::unique_ptr<SceneReader> open_generator(const GeneratorSpec& spec);
+
+}  // namespace carom::io

@@ -1,0 +1,26 @@
+// Where the bodies of a generated scene start, how large they are and how they move.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "io/generate/random.h"
+#include "io/generate/spec.h"
+
+namespace carom::io {
+
+struct Population {
+  Vec3 lower{};  // the world's walls
+  Vec3 upper{};
+  double speed = 0;           // the greatest, metres a second
+  uint64_t mover_stride = 1;  // bodies 0, stride, 2 stride ... move, others never do
+  std::vector<Vec3> half;     // half extents; spheres: the radius, three times
+  std::vector<Vec3> position;
+  std::vector<Vec3> velocity;
+
+  uint64_t movers() const { return (position.size() + mover_stride - 1) / mover_stride; }
+};
+
+Population populate(const GeneratorSpec& spec);
+
+}  // namespace carom::io

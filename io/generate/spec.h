@@ -1,0 +1,44 @@
+// What scene to generate, as written on the command line: KIND[:key=value,...].
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "carom/kernel/result.h"
+
+namespace carom::io {
+
+enum class GeneratorKind : uint8_t {
+  brownian,  // cubes of one size, moving freely
+  varied,    // cubes of sizes over 2.5 decades, moving freely
+  level,     // "static": nine of ten boxes never move
+  still,     // brownian without motion
+};
+
+struct GeneratorSpec {
+  std::string text;  // as it was given
+  GeneratorKind kind = GeneratorKind::brownian;
+  uint64_t bodies = 10000;
+  uint64_t frames = 60;
+  uint64_t seed = 1;
+  std::optional<double> density;  // sum of volumes / world volume; static: bodies a square metre
+  std::optional<double> speed;    // the greatest, metres a second
+  double dt = 1.0 / 30.0;
+  bool spheres = false;
+  bool float64_positions = false;
+  bool mark_static = false;  // static: bodies that never move are static bodies
+};
+
+// The kinds, "brownian, varied, static, still".
+extern const char kGeneratorKinds[];
+
+// Whether the text is meant for a generator rather than for a file: one word, then the end or ':'.
+bool is_generator_text(const std::string& text);
+
+Result<GeneratorSpec> parse_generator(const std::string& text);
+
+// Kinds and keys for the program's help.
+extern const char kGeneratorHelp[];
+
+}  // namespace carom::io

@@ -1,0 +1,53 @@
+// The shape arrays that scenes and files of pairs share.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "carom/kernel/result.h"
+#include "io/npz.h"
+
+namespace carom::io {
+
+// Codes of shape_kind in files.
+enum class ShapeCode : uint8_t {
+  kSphere = 0,
+  kCapsule = 1,
+  kAabb = 2,
+  kBox = 3,
+  kDop = 4,
+  kHull = 5,
+  kMesh = 6,
+  kCompound = 7,
+  kHalfspace = 8,
+};
+inline constexpr uint8_t kMaxShapeCode = 8;
+
+// As in the file; ranges are (first, count). Arrays that are absent are empty.
+struct SceneShapes {
+  std::vector<uint8_t> kind;
+  std::vector<std::array<float, 8>> params;
+  std::vector<std::array<uint32_t, 2>> vertex_range;
+  std::vector<std::array<float, 3>> vertices;
+  std::vector<std::array<uint32_t, 2>> triangle_range;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<std::array<uint32_t, 2>> child_range;
+  std::vector<uint32_t> child_shape;
+  std::vector<std::array<float, 3>> child_position;
+  std::vector<std::array<float, 4>> child_orientation;
+};
+
+// Reads and checks the shapes: kinds, ranges and indices lie inside their arrays, children are no
+// compounds, and what a kind needs is there. Parameters are passed on as they are.
+Result<SceneShapes> read_shapes(const NpzReader& reader);
+// The checks alone; `path` is for the message.
+Result<void> check_shapes(const SceneShapes& shapes, const std::string& path);
+// Adds the arrays that are not empty; shape_kind and shape_params always.
+Result<void> write_shapes(const SceneShapes& shapes, NpzWriter& writer);
+
+// carom_version must be 1; it may be absent only if not `required`.
+Result<void> check_version(const NpzReader& reader, bool required);
+Result<void> write_version(NpzWriter& writer);
+
+}  // namespace carom::io

@@ -1,0 +1,88 @@
+// A scratch folder, and files made byte by byte, for the tests of readers and writers.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/npz.h"
+
+namespace carom::io {
+
+class TemporaryFolder : public ::testing::Test {
+ protected:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "carom-io-XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+  }
+  ~TemporaryFolder() override {
+    std::error_code ignored;
+    std::filesystem::permissions(folder_, std::filesystem::perms::owner_all, ignored);
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::string write_file(const std::string& name, std::string_view bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  }
+
+  std::string read_file(const std::string& name) const {
+    std::ifstream stream(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  // Names of everything in the folder.
+  std::vector<std::string> entries() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    return names;
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+// Success, or the error's text.
+template <class T>
+::testing::AssertionResult succeeds(const Result<T>& result) {
+  if (result) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << result.error().message;
+}
+
+// The error's text, which must be one line; empty if there is none.
+template <class T>
+std::string message_of(const Result<T>& result) {
+  if (result) return "";
+  EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;
+  return result.error().message;
+}
+
+// One entry of an archive made with libzip alone.
+struct RawMember {
+  std::string name;  // with ".npy"
+  std::string bytes;
+};
+void write_zip(const std::string& path, const std::vector<RawMember>& members, bool deflate);
+
+// A .npy file: header text as given, and data.
+std::string npy_bytes(const std::string& dict, const std::string& data, char version = 1);
+
+template <class T>
+std::string raw(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+}  // namespace carom::io

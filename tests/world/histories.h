@@ -1,0 +1,182 @@
+// Random histories of a world: bodies come, go, move, rest and change, and after every step the
+// reference says what the results must be.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "carom/reference/reference.h"
+#include "carom/world/world.h"
+
+namespace carom::test {
+
+template <class T>
+::testing::AssertionResult same_bytes(std::span<const T> got, std::span<const T> expected) {
+  if (got.size() != expected.size()) {
+    return ::testing::AssertionFailure() << got.size() << " instead of " << expected.size();
+  }
+  for (size_t i = 0; i < got.size(); ++i) {
+    if (std::memcmp(&got[i], &expected[i], sizeof(T)) != 0) {
+      return ::testing::AssertionFailure() << "entry " << i << " differs";
+    }
+  }
+  return ::testing::AssertionSuccess();
+}
+
+// What happened in all histories of a test: a guard against tests of nothing.
+struct Coverage {
+  size_t tested = 0, kept = 0, overlapping = 0, pairs = 0, quarantined = 0, sensors = 0;
+  size_t events[3] = {};
+};
+
+// A world beside a plain list of its bodies.
+class History {
+ public:
+  History(const WorldSettings& settings, uint32_t seed) : world_(settings), random_(seed) {}
+
+  Coverage coverage;
+
+  World& world() { return world_; }
+  size_t size() const { return bodies_.size(); }
+
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  bool chance(double probability) { return uniform(0, 1) < probability; }
+
+  // A body in a box of side `side`; `filters`: with layers, owners, sensors, static ones.
+  BodyDesc random_body(double side, bool filters) {
+    BodyDesc body;
+    body.position = {uniform(0, side), uniform(0, side), uniform(0, side)};
+    if (chance(0.85)) {
+      body.shape = Sphere{static_cast<float>(uniform(0.1, 0.8))};
+    } else {
+      body.shape = Aabb{{-static_cast<float>(uniform(0.1, 0.8)), -0.5f, -0.3f},
+                        {static_cast<float>(uniform(0.1, 0.8)), 0.25f, 0.5f}};
+    }
+    body.linear_velocity = Eigen::Vector3f::Random();
+    if (!filters) return body;
+    if (chance(0.3)) body.motion = Motion::fixed;
+    if (chance(0.3)) body.layer = 1u << static_cast<int>(uniform(0, 3));
+    if (chance(0.3)) body.mask = 5;
+    if (chance(0.3)) body.owner = 1 + static_cast<uint32_t>(uniform(0, 4));
+    body.sensor = chance(0.2);
+    if (chance(0.02)) body.position.x() = NAN;
+    return body;
+  }
+
+  void add(const BodyDesc& body) {
+    const BodyId id = world_.add(body);
+    ASSERT_FALSE(bodies_.contains(id.index));
+    bodies_[id.index] = {id, body};
+  }
+
+  void remove_random() {
+    if (bodies_.empty()) return;
+    const BodyId id = pick()->second.id;
+    EXPECT_TRUE(world_.remove(id));
+    EXPECT_FALSE(world_.contains(id));
+    EXPECT_FALSE(world_.remove(id));
+    bodies_.erase(id.index);
+  }
+
+  // Moves about `share` of the bodies, half of them by writing into the arrays.
+  void move(double share, double distance) {
+    for (auto& [index, body] : bodies_) {
+      if (!chance(share)) continue;
+      body.desc.position += distance * Eigen::Vector3d::Random();
+      if (chance(0.5)) {
+        world_.set_position(body.id, body.desc.position);
+      } else {
+        write(index, body.desc.position);
+      }
+    }
+  }
+
+  void change_random_body(double side, bool filters) {
+    if (bodies_.empty()) return;
+    reference::Body& body = pick()->second;
+    const BodyDesc other = random_body(side, filters);
+    switch (static_cast<int>(uniform(0, 4))) {
+      case 0:
+        body.desc.shape = other.shape;
+        world_.set_shape(body.id, other.shape);
+        break;
+      case 1:
+        body.desc.motion = other.motion;
+        world_.set_motion(body.id, other.motion);
+        break;
+      case 2:
+        body.desc.layer = other.layer;
+        body.desc.mask = other.mask;
+        body.desc.owner = other.owner;
+        world_.set_filter(body.id, other.layer, other.mask, other.owner);
+        break;
+      default:
+        body.desc.sensor = other.sensor;
+        world_.set_sensor(body.id, other.sensor);
+    }
+  }
+
+  // Steps, and compares everything with the reference.
+  void step_and_check() {
+    const StepReport& report = world_.step();
+    std::vector<reference::Body> list;
+    for (const auto& [index, body] : bodies_) list.push_back(body);
+    const WorldSettings& settings = world_.settings();
+    reference::Frame frame = reference::step(list, settings.positions, settings.detail, true,
+                                             report.step == 1 ? nullptr : &frame_);
+    EXPECT_TRUE(same_bytes<Pair>(world_.pairs(), frame.pairs)) << "pairs";
+    EXPECT_TRUE(same_bytes<uint8_t>(world_.overlaps(), frame.overlaps)) << "overlaps";
+    EXPECT_TRUE(same_bytes<Contact>(world_.contacts(), frame.contacts)) << "contacts";
+    if (settings.events) {
+      EXPECT_TRUE(same_bytes<Event>(world_.events(), frame.events)) << "events";
+    }
+    EXPECT_TRUE(same_bytes<BodyId>(world_.quarantined(), frame.quarantined)) << "quarantined";
+    EXPECT_EQ(report.bodies, bodies_.size());
+    if (settings.detail != Detail::pairs) {
+      EXPECT_EQ(report.tested + report.kept, report.pairs);
+    }
+    coverage.tested += report.tested;
+    coverage.kept += report.kept;
+    coverage.pairs += report.pairs;
+    coverage.overlapping += report.overlaps;
+    coverage.quarantined += report.quarantined;
+    for (const Event& event : world_.events()) {
+      ++coverage.events[static_cast<int>(event.kind)];
+      coverage.sensors += event.sensor;
+    }
+    frame_ = std::move(frame);
+  }
+
+ private:
+  std::map<uint32_t, reference::Body>::iterator pick() {
+    auto it = bodies_.begin();
+    std::advance(it, static_cast<int>(uniform(0, static_cast<double>(bodies_.size()))));
+    return it;
+  }
+
+  void write(uint32_t index, const Eigen::Vector3d& position) {
+    const BodyArrays arrays = world_.arrays();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (arrays.record64) {
+        arrays.record64[4 * index + axis] = position[axis];
+      } else {
+        arrays.record32[4 * index + axis] = static_cast<float>(position[axis]);
+      }
+    }
+  }
+
+  World world_;
+  std::mt19937 random_;
+  std::map<uint32_t, reference::Body> bodies_;
+  reference::Frame frame_;
+};
+
+}  // namespace carom::test

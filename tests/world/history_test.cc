@@ -1,0 +1,85 @@
+#include "tests/world/histories.h"
+
+#include "carom/kernel/thread_arena.h"
+#include "carom/simd/isa.h"
+
+namespace carom {
+namespace {
+
+using test::History;
+
+// Every kind of change at once, at many rates.
+void run_history(const WorldSettings& settings, uint32_t seed, int steps,
+                 test::Coverage* coverage = nullptr) {
+  SCOPED_TRACE(::testing::Message() << "seed " << seed);
+  History history(settings, seed);
+  const bool filters = seed % 3 != 0;
+  const double side = history.uniform(2, 8);
+  if (coverage) history.coverage = *coverage;
+  const auto churn = [&](double count) { return static_cast<int>(history.uniform(0, count)); };
+  for (int i = churn(200); i > 0; --i) history.add(history.random_body(side, filters));
+  for (int step = 0; step < steps; ++step) {
+    if (history.chance(0.3)) {
+      for (int i = churn(20); i > 0; --i) history.add(history.random_body(side, filters));
+    }
+    if (history.chance(0.3)) {
+      for (int i = churn(20); i > 0; --i) history.remove_random();
+    }
+    if (history.chance(0.2)) history.move(1, side);  // everything teleports
+    if (history.chance(0.6)) history.move(history.uniform(0, 1), 0.2);
+    if (history.chance(0.3)) history.change_random_body(side, filters);
+    history.step_and_check();
+    if (::testing::Test::HasFailure()) return;
+  }
+  if (coverage) *coverage = history.coverage;
+}
+
+TEST(History, MatchesReference) {
+  test::Coverage coverage;
+  for (uint32_t seed = 0; seed < 2000; ++seed) {
+    WorldSettings settings;
+    settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
+    settings.broadphase = seed % 5 == 0 ? BroadphaseMethod::automatic : BroadphaseMethod::sweep;
+    settings.carry_results = seed % 7 != 0;
+    settings.detail = seed % 4 == 3 ? Detail::overlap : Detail::contact;
+    run_history(settings, seed, 12, &coverage);
+    ASSERT_FALSE(HasFailure());
+  }
+  EXPECT_GT(coverage.overlapping, coverage.pairs * 3 / 10);
+  EXPECT_LT(coverage.overlapping, coverage.pairs * 7 / 10);
+  EXPECT_GT(coverage.kept, coverage.pairs / 10);
+  EXPECT_GT(coverage.tested, coverage.pairs / 10);
+  EXPECT_GT(coverage.quarantined, 1000u);
+  EXPECT_GT(coverage.sensors, 1000u);
+  for (const size_t count : coverage.events) EXPECT_GT(count, 1000u);
+}
+
+TEST(History, MatchesReferenceOnEveryIsa) {
+  for (const Isa isa : usable_isas()) {
+    ASSERT_TRUE(force_isa(isa));
+    for (uint32_t seed = 1000; seed < 1020; ++seed) run_history({}, seed, 8);
+  }
+  unforce_isa();
+}
+
+TEST(History, MatchesReferenceOnThreads) {
+  ThreadArena arena(4);
+  arena.run([] {
+    for (uint32_t seed = 2000; seed < 2020; ++seed) run_history({}, seed, 8);
+  });
+}
+
+TEST(History, DetailPairsRunsNoNarrowPhase) {
+  WorldSettings settings;
+  settings.detail = Detail::pairs;
+  History history(settings, 1);
+  for (int i = 0; i < 300; ++i) history.add(history.random_body(5, true));
+  history.step_and_check();
+  EXPECT_FALSE(history.world().report().ran(Stage::narrowphase));
+  EXPECT_FALSE(history.world().report().ran(Stage::changes));
+  EXPECT_FALSE(history.world().report().ran(Stage::events));
+  EXPECT_GT(history.world().pairs().size(), 0u);
+}
+
+}  // namespace
+}  // namespace carom
