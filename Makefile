@@ -1,0 +1,44 @@
+# The commands of the project; `make help` lists them. Each sets up what it needs.
+SHELL := /bin/bash
+.NOTPARALLEL:
+JOBS ?= $(shell nproc)
+
+.PHONY: run test bench lint format asan tsan fuzz clean help
+
+help: ## list these commands
+	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-7s %s\n", $$1, $$2}' Makefile
+
+run: setup-build ## verify and replay a recorded scene and a generated one
+	@scripts/build.sh release carom_program
+	@scripts/run.sh build/release/cli/carom
+
+test: build-release ## run all tests
+	ctest --preset release -j $(JOBS)
+
+bench: setup-build ## run the benchmarks; JSON goes to build/bench
+	@scripts/build.sh release carom_bench
+	@scripts/bench.sh build/release/bench/carom_bench
+
+lint: setup-dev ## check format, clang-tidy and include directions
+	@scripts/lint.sh
+
+format: setup-dev ## format all sources
+	@scripts/format.sh
+
+asan: setup-dev build-asan ## run the tests under AddressSanitizer and UBSan
+	ctest --preset asan -j $(JOBS)
+
+tsan: setup-dev build-tsan ## run the tests under ThreadSanitizer
+	ctest --preset tsan -j $(JOBS)
+
+fuzz: setup-dev build-fuzz ## run every fuzz target for SECONDS_EACH seconds (20)
+	@scripts/fuzz.sh build/fuzz
+
+clean: ## remove all builds
+	rm -rf build
+
+setup-%:
+	@scripts/setup.sh $*
+
+build-%: setup-build
+	@scripts/build.sh $*

@@ -1,0 +1,42 @@
+# The flags of every target of the project, tests and benchmarks included: directory properties, so
+# that no target can be without them.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(CAROM_CCACHE ccache)
+mark_as_advanced(CAROM_CCACHE)
+if(CAROM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CAROM_CCACHE})
+endif()
+
+# Bit equality: no contraction to FMA, and no SLP vectorisation, under which g++ 12 drops the
+# rounding of double -> float -> double.
+set(CAROM_MATH_FLAGS -ffp-contract=off -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math)
+add_compile_options(${CAROM_MATH_FLAGS} -Wall -Wextra -Wshadow -Wpedantic)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 sees overlapping copies inside std::string where there are none (GCC bug 105651).
+  add_compile_options(-Wno-restrict)
+endif()
+include_directories(${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+if(CAROM_SCALAR_ONLY)
+  add_compile_definitions(HWY_COMPILE_ONLY_SCALAR)
+else()
+  # The emulated scalar target beside those of the machine.
+  add_compile_definitions(HWY_COMPILE_ALL_ATTAINABLE)
+endif()
+if(NOT BUILD_SHARED_LIBS)
+  add_compile_definitions(CAROM_STATIC)
+endif()
+if(CAROM_SANITIZE)
+  add_compile_options(-fsanitize=${CAROM_SANITIZE} -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${CAROM_SANITIZE})
+endif()

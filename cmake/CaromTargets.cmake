@@ -1,0 +1,49 @@
+# carom_glob(OUT PATTERN...): the files of this folder that match; new files are picked up by the
+# next build.
+function(carom_glob out)
+  file(GLOB files CONFIGURE_DEPENDS ${ARGN})
+  set(${out} ${files} PARENT_SCOPE)
+endfunction()
+
+# carom_add_objects(NAME): the sources of this folder as an object library.
+function(carom_add_objects name)
+  carom_glob(sources *.cc)
+  add_library(${name} OBJECT ${sources})
+  target_link_libraries(${name} PRIVATE hwy::hwy TBB::tbb Eigen3::Eigen)
+endfunction()
+
+# carom_add_product(NAME OBJECT_LIBRARY...): the installed library NAME, and NAME_core, the same
+# objects as a static library for the program, tests and benchmarks, which use private symbols.
+function(carom_add_product name)
+  list(TRANSFORM ARGN REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
+  add_library(${name} ${objects})
+  string(REPLACE carom_ "" export_name ${name})
+  add_library(carom::${export_name} ALIAS ${name})
+  set_target_properties(${name} PROPERTIES
+    EXPORT_NAME ${export_name} VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  if(BUILD_SHARED_LIBS)
+    add_library(${name}_core STATIC EXCLUDE_FROM_ALL ${objects})
+    target_link_libraries(${name}_core PUBLIC hwy::hwy TBB::tbb Eigen3::Eigen)
+  else()
+    target_compile_definitions(${name} PUBLIC CAROM_STATIC)
+    add_library(${name}_core ALIAS ${name})
+  endif()
+endfunction()
+
+# carom_add_test(NAME SOURCES file... [LIBS target...]): a GoogleTest executable, each of whose
+# tests is a test of ctest.
+function(carom_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main GTest::gmock rapidcheck
+                                        rapidcheck_gtest hwy::hwy TBB::tbb)
+  target_compile_definitions(${name} PRIVATE
+    CAROM_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data"
+    CAROM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 300)
+endfunction()

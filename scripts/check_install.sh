@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# check_install.sh BUILD_DIR COMPILER static|shared: installs a finished build to a scratch prefix,
+# builds the examples against it through CMake and one of them through pkg-config, and runs them.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build_dir=$1 compiler=$2 linkage=$3
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+prefix=$scratch/prefix
+
+cmake --install "$build_dir" --prefix "$prefix" >/dev/null
+"$prefix/bin/carom" info >/dev/null
+
+cmake -S examples -B "$scratch/examples" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+cmake --build "$scratch/examples"
+for source in examples/*.cc; do
+  name=$(basename "$source" .cc)
+  echo "== $name"
+  "$scratch/examples/$name"
+done
+
+lib_dir=$(dirname "$(find "$prefix" -name 'libcarom.*' | head -n 1)")
+export PKG_CONFIG_PATH=$lib_dir/pkgconfig
+static_flag=()
+[ "$linkage" = shared ] || static_flag=(--static)
+read -ra flags <<<"$(pkg-config "${static_flag[@]}" --cflags --libs carom-reference)"
+"$compiler" -std=c++20 -O1 "$source" "${flags[@]}" -Wl,-rpath,"$lib_dir" -o "$scratch/pkg_config"
+echo "== $name, built through pkg-config"
+"$scratch/pkg_config"
+
+if [ "$linkage" = shared ]; then
+  # Weak symbols are templates of the standard library; strong ones must be ours and public.
+  foreign=$(nm -DC --defined-only "$lib_dir"/libcarom*.so | grep -E ' [TDBR] ' |
+    grep -vE ' [TDBR] ((typeinfo|vtable|typeinfo name) for )?carom::' || true)
+  if [ -n "$foreign" ]; then
+    printf 'exported by mistake:\n%s\n' "$foreign" >&2
+    exit 1
+  fi
+fi
+echo "package of $build_dir: $linkage, $compiler: ok"

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# check_neon.sh: compiles the library for AArch64, without linking.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+compiler=aarch64-linux-gnu-g++
+out=build/neon
+mkdir -p $out/include
+# Header-only or architecture-independent headers of the host, and nothing else of it.
+ln -sfn /usr/include/hwy $out/include/hwy
+ln -sfn /usr/include/eigen3/Eigen $out/include/Eigen
+ln -sfn /usr/include/tbb $out/include/tbb
+ln -sfn /usr/include/oneapi $out/include/oneapi
+
+find simd kernel broadphase narrowphase world -name '*.cc' | sort |
+  xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O1 -c {} -o /dev/null \
+    -I . -I include -isystem $out/include -ffp-contract=off -fno-tree-slp-vectorize \
+    -DHWY_COMPILE_ALL_ATTAINABLE -Wall -Wextra
+echo "neon: the library compiles for AArch64"

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# check_package.sh COMPILER static|shared: builds the libraries and the program that way, and checks
+# what they install.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+compiler=$1 linkage=$2
+case $linkage in
+  static) shared=OFF ;;
+  shared) shared=ON ;;
+  *) echo "usage: check_package.sh COMPILER static|shared" >&2; exit 2 ;;
+esac
+
+build_dir=build/package-$compiler-$linkage
+cmake -S . -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler" \
+  -DBUILD_SHARED_LIBS=$shared -DCAROM_BUILD_TESTS=OFF -DCAROM_BUILD_BENCH=OFF >/dev/null
+cmake --build "$build_dir" -j "${JOBS:-$(nproc)}"
+scripts/check_install.sh "$build_dir" "$compiler" "$linkage"

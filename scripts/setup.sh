@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# setup.sh build|dev|ci: installs the packages that are missing (Debian 12, Ubuntu 24.04 or later).
+# build: what building, testing and benchmarking need. dev: clang and its tools as well.
+# ci: a cross compiler for AArch64 too.
+set -euo pipefail
+
+build_packages=(
+  cmake ninja-build make g++ pkg-config git ccache python3
+  libhwy-dev libtbb-dev libeigen3-dev libzip-dev libcli11-dev nlohmann-json3-dev
+  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libboost-dev
+)
+dev_packages=(clang clang-format clang-tidy libclang-rt-dev)
+ci_packages=(g++-aarch64-linux-gnu)
+
+case "${1:-build}" in
+  build) packages=("${build_packages[@]}") ;;
+  dev) packages=("${build_packages[@]}" "${dev_packages[@]}") ;;
+  ci) packages=("${build_packages[@]}" "${dev_packages[@]}" "${ci_packages[@]}") ;;
+  *) echo "usage: setup.sh build|dev|ci" >&2; exit 2 ;;
+esac
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "setup: not a Debian or Ubuntu system; these packages are needed: ${packages[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$(id -u)" = 0 ]; then
+  as_root=()
+elif command -v sudo >/dev/null && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
+  as_root=(sudo)
+else
+  echo "setup: packages are missing; run as root:" >&2
+  echo "  apt-get update && apt-get install -y --no-install-recommends ${missing[*]}" >&2
+  exit 1
+fi
+
+echo "setup: installing ${missing[*]}"
+"${as_root[@]}" apt-get update -q
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -q -y --no-install-recommends "${missing[@]}"

@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# sources.sh: the project's C++ files, one a line.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+folders=(include simd kernel broadphase narrowphase world reference io cli tests bench examples fuzz)
+find "${folders[@]}" -type f \( -name '*.h' -o -name '*.cc' \) | sort
