@@ -106,9 +106,11 @@ size_t sphere_bounds(const PositionView& records, const BoundsColumns& out, size
   size_t valid = 0;
   for (size_t i = begin; i < end; i += kLanes) {
     const char* base = static_cast<const char*>(records.data) + i * records.stride;
-    const F4 sphere = transpose_records(ConsecutiveRecords{base, records.stride});
-    const F3 r = {sphere.w, sphere.w, sphere.w};
-    valid += write_bounds({sphere.x, sphere.y, sphere.z}, -r, r, out, i);
+    F3 centre;
+    F radius;
+    transpose_records(ConsecutiveRecords{base, records.stride}, centre, radius);
+    const F3 r = {radius, radius, radius};
+    valid += write_bounds(centre, -r, r, out, i);
   }
   return valid;
 }

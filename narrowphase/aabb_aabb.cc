@@ -16,7 +16,8 @@ struct AabbAabb {
   using A = BoxLanes;
   using B = BoxLanes;
 
-  static HWY_INLINE HitLanes test(const F3& relative, const A& a, const B& b) {
+  template <class Report>
+  static HWY_INLINE void test(const F3& relative, const A& a, const B& b, Report& report) {
     const F3 b_lower = b.lower + relative;  // in the frame of A
     const F3 b_upper = b.upper + relative;
     const F3 gap_if_above = b_lower - a.upper;
@@ -39,12 +40,10 @@ struct AabbAabb {
                            faces(gap.z, axis.z, overlapping)};
     // On axes where the boxes overlap, the middle of the overlap.
     const F3 middle = max(a.lower, b_lower) * splat(0.5f) + min(a.upper, b_upper) * splat(0.5f);
-    return {.overlap = overlapping,
-            .separation = hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
-            .normal = select(overlapping, signed_axis(axis, below), away),
-            .arm_a = select(at_face, select(above, a.upper, a.lower), middle),
-            .arm_b = select(at_face, select(above, b.lower, b.upper), middle - relative),
-            .degenerate = no_lanes()};
+    report(overlapping, no_lanes(), hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
+           select(overlapping, signed_axis(axis, below), away),
+           select(at_face, select(above, a.upper, a.lower), middle),
+           select(at_face, select(above, b.lower, b.upper), middle - relative));
   }
 
  private:

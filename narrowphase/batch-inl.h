@@ -1,9 +1,12 @@
 // The loop over a batch, written once: loads, validity, the kernel, stores, the tail.
 //
 // A kernel is a policy:
-//   using A, using B      shape lanes of the two sides
-//   static HitLanes test(const F3& relative, const A&, const B&)
-// branch-free, the same at every detail: what a detail does not store, the compiler drops.
+//   using A, using B   shape lanes of the two sides
+//   static void test(const F3& relative, const A&, const B&, Report& report)
+// which calls
+//   report(overlap, degenerate, separation, normal, arm_a, arm_b)
+// once; names and signs as in Contact. Branch-free, the same at every detail: what a detail does
+// not store, the compiler drops.
 #if defined(CAROM_NARROWPHASE_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_INL_H_
@@ -26,108 +29,148 @@ struct BatchLoop {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
 
-  // Boxes in dense columns, no list, no slots: no index is ever needed.
-  static constexpr bool kMayLoadRows = std::is_same_v<Records, NoRecords> &&
-                                       std::is_same_v<A, BoxLanes> && std::is_same_v<B, BoxLanes>;
+  static constexpr bool kHasBoxes =
+      std::is_same_v<A, BoxLanes> || std::is_same_v<B, BoxLanes>;
 
   static void run(const Batch& batch) {
     const size_t whole = batch.count - batch.count % kLanes;
-    if (!(kMayLoadRows && has_dense_rows(batch))) {
-      for (size_t row = 0; row < whole; row += kLanes) run_listed(batch, row);
-    } else if constexpr (kMayLoadRows) {
-      for (size_t row = 0; row < whole; row += kLanes) run_row(batch, row);
+    // A copy that nothing else can see: stores of bytes might change `batch`, for all the compiler
+    // knows, and would make it read every field again.
+    const Batch local = batch;
+    if (kHasBoxes && has_dense_rows(batch)) {
+      for (size_t row = 0; row < whole; row += kLanes) {
+        if (HWY_UNLIKELY(!run_plain<kHasBoxes>(local, row))) run_odd(batch, row);
+      }
+    } else {
+      for (size_t row = 0; row < whole; row += kLanes) {
+        if (HWY_UNLIKELY(!run_plain<false>(local, row))) run_odd(batch, row);
+      }
     }
     if (whole < batch.count) run_tail(batch, whole);
   }
 
  private:
-  static constexpr int32_t kDegenerate = static_cast<int32_t>(Status::degenerate);
-  static constexpr int32_t kInvalid = static_cast<int32_t>(Status::invalid);
-
+  // Boxes lie in dense columns, row by row: plain vector loads will do.
   static bool has_dense_rows(const Batch& batch) {
-    return !batch.pairs && !batch.a.box_slot && !batch.b.box_slot &&
-           batch.a.boxes.stride == sizeof(float) && batch.b.boxes.stride == sizeof(float);
+    const auto is_dense = [](const BatchSide& side) {
+      return !side.box_slot && side.boxes.stride == sizeof(float);
+    };
+    return batch.pairs_are_rows && (std::is_same_v<A, SphereLanes> || is_dense(batch.a)) &&
+           (std::is_same_v<B, SphereLanes> || is_dense(batch.b));
   }
 
-  static HWY_INLINE Pair pair_at(const Batch& batch, size_t row) {
-    if (batch.pairs) return batch.pairs[row];
-    const auto index = static_cast<uint32_t>(batch.first + row);
-    return {index, index};
-  }
-
-  static HWY_INLINE void run_row(const Batch& batch, size_t row) {
-    run_lanes(batch, row, Records::load(batch, {}),
-              BoxLanes::load_rows(batch.a, batch.first + row),
-              BoxLanes::load_rows(batch.b, batch.first + row));
-  }
-
-  static HWY_INLINE void run_listed(const Batch& batch, size_t row) {
-    LaneIndices lanes;
-    for (size_t i = 0; i < kLanes; ++i) {
-      const Pair pair = pair_at(batch, row + i);
-      lanes.a[i] = pair.a;
-      lanes.b[i] = pair.b;
+  template <class Shape, Role kRole, bool kRows>
+  static HWY_INLINE Shape load_shape(const BatchSide& side, const Pair* pairs, size_t row,
+                                     const PositionLanes& positions) {
+    if constexpr (kRows && std::is_same_v<Shape, BoxLanes>) {
+      return BoxLanes::load_rows(side, row);
+    } else {
+      return Shape::template load<kRole>(side, pairs, positions);
     }
-    const PositionLanes positions = Records::load(batch, lanes);
-    run_lanes(batch, row, positions, A::load(batch.a, lanes.a, positions.radius_a),
-              B::load(batch.b, lanes.b, positions.radius_b));
   }
+
+  // False, and nothing done, if a lane is not plainly valid.
+  template <bool kRows>
+  static HWY_INLINE bool run_plain(const Batch& batch, size_t row) {
+    const Pair* pairs = batch.pairs + row;
+    PositionLanes positions;
+    Records::load(batch, pairs, positions);
+    const A a = load_shape<A, Role::a, kRows>(batch.a, pairs, row, positions);
+    const B b = load_shape<B, Role::b, kRows>(batch.b, pairs, row, positions);
+    const Mask plain = is_plainly_valid(positions.relative, a, b);
+    if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), plain))) return false;
+    PlainReport report{batch.out, row, positions};
+    Kernel::test(positions.relative, a, b, report);
+    return true;
+  }
+
+  // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
+  static HWY_NOINLINE void run_odd(const Batch& batch, size_t row) {
+    const Mask valid = valid_lanes(batch, row);
+    const Pair* pairs = batch.pairs + row;
+    PositionLanes positions;
+    Records::load(batch, pairs, positions);
+    A a = A::template load<Role::a>(batch.a, pairs, positions);
+    B b = B::template load<Role::b>(batch.b, pairs, positions);
+    a.clear_unless(valid);
+    b.clear_unless(valid);
+    positions.relative = zero_unless(valid, clamp_to_finite(positions.relative));
+    positions.a = zero_unless(valid, positions.a);
+    positions.b = zero_unless(valid, positions.b);
+    if constexpr (Records::kHasLow) {
+      positions.a_low = zero_unless(valid, positions.a_low);
+      positions.b_low = zero_unless(valid, positions.b_low);
+    }
+    OddReport report{{batch.out, row, positions}, valid};
+    Kernel::test(positions.relative, a, b, report);
+  }
+
+  // What a kernel says of its lanes goes to the columns.
+  struct PlainReport {
+    const ResultColumns& out;
+    size_t row;
+    const PositionLanes& positions;
+
+    HWY_INLINE void operator()(Mask overlap, Mask degenerate, F separation, const F3& normal,
+                               const F3& arm_a, const F3& arm_b) const {
+      store_bytes(bytes_where(degenerate, static_cast<int32_t>(Status::degenerate)), out.status,
+                  row);
+      store_answer(overlap, separation, normal, arm_a, arm_b);
+    }
+
+    HWY_INLINE void store_answer(Mask overlap, F separation, const F3& normal, const F3& arm_a,
+                                 const F3& arm_b) const {
+      store_bytes(bytes_where(overlap, 1), out.overlap, row);
+      if constexpr (kDetail == Detail::contact) {
+        store(separation, out.separation, row);
+        store(normal, out.normal, row);
+        store(witness(positions.a, positions.a_low, arm_a), out.point_a, row);
+        store(witness(positions.b, positions.b_low, arm_b), out.point_b, row);
+      }
+    }
+  };
+
+  // NaN where there is no answer; in world coordinates, too, since 0 + NaN is that NaN.
+  struct OddReport {
+    PlainReport plain;
+    Mask valid;
+
+    HWY_INLINE void operator()(Mask overlap, Mask degenerate, F separation, const F3& normal,
+                               const F3& arm_a, const F3& arm_b) const {
+      const I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
+      const I invalid = bytes_where(hn::Not(valid), static_cast<int32_t>(Status::invalid));
+      store_bytes(hn::IfThenElse(hn::RebindMask(IntTag(), valid), status, invalid),
+                  plain.out.status, plain.row);
+      const F3 nan = splat3(std::numeric_limits<float>::quiet_NaN());
+      plain.store_answer(hn::And(overlap, valid), hn::IfThenElse(valid, separation, nan.x),
+                         select(valid, normal, nan), select(valid, arm_a, nan),
+                         select(valid, arm_b, nan));
+    }
+  };
 
   // A batch of one whole vector, filled up by repeating the last pair.
   static HWY_NOINLINE void run_tail(const Batch& batch, size_t first_row) {
     const size_t count = batch.count - first_row;
     Pair pairs[kLanes];
     for (size_t i = 0; i < kLanes; ++i) {
-      pairs[i] = pair_at(batch, first_row + (i < count ? i : count - 1));
+      pairs[i] = batch.pairs[first_row + (i < count ? i : count - 1)];
     }
     TailColumns results;
     Batch tail = batch;
     tail.pairs = pairs;
+    tail.pairs_are_rows = false;
     tail.count = kLanes;
     tail.out = results.columns();
     run(tail);
     results.copy_to(batch.out, first_row, count, kDetail);
   }
 
-  static HWY_INLINE void run_lanes(const Batch& batch, size_t row, PositionLanes positions, A a,
-                                   B b) {
-    const FloatTag tag;
-    const bool plain = hn::AllTrue(tag, is_plainly_valid(positions.relative, a, b));
-    Mask valid = hn::Not(no_lanes());
-    if (HWY_UNLIKELY(!plain)) {
-      // A lane is invalid, or so large that a sum overflowed. The others stay as they are.
-      valid = valid_lanes(batch, row);
-      a.clear_unless(valid);
-      b.clear_unless(valid);
-      positions = {.relative = zero_unless(valid, clamp_to_finite(positions.relative)),
-                   .a = zero_unless(valid, positions.a),
-                   .b = zero_unless(valid, positions.b),
-                   .a_low = zero_unless(valid, positions.a_low),
-                   .b_low = zero_unless(valid, positions.b_low),
-                   .radius_a = positions.radius_a,
-                   .radius_b = positions.radius_b};
-    }
-    HitLanes hit = Kernel::test(positions.relative, a, b);
-    I status = bytes_where(hit.degenerate, kDegenerate);
-    if (HWY_UNLIKELY(!plain)) {
-      status = hn::IfThenElse(hn::RebindMask(IntTag(), valid), status,
-                              hn::Set(IntTag(), kInvalid));
-      hit = answer_only(valid, hit);
-    }
-    store_bytes(bytes_where(hit.overlap, 1), batch.out.overlap, row);
-    store_bytes(status, batch.out.status, row);
-    if constexpr (kDetail == Detail::contact) {
-      store(hit.separation, batch.out.separation, row);
-      store(hit.normal, batch.out.normal, row);
-      store(witness(positions.a, positions.a_low, hit.arm_a), batch.out.point_a, row);
-      store(witness(positions.b, positions.b_low, hit.arm_b), batch.out.point_b, row);
-    }
-  }
-
+  // One comparison for everything that must be finite: NaN and infinity survive the sum.
   static HWY_INLINE Mask is_plainly_valid(const F3& relative, const A& a, const B& b) {
-    const F sum = hn::Add(hn::Add(hn::Abs(relative.x), hn::Abs(relative.y)), hn::Abs(relative.z));
-    return hn::And(hn::Le(sum, splat(FLT_MAX)),
-                   hn::And(a.is_plainly_valid(), b.is_plainly_valid()));
+    const F distance =
+        hn::Add(hn::Add(hn::Abs(relative.x), hn::Abs(relative.y)), hn::Abs(relative.z));
+    const F sum = hn::Add(distance, hn::Add(a.size(), b.size()));
+    return hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
   }
 
   static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {
@@ -136,17 +179,6 @@ struct BatchLoop {
       flags[i] = is_valid_pair(batch, A::kKind, B::kKind, row + i) ? 1.0f : 0.0f;
     }
     return hn::Gt(hn::Load(FloatTag(), flags), hn::Zero(FloatTag()));
-  }
-
-  // NaN where there is no answer; in world coordinates, too, since 0 + NaN is that NaN.
-  static HWY_INLINE HitLanes answer_only(Mask valid, const HitLanes& hit) {
-    const F3 nan = splat3(std::numeric_limits<float>::quiet_NaN());
-    return {.overlap = hn::And(hit.overlap, valid),
-            .separation = hn::IfThenElse(valid, hit.separation, nan.x),
-            .normal = select(valid, hit.normal, nan),
-            .arm_a = select(valid, hit.arm_a, nan),
-            .arm_b = select(valid, hit.arm_b, nan),
-            .degenerate = hn::And(hit.degenerate, valid)};
   }
 
   static HWY_INLINE F3 witness(const F3& position, const F3& low, const F3& arm) {

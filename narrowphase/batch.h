@@ -25,14 +25,14 @@ struct BatchSide {
   const uint32_t* box_slot = nullptr;  // nullptr: the body's own index
 };
 
-// Row i tests a[pairs[i].a] against b[pairs[i].b], or a[first + i] against b[first + i] without a
-// list; the result goes to row i of `out`.
+// Row i tests a[pairs[i].a] against b[pairs[i].b]; the result goes to row i of `out`, which has
+// every column that the detail fills.
 struct Batch {
   BatchSide a;
   BatchSide b;
   PositionLayout layout = PositionLayout::records32;
   const Pair* pairs = nullptr;
-  size_t first = 0;
+  bool pairs_are_rows = false;  // pairs[i] = (i, i)
   size_t count = 0;
   Detail detail = Detail::contact;
   WitnessFrame frame = WitnessFrame::world;

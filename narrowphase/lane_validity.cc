@@ -25,9 +25,9 @@ bool is_valid(const BatchSide& side, PositionLayout layout, ShapeKind kind, size
 }  // namespace
 
 bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
-  const size_t a = batch.pairs ? batch.pairs[row].a : batch.first + row;
-  const size_t b = batch.pairs ? batch.pairs[row].b : batch.first + row;
-  return is_valid(batch.a, batch.layout, kind_a, a) && is_valid(batch.b, batch.layout, kind_b, b);
+  const Pair pair = batch.pairs[row];
+  return is_valid(batch.a, batch.layout, kind_a, pair.a) &&
+         is_valid(batch.b, batch.layout, kind_b, pair.b);
 }
 
 }  // namespace carom

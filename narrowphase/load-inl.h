@@ -12,77 +12,83 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The bodies of kLanes pairs.
-struct LaneIndices {
-  uint32_t a[kLanes];
-  uint32_t b[kLanes];
-};
+enum class Role { a, b };
+
+// The body of lane i on one side of kLanes pairs.
+template <Role kRole>
+HWY_INLINE uint32_t body_in(const Pair* pairs, size_t i) {
+  return kRole == Role::a ? pairs[i].a : pairs[i].b;
+}
 
 // Positions of the pairs in the lanes: b - a, subtracted in the type of the positions so that the
 // distance from the origin costs no accuracy, and each side's own position as high + low.
 struct PositionLanes {
   F3 relative;
   F3 a, b;
-  F3 a_low, b_low;  // float64 only: what rounding to float32 left
-  F radius_a, radius_b;
+  F3 a_low, b_low;       // float64 only: what rounding to float32 left
+  F radius_a, radius_b;  // of spheres; otherwise any finite value
 };
-
-HWY_INLINE F3 xyz(const F4& v) { return {v.x, v.y, v.z}; }
 
 // Boxes given in world coordinates.
 struct NoRecords {
   static constexpr bool kHasLow = false;
-  static HWY_INLINE PositionLanes load(const Batch&, const LaneIndices&) {
-    const F zero = splat(0);
-    return {splat3(0), splat3(0), splat3(0), splat3(0), splat3(0), zero, zero};
+  static HWY_INLINE void load(const Batch&, const Pair*, PositionLanes& out) {
+    out.relative = out.a = out.b = splat3(0);
   }
 };
 
-// Body indices[i] of one side.
-template <class T>
+// The records of one side.
+template <class T, Role kRole>
 struct RecordSource {
   const BatchSide& side;
-  const uint32_t* indices;
+  const Pair* pairs;
 
   HWY_INLINE const T* record(size_t i) const {
     return reinterpret_cast<const T*>(static_cast<const char*>(side.records) +
-                                      indices[i] * side.record_stride);
+                                      body_in<kRole>(pairs, i) * side.record_stride);
   }
 };
 
-struct Source32 : RecordSource<float> {
+template <Role kRole>
+struct Source32 : RecordSource<float, kRole> {
 #if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), record(i)); }
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), this->record(i)); }
 #endif
-  HWY_INLINE float component(size_t i, size_t c) const { return record(i)[c]; }
+  HWY_INLINE float component(size_t i, size_t c) const { return this->record(i)[c]; }
 };
 
 struct Records32 {
   static constexpr bool kHasLow = false;
 
-  static HWY_INLINE PositionLanes load(const Batch& batch, const LaneIndices& indices) {
-    const F4 a = transpose_records(Source32{{batch.a, indices.a}});
-    const F4 b = transpose_records(Source32{{batch.b, indices.b}});
-    return {xyz(b) - xyz(a), xyz(a), xyz(b), splat3(0), splat3(0), a.w, b.w};
+  static HWY_INLINE void load(const Batch& batch, const Pair* pairs, PositionLanes& out) {
+    transpose_records(Source32<Role::a>{{batch.a, pairs}}, out.a, out.radius_a);
+    transpose_records(Source32<Role::b>{{batch.b, pairs}}, out.b, out.radius_b);
+    out.relative = out.b - out.a;
   }
 };
 
 // float64 records, rounded to float32.
-struct HighSource : RecordSource<double> {
+template <Role kRole>
+struct HighSource : RecordSource<double, kRole> {
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
     const DoublePair pair;
-    return demote_quad(hn::LoadU(pair, record(i)), hn::LoadU(pair, record(i) + 2));
+    const double* p = this->record(i);
+    return demote_quad(hn::LoadU(pair, p), hn::LoadU(pair, p + 2));
   }
 #endif
-  HWY_INLINE float component(size_t i, size_t c) const { return static_cast<float>(record(i)[c]); }
+  HWY_INLINE float component(size_t i, size_t c) const {
+    return static_cast<float>(this->record(i)[c]);
+  }
 };
 
 // What that rounding left.
-struct LowSource : RecordSource<double> {
+template <Role kRole>
+struct LowSource : RecordSource<double, kRole> {
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
-    return demote_quad(low(record(i)), low(record(i) + 2));
+    const double* p = this->record(i);
+    return demote_quad(low(p), low(p + 2));
   }
   static HWY_INLINE hn::Vec<DoublePair> low(const double* p) {
     const hn::Rebind<float, DoublePair> narrow;
@@ -91,14 +97,15 @@ struct LowSource : RecordSource<double> {
   }
 #endif
   HWY_INLINE float component(size_t i, size_t c) const {
-    const double v = record(i)[c];
+    const double v = this->record(i)[c];
     return static_cast<float>(v - static_cast<double>(static_cast<float>(v)));
   }
 };
 
 // b - a in float64, then rounded to float32.
 struct RelativeSource {
-  RecordSource<double> a, b;
+  RecordSource<double, Role::a> a;
+  RecordSource<double, Role::b> b;
 
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
@@ -117,29 +124,30 @@ struct RelativeSource {
 struct Records64 {
   static constexpr bool kHasLow = true;
 
-  static HWY_INLINE PositionLanes load(const Batch& batch, const LaneIndices& indices) {
-    const RecordSource<double> source_a{batch.a, indices.a};
-    const RecordSource<double> source_b{batch.b, indices.b};
-    const F4 a = transpose_records(HighSource{source_a});
-    const F4 b = transpose_records(HighSource{source_b});
-    const F4 a_low = transpose_records(LowSource{source_a});
-    const F4 b_low = transpose_records(LowSource{source_b});
-    const F4 relative = transpose_records(RelativeSource{source_a, source_b});
-    return {xyz(relative), xyz(a), xyz(b), xyz(a_low), xyz(b_low), a.w, b.w};
+  static HWY_INLINE void load(const Batch& batch, const Pair* pairs, PositionLanes& out) {
+    const RecordSource<double, Role::a> a{batch.a, pairs};
+    const RecordSource<double, Role::b> b{batch.b, pairs};
+    F unused;
+    transpose_records(HighSource<Role::a>{a}, out.a, out.radius_a);
+    transpose_records(HighSource<Role::b>{b}, out.b, out.radius_b);
+    transpose_records(LowSource<Role::a>{a}, out.a_low, unused);
+    transpose_records(LowSource<Role::b>{b}, out.b_low, unused);
+    transpose_records(RelativeSource{a, b}, out.relative, unused);
   }
 };
 
-// Shapes as kernels see them. `is_plainly_valid` may miss a valid lane, never an invalid one.
+// Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite; it may
+// be valid without, if its size overflows.
 struct SphereLanes {
   static constexpr ShapeKind kKind = ShapeKind::sphere;
   F radius;
 
-  static HWY_INLINE SphereLanes load(const BatchSide&, const uint32_t*, F radius) {
-    return {radius};
+  template <Role kRole>
+  static HWY_INLINE SphereLanes load(const BatchSide&, const Pair*, const PositionLanes& p) {
+    return {kRole == Role::a ? p.radius_a : p.radius_b};
   }
-  HWY_INLINE Mask is_plainly_valid() const {
-    return hn::And(hn::Ge(radius, splat(0)), hn::Le(radius, splat(FLT_MAX)));
-  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
+  HWY_INLINE F size() const { return radius; }
   HWY_INLINE void clear_unless(Mask keep) { radius = hn::IfThenElseZero(keep, radius); }
 };
 
@@ -147,25 +155,21 @@ struct BoxLanes {
   static constexpr ShapeKind kKind = ShapeKind::aabb;
   F3 lower, upper;
 
-  static HWY_INLINE F load_column(const float* column, size_t stride, const uint32_t* slots) {
-    const char* base = reinterpret_cast<const char*>(column);
-    return lanes_from([&](size_t i) HWY_ATTR {
-      return *reinterpret_cast<const float*>(base + slots[i] * stride);
-    });
-  }
-
-  static HWY_INLINE BoxLanes load(const BatchSide& side, const uint32_t* indices, F) {
-    uint32_t slots[kLanes];
+  template <Role kRole>
+  static HWY_INLINE BoxLanes load(const BatchSide& side, const Pair* pairs, const PositionLanes&) {
+    size_t offsets[kLanes];  // in bytes
     for (size_t i = 0; i < kLanes; ++i) {
-      slots[i] = side.box_slot ? side.box_slot[indices[i]] : indices[i];
+      const uint32_t body = body_in<kRole>(pairs, i);
+      offsets[i] = (side.box_slot ? side.box_slot[body] : body) * side.boxes.stride;
     }
+    const auto column = [&](const float* first) HWY_ATTR {
+      return lanes_from([&](size_t i) HWY_ATTR {
+        return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(first) + offsets[i]);
+      });
+    };
     const AabbColumns& boxes = side.boxes;
-    return {{load_column(boxes.lower[0], boxes.stride, slots),
-             load_column(boxes.lower[1], boxes.stride, slots),
-             load_column(boxes.lower[2], boxes.stride, slots)},
-            {load_column(boxes.upper[0], boxes.stride, slots),
-             load_column(boxes.upper[1], boxes.stride, slots),
-             load_column(boxes.upper[2], boxes.stride, slots)}};
+    return {{column(boxes.lower[0]), column(boxes.lower[1]), column(boxes.lower[2])},
+            {column(boxes.upper[0]), column(boxes.upper[1]), column(boxes.upper[2])}};
   }
 
   // Rows in order, in dense columns: plain vector loads.
@@ -178,12 +182,13 @@ struct BoxLanes {
              hn::LoadU(tag, boxes.upper[2] + row)}};
   }
 
-  HWY_INLINE Mask is_plainly_valid() const {
-    const F3 extent = upper - lower;  // NaN if any corner is, infinite if one is
-    const Mask ordered = hn::And(hn::And(hn::Ge(extent.x, splat(0)), hn::Ge(extent.y, splat(0))),
-                                 hn::Ge(extent.z, splat(0)));
-    const F sum = hn::Add(hn::Add(extent.x, extent.y), extent.z);
-    return hn::And(ordered, hn::Le(sum, splat(FLT_MAX)));
+  HWY_INLINE Mask is_ordered() const {
+    return hn::And(hn::And(hn::Le(lower.x, upper.x), hn::Le(lower.y, upper.y)),
+                   hn::Le(lower.z, upper.z));
+  }
+  HWY_INLINE F size() const {
+    const F3 extent = upper - lower;
+    return hn::Add(hn::Add(extent.x, extent.y), extent.z);
   }
   HWY_INLINE void clear_unless(Mask keep) {
     lower = zero_unless(keep, lower);

@@ -23,6 +23,42 @@ BatchSide side_of(const Collidables& bodies) {
   return {bodies.position.data, bodies.position.stride, bodies.boxes, bodies.box_slot};
 }
 
+// The side as seen from body `first` on.
+BatchSide from_body(BatchSide side, size_t first) {
+  if (side.records) {
+    side.records = static_cast<const char*>(side.records) + first * side.record_stride;
+  }
+  if (side.box_slot) {
+    side.box_slot += first;
+    return side;
+  }
+  for (auto* corner : {&side.boxes.lower, &side.boxes.upper}) {
+    for (const float*& column : *corner) {
+      const char* shifted = reinterpret_cast<const char*>(column) + first * side.boxes.stride;
+      if (column) column = reinterpret_cast<const float*>(shifted);
+    }
+  }
+  return side;
+}
+
+// (0, 0), (1, 1), ...: rows as a list of pairs.
+constexpr auto kRowPairs = [] {
+  std::array<Pair, kPairsPerBlock> pairs{};
+  for (uint32_t i = 0; i < pairs.size(); ++i) pairs[i] = {i, i};
+  return pairs;
+}();
+
+// Every column that the detail fills is there.
+bool is_complete(const ResultColumns& out, Detail detail) {
+  if (!out.overlap || !out.status) return false;
+  if (detail == Detail::overlap) return true;
+  bool complete = out.separation != nullptr;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    complete = complete && out.normal[axis] && out.point_a[axis] && out.point_b[axis];
+  }
+  return complete;
+}
+
 // Results of a part of a block, in the order of the kernel's batch.
 struct ScratchColumns {
   std::array<uint8_t, kPairsPerBlock> overlap, status;
@@ -64,7 +100,9 @@ class BlockRunner {
   void run() {
     if (!block_.a.kind && !block_.b.kind) {
       const PairKindRef kind = find_pair_kind(block_.a.uniform_kind, block_.b.uniform_kind);
-      if (layout_ && !kind.flipped) return run_in_place(kind);
+      if (layout_ && !kind.flipped && is_complete(block_.out, block_.detail)) {
+        return run_in_place(kind);
+      }
     }
     sort_by_kind();
     for (uint8_t kind = 0; kind < kPairKinds.size(); ++kind) {
@@ -99,7 +137,12 @@ class BlockRunner {
   void run_in_place(PairKindRef kind) const {
     Batch whole = batch(kind);
     whole.pairs = block_.pairs;
-    whole.first = block_.first;
+    if (!block_.pairs) {
+      whole.a = from_body(whole.a, block_.first);
+      whole.b = from_body(whole.b, block_.first);
+      whole.pairs = kRowPairs.data();
+      whole.pairs_are_rows = true;
+    }
     whole.count = block_.count;
     whole.out = block_.out;
     kPairKinds[kind.index].run(whole);
@@ -150,7 +193,7 @@ class BlockRunner {
     part.a = packed_a.side(a);
     part.b = packed_b.side(b);
     part.layout = layout;
-    part.pairs = nullptr;
+    part.pairs = kRowPairs.data();
     kPairKinds[kind.index].run(part);
   }
 

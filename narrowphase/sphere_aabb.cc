@@ -17,43 +17,28 @@ struct SphereAabb {
   using A = SphereLanes;
   using B = BoxLanes;
 
-  static HWY_INLINE HitLanes test(const F3& relative, const A& sphere, const B& box) {
+  template <class Report>
+  static HWY_INLINE void test(const F3& relative, const A& sphere, const B& box, Report& report) {
     const F3 centre = -relative;  // in the frame of the box
     const F3 nearest = min(max(centre, box.lower), box.upper);
     const Length outside = measure(clamp_to_finite(nearest - centre));
-    const Exit exit = nearest_face(centre, nearest, box);
-
     const Mask inside = outside.is_zero;
-    const F gap = hn::IfThenElse(inside, hn::Neg(exit.depth), outside.length);
-    const F3 normal = select(inside, exit.normal, outside.direction);
-    const F separation = hn::Sub(gap, sphere.radius);
-    return {.overlap = hn::Le(separation, splat(0)),
-            .separation = separation,
-            .normal = normal,
-            .arm_a = normal * sphere.radius,
-            .arm_b = select(inside, exit.point, nearest),
-            .degenerate = no_lanes()};
-  }
 
- private:
-  // How a centre inside the box leaves it: the way to the nearest face, ties to the first axis and
-  // to its lower side.
-  struct Exit {
-    F depth;
-    F3 normal;  // from the sphere into the box: against the way out
-    F3 point;   // on that face
-  };
-
-  static HWY_INLINE Exit nearest_face(const F3& centre, const F3& nearest, const BoxLanes& box) {
+    // A centre inside the box leaves by the nearest face: ties go to the first axis and to its lower
+    // side. The normal points into the box, against the way out.
     const F3 below = centre - box.lower;
     const F3 above = box.upper - centre;
-    const F3 way = min(below, above);
-    const AxisMasks axis = least_axis(way);
+    const F3 way_out = min(below, above);
+    const AxisMasks axis = least_axis(way_out);
     const Mask3 upwards = {hn::Lt(above.x, below.x), hn::Lt(above.y, below.y),
                            hn::Lt(above.z, below.z)};
-    return {.depth = pick(axis, way),
-            .normal = signed_axis(axis, upwards),
-            .point = select(axis, select(upwards, box.upper, box.lower), nearest)};
+    const F3 exit = select(axis, select(upwards, box.upper, box.lower), nearest);
+
+    const F gap = hn::IfThenElse(inside, hn::Neg(pick(axis, way_out)), outside.length);
+    const F separation = hn::Sub(gap, sphere.radius);
+    const F3 normal = select(inside, signed_axis(axis, upwards), outside.direction);
+    report(hn::Le(separation, splat(0)), no_lanes(), separation, normal, normal * sphere.radius,
+           select(inside, exit, nearest));
   }
 };
 

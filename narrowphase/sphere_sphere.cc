@@ -16,7 +16,8 @@ struct SphereSphere {
   using A = SphereLanes;
   using B = SphereLanes;
 
-  static HWY_INLINE HitLanes test(const F3& relative, const A& a, const B& b) {
+  template <class Report>
+  static HWY_INLINE void test(const F3& relative, const A& a, const B& b, Report& report) {
     const Length distance = measure(relative);
     // The larger radius first: that difference is exact near touch (Sterbenz), and so is the next.
     const F separation = hn::Sub(hn::Sub(distance.length, max(a.radius, b.radius)),
@@ -24,12 +25,8 @@ struct SphereSphere {
     // Coincident centres: every direction is as good, +x is the convention.
     const F3 normal =
         select(distance.is_zero, F3{splat(1), splat(0), splat(0)}, distance.direction);
-    return {.overlap = hn::Le(separation, splat(0)),
-            .separation = separation,
-            .normal = normal,
-            .arm_a = normal * a.radius,
-            .arm_b = -(normal * b.radius),
-            .degenerate = distance.is_zero};
+    report(hn::Le(separation, splat(0)), distance.is_zero, separation, normal, normal * a.radius,
+           -(normal * b.radius));
   }
 };
 

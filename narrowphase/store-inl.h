@@ -14,15 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The outcome of kLanes pairs, as in Contact. The mask `degenerate` becomes Status::degenerate.
-struct HitLanes {
-  Mask overlap;  // separation <= 0
-  F separation;
-  F3 normal;
-  F3 arm_a, arm_b;
-  Mask degenerate;
-};
-
 // `value` where the mask is set, 0 elsewhere.
 HWY_INLINE I bytes_where(Mask mask, int32_t value) {
   const IntTag tag;
@@ -30,7 +21,7 @@ HWY_INLINE I bytes_where(Mask mask, int32_t value) {
 }
 
 HWY_INLINE void store(F v, float* column, size_t row) {
-  if (column) hn::StoreU(v, FloatTag(), column + row);
+  hn::StoreU(v, FloatTag(), column + row);
 }
 
 HWY_INLINE void store(const F3& v, const std::array<float*, 3>& columns, size_t row) {
@@ -41,7 +32,7 @@ HWY_INLINE void store(const F3& v, const std::array<float*, 3>& columns, size_t 
 
 HWY_INLINE void store_bytes(I v, uint8_t* column, size_t row) {
   const hn::Rebind<uint8_t, IntTag> bytes;
-  if (column) hn::StoreU(hn::DemoteTo(bytes, v), bytes, column + row);
+  hn::StoreU(hn::DemoteTo(bytes, v), bytes, column + row);
 }
 
 // Room for the results of one vector, of which the first `count` rows are wanted.
@@ -51,7 +42,6 @@ class TailColumns {
     return {overlap_, status_, floats_[0], column3(1), column3(4), column3(7)};
   }
 
-  // Whatever `to` has columns for; `detail` says what was written.
   void copy_to(const ResultColumns& to, size_t row, size_t count, Detail detail) const {
     copy(overlap_, to.overlap, row, count);
     copy(status_, to.status, row, count);
@@ -69,7 +59,7 @@ class TailColumns {
 
   template <class T>
   static void copy(const T* from, T* to, size_t row, size_t count) {
-    if (to) std::memcpy(to + row, from, count * sizeof(T));
+    std::memcpy(to + row, from, count * sizeof(T));
   }
 
   uint8_t overlap_[kLanes], status_[kLanes];

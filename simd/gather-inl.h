@@ -12,11 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-struct F4 {
-  F x, y, z, w;
-};
-
-// A source of records gives record i of the lanes as
+// Records i = 0 ... kLanes - 1 of a source -> their components in lanes. A source gives record i as
 //   hn::Vec<Quad> quad(size_t i)         on ISAs with vectors
 //   float component(size_t i, size_t c)  on the scalar one
 #if HWY_TARGET != HWY_SCALAR
@@ -37,7 +33,7 @@ HWY_INLINE hn::Vec<Tag> interleaved_row(Tag tag, const Source& source, size_t k)
 }
 
 template <class Source>
-HWY_INLINE F4 transpose_records(const Source& source) {
+HWY_INLINE void transpose_records(const Source& source, F3& xyz, F& w) {
   const FloatTag tag;
   const F r0 = interleaved_row(tag, source, 0);
   const F r1 = interleaved_row(tag, source, 1);
@@ -47,8 +43,10 @@ HWY_INLINE F4 transpose_records(const Source& source) {
   const F xy13 = hn::InterleaveLower(tag, r1, r3);
   const F zw02 = hn::InterleaveUpper(tag, r0, r2);
   const F zw13 = hn::InterleaveUpper(tag, r1, r3);
-  return {hn::InterleaveLower(tag, xy02, xy13), hn::InterleaveUpper(tag, xy02, xy13),
-          hn::InterleaveLower(tag, zw02, zw13), hn::InterleaveUpper(tag, zw02, zw13)};
+  xyz.x = hn::InterleaveLower(tag, xy02, xy13);
+  xyz.y = hn::InterleaveUpper(tag, xy02, xy13);
+  xyz.z = hn::InterleaveLower(tag, zw02, zw13);
+  w = hn::InterleaveUpper(tag, zw02, zw13);
 }
 
 // Four doubles, rounded to float32.
@@ -60,9 +58,10 @@ HWY_INLINE hn::Vec<Quad> demote_quad(hn::Vec<DoublePair> xy, hn::Vec<DoublePair>
 #else
 
 template <class Source>
-HWY_INLINE F4 transpose_records(const Source& source) {
-  return {splat(source.component(0, 0)), splat(source.component(0, 1)),
-          splat(source.component(0, 2)), splat(source.component(0, 3))};
+HWY_INLINE void transpose_records(const Source& source, F3& xyz, F& w) {
+  xyz = {splat(source.component(0, 0)), splat(source.component(0, 1)),
+         splat(source.component(0, 2))};
+  w = splat(source.component(0, 3));
 }
 
 #endif

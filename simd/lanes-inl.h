@@ -48,6 +48,8 @@ HWY_INLINE F max(F a, F b) {
 
 HWY_INLINE F clamp_to_finite(F v) { return min(max(v, splat(-FLT_MAX)), splat(FLT_MAX)); }
 
+// g++ 12 copies structs of vectors through memory, in pieces, and stalls on it: hand them on by
+// reference and return them, but do not make them members of other results.
 struct F3 {
   F x, y, z;
 };

@@ -15,8 +15,8 @@ constexpr size_t kFloatColumns = 10;
 ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail) {
   rows_ = pairs;
   overlap_.resize(pairs);
-  if (detail == Detail::overlap) return {.overlap = overlap_.data()};
   status_.resize(pairs);
+  if (detail == Detail::overlap) return {.overlap = overlap_.data(), .status = status_.data()};
   floats_.resize(pairs * kFloatColumns);
   return {overlap_.data(),
           status_.data(),
