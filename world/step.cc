@@ -66,7 +66,7 @@ const StepReport& World::State::step() {
 BoundsView World::State::bounds_view() const {
   return {{bounds[0].data(), bounds[1].data(), bounds[2].data()},
           {bounds[3].data(), bounds[4].data(), bounds[5].data()},
-          bodies.rows()};
+          bounds[0].size()};
 }
 
 void World::State::find_bounds() {
