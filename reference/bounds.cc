@@ -1,0 +1,98 @@
+// Bodies -> world bounds.
+//
+// Source of the exact sum: D. E. Knuth, The Art of Computer Programming, volume 2, section 4.2.2,
+// theorem B (TwoSum): the rounding error of a sum of two floats is itself a float, and six
+// operations yield it.
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "carom/reference/reference.h"
+#include "kernel/float_environment.h"
+
+namespace carom::reference {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float step_down(float x) { return std::nextafter(x, -kInfinity); }
+float step_up(float x) { return std::nextafter(x, kInfinity); }
+
+template <class Real>
+struct ExactSum {
+  Real sum;    // rounded
+  Real error;  // sum + error = a + b without rounding
+};
+
+template <class Real>
+ExactSum<Real> two_sum(Real a, Real b) {
+  const Real sum = a + b;
+  const Real rounded_b = sum - a;
+  const Real rounded_a = sum - rounded_b;
+  return {sum, (a - rounded_a) + (b - rounded_b)};
+}
+
+// The largest float that is not above the exact sum. (Where it is not a float, the error is at most
+// half a unit: the next float below the rounded sum is the one.)
+float round_down(const ExactSum<float>& s) { return s.error < 0 ? step_down(s.sum) : s.sum; }
+
+float round_down(const ExactSum<double>& s) {
+  const float rounded = static_cast<float>(s.sum);
+  const bool is_above = rounded > s.sum || (rounded == s.sum && s.error < 0);
+  return is_above ? step_down(rounded) : rounded;
+}
+
+// The smallest float that is not below the exact sum.
+float round_up(const ExactSum<float>& s) { return s.error > 0 ? step_up(s.sum) : s.sum; }
+
+float round_up(const ExactSum<double>& s) {
+  const float rounded = static_cast<float>(s.sum);
+  const bool is_below = rounded < s.sum || (rounded == s.sum && s.error > 0);
+  return is_below ? step_up(rounded) : rounded;
+}
+
+// Corners relative to the position.
+Aabb extent(const Sphere& sphere) {
+  return Aabb::from_half_extents(Eigen::Vector3f::Constant(sphere.radius));
+}
+Aabb extent(const Aabb& box) { return box; }
+
+template <class Real>
+Box bounds_at(const Aabb& extent, const Eigen::Vector3<Real>& position) {
+  Box box;
+  for (int i = 0; i < 3; ++i) {
+    box.lower[i] = round_down(two_sum<Real>(position[i], extent.lower[i]));
+    box.upper[i] = round_up(two_sum<Real>(position[i], extent.upper[i]));
+  }
+  return box;
+}
+
+bool is_valid(const Sphere& sphere) { return std::isfinite(sphere.radius) && sphere.radius >= 0; }
+
+bool is_valid(const Aabb& box) {
+  return box.lower.allFinite() && box.upper.allFinite() &&
+         (box.lower.array() <= box.upper.array()).all();
+}
+
+}  // namespace
+
+bool is_valid(const Shape& shape, const Eigen::Vector3d& position, PositionType positions) {
+  const FloatEnvironment environment;
+  const bool is_finite = positions == PositionType::float32 ? position.cast<float>().allFinite()
+                                                            : position.allFinite();
+  return is_finite && std::visit([](const auto& s) { return is_valid(s); }, shape);
+}
+
+Box bounds(const Shape& shape, const Eigen::Vector3d& position, PositionType positions) {
+  const FloatEnvironment environment;
+  if (!is_valid(shape, position, positions)) {
+    return {Eigen::Vector3f::Constant(kInfinity), Eigen::Vector3f::Constant(-kInfinity)};
+  }
+  const Aabb corners = std::visit([](const auto& s) { return extent(s); }, shape);
+  if (positions == PositionType::float32) {
+    return bounds_at<float>(corners, position.cast<float>());
+  }
+  return bounds_at<double>(corners, position);
+}
+
+}  // namespace carom::reference

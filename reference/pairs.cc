@@ -1,0 +1,87 @@
+// Boxes -> pairs by brute force: every box against every later one.
+//
+// Source of the test: C. Ericson, Real-Time Collision Detection, 2005, section 4.2.1.
+#include "reference/pairs.h"
+
+#include <algorithm>
+#include <array>
+
+#include "kernel/float_environment.h"
+
+namespace carom::reference {
+namespace {
+
+bool is_empty(const Box& box) { return !(box.lower.array() <= box.upper.array()).all(); }
+
+uint32_t intervals_overlap(float lower_a, float upper_a, float lower_b, float upper_b) {
+  return uint32_t{lower_a <= upper_b} & uint32_t{lower_b <= upper_a};
+}
+
+// One array a coordinate: a loop over neighbours reads them in order.
+struct Columns {
+  explicit Columns(std::span<const Box> boxes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Box& box : boxes) {
+        lower[axis].push_back(box.lower[axis]);
+        upper[axis].push_back(box.upper[axis]);
+      }
+    }
+  }
+
+  std::array<std::vector<float>, 3> lower;
+  std::array<std::vector<float>, 3> upper;
+};
+
+constexpr size_t kBlock = 128;
+
+// Sets hits[k] to whether `box` overlaps box first + k, for k < count <= kBlock. Returns whether
+// any does. Plain enough for compilers to test several boxes at once: no branches, local names.
+uint32_t test_block(const Box& box, const Columns& boxes, size_t first, size_t count,
+                    uint32_t* __restrict hits) {
+  const float lower_x = box.lower.x(), upper_x = box.upper.x();
+  const float lower_y = box.lower.y(), upper_y = box.upper.y();
+  const float lower_z = box.lower.z(), upper_z = box.upper.z();
+  const float* others_lower_x = boxes.lower[0].data() + first;
+  const float* others_upper_x = boxes.upper[0].data() + first;
+  const float* others_lower_y = boxes.lower[1].data() + first;
+  const float* others_upper_y = boxes.upper[1].data() + first;
+  const float* others_lower_z = boxes.lower[2].data() + first;
+  const float* others_upper_z = boxes.upper[2].data() + first;
+  uint32_t any = 0;
+  for (size_t k = 0; k < count; ++k) {
+    const uint32_t hit = intervals_overlap(lower_x, upper_x, others_lower_x[k], others_upper_x[k]) &
+                         intervals_overlap(lower_y, upper_y, others_lower_y[k], others_upper_y[k]) &
+                         intervals_overlap(lower_z, upper_z, others_lower_z[k], others_upper_z[k]);
+    hits[k] = hit;
+    any |= hit;
+  }
+  return any;
+}
+
+}  // namespace
+
+bool overlap(const Box& a, const Box& b) {
+  const FloatEnvironment environment;
+  if (is_empty(a) || is_empty(b)) return false;
+  return intervals_overlap(a.lower.x(), a.upper.x(), b.lower.x(), b.upper.x()) &&
+         intervals_overlap(a.lower.y(), a.upper.y(), b.lower.y(), b.upper.y()) &&
+         intervals_overlap(a.lower.z(), a.upper.z(), b.lower.z(), b.upper.z());
+}
+
+std::vector<Pair> overlapping_pairs(std::span<const Box> boxes) {
+  const Columns columns(boxes);
+  std::vector<Pair> pairs;
+  std::array<uint32_t, kBlock> hits{};
+  for (size_t a = 0; a < boxes.size(); ++a) {
+    for (size_t first = a + 1; first < boxes.size(); first += kBlock) {
+      const size_t count = std::min(kBlock, boxes.size() - first);
+      if (!test_block(boxes[a], columns, first, count, hits.data())) continue;
+      for (size_t k = 0; k < count; ++k) {
+        if (hits[k]) pairs.push_back({static_cast<uint32_t>(a), static_cast<uint32_t>(first + k)});
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace carom::reference

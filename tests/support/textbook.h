@@ -1,0 +1,42 @@
+// Signed distance in double, written as simply as can be: to steer generators, never to judge.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/pairs.h"
+
+namespace carom::test {
+
+// Sphere and box as a box grown by a radius.
+struct RoundedBox {
+  Eigen::Vector3d lower;
+  Eigen::Vector3d upper;
+  double radius;
+};
+
+inline RoundedBox rounded_box(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), sphere->radius};
+  }
+  const Aabb& box = std::get<Aabb>(shape);
+  return {box.lower.cast<double>(), box.upper.cast<double>(), 0};
+}
+
+// Of two shapes, `d` being the position of B relative to A's.
+inline double textbook_separation(const Shape& shape_a, const Shape& shape_b,
+                                  const Eigen::Vector3d& d) {
+  const RoundedBox a = rounded_box(shape_a);
+  const RoundedBox b = rounded_box(shape_b);
+  const Eigen::Vector3d gap = (b.lower + d - a.upper).cwiseMax(a.lower - b.upper - d);
+  const double core = gap.maxCoeff() > 0 ? gap.cwiseMax(0).stableNorm() : gap.maxCoeff();
+  return core - a.radius - b.radius;
+}
+
+// Radius of the ball about the body's origin that contains it.
+inline double bounding_radius(const Shape& shape) {
+  const RoundedBox box = rounded_box(shape);
+  return box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).stableNorm() + box.radius;
+}
+
+}  // namespace carom::test
