@@ -15,6 +15,8 @@ namespace {
 struct AabbAabb {
   using A = BoxLanes;
   using B = BoxLanes;
+  // Differences of given coordinates: exact for boxes in world coordinates.
+  static constexpr bool kIsExactNearTouch = true;
 
   template <class Report>
   static HWY_INLINE void test(const F3& relative, const A& a, const B& b, Report& report) {
@@ -40,7 +42,7 @@ struct AabbAabb {
                            faces(gap.z, axis.z, overlapping)};
     // On axes where the boxes overlap, the middle of the overlap.
     const F3 middle = max(a.lower, b_lower) * splat(0.5f) + min(a.upper, b_upper) * splat(0.5f);
-    report(overlapping, no_lanes(), hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
+    report(overlapping, no_lanes(), no_lanes(), hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
            select(overlapping, signed_axis(axis, below), away),
            select(at_face, select(above, a.upper, a.lower), middle),
            select(at_face, select(above, b.lower, b.upper), middle - relative));

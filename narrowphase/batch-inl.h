@@ -3,10 +3,12 @@
 // A kernel is a policy:
 //   using A, using B   shape lanes of the two sides
 //   static void test(const F3& relative, const A&, const B&, Report& report)
-// which calls
-//   report(overlap, degenerate, separation, normal, arm_a, arm_b)
-// once; names and signs as in Contact. Branch-free, the same at every detail: what a detail does
-// not store, the compiler drops.
+//   static constexpr bool kIsExactNearTouch
+// test() calls
+//   report(overlap, near_touch, degenerate, separation, normal, arm_a, arm_b)
+// once; names and signs as in Contact. It is branch-free, the same at every detail: what a detail
+// does not store, the compiler drops. Lanes in `near_touch` lie within rounding of touching: their
+// separation is computed again in double precision, one by one, unless the kernel is exact there.
 #if defined(CAROM_NARROWPHASE_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_INL_H_
@@ -17,7 +19,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "narrowphase/lane_validity.h"
+#include "narrowphase/single_pair.h"
 #include "narrowphase/load-inl.h"
 #include "narrowphase/store-inl.h"
 
@@ -39,11 +41,11 @@ struct BatchLoop {
     const Batch local = batch;
     if (kHasBoxes && has_dense_rows(batch)) {
       for (size_t row = 0; row < whole; row += kLanes) {
-        if (HWY_UNLIKELY(!run_plain<kHasBoxes>(local, row))) run_odd(batch, row);
+        if (HWY_UNLIKELY(!run_plain<kHasBoxes>(local, batch, row))) run_odd(batch, row);
       }
     } else {
       for (size_t row = 0; row < whole; row += kLanes) {
-        if (HWY_UNLIKELY(!run_plain<false>(local, row))) run_odd(batch, row);
+        if (HWY_UNLIKELY(!run_plain<false>(local, batch, row))) run_odd(batch, row);
       }
     }
     if (whole < batch.count) run_tail(batch, whole);
@@ -69,9 +71,9 @@ struct BatchLoop {
     }
   }
 
-  // False, and nothing done, if a lane is not plainly valid.
+  // False, and nothing done, if a lane is not plainly valid. `batch` is a private copy of `source`.
   template <bool kRows>
-  static HWY_INLINE bool run_plain(const Batch& batch, size_t row) {
+  static HWY_INLINE bool run_plain(const Batch& batch, const Batch& source, size_t row) {
     const Pair* pairs = batch.pairs + row;
     PositionLanes positions;
     Records::load(batch, pairs, positions);
@@ -79,7 +81,7 @@ struct BatchLoop {
     const B b = load_shape<B, Role::b, kRows>(batch.b, pairs, row, positions);
     const Mask plain = is_plainly_valid(positions.relative, a, b);
     if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), plain))) return false;
-    PlainReport report{batch.out, row, positions};
+    PlainReport report{batch.out, source, row, positions};
     Kernel::test(positions.relative, a, b, report);
     return true;
   }
@@ -101,21 +103,30 @@ struct BatchLoop {
       positions.a_low = zero_unless(valid, positions.a_low);
       positions.b_low = zero_unless(valid, positions.b_low);
     }
-    OddReport report{{batch.out, row, positions}, valid};
+    OddReport report{{batch.out, batch, row, positions}, valid};
     Kernel::test(positions.relative, a, b, report);
   }
 
   // What a kernel says of its lanes goes to the columns.
   struct PlainReport {
     const ResultColumns& out;
+    const Batch& batch;
     size_t row;
     const PositionLanes& positions;
 
-    HWY_INLINE void operator()(Mask overlap, Mask degenerate, F separation, const F3& normal,
-                               const F3& arm_a, const F3& arm_b) const {
+    HWY_INLINE void operator()(Mask overlap, Mask near_touch, Mask degenerate, F separation,
+                               const F3& normal, const F3& arm_a, const F3& arm_b) const {
+      refine(near_touch, separation, overlap);
       store_bytes(bytes_where(degenerate, static_cast<int32_t>(Status::degenerate)), out.status,
                   row);
       store_answer(overlap, separation, normal, arm_a, arm_b);
+    }
+
+    HWY_INLINE void refine(Mask near_touch, F& separation, Mask& overlap) const {
+      if constexpr (Kernel::kIsExactNearTouch) return;
+      if (HWY_LIKELY(hn::AllFalse(FloatTag(), near_touch))) return;
+      separation = refined(batch, row, near_touch, separation);
+      overlap = hn::Le(separation, splat(0));
     }
 
     HWY_INLINE void store_answer(Mask overlap, F separation, const F3& normal, const F3& arm_a,
@@ -135,8 +146,9 @@ struct BatchLoop {
     PlainReport plain;
     Mask valid;
 
-    HWY_INLINE void operator()(Mask overlap, Mask degenerate, F separation, const F3& normal,
-                               const F3& arm_a, const F3& arm_b) const {
+    HWY_INLINE void operator()(Mask overlap, Mask near_touch, Mask degenerate, F separation,
+                               const F3& normal, const F3& arm_a, const F3& arm_b) const {
+      plain.refine(hn::And(near_touch, valid), separation, overlap);
       const I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
       const I invalid = bytes_where(hn::Not(valid), static_cast<int32_t>(Status::invalid));
       store_bytes(hn::IfThenElse(hn::RebindMask(IntTag(), valid), status, invalid),
@@ -171,6 +183,17 @@ struct BatchLoop {
         hn::Add(hn::Add(hn::Abs(relative.x), hn::Abs(relative.y)), hn::Abs(relative.z));
     const F sum = hn::Add(distance, hn::Add(a.size(), b.size()));
     return hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
+  }
+
+  static HWY_NOINLINE F refined(const Batch& batch, size_t row, Mask near_touch, F separation) {
+    HWY_ALIGN float values[kLanes];
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(separation, FloatTag(), values);
+    hn::Store(hn::IfThenElseZero(near_touch, splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] != 0) values[i] = near_touch_separation(batch, A::kKind, B::kKind, row + i);
+    }
+    return hn::Load(FloatTag(), values);
   }
 
   static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {

@@ -38,6 +38,10 @@ Vector3f relative_position(const Vector& a, const Vector& b) {
   return difference.unaryExpr(&clamp_to_finite);
 }
 
+inline float largest_component(const Vector3f& v) {
+  return max(max(std::fabs(v.x()), std::fabs(v.y())), std::fabs(v.z()));
+}
+
 // 2^k and 2^-k, where 2^k is the power of two in `magnitude`, kept where both are normal numbers.
 struct Scale {
   float up;
@@ -61,7 +65,7 @@ struct Length {
 };
 
 inline Length length_of(const Vector3f& v) {
-  const Scale scale = scale_of(max(max(std::fabs(v.x()), std::fabs(v.y())), std::fabs(v.z())));
+  const Scale scale = scale_of(largest_component(v));
   const Vector3f scaled = v * scale.down;  // components below 4: squares are harmless
   const float length = std::sqrt(dot(scaled, scaled));
   return {min(length * scale.up, kLargest), scaled * (1.0f / length), length == 0};

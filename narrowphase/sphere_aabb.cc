@@ -16,6 +16,7 @@ namespace {
 struct SphereAabb {
   using A = SphereLanes;
   using B = BoxLanes;
+  static constexpr bool kIsExactNearTouch = false;
 
   template <class Report>
   static HWY_INLINE void test(const F3& relative, const A& sphere, const B& box, Report& report) {
@@ -37,8 +38,10 @@ struct SphereAabb {
     const F gap = hn::IfThenElse(inside, hn::Neg(pick(axis, way_out)), outside.length);
     const F separation = hn::Sub(gap, sphere.radius);
     const F3 normal = select(inside, signed_axis(axis, upwards), outside.direction);
-    report(hn::Le(separation, splat(0)), no_lanes(), separation, normal, normal * sphere.radius,
-           select(inside, exit, nearest));
+    const F size = hn::Add(largest_component(relative), sphere.radius);
+    const Mask near_touch = hn::Le(hn::Abs(separation), hn::Mul(size, splat(kNearTouch)));
+    report(hn::Le(separation, splat(0)), near_touch, no_lanes(), separation, normal,
+           normal * sphere.radius, select(inside, exit, nearest));
   }
 };
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "narrowphase/length_ref.h"
+#include "narrowphase/near_touch_ref.h"
 #include "narrowphase/separation_ref.h"
 
 namespace carom::reference {
@@ -29,18 +30,41 @@ inline Separation sphere_inside_aabb(float radius, const Vector3f& lower, const 
   return {-exit[axis] - radius, normal, radius * normal, on_face};
 }
 
-// `lower` and `upper` are relative to the position of B, and `d` is that position relative to the
-// sphere's centre.
+// The separation alone, in double precision.
+inline float sphere_aabb_near_touch(float radius, const Vector3f& lower, const Vector3f& upper,
+                                    const Vector3d& centre) {
+  Vector3d delta;
+  double exit = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double low = lower[i], high = upper[i];
+    const double closest = centre[i] < low ? low : centre[i] > high ? high : centre[i];
+    delta[i] = closest - centre[i];
+    exit = std::fmin(exit, std::fmin(centre[i] - low, high - centre[i]));
+  }
+  const double squared_distance = squared_length(delta);
+  if (squared_distance > 0) return gap_to_ball(squared_distance, radius);
+  return static_cast<float>(0 - (exit + radius));
+}
+
+// `lower` and `upper` are relative to the position of B; `d` is that position relative to the
+// sphere's centre, `exact_d` the same before it was rounded.
 inline Separation sphere_aabb(float radius, const Vector3f& lower, const Vector3f& upper,
-                              const Vector3f& d) {
+                              const Vector3f& d, const Vector3d& exact_d) {
   const Vector3f centre = -d;
   Vector3f closest;
   for (int i = 0; i < 3; ++i) closest[i] = min(max(centre[i], lower[i]), upper[i]);
   const Vector3f delta = closest - centre;
 
   const Length distance = length_of(delta.unaryExpr(&clamp_to_finite));
-  if (distance.is_zero) return sphere_inside_aabb(radius, lower, upper, centre, closest);
-  return {distance.length - radius, distance.direction, radius * distance.direction, closest};
+  Separation result =
+      distance.is_zero
+          ? sphere_inside_aabb(radius, lower, upper, centre, closest)
+          : Separation{distance.length - radius, distance.direction, radius * distance.direction,
+                       closest};
+  if (is_near_touch(result.separation, largest_component(d) + radius)) {
+    result.separation = sphere_aabb_near_touch(radius, lower, upper, -exact_d);
+  }
+  return result;
 }
 
 }  // namespace carom::reference

@@ -15,6 +15,7 @@ namespace {
 struct SphereSphere {
   using A = SphereLanes;
   using B = SphereLanes;
+  static constexpr bool kIsExactNearTouch = false;
 
   template <class Report>
   static HWY_INLINE void test(const F3& relative, const A& a, const B& b, Report& report) {
@@ -25,8 +26,10 @@ struct SphereSphere {
     // Coincident centres: every direction is as good, +x is the convention.
     const F3 normal =
         select(distance.is_zero, F3{splat(1), splat(0), splat(0)}, distance.direction);
-    report(hn::Le(separation, splat(0)), distance.is_zero, separation, normal, normal * a.radius,
-           -(normal * b.radius));
+    const Mask near_touch =
+        hn::Le(hn::Abs(separation), hn::Mul(distance.length, splat(kNearTouch)));
+    report(hn::Le(separation, splat(0)), near_touch, distance.is_zero, separation, normal,
+           normal * a.radius, -(normal * b.radius));
   }
 };
 

@@ -5,16 +5,21 @@
 #pragma once
 
 #include "narrowphase/length_ref.h"
+#include "narrowphase/near_touch_ref.h"
 #include "narrowphase/separation_ref.h"
 
 namespace carom::reference {
 
-// `d` is the centre of B relative to that of A.
-inline Separation sphere_sphere(float radius_a, float radius_b, const Vector3f& d) {
+// `d` is the centre of B relative to that of A, `exact_d` the same before it was rounded.
+inline Separation sphere_sphere(float radius_a, float radius_b, const Vector3f& d,
+                                const Vector3d& exact_d) {
   const Length distance = length_of(d);
   // The larger radius first: near touch it is at least half the distance, so the first difference
-  // is exact (Sterbenz) and the sign of the second is right.
-  const float separation = (distance.length - max(radius_a, radius_b)) - min(radius_a, radius_b);
+  // is exact (Sterbenz) and the second adds no more than its own rounding.
+  float separation = (distance.length - max(radius_a, radius_b)) - min(radius_a, radius_b);
+  if (is_near_touch(separation, distance.length)) {
+    separation = gap_to_ball(squared_length(exact_d), double{radius_a} + double{radius_b});
+  }
   // Concentric spheres separate equally well in every direction: x, by convention.
   const Vector3f normal = distance.is_zero ? Vector3f(1, 0, 0) : distance.direction;
   return {separation, normal, radius_a * normal, -(radius_b * normal),

@@ -14,6 +14,7 @@ namespace carom::reference {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kLargest = std::numeric_limits<float>::max();
 
 float step_down(float x) { return std::nextafter(x, -kInfinity); }
 float step_up(float x) { return std::nextafter(x, kInfinity); }
@@ -57,12 +58,17 @@ Aabb extent(const Sphere& sphere) {
 }
 Aabb extent(const Aabb& box) { return box; }
 
+// Sums beyond the range of float32 round to infinity, which is not below them (or above): the
+// largest float is.
+float lower_corner(float x) { return x == kInfinity ? kLargest : x; }
+float upper_corner(float x) { return x == -kInfinity ? -kLargest : x; }
+
 template <class Real>
 Box bounds_at(const Aabb& extent, const Eigen::Vector3<Real>& position) {
   Box box;
   for (int i = 0; i < 3; ++i) {
-    box.lower[i] = round_down(two_sum<Real>(position[i], extent.lower[i]));
-    box.upper[i] = round_up(two_sum<Real>(position[i], extent.upper[i]));
+    box.lower[i] = lower_corner(round_down(two_sum<Real>(position[i], extent.lower[i])));
+    box.upper[i] = upper_corner(round_up(two_sum<Real>(position[i], extent.upper[i])));
   }
   return box;
 }

@@ -11,16 +11,18 @@
 namespace carom::reference {
 namespace {
 
-// One overload a pair of kinds; `d` is the position of B relative to A's.
-Separation separation_of(const Sphere& a, const Sphere& b, const Vector3f& d) {
-  return sphere_sphere(a.radius, b.radius, d);
+// One overload a pair of kinds; `d` is the position of B relative to A's, rounded to float32 and not.
+Separation separation_of(const Sphere& a, const Sphere& b, const Vector3f& d,
+                         const Vector3d& exact_d) {
+  return sphere_sphere(a.radius, b.radius, d, exact_d);
 }
 
-Separation separation_of(const Sphere& a, const Aabb& b, const Vector3f& d) {
-  return sphere_aabb(a.radius, b.lower, b.upper, d);
+Separation separation_of(const Sphere& a, const Aabb& b, const Vector3f& d,
+                         const Vector3d& exact_d) {
+  return sphere_aabb(a.radius, b.lower, b.upper, d, exact_d);
 }
 
-Separation separation_of(const Aabb& a, const Aabb& b, const Vector3f& d) {
+Separation separation_of(const Aabb& a, const Aabb& b, const Vector3f& d, const Vector3d&) {
   return aabb_aabb(a.lower, a.upper, b.lower, b.upper, d);
 }
 
@@ -38,11 +40,13 @@ template <class Real>
 Separation separation_at(const Shape& shape_a, const Eigen::Vector3<Real>& position_a,
                          const Shape& shape_b, const Eigen::Vector3<Real>& position_b) {
   const auto test = [&](const auto& a, const auto& b) {
+    const Vector3d exact_d = position_b.template cast<double>() - position_a.template cast<double>();
     if constexpr (std::is_same_v<decltype(a), const Aabb&> &&
                   std::is_same_v<decltype(b), const Sphere&>) {
-      return flipped(separation_of(b, a, relative_position(position_b, position_a)));
+      return flipped(
+          separation_of(b, a, relative_position(position_b, position_a), -exact_d));
     } else {
-      return separation_of(a, b, relative_position(position_a, position_b));
+      return separation_of(a, b, relative_position(position_a, position_b), exact_d);
     }
   };
   return std::visit(test, shape_a, shape_b);

@@ -1,0 +1,25 @@
+// The commands. Each adds itself and its options to the program, and sets `action` when the command
+// line names it.
+#pragma once
+
+#include <functional>
+
+#include "carom/kernel/result.h"
+#include "cli/console.h"
+
+namespace CLI {
+class App;
+}
+
+namespace carom::cli {
+
+// Does the work and returns the exit code.
+using Action = std::function<Result<int>(const Console&)>;
+
+void add_run_command(CLI::App& program, Action& action);
+void add_pairs_command(CLI::App& program, Action& action);
+void add_verify_command(CLI::App& program, Action& action);
+void add_generate_command(CLI::App& program, Action& action);
+void add_info_command(CLI::App& program, Action& action);
+
+}  // namespace carom::cli

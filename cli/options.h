@@ -1,0 +1,63 @@
+// Options that several commands share: their text, and what it means.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "carom/broadphase/find_pairs.h"
+#include "carom/kernel/contact.h"
+#include "carom/kernel/result.h"
+#include "carom/simd/isa.h"
+
+namespace CLI {
+class App;
+}
+
+namespace carom::cli {
+
+struct EngineOptions {
+  std::string isa = "auto";
+  std::string tier = "standard";
+  std::string detail = "contact";
+  int threads = 1;
+};
+
+void add_engine_options(CLI::App& command, EngineOptions& options);
+void add_threads_option(CLI::App& command, int& threads);
+void add_json_option(CLI::App& command, std::string& json);
+
+inline constexpr int kMaxThreads = 1024;
+Result<void> check_threads(int threads);
+// Only the standard tier exists yet.
+Result<void> check_tier(const std::string& tier);
+Result<BroadphaseMethod> parse_broadphase(const std::string& text);
+
+struct NamedDetail {
+  std::string_view name;
+  Detail detail;
+};
+// Looks `text` up among what a command serves; a detail that is planned is refused as such.
+Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known);
+
+// Forces an instruction set for as long as it lives; "auto" forces none.
+class ForcedIsa {
+ public:
+  static Result<ForcedIsa> create(const std::string& name);
+  ForcedIsa(ForcedIsa&& other) noexcept : forced_(std::exchange(other.forced_, false)) {}
+  ForcedIsa& operator=(ForcedIsa&&) = delete;
+  ~ForcedIsa() {
+    if (forced_) unforce_isa();
+  }
+
+ private:
+  explicit ForcedIsa(bool forced) : forced_(forced) {}
+  bool forced_;
+};
+
+// "scalar, sse4, avx2".
+std::string join_names(std::span<const Isa> isas);
+
+}  // namespace carom::cli

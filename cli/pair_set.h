@@ -1,0 +1,61 @@
+// Pairs to test, A[i] against B[i], and columns for their results.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "carom/kernel/contact.h"
+#include "carom/kernel/result.h"
+#include "cli/body_columns.h"
+#include "io/pairs_file.h"
+
+namespace carom::cli {
+
+struct PairSet {
+  BodyColumns a;
+  BodyColumns b;
+
+  size_t size() const { return a.size(); }
+};
+
+// Reads a file of pairs. Orientations do not matter to spheres and aabbs, but one that is no
+// rotation (NaN, infinite or zero) makes its body invalid: it gets a NaN position.
+Result<PairSet> read_pair_set(const std::string& path);
+
+// Memory for the results of pairs at a detail.
+class PairColumns {
+ public:
+  PairColumns(size_t pairs, Detail detail);
+
+  // To write to; columns that the detail lacks are nullptr.
+  ResultColumns columns();
+
+  struct Row {
+    uint8_t overlap;
+    uint8_t status;
+    float separation;
+    std::array<float, 3> normal;
+    std::array<float, 3> point_a;
+    std::array<float, 3> point_b;
+  };
+  // Zero where the detail lacks it.
+  Row row(size_t index) const;
+
+  io::PairResults results() const;
+
+ private:
+  using Column3 = std::array<std::vector<float>, 3>;
+  static std::vector<std::array<float, 3>> rows_of(const Column3& column);
+
+  Detail detail_;
+  std::vector<uint8_t> overlap_;
+  std::vector<uint8_t> status_;
+  std::vector<float> separation_;
+  Column3 normal_;
+  Column3 point_a_;
+  Column3 point_b_;
+};
+
+}  // namespace carom::cli

@@ -1,0 +1,144 @@
+// carom pairs: tests a file of pairs.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "carom/kernel/thread_arena.h"
+#include "carom/narrowphase/collide.h"
+#include "carom_build_info.h"
+#include "cli/commands.h"
+#include "cli/json_output.h"
+#include "cli/options.h"
+#include "cli/pair_set.h"
+#include "cli/statistics.h"
+#include "cli/table.h"
+
+namespace carom::cli {
+namespace {
+
+// `distance` asks for nothing beyond what the contact kernels of these shapes give.
+constexpr NamedDetail kDetails[] = {
+    {"overlap", Detail::overlap}, {"contact", Detail::contact}, {"distance", Detail::contact}};
+
+struct PairsOptions {
+  std::string input;
+  std::string output;
+  EngineOptions engine;
+  int repeat = 1;
+  std::string json;
+};
+
+// Tests all pairs `repeat` times; returns the nanoseconds a pair that each run took.
+Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions& options,
+                                       Detail detail, PairColumns& results) {
+  using Clock = std::chrono::steady_clock;
+  ThreadArena arena(options.engine.threads);
+  Collidables a = pairs.a.view();
+  Collidables b = pairs.b.view();
+  ResultColumns columns = results.columns();
+  std::vector<double> ns_per_pair;
+  for (int run = 0; run < options.repeat; ++run) {
+    Result<void> tested;
+    Clock::time_point begin, end;
+    arena.run([&] {
+      begin = Clock::now();
+      tested = collide_rows(a, b, detail, columns, WitnessFrame::world, arena.parallelism());
+      end = Clock::now();
+    });
+    if (!tested) return Error{options.input + ": " + tested.error().message};
+    double ns = std::chrono::duration<double, std::nano>(end - begin).count();
+    ns_per_pair.push_back(pairs.size() ? ns / static_cast<double>(pairs.size()) : 0);
+  }
+  return ns_per_pair;
+}
+
+struct PairsReport {
+  uint64_t pairs;
+  uint64_t overlaps;
+  uint64_t invalid;
+  double ns_per_pair;
+};
+
+PairsReport summarize(const io::PairResults& results, std::vector<double> ns_per_pair) {
+  PairsReport report{results.pairs, 0, 0, median(std::move(ns_per_pair))};
+  for (uint8_t overlap : results.overlap) report.overlaps += overlap == 1;
+  for (uint8_t status : results.status) {
+    report.invalid += status == static_cast<uint8_t>(Status::invalid);
+  }
+  return report;
+}
+
+nlohmann::ordered_json to_json(const PairsReport& report, const PairsOptions& options) {
+  return {{"pairs", report.pairs},           {"ns_per_pair", report.ns_per_pair},
+          {"isa", name(active_isa())},       {"tier", options.engine.tier},
+          {"detail", options.engine.detail}, {"threads", options.engine.threads},
+          {"repeat", options.repeat},        {"overlaps", report.overlaps},
+          {"invalid", report.invalid},       {"version", build_info::kVersion},
+          {"commit", build_info::kCommit},   {"compiler", build_info::kCompiler},
+          {"flags", build_info::kFlags}};
+}
+
+void print(const PairsReport& report, const PairsOptions& options, std::ostream& out) {
+  char time[64];
+  std::snprintf(time, sizeof time, "%.2f ns a pair, median of %d", report.ns_per_pair,
+                options.repeat);
+  Table table({"pairs", std::to_string(report.pairs)});
+  table.add({"overlapping", std::to_string(report.overlaps)});
+  table.add({"invalid", std::to_string(report.invalid)});
+  table.add({"threads, ISA", std::to_string(options.engine.threads) + ", " + name(active_isa())});
+  table.add({"detail", options.engine.detail});
+  table.add({"time", time});
+  table.print(out);
+}
+
+Result<int> pairs(const PairsOptions& options, const Console& console) {
+  if (Result<void> threads = check_threads(options.engine.threads); !threads) {
+    return threads.error();
+  }
+  if (Result<void> tier = check_tier(options.engine.tier); !tier) return tier.error();
+  Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
+  if (!detail) return detail.error();
+  Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
+  if (!isa) return isa.error();
+  if (options.output == options.json) return Error{"--json and -o name the same file"};
+  Result<JsonOutput> json = JsonOutput::open(options.json);
+  if (!json) return json.error();
+
+  Result<PairSet> set = read_pair_set(options.input);
+  if (!set) return set.error();
+  PairColumns columns(set->size(), *detail);
+  Result<std::vector<double>> times = test_pairs(*set, options, *detail, columns);
+  if (!times) return times.error();
+  io::PairResults results = columns.results();
+  Result<void> written = io::write_pair_results(options.output, results);
+  if (!written) return written.error();
+
+  PairsReport report = summarize(results, std::move(*times));
+  if (!json->wanted()) {
+    print(report, options, console.out);
+    return 0;
+  }
+  written = json->write(to_json(report, options), console);
+  return written ? Result<int>(0) : written.error();
+}
+
+}  // namespace
+
+void add_pairs_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<PairsOptions>();
+  CLI::App& command = *program.add_subcommand("pairs", "Test a file of pairs");
+  command.add_option("IN", options->input, "Pairs (.npz)")->required();
+  command.add_option("-o,--output", options->output, "Results (.npz)")->required();
+  add_engine_options(command, options->engine);
+  command.add_option("--detail", options->engine.detail, "overlap, contact or distance");
+  command.add_option("--repeat", options->repeat, "Runs to take the median time of")
+      ->check(CLI::Range(1, 1'000'000));
+  add_json_option(command, options->json);
+  command.callback([options, &action] {
+    action = [options](const Console& console) { return pairs(*options, console); };
+  });
+}
+
+}  // namespace carom::cli

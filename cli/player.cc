@@ -1,0 +1,113 @@
+#include "cli/player.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "cli/shapes.h"
+#include "io/recording.h"
+
+namespace carom::cli {
+namespace {
+
+// Rows of 3 -> records of 4; the fourth stays as it is.
+template <class T>
+void write_positions(const std::vector<T>& rows, T* records) {
+  for (size_t i = 0; i < rows.size() / 3; ++i) {
+    for (size_t axis = 0; axis < 3; ++axis) records[4 * i + axis] = rows[3 * i + axis];
+  }
+}
+
+}  // namespace
+
+Result<Player> Player::create(const io::SceneInfo& info, const std::string& source) {
+  Result<std::vector<Shape>> shapes = convert_shapes(info.shapes, source);
+  if (!shapes) return shapes.error();
+  return Player(info, std::move(*shapes));
+}
+
+PositionType Player::positions() const {
+  return info_->float64_positions ? PositionType::float64 : PositionType::float32;
+}
+
+io::SceneArrays Player::wanted(Detail detail) const {
+  return {.orientation = false,
+          .linear_velocity = detail == Detail::contact,
+          .angular_velocity = false};
+}
+
+Shape Player::shape(const io::SceneFrame& frame, size_t index) const {
+  if (!info_->bounds_recording) return shapes_[info_->body_shape[index]];
+  const float* box = &frame.boxes[io::kFloatsPerBox * index];
+  return Aabb{{box[0], box[1], box[2]}, {box[4], box[5], box[6]}};
+}
+
+BodyDesc Player::body(const io::SceneFrame& frame, size_t index) const {
+  BodyDesc desc;
+  desc.shape = shape(frame, index);
+  if (!frame.position32.empty()) {
+    desc.position = Eigen::Map<const Eigen::Vector3f>(&frame.position32[3 * index]).cast<double>();
+  } else if (!frame.position64.empty()) {
+    desc.position = Eigen::Map<const Eigen::Vector3d>(&frame.position64[3 * index]);
+  }
+  if (!frame.linear_velocity.empty()) {
+    desc.linear_velocity = Eigen::Map<const Eigen::Vector3f>(&frame.linear_velocity[3 * index]);
+  }
+  if (!info_->body_motion.empty()) desc.motion = static_cast<Motion>(info_->body_motion[index]);
+  if (!info_->layer.empty()) desc.layer = info_->layer[index];
+  if (!info_->mask.empty()) desc.mask = info_->mask[index];
+  if (!info_->owner.empty()) desc.owner = info_->owner[index];
+  if (!info_->sensor.empty()) desc.sensor = info_->sensor[index] != 0;
+  desc.user = index;
+  return desc;
+}
+
+void Player::start(const io::SceneFrame& frame, World& world) const {
+  constexpr size_t kChunk = 4096;
+  std::vector<BodyDesc> bodies;
+  std::vector<BodyId> ids;
+  for (size_t first = 0; first < info_->bodies; first += kChunk) {
+    bodies.clear();
+    ids.clear();
+    size_t end = std::min<size_t>(first + kChunk, info_->bodies);
+    for (size_t i = first; i < end; ++i) bodies.push_back(body(frame, i));
+    world.add(bodies, ids);
+  }
+  write_velocities(frame, world);
+}
+
+void Player::move(const io::SceneFrame& frame, World& world) const {
+  if (info_->bounds_recording) {
+    write_boxes(frame, world);
+    return;
+  }
+  BodyArrays arrays = world.arrays();
+  if (info_->float64_positions) {
+    write_positions(frame.position64, arrays.record64);
+  } else {
+    write_positions(frame.position32, arrays.record32);
+  }
+  write_velocities(frame, world);
+}
+
+void Player::write_boxes(const io::SceneFrame& frame, World& world) const {
+  BoxArrays boxes = world.boxes();
+  for (size_t i = 0; i < info_->bodies; ++i) {
+    uint32_t slot = world.box_slot(world.id_of(static_cast<uint32_t>(i)));
+    const float* box = &frame.boxes[io::kFloatsPerBox * i];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      boxes.lower[axis][slot] = box[axis];
+      boxes.upper[axis][slot] = box[4 + axis];
+    }
+  }
+}
+
+void Player::write_velocities(const io::SceneFrame& frame, World& world) const {
+  if (frame.linear_velocity.empty()) return;
+  std::span<Eigen::Vector3f> velocities = world.linear_velocities();
+  for (size_t i = 0; i < info_->bodies; ++i) {
+    velocities[i] = Eigen::Map<const Eigen::Vector3f>(&frame.linear_velocity[3 * i]);
+  }
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,44 @@
+// Feeds the frames of a scene to worlds.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carom/world/world.h"
+#include "io/scene.h"
+
+namespace carom::cli {
+
+class Player {
+ public:
+  // Refuses shapes that have no kernel yet. `info` has to live as long as the player; `source`
+  // names it in errors.
+  static Result<Player> create(const io::SceneInfo& info, const std::string& source);
+
+  const io::SceneInfo& info() const { return *info_; }
+  PositionType positions() const;
+  // The arrays of a frame that are read at this detail.
+  io::SceneArrays wanted(Detail detail) const;
+
+  // The first frame of a world: adds all bodies in the order of the file, so that the index of a
+  // body is its index in the file.
+  void start(const io::SceneFrame& frame, World& world) const;
+  // Any later frame: writes poses, and boxes of recordings, straight into the arrays.
+  void move(const io::SceneFrame& frame, World& world) const;
+
+  // Body `index` as it is in this frame.
+  BodyDesc body(const io::SceneFrame& frame, size_t index) const;
+
+ private:
+  Player(const io::SceneInfo& info, std::vector<Shape> shapes)
+      : info_(&info), shapes_(std::move(shapes)) {}
+
+  Shape shape(const io::SceneFrame& frame, size_t index) const;
+  void write_boxes(const io::SceneFrame& frame, World& world) const;
+  void write_velocities(const io::SceneFrame& frame, World& world) const;
+
+  const io::SceneInfo* info_;
+  std::vector<Shape> shapes_;
+};
+
+}  // namespace carom::cli

@@ -1,0 +1,39 @@
+// Runs a world through the frames of a scene and notes what happened.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "carom/world/world.h"
+#include "cli/pairs_out.h"
+#include "cli/player.h"
+#include "cli/progress.h"
+#include "cli/state_hash.h"
+#include "io/scene.h"
+
+namespace carom::cli {
+
+// One entry a frame in every list.
+struct RunRecord {
+  std::vector<double> frame_ms;  // World::step() alone: reading and copying poses is left out
+  std::array<std::vector<double>, kStageCount> stage_ms;
+  std::vector<uint64_t> pairs;
+  std::vector<uint64_t> contacts;  // at detail overlap: overlapping pairs; at pairs: empty
+  std::vector<uint64_t> tested;
+  std::vector<uint64_t> kept;
+  std::vector<uint64_t> quarantined;
+  std::array<std::vector<uint64_t>, 3> events;                // by EventKind
+  std::vector<uint32_t> quarantined_bodies;                   // in any frame, ascending
+  BroadphaseMethod broadphase = BroadphaseMethod::automatic;  // of the last frame
+  uint32_t stages_run = 0;                                    // in any frame
+  StateHash hash;
+};
+
+// Replays `frames` frames into an empty world; `pairs_out` may be absent.
+Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
+                         uint64_t frames, std::optional<PairsOutput>& pairs_out,
+                         Progress& progress);
+
+}  // namespace carom::cli

@@ -1,0 +1,149 @@
+// carom run: replays a scene and measures it.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "carom/kernel/thread_arena.h"
+#include "cli/commands.h"
+#include "cli/json_output.h"
+#include "cli/options.h"
+#include "cli/run_report.h"
+#include "cli/scene_source.h"
+
+namespace carom::cli {
+namespace {
+
+constexpr NamedDetail kDetails[] = {
+    {"pairs", Detail::pairs}, {"overlap", Detail::overlap}, {"contact", Detail::contact}};
+
+struct RunOptions {
+  std::string scene;
+  uint64_t frames = 0;  // 0: not given
+  EngineOptions engine;
+  std::string broadphase = "auto";
+  bool no_cache = false;
+  std::string json;
+  std::string pairs_out;
+};
+
+Result<WorldSettings> world_settings(const RunOptions& options) {
+  if (Result<void> threads = check_threads(options.engine.threads); !threads) {
+    return threads.error();
+  }
+  if (Result<void> tier = check_tier(options.engine.tier); !tier) return tier.error();
+  Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
+  if (!detail) return detail.error();
+  Result<BroadphaseMethod> broadphase = parse_broadphase(options.broadphase);
+  if (!broadphase) return broadphase.error();
+  WorldSettings settings;
+  settings.detail = *detail;
+  settings.broadphase = *broadphase;
+  settings.carry_results = !options.no_cache;
+  return settings;
+}
+
+Result<std::optional<PairsOutput>> open_pairs_output(const RunOptions& options) {
+  std::optional<PairsOutput> output;
+  if (options.pairs_out.empty()) return output;
+  if (options.pairs_out == options.json) {
+    return Error{"--json and --pairs-out name the same file"};
+  }
+  Result<PairsOutput> created = PairsOutput::create(options.pairs_out);
+  if (!created) return created.error();
+  output.emplace(std::move(*created));
+  return output;
+}
+
+Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
+                            std::optional<PairsOutput>& pairs_out, const Console& console) {
+  Result<std::unique_ptr<io::SceneReader>> scene = open_source(options.scene);
+  if (!scene) return scene.error();
+  const io::SceneInfo& info = (*scene)->info();
+  Result<Player> player = Player::create(info, options.scene);
+  if (!player) return player.error();
+  (*scene)->want(player->wanted(settings.detail));
+
+  ThreadArena arena(options.engine.threads);
+  settings.positions = player->positions();
+  settings.parallelism = arena.parallelism();
+  World world(settings);
+  RunReport report{.scene = options.scene,
+                   .bodies = info.bodies,
+                   .frames = options.frames ? options.frames : info.frames,
+                   .threads = options.engine.threads,
+                   .isa = name(active_isa()),
+                   .detail = options.engine.detail,
+                   .record = {}};
+  Progress progress(console, "frame", report.frames);
+  std::optional<Error> failure;
+  arena.run([&] {
+    auto record = replay(**scene, *player, world, report.frames, pairs_out, progress);
+    if (record) {
+      report.record = std::move(*record);
+    } else {
+      failure = record.error();
+    }
+  });
+  if (failure) return *failure;
+  report.world_bytes = world.bytes();
+  report.peak_rss_bytes = peak_rss_bytes();
+  return report;
+}
+
+void warn_of_quarantined(const std::vector<uint32_t>& bodies, const Console& console) {
+  constexpr size_t kNamed = 5;
+  if (bodies.empty()) return;
+  std::string text = std::to_string(bodies.size()) +
+                     (bodies.size() == 1 ? " body was" : " bodies were") +
+                     " left out of at least one frame (NaN, infinite or negative size):";
+  for (size_t i = 0; i < bodies.size() && i < kNamed; ++i) {
+    text += (i ? ", " : " ") + std::to_string(bodies[i]);
+  }
+  console.warning(text + (bodies.size() > kNamed ? ", ..." : ""));
+}
+
+Result<int> run(const RunOptions& options, const Console& console) {
+  Result<WorldSettings> settings = world_settings(options);
+  if (!settings) return settings.error();
+  Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
+  if (!isa) return isa.error();
+  Result<JsonOutput> json = JsonOutput::open(options.json);
+  if (!json) return json.error();
+  Result<std::optional<PairsOutput>> pairs_out = open_pairs_output(options);
+  if (!pairs_out) return pairs_out.error();
+
+  Result<RunReport> report = run_scene(options, *settings, *pairs_out, console);
+  if (!report) return report.error();
+  warn_of_quarantined(report->record.quarantined_bodies, console);
+  if (*pairs_out) {
+    if (Result<void> finished = (*pairs_out)->finish(); !finished) return finished.error();
+  }
+  if (!json->wanted()) {
+    print(*report, console.out);
+    return 0;
+  }
+  Result<void> written = json->write(to_json(*report), console);
+  return written ? Result<int>(0) : written.error();
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App& command = *program.add_subcommand("run", "Replay a scene and measure it");
+  command.add_option("SCENE", options->scene, "A .npz or .aabb file, or a generator")->required();
+  command.add_option("--frames", options->frames, "Frames to run; all of the scene if not given")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
+  add_engine_options(command, options->engine);
+  command.add_option("--detail", options->engine.detail, "pairs, overlap or contact");
+  command.add_option("--broadphase", options->broadphase, "auto, sweep or brute");
+  command.add_flag("--no-cache", options->no_cache, "Test every pair anew in every frame");
+  add_json_option(command, options->json);
+  command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)");
+  command.callback([options, &action] {
+    action = [options](const Console& console) { return run(*options, console); };
+  });
+}
+
+}  // namespace carom::cli

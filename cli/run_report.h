@@ -1,0 +1,31 @@
+// What `carom run` reports, as JSON and as text.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <string>
+
+#include "cli/replay.h"
+
+namespace carom::cli {
+
+struct RunReport {
+  std::string scene;
+  uint64_t bodies = 0;
+  uint64_t frames = 0;
+  int threads = 1;
+  std::string isa;
+  std::string detail;
+  uint64_t world_bytes = 0;
+  uint64_t peak_rss_bytes = 0;
+  RunRecord record;
+};
+
+// Memory of this process at its peak.
+uint64_t peak_rss_bytes();
+
+nlohmann::ordered_json to_json(const RunReport& report);
+void print(const RunReport& report, std::ostream& out);
+
+}  // namespace carom::cli

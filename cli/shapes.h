@@ -1,0 +1,17 @@
+// Shapes of files -> shapes of the library.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "carom/kernel/result.h"
+#include "carom/kernel/shape.h"
+#include "io/shape_arrays.h"
+
+namespace carom::cli {
+
+// Refuses kinds that have no kernel yet; `source` names the file in the message. Sizes are passed
+// on as they are: what is invalid is for the kernels to say.
+Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes, const std::string& source);
+
+}  // namespace carom::cli

@@ -1,0 +1,199 @@
+#include "cli/verify_pairs.h"
+
+#include <array>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "carom/reference/reference.h"
+#include "cli/verify_text.h"
+
+namespace carom::cli {
+namespace {
+
+using Row = PairColumns::Row;
+
+struct Variant {
+  const char* name;
+  bool shuffled;  // collide() with a list in another order; otherwise collide_rows()
+  Detail detail;
+  WitnessFrame frame;
+};
+
+constexpr std::array kVariants = {
+    Variant{"rows", false, Detail::contact, WitnessFrame::body},
+    Variant{"world frame", false, Detail::contact, WitnessFrame::world},
+    Variant{"shuffled", true, Detail::contact, WitnessFrame::body},
+    Variant{"detail overlap", false, Detail::overlap, WitnessFrame::body},
+};
+
+std::string compared_text() {
+  std::string text;
+  for (const Variant& variant : kVariants) {
+    text += (text.empty() ? "" : ", ") + std::string(variant.name);
+  }
+  return text;
+}
+
+template <class T>
+bool same_bits(const T& x, const T& y) {
+  return std::memcmp(&x, &y, sizeof(T)) == 0;
+}
+
+bool same_bits(const Row& x, const Row& y) {
+  return x.overlap == y.overlap && x.status == y.status && same_bits(x.separation, y.separation) &&
+         same_bits(x.normal, y.normal) && same_bits(x.point_a, y.point_a) &&
+         same_bits(x.point_b, y.point_b);
+}
+
+std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+// position + arm as the library rounds it: a float64 position is a float32 and what that leaves.
+std::array<float, 3> in_world(const std::array<float, 3>& arm, const Eigen::Vector3d& position) {
+  std::array<float, 3> point{};
+  for (int axis = 0; axis < 3; ++axis) {
+    float high = static_cast<float>(position[axis]);
+    float low = static_cast<float>(position[axis] - double{high});
+    point[axis] = high + (low + arm[axis]);
+  }
+  return point;
+}
+
+std::string text_of(const std::array<float, 3>& v) {
+  return cli::text_of(Eigen::Vector3f(v[0], v[1], v[2]));
+}
+
+std::string text_of(const Row& row) {
+  return "overlap " + std::to_string(row.overlap) + " status " + std::to_string(row.status) +
+         " separation " + cli::text_of(double{row.separation}) + " normal " + text_of(row.normal) +
+         " point_a " + text_of(row.point_a) + " point_b " + text_of(row.point_b);
+}
+
+class PairVerifier {
+ public:
+  PairVerifier(System& system, const PairSet& pairs)
+      : system_(system),
+        pairs_(pairs),
+        contact_(pairs.size(), Detail::contact),
+        overlap_(pairs.size(), Detail::overlap) {
+    for (size_t i = 0; i < pairs.size(); ++i) expected_.push_back(reference_row(i));
+    // Neighbours of the file end up far apart, in other lanes and other batches.
+    uint64_t stride = pairs.size() / 3 + 1;
+    for (uint64_t first = 0; first < stride; ++first) {
+      for (uint64_t i = first; i < pairs.size(); i += stride) {
+        order_.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(i)});
+      }
+    }
+  }
+
+  // False if there is a difference.
+  Result<bool> verify(VerifyRow& row) {
+    force_isa(row.engine.isa);
+    for (const Variant& variant : kVariants) {
+      if (Result<void> done = test(row.engine, variant); !done) return done.error();
+      if (!compare(row, variant)) return false;
+    }
+    row.pairs = pairs_.size();
+    for (const Row& expected : expected_) row.overlaps += expected.overlap;
+    return true;
+  }
+
+  std::optional<Difference> take_difference() { return std::move(difference_); }
+
+ private:
+  Row reference_row(size_t index) const {
+    const reference::PairResult result =
+        reference::collide(pairs_.a.shape(index), pairs_.a.position(index), pairs_.b.shape(index),
+                           pairs_.b.position(index), pairs_.a.positions());
+    return {static_cast<uint8_t>(result.overlap),
+            static_cast<uint8_t>(result.status),
+            result.separation,
+            array_of(result.normal),
+            array_of(result.arm_a),
+            array_of(result.arm_b)};
+  }
+
+  // The reference's result of a pair, as a variant gives it.
+  Row expected(size_t index, const Variant& variant) const {
+    Row row = expected_[index];
+    if (variant.detail == Detail::overlap) return {row.overlap, row.status, 0, {}, {}, {}};
+    bool invalid = row.status == static_cast<uint8_t>(Status::invalid);
+    if (variant.frame == WitnessFrame::body || invalid) return row;
+    row.point_a = in_world(row.point_a, pairs_.a.position(index));
+    row.point_b = in_world(row.point_b, pairs_.b.position(index));
+    return row;
+  }
+
+  PairColumns& columns(const Variant& variant) {
+    return variant.detail == Detail::contact ? contact_ : overlap_;
+  }
+
+  Result<void> test(const Engine& engine, const Variant& variant) {
+    Collidables a = pairs_.a.view();
+    Collidables b = pairs_.b.view();
+    ResultColumns out = columns(variant).columns();
+    Parallelism parallelism = engine.arena->parallelism();
+    Result<void> done;
+    engine.arena->run([&] {
+      done = variant.shuffled
+                 ? system_.collide(a, b, order_, variant.detail, out, variant.frame, parallelism)
+                 : system_.collide_rows(a, b, variant.detail, out, variant.frame, parallelism);
+    });
+    return done;
+  }
+
+  bool compare(VerifyRow& row, const Variant& variant) {
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+      size_t index = variant.shuffled ? order_[i].a : i;
+      Row want = expected(index, variant);
+      Row got = columns(variant).row(i);
+      if (same_bits(want, got)) continue;
+      row.differs = true;
+      difference_ = describe(row.engine, variant, index, want, got);
+      return false;
+    }
+    return true;
+  }
+
+  Difference describe(const Engine& engine, const Variant& variant, size_t index, const Row& want,
+                      const Row& got) const {
+    PositionType positions = pairs_.a.positions();
+    std::string text;
+    text +=
+        "  a: " + cli::text_of(pairs_.a.shape(index), pairs_.a.position(index), positions) + '\n';
+    text +=
+        "  b: " + cli::text_of(pairs_.b.shape(index), pairs_.b.position(index), positions) + '\n';
+    text += "  reference: " + text_of(want) + '\n';
+    text += "  carom:     " + text_of(got) + '\n';
+    return {std::string(name(engine.isa)) + ", threads " + std::to_string(engine.threads) + ", " +
+                variant.name + ": pair " + std::to_string(index) + " differs",
+            text};
+  }
+
+  System& system_;
+  const PairSet& pairs_;
+  PairColumns contact_;
+  PairColumns overlap_;
+  std::vector<Row> expected_;
+  std::vector<Pair> order_;
+  std::optional<Difference> difference_;
+};
+
+}  // namespace
+
+Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
+                                   const std::string& source) {
+  VerifyOutcome outcome{source, compared_text(), {}, {}};
+  PairVerifier verifier(system, pairs);
+  for (const Engine& engine : engines.list()) {
+    outcome.rows.push_back({.engine = engine, .frames = 1});
+    Result<bool> same = verifier.verify(outcome.rows.back());
+    unforce_isa();
+    if (!same) return Error{source + ": " + same.error().message};
+    if (!*same) break;
+  }
+  outcome.difference = verifier.take_difference();
+  return outcome;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,17 @@
+// Sets of pairs: carom's kernels against the scalar reference.
+#pragma once
+
+#include <string>
+
+#include "cli/pair_set.h"
+#include "cli/verify_outcome.h"
+#include "cli/verify_system.h"
+
+namespace carom::cli {
+
+// Tests the pairs row by row and in another order, at both details, with witness points in both
+// frames, and stops at the first difference.
+Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
+                                   const std::string& source);
+
+}  // namespace carom::cli

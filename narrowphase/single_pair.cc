@@ -1,0 +1,80 @@
+#include "narrowphase/single_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel/body_reader.h"
+
+namespace carom {
+namespace {
+
+Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind) {
+  Collidables view;
+  view.position.data = side.records;
+  view.position.stride = side.record_stride;
+  view.position.type =
+      layout == PositionLayout::records64 ? PositionType::float64 : PositionType::float32;
+  view.uniform_kind = kind;
+  view.boxes = side.boxes;
+  view.box_slot = side.box_slot;
+  return view;
+}
+
+Position<double> difference(const Position<double>& a, const Position<double>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+double square(const Position<double>& v) { return (v.x * v.x + v.y * v.y) + v.z * v.z; }
+
+// sqrt(distance^2) - reach without cancellation; 0 only if the two are equal in double.
+float gap(double distance_squared, double reach) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  if (distance_squared > 4 * kLargest * kLargest) return std::numeric_limits<float>::max();
+  const double difference = distance_squared - reach * reach;
+  if (difference == 0) return 0;
+  const double gap = difference / (std::sqrt(distance_squared) + reach);
+  const auto rounded = static_cast<float>(std::clamp(gap, -kLargest, kLargest));
+  return difference > 0 ? std::max(rounded, std::numeric_limits<float>::denorm_min()) : rounded;
+}
+
+float sphere_box_separation(const BodyReader& box, size_t box_index,
+                            const Position<double>& centre, float radius) {
+  const double p[3] = {centre.x, centre.y, centre.z};
+  double delta[3];
+  double way_out = std::numeric_limits<double>::infinity();
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double lower = box.lower(axis, box_index);
+    const double upper = box.upper(axis, box_index);
+    delta[axis] = std::clamp(p[axis], lower, upper) - p[axis];
+    way_out = std::min({way_out, p[axis] - lower, upper - p[axis]});
+  }
+  const double distance_squared = square({delta[0], delta[1], delta[2]});
+  if (distance_squared > 0) return gap(distance_squared, radius);
+  return static_cast<float>(0 - (way_out + radius));
+}
+
+}  // namespace
+
+bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables a = view_of(batch.a, batch.layout, kind_a);
+  const Collidables b = view_of(batch.b, batch.layout, kind_b);
+  return BodyReader{a}.is_valid(pair.a) && BodyReader{b}.is_valid(pair.b);
+}
+
+float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_a = view_of(batch.a, batch.layout, kind_a);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  const Position<double> centre =
+      difference(a.position<double>(pair.a), b.position<double>(pair.b));
+  if (kind_b == ShapeKind::aabb) {
+    return sphere_box_separation(b, pair.b, centre, a.radius(pair.a));
+  }
+  return gap(square(centre), double{a.radius(pair.a)} + double{b.radius(pair.b)});
+}
+
+}  // namespace carom

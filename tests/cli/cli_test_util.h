@@ -1,0 +1,90 @@
+// Commands run in this process, and files to run them on.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/cli.h"
+
+namespace carom::cli {
+
+struct CommandResult {
+  int code;
+  std::string out;
+  std::string err;
+
+  nlohmann::json json() const { return nlohmann::json::parse(out, nullptr, false); }
+};
+
+inline CommandResult run_command(const std::vector<std::string>& arguments) {
+  std::ostringstream out, err;
+  const int code = run_cli(arguments, out, err);
+  return {code, out.str(), err.str()};
+}
+
+// One line on standard error that starts with "carom: " and holds all of `parts`.
+inline void expect_error(const std::vector<std::string>& arguments,
+                         std::initializer_list<std::string> parts) {
+  const CommandResult result = run_command(arguments);
+  EXPECT_NE(result.code, 0);
+  EXPECT_EQ(result.err.rfind("carom: ", 0), 0u) << result.err;
+  EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  for (const std::string& part : parts) {
+    EXPECT_NE(result.err.find(part), std::string::npos) << part << " is not in " << result.err;
+  }
+}
+
+// A test with a folder of its own, removed afterwards.
+class CliTest : public testing::Test {
+ protected:
+  CliTest() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("carom_cli_") + test->test_suite_name() + "_" + test->name() + "_" +
+               std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  ~CliTest() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  size_t files() const {
+    const std::filesystem::directory_iterator entries(folder_);
+    return static_cast<size_t>(std::distance(begin(entries), end(entries)));
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+inline std::string test_data(const std::string& name) {
+  return std::string(CAROM_TEST_DATA_DIR) + "/" + name;
+}
+
+inline nlohmann::json read_json(const std::string& path) {
+  std::ifstream file(path);
+  return nlohmann::json::parse(file, nullptr, false);
+}
+
+// The samples that lie beside the project, or in CAROM_SHARED; empty (and it says so) if there are
+// none: then there is nothing to test.
+inline std::string shared_folder() {
+  const char* variable = std::getenv("CAROM_SHARED");
+  const std::string folder = variable ? variable : CAROM_SHARED_DIR;
+  if (std::filesystem::is_directory(folder + "/scenes")) return folder;
+  std::cout << "no shared samples at " << folder << ": not tested with them\n";
+  return "";
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,170 @@
+// Every mistake is one clear line, a non-zero exit code and no output file.
+#include <cmath>
+#include <limits>
+
+#include "io/pairs_file.h"
+#include "io/scene.h"
+#include "tests/cli/cli_test_util.h"
+
+namespace carom::cli {
+namespace {
+
+using ErrorsTest = CliTest;
+
+// One body of that kind, `frames` frames; frame `bad_frame` holds nothing but NaN.
+void write_scene(const std::string& path, uint8_t kind, int frames = 2, int bad_frame = -1) {
+  io::SceneInfo info;
+  info.bodies = 1;
+  info.shapes.kind = {0, kind};
+  info.shapes.params = {{1}, {0, 0, 0, 1, 0, 0, 1}};
+  info.body_shape = {0};
+  auto writer = io::SceneWriter::create(path, info);
+  ASSERT_TRUE(writer) << writer.error().message;
+  for (int i = 0; i < frames; ++i) {
+    io::SceneFrame frame;
+    const float x = i == bad_frame ? std::numeric_limits<float>::quiet_NaN() : 0;
+    frame.position32 = {x, x, x};
+    ASSERT_TRUE(writer->write_frame(frame));
+  }
+  ASSERT_TRUE(writer->finish());
+}
+
+void write_pairs(const std::string& path, uint8_t kind) {
+  io::PairsFile file;
+  file.pairs = 1;
+  file.shapes.kind = {0, kind};
+  file.shapes.params = {{1}, {0, 0, 0, 1, 0, 0, 1}};
+  for (io::PairSide* side : {&file.a, &file.b}) {
+    side->shape = {0};
+    side->position32 = {{0, 0, 0}};
+  }
+  const auto written = io::write_pairs(path, file);
+  ASSERT_TRUE(written) << written.error().message;
+}
+
+TEST_F(ErrorsTest, Commands) {
+  expect_error({}, {"no command", "run, pairs, verify, generate, info"});
+  expect_error({"frobnicate"}, {"unknown command 'frobnicate'", "run, pairs"});
+  for (const char* planned : {"advise", "accuracy", "check"}) {
+    expect_error({planned, "x"}, {"unknown command", planned});
+  }
+  expect_error({"--bogus"}, {"unknown command '--bogus'"});
+  expect_error({"run", "still:n=5", "--bogus"}, {"--bogus"});
+  expect_error({"run"}, {"SCENE"});
+  expect_error({"pairs", "x.npz"}, {"--output"});
+}
+
+TEST_F(ErrorsTest, OptionsOfRun) {
+  const std::string scene = "still:n=5,frames=2";
+  expect_error({"run", scene, "--threads", "0"}, {"--threads 0"});
+  expect_error({"run", scene, "--threads", "-3"}, {"--threads -3"});
+  expect_error({"run", scene, "--threads", "two"}, {"--threads", "two"});
+  expect_error({"run", scene, "--frames", "0"}, {"--frames"});
+  expect_error({"run", scene, "--isa", "mmx"}, {"unknown ISA 'mmx'", "avx2"});
+  expect_error({"run", scene, "--isa", "neon"}, {"'neon' cannot be used here", "scalar"});
+  expect_error({"run", scene, "--tier", "exact"}, {"tier 'exact' does not exist in this version"});
+  expect_error({"run", scene, "--tier", "best"}, {"unknown tier 'best'"});
+  expect_error({"run", scene, "--detail", "manifold"}, {"detail 'manifold' does not exist"});
+  expect_error({"run", scene, "--detail", "toi"}, {"detail 'toi' does not exist"});
+  expect_error({"run", scene, "--detail", "some"}, {"unknown detail 'some'"});
+  expect_error({"run", scene, "--broadphase", "octree"}, {"unknown broadphase 'octree'", "sweep"});
+  expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("x")}, {"the same file"});
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(ErrorsTest, OptionsOfPairs) {
+  write_pairs(path("in.npz"), 2);
+  const auto fails = [&](const std::string& option, const std::string& value,
+                         const std::string& part) {
+    expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), option, value}, {part});
+  };
+  fails("--detail", "toi", "detail 'toi' does not exist");
+  fails("--detail", "manifold", "detail 'manifold' does not exist");
+  fails("--detail", "pairs", "unknown detail 'pairs'");
+  fails("--tier", "certified", "tier 'certified'");
+  fails("--isa", "mmx", "unknown ISA");
+  fails("--threads", "0", "--threads 0");
+  fails("--repeat", "0", "--repeat");
+  fails("--json", path("out.npz"), "the same file");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ErrorsTest, OptionsOfVerify) {
+  expect_error({"verify", "--threads", "0"}, {"--threads 0"});
+  expect_error({"verify", path("absent.npz")}, {"absent.npz"});
+}
+
+TEST_F(ErrorsTest, Generators) {
+  const auto fails = [&](const std::string& spec, std::initializer_list<std::string> parts) {
+    expect_error({"generate", spec, "-o", path("out.npz")}, parts);
+  };
+  fails("tornado", {"unknown generator 'tornado'", "brownian, varied, static, still"});
+  fails("tornado:n=5", {"unknown generator 'tornado'"});
+  fails("brownian:", {"'' is not key=value"});
+  fails("brownian:n", {"'n' is not key=value"});
+  fails("brownian:mass=3", {"unknown key 'mass'", "density"});
+  fails("still:speed=3", {"unknown key 'speed'"});
+  fails("brownian:motion=static", {"unknown key 'motion'"});
+  fails("brownian:n=0", {"'n=0'"});
+  fails("brownian:n=ten", {"'n=ten'"});
+  fails("brownian:n=1e30", {"'n=1e30'"});
+  fails("brownian:n=5,n=6", {"'n=6' again"});
+  fails("brownian:n=5,", {"'' is not key=value"});
+  fails("brownian:density=0", {"'density=0'"});
+  fails("brownian:density=nan", {"'density=nan'"});
+  fails("brownian:speed=-1", {"'speed=-1'"});
+  fails("brownian:shape=cone", {"'shape=cone'", "cube", "sphere"});
+  fails("brownian:positions=float16", {"float32"});
+  expect_error({"run", "tornado:n=5"}, {"unknown generator 'tornado'"});
+  expect_error({"generate", "still:n=3,frames=1", "-o", path("no/such/folder.npz")},
+               {"folder.npz"});
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(ErrorsTest, FilesThatAreNone) {
+  expect_error({"run", path("absent.npz")}, {"absent.npz"});
+  expect_error({"run", path("absent.aabb")}, {"absent.aabb"});
+  expect_error({"pairs", path("absent.npz"), "-o", path("out.npz")}, {"absent.npz"});
+  std::ofstream(path("text.npz")) << "this is no archive";
+  expect_error({"run", path("text.npz")}, {"text.npz"});
+  std::ofstream(path("short.aabb")) << "short";
+  expect_error({"run", path("short.aabb")}, {"short.aabb"});
+  EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(ErrorsTest, KindsWithoutKernel) {
+  write_scene(path("capsule.npz"), 1);
+  const std::string text =
+      "capsule.npz: shape_kind: shape 1 is a capsule, which this version has "
+      "no kernel for";
+  expect_error({"run", path("capsule.npz"), "--json", path("out.json")}, {text});
+  expect_error({"verify", path("capsule.npz")}, {text});
+  write_pairs(path("capsule.npz"), 1);
+  expect_error({"pairs", path("capsule.npz"), "-o", path("out.npz")}, {text});
+  expect_error({"verify", path("capsule.npz")}, {text});
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ErrorsTest, OutputsOfAFailedRunDoNotAppear) {
+  write_scene(path("scene.npz"), 2, 5, 3);
+  expect_error(
+      {"run", path("scene.npz"), "--json", path("out.json"), "--pairs-out", path("out.npz")},
+      {"scene.npz", "position"});
+  EXPECT_EQ(files(), 1u);
+  // A file that was there before stays as it was.
+  std::ofstream(path("out.json")) << "before";
+  expect_error({"run", path("scene.npz"), "--json", path("out.json")}, {"scene.npz"});
+  std::string text;
+  std::ifstream(path("out.json")) >> text;
+  EXPECT_EQ(text, "before");
+}
+
+TEST_F(ErrorsTest, OutputsThatCannotBeWritten) {
+  const std::string scene = "still:n=5,frames=2";
+  expect_error({"run", scene, "--json", path("no/folder.json")}, {"folder.json"});
+  expect_error({"run", scene, "--pairs-out", path("no/folder.npz")}, {"folder.npz"});
+  EXPECT_EQ(files(), 0u);
+}
+
+}  // namespace
+}  // namespace carom::cli

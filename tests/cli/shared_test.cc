@@ -1,0 +1,47 @@
+// The recordings that lie beside the project: exact pair counts, one hash however they are run.
+#include "carom/simd/isa.h"
+#include "tests/cli/cli_test_util.h"
+
+namespace carom::cli {
+namespace {
+
+nlohmann::json run_recording(const std::string& path, const char* isa, const char* threads) {
+  const CommandResult result =
+      run_command({"run", path, "--isa", isa, "--threads", threads, "--json", "-"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  return result.json();
+}
+
+TEST(SharedTest, RecordingsHaveTheExpectedPairs) {
+  const std::string shared = shared_folder();
+  if (shared.empty()) return;
+  size_t recordings = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shared + "/scenes")) {
+    if (entry.path().extension() != ".aabb") continue;
+    ++recordings;
+    auto beside = entry.path();
+    const auto expected = read_json(beside.replace_extension(".expected.json").string());
+    std::string hash;
+    for (const Isa isa : usable_isas()) {
+      for (const char* threads : {"1", "2"}) {
+        const auto report = run_recording(entry.path().string(), name(isa), threads);
+        EXPECT_EQ(report["pairs_per_frame"], expected["pairs_per_frame"]) << entry.path();
+        if (hash.empty()) hash = report["state_hash"];
+        EXPECT_EQ(report["state_hash"], hash) << entry.path() << ' ' << name(isa) << ' ' << threads;
+      }
+    }
+  }
+  EXPECT_GT(recordings, 0u);
+}
+
+TEST(SharedTest, ScenesOfOtherKindsAreRefused) {
+  const std::string shared = shared_folder();
+  if (shared.empty()) return;
+  expect_error({"run", shared + "/scenes/junkyard.npz"},
+               {"junkyard.npz: shape_kind: shape 0 is a "});
+  expect_error({"verify", shared + "/pairs/capsule_capsule.npz"},
+               {"capsule_capsule.npz: shape_kind: shape 0 is a capsule"});
+}
+
+}  // namespace
+}  // namespace carom::cli

@@ -1,0 +1,200 @@
+// carom verify: passes on carom, and finds out what is broken.
+#include "cli/verify.h"
+
+#include <cmath>
+#include <functional>
+
+#include "carom/reference/reference.h"
+#include "carom/simd/isa.h"
+#include "cli/verify_builtin.h"
+#include "tests/cli/cli_test_util.h"
+
+namespace carom::cli {
+namespace {
+
+using VerifyTest = CliTest;
+
+struct Verdict {
+  int code;
+  std::string out;
+  std::string err;
+};
+
+Verdict verify_with(System& system, std::vector<std::string> sources) {
+  std::ostringstream out, err;
+  const Console console{out, err};
+  const auto code =
+      verify({.sources = std::move(sources), .frames = 0, .threads = 2}, system, console);
+  EXPECT_TRUE(code);
+  return {*code, out.str(), err.str()};
+}
+
+void expect_found(const Verdict& verdict, std::initializer_list<std::string> parts) {
+  EXPECT_EQ(verdict.code, 1);
+  EXPECT_NE(verdict.out.find("DIFFERS"), std::string::npos) << verdict.out;
+  EXPECT_NE(verdict.out.find("0x1."), std::string::npos) << verdict.out;
+  EXPECT_NE(verdict.out.find("reference: "), std::string::npos) << verdict.out;
+  for (const std::string& part : parts) {
+    EXPECT_NE(verdict.out.find(part), std::string::npos) << part << "\n" << verdict.out;
+  }
+  EXPECT_EQ(verdict.err.rfind("carom: verify: ", 0), 0u) << verdict.err;
+  EXPECT_EQ(verdict.err.find('\n'), verdict.err.size() - 1);
+}
+
+// A world whose results are tampered with.
+class BrokenStepper : public Stepper {
+ public:
+  using Break = std::function<void(int frame, std::vector<Pair>&, std::vector<uint8_t>&,
+                                   std::vector<Contact>&, std::vector<Event>&)>;
+  BrokenStepper(std::unique_ptr<Stepper> base, Break damage)
+      : base_(std::move(base)), break_(std::move(damage)) {}
+
+  FrameView step(const io::SceneFrame& frame) override {
+    const FrameView view = base_->step(frame);
+    pairs_.assign(view.pairs.begin(), view.pairs.end());
+    overlaps_.assign(view.overlaps.begin(), view.overlaps.end());
+    contacts_.assign(view.contacts.begin(), view.contacts.end());
+    events_.assign(view.events.begin(), view.events.end());
+    break_(frame_++, pairs_, overlaps_, contacts_, events_);
+    return {pairs_, overlaps_, contacts_, events_, view.quarantined};
+  }
+
+ private:
+  std::unique_ptr<Stepper> base_;
+  Break break_;
+  std::vector<Pair> pairs_;
+  std::vector<uint8_t> overlaps_;
+  std::vector<Contact> contacts_;
+  std::vector<Event> events_;
+  int frame_ = 0;
+};
+
+class BrokenWorld : public System {
+ public:
+  explicit BrokenWorld(BrokenStepper::Break damage) : break_(std::move(damage)) {}
+  std::unique_ptr<Stepper> make_stepper(const Player& player,
+                                        const WorldSettings& settings) override {
+    return std::make_unique<BrokenStepper>(System::make_stepper(player, settings), break_);
+  }
+
+ private:
+  BrokenStepper::Break break_;
+};
+
+constexpr char kScene[] = "brownian:n=200,frames=4,density=0.6,shape=sphere";
+
+TEST_F(VerifyTest, BuiltinSetPasses) {
+  const CommandResult result = run_command({"verify", "--threads", "2"});
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out.find("DIFFERS"), std::string::npos);
+  for (const Isa isa : usable_isas()) {
+    EXPECT_NE(result.out.find(name(isa)), std::string::npos) << name(isa);
+  }
+}
+
+// What is verified must be worth it: overlaps and gaps, both in good number.
+TEST_F(VerifyTest, BuiltinPairsHitAndMiss) {
+  for (const BuiltinPairs& set : builtin_pairs()) {
+    size_t overlaps = 0;
+    for (size_t i = 0; i < set.pairs.size(); ++i) {
+      overlaps +=
+          reference::collide(set.pairs.a.shape(i), set.pairs.a.position(i), set.pairs.b.shape(i),
+                             set.pairs.b.position(i), set.pairs.a.positions())
+              .overlap;
+    }
+    EXPECT_GT(overlaps, set.pairs.size() * 3 / 10) << set.name;
+    EXPECT_LT(overlaps, set.pairs.size() * 7 / 10) << set.name;
+  }
+}
+
+TEST_F(VerifyTest, OneBitOfAContact) {
+  BrokenWorld system([](int frame, auto&, auto&, std::vector<Contact>& contacts, auto&) {
+    if (frame == 2 && contacts.size() > 5) {
+      contacts[5].separation = std::nextafter(contacts[5].separation, 1.0f);
+    }
+  });
+  expect_found(verify_with(system, {kScene}),
+               {"frame 2: contacts differ at pair (", "sphere radius 0x1p-1", "separation -0x"});
+}
+
+TEST_F(VerifyTest, AMissingPair) {
+  BrokenWorld system([](int frame, std::vector<Pair>& pairs, auto&, auto&, auto&) {
+    if (frame == 1) pairs.pop_back();
+  });
+  expect_found(verify_with(system, {kScene}),
+               {"frame 1: pairs differ", "carom:     no candidate pair", "bounds ("});
+}
+
+TEST_F(VerifyTest, AWrongDecision) {
+  BrokenWorld system(
+      [](int, auto&, std::vector<uint8_t>& overlaps, auto&, auto&) { overlaps[3] ^= 1; });
+  expect_found(verify_with(system, {kScene}), {"frame 0: overlaps differ"});
+}
+
+TEST_F(VerifyTest, AWrongEvent) {
+  BrokenWorld system([](int frame, auto&, auto&, auto&, std::vector<Event>& events) {
+    if (frame == 3) events[0].kind = EventKind::end;
+  });
+  expect_found(verify_with(system, {kScene}), {"frame 3: events differ", "event end"});
+}
+
+// Kernels that are wrong in one lane, on one instruction set, at one detail, or by position.
+class BrokenKernel : public System {
+ public:
+  enum class Flaw { last_bit, overlap_only, list_only, threads };
+  explicit BrokenKernel(Flaw flaw) : flaw_(flaw) {}
+
+  Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
+                            const ResultColumns& out, WitnessFrame frame,
+                            Parallelism parallelism) override {
+    Result<void> done = System::collide_rows(a, b, detail, out, frame, parallelism);
+    if (flaw_ == Flaw::last_bit && detail == Detail::contact) {
+      out.normal[1][17] = std::nextafter(out.normal[1][17], 2.0f);
+    }
+    if (flaw_ == Flaw::overlap_only && detail == Detail::overlap) out.overlap[17] ^= 1;
+    if (flaw_ == Flaw::threads && parallelism == Parallelism::arena) out.overlap[17] ^= 1;
+    return done;
+  }
+
+  Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
+                       Detail detail, const ResultColumns& out, WitnessFrame frame,
+                       Parallelism parallelism) override {
+    Result<void> done = System::collide(a, b, pairs, detail, out, frame, parallelism);
+    if (flaw_ == Flaw::list_only) out.point_a[2][17] += 1;
+    return done;
+  }
+
+ private:
+  Flaw flaw_;
+};
+
+TEST_F(VerifyTest, BrokenKernels) {
+  using Flaw = BrokenKernel::Flaw;
+  const std::pair<Flaw, std::string> kCases[] = {{Flaw::last_bit, "rows: pair 17 differs"},
+                                                 {Flaw::overlap_only, "detail overlap: pair 17"},
+                                                 {Flaw::list_only, "shuffled: pair "},
+                                                 {Flaw::threads, "threads 2, rows: pair 17"}};
+  for (const auto& [flaw, text] : kCases) {
+    BrokenKernel system(flaw);
+    expect_found(verify_with(system, {}), {"sphere-sphere pairs, float32: ", text, "  a: sphere"});
+  }
+}
+
+TEST_F(VerifyTest, SettlingPasses) {
+  const CommandResult result =
+      run_command({"verify", test_data("settling.npz"), "--frames", "3", "--threads", "2"});
+  EXPECT_EQ(result.code, 0) << result.out << result.err;
+}
+
+TEST_F(VerifyTest, GoesOnAfterAFileItCannotRead) {
+  const CommandResult result =
+      run_command({"verify", path("absent.npz"), "still:n=20,frames=1", "--threads", "1"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("absent.npz"), std::string::npos);
+  EXPECT_NE(result.out.find("same bits"), std::string::npos);
+  EXPECT_EQ(result.out.find("Everything agrees"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace carom::cli
