@@ -1,8 +1,12 @@
 // The one place where oneTBB is used.
 #include "kernel/parallel.h"
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <optional>
 
 #include "carom/kernel/thread_arena.h"
 
@@ -49,11 +53,19 @@ void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
 }
 
 struct ThreadArena::State {
+  explicit State(int threads) : arena(threads) {
+    // oneTBB has as many threads as cores unless told otherwise; tests ask for more.
+    if (threads > tbb::info::default_concurrency()) {
+      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+    }
+  }
+
+  std::optional<tbb::global_control> limit;
   tbb::task_arena arena;
 };
 
 ThreadArena::ThreadArena(int threads) {
-  if (threads > 1) state_.reset(new State{tbb::task_arena(threads)});
+  if (threads > 1) state_ = std::make_unique<State>(threads);
 }
 ThreadArena::~ThreadArena() = default;
 

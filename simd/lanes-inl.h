@@ -83,6 +83,10 @@ HWY_INLINE F3 zero_unless(Mask mask, const F3& v) {
           hn::IfThenElseZero(mask, v.z)};
 }
 
+HWY_INLINE F largest_component(const F3& v) {
+  return max(max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
+}
+
 // The length of a vector and its direction. `is_zero`: the vector is exactly zero, and the
 // direction not a number.
 struct Length {
@@ -96,9 +100,8 @@ struct Length {
 HWY_INLINE Length measure(const F3& v) {
   const FloatTag tag;
   const IntTag bits;
-  const F largest = max(max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
   // 2^k with the exponent of the largest component, kept where 2^-k is a normal float, too.
-  I exponent = hn::And(hn::BitCast(bits, largest), hn::Set(bits, 0x7f800000));
+  I exponent = hn::And(hn::BitCast(bits, largest_component(v)), hn::Set(bits, 0x7f800000));
   exponent = hn::Min(hn::Max(exponent, hn::Set(bits, 0x00800000)), hn::Set(bits, 0x7e800000));
   const F up = hn::BitCast(tag, exponent);
   const F down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 0x7f000000), exponent));

@@ -35,7 +35,7 @@ const StepReport& World::State::step() {
     if (has_narrowphase()) {
       run(Stage::pairs, [&] { plan_tests(); });
       run(Stage::narrowphase, [&] { test_pairs(); });
-      run(Stage::contacts, [&] {
+      run(Stage::results, [&] {
         contact_stage.run(plan, last, results, bodies, settings.detail, parallelism, now);
       });
     }

@@ -10,7 +10,7 @@ namespace carom {
 const char* name(Stage stage) {
   static constexpr std::array<const char*, kStageCount> kNames = {
       "changes",  "bounds",     "broadphase", "pairs", "narrowphase",
-      "contacts", "velocities", "events"};
+      "results",  "velocities", "events"};
   return kNames[static_cast<size_t>(stage)];
 }
 

@@ -57,7 +57,7 @@ TEST_F(RunTest, PipelineHoldsOnlyWhatTheDetailNeeds) {
     const json report = run_json({"brownian:n=200,frames=3,density=0.5", "--detail", detail});
     return report["pipeline"].get<std::set<std::string>>();
   };
-  EXPECT_TRUE(stages("contact").count("contacts"));
+  EXPECT_TRUE(stages("contact").count("results"));
   EXPECT_TRUE(stages("contact").count("velocities"));
   EXPECT_TRUE(stages("overlap").count("narrowphase"));
   EXPECT_FALSE(stages("overlap").count("velocities"));

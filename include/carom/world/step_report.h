@@ -15,7 +15,7 @@ enum class Stage : uint8_t {
   broadphase,   // pairs of overlapping bounds
   pairs,        // merge with the last step's pairs: what is carried, what is to be tested
   narrowphase,  // tests, batch by batch
-  contacts,     // contacts in order, carried ones included
+  results,      // overlaps and contacts in order, carried ones included
   velocities,   // relative velocity along the normals
   events,       // begin, persist, end
 };
