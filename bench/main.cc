@@ -1,0 +1,60 @@
+// carom_bench [--smoke | --large] [Google Benchmark's flags]
+//   --smoke  short streams, small scenes, hardly any repetition: does everything still run?
+//   --large  scenes of a million bodies as well
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+#include <iterator>
+#include <vector>
+
+#include "bench/support/context.h"
+#include "bench/support/measure.h"
+#include "bench/support/suites.h"
+
+namespace carom::bench {
+namespace {
+
+// Takes our own flags out of the list; flags that follow win over those that --smoke puts in.
+Options take_options(std::vector<char*>& arguments) {
+  static char min_time[] = "--benchmark_min_time=0.001";
+  Options options;
+  for (auto argument = std::next(arguments.begin()); argument != arguments.end();) {
+    if (std::strcmp(*argument, "--smoke") == 0) {
+      options = {.pairs = 20'000, .max_bodies = 10'000};
+      *argument++ = min_time;
+    } else if (std::strcmp(*argument, "--large") == 0) {
+      options.max_bodies = 1'000'000;
+      argument = arguments.erase(argument);
+    } else {
+      ++argument;
+    }
+  }
+  return options;
+}
+
+void register_all(const Options& options) {
+  register_bounds();
+  register_find_pairs(options);
+#define CAROM_PAIR(name, kind_a, kind_b) \
+  register_##name({#name, ShapeKind::kind_a, ShapeKind::kind_b}, options);
+#include "narrowphase/pair_list.inc"
+#undef CAROM_PAIR
+  register_world(options);
+}
+
+}  // namespace
+}  // namespace carom::bench
+
+int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  const carom::bench::Options options = carom::bench::take_options(arguments);
+  argc = static_cast<int>(arguments.size());
+  arguments.push_back(nullptr);
+  benchmark::Initialize(&argc, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(argc, arguments.data())) return 2;
+  carom::bench::add_context();
+  carom::bench::register_all(options);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return carom::bench::any_failed() ? 1 : 0;
+}

@@ -1,0 +1,145 @@
+#include "bench/support/pair_stream.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+
+#include "bench/support/measure.h"
+#include "carom/narrowphase/collide.h"
+
+namespace carom::bench {
+namespace {
+
+constexpr size_t kFloatColumns = 10;
+
+reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& b,
+                                       Storage storage) {
+  return test::reference_result({a, b}, position_type(storage));
+}
+
+// B near A, so that the two overlap or do not, as asked for. Separate ones are near misses too: at
+// most 1.3 times as far off as bounds that touch.
+test::TestPair draw_pair(const StreamSpec& spec, bool overlap, test::Random& random) {
+  const PlacedShape a = {draw_shape(spec.kind_a, random), draw_position(random)};
+  PlacedShape b = {draw_shape(spec.kind_b, random)};
+  const Eigen::Vector3d reach = 1.3 * (half_extents(a.shape) + half_extents(b.shape));
+  const PlacedShape stored_a = as_stored(a, spec.storage);
+  for (;;) {
+    for (int axis = 0; axis < 3; ++axis) {
+      b.position[axis] = a.position[axis] + random.uniform(-reach[axis], reach[axis]);
+    }
+    const PlacedShape stored_b = as_stored(b, spec.storage);
+    if (reference_result(stored_a, stored_b, spec.storage).overlap == overlap) {
+      return {stored_a, stored_b};
+    }
+  }
+}
+
+std::vector<uint32_t> shuffled(size_t count, test::Random& random) {
+  std::vector<uint32_t> places(count);
+  std::iota(places.begin(), places.end(), 0);
+  for (size_t i = count; i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
+  return places;
+}
+
+bool same_bits(float x, float y) {
+  return std::bit_cast<uint32_t>(x) == std::bit_cast<uint32_t>(y);
+}
+
+// A witness point in world coordinates, the position taken as the sum of two floats.
+float world_coordinate(double position, float arm) {
+  const auto high = static_cast<float>(position);
+  const auto low = static_cast<float>(position - high);
+  return high + (low + arm);
+}
+
+}  // namespace
+
+ResultArrays::ResultArrays(size_t count) : bytes_(2 * count), floats_(kFloatColumns * count) {
+  const auto column = [&](size_t i) { return &floats_[i * count]; };
+  columns_ = {.overlap = &bytes_[0],
+              .status = &bytes_[count],
+              .separation = column(0),
+              .normal = {column(1), column(2), column(3)},
+              .point_a = {column(4), column(5), column(6)},
+              .point_b = {column(7), column(8), column(9)}};
+}
+
+void ResultArrays::spoil() {
+  std::fill(bytes_.begin(), bytes_.end(), uint8_t{0xa5});
+  std::fill(floats_.begin(), floats_.end(), std::numeric_limits<float>::signaling_NaN());
+}
+
+PairStream::PairStream(const StreamSpec& spec) : spec_(spec) {
+  draw();
+  a_ = std::make_unique<DenseBodies>(spec.kind_a, bodies_a_, spec.storage);
+  b_ = std::make_unique<DenseBodies>(spec.kind_b, bodies_b_, spec.storage);
+  PassTimes times;
+  for (int pass = 0; pass < 5; ++pass) times.measure([&] { run_reference(expected_); });
+  reference_seconds_ = times.median();
+}
+
+void PairStream::draw() {
+  test::Random random(1);
+  std::vector<uint32_t> places(spec_.count);
+  std::iota(places.begin(), places.end(), 0);
+  if (spec_.access == Access::pairs) places = shuffled(spec_.count, random);
+  bodies_b_.resize(spec_.count);
+  for (uint32_t row = 0; row < spec_.count; ++row) {
+    const test::TestPair pair = draw_pair(spec_, random.chance(spec_.hit_percent / 100.0), random);
+    bodies_a_.push_back(pair.a);
+    bodies_b_[places[row]] = pair.b;
+    pairs_.push_back({row, places[row]});
+  }
+}
+
+double PairStream::hit_percent() const {
+  const auto hits =
+      std::count_if(expected_.begin(), expected_.end(),
+                    [](const reference::PairResult& result) { return result.overlap; });
+  return 100.0 * static_cast<double>(hits) / static_cast<double>(spec_.count);
+}
+
+Result<void> PairStream::run(Detail detail, const ResultColumns& out) const {
+  if (spec_.access == Access::rows) return collide_rows(a_->view(), b_->view(), detail, out);
+  return collide(a_->view(), b_->view(), pairs_, detail, out);
+}
+
+void PairStream::run_reference(std::vector<reference::PairResult>& out) const {
+  out.resize(pairs_.size());
+  for (size_t row = 0; row < pairs_.size(); ++row) {
+    out[row] = reference_result(bodies_a_[pairs_[row].a], bodies_b_[pairs_[row].b], spec_.storage);
+  }
+}
+
+std::optional<std::string> PairStream::difference(Detail detail, const ResultColumns& out) const {
+  for (size_t row = 0; row < pairs_.size(); ++row) {
+    if (!has_expected_bits(row, detail, out)) {
+      return "row " + std::to_string(row) + " differs from the reference";
+    }
+  }
+  return std::nullopt;
+}
+
+bool PairStream::has_expected_bits(size_t row, Detail detail, const ResultColumns& out) const {
+  const reference::PairResult& expected = expected_[row];
+  if (out.overlap[row] != (expected.overlap ? 1 : 0)) return false;
+  if (out.status[row] != static_cast<uint8_t>(expected.status)) return false;
+  if (detail == Detail::overlap) return true;
+
+  bool same = same_bits(out.separation[row], expected.separation);
+  const Eigen::Vector3d& position_a = bodies_a_[pairs_[row].a].position;
+  const Eigen::Vector3d& position_b = bodies_b_[pairs_[row].b].position;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto column = static_cast<size_t>(axis);
+    const float point_a = world_coordinate(position_a[axis], expected.arm_a[axis]);
+    const float point_b = world_coordinate(position_b[axis], expected.arm_b[axis]);
+    same = same && same_bits(out.normal[column][row], expected.normal[axis]) &&
+           same_bits(out.point_a[column][row], point_a) &&
+           same_bits(out.point_b[column][row], point_b);
+  }
+  return same;
+}
+
+}  // namespace carom::bench

@@ -1,0 +1,80 @@
+// Streams of pairs of one pair of kinds, with a given share of overlaps, and what the reference
+// says of each.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/support/bodies.h"
+#include "carom/kernel/contact.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/result.h"
+#include "carom/reference/reference.h"
+
+namespace carom::bench {
+
+// How the bodies of a pair are found.
+enum class Access {
+  rows,   // row i of both sets
+  pairs,  // a list of pairs as the broadphase yields it: a ascends, b is anywhere
+};
+
+struct StreamSpec {
+  ShapeKind kind_a;
+  ShapeKind kind_b;
+  Storage storage = Storage::f32;
+  int hit_percent = 50;
+  Access access = Access::rows;
+  size_t count = 0;
+
+  friend bool operator==(const StreamSpec&, const StreamSpec&) = default;
+};
+
+// Room for all columns of `count` results, one after the other.
+class ResultArrays {
+ public:
+  explicit ResultArrays(size_t count);
+
+  const ResultColumns& columns() const { return columns_; }
+  // Overwrites everything with bytes that no result has.
+  void spoil();
+
+ private:
+  std::vector<uint8_t> bytes_;
+  std::vector<float> floats_;
+  ResultColumns columns_;
+};
+
+class PairStream {
+ public:
+  explicit PairStream(const StreamSpec& spec);
+
+  const StreamSpec& spec() const { return spec_; }
+  double hit_percent() const;
+  // The time of one pass of the reference.
+  double reference_seconds() const { return reference_seconds_; }
+
+  // One pass.
+  Result<void> run(Detail detail, const ResultColumns& out) const;
+  void run_reference(std::vector<reference::PairResult>& out) const;
+
+  // The first row of `out` that does not have the bits of the reference, as a message.
+  std::optional<std::string> difference(Detail detail, const ResultColumns& out) const;
+
+ private:
+  void draw();
+  bool has_expected_bits(size_t row, Detail detail, const ResultColumns& out) const;
+
+  StreamSpec spec_;
+  std::vector<PlacedShape> bodies_a_;
+  std::vector<PlacedShape> bodies_b_;
+  std::vector<Pair> pairs_;
+  std::unique_ptr<DenseBodies> a_;
+  std::unique_ptr<DenseBodies> b_;
+  std::vector<reference::PairResult> expected_;
+  double reference_seconds_ = 0;
+};
+
+}  // namespace carom::bench
