@@ -8,6 +8,7 @@
 #include "broadphase/sort_pairs.h"
 #include "broadphase/sweep_order.h"
 #include "kernel/block_lists.h"
+#include "kernel/float_environment.h"
 
 namespace carom {
 namespace {
@@ -97,6 +98,7 @@ PairFinder& PairFinder::operator=(PairFinder&&) noexcept = default;
 
 void PairFinder::find(const BoundsView& bounds, const PairFilter& filter, std::vector<Pair>& out,
                       BroadphaseMethod method, Parallelism parallelism) {
+  const FloatEnvironment environment;
   if (method == BroadphaseMethod::automatic) {
     method =
         bounds.count <= kBruteForceLimit ? BroadphaseMethod::brute : BroadphaseMethod::sweep;

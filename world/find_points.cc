@@ -1,11 +1,13 @@
 #include "broadphase/point_candidates.h"
 #include "carom/narrowphase/collide.h"
+#include "kernel/float_environment.h"
 #include "world/world_state.h"
 
 namespace carom {
 
 void World::find_points(const float* xyz, size_t count, size_t stride,
                         std::vector<PointHit>& hits) const {
+  const FloatEnvironment environment;
   hits.clear();
   const Parallelism parallelism = state_->settings.parallelism;
   const std::vector<Pair> candidates =

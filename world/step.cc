@@ -29,7 +29,7 @@ const StepReport& World::State::step() {
   if (still) {
     plan.carry_all();
   } else {
-    std::swap(last, now);
+    if (carries() || settings.events) std::swap(last, now);
     run(Stage::bounds, [&] { find_bounds(); });
     run(Stage::broadphase, [&] { find_pairs(); });
     if (has_narrowphase()) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 
+#include "kernel/float_environment.h"
 #include "world/world_state.h"
 
 namespace carom {
@@ -21,7 +22,10 @@ World& World::operator=(World&&) noexcept = default;
 
 const WorldSettings& World::settings() const { return state_->settings; }
 
-BodyId World::add(const BodyDesc& body) { return state_->bodies.add(body); }
+BodyId World::add(const BodyDesc& body) {
+  const FloatEnvironment environment;
+  return state_->bodies.add(body);
+}
 
 void World::add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids) {
   ids.reserve(ids.size() + bodies.size());
@@ -54,6 +58,7 @@ Eigen::Vector3d World::position(BodyId id) const {
 }
 
 void World::set_position(BodyId id, const Eigen::Vector3d& position) {
+  const FloatEnvironment environment;
   assert(contains(id));
   state_->bodies.set_position(id.index, position);
 }
@@ -80,6 +85,7 @@ Eigen::Vector3f World::linear_velocity(BodyId id) const {
 }
 
 void World::set_linear_velocity(BodyId id, const Eigen::Vector3f& velocity) {
+  const FloatEnvironment environment;
   assert(contains(id));
   state_->bodies.set_linear_velocity(id.index, velocity);
 }
