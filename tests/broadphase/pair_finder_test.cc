@@ -1,0 +1,235 @@
+// A finder that is used again and again finds what a new one does.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+
+#include "broadphase/sweep_order.h"
+#include "carom/kernel/thread_arena.h"
+#include "tests/broadphase/boxes.h"
+
+namespace carom::test {
+namespace {
+
+// Boxes that drift, jump, come and go.
+class Crowd {
+ public:
+  Crowd(size_t count, uint64_t seed) : maker_(seed), boxes_(make_boxes(BoxFamily::random, count)) {}
+
+  const Boxes& boxes() const { return boxes_; }
+
+  void drift(double distance) {
+    for (TestBox& box : boxes_) move(box, distance);
+  }
+
+  void jump(double share) {
+    for (TestBox& box : boxes_) {
+      if (maker_.random().chance(share)) box = maker_.in_cube(side_for(boxes_.size()));
+    }
+  }
+
+  void appear(size_t count) {
+    for (size_t i = 0; i < count; ++i) boxes_.push_back(maker_.in_cube(side_for(boxes_.size())));
+  }
+
+  void shrink(size_t count) { boxes_.resize(boxes_.size() - std::min(count, boxes_.size())); }
+
+  // Some turn empty or NaN, others take part again.
+  void spoil(double share) {
+    for (TestBox& box : boxes_) {
+      if (!maker_.random().chance(share)) continue;
+      box = maker_.random().chance(0.5) ? maker_.spoilt(box)
+                                        : maker_.in_cube(side_for(boxes_.size()));
+    }
+  }
+
+  // One out, another in: as many as before.
+  void replace() {
+    if (boxes_.size() < 2) return;
+    TestBox& out = boxes_[maker_.random().below(boxes_.size())];
+    out = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+    boxes_[maker_.random().below(boxes_.size())] = maker_.in_cube(side_for(boxes_.size()));
+  }
+
+  // Everything turns, so that another axis has the largest spread.
+  void stretch(int axis) {
+    for (TestBox& box : boxes_) {
+      box.lower[axis] *= 4;
+      box.upper[axis] *= 4;
+    }
+  }
+
+ private:
+  void move(TestBox& box, double distance) {
+    for (int i = 0; i < 3; ++i) {
+      const float way = maker_.uniform(-distance, distance);
+      box.lower[i] += way;
+      box.upper[i] += way;
+    }
+  }
+
+  BoxMaker maker_;
+  Boxes boxes_;
+};
+
+void expect_as_if_new(PairFinder& finder, const Boxes& boxes, BroadphaseMethod method,
+                      Parallelism parallelism = Parallelism::none) {
+  const std::vector<Pair> got = found_pairs(finder, boxes, method, {}, parallelism);
+  const std::vector<Pair> expected = plain_pairs(boxes);
+  ASSERT_TRUE(got == expected) << difference(got, expected, boxes);
+}
+
+TEST(PairFinder, RepairsItsOrder) {
+  for (const double distance : {0.0, 1e-3, 0.05, 0.5, 5.0}) {
+    Crowd crowd(400, 1);
+    PairFinder finder;
+    for (int frame = 0; frame < 60; ++frame) {
+      if (frame % 10 == 3) crowd.replace();
+      if (frame % 10 == 5) crowd.appear(3);
+      if (frame % 10 == 7) crowd.shrink(4);
+      if (frame % 20 == 9) crowd.stretch(frame / 20);
+      crowd.drift(distance);
+      expect_as_if_new(finder, crowd.boxes(), BroadphaseMethod::sweep);
+    }
+  }
+}
+
+RC_GTEST_PROP(PairFinder, ForgetsNothingAndRemembersNothing,
+              (const std::vector<uint8_t>& changes, uint64_t seed)) {
+  Crowd crowd(seed % 200, seed);
+  PairFinder finder;
+  for (const uint8_t change : changes) {
+    switch (change % 10) {
+      case 0:
+        crowd.drift(0.01);
+        break;
+      case 1:
+        crowd.drift(2);
+        break;
+      case 2:
+        crowd.jump(0.1);
+        break;
+      case 3:
+        crowd.appear(change);
+        break;
+      case 4:
+        crowd.shrink(change);
+        break;
+      case 5:
+        crowd.spoil(0.2);
+        break;
+      case 6:
+        crowd.replace();
+        break;
+      case 7:
+        crowd.stretch(change % 3);
+        break;
+      case 8:
+        finder.forget();
+        break;
+      default:
+        finder = PairFinder(std::move(finder));
+    }
+    const BroadphaseMethod method = kAllMethods[change / 10 % 3];
+    RC_ASSERT(found_pairs(finder, crowd.boxes(), method) == plain_pairs(crowd.boxes()));
+  }
+}
+
+TEST(PairFinder, IsTheSameOnThreadsOverManyFrames) {
+  Crowd crowd(20000, 2);
+  ThreadArena arena(4);
+  arena.run([&] {
+    PairFinder one, four;
+    for (int frame = 0; frame < 8; ++frame) {
+      crowd.drift(frame % 3 == 2 ? 3 : 0.02);
+      if (frame == 4) crowd.appear(100);
+      EXPECT_TRUE(
+          found_pairs(one, crowd.boxes(), BroadphaseMethod::sweep) ==
+          found_pairs(four, crowd.boxes(), BroadphaseMethod::sweep, {}, Parallelism::arena));
+    }
+  });
+}
+
+TEST(PairFinder, SaysWhichMethodRan) {
+  PairFinder finder;
+  EXPECT_EQ(finder.last_method(), BroadphaseMethod::automatic);
+  const Boxes few = make_boxes(BoxFamily::random, 10);
+  const Boxes many = make_boxes(BoxFamily::random, 1000);
+  found_pairs(finder, few, BroadphaseMethod::automatic);
+  EXPECT_EQ(finder.last_method(), BroadphaseMethod::brute);
+  found_pairs(finder, many, BroadphaseMethod::automatic);
+  EXPECT_EQ(finder.last_method(), BroadphaseMethod::sweep);
+  found_pairs(finder, few, BroadphaseMethod::sweep);
+  EXPECT_EQ(finder.last_method(), BroadphaseMethod::sweep);
+  found_pairs(finder, many, BroadphaseMethod::brute);
+  EXPECT_EQ(finder.last_method(), BroadphaseMethod::brute);
+}
+
+TEST(PairFinder, KeepsItsMemory) {
+  PairFinder finder;
+  const size_t none = finder.bytes();
+  const Boxes boxes = make_boxes(BoxFamily::random, 1000);
+  found_pairs(finder, boxes, BroadphaseMethod::sweep);
+  const size_t used = finder.bytes();
+  EXPECT_GT(used, none + 1000 * sizeof(TestBox));
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    found_pairs(finder, boxes, BroadphaseMethod::sweep);
+    EXPECT_EQ(finder.bytes(), used);
+  }
+  finder.forget();
+  EXPECT_EQ(finder.bytes(), used);
+  expect_as_if_new(finder, boxes, BroadphaseMethod::sweep);
+}
+
+// --- The order ---
+
+TEST(SweepOrder, IsByLowerCornerThenIndex) {
+  SweepOrder sweep;
+  std::vector<uint32_t> order;
+  Crowd crowd(300, 3);
+  for (int frame = 0; frame < 30; ++frame) {
+    if (frame % 3 == 0) crowd.spoil(0.1);
+    if (frame % 5 == 1) crowd.appear(5);
+    crowd.drift(0.1);
+    Boxes boxes = crowd.boxes();
+    for (TestBox& box : boxes) {
+      if (frame % 2 == 0) box.lower[0] = std::floor(box.lower[0]);  // ties
+      if (box.lower[0] == 0 && frame % 4 == 0) box.lower[0] = -0.0f;
+    }
+    const LaidOutBoxes memory(boxes);
+    sweep.update(memory.view(), 0, Parallelism::none, order);
+
+    std::vector<uint32_t> expected;
+    for (uint32_t i = 0; i < boxes.size(); ++i) {
+      if (overlap(boxes[i], boxes[i])) expected.push_back(i);
+    }
+    std::stable_sort(expected.begin(), expected.end(),
+                     [&](uint32_t x, uint32_t y) { return boxes[x].lower[0] < boxes[y].lower[0]; });
+    ASSERT_EQ(order, expected) << "frame " << frame;
+  }
+}
+
+TEST(SweepOrder, AxisOfLargestSpread) {
+  const auto axis_of = [](const Boxes& boxes) {
+    return axis_of_largest_spread(LaidOutBoxes(boxes).view());
+  };
+  EXPECT_EQ(axis_of({}), 0u);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const size_t count : {2, 300, 9000}) {
+      Boxes boxes = make_boxes(BoxFamily::random, count);
+      for (TestBox& box : boxes) {
+        box.lower[axis] *= 100;
+        box.upper[axis] *= 100;
+      }
+      EXPECT_EQ(axis_of(boxes), static_cast<size_t>(axis));
+    }
+  }
+  // Of equals the first; neither infinities nor boxes that take no part get in the way.
+  EXPECT_EQ(axis_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 1, 1}, {2, 2, 2}}}), 0u);
+  EXPECT_EQ(axis_of({{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 1}, {1, 9, 9}}, {{kNan, 0, 99}, {0, 0, 99}}}),
+            1u);
+  EXPECT_EQ(axis_of({{{-kInfinity, 0, 0}, {1, 1, 1}}, {{-kInfinity, 0, 1}, {1, 9, 9}}}), 2u);
+}
+
+}  // namespace
+}  // namespace carom::test

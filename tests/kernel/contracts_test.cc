@@ -1,0 +1,85 @@
+// The small types that everything is made of.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "carom/kernel/body.h"
+#include "carom/kernel/contact.h"
+#include "carom/kernel/event.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/result.h"
+#include "carom/kernel/shape.h"
+#include "kernel/body_reader.h"
+#include "tests/support/layouts.h"
+
+namespace carom::test {
+namespace {
+
+TEST(ShapeKind, HasANameForEveryCode) {
+  const char* const names[] = {"sphere", "capsule", "aabb",     "box",      "dop",
+                               "hull",   "mesh",    "compound", "halfspace"};
+  for (int code = 0; code < kShapeKindCount; ++code) {
+    EXPECT_STREQ(carom::name(static_cast<ShapeKind>(code)), names[code]);
+  }
+  for (int code = kShapeKindCount; code < 256; ++code) {
+    EXPECT_STREQ(carom::name(static_cast<ShapeKind>(code)), "unknown");
+  }
+}
+
+TEST(Aabb, FromHalfExtentsIsCentred) {
+  const Aabb box = Aabb::from_half_extents({1, 2, 3});
+  EXPECT_EQ(box.lower, Eigen::Vector3f(-1, -2, -3));
+  EXPECT_EQ(box.upper, Eigen::Vector3f(1, 2, 3));
+}
+
+TEST(Pair, OrdersLikeItsKey) {
+  const Pair pairs[] = {{0, 0}, {0, 1}, {0, 0xffffffffu}, {1, 0}, {0xffffffffu, 2}};
+  for (const Pair& x : pairs) {
+    for (const Pair& y : pairs) EXPECT_EQ(x < y, pair_key(x) < pair_key(y));
+  }
+}
+
+TEST(BodyId, OfNobodyEqualsNoOther) {
+  EXPECT_NE(BodyId{}, (BodyId{0, 0}));
+  EXPECT_NE((BodyId{1, 0}), (BodyId{1, 1}));
+  EXPECT_LT((BodyId{1, 9}), (BodyId{2, 0}));
+}
+
+TEST(Result, HoldsAValueOrAReason) {
+  Result<std::string> value(std::string("yes"));
+  ASSERT_TRUE(value);
+  EXPECT_EQ(*value, "yes");
+  EXPECT_EQ(value->size(), 3u);
+  const Result<std::string> none(Error{"no"});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, "no");
+  EXPECT_TRUE(Result<void>());
+  EXPECT_EQ(Result<void>(Error{"no"}).error().message, "no");
+}
+
+// The rule of what is valid is that of the reference, in every layout.
+TEST(BodyReader, ReadsWhatWasWritten) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<PlacedShape> bodies = {sphere(1, 2, 3, 4),         sphere(nan, 0, 0, 1),
+                                           sphere(0, 0, 0, -1),        box({1, 2, 3}, {4, 5, 6}),
+                                           box({0, 0, 0}, {1, -1, 1}), sphere(1e38, 0, 0, 0)};
+  for (const PositionType positions : kPositionTypes) {
+    for (const bool slots : {false, true}) {
+      const LaidOut set(bodies, {.positions = positions, .stride = 40, .box_slots = slots});
+      const BodyReader reader{set.view()};
+      for (size_t i = 0; i < bodies.size(); ++i) {
+        EXPECT_EQ(reader.kind(i), kind_of(bodies[i].shape));
+        EXPECT_EQ(reader.is_valid(i),
+                  reference::is_valid(bodies[i].shape, bodies[i].position, positions));
+      }
+      EXPECT_EQ(reader.position<double>(0).z, 3);
+      EXPECT_EQ(reader.radius(0), 4);
+      EXPECT_EQ(reader.lower(1, 3), -5);
+      EXPECT_EQ(reader.upper(2, 3), 6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

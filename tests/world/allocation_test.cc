@@ -1,0 +1,168 @@
+// A step like the last one allocates nothing: malloc itself is counted, and all that comes to it.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "tests/world/crowds.h"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define CAROM_TEST_OTHER_MALLOC
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define CAROM_TEST_OTHER_MALLOC
+#endif
+
+namespace {
+
+thread_local size_t allocations = 0;
+
+}  // namespace
+
+#if !defined(CAROM_TEST_OTHER_MALLOC)
+// The names under which glibc lets its own functions be called by those that replace them.
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* old, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+void* malloc(size_t size) noexcept {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(size_t count, size_t size) noexcept {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, size_t size) noexcept {
+  ++allocations;
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) noexcept {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+#endif
+
+namespace carom::test {
+namespace {
+
+class Allocations : public ::testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(CAROM_TEST_OTHER_MALLOC)
+    GTEST_SKIP() << "malloc is not ours to count";
+#endif
+  }
+};
+
+// Bodies that go round in circles: every fourth step is the same.
+class Carousel {
+ public:
+  Carousel(const WorldSettings& settings, const CrowdSpec& spec)
+      : world_(settings), ids_(add_crowd(world_, spec)) {
+    for (const BodyId id : ids_) homes_.push_back(world_.position(id));
+  }
+
+  World& world() { return world_; }
+
+  void turn(size_t movers) {
+    constexpr double kWays[4][2] = {{0, 0}, {0.3, 0}, {0.3, 0.3}, {0, 0.3}};
+    const auto& way = kWays[turn_++ % 4];
+    for (size_t i = 0; i < movers; ++i) {
+      world_.set_position(ids_[i], homes_[i] + Eigen::Vector3d(way[0], way[1], 0));
+    }
+    world_.step();
+  }
+
+ private:
+  World world_;
+  std::vector<BodyId> ids_;
+  std::vector<Eigen::Vector3d> homes_;
+  size_t turn_ = 0;
+};
+
+// `rest`: every second round nothing moves.
+void expect_no_allocations(const WorldSettings& settings, const CrowdSpec& spec, size_t movers,
+                           bool rest = false) {
+  Carousel carousel(settings, spec);
+  const auto round = [&] {
+    for (int i = 0; i < 4; ++i) carousel.turn(movers);
+    if (rest) carousel.world().step();
+  };
+  for (int i = 0; i < 4; ++i) round();
+  const size_t bytes = carousel.world().bytes();
+  const size_t before = allocations;
+  for (int i = 0; i < 10; ++i) round();
+  EXPECT_EQ(allocations - before, 0u) << spec.count << " bodies, " << movers << " of them moving";
+  EXPECT_EQ(carousel.world().bytes(), bytes);
+  EXPECT_GT(carousel.world().report().pairs, 0u);
+}
+
+TEST_F(Allocations, AreCounted) {
+  const size_t before = allocations;
+  const auto many = std::make_unique<std::array<double, 99>>();
+  std::vector<Pair> more(many->size());
+  EXPECT_GE(allocations - before, 2u);
+  const size_t aligned = allocations;
+  struct alignas(64) Line {
+    char bytes[64];
+  };
+  const auto line = std::make_unique<Line>();
+  EXPECT_EQ(allocations - aligned, 1u);
+}
+
+TEST_F(Allocations, NoneInAStillWorld) {
+  expect_no_allocations({}, {.filters = true, .velocities = true}, 0);
+}
+
+TEST_F(Allocations, NoneWithMovingBodies) {
+  for (const size_t movers : {1, 40, 400}) {
+    expect_no_allocations({}, {}, movers);
+    expect_no_allocations({}, {.boxes = false}, movers, true);
+    expect_no_allocations({}, {.filters = true, .velocities = true}, movers, true);
+    expect_no_allocations({.positions = PositionType::float64}, {.filters = true}, movers);
+  }
+}
+
+TEST_F(Allocations, NoneInAWorldOfManyBlocks) {
+  expect_no_allocations({}, {.count = 9000, .side = 20}, 900, true);
+  expect_no_allocations({}, {.count = 9000, .side = 20}, 9000);
+}
+
+TEST_F(Allocations, NoneWithOtherSettings) {
+  const CrowdSpec spec{.filters = true, .velocities = true};
+  expect_no_allocations({.detail = Detail::pairs}, spec, 100);
+  expect_no_allocations({.detail = Detail::overlap}, spec, 100);
+  expect_no_allocations({.broadphase = BroadphaseMethod::brute}, spec, 100);
+  expect_no_allocations({.events = false}, spec, 100);
+  expect_no_allocations({.carry_results = false}, spec, 400);
+  expect_no_allocations({}, {.count = 60, .side = 3}, 60, true);
+}
+
+// Bodies fail, recover, go and are replaced.
+TEST_F(Allocations, NoneWhenBodiesAreReplacedOrSpoilt) {
+  World world;
+  std::vector<BodyId> ids = add_crowd(world, {});
+  const std::vector<BodyDesc> crowd = make_crowd({});
+  const auto round = [&] {
+    for (const double x : {std::nan(""), 1.0}) {
+      world.set_position(ids[3], {x, 1, 1});
+      world.remove(ids[5]);
+      ids[5] = world.add(crowd[5]);
+      world.step();
+    }
+  };
+  for (int i = 0; i < 4; ++i) round();
+  const size_t before = allocations;
+  for (int i = 0; i < 10; ++i) round();
+  EXPECT_EQ(allocations - before, 0u);
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,133 @@
+// A world runs and holds only what its bodies and settings need.
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+
+#include "tests/world/crowds.h"
+
+namespace carom::test {
+namespace {
+
+std::string stages_run(const StepReport& report) {
+  std::string text;
+  for (int i = 0; i < kStageCount; ++i) {
+    const auto stage = static_cast<Stage>(i);
+    if (report.ran(stage)) text += (text.empty() ? "" : " ") + std::string(name(stage));
+  }
+  return text;
+}
+
+std::string first_step(const WorldSettings& settings, const CrowdSpec& spec) {
+  World world(settings);
+  add_crowd(world, spec);
+  const StepReport& report = world.step();
+  for (int i = 0; i < kStageCount; ++i) {
+    if (!report.ran(static_cast<Stage>(i))) {
+      EXPECT_EQ(report.stage_ns[i], 0u);
+    }
+  }
+  return stages_run(report);
+}
+
+TEST(PayForUse, StagesThatRun) {
+  WorldSettings settings;
+  EXPECT_EQ(first_step(settings, {}), "changes bounds broadphase pairs narrowphase results events");
+  EXPECT_EQ(first_step(settings, {.velocities = true}),
+            "changes bounds broadphase pairs narrowphase results velocities events");
+  settings.events = false;
+  EXPECT_EQ(first_step(settings, {}), "changes bounds broadphase pairs narrowphase results");
+  settings.carry_results = false;
+  EXPECT_EQ(first_step(settings, {}), "bounds broadphase pairs narrowphase results");
+  settings.detail = Detail::pairs;
+  EXPECT_EQ(first_step(settings, {.velocities = true}), "bounds broadphase");
+  settings = {};
+  settings.detail = Detail::pairs;
+  EXPECT_EQ(first_step(settings, {.velocities = true}), "bounds broadphase");
+}
+
+TEST(PayForUse, DetailDecidesWhatThereIs) {
+  for (const bool filters : {false, true}) {
+    World worlds[] = {World({.detail = Detail::pairs}), World({.detail = Detail::overlap}),
+                      World({.detail = Detail::contact})};
+    for (World& world : worlds) {
+      add_crowd(world, {.filters = filters});
+      world.step();
+    }
+    EXPECT_GT(worlds[2].contacts().size(), 0u);
+    EXPECT_EQ(as_bytes(worlds[0].pairs()), as_bytes(worlds[2].pairs()));
+    EXPECT_EQ(as_bytes(worlds[1].pairs()), as_bytes(worlds[2].pairs()));
+    EXPECT_EQ(as_bytes(worlds[1].overlaps()), as_bytes(worlds[2].overlaps()));
+    EXPECT_TRUE(worlds[0].overlaps().empty());
+    EXPECT_TRUE(worlds[0].contacts().empty());
+    EXPECT_TRUE(worlds[0].events().empty());
+    EXPECT_EQ(worlds[0].report().tested, 0u);
+    EXPECT_TRUE(worlds[1].contacts().empty());
+    EXPECT_EQ(worlds[1].report().overlaps, worlds[2].report().overlaps);
+    EXPECT_EQ(worlds[1].events().size(), worlds[2].events().size());
+    EXPECT_LT(worlds[0].bytes(), worlds[1].bytes());
+    EXPECT_LT(worlds[1].bytes(), worlds[2].bytes());
+  }
+}
+
+size_t bytes_with(const BodyDesc& last) {
+  World world;
+  for (int i = 0; i < 1000; ++i) world.add({.shape = Sphere{0.5f}, .position = {2.0 * i, 0, 0}});
+  world.add(last);
+  return world.bytes();
+}
+
+// Every property costs memory from the first body on that uses it.
+TEST(PayForUse, ColumnsThatNobodyNeedsDoNotExist) {
+  const size_t plain = bytes_with({});
+  EXPECT_EQ(bytes_with({.position = {1, 2, 3}}), plain);
+  const auto grows_by = [&](const BodyDesc& body) { return bytes_with(body) - plain; };
+  EXPECT_GE(grows_by({.shape = Aabb{}}), 1000 * sizeof(uint32_t));
+  EXPECT_GE(grows_by({.linear_velocity = {1, 0, 0}}), 1000 * sizeof(Eigen::Vector3f));
+  EXPECT_GE(grows_by({.motion = Motion::fixed}), 1000 * sizeof(Motion));
+  EXPECT_GE(grows_by({.layer = 1}), 2 * 1000 * sizeof(uint32_t));
+  EXPECT_GE(grows_by({.mask = 1}), 2 * 1000 * sizeof(uint32_t));
+  EXPECT_GE(grows_by({.owner = 1}), 1000 * sizeof(uint32_t));
+  EXPECT_GE(grows_by({.sensor = true}), 1000u);
+  EXPECT_GE(grows_by({.user = 1}), 1000 * sizeof(uint64_t));
+}
+
+// After some steps in which everything moved.
+size_t bytes_in_use(const WorldSettings& settings) {
+  World world(settings);
+  const std::vector<BodyId> ids = add_crowd(world, {});
+  const std::vector<BodyDesc> homes = make_crowd({});
+  for (int i = 0; i < 6; ++i) {
+    for (size_t k = 0; k < ids.size(); ++k) {
+      world.set_position(ids[k], homes[k].position + Eigen::Vector3d(i % 2, 0, 0));
+    }
+    world.step();
+  }
+  return world.bytes();
+}
+
+TEST(PayForUse, WithoutCarryingOrEventsThereIsLessMemory) {
+  const size_t all = bytes_in_use({});
+  EXPECT_LT(bytes_in_use({.events = false}), all);
+  EXPECT_LT(bytes_in_use({.carry_results = false}), all);
+}
+
+// Nobody asks for the last step's pairs then.
+TEST(PayForUse, WithoutCarryingAndEventsTheLastStepIsNotKept) {
+  for (const Detail detail : {Detail::pairs, Detail::overlap, Detail::contact}) {
+    World world({.detail = detail, .events = false, .carry_results = false});
+    add_crowd(world, {});
+    world.step();
+    const size_t bytes = world.bytes();
+    for (int i = 0; i < 3; ++i) world.step();
+    EXPECT_EQ(world.bytes(), bytes);
+  }
+}
+
+TEST(PayForUse, Float64CostsTwiceTheRecords) {
+  World narrow, wide({.positions = PositionType::float64});
+  for (World* world : {&narrow, &wide}) add_crowd(*world, {.boxes = false});
+  EXPECT_GE(wide.bytes() - narrow.bytes(), 400 * 4 * (sizeof(double) - sizeof(float)));
+}
+
+}  // namespace
+}  // namespace carom::test

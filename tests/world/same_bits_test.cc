@@ -1,0 +1,159 @@
+// One history of a world, many circumstances: the same bytes after every step.
+#include <gtest/gtest.h>
+
+#include "carom/kernel/thread_arena.h"
+#include "tests/support/float_modes.h"
+#include "tests/support/isas.h"
+#include "tests/world/crowds.h"
+
+namespace carom::test {
+namespace {
+
+constexpr CrowdSpec kCrowd{.count = 1500, .side = 11, .filters = true, .velocities = true};
+
+// Bodies move, come, go and fail.
+std::vector<Results> history(const WorldSettings& settings, const CrowdSpec& spec = kCrowd,
+                             const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
+  World world(settings);
+  std::vector<BodyDesc> crowd = make_crowd(spec);
+  for (BodyDesc& body : crowd) body.position += shift;
+  std::vector<BodyId> ids;
+  world.add(crowd, ids);
+  Random random(3);
+  std::vector<Results> all;
+  for (int frame = 0; frame < 8; ++frame) {
+    world.step();
+    all.push_back(results(world));
+    if (frame == 2) continue;  // a still one
+    move_some(world, ids, frame == 5 ? 1 : 0.3, random);
+    for (int i = 0; i < 5; ++i) {
+      const size_t which = random.below(ids.size());
+      world.remove(ids[which]);
+      ids[which] = world.add(crowd[random.below(crowd.size())]);
+    }
+    world.set_shape(ids[random.below(ids.size())], Sphere{frame % 2 ? -1.0f : 0.5f});
+  }
+  return all;
+}
+
+void expect_equal(const std::vector<Results>& got, const std::vector<Results>& expected) {
+  ASSERT_EQ(got.size(), expected.size());
+  for (size_t i = 0; i < got.size(); ++i) {
+    EXPECT_EQ(got[i].pairs == expected[i].pairs, true) << "pairs of frame " << i;
+    EXPECT_EQ(got[i].overlaps == expected[i].overlaps, true) << "overlaps of frame " << i;
+    EXPECT_EQ(got[i].contacts == expected[i].contacts, true) << "contacts of frame " << i;
+    EXPECT_EQ(got[i].events == expected[i].events, true) << "events of frame " << i;
+    EXPECT_EQ(got[i].quarantined == expected[i].quarantined, true) << "frame " << i;
+  }
+}
+
+TEST(SameBits, OnEveryIsa) {
+  for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
+    const WorldSettings settings{.positions = positions};
+    const std::vector<Results> expected = history(settings);
+    EXPECT_GT(expected[0].contacts.size(), 100 * sizeof(Contact));
+    for_each_isa([&] { expect_equal(history(settings), expected); });
+  }
+}
+
+TEST(SameBits, WithEveryBroadphase) {
+  const std::vector<Results> expected = history({});
+  for (const BroadphaseMethod method : {BroadphaseMethod::brute, BroadphaseMethod::sweep}) {
+    expect_equal(history({.broadphase = method}), expected);
+  }
+}
+
+TEST(SameBits, OnAnyNumberOfThreads) {
+  CrowdSpec many = kCrowd;
+  many.count = 12000;
+  many.side = 22;
+  const std::vector<Results> expected = history({.parallelism = Parallelism::none}, many);
+  for (const int threads : {1, 2, 4}) {
+    ThreadArena arena(threads);
+    arena.run([&] { expect_equal(history({.parallelism = arena.parallelism()}, many), expected); });
+  }
+}
+
+TEST(SameBits, InAnyFloatModeOfTheCaller) {
+  for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
+    const WorldSettings settings{.positions = positions};
+    const std::vector<Results> expected = history(settings);
+    for (const FloatMode& mode : float_modes()) {
+      SCOPED_TRACE(mode.name);
+      if ((mode.mxcsr & 0x6000) != 0) continue;  // the history itself would round otherwise
+      const ScopedFloatMode scoped(mode);
+      expect_equal(history(settings), expected);
+    }
+  }
+}
+
+// Subnormal sizes and places, where flush-to-zero would change every result.
+TEST(SameBits, OfATinyWorldInAnyFloatMode) {
+  const auto contacts = [](const FloatMode& mode) {
+    World world;
+    for (int i = 0; i < 200; ++i) {
+      world.add({.shape = Sphere{static_cast<float>(i % 7) * 0x1p-149f},
+                 .position = {(i * 37 % 200) * 0x1p-147, (i % 3) * 0x1p-148, 0}});
+    }
+    const ScopedFloatMode scoped(mode);
+    world.step();
+    return results(world);
+  };
+  const Results expected = contacts(kDefaultMode);
+  EXPECT_GT(expected.contacts.size(), 50 * sizeof(Contact));
+  for (const FloatMode& mode : float_modes()) {
+    EXPECT_TRUE(contacts(mode) == expected) << mode.name;
+  }
+}
+
+TEST(SameBits, TheCallersFloatModeIsItsOwnAgain) {
+#if defined(__SSE2__)
+  for (const FloatMode& mode : float_modes()) {
+    World world;
+    add_crowd(world, {});
+    const ScopedFloatMode scoped(mode);
+    const unsigned before = _mm_getcsr();
+    world.step();
+    EXPECT_EQ(_mm_getcsr(), before) << mode.name;
+  }
+#endif
+}
+
+// Contacts are relative to the bodies: a float64 world may lie anywhere. Bounds are float32 and
+// coarser there, so that more pairs are tested.
+TEST(SameBits, FarFromTheOriginInFloat64) {
+  const WorldSettings settings{.positions = PositionType::float64};
+  const std::vector<Results> near = history(settings);
+  for (const Eigen::Vector3d& shift :
+       {Eigen::Vector3d(0x1p30, 0x1p30, 0x1p30), Eigen::Vector3d(-0x1p30, 0, 0x1p24)}) {
+    const std::vector<Results> far = history(settings, kCrowd, shift);
+    for (size_t i = 0; i < near.size(); ++i) {
+      EXPECT_EQ(far[i].contacts == near[i].contacts, true) << "contacts of frame " << i;
+      EXPECT_EQ(far[i].events == near[i].events, true) << "events of frame " << i;
+      EXPECT_GE(far[i].pairs.size(), near[i].pairs.size());
+    }
+  }
+}
+
+TEST(SameBits, OfTwoWorldsThatGotThereDifferently) {
+  World warm, cold;
+  const CrowdSpec spec{.filters = true};
+  const std::vector<BodyId> ids = add_crowd(warm, spec);
+  Random random(2);
+  for (int frame = 0; frame < 20; ++frame) {
+    warm.step();
+    move_some(warm, ids, 0.5, random);
+  }
+  std::vector<BodyDesc> bodies = make_crowd(spec);
+  std::vector<BodyId> same;
+  for (size_t i = 0; i < ids.size(); ++i) bodies[i].position = warm.position(ids[i]);
+  cold.add(bodies, same);
+  warm.step();
+  cold.step();
+  EXPECT_TRUE(as_bytes(warm.pairs()) == as_bytes(cold.pairs()));
+  EXPECT_TRUE(as_bytes(warm.overlaps()) == as_bytes(cold.overlaps()));
+  EXPECT_TRUE(as_bytes(warm.contacts()) == as_bytes(cold.contacts()));
+}
+
+}  // namespace
+}  // namespace carom::test
