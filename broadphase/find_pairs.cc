@@ -100,8 +100,7 @@ void PairFinder::find(const BoundsView& bounds, const PairFilter& filter, std::v
                       BroadphaseMethod method, Parallelism parallelism) {
   const FloatEnvironment environment;
   if (method == BroadphaseMethod::automatic) {
-    method =
-        bounds.count <= kBruteForceLimit ? BroadphaseMethod::brute : BroadphaseMethod::sweep;
+    method = bounds.count <= kBruteForceLimit ? BroadphaseMethod::brute : BroadphaseMethod::sweep;
   }
   state_->last_method = method;
   state_->find(bounds, filter, out, method, parallelism);

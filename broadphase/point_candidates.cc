@@ -56,18 +56,18 @@ std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t s
 
   BlockLists<Pair> found;
   found.reset(block_count(bounds.count, kBoxesPerBlock));
-  for_each_block(bounds.count, kBoxesPerBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   CandidateSink sink(points, found[block]);
-                   const auto first = points.lower[0].begin();
-                   for (size_t i = begin; i < end; ++i) {
-                     if (!takes_part(bounds, i)) continue;
-                     const Box box = turned_box(bounds, i, axis);
-                     const auto row = std::lower_bound(
-                         first, first + static_cast<ptrdiff_t>(points.count), box.lower[0]);
-                     sweep_box(points, box, i, static_cast<size_t>(row - first), sink);
-                   }
-                 });
+  for_each_block(
+      bounds.count, kBoxesPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
+        CandidateSink sink(points, found[block]);
+        const auto first = points.lower[0].begin();
+        for (size_t i = begin; i < end; ++i) {
+          if (!takes_part(bounds, i)) continue;
+          const Box box = turned_box(bounds, i, axis);
+          const auto row =
+              std::lower_bound(first, first + static_cast<ptrdiff_t>(points.count), box.lower[0]);
+          sweep_box(points, box, i, static_cast<size_t>(row - first), sink);
+        }
+      });
   std::vector<Pair> pairs;
   PairSorter().sort(found, count, parallelism, pairs);
   return pairs;

@@ -19,8 +19,8 @@ bool by_second(const Pair& x, const Pair& y) { return x.b < y.b; }
 
 // Pairs of one bucket, from `in` to `out`: by counting on a, then by b within equal a. Few pairs
 // share an a, mostly.
-void sort_bucket(const Pair* in, size_t count, uint32_t* counts, uint32_t first_body,
-                 size_t bodies, Pair* out) {
+void sort_bucket(const Pair* in, size_t count, uint32_t* counts, uint32_t first_body, size_t bodies,
+                 Pair* out) {
   std::fill_n(counts, bodies, 0u);
   for (size_t i = 0; i < count; ++i) ++counts[in[i].a - first_body];
   uint32_t offset = 0;

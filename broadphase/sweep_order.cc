@@ -88,8 +88,7 @@ void SweepOrder::update(const BoundsView& bounds, size_t axis, Parallelism paral
 
 // Last call's order with this call's keys, sorted by insertion; false if that is not worth it:
 // boxes came or went, or moved past too many others.
-bool SweepOrder::repair(const BoundsView& bounds, size_t axis,
-                        const std::vector<uint32_t>& order) {
+bool SweepOrder::repair(const BoundsView& bounds, size_t axis, const std::vector<uint32_t>& order) {
   constexpr size_t kMovesPerBox = 4;  // beyond, three radix passes are cheaper
   size_t present = 0;
   for (size_t i = 0; i < bounds.count; ++i) present += takes_part(bounds, i);

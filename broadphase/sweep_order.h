@@ -17,8 +17,8 @@ size_t axis_of_largest_spread(const BoundsView& bounds);
 // order was before, on the way it was repaired, or on threads.
 class SweepOrder {
  public:
-  // Writes the indices of all boxes that take part to `order`, sorted along `axis`. `order` comes in
-  // as the last call left it, and is repaired if that was on the same axis.
+  // Writes the indices of all boxes that take part to `order`, sorted along `axis`. `order` comes
+  // in as the last call left it, and is repaired if that was on the same axis.
   void update(const BoundsView& bounds, size_t axis, Parallelism parallelism,
               std::vector<uint32_t>& order);
 

@@ -210,8 +210,7 @@ size_t any_bounds(const Collidables& bodies, const BoundsColumns& out, size_t be
   return CAROM_DISPATCH(column_bounds)(columns, out, begin, end);
 }
 
-size_t block_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin,
-                    size_t end) {
+size_t block_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin, size_t end) {
   if (bodies.position.type == PositionType::float64) return single_bounds(bodies, out, begin, end);
   const size_t whole = end - (end - begin) % CAROM_DISPATCH(lane_count)();
   const size_t valid = are_packed_spheres(bodies)
@@ -225,10 +224,9 @@ size_t block_bounds(const Collidables& bodies, const BoundsColumns& out, size_t 
 size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
                       Parallelism parallelism) {
   std::atomic<size_t> valid{0};
-  for_each_block(bodies.count, kBodiesPerBlock, parallelism,
-                 [&](size_t, size_t begin, size_t end) {
-                   valid += block_bounds(bodies, out, begin, end);
-                 });
+  for_each_block(bodies.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+    valid += block_bounds(bodies, out, begin, end);
+  });
   return bodies.count - valid;
 }
 

@@ -28,8 +28,8 @@ struct AabbAabb {
                          hn::Ge(gap_if_above.y, gap_if_below.y),
                          hn::Ge(gap_if_above.z, gap_if_below.z)};
     const F3 gap = select(above, gap_if_above, gap_if_below);
-    const Mask overlapping = hn::And(hn::And(hn::Le(gap.x, splat(0)), hn::Le(gap.y, splat(0))),
-                                     hn::Le(gap.z, splat(0)));
+    const Mask overlapping =
+        hn::And(hn::And(hn::Le(gap.x, splat(0)), hn::Le(gap.y, splat(0))), hn::Le(gap.z, splat(0)));
     const F3 open = min(max(gap, splat3(0)), splat3(FLT_MAX));
     const Length apart = measure(open);
 
@@ -42,7 +42,8 @@ struct AabbAabb {
                            faces(gap.z, axis.z, overlapping)};
     // On axes where the boxes overlap, the middle of the overlap.
     const F3 middle = max(a.lower, b_lower) * splat(0.5f) + min(a.upper, b_upper) * splat(0.5f);
-    report(overlapping, no_lanes(), no_lanes(), hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
+    report(overlapping, no_lanes(), no_lanes(),
+           hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
            select(overlapping, signed_axis(axis, below), away),
            select(at_face, select(above, a.upper, a.lower), middle),
            select(at_face, select(above, b.lower, b.upper), middle - relative));

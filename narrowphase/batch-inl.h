@@ -19,8 +19,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "narrowphase/single_pair.h"
 #include "narrowphase/load-inl.h"
+#include "narrowphase/single_pair.h"
 #include "narrowphase/store-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,8 +31,7 @@ struct BatchLoop {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
 
-  static constexpr bool kHasBoxes =
-      std::is_same_v<A, BoxLanes> || std::is_same_v<B, BoxLanes>;
+  static constexpr bool kHasBoxes = std::is_same_v<A, BoxLanes> || std::is_same_v<B, BoxLanes>;
 
   static void run(const Batch& batch) {
     const size_t whole = batch.count - batch.count % kLanes;

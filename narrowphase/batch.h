@@ -12,9 +12,9 @@ namespace carom {
 
 // How the positions of both sides are stored.
 enum class PositionLayout : uint8_t {
-  none,      // both at the origin: boxes in world coordinates
-  records32, // x, y, z, w float32
-  records64, // x, y, z, w float64
+  none,       // both at the origin: boxes in world coordinates
+  records32,  // x, y, z, w float32
+  records64,  // x, y, z, w float64
 };
 
 // One side of the batch. Records and boxes as in Collidables, restricted to what kernels load.

@@ -244,7 +244,7 @@ ResultColumns from_row(const ResultColumns& columns, size_t row) {
   const auto shift3 = [&shift](const std::array<float*, 3>& c) -> std::array<float*, 3> {
     return {shift(c[0]), shift(c[1]), shift(c[2])};
   };
-  return {shift(columns.overlap),    shift(columns.status),    shift(columns.separation),
+  return {shift(columns.overlap), shift(columns.status),   shift(columns.separation),
           shift3(columns.normal), shift3(columns.point_a), shift3(columns.point_b)};
 }
 

@@ -16,8 +16,7 @@ struct PairKind {
 };
 
 inline constexpr std::array kPairKinds = {
-#define CAROM_PAIR(name, kind_a, kind_b) \
-  PairKind{ShapeKind::kind_a, ShapeKind::kind_b, run_##name},
+#define CAROM_PAIR(name, kind_a, kind_b) PairKind{ShapeKind::kind_a, ShapeKind::kind_b, run_##name},
 #include "narrowphase/pair_list.inc"
 #undef CAROM_PAIR
 };

@@ -38,8 +38,8 @@ float gap(double distance_squared, double reach) {
   return difference > 0 ? std::max(rounded, std::numeric_limits<float>::denorm_min()) : rounded;
 }
 
-float sphere_box_separation(const BodyReader& box, size_t box_index,
-                            const Position<double>& centre, float radius) {
+float sphere_box_separation(const BodyReader& box, size_t box_index, const Position<double>& centre,
+                            float radius) {
   const double p[3] = {centre.x, centre.y, centre.z};
   double delta[3];
   double way_out = std::numeric_limits<double>::infinity();

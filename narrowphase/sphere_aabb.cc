@@ -25,8 +25,8 @@ struct SphereAabb {
     const Length outside = measure(clamp_to_finite(nearest - centre));
     const Mask inside = outside.is_zero;
 
-    // A centre inside the box leaves by the nearest face: ties go to the first axis and to its lower
-    // side. The normal points into the box, against the way out.
+    // A centre inside the box leaves by the nearest face: ties go to the first axis and to its
+    // lower side. The normal points into the box, against the way out.
     const F3 below = centre - box.lower;
     const F3 above = box.upper - centre;
     const F3 way_out = min(below, above);

@@ -56,11 +56,9 @@ inline Separation sphere_aabb(float radius, const Vector3f& lower, const Vector3
   const Vector3f delta = closest - centre;
 
   const Length distance = length_of(delta.unaryExpr(&clamp_to_finite));
-  Separation result =
-      distance.is_zero
-          ? sphere_inside_aabb(radius, lower, upper, centre, closest)
-          : Separation{distance.length - radius, distance.direction, radius * distance.direction,
-                       closest};
+  Separation result = distance.is_zero ? sphere_inside_aabb(radius, lower, upper, centre, closest)
+                                       : Separation{distance.length - radius, distance.direction,
+                                                    radius * distance.direction, closest};
   if (is_near_touch(result.separation, largest_component(d) + radius)) {
     result.separation = sphere_aabb_near_touch(radius, lower, upper, -exact_d);
   }

@@ -21,8 +21,8 @@ struct SphereSphere {
   static HWY_INLINE void test(const F3& relative, const A& a, const B& b, Report& report) {
     const Length distance = measure(relative);
     // The larger radius first: that difference is exact near touch (Sterbenz), and so is the next.
-    const F separation = hn::Sub(hn::Sub(distance.length, max(a.radius, b.radius)),
-                                 min(a.radius, b.radius));
+    const F separation =
+        hn::Sub(hn::Sub(distance.length, max(a.radius, b.radius)), min(a.radius, b.radius));
     // Coincident centres: every direction is as good, +x is the convention.
     const F3 normal =
         select(distance.is_zero, F3{splat(1), splat(0), splat(0)}, distance.direction);

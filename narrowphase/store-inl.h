@@ -20,9 +20,7 @@ HWY_INLINE I bytes_where(Mask mask, int32_t value) {
   return hn::And(hn::BitCast(tag, hn::VecFromMask(FloatTag(), mask)), hn::Set(tag, value));
 }
 
-HWY_INLINE void store(F v, float* column, size_t row) {
-  hn::StoreU(v, FloatTag(), column + row);
-}
+HWY_INLINE void store(F v, float* column, size_t row) { hn::StoreU(v, FloatTag(), column + row); }
 
 HWY_INLINE void store(const F3& v, const std::array<float*, 3>& columns, size_t row) {
   store(v.x, columns[0], row);

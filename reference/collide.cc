@@ -11,7 +11,8 @@
 namespace carom::reference {
 namespace {
 
-// One overload a pair of kinds; `d` is the position of B relative to A's, rounded to float32 and not.
+// One overload a pair of kinds; `d` is the position of B relative to A's, rounded to float32 and
+// not.
 Separation separation_of(const Sphere& a, const Sphere& b, const Vector3f& d,
                          const Vector3d& exact_d) {
   return sphere_sphere(a.radius, b.radius, d, exact_d);
@@ -40,11 +41,11 @@ template <class Real>
 Separation separation_at(const Shape& shape_a, const Eigen::Vector3<Real>& position_a,
                          const Shape& shape_b, const Eigen::Vector3<Real>& position_b) {
   const auto test = [&](const auto& a, const auto& b) {
-    const Vector3d exact_d = position_b.template cast<double>() - position_a.template cast<double>();
+    const Vector3d exact_d =
+        position_b.template cast<double>() - position_a.template cast<double>();
     if constexpr (std::is_same_v<decltype(a), const Aabb&> &&
                   std::is_same_v<decltype(b), const Sphere&>) {
-      return flipped(
-          separation_of(b, a, relative_position(position_b, position_a), -exact_d));
+      return flipped(separation_of(b, a, relative_position(position_b, position_a), -exact_d));
     } else {
       return separation_of(a, b, relative_position(position_a, position_b), exact_d);
     }

@@ -3,7 +3,7 @@
 
 // The ISAs that FORMATS names: emulated scalar, SSE4, AVX2, AVX-512, NEON. The others would add
 // compile time and no speed (SSSE3, the VNNI flavour of AVX-512) or have vectors of unknown length.
-#define HWY_DISABLED_TARGETS                                                                     \
+#define HWY_DISABLED_TARGETS \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 // The scalar target is one plain float a lane with every compiler: Highway's emulated 128-bit

@@ -45,19 +45,18 @@ void ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& l
   if (now.empty()) return;
   last.resize(now.size());  // new rows are touched, whatever their copy holds
   std::atomic<bool> any{false};
-  for_each_block(changed_.size(), kRowsPerBlock, parallelism,
-                 [&](size_t, size_t begin, size_t end) {
-                   uint64_t differences = 0;
-                   for (size_t i = begin; i < end; ++i) {
-                     const uint64_t bits = difference(&now[4 * i], &last[4 * i]);
-                     changed_[i] = bits != 0;
-                     differences |= bits;
-                   }
-                   if (differences == 0) return;
-                   std::copy(now.begin() + 4 * begin, now.begin() + 4 * end,
-                             last.begin() + 4 * begin);
-                   any = true;
-                 });
+  for_each_block(
+      changed_.size(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+        uint64_t differences = 0;
+        for (size_t i = begin; i < end; ++i) {
+          const uint64_t bits = difference(&now[4 * i], &last[4 * i]);
+          changed_[i] = bits != 0;
+          differences |= bits;
+        }
+        if (differences == 0) return;
+        std::copy(now.begin() + 4 * begin, now.begin() + 4 * end, last.begin() + 4 * begin);
+        any = true;
+      });
   if (any) all_unchanged_ = false;
 }
 

@@ -57,24 +57,22 @@ void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const Res
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
   std::atomic<size_t> overlaps{0};
   // First what every pair is, and how many contacts each block makes ...
-  for_each_block(pairs, kPairsPerMergeBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   size_t overlapping = 0;
-                   for (size_t i = begin; i < end; ++i) {
-                     const uint32_t row = plan.test_row(i);
-                     const bool overlap = row == CarryPlan::kCarried
-                                              ? last.overlaps[plan.last_index(i)]
-                                              : results.overlap(row);
-                     const Pair pair = now.pairs[i];
-                     const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
-                     now.overlaps[i] = overlap;
-                     now.contact[i] =
-                         overlap && sensor ? PairHistory::kSensor : PairHistory::kNone;
-                     overlapping += overlap;
-                     block_first_[block] += overlap && !sensor;
-                   }
-                   overlaps += overlapping;
-                 });
+  for_each_block(
+      pairs, kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
+        size_t overlapping = 0;
+        for (size_t i = begin; i < end; ++i) {
+          const uint32_t row = plan.test_row(i);
+          const bool overlap =
+              row == CarryPlan::kCarried ? last.overlaps[plan.last_index(i)] : results.overlap(row);
+          const Pair pair = now.pairs[i];
+          const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
+          now.overlaps[i] = overlap;
+          now.contact[i] = overlap && sensor ? PairHistory::kSensor : PairHistory::kNone;
+          overlapping += overlap;
+          block_first_[block] += overlap && !sensor;
+        }
+        overlaps += overlapping;
+      });
   overlaps_ = overlaps;
   now.contacts.clear();
   if (detail != Detail::contact) return;
@@ -89,10 +87,9 @@ void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const Res
                    for (size_t i = begin; i < end; ++i) {
                      if (!now.overlaps[i] || now.contact[i] == PairHistory::kSensor) continue;
                      const uint32_t row = plan.test_row(i);
-                     now.contacts[next] =
-                         row == CarryPlan::kCarried
-                             ? last.contacts[last.contact[plan.last_index(i)]]
-                             : results.contact(row, now.pairs[i]);
+                     now.contacts[next] = row == CarryPlan::kCarried
+                                              ? last.contacts[last.contact[plan.last_index(i)]]
+                                              : results.contact(row, now.pairs[i]);
                      now.contact[i] = static_cast<uint32_t>(next++);
                    }
                  });
@@ -100,15 +97,14 @@ void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const Res
 
 void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,
                            std::vector<Contact>& contacts) {
-  for_each_block(contacts.size(), kPairsPerMergeBlock, parallelism,
-                 [&](size_t, size_t begin, size_t end) {
-                   for (size_t i = begin; i < end; ++i) {
-                     Contact& c = contacts[i];
-                     const Eigen::Vector3f v = velocities[c.b] - velocities[c.a];
-                     c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) +
-                                         v.z() * c.normal.z();
-                   }
-                 });
+  for_each_block(
+      contacts.size(), kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+          Contact& c = contacts[i];
+          const Eigen::Vector3f v = velocities[c.b] - velocities[c.a];
+          c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();
+        }
+      });
 }
 
 }  // namespace carom

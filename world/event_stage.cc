@@ -21,13 +21,11 @@ void EventStage::run(const PairHistory& last, const PairHistory& now, const Body
                      Parallelism parallelism, std::vector<Event>& events) {
   const auto end = [&](std::vector<Event>& out, size_t i) {
     const Pair pair = last.pairs[i];
-    out.push_back(
-        make_event(EventKind::end, last_id(pair.a), last_id(pair.b), last.contact[i]));
+    out.push_back(make_event(EventKind::end, last_id(pair.a), last_id(pair.b), last.contact[i]));
   };
   const auto overlap = [&](std::vector<Event>& out, EventKind kind, size_t i) {
     const Pair pair = now.pairs[i];
-    out.push_back(
-        make_event(kind, bodies.id_of(pair.a), bodies.id_of(pair.b), now.contact[i]));
+    out.push_back(make_event(kind, bodies.id_of(pair.a), bodies.id_of(pair.b), now.contact[i]));
   };
   const auto is_same_body = [&](uint32_t index) {
     return index < generation_.size() && last_id(index) == bodies.id_of(index);

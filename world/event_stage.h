@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/kernel/parallelism.h"
 #include "carom/kernel/event.h"
+#include "carom/kernel/parallelism.h"
 #include "kernel/block_lists.h"
 #include "world/body_store.h"
 #include "world/pair_history.h"

@@ -17,8 +17,8 @@ size_t PairHistory::bytes() const {
          contact.capacity() * sizeof(uint32_t) + contacts.capacity() * sizeof(Contact);
 }
 
-MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now,
-                          size_t begin, size_t end) {
+MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,
+                          size_t end) {
   const auto place = [&](size_t i) -> size_t {
     return std::lower_bound(last.begin(), last.end(), now[i]) - last.begin();
   };

@@ -34,8 +34,8 @@ struct MergeRange {
   size_t begin;
   size_t end;
 };
-MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now,
-                          size_t begin, size_t end);
+MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,
+                          size_t end);
 
 // What is tested and what is carried over from the last step.
 class CarryPlan {

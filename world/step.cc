@@ -95,8 +95,7 @@ void World::State::find_quarantined() {
 
 void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
-  finder.find(bounds_view(), bodies.filter(), now.pairs, settings.broadphase,
-              settings.parallelism);
+  finder.find(bounds_view(), bodies.filter(), now.pairs, settings.broadphase, settings.parallelism);
 }
 
 void World::State::plan_tests() {

@@ -10,8 +10,7 @@ namespace carom {
 
 const char* name(Stage stage) {
   static constexpr std::array<const char*, kStageCount> kNames = {
-      "changes",  "bounds",     "broadphase", "pairs", "narrowphase",
-      "results",  "velocities", "events"};
+      "changes", "bounds", "broadphase", "pairs", "narrowphase", "results", "velocities", "events"};
   return kNames[static_cast<size_t>(stage)];
 }
 
@@ -63,8 +62,7 @@ void World::set_position(BodyId id, const Eigen::Vector3d& position) {
   state_->bodies.set_position(id.index, position);
 }
 
-void World::set_positions(std::span<const BodyId> ids,
-                          std::span<const Eigen::Vector3d> positions) {
+void World::set_positions(std::span<const BodyId> ids, std::span<const Eigen::Vector3d> positions) {
   assert(ids.size() == positions.size());
   for (size_t i = 0; i < ids.size(); ++i) set_position(ids[i], positions[i]);
 }
@@ -148,9 +146,7 @@ uint32_t World::box_slot(BodyId id) const {
   return state_->bodies.box_slot(id.index);
 }
 
-std::span<Eigen::Vector3f> World::linear_velocities() {
-  return state_->bodies.linear_velocities();
-}
+std::span<Eigen::Vector3f> World::linear_velocities() { return state_->bodies.linear_velocities(); }
 
 const StepReport& World::step() { return state_->step(); }
 

@@ -27,14 +27,14 @@ enum class PositionType : uint8_t { float32, float64 };
 // owner, and not both are fixed (static).
 struct BodyDesc {
   Shape shape = Sphere{};
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world frame, metres
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();         // world frame, metres
   Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();  // world frame, metres a second
   Motion motion = Motion::dynamic;
   uint32_t layer = 0xffffffffu;
   uint32_t mask = 0xffffffffu;
-  uint32_t owner = 0;     // 0: none
-  bool sensor = false;    // reports overlap and events, never contacts
-  uint64_t user = 0;      // handed back untouched
+  uint32_t owner = 0;   // 0: none
+  bool sensor = false;  // reports overlap and events, never contacts
+  uint64_t user = 0;    // handed back untouched
 };
 
 }  // namespace carom

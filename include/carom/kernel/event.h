@@ -22,7 +22,7 @@ struct Event {
   BodyId b;
   uint32_t contact;  // index into World::contacts(); kNoContact for ends, sensors, detail overlap
   EventKind kind;
-  bool sensor;  // one of the two is a sensor
+  bool sensor;            // one of the two is a sensor
   uint16_t reserved = 0;  // zero, so that events compare and hash as bytes
 };
 static_assert(sizeof(Event) == 24);

@@ -9,9 +9,9 @@
 #include "carom/kernel/body.h"
 #include "carom/kernel/bounds.h"
 #include "carom/kernel/contact.h"
+#include "carom/kernel/event.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/views.h"
-#include "carom/kernel/event.h"
 
 namespace carom::reference {
 

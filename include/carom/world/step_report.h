@@ -30,13 +30,13 @@ struct StepReport {
   size_t bodies = 0;  // living, quarantined ones included
   size_t quarantined = 0;
   size_t pairs = 0;
-  size_t tested = 0;  // pairs the narrow phase ran
-  size_t kept = 0;    // pairs whose last result was carried over
+  size_t tested = 0;    // pairs the narrow phase ran
+  size_t kept = 0;      // pairs whose last result was carried over
   size_t overlaps = 0;  // overlapping pairs, sensors included
   size_t contacts = 0;
   BroadphaseMethod broadphase = BroadphaseMethod::automatic;  // the method that ran
-  uint32_t stages_run = 0;                // bit s: Stage(s) ran
-  uint64_t stage_ns[kStageCount] = {};  // 0 where it did not
+  uint32_t stages_run = 0;                                    // bit s: Stage(s) ran
+  uint64_t stage_ns[kStageCount] = {};                        // 0 where it did not
 
   bool ran(Stage stage) const { return stages_run >> static_cast<int>(stage) & 1; }
 };

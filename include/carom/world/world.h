@@ -11,9 +11,9 @@
 #include "carom/export.h"
 #include "carom/kernel/body.h"
 #include "carom/kernel/contact.h"
+#include "carom/kernel/event.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
-#include "carom/kernel/event.h"
 #include "carom/world/step_report.h"
 
 namespace carom {
@@ -46,8 +46,8 @@ struct BoxArrays {
 
 // A point inside a body or on its surface.
 struct PointHit {
-  uint32_t point;  // index into the query
-  uint32_t body;   // body index
+  uint32_t point;    // index into the query
+  uint32_t body;     // body index
   float separation;  // <= 0: how deep it lies, in metres
 };
 
@@ -65,11 +65,11 @@ class CAROM_EXPORT World {
   // Bodies. Indices are handed out from 0; the lowest free one is used again first.
   BodyId add(const BodyDesc& body);
   void add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids);  // appends to ids
-  bool remove(BodyId id);                                 // false if it is dead already
-  size_t remove(std::span<const BodyId> ids);             // how many were alive
+  bool remove(BodyId id);                      // false if it is dead already
+  size_t remove(std::span<const BodyId> ids);  // how many were alive
   bool contains(BodyId id) const;
-  size_t size() const;                                    // living bodies
-  BodyId id_of(uint32_t index) const;                     // of the body that lives there
+  size_t size() const;                 // living bodies
+  BodyId id_of(uint32_t index) const;  // of the body that lives there
 
   // Properties, one body at a time.
   Eigen::Vector3d position(BodyId id) const;
@@ -99,9 +99,9 @@ class CAROM_EXPORT World {
   const StepReport& step();
 
   // Results of the last step, sorted by (a, b); valid until the next one.
-  std::span<const Pair> pairs() const;         // bodies whose bounds overlap
-  std::span<const uint8_t> overlaps() const;   // one a pair: 1 overlap, 0 separate
-  std::span<const Contact> contacts() const;   // overlapping pairs without sensors
+  std::span<const Pair> pairs() const;        // bodies whose bounds overlap
+  std::span<const uint8_t> overlaps() const;  // one a pair: 1 overlap, 0 separate
+  std::span<const Contact> contacts() const;  // overlapping pairs without sensors
   std::span<const Event> events() const;
   std::span<const BodyId> quarantined() const;  // bodies left out: NaN, infinite or negative size
   const StepReport& report() const;
