@@ -46,6 +46,7 @@ Box turned_box(const BoundsView& bounds, size_t i, size_t first_axis) {
 
 std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t stride,
                                         const BoundsView& bounds, Parallelism parallelism) {
+  if (count == 0) return {};
   const std::array<const float*, 3> columns = {xyz, xyz + 1, xyz + 2};
   const BoundsView as_boxes{columns, columns, count, stride};
   const size_t axis = axis_of_largest_spread(as_boxes);

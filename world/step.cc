@@ -29,7 +29,7 @@ const StepReport& World::State::step() {
   if (still) {
     plan.carry_all();
   } else {
-    if (carries() || settings.events) std::swap(last, now);
+    if (carries() || has_events()) std::swap(last, now);
     run(Stage::bounds, [&] { find_bounds(); });
     run(Stage::broadphase, [&] { find_pairs(); });
     if (has_narrowphase()) {
@@ -44,7 +44,7 @@ const StepReport& World::State::step() {
     run(Stage::velocities,
         [&] { set_normal_velocities(bodies.linear_velocities(), parallelism, now.contacts); });
   }
-  if (settings.events && has_narrowphase()) {
+  if (has_events()) {
     run(Stage::events, [&] {
       event_stage.run(still ? now : last, now, bodies, parallelism, events);
       event_stage.remember(bodies);

@@ -46,8 +46,12 @@ size_t World::remove(std::span<const BodyId> ids) {
 bool World::contains(BodyId id) const { return state_->bodies.contains(id); }
 size_t World::size() const { return state_->bodies.size(); }
 
+bool World::is_alive(uint32_t index) const {
+  return index < state_->bodies.rows() && state_->bodies.is_alive(index);
+}
+
 BodyId World::id_of(uint32_t index) const {
-  assert(index < state_->bodies.rows() && state_->bodies.is_alive(index));
+  assert(is_alive(index));
   return state_->bodies.id_of(index);
 }
 

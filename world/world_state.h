@@ -29,6 +29,7 @@ struct World::State {
 
  private:
   bool has_narrowphase() const { return settings.detail != Detail::pairs; }
+  bool has_events() const { return settings.events && has_narrowphase(); }
   bool carries() const { return settings.carry_results && has_narrowphase(); }
 
   template <class Work>

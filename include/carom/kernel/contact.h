@@ -58,7 +58,7 @@ struct ResultColumns {
 
 // The frame of the witness points in ResultColumns.
 enum class WitnessFrame : uint8_t {
-  world,  // world coordinates, rounded to float32
+  world,  // world coordinates, rounded to float32; not a number beyond its range
   body,   // relative to the body's own position, world axes: exact far from the origin, too
 };
 

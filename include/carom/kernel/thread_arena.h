@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// Work that runs inside uses at most `threads` threads, the calling one included; with one thread
-// no scheduler is started.
+// Work that runs inside uses at most `threads` threads, the calling one included; with one
+// thread (or less) no scheduler is started.
 class CAROM_EXPORT ThreadArena {
  public:
   explicit ThreadArena(int threads);

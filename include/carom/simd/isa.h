@@ -1,5 +1,6 @@
 // Which instruction set the kernels use. By default the best that this machine has; the
-// environment variable CAROM_ISA (a name below) or force_isa() choose another.
+// environment variable CAROM_ISA (a name below) or force_isa() choose another; a name that is
+// unknown or not usable here counts as not given.
 #pragma once
 
 #include <optional>

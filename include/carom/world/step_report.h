@@ -34,7 +34,7 @@ struct StepReport {
   size_t kept = 0;      // pairs whose last result was carried over
   size_t overlaps = 0;  // overlapping pairs, sensors included
   size_t contacts = 0;
-  BroadphaseMethod broadphase = BroadphaseMethod::automatic;  // the method that ran
+  BroadphaseMethod broadphase = BroadphaseMethod::automatic;  // the last method that ran
   uint32_t stages_run = 0;                                    // bit s: Stage(s) ran
   uint64_t stage_ns[kStageCount] = {};                        // 0 where it did not
 

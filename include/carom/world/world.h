@@ -28,9 +28,9 @@ struct WorldSettings {
 };
 
 // Writable arrays of a world, indexed by BodyId::index. They move when bodies are added: ask again
-// then. Rows of indices that no body has are ignored.
+// then. Rows of indices that no body has (World::is_alive) are ignored.
 struct BodyArrays {
-  size_t count = 0;  // highest index in use + 1
+  size_t count = 0;  // highest index ever used + 1
   // Records of x, y, z, w, in the world's position type (the other pointer is nullptr). w is the
   // radius of a sphere; leave it alone for other kinds.
   float* record32 = nullptr;
@@ -68,8 +68,9 @@ class CAROM_EXPORT World {
   bool remove(BodyId id);                      // false if it is dead already
   size_t remove(std::span<const BodyId> ids);  // how many were alive
   bool contains(BodyId id) const;
-  size_t size() const;                 // living bodies
-  BodyId id_of(uint32_t index) const;  // of the body that lives there
+  size_t size() const;                  // living bodies
+  bool is_alive(uint32_t index) const;  // whether a body lives at this index
+  BodyId id_of(uint32_t index) const;   // of the body that lives there
 
   // Properties, one body at a time.
   Eigen::Vector3d position(BodyId id) const;
@@ -91,7 +92,8 @@ class CAROM_EXPORT World {
   BodyArrays arrays();
   BoxArrays boxes();
   uint32_t box_slot(BodyId id) const;  // of an aabb body
-  // One a body index; made on first use, and contacts carry normal velocities from then on.
+  // One a body index; made on first use, and contacts carry normal velocities from then on. The
+  // span moves when bodies are added.
   std::span<Eigen::Vector3f> linear_velocities();
 
   // Finds pairs, contacts and events for the bodies as they are now. Memory grows as needed and is
@@ -108,7 +110,7 @@ class CAROM_EXPORT World {
 
   // Replaces `hits` by all bodies that hold each point (x, y, z float32, `stride` bytes apart),
   // sorted by (point, body). Asks the bounds of the last step: bodies must not have changed since.
-  // Points that are not finite are in no body.
+  // Points that are not finite are in no body. Works in memory of its own, unlike step().
   void find_points(const float* xyz, size_t count, size_t stride,
                    std::vector<PointHit>& hits) const;
 
