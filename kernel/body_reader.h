@@ -2,7 +2,6 @@
 // size. One rule for bounds, kernels and queries; comparisons are ordered so that NaN fails them.
 #pragma once
 
-#include <cassert>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -17,12 +16,11 @@ inline bool is_valid_box_axis(float lower, float upper) {
   return lower >= -FLT_MAX && upper <= FLT_MAX && lower <= upper;
 }
 
-// Element i of an array with a stride in bytes, at any alignment.
+// Element i of an array with a stride in bytes, at any alignment; zero if there is no array.
 template <class T>
 T load_strided(const void* base, size_t stride, size_t i) {
-  assert(base);
-  T value;
-  std::memcpy(&value, static_cast<const char*>(base) + i * stride, sizeof(T));
+  T value{};
+  if (base) std::memcpy(&value, static_cast<const char*>(base) + i * stride, sizeof(T));
   return value;
 }
 

@@ -31,53 +31,40 @@ struct BatchLoop {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
 
-  static constexpr bool kHasBoxes = std::is_same_v<A, BoxLanes> || std::is_same_v<B, BoxLanes>;
-
   static void run(const Batch& batch) {
     const size_t whole = batch.count - batch.count % kLanes;
     // A copy that nothing else can see: stores of bytes might change `batch`, for all the compiler
     // knows, and would make it read every field again.
     const Batch local = batch;
-    if (kHasBoxes && has_dense_rows(batch)) {
+    if (has_dense_rows(batch)) {
       for (size_t row = 0; row < whole; row += kLanes) {
-        if (HWY_UNLIKELY(!run_plain<kHasBoxes>(local, batch, row))) run_odd(batch, row);
+        if (HWY_UNLIKELY(!run_plain(local, batch, row, DenseRows{row}))) run_odd(batch, row);
       }
     } else {
       for (size_t row = 0; row < whole; row += kLanes) {
-        if (HWY_UNLIKELY(!run_plain<false>(local, batch, row))) run_odd(batch, row);
+        const Listed listed{local.pairs + row};
+        if (HWY_UNLIKELY(!run_plain(local, batch, row, listed))) run_odd(batch, row);
       }
     }
     if (whole < batch.count) run_tail(batch, whole);
   }
 
  private:
-  // Boxes lie in dense columns, row by row: plain vector loads will do.
   static bool has_dense_rows(const Batch& batch) {
-    const auto is_dense = [](const BatchSide& side) {
-      return !side.box_slot && side.boxes.stride == sizeof(float);
-    };
-    return batch.pairs_are_rows && (std::is_same_v<A, SphereLanes> || is_dense(batch.a)) &&
-           (std::is_same_v<B, SphereLanes> || is_dense(batch.b));
-  }
-
-  template <class Shape, Role kRole, bool kRows>
-  static HWY_INLINE Shape load_shape(const BatchSide& side, const Pair* pairs, size_t row,
-                                     const PositionLanes& positions) {
-    if constexpr (kRows && std::is_same_v<Shape, BoxLanes>) {
-      return BoxLanes::load_rows(side, row);
-    } else {
-      return Shape::template load<kRole>(side, pairs, positions);
-    }
+    constexpr size_t kStride = Records::kDenseStride;
+    const bool dense_records =
+        kStride == 0 || (batch.a.record_stride == kStride && batch.b.record_stride == kStride);
+    return batch.pairs_are_rows && dense_records && A::is_dense(batch.a) && B::is_dense(batch.b);
   }
 
   // False, and nothing done, if a lane is not plainly valid. `batch` is a private copy of `source`.
-  template <bool kRows>
-  static HWY_INLINE bool run_plain(const Batch& batch, const Batch& source, size_t row) {
-    const Pair* pairs = batch.pairs + row;
+  template <class Bodies>
+  static HWY_INLINE bool run_plain(const Batch& batch, const Batch& source, size_t row,
+                                   const Bodies& bodies) {
     PositionLanes positions;
-    Records::load(batch, pairs, positions);
-    const A a = load_shape<A, Role::a, kRows>(batch.a, pairs, row, positions);
-    const B b = load_shape<B, Role::b, kRows>(batch.b, pairs, row, positions);
+    Records::load(batch, bodies, positions);
+    const A a = A::template load<Role::a>(batch.a, bodies, positions);
+    const B b = B::template load<Role::b>(batch.b, bodies, positions);
     const Mask plain = is_plainly_valid(positions.relative, a, b);
     if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), plain))) return false;
     PlainReport report{batch.out, source, row, positions};
@@ -88,11 +75,11 @@ struct BatchLoop {
   // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
   static HWY_NOINLINE void run_odd(const Batch& batch, size_t row) {
     const Mask valid = valid_lanes(batch, row);
-    const Pair* pairs = batch.pairs + row;
+    const Listed bodies{batch.pairs + row};
     PositionLanes positions;
-    Records::load(batch, pairs, positions);
-    A a = A::template load<Role::a>(batch.a, pairs, positions);
-    B b = B::template load<Role::b>(batch.b, pairs, positions);
+    Records::load(batch, bodies, positions);
+    A a = A::template load<Role::a>(batch.a, bodies, positions);
+    B b = B::template load<Role::b>(batch.b, bodies, positions);
     a.clear_unless(valid);
     b.clear_unless(valid);
     positions.relative = zero_unless(valid, clamp_to_finite(positions.relative));

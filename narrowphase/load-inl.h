@@ -6,6 +6,8 @@
 #define CAROM_NARROWPHASE_LOAD_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "narrowphase/batch.h"
 #include "simd/gather-inl.h"
 
@@ -14,11 +16,25 @@ namespace carom::HWY_NAMESPACE {
 
 enum class Role { a, b };
 
-// The body of lane i on one side of kLanes pairs.
-template <Role kRole>
-HWY_INLINE uint32_t body_in(const Pair* pairs, size_t i) {
-  return kRole == Role::a ? pairs[i].a : pairs[i].b;
-}
+// Where the bodies of kLanes pairs are: by a list of pairs, or row after row.
+struct Listed {
+  const Pair* pairs;
+
+  template <Role kRole>
+  HWY_INLINE size_t body(size_t i) const {
+    return kRole == Role::a ? pairs[i].a : pairs[i].b;
+  }
+};
+
+// Records and columns are dense: every address is a constant away from the first.
+struct DenseRows {
+  size_t row;
+
+  template <Role>
+  HWY_INLINE size_t body(size_t i) const {
+    return row + i;
+  }
+};
 
 // Positions of the pairs in the lanes: b - a, subtracted in the type of the positions so that the
 // distance from the origin costs no accuracy, and each side's own position as high + low.
@@ -29,47 +45,31 @@ struct PositionLanes {
   F radius_a, radius_b;  // of spheres; otherwise any finite value
 };
 
-// Boxes given in world coordinates.
-struct NoRecords {
-  static constexpr bool kHasLow = false;
-  static HWY_INLINE void load(const Batch&, const Pair*, PositionLanes& out) {
-    out.relative = out.a = out.b = splat3(0);
-  }
-};
-
 // The records of one side.
-template <class T, Role kRole>
+template <class T, Role kRole, class Bodies>
 struct RecordSource {
   const BatchSide& side;
-  const Pair* pairs;
+  const Bodies& bodies;
 
   HWY_INLINE const T* record(size_t i) const {
+    constexpr size_t kDenseStride = 4 * sizeof(T);
+    const size_t stride = std::is_same_v<Bodies, DenseRows> ? kDenseStride : side.record_stride;
     return reinterpret_cast<const T*>(static_cast<const char*>(side.records) +
-                                      body_in<kRole>(pairs, i) * side.record_stride);
+                                      bodies.template body<kRole>(i) * stride);
   }
 };
 
-template <Role kRole>
-struct Source32 : RecordSource<float, kRole> {
+template <Role kRole, class Bodies>
+struct Source32 : RecordSource<float, kRole, Bodies> {
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), this->record(i)); }
 #endif
   HWY_INLINE float component(size_t i, size_t c) const { return this->record(i)[c]; }
 };
 
-struct Records32 {
-  static constexpr bool kHasLow = false;
-
-  static HWY_INLINE void load(const Batch& batch, const Pair* pairs, PositionLanes& out) {
-    transpose_records(Source32<Role::a>{{batch.a, pairs}}, out.a, out.radius_a);
-    transpose_records(Source32<Role::b>{{batch.b, pairs}}, out.b, out.radius_b);
-    out.relative = out.b - out.a;
-  }
-};
-
 // float64 records, rounded to float32.
-template <Role kRole>
-struct HighSource : RecordSource<double, kRole> {
+template <Role kRole, class Bodies>
+struct HighSource : RecordSource<double, kRole, Bodies> {
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
     const DoublePair pair;
@@ -83,8 +83,8 @@ struct HighSource : RecordSource<double, kRole> {
 };
 
 // What that rounding left.
-template <Role kRole>
-struct LowSource : RecordSource<double, kRole> {
+template <Role kRole, class Bodies>
+struct LowSource : RecordSource<double, kRole, Bodies> {
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
     const double* p = this->record(i);
@@ -103,9 +103,10 @@ struct LowSource : RecordSource<double, kRole> {
 };
 
 // b - a in float64, then rounded to float32.
+template <class Bodies>
 struct RelativeSource {
-  RecordSource<double, Role::a> a;
-  RecordSource<double, Role::b> b;
+  RecordSource<double, Role::a, Bodies> a;
+  RecordSource<double, Role::b, Bodies> b;
 
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
@@ -121,18 +122,43 @@ struct RelativeSource {
   }
 };
 
+// Boxes given in world coordinates.
+struct NoRecords {
+  static constexpr bool kHasLow = false;
+  static constexpr size_t kDenseStride = 0;
+
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch&, const Bodies&, PositionLanes& out) {
+    out.relative = out.a = out.b = splat3(0);
+  }
+};
+
+struct Records32 {
+  static constexpr bool kHasLow = false;
+  static constexpr size_t kDenseStride = 4 * sizeof(float);
+
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
+    transpose_records(Source32<Role::a, Bodies>{{batch.a, bodies}}, out.a, out.radius_a);
+    transpose_records(Source32<Role::b, Bodies>{{batch.b, bodies}}, out.b, out.radius_b);
+    out.relative = out.b - out.a;
+  }
+};
+
 struct Records64 {
   static constexpr bool kHasLow = true;
+  static constexpr size_t kDenseStride = 4 * sizeof(double);
 
-  static HWY_INLINE void load(const Batch& batch, const Pair* pairs, PositionLanes& out) {
-    const RecordSource<double, Role::a> a{batch.a, pairs};
-    const RecordSource<double, Role::b> b{batch.b, pairs};
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
+    const RecordSource<double, Role::a, Bodies> a{batch.a, bodies};
+    const RecordSource<double, Role::b, Bodies> b{batch.b, bodies};
     F unused;
-    transpose_records(HighSource<Role::a>{a}, out.a, out.radius_a);
-    transpose_records(HighSource<Role::b>{b}, out.b, out.radius_b);
-    transpose_records(LowSource<Role::a>{a}, out.a_low, unused);
-    transpose_records(LowSource<Role::b>{b}, out.b_low, unused);
-    transpose_records(RelativeSource{a, b}, out.relative, unused);
+    transpose_records(HighSource<Role::a, Bodies>{a}, out.a, out.radius_a);
+    transpose_records(HighSource<Role::b, Bodies>{b}, out.b, out.radius_b);
+    transpose_records(LowSource<Role::a, Bodies>{a}, out.a_low, unused);
+    transpose_records(LowSource<Role::b, Bodies>{b}, out.b_low, unused);
+    transpose_records(RelativeSource<Bodies>{a, b}, out.relative, unused);
   }
 };
 
@@ -142,8 +168,10 @@ struct SphereLanes {
   static constexpr ShapeKind kKind = ShapeKind::sphere;
   F radius;
 
-  template <Role kRole>
-  static HWY_INLINE SphereLanes load(const BatchSide&, const Pair*, const PositionLanes& p) {
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE SphereLanes load(const BatchSide&, const Bodies&, const PositionLanes& p) {
     return {kRole == Role::a ? p.radius_a : p.radius_b};
   }
   HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
@@ -155,11 +183,16 @@ struct BoxLanes {
   static constexpr ShapeKind kKind = ShapeKind::aabb;
   F3 lower, upper;
 
+  static bool is_dense(const BatchSide& side) {
+    return !side.box_slot && side.boxes.stride == sizeof(float);
+  }
+
   template <Role kRole>
-  static HWY_INLINE BoxLanes load(const BatchSide& side, const Pair* pairs, const PositionLanes&) {
+  static HWY_INLINE BoxLanes load(const BatchSide& side, const Listed& bodies,
+                                  const PositionLanes&) {
     size_t offsets[kLanes];  // in bytes
     for (size_t i = 0; i < kLanes; ++i) {
-      const uint32_t body = body_in<kRole>(pairs, i);
+      const size_t body = bodies.template body<kRole>(i);
       offsets[i] = (side.box_slot ? side.box_slot[body] : body) * side.boxes.stride;
     }
     const auto column = [&](const float* first) HWY_ATTR {
@@ -172,10 +205,12 @@ struct BoxLanes {
             {column(boxes.upper[0]), column(boxes.upper[1]), column(boxes.upper[2])}};
   }
 
-  // Rows in order, in dense columns: plain vector loads.
-  static HWY_INLINE BoxLanes load_rows(const BatchSide& side, size_t row) {
+  template <Role>
+  static HWY_INLINE BoxLanes load(const BatchSide& side, const DenseRows& rows,
+                                  const PositionLanes&) {
     const FloatTag tag;
     const AabbColumns& boxes = side.boxes;
+    const size_t row = rows.row;
     return {{hn::LoadU(tag, boxes.lower[0] + row), hn::LoadU(tag, boxes.lower[1] + row),
              hn::LoadU(tag, boxes.lower[2] + row)},
             {hn::LoadU(tag, boxes.upper[0] + row), hn::LoadU(tag, boxes.upper[1] + row),
