@@ -6,7 +6,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <optional>
+#include <mutex>
 
 #include "carom/kernel/thread_arena.h"
 
@@ -52,20 +52,33 @@ void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
   happens_after(&finished);
 }
 
-struct ThreadArena::State {
-  explicit State(int threads) : arena(threads) {
-    // oneTBB has as many threads as cores unless told otherwise; tests ask for more.
-    if (threads > tbb::info::default_concurrency()) {
-      limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
-    }
-  }
+namespace {
 
-  std::optional<tbb::global_control> limit;
+// oneTBB has as many threads as cores unless told otherwise, and takes the least of what it is
+// told. So there is one such limit in the process: the most that any arena asked for beyond the
+// cores.
+void allow_threads(int threads) {
+  static std::mutex mutex;
+  static int allowed = tbb::info::default_concurrency();
+  static tbb::global_control* limit = nullptr;  // stays: arenas may outlive every scope
+  const std::lock_guard lock(mutex);
+  if (threads <= allowed) return;
+  delete limit;
+  allowed = threads;
+  limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<size_t>(allowed));
+}
+
+}  // namespace
+
+struct ThreadArena::State {
   tbb::task_arena arena;
 };
 
 ThreadArena::ThreadArena(int threads) {
-  if (threads > 1) state_ = std::make_unique<State>(threads);
+  if (threads <= 1) return;
+  allow_threads(threads);
+  state_.reset(new State{tbb::task_arena(threads)});
 }
 ThreadArena::~ThreadArena() = default;
 

@@ -24,7 +24,8 @@ enum class Status : uint8_t {
 // One contact of a world, 64 bytes.
 //   normal      unit, world frame, from body A to body B
 //   separation  metres; <= 0: overlap by that much. Moving B by -separation * normal makes the two
-//               touch
+//               touch. Beyond the range of float32 it is the largest float or infinite, with the
+//               right sign
 //   arm_a/_b    witness point of each body relative to that body's position, world axes:
 //               position_a + arm_a is on A, position_b + arm_b on B, and
 //               (position_b + arm_b) - (position_a + arm_a) = separation * normal
