@@ -10,6 +10,7 @@
 
 #include "carom_build_info.h"
 #include "cli/commands.h"
+#include "cli/options.h"
 
 namespace carom::cli {
 namespace {
@@ -59,7 +60,8 @@ int run_program(std::span<const std::string> arguments, const Console& console) 
     console.error({first_line(error.what())});
     return 2;
   }
-  Result<int> code = action(console);
+  Result<void> isa = check_isa_variable();
+  Result<int> code = isa ? action(console) : isa.error();
   if (code) return *code;
   console.error(code.error());
   return 1;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <ostream>
+#include <string>
 
 #include "carom/kernel/result.h"
+#include "io/file.h"
 
 namespace carom::cli {
 
@@ -12,8 +14,11 @@ struct Console {
   std::ostream& err;
   bool terminal = false;  // err is one: progress may be shown
 
-  void error(const Error& error) const { err << "carom: " << error.message << '\n'; }
-  void warning(const std::string& text) const { err << "carom: warning: " << text << '\n'; }
+  // One line each, whatever names from outside are in it.
+  void error(const Error& error) const { err << "carom: " << io::printable(error.message) << '\n'; }
+  void warning(const std::string& text) const {
+    err << "carom: warning: " << io::printable(text) << '\n';
+  }
 };
 
 }  // namespace carom::cli

@@ -67,7 +67,8 @@ void add_generate_command(CLI::App& program, Action& action) {
   command.add_option("KIND", options->spec, "KIND[:key=value,...]")->required();
   command
       .add_option("-o,--output", options->output,
-                  "The file: a scene (.npz), or a recording of bounds if its name ends in .aabb")
+                  "The file: a scene (.npz), or a recording of bounds if its name ends in .aabb or "
+                  ".aabbs")
       ->required();
   command.footer(io::kGeneratorHelp);
   command.callback([options, &action] {

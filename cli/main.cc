@@ -1,10 +1,35 @@
+#include <csignal>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "cli/cli.h"
+#include "io/atomic_file.h"
+
+namespace {
+
+// The default action follows as soon as the handler returns: until then the signal is blocked.
+extern "C" void end_on_signal(int signal) {
+  carom::io::remove_temporary_files();
+  std::raise(signal);
+}
+
+// A process that is interrupted leaves no temporary file behind.
+void install_handlers() {
+  for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    if (sigaction(signal, nullptr, &action) != 0 || action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = end_on_signal;
+    action.sa_flags = SA_RESETHAND;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
+  install_handlers();
   std::vector<std::string> arguments(argv + (argc > 0), argv + argc);
   return carom::cli::run_cli(arguments, std::cout, std::cerr);
 }

@@ -3,6 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 namespace carom::cli {
 namespace {
@@ -13,6 +16,13 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::filesystem::path canonical(const std::string& path) {
+  std::error_code error;
+  std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  std::filesystem::path resolved = std::filesystem::weakly_canonical(absolute, error);
+  return error ? absolute : resolved;
+}
+
 Error not_yet(const std::string& what, const std::string& text, const std::string& available) {
   return {what + " '" + text + "' does not exist in this version (there are: " + available + ")"};
 }
@@ -21,20 +31,36 @@ Error unknown(const std::string& what, const std::string& text, const std::strin
   return {"unknown " + what + " '" + text + "' (there are: " + available + ")"};
 }
 
+// None for "auto".
+Result<std::optional<Isa>> parse_isa(const std::string& name) {
+  std::optional<Isa> isa;
+  if (name == "auto") return isa;
+  isa = isa_from_name(name);
+  if (!isa) return unknown("ISA", name, "auto, scalar, sse4, avx2, avx512, neon");
+  std::vector<Isa> usable = usable_isas();
+  if (std::find(usable.begin(), usable.end(), *isa) == usable.end()) {
+    return Error{"ISA '" + name + "' cannot be used here: this build or this machine lacks it " +
+                 "(usable: " + join_names(usable) + ")"};
+  }
+  return isa;
+}
+
 }  // namespace
 
 void add_engine_options(CLI::App& command, EngineOptions& options) {
   add_threads_option(command, options.threads);
-  command.add_option("--isa", options.isa, "auto, scalar, sse4, avx2, avx512 or neon");
-  command.add_option("--tier", options.tier, "standard");
+  command.add_option("--isa", options.isa, "auto, scalar, sse4, avx2, avx512 or neon")
+      ->capture_default_str();
+  command.add_option("--tier", options.tier, "standard")->capture_default_str();
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to use");
+  command.add_option("--threads", threads, "Threads to use")->capture_default_str();
 }
 
 void add_json_option(CLI::App& command, std::string& json) {
-  command.add_option("--json", json, "Write the results as JSON to this file; -: standard output");
+  command.add_option("--json", json, "Write the results as JSON to this file; -: standard output")
+      ->check(file_name());
 }
 
 Result<void> check_threads(int threads) {
@@ -71,14 +97,32 @@ Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail
 }
 
 Result<ForcedIsa> ForcedIsa::create(const std::string& name) {
-  if (name == "auto") return ForcedIsa(false);
-  std::optional<Isa> isa = isa_from_name(name);
-  if (!isa) return unknown("ISA", name, "auto, scalar, sse4, avx2, avx512, neon");
-  if (!force_isa(*isa)) {
-    return Error{"ISA '" + name + "' cannot be used here: this build or this machine lacks it " +
-                 "(usable: " + join_names(usable_isas()) + ")"};
-  }
-  return ForcedIsa(true);
+  Result<std::optional<Isa>> isa = parse_isa(name);
+  if (!isa) return isa.error();
+  return ForcedIsa(*isa && force_isa(**isa));
+}
+
+const CLI::Validator& file_name() {
+  static const CLI::Validator validator(
+      [](const std::string& name) {
+        return name.empty() ? std::string("the name of the file is empty") : std::string();
+      },
+      "");
+  return validator;
+}
+
+Result<void> check_apart(const std::string& json, const std::string& option,
+                         const std::string& output) {
+  if (json.empty() || json == "-" || canonical(json) != canonical(output)) return {};
+  return Error{"--json and " + option + " name the same file"};
+}
+
+Result<void> check_isa_variable() {
+  const char* name = std::getenv("CAROM_ISA");
+  if (name == nullptr || *name == '\0') return {};
+  Result<std::optional<Isa>> isa = parse_isa(name);
+  if (!isa) return Error{"environment variable CAROM_ISA: " + isa.error().message};
+  return {};
 }
 
 std::string join_names(std::span<const Isa> isas) {

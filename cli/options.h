@@ -14,7 +14,8 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace carom::cli {
 
@@ -41,6 +42,16 @@ struct NamedDetail {
 };
 // Looks `text` up among what a command serves; a detail that is planned is refused as such.
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known);
+
+// For options that name a file: an empty name (a script's unset variable) is refused.
+const CLI::Validator& file_name();
+
+// Refuses a --json that names the same file as another output, however the two are spelled.
+Result<void> check_apart(const std::string& json, const std::string& option,
+                         const std::string& output);
+
+// The library ignores a CAROM_ISA that it cannot use; whoever runs the program wants to know.
+Result<void> check_isa_variable();
 
 // Forces an instruction set for as long as it lives; "auto" forces none.
 class ForcedIsa {

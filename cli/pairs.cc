@@ -12,6 +12,7 @@
 #include "cli/json_output.h"
 #include "cli/options.h"
 #include "cli/pair_set.h"
+#include "cli/progress.h"
 #include "cli/statistics.h"
 #include "cli/table.h"
 
@@ -32,14 +33,17 @@ struct PairsOptions {
 
 // Tests all pairs `repeat` times; returns the nanoseconds a pair that each run took.
 Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions& options,
-                                       Detail detail, PairColumns& results) {
+                                       Detail detail, PairColumns& results,
+                                       const Console& console) {
   using Clock = std::chrono::steady_clock;
   ThreadArena arena(options.engine.threads);
   Collidables a = pairs.a.view();
   Collidables b = pairs.b.view();
   ResultColumns columns = results.columns();
   std::vector<double> ns_per_pair;
+  Progress progress(console, "run", static_cast<uint64_t>(options.repeat));
   for (int run = 0; run < options.repeat; ++run) {
+    progress.update(static_cast<uint64_t>(run));
     Result<void> tested;
     Clock::time_point begin, end;
     arena.run([&] {
@@ -47,7 +51,7 @@ Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions&
       tested = collide_rows(a, b, detail, columns, WitnessFrame::world, arena.parallelism());
       end = Clock::now();
     });
-    if (!tested) return Error{options.input + ": " + tested.error().message};
+    if (!tested) return io::file_error(options.input, tested.error().message);
     double ns = std::chrono::duration<double, std::nano>(end - begin).count();
     ns_per_pair.push_back(pairs.size() ? ns / static_cast<double>(pairs.size()) : 0);
   }
@@ -102,14 +106,15 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   if (!detail) return detail.error();
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
   if (!isa) return isa.error();
-  if (options.output == options.json) return Error{"--json and -o name the same file"};
+  Result<void> apart = check_apart(options.json, "-o", options.output);
+  if (!apart) return apart.error();
   Result<JsonOutput> json = JsonOutput::open(options.json);
   if (!json) return json.error();
 
   Result<PairSet> set = read_pair_set(options.input);
   if (!set) return set.error();
   PairColumns columns(set->size(), *detail);
-  Result<std::vector<double>> times = test_pairs(*set, options, *detail, columns);
+  Result<std::vector<double>> times = test_pairs(*set, options, *detail, columns, console);
   if (!times) return times.error();
   io::PairResults results = columns.results();
   Result<void> written = io::write_pair_results(options.output, results);
@@ -130,11 +135,15 @@ void add_pairs_command(CLI::App& program, Action& action) {
   auto options = std::make_shared<PairsOptions>();
   CLI::App& command = *program.add_subcommand("pairs", "Test a file of pairs");
   command.add_option("IN", options->input, "Pairs (.npz)")->required();
-  command.add_option("-o,--output", options->output, "Results (.npz)")->required();
+  command.add_option("-o,--output", options->output, "Results (.npz)")
+      ->required()
+      ->check(file_name());
   add_engine_options(command, options->engine);
-  command.add_option("--detail", options->engine.detail, "overlap, contact or distance");
+  command.add_option("--detail", options->engine.detail, "overlap, contact or distance")
+      ->capture_default_str();
   command.add_option("--repeat", options->repeat, "Runs to take the median time of")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
   add_json_option(command, options->json);
   command.callback([options, &action] {
     action = [options](const Console& console) { return pairs(*options, console); };

@@ -1,14 +1,14 @@
 #include "cli/progress.h"
 
-#include <utility>
+#include "io/file.h"
 
 namespace carom::cli {
 
 using std::chrono::milliseconds;
 
-Progress::Progress(const Console& console, std::string what, uint64_t total)
+Progress::Progress(const Console& console, const std::string& what, uint64_t total)
     : console_(console),
-      what_(std::move(what)),
+      what_(io::printable(what)),
       total_(total),
       next_(Clock::now() + milliseconds(1000)) {}
 

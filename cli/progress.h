@@ -11,7 +11,7 @@ namespace carom::cli {
 
 class Progress {
  public:
-  Progress(const Console& console, std::string what, uint64_t total);
+  Progress(const Console& console, const std::string& what, uint64_t total);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

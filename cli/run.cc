@@ -46,9 +46,8 @@ Result<WorldSettings> world_settings(const RunOptions& options) {
 Result<std::optional<PairsOutput>> open_pairs_output(const RunOptions& options) {
   std::optional<PairsOutput> output;
   if (options.pairs_out.empty()) return output;
-  if (options.pairs_out == options.json) {
-    return Error{"--json and --pairs-out name the same file"};
-  }
+  Result<void> apart = check_apart(options.json, "--pairs-out", options.pairs_out);
+  if (!apart) return apart.error();
   Result<PairsOutput> created = PairsOutput::create(options.pairs_out);
   if (!created) return created.error();
   output.emplace(std::move(*created));
@@ -136,11 +135,15 @@ void add_run_command(CLI::App& program, Action& action) {
   command.add_option("--frames", options->frames, "Frames to run; all of the scene if not given")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
   add_engine_options(command, options->engine);
-  command.add_option("--detail", options->engine.detail, "pairs, overlap or contact");
-  command.add_option("--broadphase", options->broadphase, "auto, sweep or brute");
-  command.add_flag("--no-cache", options->no_cache, "Test every pair anew in every frame");
+  command.add_option("--detail", options->engine.detail, "pairs, overlap or contact")
+      ->capture_default_str();
+  command.add_option("--broadphase", options->broadphase, "auto, sweep or brute")
+      ->capture_default_str();
+  command.add_flag("--no-cache", options->no_cache,
+                   "Test every pair anew and drop the sort order between frames");
   add_json_option(command, options->json);
-  command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)");
+  command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)")
+      ->check(file_name());
   command.callback([options, &action] {
     action = [options](const Console& console) { return run(*options, console); };
   });

@@ -9,6 +9,7 @@
 #include "carom_build_info.h"
 #include "cli/statistics.h"
 #include "cli/table.h"
+#include "io/file.h"
 
 namespace carom::cli {
 namespace {
@@ -105,7 +106,7 @@ Json to_json(const RunReport& report) {
 void print(const RunReport& report, std::ostream& out) {
   const RunRecord& record = report.record;
   Summary frame = summarize(steady(record.frame_ms));
-  Table table({"scene", report.scene});
+  Table table({"scene", io::printable(report.scene)});
   table.add({"bodies", std::to_string(report.bodies)});
   table.add({"frames", std::to_string(report.frames)});
   table.add({"threads, ISA", std::to_string(report.threads) + ", " + report.isa});

@@ -2,14 +2,16 @@
 
 #include <array>
 
+#include "io/file.h"
+
 namespace carom::cli {
 namespace {
 
 Error no_kernel(const std::string& source, size_t index, ShapeKind kind) {
   std::string kind_name = name(kind);
   const char* article = kind_name.front() == 'a' ? "an " : "a ";
-  return {source + ": shape_kind: shape " + std::to_string(index) + " is " + article + kind_name +
-          ", which this version has no kernel for"};
+  return io::file_error(source, "shape_kind: shape " + std::to_string(index) + " is " + article +
+                                    kind_name + ", which this version has no kernel for");
 }
 
 }  // namespace

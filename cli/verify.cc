@@ -41,12 +41,13 @@ class Verification {
         engines_(options.threads.value_or(default_threads())) {}
 
   void verify_source(const std::string& source) {
+    const std::string label = io::printable(source);
     if (names_pairs(source)) {
       Result<PairSet> pairs = read_pair_set(source);
-      note(pairs ? verify_pairs(system_, engines_, *pairs, source) : pairs.error());
+      note(pairs ? verify_pairs(system_, engines_, *pairs, label, console_) : pairs.error());
     } else {
       Result<std::unique_ptr<io::SceneReader>> scene = open_source(source);
-      note(scene ? verify(**scene, source) : scene.error());
+      note(scene ? verify(**scene, label) : scene.error());
     }
   }
 
@@ -56,7 +57,7 @@ class Verification {
       if (difference_) return;
     }
     for (const BuiltinPairs& builtin : builtin_pairs()) {
-      note(verify_pairs(system_, engines_, builtin.pairs, builtin.name));
+      note(verify_pairs(system_, engines_, builtin.pairs, builtin.name, console_));
       if (difference_) return;
     }
   }
@@ -133,7 +134,8 @@ void add_verify_command(CLI::App& program, Action& action) {
                      "Scenes, generators and files of pairs; a built-in set if there are none");
   command.add_option("--frames", options->frames, "Frames of every scene; all if not given")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
-  command.add_option("--threads", options->threads, "Verify 1 to this many threads");
+  command.add_option("--threads", options->threads,
+                     "Verify 1 to this many threads; if not given, those of the machine, 2 to 8");
   command.callback([options, &action] {
     action = [options](const Console& console) {
       System system;

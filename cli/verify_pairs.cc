@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/reference/reference.h"
+#include "cli/progress.h"
 #include "cli/verify_text.h"
 
 namespace carom::cli {
@@ -71,12 +72,16 @@ std::string text_of(const Row& row) {
 
 class PairVerifier {
  public:
-  PairVerifier(System& system, const PairSet& pairs)
+  // The reference tests the pairs here; `progress` counts them.
+  PairVerifier(System& system, const PairSet& pairs, Progress progress)
       : system_(system),
         pairs_(pairs),
         contact_(pairs.size(), Detail::contact),
         overlap_(pairs.size(), Detail::overlap) {
-    for (size_t i = 0; i < pairs.size(); ++i) expected_.push_back(reference_row(i));
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      progress.update(i);
+      expected_.push_back(reference_row(i));
+    }
     // Neighbours of the file end up far apart, in other lanes and other batches.
     uint64_t stride = pairs.size() / 3 + 1;
     for (uint64_t first = 0; first < stride; ++first) {
@@ -86,10 +91,11 @@ class PairVerifier {
     }
   }
 
-  // False if there is a difference.
-  Result<bool> verify(VerifyRow& row) {
+  // False if there is a difference. `progress` counts the runs.
+  Result<bool> verify(VerifyRow& row, Progress& progress) {
     force_isa(row.engine.isa);
     for (const Variant& variant : kVariants) {
+      progress.update(runs_++);
       if (Result<void> done = test(row.engine, variant); !done) return done.error();
       if (!compare(row, variant)) return false;
     }
@@ -176,18 +182,20 @@ class PairVerifier {
   PairColumns overlap_;
   std::vector<Row> expected_;
   std::vector<Pair> order_;
+  uint64_t runs_ = 0;
   std::optional<Difference> difference_;
 };
 
 }  // namespace
 
 Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
-                                   const std::string& source) {
+                                   const std::string& source, const Console& console) {
   VerifyOutcome outcome{source, compared_text(), {}, {}};
-  PairVerifier verifier(system, pairs);
+  PairVerifier verifier(system, pairs, Progress(console, source + ": pair", pairs.size()));
+  Progress progress(console, source + ": run", engines.list().size() * kVariants.size());
   for (const Engine& engine : engines.list()) {
     outcome.rows.push_back({.engine = engine, .frames = 1});
-    Result<bool> same = verifier.verify(outcome.rows.back());
+    Result<bool> same = verifier.verify(outcome.rows.back(), progress);
     unforce_isa();
     if (!same) return Error{source + ": " + same.error().message};
     if (!*same) break;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "cli/console.h"
 #include "cli/pair_set.h"
 #include "cli/verify_outcome.h"
 #include "cli/verify_system.h"
@@ -12,6 +13,6 @@ namespace carom::cli {
 // Tests the pairs row by row and in another order, at both details, with witness points in both
 // frames, and stops at the first difference.
 Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
-                                   const std::string& source);
+                                   const std::string& source, const Console& console);
 
 }  // namespace carom::cli

@@ -33,12 +33,18 @@ class AtomicFile {
  private:
   AtomicFile(std::string path, std::string temporary_path, File file);
   void remove_temporary();
+  void forget_temporary();
 
   std::string path_;
   std::string temporary_path_;  // empty once committed or moved from
+  int slot_ = -1;               // where remove_temporary_files() finds the path; -1: nowhere
   File file_;
   uint64_t offset_ = 0;
 };
+
+// Removes the temporary file of every AtomicFile there is. For the handler of a signal that ends
+// the process: safe at any moment and in any thread.
+void remove_temporary_files() noexcept;
 
 // A file without a name in the folder of `path`, gone with its last descriptor.
 Result<File> open_spool(const std::string& path);

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "io/npz.h"
+#include "io/zip_target.h"
 
 namespace carom::io {
 namespace {
@@ -153,15 +154,15 @@ Result<void> NpzWriter::State::add_to(zip_t* archive, PendingMember& member) con
 Result<void> NpzWriter::finish() {
   const std::string& path = state_->file.path();
   if (state_->members.empty()) return file_error(path, "would hold no array");
-  int code = 0;
-  std::unique_ptr<zip_t, ZipDiscard> archive(
-      zip_open(state_->file.temporary_path().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code));
-  if (!archive) return file_error(path, "cannot be written: zip error " + std::to_string(code));
+  ZipTarget target(state_->file);
+  std::unique_ptr<zip_t, ZipDiscard> archive(target.open());
+  if (!archive) return file_error(path, "cannot be written: libzip cannot start an archive");
   for (PendingMember& member : state_->members) {
     Result<void> added = state_->add_to(archive.get(), member);
     if (!added) return added;
   }
   if (zip_close(archive.get()) != 0) {
+    if (target.failure()) return *target.failure();
     return file_error(path, std::string("cannot be written: ") + zip_strerror(archive.get()));
   }
   (void)archive.release();  // zip_close() has freed it

@@ -5,6 +5,8 @@
 #include <set>
 #include <string_view>
 
+#include "io/file.h"
+
 namespace carom::io {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr uint64_t kMaxBodies = 100'000'000;
 constexpr uint64_t kMaxFrames = 1'000'000'000;
 
 Error spec_error(const GeneratorSpec& spec, const std::string& text) {
-  return {"generator '" + spec.text + "': " + text};
+  return {printable("generator '" + spec.text + "': " + text)};
 }
 
 std::optional<GeneratorKind> kind_from_name(std::string_view name) {
@@ -153,8 +155,8 @@ Result<GeneratorSpec> parse_generator(const std::string& text) {
   std::string_view name = rest.substr(0, rest.find(':'));
   std::optional<GeneratorKind> kind = kind_from_name(name);
   if (!kind) {
-    return Error{"unknown generator '" + std::string(name) + "' (generators: " + kGeneratorKinds +
-                 ")"};
+    return Error{"unknown generator '" + printable(std::string(name)) +
+                 "' (generators: " + kGeneratorKinds + ")"};
   }
   spec.kind = *kind;
   if (name.size() == rest.size()) return spec;

@@ -54,6 +54,15 @@ TEST_F(ErrorsTest, Commands) {
   expect_error({"pairs", "x.npz"}, {"--output"});
 }
 
+// A script's unset variable is not a wish for no output.
+TEST_F(ErrorsTest, EmptyFileNames) {
+  const std::string scene = "still:n=5,frames=2";
+  const std::string what = "the name of the file is empty";
+  expect_error({"run", scene, "--json", ""}, {"--json", what});
+  expect_error({"run", scene, "--pairs-out", ""}, {"--pairs-out", what});
+  expect_error({"pairs", "x.npz", "-o", ""}, {"--output", what});
+}
+
 TEST_F(ErrorsTest, OptionsOfRun) {
   const std::string scene = "still:n=5,frames=2";
   expect_error({"run", scene, "--threads", "0"}, {"--threads 0"});
@@ -69,6 +78,8 @@ TEST_F(ErrorsTest, OptionsOfRun) {
   expect_error({"run", scene, "--detail", "some"}, {"unknown detail 'some'"});
   expect_error({"run", scene, "--broadphase", "octree"}, {"unknown broadphase 'octree'", "sweep"});
   expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("x")}, {"the same file"});
+  expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("./x")}, {"the same file"});
+  expect_error({"run", scene, "--json", "x", "--pairs-out", "./x"}, {"the same file"});
   EXPECT_EQ(files(), 0u);
 }
 
@@ -86,6 +97,7 @@ TEST_F(ErrorsTest, OptionsOfPairs) {
   fails("--threads", "0", "--threads 0");
   fails("--repeat", "0", "--repeat");
   fails("--json", path("out.npz"), "the same file");
+  fails("--json", path("none/../out.npz"), "the same file");
   EXPECT_EQ(files(), 1u);
 }
 
@@ -143,6 +155,23 @@ TEST_F(ErrorsTest, KindsWithoutKernel) {
   expect_error({"pairs", path("capsule.npz"), "-o", path("out.npz")}, {text});
   expect_error({"verify", path("capsule.npz")}, {text});
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ErrorsTest, ControlCharactersDoNotBreakTheLine) {
+  expect_error({"fro\nb"}, {"unknown command 'fro?b'"});
+  expect_error({"generate", "brown\nian", "-o", path("x.npz")}, {"'brown?ian'"});
+  expect_error({"run", "brownian:n=\n5"}, {"'n=?5'"});
+  expect_error({"run", "still:n=5", "--detail", "so\nme"}, {"'so?me'"});
+  expect_error({"run", path("a\nb.npz")}, {"a?b.npz"});
+  write_scene(path("a\nb.npz"), 1);
+  expect_error({"run", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
+  expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
+  write_pairs(path("a\nb.npz"), 1);
+  expect_error({"pairs", path("a\nb.npz"), "-o", path("x.npz")}, {"a?b.npz: shape_kind"});
+  expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
+  write_pairs(path("a\nb.npz"), 2);
+  const std::string table = run_command({"verify", path("a\nb.npz"), "--threads", "1"}).out;
+  EXPECT_NE(table.find("a?b.npz"), std::string::npos) << table;
 }
 
 TEST_F(ErrorsTest, OutputsOfAFailedRunDoNotAppear) {

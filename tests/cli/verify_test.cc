@@ -1,12 +1,15 @@
 // carom verify: passes on carom, and finds out what is broken.
 #include "cli/verify.h"
 
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <thread>
 
 #include "carom/reference/reference.h"
 #include "carom/simd/isa.h"
 #include "cli/verify_builtin.h"
+#include "io/pairs_file.h"
 #include "tests/cli/cli_test_util.h"
 
 namespace carom::cli {
@@ -178,6 +181,39 @@ TEST_F(VerifyTest, BrokenKernels) {
   for (const auto& [flaw, text] : kCases) {
     BrokenKernel system(flaw);
     expect_found(verify_with(system, {}), {"sphere-sphere pairs, float32: ", text, "  a: sphere"});
+  }
+}
+
+class SlowKernel : public System {
+ public:
+  Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
+                            const ResultColumns& out, WitnessFrame frame,
+                            Parallelism parallelism) override {
+    if (!slept_) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    slept_ = true;
+    return System::collide_rows(a, b, detail, out, frame, parallelism);
+  }
+
+ private:
+  bool slept_ = false;
+};
+
+TEST_F(VerifyTest, PairsShowProgressOnATerminal) {
+  io::PairsFile file;
+  file.pairs = 1;
+  file.shapes.kind = {0};
+  file.shapes.params = {{1}};
+  for (io::PairSide* side : {&file.a, &file.b}) {
+    side->shape = {0};
+    side->position32 = {{0, 0, 0}};
+  }
+  ASSERT_TRUE(io::write_pairs(path("in.npz"), file));
+  for (const bool terminal : {true, false}) {
+    SlowKernel system;
+    std::ostringstream out, err;
+    const Console console{out, err, terminal};
+    EXPECT_TRUE(verify({.sources = {path("in.npz")}, .threads = 1}, system, console));
+    EXPECT_EQ(err.str().find("in.npz: run 1/") != std::string::npos, terminal) << err.str();
   }
 }
 

@@ -1,5 +1,7 @@
 #include "io/atomic_file.h"
 
+#include <sys/wait.h>
+
 #include "tests/io/io_test_util.h"
 
 namespace carom::io {
@@ -35,6 +37,38 @@ TEST_F(AtomicFileTest, TwoWritersOfOneNameDoNotMeet) {
   EXPECT_NE(one->temporary_path(), other->temporary_path());
   ASSERT_TRUE(succeeds(one->commit()));
   ASSERT_TRUE(succeeds(other->commit()));
+  EXPECT_EQ(entries(), std::vector<std::string>{"a"});
+}
+
+// More files than there are slots, and slots that are used again.
+TEST_F(AtomicFileTest, ManyFilesLiveAtOnce) {
+  for (int round = 0; round < 2; ++round) {
+    std::vector<AtomicFile> files;
+    for (int i = 0; i < 50; ++i) {
+      auto file = AtomicFile::create(path("a" + std::to_string(i)));
+      ASSERT_TRUE(succeeds(file));
+      files.push_back(std::move(*file));
+    }
+    ASSERT_TRUE(succeeds(files.front().commit()));
+  }
+  EXPECT_EQ(entries(), std::vector<std::string>{"a0"});
+}
+
+// In another process: the slots of removed files stay taken.
+TEST_F(AtomicFileTest, AllTemporaryFilesAreRemovedAtOnce) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto committed = AtomicFile::create(path("a"));
+    auto one = AtomicFile::create(path("b"));
+    auto other = AtomicFile::create(path("c"));
+    const bool ready = committed && committed->commit() && one && other;
+    const AtomicFile moved = std::move(*one);
+    remove_temporary_files();
+    ::_exit(ready ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
   EXPECT_EQ(entries(), std::vector<std::string>{"a"});
 }
 
