@@ -27,14 +27,18 @@ struct BoxColumns {
   size_t bytes() const;
 };
 
+// Entry i of one of the six columns.
+inline float value_at(const BoundsView& bounds, const float* column, size_t i) {
+  return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(column) + i * bounds.stride);
+}
+
 // lower <= upper on every axis; false for empty boxes and NaN.
 inline bool takes_part(const BoundsView& bounds, size_t i) {
-  const auto at = [&](const float* column) {
-    return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(column) +
-                                           i * bounds.stride);
-  };
-  return at(bounds.lower[0]) <= at(bounds.upper[0]) && at(bounds.lower[1]) <= at(bounds.upper[1]) &&
-         at(bounds.lower[2]) <= at(bounds.upper[2]);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const float lower = value_at(bounds, bounds.lower[axis], i);
+    if (!(lower <= value_at(bounds, bounds.upper[axis], i))) return false;
+  }
+  return true;
 }
 
 }  // namespace carom

@@ -30,14 +30,10 @@ class CandidateSink final : public HitSink {
 
 // Box i with `first_axis` as axis 0.
 Box turned_box(const BoundsView& bounds, size_t i, size_t first_axis) {
-  const auto at = [&](const float* column) {
-    return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(column) +
-                                           i * bounds.stride);
-  };
   Box box;
   for (size_t k = 0; k < 3; ++k) {
-    box.lower[k] = at(bounds.lower[(first_axis + k) % 3]);
-    box.upper[k] = at(bounds.upper[(first_axis + k) % 3]);
+    box.lower[k] = value_at(bounds, bounds.lower[(first_axis + k) % 3], i);
+    box.upper[k] = value_at(bounds, bounds.upper[(first_axis + k) % 3], i);
   }
   return box;
 }

@@ -57,37 +57,23 @@ class Hits {
   uint32_t rows_[HitSink::kMaxHits + kLanes];  // CompressStore may write whole vectors
 };
 
-HWY_INLINE void sweep_from(const BoxColumns& columns, const Box& box, size_t box_row,
-                           size_t first_row, HitSink& sink) {
-  const FloatTag tag;
-  const BoxLanes lanes(box);
-  Hits hits(box_row, sink);
-  for (size_t row = first_row; row < columns.count; row += kLanes) {
-    const Mask reached = starts_before_end(columns, lanes, 0, row);
-    if (hn::AllFalse(tag, reached)) break;
-    const Mask y = hn::And(starts_before_end(columns, lanes, 1, row),
-                           ends_after_start(columns, lanes, 1, row));
-    const Mask z = hn::And(starts_before_end(columns, lanes, 2, row),
-                           ends_after_start(columns, lanes, 2, row));
-    const Mask x = hn::And(reached, ends_after_start(columns, lanes, 0, row));
-    const Mask hit = hn::And(x, hn::And(y, z));
-    if (HWY_UNLIKELY(!hn::AllFalse(tag, hit))) hits.add(hit, row);
-  }
-  hits.flush();
-}
+enum class RowOrder { any, ascending };  // by lower[0]
 
-HWY_INLINE void test_from(const BoxColumns& columns, const Box& box, size_t box_row,
+template <RowOrder kOrder>
+HWY_INLINE void scan_from(const BoxColumns& columns, const Box& box, size_t box_row,
                           size_t first_row, HitSink& sink) {
   const FloatTag tag;
   const BoxLanes lanes(box);
   Hits hits(box_row, sink);
   for (size_t row = first_row; row < columns.count; row += kLanes) {
-    Mask hit = starts_before_end(columns, lanes, 0, row);
-    hit = hn::And(hit, ends_after_start(columns, lanes, 0, row));
-    for (size_t axis = 1; axis < 3; ++axis) {
-      hit = hn::And(hit, starts_before_end(columns, lanes, axis, row));
-      hit = hn::And(hit, ends_after_start(columns, lanes, axis, row));
-    }
+    const Mask reached = starts_before_end(columns, lanes, 0, row);
+    if (kOrder == RowOrder::ascending && hn::AllFalse(tag, reached)) break;
+    const Mask x = hn::And(reached, ends_after_start(columns, lanes, 0, row));
+    const Mask y = hn::And(starts_before_end(columns, lanes, 1, row),
+                           ends_after_start(columns, lanes, 1, row));
+    const Mask z = hn::And(starts_before_end(columns, lanes, 2, row),
+                           ends_after_start(columns, lanes, 2, row));
+    const Mask hit = hn::And(x, hn::And(y, z));
     if (HWY_UNLIKELY(!hn::AllFalse(tag, hit))) hits.add(hit, row);
   }
   hits.flush();
@@ -98,21 +84,24 @@ HWY_INLINE Box box_at(const BoxColumns& columns, size_t row) {
           {columns.upper[0][row], columns.upper[1][row], columns.upper[2][row]}};
 }
 
-void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
+template <RowOrder kOrder>
+void scan_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
   for (size_t row = begin; row < end; ++row) {
-    sweep_from(columns, box_at(columns, row), row, row + 1, sink);
+    scan_from<kOrder>(columns, box_at(columns, row), row, row + 1, sink);
   }
 }
 
+void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
+  scan_rows<RowOrder::ascending>(columns, begin, end, sink);
+}
+
 void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
-  for (size_t row = begin; row < end; ++row) {
-    test_from(columns, box_at(columns, row), row, row + 1, sink);
-  }
+  scan_rows<RowOrder::any>(columns, begin, end, sink);
 }
 
 void sweep_box(const BoxColumns& columns, const Box& box, size_t box_row, size_t first_row,
                HitSink& sink) {
-  sweep_from(columns, box, box_row, first_row, sink);
+  scan_from<RowOrder::ascending>(columns, box, box_row, first_row, sink);
 }
 
 }  // namespace

@@ -10,10 +10,6 @@
 namespace carom {
 namespace {
 
-float value_at(const float* column, size_t stride, size_t i) {
-  return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(column) + i * stride);
-}
-
 // An integer that orders like the float; -0 and +0 are equal.
 uint32_t sortable(float v) {
   const auto bits = std::bit_cast<uint32_t>(v + 0.0f);
@@ -21,7 +17,7 @@ uint32_t sortable(float v) {
 }
 
 uint64_t item(const BoundsView& bounds, size_t axis, uint32_t i) {
-  return uint64_t{sortable(value_at(bounds.lower[axis], bounds.stride, i))} << 32 | i;
+  return uint64_t{sortable(value_at(bounds, bounds.lower[axis], i))} << 32 | i;
 }
 
 uint32_t index_of(uint64_t item) { return static_cast<uint32_t>(item); }
@@ -62,7 +58,7 @@ size_t axis_of_largest_spread(const BoundsView& bounds) {
   for (size_t i = 0; i < bounds.count; i += step) {
     if (!takes_part(bounds, i)) continue;
     for (size_t axis = 0; axis < 3; ++axis) {
-      const double v = std::clamp(value_at(bounds.lower[axis], bounds.stride, i), -1e30f, 1e30f);
+      const double v = std::clamp(value_at(bounds, bounds.lower[axis], i), -1e30f, 1e30f);
       moments[axis].count += 1;
       moments[axis].sum += v;
       moments[axis].squares += v * v;

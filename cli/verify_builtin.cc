@@ -28,7 +28,7 @@ class MixedScene : public io::SceneReader {
   explicit MixedScene(std::unique_ptr<io::SceneReader> base)
       : base_(std::move(base)), info_(base_->info()) {
     for (size_t i = 0; i < info_.shapes.kind.size(); i += 2) {
-      info_.shapes.kind[i] = static_cast<uint8_t>(io::ShapeCode::kSphere);
+      info_.shapes.kind[i] = static_cast<uint8_t>(ShapeKind::sphere);
     }
     info_.shapes.params[11][0] = -1;
     info_.shapes.params[12][0] = kNan;

@@ -9,11 +9,11 @@ namespace {
 using Range = std::array<uint32_t, 2>;
 
 bool needs_vertices(uint8_t kind) {
-  return kind == uint8_t(ShapeCode::kDop) || kind == uint8_t(ShapeCode::kHull) ||
-         kind == uint8_t(ShapeCode::kMesh);
+  return kind == uint8_t(ShapeKind::dop) || kind == uint8_t(ShapeKind::hull) ||
+         kind == uint8_t(ShapeKind::mesh);
 }
-bool needs_triangles(uint8_t kind) { return kind == uint8_t(ShapeCode::kMesh); }
-bool needs_children(uint8_t kind) { return kind == uint8_t(ShapeCode::kCompound); }
+bool needs_triangles(uint8_t kind) { return kind == uint8_t(ShapeKind::mesh); }
+bool needs_children(uint8_t kind) { return kind == uint8_t(ShapeKind::compound); }
 
 std::string element(size_t i) { return "element " + std::to_string(i) + " "; }
 
@@ -45,10 +45,10 @@ Result<void> first_error(std::initializer_list<Result<void>> results) {
 
 Result<void> check_kinds(const SceneShapes& shapes, const std::string& path) {
   for (size_t i = 0; i < shapes.kind.size(); ++i) {
-    if (shapes.kind[i] > kMaxShapeCode) {
+    if (shapes.kind[i] >= kShapeKindCount) {
       return member_error(path, "shape_kind",
                           element(i) + "is the unknown kind " + std::to_string(shapes.kind[i]) +
-                              " (0 to " + std::to_string(kMaxShapeCode) + " was expected)");
+                              " (0 to " + std::to_string(kShapeKindCount - 1) + " was expected)");
     }
   }
   return {};

@@ -6,27 +6,14 @@
 #include <vector>
 
 #include "carom/kernel/result.h"
+#include "carom/kernel/shape.h"
 #include "io/npz.h"
 
 namespace carom::io {
 
-// Codes of shape_kind in files.
-enum class ShapeCode : uint8_t {
-  kSphere = 0,
-  kCapsule = 1,
-  kAabb = 2,
-  kBox = 3,
-  kDop = 4,
-  kHull = 5,
-  kMesh = 6,
-  kCompound = 7,
-  kHalfspace = 8,
-};
-inline constexpr uint8_t kMaxShapeCode = 8;
-
 // As in the file; ranges are (first, count). Arrays that are absent are empty.
 struct SceneShapes {
-  std::vector<uint8_t> kind;
+  std::vector<uint8_t> kind;  // ShapeKind
   std::vector<std::array<float, 8>> params;
   std::vector<std::array<uint32_t, 2>> vertex_range;
   std::vector<std::array<float, 3>> vertices;

@@ -21,7 +21,7 @@ SceneInfo scene_info(const GeneratorSpec& spec, const Population& population) {
   bool one_shape =
       spec.spheres && (spec.kind == GeneratorKind::brownian || spec.kind == GeneratorKind::still);
   size_t shapes = one_shape ? 1 : spec.bodies;
-  ShapeCode code = spec.spheres ? ShapeCode::kSphere : ShapeCode::kAabb;
+  ShapeKind code = spec.spheres ? ShapeKind::sphere : ShapeKind::aabb;
   info.shapes.kind.assign(shapes, static_cast<uint8_t>(code));
   info.shapes.params.resize(shapes);
   for (size_t i = 0; i < shapes; ++i) {
