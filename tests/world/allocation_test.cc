@@ -26,6 +26,9 @@ thread_local volatile size_t allocations = 0;
 
 }  // namespace
 
+// The standard library is to see them, whatever the visibility of the project's other symbols.
+#define CAROM_TEST_SEEN __attribute__((visibility("default")))
+
 // The names under which glibc lets its own functions be called by those that replace them.
 extern "C" {
 void* __libc_malloc(size_t size);
@@ -33,19 +36,19 @@ void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* old, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 
-void* malloc(size_t size) noexcept {
+CAROM_TEST_SEEN void* malloc(size_t size) noexcept {
   allocations = allocations + 1;
   return __libc_malloc(size);
 }
-void* calloc(size_t count, size_t size) noexcept {
+CAROM_TEST_SEEN void* calloc(size_t count, size_t size) noexcept {
   allocations = allocations + 1;
   return __libc_calloc(count, size);
 }
-void* realloc(void* old, size_t size) noexcept {
+CAROM_TEST_SEEN void* realloc(void* old, size_t size) noexcept {
   allocations = allocations + 1;
   return __libc_realloc(old, size);
 }
-void* aligned_alloc(size_t alignment, size_t size) noexcept {
+CAROM_TEST_SEEN void* aligned_alloc(size_t alignment, size_t size) noexcept {
   allocations = allocations + 1;
   return __libc_memalign(alignment, size);
 }
