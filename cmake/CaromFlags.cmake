@@ -25,6 +25,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 sees overlapping copies inside std::string where there are none (GCC bug 105651).
   add_compile_options(-Wno-restrict)
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  # Highway's NEON functions have the target +crypto, which g++ does not give to the implicit
+  # members of classes: it would refuse to inline. Nothing here calls a cryptographic instruction.
+  add_compile_options(-march=armv8-a+crypto)
+endif()
 include_directories(${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 if(CAROM_SCALAR_ONLY)
   add_compile_definitions(HWY_COMPILE_ONLY_SCALAR)

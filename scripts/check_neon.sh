@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# check_neon.sh: compiles the library for AArch64, without linking.
+# check_neon.sh: compiles the library for AArch64, with the flags of cmake/CaromFlags.cmake that
+# matter there, without linking.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 compiler=aarch64-linux-gnu-g++
@@ -13,6 +14,6 @@ ln -sfn /usr/include/oneapi $out/include/oneapi
 
 find simd kernel broadphase narrowphase world -name '*.cc' | sort |
   xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O1 -c {} -o /dev/null \
-    -I . -I include -isystem $out/include -ffp-contract=off -fno-tree-slp-vectorize \
+    -march=armv8-a+crypto -I . -I include -isystem $out/include -ffp-contract=off -fno-tree-slp-vectorize \
     -DHWY_COMPILE_ALL_ATTAINABLE -Wall -Wextra
 echo "neon: the library compiles for AArch64"
