@@ -14,6 +14,6 @@ ln -sfn /usr/include/oneapi $out/include/oneapi
 
 find simd kernel broadphase narrowphase world -name '*.cc' | sort |
   xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O1 -c {} -o /dev/null \
-    -march=armv8-a+crypto -I . -I include -isystem $out/include -ffp-contract=off -fno-tree-slp-vectorize \
-    -DHWY_COMPILE_ALL_ATTAINABLE -Wall -Wextra
+    -march=armv8-a+crypto -I . -I include -isystem $out/include \
+    -ffp-contract=off -fno-tree-slp-vectorize -DHWY_COMPILE_ALL_ATTAINABLE -Wall -Wextra
 echo "neon: the library compiles for AArch64"
