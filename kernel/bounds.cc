@@ -1,5 +1,4 @@
-// World bounds. Spheres and boxes with float32 positions go through lanes; float64 positions are
-// summed one by one.
+// World bounds: positions and extents in lanes, whatever the layout, and their sums.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -11,7 +10,7 @@
 
 #include "carom/kernel/bounds.h"
 #include "kernel/bounds_columns.h"
-#include "simd/gather-inl.h"
+#include "kernel/bounds_load-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -19,116 +18,88 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// The neighbouring float towards -inf (kTowards = -1) or +inf (+1), by its bits. Finite v.
-template <int kTowards>
-HWY_INLINE F neighbour(F v) {
-  const IntTag bits;
-  const I as_integer = hn::BitCast(bits, v);
-  const I sign = hn::ShiftRight<31>(as_integer);  // 0 or -1
-  const I step = hn::Set(bits, kTowards);
-  // Positive floats order like their bits, negative ones against them.
-  const I moved = hn::Add(as_integer, hn::Sub(hn::Xor(step, sign), sign));
-  const I from_zero = hn::Set(bits, kTowards < 0 ? static_cast<int32_t>(0x80000001u) : 1);
-  return hn::IfThenElse(hn::Eq(v, splat(0)), hn::BitCast(FloatTag(), from_zero),
-                        hn::BitCast(FloatTag(), moved));
+// Zero, but not a number where the position is not finite.
+template <class V>
+HWY_INLINE V finite_test(V x, V y, V z) {
+  const V zero = hn::Zero(hn::DFromV<V>());
+  return hn::Add(hn::Add(hn::Mul(x, zero), hn::Mul(y, zero)), hn::Mul(z, zero));
 }
-
-struct RoundedSum {
-  F sum;
-  F error;  // NaN if the sum overflows
-};
-
-HWY_INLINE RoundedSum two_sum(F a, F b) {
-  const F sum = hn::Add(a, b);
-  const F b_part = hn::Sub(sum, a);
-  return {sum, hn::Add(hn::Sub(a, hn::Sub(sum, b_part)), hn::Sub(b, b_part))};
-}
-
-HWY_INLINE F sum_downwards(F a, F b) {
-  const RoundedSum s = two_sum(a, b);
-  const F down = hn::IfThenElse(hn::Lt(s.error, splat(0)), neighbour<-1>(s.sum), s.sum);
-  return min(down, splat(FLT_MAX));
-}
-
-HWY_INLINE F sum_upwards(F a, F b) {
-  const RoundedSum s = two_sum(a, b);
-  const F up = hn::IfThenElse(hn::Gt(s.error, splat(0)), neighbour<1>(s.sum), s.sum);
-  return max(up, splat(-FLT_MAX));
-}
-
-HWY_INLINE Mask is_finite(F v) { return hn::Le(hn::Abs(v), splat(FLT_MAX)); }
-
-HWY_INLINE Mask is_finite(const F3& v) {
-  return hn::And(hn::And(is_finite(v.x), is_finite(v.y)), is_finite(v.z));
-}
-
-HWY_INLINE Mask is_ordered(const F3& lower, const F3& upper) {
-  return hn::And(hn::And(hn::Le(lower.x, upper.x), hn::Le(lower.y, upper.y)),
-                 hn::Le(lower.z, upper.z));
-}
-
-// Writes kLanes bounds; returns how many of them are of valid bodies.
-HWY_INLINE size_t write_bounds(const F3& position, const F3& lower, const F3& upper,
-                               const BoundsColumns& out, size_t row) {
-  const FloatTag tag;
-  const Mask valid = hn::And(hn::And(is_finite(position), is_ordered(lower, upper)),
-                             hn::And(is_finite(lower), is_finite(upper)));
-  const F empty_lower = splat(kInfinity);
-  const F empty_upper = splat(-kInfinity);
-  const auto write = [&](size_t axis, F p, F low, F high) HWY_ATTR {
-    hn::StoreU(hn::IfThenElse(valid, sum_downwards(p, low), empty_lower), tag,
-               out.lower[axis] + row);
-    hn::StoreU(hn::IfThenElse(valid, sum_upwards(p, high), empty_upper), tag,
-               out.upper[axis] + row);
-  };
-  write(0, position.x, lower.x, upper.x);
-  write(1, position.y, lower.y, upper.y);
-  write(2, position.z, lower.z, upper.z);
-  return hn::CountTrue(tag, valid);
-}
-
-struct ConsecutiveRecords {
-  const char* base;
-  size_t stride;
-
-  HWY_INLINE const float* record(size_t i) const {
-    return reinterpret_cast<const float*>(base + i * stride);
-  }
-#if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), record(i)); }
+HWY_INLINE F finite_test(const Wide& x, const Wide& y, const Wide& z) {
+#if HWY_TARGET == HWY_SCALAR
+  return demote(finite_test(x.all, y.all, z.all));
+#else
+  return demote(Wide{finite_test(x.low, y.low, z.low), finite_test(x.high, y.high, z.high)});
 #endif
-  HWY_INLINE float component(size_t i, size_t c) const { return record(i)[c]; }
-};
-
-// Packed spheres [begin, end), end - begin a multiple of the lanes; returns the valid ones.
-size_t sphere_bounds(const PositionView& records, const BoundsColumns& out, size_t begin,
-                     size_t end) {
-  size_t valid = 0;
-  for (size_t i = begin; i < end; i += kLanes) {
-    const char* base = static_cast<const char*>(records.data) + i * records.stride;
-    F3 centre;
-    F radius;
-    transpose_records(ConsecutiveRecords{base, records.stride}, centre, radius);
-    const F3 r = {radius, radius, radius};
-    valid += write_bounds(centre, -r, r, out, i);
-  }
-  return valid;
 }
 
-// Rows of columns, as for sphere_bounds; `out` is indexed from `begin`.
-size_t column_bounds(const BodyColumns& bodies, const BoundsColumns& out, size_t begin,
-                     size_t end) {
+template <class Position>
+HWY_INLINE Mask is_valid(const Position& p) {
+  return hn::Eq(finite_test(p.x, p.y, p.z), splat(0));
+}
+HWY_INLINE Mask is_valid(const NoPositions::Position&) { return hn::Not(no_lanes()); }
+
+// Finite and in order; not so with NaN.
+HWY_INLINE Mask is_valid_axis(F lower, F upper) {
+  return hn::And(hn::And(hn::Ge(lower, splat(-FLT_MAX)), hn::Le(lower, upper)),
+                 hn::Le(upper, splat(FLT_MAX)));
+}
+
+HWY_INLINE Mask is_valid_extent(const F3& lower, const F3& upper) {
+  return hn::And(hn::And(is_valid_axis(lower.x, upper.x), is_valid_axis(lower.y, upper.y)),
+                 is_valid_axis(lower.z, upper.z));
+}
+
+// Bodies [begin, end), end - begin a multiple of the lanes; returns the valid ones.
+template <class Positions, class Extents>
+size_t bounds_of(const Positions& positions, const Extents& extents, const BoundsColumns& out,
+                 size_t begin, size_t end) {
   const FloatTag tag;
-  const auto load = [&](const auto& columns, size_t i) HWY_ATTR {
-    return F3{hn::LoadU(tag, columns[0].data() + i), hn::LoadU(tag, columns[1].data() + i),
-              hn::LoadU(tag, columns[2].data() + i)};
-  };
-  size_t valid = 0;
-  for (size_t i = 0; begin + i < end; i += kLanes) {
-    valid += write_bounds(load(bodies.position, i), load(bodies.lower, i), load(bodies.upper, i),
-                          out, begin + i);
+  size_t count = 0;
+  for (size_t i = begin; i < end; i += kLanes) {
+    typename Positions::Position position;
+    F w;
+    F3 lower, upper;
+    positions.load(i, position, w);
+    extents.load(i, w, lower, upper);
+    const Mask valid = hn::And(is_valid(position), is_valid_extent(lower, upper));
+    count += hn::CountTrue(tag, valid);
+    const auto write = [&](size_t axis, const auto& p, F low, F high) HWY_ATTR {
+      const F down = hn::IfThenElse(valid, sum_downwards(p, low), splat(kInfinity));
+      const F up = hn::IfThenElse(valid, sum_upwards(p, high), splat(-kInfinity));
+      hn::StoreU(down, tag, out.lower[axis] + i);
+      hn::StoreU(up, tag, out.upper[axis] + i);
+    };
+    write(0, position.x, lower.x, upper.x);
+    write(1, position.y, lower.y, upper.y);
+    write(2, position.z, lower.z, upper.z);
   }
-  return valid;
+  return count;
+}
+
+template <class Positions>
+size_t bounds_at(const Positions& positions, const BodyReader& reader, const BoundsColumns& out,
+                 size_t begin, size_t end) {
+  const Collidables& bodies = reader.bodies;
+  if (bodies.kind) return bounds_of(positions, MixedExtents(reader), out, begin, end);
+  if (bodies.uniform_kind == ShapeKind::sphere) {
+    return bounds_of(positions, SphereExtents(), out, begin, end);
+  }
+  return bounds_of(positions, BoxExtents(bodies), out, begin, end);
+}
+
+size_t lane_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin, size_t end) {
+  const BodyReader reader{bodies};
+  const bool are_boxes = !bodies.kind && bodies.uniform_kind != ShapeKind::sphere;
+  if (!bodies.position.data && are_boxes) {
+    return bounds_of(NoPositions(), BoxExtents(bodies), out, begin, end);
+  }
+  if (bodies.position.data && bodies.position.radius_layout == RadiusLayout::fourth) {
+    return reader.is_float64() ? bounds_at(DoubleRecords(bodies.position), reader, out, begin, end)
+                               : bounds_at(FloatRecords(bodies.position), reader, out, begin, end);
+  }
+  const MixedExtents extents(reader);
+  return reader.is_float64() ? bounds_of(AnyPositions<double>{reader}, extents, out, begin, end)
+                             : bounds_of(AnyPositions<float>{reader}, extents, out, begin, end);
 }
 
 size_t lane_count() { return kLanes; }
@@ -140,7 +111,6 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 #include <atomic>
 
-#include "kernel/body_reader.h"
 #include "kernel/outward.h"
 #include "kernel/parallel.h"
 #include "simd/dispatch.h"
@@ -148,15 +118,8 @@ HWY_AFTER_NAMESPACE();
 namespace carom {
 namespace {
 
-HWY_EXPORT(sphere_bounds);
-HWY_EXPORT(column_bounds);
+HWY_EXPORT(lane_bounds);
 HWY_EXPORT(lane_count);
-
-bool are_packed_spheres(const Collidables& bodies) {
-  return !bodies.kind && bodies.uniform_kind == ShapeKind::sphere &&
-         bodies.position.type == PositionType::float32 &&
-         bodies.position.radius_layout == RadiusLayout::fourth;
-}
 
 struct Extent {
   std::array<float, 3> lower, upper;
@@ -171,7 +134,7 @@ Extent extent_of(const BodyReader& reader, size_t i) {
           {reader.upper(0, i), reader.upper(1, i), reader.upper(2, i)}};
 }
 
-// One body at a time: float64 positions and the tail of a block.
+// One body at a time: what is left of a block after whole vectors.
 size_t single_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin,
                      size_t end) {
   const BodyReader reader{bodies};
@@ -193,39 +156,16 @@ size_t single_bounds(const Collidables& bodies, const BoundsColumns& out, size_t
   return valid;
 }
 
-// float32 bodies of any kinds and layout, through columns.
-size_t any_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin, size_t end) {
-  BodyColumns columns;
-  const BodyReader reader{bodies};
-  for (size_t i = begin; i < end; ++i) {
-    const Position<float> p = reader.position<float>(i);
-    const Extent extent = extent_of(reader, i);
-    const std::array<float, 3> position = {p.x, p.y, p.z};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      columns.position[axis][i - begin] = position[axis];
-      columns.lower[axis][i - begin] = extent.lower[axis];
-      columns.upper[axis][i - begin] = extent.upper[axis];
-    }
-  }
-  return CAROM_DISPATCH(column_bounds)(columns, out, begin, end);
-}
-
-size_t block_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin, size_t end) {
-  if (bodies.position.type == PositionType::float64) return single_bounds(bodies, out, begin, end);
-  const size_t whole = end - (end - begin) % CAROM_DISPATCH(lane_count)();
-  const size_t valid = are_packed_spheres(bodies)
-                           ? CAROM_DISPATCH(sphere_bounds)(bodies.position, out, begin, whole)
-                           : any_bounds(bodies, out, begin, whole);
-  return valid + single_bounds(bodies, out, whole, end);
-}
-
 }  // namespace
 
 size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
                       Parallelism parallelism) {
+  const size_t lanes = CAROM_DISPATCH(lane_count)();
   std::atomic<size_t> valid{0};
   for_each_block(bodies.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    valid += block_bounds(bodies, out, begin, end);
+    const size_t whole = end - (end - begin) % lanes;
+    valid += CAROM_DISPATCH(lane_bounds)(bodies, out, begin, whole) +
+             single_bounds(bodies, out, whole, end);
   });
   return bodies.count - valid;
 }

@@ -1,8 +1,6 @@
 #include "world/body_store.h"
 
 #include <algorithm>
-#include <cassert>
-#include <functional>
 
 namespace carom {
 namespace {
@@ -19,26 +17,48 @@ void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T def
   column[index] = value;
 }
 
-template <class T>
-void grow_column(std::vector<T>& column, T default_value) {
-  if (!column.empty()) column.push_back(default_value);
-}
-
-template <class T>
-size_t bytes_of(const std::vector<T>& column) {
-  return column.capacity() * sizeof(T);
-}
-
-template <class T>
-const T* data_or_null(const std::vector<T>& column) {
-  return column.empty() ? nullptr : column.data();
-}
-
 }  // namespace
 
+// visit(column, whether it exists, values a row, value of a new row)
+template <class Self, class Visit>
+void BodyStore::for_each_column(Self& self, const Visit& visit) {
+  const auto optional = [&](auto& column, auto value) { visit(column, !column.empty(), 1, value); };
+  const bool is_float64 = self.positions_ == PositionType::float64;
+  visit(self.generation_, true, 1, self.first_generation_);
+  visit(self.kind_, true, 1, ShapeKind::sphere);
+  visit(self.records32_, !is_float64, 4, 0.0f);
+  visit(self.records64_, is_float64, 4, 0.0);
+  visit(self.velocity_, self.has_velocities_, 1, Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  optional(self.box_slot_, 0u);
+  optional(self.motion_, Motion::dynamic);
+  optional(self.layer_, kEverything);
+  optional(self.mask_, kEverything);
+  optional(self.owner_, 0u);
+  optional(self.sensor_, uint8_t{0});
+  optional(self.user_, uint64_t{0});
+}
+
+void BodyStore::add_row() {
+  for_each_column(*this, [&](auto& column, bool exists, int width, const auto& value) {
+    if (!exists) return;
+    for (int i = 0; i < width; ++i) column.push_back(value);
+  });
+  if (touched_.size() < rows()) touched_.push_back(0);
+}
+
+// Rows beyond the last body go.
+void BodyStore::drop_rows() {
+  for (size_t i = rows(); i < generation_.size(); ++i) {
+    first_generation_ = std::max(first_generation_, generation_[i]);
+  }
+  for_each_column(*this, [&](auto& column, bool exists, int width, const auto&) {
+    if (exists) resize_and_give_back(column, rows() * static_cast<size_t>(width));
+  });
+}
+
 BodyId BodyStore::add(const BodyDesc& body) {
-  const uint32_t index = take_index();
-  alive_[index] = 1;
+  const uint32_t index = alive_.take();
+  if (rows() > generation_.size()) add_row();
   set_position(index, body.position);
   set_radius(index, 0);
   store_shape(index, body.shape);
@@ -55,55 +75,25 @@ BodyId BodyStore::add(const BodyDesc& body) {
 
 void BodyStore::remove(BodyId id) {
   const uint32_t index = id.index;
-  const ShapeKind kind = kind_[index];
-  --bodies_of_kind_[static_cast<size_t>(kind)];
-  if (kind == ShapeKind::aabb) free_boxes_.push_back(box_slot_[index]);
-  alive_[index] = 0;
-  ++generation_[index];
-  free_.push_back(index);
-  std::push_heap(free_.begin(), free_.end(), std::greater<>());
   touch(index, kReplaced);
-}
-
-uint32_t BodyStore::take_index() {
-  if (free_.empty()) {
-    grow();
-    return static_cast<uint32_t>(rows() - 1);
-  }
-  std::pop_heap(free_.begin(), free_.end(), std::greater<>());
-  const uint32_t index = free_.back();
-  free_.pop_back();
-  return index;
-}
-
-void BodyStore::grow() {
-  alive_.push_back(0);
-  generation_.push_back(0);
-  kind_.push_back(ShapeKind::sphere);
-  touched_.push_back(0);
-  if (positions_ == PositionType::float64) {
-    records64_.insert(records64_.end(), 4, 0.0);
-  } else {
-    records32_.insert(records32_.end(), 4, 0.0f);
-  }
-  grow_column(box_slot_, 0u);
-  grow_column(motion_, Motion::dynamic);
-  grow_column(layer_, kEverything);
-  grow_column(mask_, kEverything);
-  grow_column(owner_, 0u);
-  grow_column(sensor_, uint8_t{0});
-  grow_column(user_, uint64_t{0});
-  if (has_velocities_) velocity_.emplace_back(Eigen::Vector3f::Zero());
+  count_kind(index, -1);
+  if (kind_[index] == ShapeKind::aabb) release_box(index);
+  kind_[index] = ShapeKind::sphere;
+  ++generation_[index];
+  alive_.release(index);
+  if (rows() < generation_.size()) drop_rows();
 }
 
 void BodyStore::touch(uint32_t index, uint8_t how) {
+  if (!touched_[index]) touched_indices_.push_back(index);
   touched_[index] |= how;
-  any_touched_ = true;
 }
 
 void BodyStore::clear_touched() {
-  if (any_touched_) std::fill(touched_.begin(), touched_.end(), uint8_t{0});
-  any_touched_ = false;
+  for (const uint32_t index : touched_indices_) touched_[index] = 0;
+  touched_indices_.clear();
+  give_back(touched_indices_, rows());
+  resize_and_give_back(touched_, rows());
 }
 
 Eigen::Vector3d BodyStore::position(uint32_t index) const {
@@ -146,11 +136,16 @@ Shape BodyStore::shape(uint32_t index) const {
 }
 
 void BodyStore::set_shape(uint32_t index, const Shape& shape) {
-  --bodies_of_kind_[static_cast<size_t>(kind_[index])];
-  if (kind_[index] == ShapeKind::aabb) free_boxes_.push_back(box_slot_[index]);
+  count_kind(index, -1);
+  const bool had_box = kind_[index] == ShapeKind::aabb;
+  if (had_box && !std::holds_alternative<Aabb>(shape)) release_box(index);
   set_radius(index, 0);
   store_shape(index, shape);
   touch(index, kShapeTouched);
+}
+
+void BodyStore::count_kind(uint32_t index, int change) {
+  bodies_of_kind_[static_cast<size_t>(kind_[index])] += static_cast<size_t>(change);
 }
 
 void BodyStore::store_shape(uint32_t index, const Shape& shape) {
@@ -158,26 +153,33 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
     kind_[index] = ShapeKind::sphere;
     set_radius(index, sphere->radius);
   } else if (const Aabb* box = std::get_if<Aabb>(&shape)) {
+    if (kind_[index] != ShapeKind::aabb) take_box(index);
     kind_[index] = ShapeKind::aabb;
-    if (box_slot_.empty()) box_slot_.resize(rows(), 0);
-    const uint32_t slot = take_box();
-    box_slot_[index] = slot;
-    for (int axis = 0; axis < 3; ++axis) {
-      boxes_[axis][slot] = box->lower[axis];
-      boxes_[3 + axis][slot] = box->upper[axis];
-    }
+    store_box(index, *box);
   }
-  ++bodies_of_kind_[static_cast<size_t>(kind_[index])];
+  count_kind(index, 1);
 }
 
-uint32_t BodyStore::take_box() {
-  if (free_boxes_.empty()) {
-    for (std::vector<float>& column : boxes_) column.push_back(0);
-    return static_cast<uint32_t>(boxes_[0].size() - 1);
+void BodyStore::store_box(uint32_t index, const Aabb& box) {
+  const uint32_t slot = box_slot_[index];
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes_[axis][slot] = box.lower[axis];
+    boxes_[3 + axis][slot] = box.upper[axis];
   }
-  const uint32_t slot = free_boxes_.back();
-  free_boxes_.pop_back();
-  return slot;
+}
+
+void BodyStore::take_box(uint32_t index) {
+  if (box_slot_.empty()) box_slot_.resize(rows(), 0);
+  box_slot_[index] = slots_.take();
+  if (slots_.end() == boxes_[0].size()) return;
+  for (std::vector<float>& column : boxes_) column.push_back(0);
+}
+
+void BodyStore::release_box(uint32_t index) {
+  slots_.release(box_slot_[index]);
+  box_slot_[index] = 0;  // nothing reads it, but vectors may load it: a row that exists
+  if (slots_.end() == boxes_[0].size()) return;
+  for (std::vector<float>& column : boxes_) resize_and_give_back(column, slots_.end());
 }
 
 Motion BodyStore::motion(uint32_t index) const {
@@ -249,12 +251,9 @@ PairFilter BodyStore::filter() const {
 }
 
 size_t BodyStore::bytes() const {
-  size_t sum = bytes_of(alive_) + bytes_of(generation_) + bytes_of(kind_) + bytes_of(touched_) +
-               bytes_of(free_) + bytes_of(records32_) + bytes_of(records64_) +
-               bytes_of(free_boxes_) + bytes_of(box_slot_) + bytes_of(motion_) + bytes_of(layer_) +
-               bytes_of(mask_) + bytes_of(owner_) + bytes_of(sensor_) + bytes_of(user_) +
-               bytes_of(velocity_);
+  size_t sum = alive_.bytes() + slots_.bytes() + bytes_of(touched_) + bytes_of(touched_indices_);
   for (const std::vector<float>& column : boxes_) sum += bytes_of(column);
+  for_each_column(*this, [&](const auto& column, auto...) { sum += bytes_of(column); });
   return sum;
 }
 

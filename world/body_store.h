@@ -9,6 +9,7 @@
 #include "carom/broadphase/find_pairs.h"
 #include "carom/kernel/body.h"
 #include "carom/kernel/views.h"
+#include "world/index_pool.h"
 
 namespace carom {
 
@@ -19,12 +20,12 @@ class BodyStore {
   BodyId add(const BodyDesc& body);
   void remove(BodyId id);
   bool contains(BodyId id) const {
-    return id.index < alive_.size() && alive_[id.index] && generation_[id.index] == id.generation;
+    return id.index < rows() && is_alive(id.index) && generation_[id.index] == id.generation;
   }
 
-  size_t rows() const { return alive_.size(); }
-  size_t size() const { return alive_.size() - free_.size(); }
-  bool is_alive(uint32_t index) const { return alive_[index]; }
+  size_t rows() const { return alive_.end(); }  // highest living index + 1
+  size_t size() const { return alive_.size(); }
+  bool is_alive(uint32_t index) const { return alive_.is_used(index); }
   BodyId id_of(uint32_t index) const { return {index, generation_[index]}; }
 
   Eigen::Vector3d position(uint32_t index) const;
@@ -47,48 +48,56 @@ class BodyStore {
   std::vector<float>& records32() { return records32_; }
   std::vector<double>& records64() { return records64_; }
   std::array<std::vector<float>, 6>& boxes() { return boxes_; }
+  const std::array<std::vector<float>, 6>& boxes() const { return boxes_; }
   std::span<Eigen::Vector3f> linear_velocities();
   bool has_velocities() const { return has_velocities_; }
 
   // What the stages read.
   Collidables view() const;
   PairFilter filter() const;
-  const std::vector<uint32_t>& free_indices() const { return free_; }
+  const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
 
   // One byte a row: what was done through the calls above since clear_touched(). Writes into the
   // arrays are not seen here.
   static constexpr uint8_t kShapeTouched = 1;  // shape, or what a result depends on beside the pose
   static constexpr uint8_t kReplaced = 2;      // the body is not the one of the last step
   uint8_t touched(uint32_t index) const { return touched_[index]; }
-  bool any_touched() const { return any_touched_; }
+  bool any_touched() const { return !touched_indices_.empty(); }
+  // Those with a byte that is not zero, rows() and beyond among them: bodies that went.
+  const std::vector<uint32_t>& touched_indices() const { return touched_indices_; }
   void clear_touched();
 
   size_t bytes() const;
 
  private:
-  uint32_t take_index();
-  void grow();
+  template <class Self, class Visit>
+  static void for_each_column(Self& self, const Visit& visit);
+  void add_row();
+  void drop_rows();
   void touch(uint32_t index, uint8_t how);
+  void count_kind(uint32_t index, int change);
   void store_shape(uint32_t index, const Shape& shape);
-  uint32_t take_box();
+  void store_box(uint32_t index, const Aabb& box);
+  void take_box(uint32_t index);
+  void release_box(uint32_t index);
   void set_radius(uint32_t index, float radius);
 
   PositionType positions_;
-  std::vector<uint8_t> alive_;
+  IndexPool alive_;
   std::vector<uint32_t> generation_;
-  std::vector<ShapeKind> kind_;
-  std::vector<uint8_t> touched_;
-  bool any_touched_ = false;
-  std::vector<uint32_t> free_;  // min-heap: the lowest index is used again first
+  uint32_t first_generation_ = 0;  // of new rows: above that of every body that dropped rows had
+  std::vector<ShapeKind> kind_;    // of a row without a body: sphere
   std::array<size_t, kShapeKindCount> bodies_of_kind_{};
+  std::vector<uint8_t> touched_;  // rows that were dropped since clear_touched() included
+  std::vector<uint32_t> touched_indices_;
 
   std::vector<float> records32_;  // x, y, z, w a row; one of the two is empty
   std::vector<double> records64_;
 
   // Lower and upper corners; rows are slots, handed out to aabb bodies.
+  IndexPool slots_;
   std::array<std::vector<float>, 6> boxes_;
-  std::vector<uint32_t> free_boxes_;
-  std::vector<uint32_t> box_slot_;  // empty until there is a box
+  std::vector<uint32_t> box_slot_;  // empty until there is a box; 0 for other kinds
 
   // Empty while every body has the default.
   std::vector<Motion> motion_;

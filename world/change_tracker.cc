@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <numeric>
 
 #include "kernel/parallel.h"
+#include "world/columns.h"
 
 namespace carom {
 namespace {
 
-constexpr size_t kRowsPerBlock = 8192;
+// Small enough that a body on its own costs little, large enough for the loop over blocks.
+constexpr size_t kRowsPerBlock = 1024;
 
 // Bits that differ between two records of four numbers; by bits, so that NaN equals itself.
 template <class T>
@@ -23,69 +26,117 @@ uint64_t difference(const T* a, const T* b) {
   return bits;
 }
 
+// Sets the flags of numbers that differ, and copies them.
+void compare_column(const float* now, float* last, size_t count, uint8_t* changed) {
+  for (size_t i = 0; i < count; ++i) {
+    uint32_t a, b;
+    std::memcpy(&a, now + i, sizeof(a));
+    std::memcpy(&b, last + i, sizeof(b));
+    changed[i] |= a != b;
+  }
+  std::memcpy(last, now, count * sizeof(float));
+}
+
+uint32_t count_set(const uint8_t* flags, size_t count) {
+  return std::accumulate(flags, flags + count, uint32_t{0});
+}
+
 }  // namespace
 
 void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
   all_unchanged_ = !bodies.any_touched() && changed_.size() == rows;
-  changed_.resize(rows);
-  compare_records(bodies.records32(), last_records32_, parallelism);
-  compare_records(bodies.records64(), last_records64_, parallelism);
-  if (!bodies.boxes()[0].empty()) compare_boxes(bodies);
-  if (bodies.any_touched()) {
-    for (size_t i = 0; i < rows; ++i) {
-      if (bodies.touched(static_cast<uint32_t>(i))) changed_[i] = 1;
-    }
-  }
+  resize_and_give_back(changed_, rows);
+  resize_and_give_back(block_changes_, block_count(rows, kRowsPerBlock));
+  // New rows are touched, whatever their copies hold.
+  const bool moved = compare_records(bodies.records32(), last_records32_, parallelism) |
+                     compare_records(bodies.records64(), last_records64_, parallelism);
+  const bool reshaped = compare_boxes(bodies, parallelism);
+  if (reshaped) mark_changed_boxes(bodies, parallelism);
+  if (moved || reshaped) all_unchanged_ = false;
+  mark_touched(bodies);
+  changed_count_ = std::accumulate(block_changes_.begin(), block_changes_.end(), size_t{0});
 }
 
+// The first to write flags: those of the last step go.
 template <class T>
-void ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& last,
+bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& last,
                                     Parallelism parallelism) {
-  if (now.empty()) return;
-  last.resize(now.size());  // new rows are touched, whatever their copy holds
+  resize_and_give_back(last, now.size());
   std::atomic<bool> any{false};
-  for_each_block(
-      changed_.size(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-        uint64_t differences = 0;
-        for (size_t i = begin; i < end; ++i) {
-          const uint64_t bits = difference(&now[4 * i], &last[4 * i]);
-          changed_[i] = bits != 0;
-          differences |= bits;
-        }
-        if (differences == 0) return;
-        std::copy(now.begin() + 4 * begin, now.begin() + 4 * end, last.begin() + 4 * begin);
-        any = true;
-      });
-  if (any) all_unchanged_ = false;
+  for_each_block(now.size() / 4, kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const size_t count = end - begin;
+                   const size_t size = 4 * count * sizeof(T);
+                   const T* records = now.data() + 4 * begin;
+                   T* copies = last.data() + 4 * begin;
+                   uint8_t* flags = changed_.data() + begin;
+                   uint32_t& changes = block_changes_[block];
+                   if (std::memcmp(records, copies, size) == 0) {
+                     if (changes > 0) std::memset(flags, 0, count);
+                     changes = 0;
+                     return;
+                   }
+                   for (size_t i = 0; i < count; ++i) {
+                     flags[i] = difference(records + 4 * i, copies + 4 * i) != 0;
+                   }
+                   changes = count_set(flags, count);
+                   std::memcpy(copies, records, size);
+                   any = true;
+                 });
+  return any;
 }
 
-void ChangeTracker::compare_boxes(BodyStore& bodies) {
+bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism parallelism) {
   const size_t slots = bodies.boxes()[0].size();
-  box_changed_.assign(slots, 0);
-  for (size_t column = 0; column < 6; ++column) {
-    const std::vector<float>& now = bodies.boxes()[column];
-    std::vector<float>& last = last_boxes_[column];
-    last.resize(slots);
-    if (std::memcmp(now.data(), last.data(), slots * sizeof(float)) == 0) continue;
-    for (size_t i = 0; i < slots; ++i) {
-      box_changed_[i] |= std::memcmp(&now[i], &last[i], sizeof(float)) != 0;
+  for (std::vector<float>& column : last_boxes_) resize_and_give_back(column, slots);
+  resize_and_give_back(box_changed_, slots);
+  resize_and_give_back(box_block_changed_, block_count(slots, kRowsPerBlock));
+  std::atomic<bool> any{false};
+  for_each_block(slots, kRowsPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
+    const size_t count = end - begin;
+    bool differs = false;
+    for (size_t column = 0; column < 6; ++column) {
+      const float* now = &bodies.boxes()[column][begin];
+      float* last = &last_boxes_[column][begin];
+      if (std::memcmp(now, last, count * sizeof(float)) == 0) continue;
+      if (!differs) std::memset(&box_changed_[begin], 0, count);
+      compare_column(now, last, count, &box_changed_[begin]);
+      differs = true;
     }
-    last = now;
-    all_unchanged_ = false;
-  }
+    box_block_changed_[block] = differs;
+    if (differs) any = true;
+  });
+  return any;
+}
+
+void ChangeTracker::mark_changed_boxes(const BodyStore& bodies, Parallelism parallelism) {
   const Collidables view = bodies.view();
-  for (size_t i = 0; i < changed_.size(); ++i) {
-    const ShapeKind kind = view.kind ? view.kind[i] : view.uniform_kind;
-    if (kind == ShapeKind::aabb) changed_[i] |= box_changed_[view.box_slot[i]];
+  for_each_block(changed_.size(), kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   for (size_t i = begin; i < end; ++i) {
+                     const ShapeKind kind = view.kind ? view.kind[i] : view.uniform_kind;
+                     if (kind != ShapeKind::aabb) continue;
+                     const uint32_t slot = view.box_slot[i];
+                     if (box_block_changed_[slot / kRowsPerBlock])
+                       changed_[i] |= box_changed_[slot];
+                   }
+                   block_changes_[block] = count_set(&changed_[begin], end - begin);
+                 });
+}
+
+void ChangeTracker::mark_touched(const BodyStore& bodies) {
+  for (const uint32_t index : bodies.touched_indices()) {
+    if (index >= changed_.size() || changed_[index]) continue;
+    changed_[index] = 1;
+    ++block_changes_[index / kRowsPerBlock];
   }
 }
 
 size_t ChangeTracker::bytes() const {
-  size_t sum = changed_.capacity() + box_changed_.capacity() +
-               last_records32_.capacity() * sizeof(float) +
-               last_records64_.capacity() * sizeof(double);
-  for (const std::vector<float>& column : last_boxes_) sum += column.capacity() * sizeof(float);
+  size_t sum = bytes_of(changed_) + bytes_of(block_changes_) + bytes_of(last_records32_) +
+               bytes_of(last_records64_) + bytes_of(box_changed_) + bytes_of(box_block_changed_);
+  for (const std::vector<float>& column : last_boxes_) sum += bytes_of(column);
   return sum;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "world/columns.h"
+
 namespace carom {
 namespace {
 
@@ -62,11 +64,9 @@ void EventStage::run(const PairHistory& last, const PairHistory& now, const Body
 }
 
 void EventStage::remember(const BodyStore& bodies) {
-  const size_t known = generation_.size();
-  generation_.resize(bodies.rows());
-  for (size_t i = 0; i < bodies.rows(); ++i) {
-    const auto index = static_cast<uint32_t>(i);
-    if (i >= known || bodies.touched(index)) generation_[i] = bodies.id_of(index).generation;
+  resize_and_give_back(generation_, bodies.rows());  // new rows are touched
+  for (const uint32_t index : bodies.touched_indices()) {
+    if (index < generation_.size()) generation_[index] = bodies.id_of(index).generation;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstring>
@@ -215,6 +216,57 @@ TEST(Bounds, OfMixedKinds) {
       const Bodies spheres = make_bodies(Sides::sphere_sphere, {.name = ""}, layout.positions, 200);
       for (size_t i = 0; i < bodies.size(); i += 3) bodies[i] = spheres[i];
       expect_bounds(bodies, layout);
+    }
+  });
+}
+
+// Whole vectors of one kind between vectors of both.
+TEST(Bounds, OfKindsInRuns) {
+  for_each_isa([] {
+    Random random(7);
+    for (const PositionType positions : kPositionTypes) {
+      Bodies bodies = make_bodies(Sides::aabb_aabb, {.name = ""}, positions, 1500);
+      const Bodies spheres = make_bodies(Sides::sphere_sphere, {.name = ""}, positions, 1500);
+      for (size_t i = 0; i < bodies.size();) {
+        const bool is_sphere = random.chance(0.5);
+        const size_t end = std::min<size_t>(i + 1 + random.below(40), bodies.size());
+        for (; i < end; ++i) {
+          if (is_sphere) bodies[i] = spheres[i];
+        }
+      }
+      expect_bounds(bodies, {.positions = positions});
+      expect_bounds(bodies, {.positions = positions, .box_slots = true});
+    }
+  });
+}
+
+// Slots in order, nearly in order and in none.
+TEST(Bounds, OfBoxesWithSlots) {
+  constexpr size_t kCount = 300;
+  Random random(8);
+  std::vector<std::vector<uint32_t>> orders(4, std::vector<uint32_t>(kCount));
+  for (uint32_t i = 0; i < kCount; ++i) {
+    orders[0][i] = orders[1][i] = i;
+    orders[2][i] = (i + 100) % kCount;
+    orders[3][i] = static_cast<uint32_t>(random.below(kCount));
+  }
+  for (size_t i = 0; i + 1 < kCount; i += 1 + random.below(50)) {
+    std::swap(orders[1][i], orders[1][i + 1]);
+  }
+  for_each_isa([&] {
+    for (const PositionType positions : kPositionTypes) {
+      const Bodies bodies = make_bodies(Sides::aabb_aabb, {.name = ""}, positions, kCount);
+      const LaidOut set(bodies, {.positions = positions});
+      for (const std::vector<uint32_t>& slots : orders) {
+        Collidables view = set.view();
+        view.box_slot = slots.data();
+        BoundsMemory memory(kCount);
+        compute_bounds(view, memory.out());
+        for (size_t i = 0; i < kCount; ++i) {
+          const PlacedShape body = {bodies[slots[i]].shape, bodies[i].position};
+          ASSERT_TRUE(same_bits(memory.box(i), expected_bounds(body, positions))) << i;
+        }
+      }
     }
   });
 }

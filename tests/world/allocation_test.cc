@@ -161,6 +161,9 @@ TEST(Allocations, NoneWhenBodiesAreReplacedOrSpoilt) {
       world.set_position(ids[3], {x, 1, 1});
       world.remove(ids[5]);
       ids[5] = world.add(crowd[5]);
+      world.remove(ids.back());  // the last row goes and comes back
+      world.step();
+      ids.back() = world.add(crowd.back());
       world.step();
     }
   };

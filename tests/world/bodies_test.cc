@@ -224,9 +224,9 @@ TEST(Bodies, RowsWithoutABodyAreIgnored) {
   std::vector<BodyId> ids;
   for (int i = 0; i < 5; ++i) ids.push_back(world.add(i % 2 ? crate(10 * i) : ball(10 * i)));
   world.step();
-  for (const int i : {0, 1, 4}) world.remove(ids[i]);
+  for (const int i : {0, 1, 3}) world.remove(ids[i]);
   for (const float value : {0.0f, 30.0f, std::numeric_limits<float>::quiet_NaN(), -1.0f}) {
-    for (const int i : {0, 1, 4}) {
+    for (const int i : {0, 1, 3}) {
       std::fill_n(world.arrays().record32 + 4 * i, 4, value);
       world.step();
       EXPECT_EQ(world.pairs().size(), 0u);
@@ -256,8 +256,11 @@ TEST(Bodies, ChangeTheKindOfTheirShape) {
     world.set_shape(a, Sphere{1});
     EXPECT_EQ(separation(), -0.25f);
     // Slots are used again; no box was lost.
+    EXPECT_EQ(world.boxes().count, 1u);
     world.set_shape(b, Aabb::from_half_extents({3, 3, 3}));
-    EXPECT_EQ(world.boxes().count, 3u);
+    EXPECT_EQ(world.boxes().count, 2u);
+    world.set_shape(b, Aabb::from_half_extents({4, 4, 4}));
+    EXPECT_EQ(world.boxes().count, 2u);
     EXPECT_EQ(std::get<Aabb>(world.shape(c)).upper.x(), 0.5f);
     EXPECT_NE(world.box_slot(b), world.box_slot(c));
   }

@@ -24,22 +24,24 @@ struct WorldSettings {
   BroadphaseMethod broadphase = BroadphaseMethod::automatic;
   Parallelism parallelism = Parallelism::arena;
   bool events = true;         // begin, persist and end of overlaps
-  bool carry_results = true;  // false: every pair is tested anew every step
+  bool carry_results = true;  // false: every pair is found and tested anew every step
+  size_t most_pairs = PairFinder::kMostPairs;  // a step that finds more gives none
 };
 
-// Writable arrays of a world, indexed by BodyId::index. They move when bodies are added: ask again
-// then. Rows of indices that no body has (World::is_alive) are ignored.
+// Writable arrays of a world, indexed by BodyId::index. They move when bodies are added or
+// removed: ask again then. Rows of indices that no body has (World::is_alive) are ignored.
 struct BodyArrays {
-  size_t count = 0;  // highest index ever used + 1
+  size_t count = 0;  // highest living index + 1
   // Records of x, y, z, w, in the world's position type (the other pointer is nullptr). w is the
   // radius of a sphere; leave it alone for other kinds.
   float* record32 = nullptr;
   double* record64 = nullptr;
 };
 
-// Corners of aabb bodies relative to their positions, in six columns, indexed by box slot.
+// Corners of aabb bodies relative to their positions, in six columns, indexed by box slot. A body
+// keeps its slot for as long as its shape is a box.
 struct BoxArrays {
-  size_t count = 0;
+  size_t count = 0;  // highest slot in use + 1
   std::array<float*, 3> lower{};
   std::array<float*, 3> upper{};
 };
@@ -93,7 +95,7 @@ class CAROM_EXPORT World {
   BoxArrays boxes();
   uint32_t box_slot(BodyId id) const;  // of an aabb body
   // One a body index; made on first use, and contacts carry normal velocities from then on. The
-  // span moves when bodies are added.
+  // span moves when bodies are added or removed.
   std::span<Eigen::Vector3f> linear_velocities();
 
   // Finds pairs, contacts and events for the bodies as they are now. Memory grows as needed and is
