@@ -3,7 +3,7 @@ SHELL := /bin/bash
 .NOTPARALLEL:
 JOBS ?= $(shell nproc)
 
-.PHONY: run test bench lint format asan tsan fuzz clean help
+.PHONY: run test bench peers lint format asan tsan fuzz clean help
 
 help: ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-7s %s\n", $$1, $$2}' Makefile
@@ -18,6 +18,10 @@ test: build-release ## run all tests
 bench: setup-build ## run the benchmarks; JSON goes to build/bench
 	@scripts/build.sh release carom_bench
 	@scripts/bench.sh build/release/bench/carom_bench
+
+peers: setup-peers ## compare with other libraries; ARGS="--large FILE.aabb"; writes docs/peers.md
+	@scripts/build.sh peers carom_peers
+	@scripts/peers.sh build/peers/bench/peers/carom_peers $(ARGS)
 
 lint: setup-dev ## check format, clang-tidy and include directions
 	@scripts/lint.sh

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# setup.sh build|dev|ci: installs the packages that are missing (Debian 12, Ubuntu 24.04 or later).
+# setup.sh build|dev|ci|peers: installs the packages that are missing (Debian 12, Ubuntu 24.04 or later).
 # build: what building, testing and benchmarking need. dev: clang and its tools as well.
-# ci: a cross compiler for AArch64 too.
+# ci: a cross compiler for AArch64 too. peers: build, and the libraries Carom is compared with.
 set -euo pipefail
 
 build_packages=(
@@ -11,12 +11,14 @@ build_packages=(
 )
 dev_packages=(clang clang-format clang-tidy libclang-rt-dev)
 ci_packages=(g++-aarch64-linux-gnu)
+peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev)
 
 case "${1:-build}" in
   build) packages=("${build_packages[@]}") ;;
   dev) packages=("${build_packages[@]}" "${dev_packages[@]}") ;;
   ci) packages=("${build_packages[@]}" "${dev_packages[@]}" "${ci_packages[@]}") ;;
-  *) echo "usage: setup.sh build|dev|ci" >&2; exit 2 ;;
+  peers) packages=("${build_packages[@]}" "${peer_packages[@]}") ;;
+  *) echo "usage: setup.sh build|dev|ci|peers" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

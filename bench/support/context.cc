@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 
 #include <fstream>
-#include <string>
 
 #include "carom/simd/isa.h"
 #include "carom_build_info.h"
@@ -30,16 +29,20 @@ std::string isa_names() {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> context() {
+  return {{"carom_version", build_info::kVersion},
+          {"commit", build_info::kCommit},
+          {"compiler", build_info::kCompiler},
+          {"flags", build_info::kFlags},
+          {"build_type", build_info::kBuildType},
+          {"highway", build_info::kHighwayVersion},
+          {"onetbb", build_info::kTbbVersion},
+          {"cpu", cpu_name()},
+          {"isas", isa_names()}};
+}
+
 void add_context() {
-  benchmark::AddCustomContext("carom_version", build_info::kVersion);
-  benchmark::AddCustomContext("commit", build_info::kCommit);
-  benchmark::AddCustomContext("compiler", build_info::kCompiler);
-  benchmark::AddCustomContext("flags", build_info::kFlags);
-  benchmark::AddCustomContext("build_type", build_info::kBuildType);
-  benchmark::AddCustomContext("highway", build_info::kHighwayVersion);
-  benchmark::AddCustomContext("onetbb", build_info::kTbbVersion);
-  benchmark::AddCustomContext("cpu", cpu_name());
-  benchmark::AddCustomContext("isas", isa_names());
+  for (const auto& [key, value] : context()) benchmark::AddCustomContext(key, value);
 }
 
 }  // namespace carom::bench

@@ -1,0 +1,149 @@
+// carom_peers [--smoke | --large] [--max-bodies N] [--budget S] [--frame-limit S] [--out FILE.json]
+//             [RECORDING.aabb...]
+// Compares the broadphase with those of other libraries, in one run: on generated scenes of 1k, 10k
+// and 100k bodies, and on recordings of bounds.
+//   --smoke          1k bodies, a few frames: does everything still run?
+//   --large          a million bodies as well
+//   --max-bodies N   generated scenes have at most so many; 0: recordings alone
+//   --budget S       seconds of frames a peer and scene (1)
+//   --frame-limit S  a peer that needs longer for a frame is left out (5)
+//   --out FILE       the results as JSON
+// Exit code 1 if a peer, or Carom, finds other pairs than it should.
+#include <charconv>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/peers/comparison.h"
+#include "bench/peers/report.h"
+
+namespace carom::bench {
+namespace {
+
+struct Arguments {
+  TimeLimits limits;
+  size_t max_bodies = 100'000;
+  std::string out;
+  std::vector<std::string> recordings;
+};
+
+template <class T>
+bool parse(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && value >= 0;
+}
+
+// Takes the flag's value, if it is one of those that have one.
+bool take_value(std::string_view flag, std::string_view value, Arguments& arguments) {
+  if (flag == "--max-bodies") return parse(value, arguments.max_bodies);
+  if (flag == "--budget") return parse(value, arguments.limits.budget);
+  if (flag == "--frame-limit") return parse(value, arguments.limits.frame_limit);
+  if (flag != "--out") return false;
+  arguments.out = value;
+  return true;
+}
+
+std::optional<Arguments> parse(int argc, char** argv) {
+  Arguments arguments;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (argument == "--smoke") {
+      arguments.max_bodies = 1'000;
+      arguments.limits.budget = 0.01;
+    } else if (argument == "--large") {
+      arguments.max_bodies = 1'000'000;
+    } else if (!argument.starts_with("--")) {
+      arguments.recordings.emplace_back(argument);
+    } else if (i + 1 == argc || !take_value(argument, argv[++i], arguments)) {
+      std::fprintf(stderr, "carom_peers: %s: unknown, or its value is missing or wrong\n",
+                   argument.data());
+      return std::nullopt;
+    }
+  }
+  return arguments;
+}
+
+std::vector<PeerKind> all_kinds() {
+  std::vector<PeerKind> all;
+  for (const auto& kinds :
+       {carom_kinds(), cgal_kinds(), bullet_kinds(), fcl_kinds(), ode_kinds()}) {
+    all.insert(all.end(), kinds.begin(), kinds.end());
+  }
+  return all;
+}
+
+// On one thread; infinity for those too slow.
+SmallerScene medians(const SceneResult& result) {
+  SmallerScene medians;
+  for (const PeerResult& peer : result.peers) {
+    if (peer.threads > 1 || peer.outcome == Outcome::different) continue;
+    const bool timed = peer.outcome == Outcome::timed;
+    medians[peer.peer] = timed ? peer.median_seconds : std::numeric_limits<double>::infinity();
+  }
+  return medians;
+}
+
+class Comparison {
+ public:
+  explicit Comparison(const TimeLimits& limits) : limits_(limits) {}
+
+  const SceneResult& run(const PeerScene& scene, const SmallerScene& smaller) {
+    results_.push_back(compare(scene, kinds_, limits_, smaller));
+    print(results_.back());
+    return results_.back();
+  }
+
+  void run_generated(size_t max_bodies) {
+    for (const char* generator : {"brownian", "varied", "static", "still"}) {
+      SmallerScene smaller;
+      for (const size_t bodies : scene_sizes(max_bodies)) {
+        smaller = medians(run(PeerScene(SceneSpec{generator, bodies}), smaller));
+      }
+    }
+  }
+
+  Result<void> run_recording(const std::string& path) {
+    const Result<PeerScene> scene = PeerScene::open(path);
+    if (!scene) return scene.error();
+    run(*scene, {});
+    return {};
+  }
+
+  const std::vector<SceneResult>& results() const { return results_; }
+
+ private:
+  TimeLimits limits_;
+  std::vector<PeerKind> kinds_ = all_kinds();
+  std::vector<SceneResult> results_;
+};
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "carom_peers: %s\n", error.message.c_str());
+  return 1;
+}
+
+int run(const Arguments& arguments) {
+  Comparison comparison(arguments.limits);
+  comparison.run_generated(arguments.max_bodies);
+  for (const std::string& path : arguments.recordings) {
+    if (const Result<void> done = comparison.run_recording(path); !done) return fail(done.error());
+  }
+  if (!arguments.out.empty()) {
+    const Result<void> written = write_json(arguments.out, comparison.results(), arguments.limits);
+    if (!written) return fail(written.error());
+  }
+  for (const SceneResult& result : comparison.results()) {
+    if (!result.all_equal()) return fail({result.scene + ": pairs differ"});
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace carom::bench
+
+int main(int argc, char** argv) {
+  const auto arguments = carom::bench::parse(argc, argv);
+  return arguments ? carom::bench::run(*arguments) : 2;
+}
