@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/kernel/views.h"
+#include "broadphase/box_source.h"
 #include "kernel/parallel.h"
 
 namespace carom {
@@ -26,19 +26,5 @@ struct BoxColumns {
 
   size_t bytes() const;
 };
-
-// Entry i of one of the six columns.
-inline float value_at(const BoundsView& bounds, const float* column, size_t i) {
-  return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(column) + i * bounds.stride);
-}
-
-// lower <= upper on every axis; false for empty boxes and NaN.
-inline bool takes_part(const BoundsView& bounds, size_t i) {
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const float lower = value_at(bounds, bounds.lower[axis], i);
-    if (!(lower <= value_at(bounds, bounds.upper[axis], i))) return false;
-  }
-  return true;
-}
 
 }  // namespace carom

@@ -4,10 +4,11 @@
 #include <array>
 
 #include "broadphase/box_columns.h"
+#include "broadphase/cell_search.h"
+#include "broadphase/resting_boxes.h"
 #include "broadphase/scan.h"
 #include "broadphase/sort_pairs.h"
 #include "broadphase/sweep_order.h"
-#include "kernel/block_lists.h"
 #include "kernel/float_environment.h"
 
 namespace carom {
@@ -15,49 +16,82 @@ namespace {
 
 constexpr size_t kRowsPerBlock = 256;
 
-// Below this count every box against every other is as fast as sorting.
+// Up to here every box against every other is as fast as sorting,
 constexpr size_t kBruteForceLimit = 128;
+// and up to here a sweep along one axis is as fast as cells.
+constexpr size_t kSweepLimit = 512;
 
 // Turns hits into pairs of bodies that may meet.
 class PairSink final : public HitSink {
  public:
-  PairSink(const BoxColumns& columns, const PairFilter& filter, std::vector<Pair>& out)
+  PairSink(const BoxColumns& columns, const PairFilter& filter, PairList& out)
       : columns_(columns), filter_(filter), out_(out) {}
 
   void add(size_t box_row, const uint32_t* rows, size_t count) override {
     const uint32_t body = columns_.body[box_row];
+    Pair* pairs = out_.reserve(count);
     for (size_t i = 0; i < count; ++i) {
       const uint32_t other = columns_.body[rows[i]];
-      if (may_meet(body, other)) out_.push_back({std::min(body, other), std::max(body, other)});
+      pairs[i] = {std::min(body, other), std::max(body, other)};
     }
+    out_.commit(count, filter_);
   }
 
  private:
-  bool may_meet(uint32_t a, uint32_t b) const {
-    const PairFilter& f = filter_;
-    if (f.motion && f.motion[a] == Motion::fixed && f.motion[b] == Motion::fixed) return false;
-    if (f.layer && (!(f.layer[a] & f.mask[b]) || !(f.layer[b] & f.mask[a]))) return false;
-    return !f.owner || f.owner[a] == 0 || f.owner[a] != f.owner[b];
-  }
-
   const BoxColumns& columns_;
   const PairFilter& filter_;
-  std::vector<Pair>& out_;
+  PairList& out_;
 };
+
+struct Choice {
+  BroadphaseMethod method;
+  const char* reason;
+};
+
+Choice choose(BroadphaseMethod wanted, size_t boxes) {
+  if (wanted != BroadphaseMethod::automatic) return {wanted, "asked for"};
+  if (boxes <= kBruteForceLimit) return {BroadphaseMethod::brute, "at most 128 boxes"};
+  if (boxes <= kSweepLimit) return {BroadphaseMethod::sweep, "at most 512 boxes"};
+  return {BroadphaseMethod::grid, "more than 512 boxes"};
+}
 
 }  // namespace
 
 const char* name(BroadphaseMethod method) {
-  static constexpr std::array<const char*, 3> kNames = {"auto", "brute", "sweep"};
+  static constexpr std::array<const char*, 4> kNames = {"auto", "brute", "sweep", "grid"};
   return kNames[static_cast<size_t>(method)];
 }
 
 struct PairFinder::State {
+  size_t most_pairs = kMostPairs;
+  FoundPairs found;
+  PairSorter sorter;
+  // Brute force and sweep.
   SweepOrder order;
   BoxColumns columns;
-  BlockLists<Pair> found;
-  PairSorter sorter;
-  BroadphaseMethod last_method = BroadphaseMethod::automatic;
+  // Grid.
+  BoxSample sample;
+  RestingBoxes resting;
+  CellRows cells;
+
+  void find_by_rows(const BoundsView& bounds, const PairFilter& filter, bool sweep,
+                    Parallelism parallelism, std::vector<Pair>& out, PairSearch& search) {
+    const size_t axis = sweep ? axis_of_largest_spread(bounds) : 0;
+    if (sweep) {
+      order.update(bounds, axis, parallelism, columns.body);
+    } else {
+      order_for_brute_force(bounds);
+    }
+    columns.fill(bounds, axis, parallelism);
+    found.start(most_pairs);
+    found.add(block_count(columns.count, kRowsPerBlock));
+    for_each_block(columns.count, kRowsPerBlock, parallelism,
+                   [&](size_t block, size_t begin, size_t end) {
+                     PairSink sink(columns, filter, found[block]);
+                     (sweep ? sweep_rows : test_rows)(columns, begin, end, sink);
+                   });
+    sort_found(bounds, parallelism, out, search);
+  }
 
   void order_for_brute_force(const BoundsView& bounds) {
     order.forget();
@@ -67,27 +101,44 @@ struct PairFinder::State {
     }
   }
 
-  void find(const BoundsView& bounds, const PairFilter& filter, std::vector<Pair>& out,
-            BroadphaseMethod method, Parallelism parallelism) {
-    const bool sweep = method == BroadphaseMethod::sweep;
-    const size_t axis = sweep ? axis_of_largest_spread(bounds) : 0;
-    if (sweep) {
-      order.update(bounds, axis, parallelism, columns.body);
-    } else {
-      order_for_brute_force(bounds);
+  void sort_found(const BoundsView& bounds, Parallelism parallelism, std::vector<Pair>& out,
+                  PairSearch& search) {
+    search.pairs = found.count();
+    search.searched = bounds.count;
+    search.complete = search.pairs <= most_pairs;
+    if (search.complete) sorter.sort(found.lists(), bounds.count, parallelism, out);
+  }
+
+  // Boxes that rest are remembered from the moment on that most of them do.
+  void find_by_cells(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
+                     std::vector<Pair>& out, PairSearch& search) {
+    constexpr double kRestless = 0.4;
+    const RestingBoxes::Workspace work = {cells, found, sorter, most_pairs};
+    const bool restless = sample.changed_share(bounds) > kRestless;
+    auto outcome = RestingBoxes::Outcome::restless;
+    if (!resting.is_empty()) {
+      outcome = resting.update(bounds, filter, parallelism, work, out);
+    } else if (!restless) {
+      outcome = resting.settle(bounds, filter, parallelism, work, out);
     }
-    columns.fill(bounds, axis, parallelism);
-    found.reset(block_count(columns.count, kRowsPerBlock));
-    for_each_block(columns.count, kRowsPerBlock, parallelism,
-                   [&](size_t block, size_t begin, size_t end) {
-                     PairSink sink(columns, filter, found[block]);
-                     (sweep ? sweep_rows : test_rows)(columns, begin, end, sink);
-                   });
-    if (sweep) {
-      sorter.sort(found, bounds.count, parallelism, out);
-    } else {
-      found.concatenate(out, parallelism);  // sorted as found: rows ascend by body
+    if (outcome == RestingBoxes::Outcome::restless) {
+      cells.build(BoxSource(bounds), parallelism);
+      found.start(most_pairs);
+      find_pairs_within(cells, filter, parallelism, found);
+      sort_found(bounds, parallelism, out, search);
+      search.changed = bounds.count;
+      return;
     }
+    search.complete = outcome == RestingBoxes::Outcome::found;
+    search.pairs = resting.pairs();
+    search.changed = resting.changed();
+    search.searched = resting.moving();
+  }
+
+  void forget() {
+    order.forget();
+    sample.forget();
+    resting.forget();
   }
 };
 
@@ -96,32 +147,39 @@ PairFinder::~PairFinder() = default;
 PairFinder::PairFinder(PairFinder&&) noexcept = default;
 PairFinder& PairFinder::operator=(PairFinder&&) noexcept = default;
 
-void PairFinder::find(const BoundsView& bounds, const PairFilter& filter, std::vector<Pair>& out,
-                      BroadphaseMethod method, Parallelism parallelism) {
+PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
+                            std::vector<Pair>& out, BroadphaseMethod method,
+                            Parallelism parallelism) {
   const FloatEnvironment environment;
-  if (method == BroadphaseMethod::automatic) {
-    method = bounds.count <= kBruteForceLimit ? BroadphaseMethod::brute : BroadphaseMethod::sweep;
+  const Choice choice = choose(method, bounds.count);
+  PairSearch search{.method = choice.method, .reason = choice.reason};
+  if (choice.method == BroadphaseMethod::grid) {
+    state_->find_by_cells(bounds, filter, parallelism, out, search);
+  } else {
+    const bool sweep = choice.method == BroadphaseMethod::sweep;
+    state_->find_by_rows(bounds, filter, sweep, parallelism, out, search);
   }
-  state_->last_method = method;
-  state_->find(bounds, filter, out, method, parallelism);
+  if (!search.complete) out.clear();
+  return search;
 }
 
-void PairFinder::forget() { state_->order.forget(); }
+void PairFinder::forget() { state_->forget(); }
 
-BroadphaseMethod PairFinder::last_method() const { return state_->last_method; }
+void PairFinder::set_most_pairs(size_t pairs) { state_->most_pairs = pairs; }
 
 size_t PairFinder::bytes() const {
-  return state_->order.bytes() + state_->columns.bytes() + state_->found.bytes() +
-         state_->sorter.bytes();
+  const State& s = *state_;
+  return s.found.bytes() + s.sorter.bytes() + s.order.bytes() + s.columns.bytes() +
+         s.resting.bytes() + s.cells.bytes();
 }
 
 size_t find_pairs(const BoundsView& bounds, const PairFilter& filter, std::span<Pair> out,
                   BroadphaseMethod method, Parallelism parallelism) {
   PairFinder finder;
   std::vector<Pair> pairs;
-  finder.find(bounds, filter, pairs, method, parallelism);
-  if (pairs.size() <= out.size()) std::copy(pairs.begin(), pairs.end(), out.begin());
-  return pairs.size();
+  const PairSearch search = finder.find(bounds, filter, pairs, method, parallelism);
+  if (search.pairs <= out.size()) std::copy(pairs.begin(), pairs.end(), out.begin());
+  return search.pairs;
 }
 
 }  // namespace carom

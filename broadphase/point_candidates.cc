@@ -6,7 +6,6 @@
 #include "broadphase/scan.h"
 #include "broadphase/sort_pairs.h"
 #include "broadphase/sweep_order.h"
-#include "kernel/block_lists.h"
 
 namespace carom {
 namespace {
@@ -15,17 +14,19 @@ constexpr size_t kBoxesPerBlock = 4096;
 
 class CandidateSink final : public HitSink {
  public:
-  CandidateSink(const BoxColumns& points, std::vector<Pair>& out) : points_(points), out_(out) {}
+  CandidateSink(const BoxColumns& points, PairList& out) : points_(points), out_(out) {}
 
   void add(size_t box, const uint32_t* rows, size_t count) override {
+    Pair* candidates = out_.reserve(count);
     for (size_t i = 0; i < count; ++i) {
-      out_.push_back({points_.body[rows[i]], static_cast<uint32_t>(box)});
+      candidates[i] = {points_.body[rows[i]], static_cast<uint32_t>(box)};
     }
+    out_.commit(count);
   }
 
  private:
   const BoxColumns& points_;
-  std::vector<Pair>& out_;
+  PairList& out_;
 };
 
 // Box i with `first_axis` as axis 0.
@@ -51,8 +52,9 @@ std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t s
   order.update(as_boxes, axis, parallelism, points.body);
   points.fill(as_boxes, axis, parallelism);
 
-  BlockLists<Pair> found;
-  found.reset(block_count(bounds.count, kBoxesPerBlock));
+  FoundPairs found;
+  found.start(~size_t{0});
+  found.add(block_count(bounds.count, kBoxesPerBlock));
   for_each_block(
       bounds.count, kBoxesPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
         CandidateSink sink(points, found[block]);
@@ -66,7 +68,7 @@ std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t s
         }
       });
   std::vector<Pair> pairs;
-  PairSorter().sort(found, count, parallelism, pairs);
+  PairSorter().sort(found.lists(), count, parallelism, pairs);
   return pairs;
 }
 

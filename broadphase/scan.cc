@@ -5,13 +5,11 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "broadphase/scan.h"
-#include "simd/lanes-inl.h"
+#include "simd/compress-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
-
-using RowTag = hn::RebindToUnsigned<FloatTag>;
 
 // One box in every lane.
 struct BoxLanes {
@@ -39,9 +37,9 @@ class Hits {
   HWY_INLINE Hits(size_t box_row, HitSink& sink) : box_row_(box_row), sink_(sink) {}
 
   HWY_INLINE void add(Mask mask, size_t row) {
-    const RowTag tag;
-    const auto rows = hn::Add(hn::Iota(tag, 0), hn::Set(tag, static_cast<uint32_t>(row)));
-    count_ += hn::CompressStore(rows, hn::RebindMask(tag, mask), tag, rows_ + count_);
+    const IndexTag tag;
+    const Indices rows = hn::Add(hn::Iota(tag, 0), hn::Set(tag, static_cast<uint32_t>(row)));
+    count_ += compress_store(rows, mask, rows_ + count_);
     if (HWY_UNLIKELY(count_ > HitSink::kMaxHits - kLanes)) flush();
   }
 
@@ -54,7 +52,7 @@ class Hits {
   size_t box_row_;
   HitSink& sink_;
   size_t count_ = 0;
-  uint32_t rows_[HitSink::kMaxHits + kLanes];  // CompressStore may write whole vectors
+  uint32_t rows_[HitSink::kMaxHits + kLanes];  // whole vectors are written
 };
 
 enum class RowOrder { any, ascending };  // by lower[0]

@@ -1,80 +1,103 @@
 #include "broadphase/sort_pairs.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <utility>
+
+#include "broadphase/partner_lists.h"
 
 namespace carom {
 namespace {
 
-constexpr size_t kBuckets = 256;
-
-// Bodies a bucket: a power of two.
-int bucket_shift(size_t body_count) {
-  return std::max(0, static_cast<int>(std::bit_width(body_count)) - std::countr_zero(kBuckets));
-}
-
-bool by_second(const Pair& x, const Pair& y) { return x.b < y.b; }
-
-// Pairs of one bucket, from `in` to `out`: by counting on a, then by b within equal a. Few pairs
-// share an a, mostly.
-void sort_bucket(const Pair* in, size_t count, uint32_t* counts, uint32_t first_body, size_t bodies,
-                 Pair* out) {
-  std::fill_n(counts, bodies, 0u);
-  for (size_t i = 0; i < count; ++i) ++counts[in[i].a - first_body];
-  uint32_t offset = 0;
-  for (size_t i = 0; i < bodies; ++i) offset += std::exchange(counts[i], offset);
-  for (size_t i = 0; i < count; ++i) out[counts[in[i].a - first_body]++] = in[i];
-  for (size_t i = 0, begin = 0; i < bodies; begin = counts[i++]) {
-    std::sort(out + begin, out + counts[i], by_second);
-  }
-}
+// Up to here, counters for all bodies fit the cache.
+constexpr size_t kBodiesAtOnce = 1 << 14;
+constexpr size_t kPairsPerBucket = 4096;
+constexpr size_t kMostBuckets = 512;
 
 }  // namespace
 
-void PairSorter::sort(const BlockLists<Pair>& found, size_t body_count, Parallelism parallelism,
+void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parallelism parallelism,
                       std::vector<Pair>& out) {
-  const int shift = bucket_shift(body_count);
-  const size_t blocks = found.blocks();
-  offsets_.assign(blocks * kBuckets, 0);
-  for_each_block(blocks, 1, parallelism, [&](size_t block, size_t, size_t) {
-    uint32_t* counts = offsets_.data() + block * kBuckets;
-    for (const Pair& pair : found[block]) ++counts[pair.a >> shift];
-  });
-
-  std::array<size_t, kBuckets + 1> bucket_begin{};
-  uint32_t offset = 0;
-  for (size_t bucket = 0; bucket < kBuckets; ++bucket) {
-    bucket_begin[bucket] = offset;
-    for (size_t block = 0; block < blocks; ++block) {
-      offset += std::exchange(offsets_[block * kBuckets + bucket], offset);
-    }
+  size_t total = 0;
+  for (const PairList& list : found) total += list.pairs().size();
+  out.resize(total);
+  const bool at_once = body_count <= kBodiesAtOnce && !uses_threads(parallelism);
+  const size_t wanted = at_once ? 1 : std::clamp<size_t>(total / kPairsPerBucket, 1, kMostBuckets);
+  int shift = 0;
+  while ((body_count >> shift) >= wanted) ++shift;
+  const size_t buckets = (body_count >> shift) + 1;
+  first_.resize(body_count + 2 * buckets);
+  if (partners_.size() < total + buckets * PartnerLists::kPadding) {
+    partners_.resize(total + buckets * PartnerLists::kPadding);
   }
-  bucket_begin[kBuckets] = offset;
-
-  buckets_.resize(offset);
-  for_each_block(blocks, 1, parallelism, [&](size_t block, size_t, size_t) {
-    uint32_t* offsets = offsets_.data() + block * kBuckets;
-    for (const Pair& pair : found[block]) buckets_[offsets[pair.a >> shift]++] = pair;
-  });
-
-  out.resize(offset);
-  counts_.resize(body_count);
-  for_each_block(kBuckets, 1, parallelism, [&](size_t bucket, size_t, size_t) {
-    const size_t begin = bucket_begin[bucket];
-    const size_t count = bucket_begin[bucket + 1] - begin;
-    if (count == 0) return;
-    const size_t first_body = bucket << shift;
-    const size_t bodies = std::min(body_count - first_body, size_t{1} << shift);
-    sort_bucket(buckets_.data() + begin, count, counts_.data() + first_body,
-                static_cast<uint32_t>(first_body), bodies, out.data() + begin);
+  if (buckets == 1) {
+    const auto all_lists = [&](const auto& visit) {
+      for (const PairList& list : found) visit(list.pairs());
+    };
+    sort_bucket(0, {0, static_cast<uint32_t>(body_count), 0}, all_lists, out);
+    return;
+  }
+  fill_buckets(found, body_count, shift, parallelism);
+  for_each_block(buckets, 4, parallelism, [&](size_t, size_t first, size_t last) {
+    for (size_t i = first; i < last; ++i) {
+      const size_t begin = bucket_begin_[i];
+      const std::span<const Pair> pairs(buckets_.data() + begin, bucket_begin_[i + 1] - begin);
+      const size_t first_body = i << shift;
+      const size_t bodies = std::min(body_count - first_body, size_t{1} << shift);
+      sort_bucket(
+          i, {static_cast<uint32_t>(first_body), static_cast<uint32_t>(bodies), begin},
+          [&](const auto& visit) { visit(pairs); }, out);
+    }
   });
 }
 
+void PairSorter::fill_buckets(std::span<const PairList> found, size_t body_count, int shift,
+                              Parallelism parallelism) {
+  const size_t lists = found.size();
+  const size_t buckets = (body_count >> shift) + 1;
+  offsets_.assign(lists * buckets, 0);
+  for_each_block(lists, 1, parallelism, [&](size_t list, size_t, size_t) {
+    uint32_t* counts = offsets_.data() + list * buckets;
+    for (const Pair& pair : found[list].pairs()) ++counts[pair.a >> shift];
+  });
+  bucket_begin_.resize(buckets + 1);
+  uint32_t offset = 0;
+  for (size_t bucket = 0; bucket < buckets; ++bucket) {
+    bucket_begin_[bucket] = offset;
+    for (size_t list = 0; list < lists; ++list) {
+      offset += std::exchange(offsets_[list * buckets + bucket], offset);
+    }
+  }
+  bucket_begin_[buckets] = offset;
+  buckets_.resize(offset);
+  for_each_block(lists, 1, parallelism, [&](size_t list, size_t, size_t) {
+    uint32_t* offsets = offsets_.data() + list * buckets;
+    for (const Pair& pair : found[list].pairs()) buckets_[offsets[pair.a >> shift]++] = pair;
+  });
+}
+
+// By counting on a; then the partners of each.
+template <class ForEachSpan>
+void PairSorter::sort_bucket(size_t index, const Bucket& bucket, const ForEachSpan& for_each_span,
+                             std::vector<Pair>& out) {
+  uint32_t* first = first_.data() + bucket.first_body + 2 * index;
+  uint32_t* partners = partners_.data() + bucket.first_pair + index * PartnerLists::kPadding;
+  // Where each body's partners begin; after the distribution, where they end and the next begin.
+  uint32_t* next = first + 1;
+  std::fill_n(first, bucket.bodies + 1, 0u);
+  for_each_span([&](std::span<const Pair> pairs) {
+    for (const Pair& pair : pairs) ++next[pair.a - bucket.first_body];
+  });
+  uint32_t offset = 0;
+  for (size_t i = 0; i < bucket.bodies; ++i) offset += std::exchange(next[i], offset);
+  for_each_span([&](std::span<const Pair> pairs) {
+    for (const Pair& pair : pairs) partners[next[pair.a - bucket.first_body]++] = pair.b;
+  });
+  write_sorted({partners, first, bucket.bodies, bucket.first_body}, out.data() + bucket.first_pair);
+}
+
 size_t PairSorter::bytes() const {
-  return buckets_.capacity() * sizeof(Pair) +
-         (offsets_.capacity() + counts_.capacity()) * sizeof(uint32_t);
+  return buckets_.capacity() * sizeof(Pair) + bucket_begin_.capacity() * sizeof(size_t) +
+         (offsets_.capacity() + first_.capacity() + partners_.capacity()) * sizeof(uint32_t);
 }
 
 }  // namespace carom

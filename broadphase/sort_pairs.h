@@ -3,27 +3,44 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "broadphase/pair_list.h"
 #include "carom/kernel/pair.h"
-#include "kernel/block_lists.h"
+#include "kernel/parallel.h"
 
 namespace carom {
 
 // Keeps its working memory from call to call.
 class PairSorter {
  public:
-  // Replaces `out` by all pairs of `found`, sorted. Indices are below `body_count`; no pair occurs
+  // Replaces `out` by all pairs of `found`, sorted. Bodies are below `body_count`; no pair occurs
   // twice.
-  void sort(const BlockLists<Pair>& found, size_t body_count, Parallelism parallelism,
+  void sort(std::span<const PairList> found, size_t body_count, Parallelism parallelism,
             std::vector<Pair>& out);
 
   size_t bytes() const;
 
  private:
+  // Bodies first_body, first_body + 1, ... and their pairs.
+  struct Bucket {
+    uint32_t first_body;
+    uint32_t bodies;
+    size_t first_pair;  // in the sorted list
+  };
+
+  void fill_buckets(std::span<const PairList> found, size_t body_count, int shift,
+                    Parallelism parallelism);
+  template <class ForEachSpan>
+  void sort_bucket(size_t index, const Bucket& bucket, const ForEachSpan& for_each_span,
+                   std::vector<Pair>& out);
+
   std::vector<Pair> buckets_;
-  std::vector<uint32_t> offsets_;  // one a block of `found` and bucket
-  std::vector<uint32_t> counts_;   // one a body
+  std::vector<uint32_t> offsets_;  // one a list of `found` and bucket
+  std::vector<size_t> bucket_begin_;
+  std::vector<uint32_t> first_;     // where the pairs of each body begin; one more a bucket
+  std::vector<uint32_t> partners_;  // one a pair, padded a bucket
 };
 
 }  // namespace carom

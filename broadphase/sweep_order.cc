@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include "broadphase/box_columns.h"
+#include "broadphase/box_source.h"
 #include "kernel/radix_sort.h"
 
 namespace carom {

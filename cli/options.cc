@@ -78,8 +78,8 @@ Result<void> check_tier(const std::string& tier) {
 
 Result<BroadphaseMethod> parse_broadphase(const std::string& text) {
   std::string names;
-  for (auto method :
-       {BroadphaseMethod::automatic, BroadphaseMethod::brute, BroadphaseMethod::sweep}) {
+  for (auto method : {BroadphaseMethod::automatic, BroadphaseMethod::brute, BroadphaseMethod::sweep,
+                      BroadphaseMethod::grid}) {
     if (text == name(method)) return method;
     names += (names.empty() ? "" : ", ") + std::string(name(method));
   }

@@ -21,7 +21,8 @@ class Recorder {
     Detail detail = world_.settings().detail;
     if (detail == Detail::contact) record_.contacts.push_back(report.contacts);
     if (detail == Detail::overlap) record_.contacts.push_back(report.overlaps);
-    record_.broadphase = report.broadphase;
+    record_.search = report.search;
+    record_.searched.push_back(report.ran(Stage::broadphase) ? report.search.searched : 0);
     record_.stages_run |= report.stages_run;
     note_events();
     for (BodyId id : world_.quarantined()) was_quarantined_[id.index] = true;
@@ -70,6 +71,11 @@ Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& wo
     Clock::time_point begin = Clock::now();
     const StepReport& report = world.step();
     Clock::time_point end = Clock::now();
+    if (!report.search.complete) {
+      return Error{"frame " + std::to_string(i) + " has " + std::to_string(report.search.pairs) +
+                   " pairs of overlapping bounds, more than the limit of " +
+                   std::to_string(world.settings().most_pairs)};
+    }
     recorder.note(report, std::chrono::duration<double, std::milli>(end - begin).count());
     if (!pairs_out) continue;
     if (Result<void> added = pairs_out->add_frame(world.pairs()); !added) return added.error();

@@ -137,7 +137,7 @@ void add_run_command(CLI::App& program, Action& action) {
   add_engine_options(command, options->engine);
   command.add_option("--detail", options->engine.detail, "pairs, overlap or contact")
       ->capture_default_str();
-  command.add_option("--broadphase", options->broadphase, "auto, sweep or brute")
+  command.add_option("--broadphase", options->broadphase, "auto, grid, sweep or brute")
       ->capture_default_str();
   command.add_flag("--no-cache", options->no_cache,
                    "Test every pair anew and drop the sort order between frames");

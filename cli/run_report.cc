@@ -79,7 +79,8 @@ Json to_json(const RunReport& report) {
   json["isa"] = report.isa;
   json["tier"] = "standard";
   json["detail"] = report.detail;
-  json["broadphase"] = name(record.broadphase);
+  json["broadphase"] = name(record.search.method);
+  json["broadphase_reason"] = record.search.reason;
   json["pipeline"] = Json::array();
   for (Stage stage : stages_run(record)) json["pipeline"].push_back(name(stage));
   json["frame_ms"] = {
@@ -91,6 +92,7 @@ Json to_json(const RunReport& report) {
   json["contacts_per_frame"] = record.contacts;
   json["tested_pairs_per_frame"] = record.tested;
   json["kept_pairs_per_frame"] = record.kept;
+  json["searched_bodies_per_frame"] = record.searched;
   json["events_per_frame"] = events_json(record);
   json["quarantined_per_frame"] = record.quarantined;
   json["state_hash"] = record.hash.text();
@@ -110,7 +112,8 @@ void print(const RunReport& report, std::ostream& out) {
   table.add({"bodies", std::to_string(report.bodies)});
   table.add({"frames", std::to_string(report.frames)});
   table.add({"threads, ISA", std::to_string(report.threads) + ", " + report.isa});
-  table.add({"detail, broadphase", report.detail + ", " + name(record.broadphase)});
+  table.add({"detail, broadphase", report.detail + ", " + name(record.search.method) + " (" +
+                                       record.search.reason + ")"});
   table.add({"frame", number("%.3f ms median", frame.median) + number(", %.3f min", frame.min) +
                           number(", %.3f p99", frame.p99) + number(", %.3f mean", frame.mean)});
   for (Stage stage : stages_run(record)) {

@@ -18,6 +18,8 @@ struct Variant {
 };
 
 constexpr std::array kVariants = {
+    Variant{"grid", BroadphaseMethod::grid, true, Detail::contact},
+    Variant{"grid without cache", BroadphaseMethod::grid, false, Detail::contact},
     Variant{"sweep", BroadphaseMethod::sweep, true, Detail::contact},
     Variant{"sweep without cache", BroadphaseMethod::sweep, false, Detail::contact},
     Variant{"brute", BroadphaseMethod::brute, true, Detail::contact},

@@ -22,7 +22,7 @@ void World::State::run(Stage stage, const Work& work) {
 const StepReport& World::State::step() {
   const FloatEnvironment environment;
   const Parallelism parallelism = settings.parallelism;
-  report = {.step = report.step + 1};
+  report = {.step = report.step + 1, .search = {}};
 
   if (carries()) run(Stage::changes, [&] { changes.update(bodies, parallelism); });
   const bool still = carries() && report.step > 1 && changes.all_unchanged();
@@ -59,7 +59,7 @@ const StepReport& World::State::step() {
   report.kept = has_narrowphase() ? report.pairs - report.tested : 0;
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
   report.contacts = now.contacts.size();
-  report.broadphase = finder.last_method();
+  report.search = search;
   return report;
 }
 
@@ -70,7 +70,7 @@ BoundsView World::State::bounds_view() const {
 }
 
 void World::State::find_bounds() {
-  for (std::vector<float>& column : bounds) column.resize(bodies.rows());
+  for (std::vector<float>& column : bounds) resize_and_give_back(column, bodies.rows());
   const size_t invalid = compute_bounds(bodies.view(),
                                         {{bounds[0].data(), bounds[1].data(), bounds[2].data()},
                                          {bounds[3].data(), bounds[4].data(), bounds[5].data()}},
@@ -95,7 +95,9 @@ void World::State::find_quarantined() {
 
 void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
-  finder.find(bounds_view(), bodies.filter(), now.pairs, settings.broadphase, settings.parallelism);
+  finder.set_most_pairs(settings.most_pairs);
+  search = finder.find(bounds_view(), bodies.filter(), now.pairs, settings.broadphase,
+                       settings.parallelism);
 }
 
 void World::State::plan_tests() {

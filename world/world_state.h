@@ -43,6 +43,7 @@ struct World::State {
   ChangeTracker changes;
   std::array<std::vector<float>, 6> bounds;
   PairFinder finder;
+  PairSearch search;
   PairHistory last;
   CarryPlan plan;
   ResultBuffer results;

@@ -280,8 +280,9 @@ inline std::vector<Pair> found_pairs(const Boxes& boxes, BroadphaseMethod method
   return found_pairs(finder, boxes, method, filter, parallelism, record);
 }
 
-inline constexpr BroadphaseMethod kAllMethods[] = {
-    BroadphaseMethod::automatic, BroadphaseMethod::brute, BroadphaseMethod::sweep};
+inline constexpr BroadphaseMethod kAllMethods[] = {BroadphaseMethod::automatic,
+                                                   BroadphaseMethod::brute, BroadphaseMethod::sweep,
+                                                   BroadphaseMethod::grid};
 
 // The first difference, for people.
 inline std::string difference(const std::vector<Pair>& got, const std::vector<Pair>& expected,

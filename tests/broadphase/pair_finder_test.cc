@@ -130,7 +130,7 @@ RC_GTEST_PROP(PairFinder, ForgetsNothingAndRemembersNothing,
       default:
         finder = PairFinder(std::move(finder));
     }
-    const BroadphaseMethod method = kAllMethods[change / 10 % 3];
+    const BroadphaseMethod method = kAllMethods[change / 10 % 4];
     RC_ASSERT(found_pairs(finder, crowd.boxes(), method) == plain_pairs(crowd.boxes()));
   }
 }
@@ -150,19 +150,22 @@ TEST(PairFinder, IsTheSameOnThreadsOverManyFrames) {
   });
 }
 
-TEST(PairFinder, SaysWhichMethodRan) {
-  PairFinder finder;
-  EXPECT_EQ(finder.last_method(), BroadphaseMethod::automatic);
-  const Boxes few = make_boxes(BoxFamily::random, 10);
-  const Boxes many = make_boxes(BoxFamily::random, 1000);
-  found_pairs(finder, few, BroadphaseMethod::automatic);
-  EXPECT_EQ(finder.last_method(), BroadphaseMethod::brute);
-  found_pairs(finder, many, BroadphaseMethod::automatic);
-  EXPECT_EQ(finder.last_method(), BroadphaseMethod::sweep);
-  found_pairs(finder, few, BroadphaseMethod::sweep);
-  EXPECT_EQ(finder.last_method(), BroadphaseMethod::sweep);
-  found_pairs(finder, many, BroadphaseMethod::brute);
-  EXPECT_EQ(finder.last_method(), BroadphaseMethod::brute);
+TEST(PairFinder, SaysWhichMethodRanAndWhy) {
+  const auto search = [](size_t count, BroadphaseMethod method) {
+    const LaidOutBoxes memory(make_boxes(BoxFamily::random, count));
+    std::vector<Pair> pairs;
+    return PairFinder().find(memory.view(), {}, pairs, method);
+  };
+  EXPECT_EQ(search(10, BroadphaseMethod::automatic).method, BroadphaseMethod::brute);
+  EXPECT_EQ(search(300, BroadphaseMethod::automatic).method, BroadphaseMethod::sweep);
+  EXPECT_EQ(search(2000, BroadphaseMethod::automatic).method, BroadphaseMethod::grid);
+  EXPECT_STREQ(search(10, BroadphaseMethod::automatic).reason, "at most 128 boxes");
+  for (const BroadphaseMethod method :
+       {BroadphaseMethod::brute, BroadphaseMethod::sweep, BroadphaseMethod::grid}) {
+    EXPECT_EQ(search(10, method).method, method);
+    EXPECT_EQ(search(1000, method).method, method);
+    EXPECT_STREQ(search(10, method).reason, "asked for");
+  }
 }
 
 TEST(PairFinder, KeepsItsMemory) {

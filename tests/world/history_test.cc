@@ -39,7 +39,9 @@ TEST(History, MatchesReference) {
   for (uint32_t seed = 0; seed < 2000; ++seed) {
     WorldSettings settings;
     settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
-    settings.broadphase = seed % 5 == 0 ? BroadphaseMethod::automatic : BroadphaseMethod::sweep;
+    settings.broadphase = seed % 5 == 0   ? BroadphaseMethod::automatic
+                          : seed % 2 == 0 ? BroadphaseMethod::grid
+                                          : BroadphaseMethod::sweep;
     settings.carry_results = seed % 7 != 0;
     settings.detail = seed % 4 == 3 ? Detail::overlap : Detail::contact;
     run_history(settings, seed, 12, &coverage);

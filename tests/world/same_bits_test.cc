@@ -58,7 +58,8 @@ TEST(SameBits, OnEveryIsa) {
 
 TEST(SameBits, WithEveryBroadphase) {
   const std::vector<Results> expected = history({});
-  for (const BroadphaseMethod method : {BroadphaseMethod::brute, BroadphaseMethod::sweep}) {
+  for (const BroadphaseMethod method :
+       {BroadphaseMethod::brute, BroadphaseMethod::sweep, BroadphaseMethod::grid}) {
     expect_equal(history({.broadphase = method}), expected);
   }
 }

@@ -18,9 +18,10 @@ enum class BroadphaseMethod : uint8_t {
   automatic,
   brute,  // every box against every other; the reference
   sweep,  // sort and sweep along the axis of largest spread
+  grid,   // boxes sorted into cells of their size; what rests is kept from call to call
 };
 
-// "auto", "brute", "sweep".
+// "auto", "brute", "sweep", "grid".
 CAROM_EXPORT const char* name(BroadphaseMethod method);
 
 // Who may meet whom; one entry a box, nullptr: everybody. Decided inside the search, so that
@@ -32,8 +33,18 @@ struct PairFilter {
   const Motion* motion = nullptr;   // two fixed boxes: never
 };
 
-// Finds pairs again and again: keeps its memory and the order of the last call, which makes the
-// next one cheaper when boxes move little. The result depends on the arguments alone.
+// What a search did.
+struct PairSearch {
+  BroadphaseMethod method = BroadphaseMethod::automatic;  // that ran
+  const char* reason = "";  // why it was chosen, in words; "asked for" if it was
+  size_t pairs = 0;         // that there are
+  bool complete = true;     // false: more than the limit, and none were written
+  size_t changed = 0;       // boxes that differ from those of the last call, where that is known
+  size_t searched = 0;      // boxes whose pairs were searched for; those of all others were kept
+};
+
+// Finds pairs again and again: keeps its memory, and the order or the pairs of boxes that rest,
+// which makes the next call cheaper. The pairs depend on the arguments alone.
 class CAROM_EXPORT PairFinder {
  public:
   PairFinder();
@@ -42,16 +53,18 @@ class CAROM_EXPORT PairFinder {
   PairFinder& operator=(PairFinder&&) noexcept;
 
   // Replaces `out` by all pairs a < b whose boxes overlap and which the filter lets through,
-  // sorted. Boxes that are empty or hold a NaN meet nothing.
-  void find(const BoundsView& bounds, const PairFilter& filter, std::vector<Pair>& out,
-            BroadphaseMethod method = BroadphaseMethod::automatic,
-            Parallelism parallelism = Parallelism::none);
+  // sorted. Boxes that are empty or hold a NaN meet nothing. At most 2^29 boxes.
+  PairSearch find(const BoundsView& bounds, const PairFilter& filter, std::vector<Pair>& out,
+                  BroadphaseMethod method = BroadphaseMethod::automatic,
+                  Parallelism parallelism = Parallelism::none);
 
-  // Forgets the order of the last call, not the memory.
+  // Forgets the boxes of the last call, not the memory.
   void forget();
 
-  // The method the last find() ran.
-  BroadphaseMethod last_method() const;
+  // A search that finds more pairs counts them, and gives none: boxes that all overlap make
+  // n (n - 1) / 2 pairs, more than a machine holds. A pair takes about 28 bytes while it is found.
+  static constexpr size_t kMostPairs = size_t{1} << 28;
+  void set_most_pairs(size_t pairs);
 
   // Memory held, in bytes.
   size_t bytes() const;

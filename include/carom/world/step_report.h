@@ -34,9 +34,9 @@ struct StepReport {
   size_t kept = 0;      // pairs whose last result was carried over
   size_t overlaps = 0;  // overlapping pairs, sensors included
   size_t contacts = 0;
-  BroadphaseMethod broadphase = BroadphaseMethod::automatic;  // the last method that ran
-  uint32_t stages_run = 0;                                    // bit s: Stage(s) ran
-  uint64_t stage_ns[kStageCount] = {};                        // 0 where it did not
+  PairSearch search;        // of the last broadphase that ran; incomplete: the step found no pairs
+  uint32_t stages_run = 0;  // bit s: Stage(s) ran
+  uint64_t stage_ns[kStageCount] = {};  // 0 where it did not
 
   bool ran(Stage stage) const { return stages_run >> static_cast<int>(stage) & 1; }
 };

@@ -1,0 +1,180 @@
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "broadphase/cell_join.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <algorithm>
+
+#include "broadphase/cell_join.h"
+#include "simd/compress-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+// Columns of the rows that are searched.
+struct Columns {
+  const float* lower[3];
+  const float* upper[3];
+  const uint32_t* body;
+
+  explicit HWY_INLINE Columns(const CellRows& rows)
+      : lower{rows.lower[0].data(), rows.lower[1].data(), rows.lower[2].data()},
+        upper{rows.upper[0].data(), rows.upper[1].data(), rows.upper[2].data()},
+        body(rows.body.data()) {}
+};
+
+// One box in every lane.
+struct BoxLanes {
+  F lower[3], upper[3];
+  Indices body;
+};
+
+HWY_INLINE void load_box(const Columns& columns, size_t row, BoxLanes& box) {
+  box.body = hn::Set(IndexTag(), columns.body[row]);
+  for (size_t k = 0; k < 3; ++k) {
+    box.lower[k] = splat(columns.lower[k][row]);
+    box.upper[k] = splat(columns.upper[k][row]);
+  }
+}
+
+HWY_INLINE Mask overlaps(const Columns& columns, const BoxLanes& box, size_t row) {
+  const FloatTag tag;
+  Mask all = hn::And(hn::Le(hn::LoadU(tag, columns.lower[0] + row), box.upper[0]),
+                     hn::Ge(hn::LoadU(tag, columns.upper[0] + row), box.lower[0]));
+  for (size_t k = 1; k < 3; ++k) {
+    all = hn::And(all, hn::And(hn::Le(hn::LoadU(tag, columns.lower[k] + row), box.upper[k]),
+                               hn::Ge(hn::LoadU(tag, columns.upper[k] + row), box.lower[k])));
+  }
+  return all;
+}
+
+// Appends the pairs of the box and rows [begin, end) that overlap it. At least one vector is
+// tested, whether there are rows or not: a loop that mostly runs once is predicted well.
+HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin, size_t end,
+                      Pair* hits) {
+  const FloatTag tag;
+  size_t row = begin;
+  do {
+    const Mask hit = hn::And(overlaps(columns, box, row), hn::FirstN(tag, end - row));
+    const Indices others = hn::LoadU(IndexTag(), columns.body + row);
+    hits += store_pairs(box.body, others, hit, &hits->a);
+    row += kLanes;
+  } while (HWY_UNLIKELY(row < end));
+  return hits;
+}
+
+void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const PairFilter& filter,
+               PairList& out) {
+  const Columns columns(rows);
+  const CellGrid::RowsAhead ahead = rows.grids().grid[g].rows_ahead();
+  const bool filters = !lets_all_meet(filter);
+  for (size_t i = begin; i < end; ++i) {
+    const CellKey key = rows.key[i];
+    const uint32_t* first = rows.first_row() + key.cell();
+    // The rest of its own cell, and the next one if it reaches there.
+    const size_t row_end = first[1 + key.reaches(0)];
+    size_t candidates = row_end - (i + 1) + kLanes;
+    // In the rows ahead the cell before, too. Boxes much smaller than their cells reach few.
+    const size_t r_begin = key.reaches(1) ? 0 : ahead.in_slab;
+    const size_t r_end = key.reaches(2) ? ahead.count : ahead.in_slab;
+    for (size_t r = r_begin; r < r_end; ++r) {
+      candidates += first[ahead.offset[r] + 1 + key.reaches(0)] - first[ahead.offset[r] - 1];
+    }
+    Pair* const room = out.reserve(candidates + kLanes);
+    BoxLanes box;
+    load_box(columns, i, box);
+    Pair* hits = scan(columns, box, i + 1, row_end, room);
+    for (size_t r = r_begin; r < r_end; ++r) {
+      const uint32_t* in_row = first + ahead.offset[r];
+      hits = scan(columns, box, in_row[-1], in_row[1 + key.reaches(0)], hits);
+    }
+    const auto count = static_cast<size_t>(hits - room);
+    if (filters) {
+      out.commit(count, filter);
+    } else {
+      out.commit(count);
+    }
+  }
+}
+
+struct CellRange {
+  uint32_t begin, end;
+};
+
+// The cells along axis k with the lower corners of all boxes that can overlap [lower, upper].
+HWY_INLINE CellRange reachable_cells(const CellGrid& grid, size_t k, float lower, float upper) {
+  const uint32_t first = cell_along(grid, k, lower);
+  return {first == 0 ? 0 : first - 1, cell_along(grid, k, upper) + 1};
+}
+
+void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
+                 const PairFilter& filter, PairList& out) {
+  const Columns columns(rows);
+  const CellGrid& grid = rows.grids().grid[g];
+  // Axis k of `rows` among the axes of `queries`.
+  size_t axis[3];
+  for (size_t k = 0; k < 3; ++k) {
+    const auto& axes = queries.grids().axis;
+    axis[k] = static_cast<size_t>(std::find(axes.begin(), axes.end(), rows.grids().axis[k]) -
+                                  axes.begin());
+  }
+  const bool filters = !lets_all_meet(filter);
+  for (size_t i = begin; i < end; ++i) {
+    BoxLanes box;
+    box.body = hn::Set(IndexTag(), queries.body[i]);
+    CellRange cells[3];
+    for (size_t k = 0; k < 3; ++k) {
+      const float lower = queries.lower[axis[k]][i];
+      const float upper = queries.upper[axis[k]][i];
+      box.lower[k] = splat(lower);
+      box.upper[k] = splat(upper);
+      cells[k] = reachable_cells(grid, k, lower, upper);
+    }
+    size_t count = 0;
+    Pair* room = out.reserve(0);
+    for (uint32_t z = cells[2].begin; z < cells[2].end; ++z) {
+      for (uint32_t y = cells[1].begin; y < cells[1].end; ++y) {
+        const uint32_t* row = rows.first_row() + grid.cell_at(0, y, z);
+        const size_t first = row[cells[0].begin];
+        const size_t last = row[cells[0].end];
+        room = out.reserve(count + (last - first) + kLanes);
+        count = static_cast<size_t>(scan(columns, box, first, last, room + count) - room);
+      }
+    }
+    if (filters) {
+      out.commit(count, filter);
+    } else {
+      out.commit(count);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(join_grid);
+HWY_EXPORT(join_across);
+
+}  // namespace
+
+void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const PairFilter& filter,
+               PairList& out) {
+  CAROM_DISPATCH(join_grid)(rows, g, begin, end, filter, out);
+}
+
+void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
+                 const PairFilter& filter, PairList& out) {
+  CAROM_DISPATCH(join_across)(queries, begin, end, rows, g, filter, out);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

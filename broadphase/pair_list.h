@@ -1,0 +1,140 @@
+// Pairs as searches find them, in no order.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "carom/broadphase/find_pairs.h"
+
+namespace carom {
+
+// Whether the filter lets two bodies meet.
+inline bool may_meet(const PairFilter& f, uint32_t a, uint32_t b) {
+  if (f.motion && f.motion[a] == Motion::fixed && f.motion[b] == Motion::fixed) return false;
+  if (f.layer && (!(f.layer[a] & f.mask[b]) || !(f.layer[b] & f.mask[a]))) return false;
+  return !f.owner || f.owner[a] == 0 || f.owner[a] != f.owner[b];
+}
+
+inline bool lets_all_meet(const PairFilter& f) { return !f.motion && !f.layer && !f.owner; }
+
+// How many pairs a search may keep. Beyond, lists go on counting, and keep nothing more.
+class PairBudget {
+ public:
+  void start(size_t most) {
+    most_ = most;
+    kept_ = 0;
+  }
+  void add(size_t pairs) { kept_ += pairs; }
+  bool is_spent() const { return kept_ > most_; }
+
+ private:
+  size_t most_ = 0;
+  std::atomic<size_t> kept_{0};
+};
+
+// A cache line of its own: two threads that append to neighbouring lists do not share one.
+class alignas(64) PairList {
+ public:
+  // Empties the list; it draws on that budget from now on.
+  void start(PairBudget& budget) {
+    budget_ = &budget;
+    used_ = 0;
+    accounted_ = 0;
+    dropped_ = 0;
+  }
+
+  // Room for so many pairs behind the last one, to write to and then commit().
+  Pair* reserve(size_t pairs) {
+    if (used_ + pairs > pairs_.size()) grow(pairs);
+    return pairs_.data() + used_;
+  }
+
+  void commit(size_t pairs) {
+    if (is_counting_only()) {
+      dropped_ += pairs;
+    } else {
+      used_ += pairs;
+    }
+  }
+
+  // Adds those of the pairs written there that the filter lets through.
+  void commit(size_t pairs, const PairFilter& filter) {
+    Pair* written = pairs_.data() + used_;
+    size_t kept = 0;
+    for (size_t i = 0; i < pairs; ++i) {
+      const Pair pair = written[i];
+      written[kept] = pair;
+      kept += may_meet(filter, pair.a, pair.b);
+    }
+    commit(kept);
+  }
+
+  std::span<const Pair> pairs() const { return {pairs_.data(), used_}; }
+  size_t count() const { return used_ + dropped_; }
+  size_t bytes() const { return pairs_.capacity() * sizeof(Pair); }
+
+ private:
+  bool is_counting_only() const { return accounted_ == kSpent; }
+
+  void grow(size_t pairs) {
+    if (!is_counting_only()) {
+      budget_->add(used_ - accounted_);
+      accounted_ = budget_->is_spent() ? kSpent : used_;
+    }
+    const size_t larger = is_counting_only() ? 0 : pairs_.size() / 2;
+    pairs_.resize(std::max(pairs_.size(), used_ + pairs + larger));
+  }
+
+  static constexpr size_t kSpent = ~size_t{0};
+
+  std::vector<Pair> pairs_;
+  PairBudget* budget_ = nullptr;
+  size_t used_ = 0;
+  size_t accounted_ = 0;  // pairs of this list that the budget knows of
+  size_t dropped_ = 0;
+};
+
+// The lists of the tasks of a search. Memory is kept from search to search.
+class FoundPairs {
+ public:
+  void start(size_t most_pairs) {
+    budget_.start(most_pairs);
+    used_ = 0;
+  }
+
+  // So many more empty lists; the index of the first.
+  size_t add(size_t lists) {
+    const size_t first = used_;
+    used_ += lists;
+    if (lists_.size() < used_) lists_.resize(used_);
+    for (size_t i = first; i < used_; ++i) lists_[i].start(budget_);
+    return first;
+  }
+
+  PairList& operator[](size_t i) { return lists_[i]; }
+  std::span<const PairList> lists() const { return {lists_.data(), used_}; }
+
+  // All pairs that were found. They are all kept if they are not more than `most_pairs`.
+  size_t count() const {
+    size_t sum = 0;
+    for (const PairList& list : lists()) sum += list.count();
+    return sum;
+  }
+
+  size_t bytes() const {
+    size_t sum = lists_.capacity() * sizeof(PairList);
+    for (const PairList& list : lists_) sum += list.bytes();
+    return sum;
+  }
+
+ private:
+  PairBudget budget_;
+  std::vector<PairList> lists_;
+  size_t used_ = 0;
+};
+
+}  // namespace carom
