@@ -103,10 +103,12 @@ double BoxSample::changed_share(const BoundsView& bounds) {
   count_ = bounds.count;
   size_t changed = 0;
   for (size_t i = 0; i < samples; ++i) {
+    // One somewhere in every stretch: bodies at regular indices may be of one kind.
+    const size_t box = i * step + i * 2654435761u % step;
     std::array<float, 6> now;
     for (size_t axis = 0; axis < 3; ++axis) {
-      now[axis] = value_at(bounds, bounds.lower[axis], i * step);
-      now[3 + axis] = value_at(bounds, bounds.upper[axis], i * step);
+      now[axis] = value_at(bounds, bounds.lower[axis], box);
+      now[3 + axis] = value_at(bounds, bounds.upper[axis], box);
     }
     changed += std::memcmp(now.data(), boxes_[i].data(), sizeof(now)) != 0;
     boxes_[i] = now;

@@ -97,8 +97,10 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
   // Slabs along the longest side keep neighbours close in memory; rows along the shortest would be
   // mere cells.
   std::array<uint8_t, 3> by_length = {0, 1, 2};
-  std::stable_sort(by_length.begin(), by_length.end(), [&](uint8_t a, uint8_t b) {
-    return range[a].high - range[a].low > range[b].high - range[b].low;
+  std::sort(by_length.begin(), by_length.end(), [&](uint8_t a, uint8_t b) {
+    const double length_a = range[a].high - range[a].low;
+    const double length_b = range[b].high - range[b].low;
+    return length_a > length_b || (length_a == length_b && a < b);
   });
   axis = {by_length[1], by_length[2], by_length[0]};
 
@@ -136,7 +138,8 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
       to.origin[k] = static_cast<float>(layout.range[k].low);
       to.scale[k] = static_cast<float>(1 / cell);
     }
-    to.largest_edge = g + 1 < count ? static_cast<float>(edges[g]) : std::numeric_limits<float>::infinity();
+    to.largest_edge =
+        g + 1 < count ? static_cast<float>(edges[g]) : std::numeric_limits<float>::infinity();
     to.row_stride = to.cells[0] + 1;
     to.slab_stride = to.row_stride * (to.cells[1] + (to.cells[1] > 1));
     to.first_cell = cells + 1;

@@ -114,11 +114,11 @@ struct PairFinder::State {
                      std::vector<Pair>& out, PairSearch& search) {
     constexpr double kRestless = 0.4;
     const RestingBoxes::Workspace work = {cells, found, sorter, most_pairs};
-    const bool restless = sample.changed_share(bounds) > kRestless;
     auto outcome = RestingBoxes::Outcome::restless;
     if (!resting.is_empty()) {
       outcome = resting.update(bounds, filter, parallelism, work, out);
-    } else if (!restless) {
+      sample.forget();
+    } else if (sample.changed_share(bounds) <= kRestless) {
       outcome = resting.settle(bounds, filter, parallelism, work, out);
     }
     if (outcome == RestingBoxes::Outcome::restless) {

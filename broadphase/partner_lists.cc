@@ -81,12 +81,16 @@ HWY_INLINE void write_by_rank(const uint32_t* partners, size_t count, uint32_t b
   }
 }
 
-void write_sorted(const PartnerLists& lists, Pair* out) {
+enum class Bodies { with_pairs, mostly_alone };
+
+template <Bodies kBodies>
+HWY_INLINE void write_all(const PartnerLists& lists, Pair* out) {
   constexpr size_t kRanked = 64;
   const size_t end = lists.first[lists.bodies];
   for (size_t i = 0; i < lists.bodies; ++i) {
     const size_t begin = lists.first[i];
     const size_t count = lists.first[i + 1] - begin;
+    if (kBodies == Bodies::mostly_alone && HWY_LIKELY(count == 0)) continue;
     const uint32_t body = lists.first_body + static_cast<uint32_t>(i);
     const uint32_t* partners = lists.partners + begin;
     if (HWY_LIKELY(count <= kLanes && begin + kLanes <= end)) {
@@ -97,6 +101,15 @@ void write_sorted(const PartnerLists& lists, Pair* out) {
       for (size_t k = 0; k < count; ++k) out[begin + k] = {body, partners[k]};
       std::sort(out + begin, out + begin + count);
     }
+  }
+}
+
+void write_sorted(const PartnerLists& lists, Pair* out) {
+  const size_t pairs = lists.first[lists.bodies];
+  if (pairs < lists.bodies / 2) {
+    write_all<Bodies::mostly_alone>(lists, out);
+  } else {
+    write_all<Bodies::with_pairs>(lists, out);
   }
 }
 

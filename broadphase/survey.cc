@@ -4,8 +4,8 @@
 #define HWY_TARGET_INCLUDE "broadphase/survey.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "broadphase/survey.h"
 #include "broadphase/edge-inl.h"
+#include "broadphase/survey.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
