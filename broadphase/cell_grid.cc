@@ -9,7 +9,7 @@ namespace {
 
 // Boxes a cell, on average, from which boxes of other sizes get a grid of their own.
 constexpr double kFullCell = 12;
-constexpr double kMostCellsPerBox = 2;
+constexpr double kMostCellsPerBox = 2.25;
 constexpr double kMostCellsPerAxis = 1 << 22;
 
 struct Range {
@@ -140,9 +140,16 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
     }
     to.largest_edge =
         g + 1 < count ? static_cast<float>(edges[g]) : std::numeric_limits<float>::infinity();
-    to.row_stride = to.cells[0] + 1;
+    // Where boxes are dense, shorter cells leave fewer to test.
+    to.reach = {1, 1, 1};
+    if (2.0 * to.cells[0] * to.cells[1] * to.cells[2] <= most && to.cells[0] > 1) {
+      to.cells[0] *= 2;
+      to.scale[0] *= 2;
+      to.reach[0] = 2;
+    }
+    to.row_stride = to.cells[0] + to.reach[0];
     to.slab_stride = to.row_stride * (to.cells[1] + (to.cells[1] > 1));
-    to.first_cell = cells + 1;
+    to.first_cell = cells + to.reach[0];
     cells = to.first_cell + to.slab_stride * (to.cells[2] + (to.cells[2] > 1)) + 1;
   }
 }

@@ -1,5 +1,6 @@
 // Grids of cells that boxes are sorted into, by their lower corners. A grid's cells are at least as
-// large as its boxes, so that a box reaches into the next cell at most.
+// large as its boxes, so that a box reaches into the next cell at most; along the rows cells may be
+// half as long, and a box reaches into the next but one.
 #pragma once
 
 #include <array>
@@ -11,12 +12,13 @@
 namespace carom {
 
 // Cells run along axis[0] in rows, rows along axis[1] in slabs, slabs along axis[2]. Behind every
-// row follows an empty cell, behind the rows of a slab an empty row, behind the slabs an empty
-// slab: neighbours need no test of whether they exist.
+// row follow empty cells (as many as a box reaches), behind the rows of a slab an empty row, behind
+// the slabs an empty slab: neighbours need no test of whether they exist.
 struct CellGrid {
   std::array<float, 3> origin{};
   std::array<float, 3> scale{};     // cells a metre
   std::array<uint32_t, 3> cells{};  // along axis[0], axis[1], axis[2]; at least 1
+  std::array<uint32_t, 3> reach{};  // how many cells further a box may reach
   uint32_t first_cell = 0;          // in the directory that all grids share
   uint32_t row_stride = 0;          // from a cell to the one of the next row, and of the next slab
   uint32_t slab_stride = 0;

@@ -13,16 +13,14 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// Columns of the rows that are searched.
+// Columns of the rows that are searched, at equal distances: so few pointers fit the registers.
 struct Columns {
-  const float* lower[3];
-  const float* upper[3];
+  const float* lower;
+  size_t stride;
   const uint32_t* body;
 
   explicit HWY_INLINE Columns(const CellRows& rows)
-      : lower{rows.lower[0].data(), rows.lower[1].data(), rows.lower[2].data()},
-        upper{rows.upper[0].data(), rows.upper[1].data(), rows.upper[2].data()},
-        body(rows.body.data()) {}
+      : lower(rows.lower(0)), stride(rows.column_stride()), body(rows.body.data()) {}
 };
 
 // One box in every lane.
@@ -32,20 +30,25 @@ struct BoxLanes {
 };
 
 HWY_INLINE void load_box(const Columns& columns, size_t row, BoxLanes& box) {
+  const float* lower = columns.lower + row;
+  const float* upper = lower + 3 * columns.stride;
   box.body = hn::Set(IndexTag(), columns.body[row]);
   for (size_t k = 0; k < 3; ++k) {
-    box.lower[k] = splat(columns.lower[k][row]);
-    box.upper[k] = splat(columns.upper[k][row]);
+    box.lower[k] = splat(lower[k * columns.stride]);
+    box.upper[k] = splat(upper[k * columns.stride]);
   }
 }
 
 HWY_INLINE Mask overlaps(const Columns& columns, const BoxLanes& box, size_t row) {
   const FloatTag tag;
-  Mask all = hn::And(hn::Le(hn::LoadU(tag, columns.lower[0] + row), box.upper[0]),
-                     hn::Ge(hn::LoadU(tag, columns.upper[0] + row), box.lower[0]));
+  const float* lower = columns.lower + row;
+  const float* upper = lower + 3 * columns.stride;
+  Mask all = hn::And(hn::Le(hn::LoadU(tag, lower), box.upper[0]),
+                     hn::Ge(hn::LoadU(tag, upper), box.lower[0]));
   for (size_t k = 1; k < 3; ++k) {
-    all = hn::And(all, hn::And(hn::Le(hn::LoadU(tag, columns.lower[k] + row), box.upper[k]),
-                               hn::Ge(hn::LoadU(tag, columns.upper[k] + row), box.lower[k])));
+    const size_t column = k * columns.stride;
+    all = hn::And(all, hn::And(hn::Le(hn::LoadU(tag, lower + column), box.upper[k]),
+                               hn::Ge(hn::LoadU(tag, upper + column), box.lower[k])));
   }
   return all;
 }
@@ -55,9 +58,12 @@ HWY_INLINE Mask overlaps(const Columns& columns, const BoxLanes& box, size_t row
 HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin, size_t end,
                       Pair* hits) {
   const FloatTag tag;
+  const IntTag index_tag;
   size_t row = begin;
   do {
-    const Mask hit = hn::And(overlaps(columns, box, row), hn::FirstN(tag, end - row));
+    const auto left = hn::Set(index_tag, static_cast<int32_t>(end) - static_cast<int32_t>(row));
+    const Mask in_range = hn::RebindMask(tag, hn::Lt(hn::Iota(index_tag, 0), left));
+    const Mask hit = hn::And(overlaps(columns, box, row), in_range);
     const Indices others = hn::LoadU(IndexTag(), columns.body + row);
     hits += store_pairs(box.body, others, hit, &hits->a);
     row += kLanes;
@@ -68,19 +74,23 @@ HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin,
 void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const PairFilter& filter,
                PairList& out) {
   const Columns columns(rows);
-  const CellGrid::RowsAhead ahead = rows.grids().grid[g].rows_ahead();
+  const CellGrid& grid = rows.grids().grid[g];
+  const CellGrid::RowsAhead ahead = grid.rows_ahead();
+  const ptrdiff_t behind = -static_cast<ptrdiff_t>(grid.reach[0]);
   const bool filters = !lets_all_meet(filter);
   for (size_t i = begin; i < end; ++i) {
     const CellKey key = rows.key[i];
     const uint32_t* first = rows.first_row() + key.cell();
-    // The rest of its own cell, and the next one if it reaches there.
-    const size_t row_end = first[1 + key.reaches(0)];
-    size_t candidates = row_end - (i + 1) + kLanes;
-    // In the rows ahead the cell before, too. Boxes much smaller than their cells reach few.
-    const size_t r_begin = key.reaches(1) ? 0 : ahead.in_slab;
-    const size_t r_end = key.reaches(2) ? ahead.count : ahead.in_slab;
+    // The rest of its own cell, and those that it reaches into.
+    const size_t to_cell = key.cells_along_row() + 1;
+    const size_t row_end = first[to_cell];
+    size_t candidates = row_end - (i + 1);
+    // In the rows ahead the cells before, too. Boxes much smaller than their cells reach few.
+    const size_t r_begin = key.reaches_next_row() ? 0 : ahead.in_slab;
+    const size_t r_end = key.reaches_next_slab() ? ahead.count : ahead.in_slab;
     for (size_t r = r_begin; r < r_end; ++r) {
-      candidates += first[ahead.offset[r] + 1 + key.reaches(0)] - first[ahead.offset[r] - 1];
+      const uint32_t* in_row = first + ahead.offset[r];
+      candidates += in_row[to_cell] - in_row[behind];
     }
     Pair* const room = out.reserve(candidates + kLanes);
     BoxLanes box;
@@ -88,7 +98,7 @@ void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const P
     Pair* hits = scan(columns, box, i + 1, row_end, room);
     for (size_t r = r_begin; r < r_end; ++r) {
       const uint32_t* in_row = first + ahead.offset[r];
-      hits = scan(columns, box, in_row[-1], in_row[1 + key.reaches(0)], hits);
+      hits = scan(columns, box, in_row[behind], in_row[to_cell], hits);
     }
     const auto count = static_cast<size_t>(hits - room);
     if (filters) {
@@ -106,7 +116,7 @@ struct CellRange {
 // The cells along axis k with the lower corners of all boxes that can overlap [lower, upper].
 HWY_INLINE CellRange reachable_cells(const CellGrid& grid, size_t k, float lower, float upper) {
   const uint32_t first = cell_along(grid, k, lower);
-  return {first == 0 ? 0 : first - 1, cell_along(grid, k, upper) + 1};
+  return {first - std::min(first, grid.reach[k]), cell_along(grid, k, upper) + 1};
 }
 
 void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
@@ -126,8 +136,8 @@ void join_across(const CellRows& queries, size_t begin, size_t end, const CellRo
     box.body = hn::Set(IndexTag(), queries.body[i]);
     CellRange cells[3];
     for (size_t k = 0; k < 3; ++k) {
-      const float lower = queries.lower[axis[k]][i];
-      const float upper = queries.upper[axis[k]][i];
+      const float lower = queries.lower(axis[k])[i];
+      const float upper = queries.upper(axis[k])[i];
       box.lower[k] = splat(lower);
       box.upper[k] = splat(upper);
       cells[k] = reachable_cells(grid, k, lower, upper);

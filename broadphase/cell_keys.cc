@@ -49,9 +49,7 @@ void find_cells(const BoxBlock& block, const CellGrids& grids, CellKey* out, Cel
         c[k] = cells_along(grid, k, lower[k]);
         const I further = hn::IfThenElseZero(mine, hn::Sub(cells_along(grid, k, upper[k]), c[k]));
         farthest[g][k] = hn::Max(farthest[g][k], further);
-        const auto bit = static_cast<int32_t>(1u << (CellKey::kCellBits + k));
-        reaches = hn::Or(reaches,
-                         hn::IfThenElseZero(hn::Gt(further, hn::Zero(bits)), hn::Set(bits, bit)));
+        reaches = hn::Or(reaches, hn::ShiftLeftSame(further, CellKey::kReachShift[k]));
       }
       const I row = hn::Add(hn::Mul(c[2], hn::Set(bits, static_cast<int32_t>(grid.slab_stride))),
                             hn::Mul(c[1], hn::Set(bits, static_cast<int32_t>(grid.row_stride))));

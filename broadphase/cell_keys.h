@@ -16,13 +16,17 @@ struct CellReach {
   void add(const CellReach& other);
 };
 
-// A cell, and on which axes a box reaches from it into the next one.
+// A cell, and how far a box reaches from it: up to three cells along the row, and whether into the
+// next row and the next slab.
 struct CellKey {
-  static constexpr int kCellBits = 29;
+  static constexpr int kCellBits = 28;
+  static constexpr std::array<int, 3> kReachShift = {28, 30, 31};
   uint32_t bits;
 
   uint32_t cell() const { return bits & ((1u << kCellBits) - 1); }
-  bool reaches(size_t k) const { return bits >> (kCellBits + k) & 1; }
+  uint32_t cells_along_row() const { return bits >> kReachShift[0] & 3; }
+  bool reaches_next_row() const { return bits >> kReachShift[1] & 1; }
+  bool reaches_next_slab() const { return bits >> kReachShift[2]; }
 };
 
 // Writes the cell of every box of a block to `keys`, which has room for whole vectors behind the

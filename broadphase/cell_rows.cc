@@ -13,10 +13,18 @@ constexpr size_t kBoxesPerTask = 16384;
 constexpr size_t kBoxesPerBucket = 8192;  // their records fit the second-level cache
 constexpr size_t kMostBuckets = 512;
 
+// Room for so many floats. The same row of different columns must not fall into one set of a cache
+// whose sets repeat every 4 KiB.
+size_t spread_stride(size_t count) {
+  constexpr size_t kLine = 16, kSetPeriod = 1024, kOffset = 9 * kLine;
+  const size_t lines = (count + kLine - 1) / kLine * kLine;
+  return lines < kSetPeriod ? lines : lines + (kOffset - lines) % kSetPeriod;
+}
+
 }  // namespace
 
-// A counting sort; of many boxes in two steps: into buckets of neighbouring cells, streams that are
-// written in order; then by cell within a bucket, in cache.
+// A counting sort in two steps: into buckets of neighbouring cells, streams that are written in
+// order; then by cell within a bucket, in cache.
 void CellRows::build(const BoxSource& source, Parallelism parallelism) {
   const Survey& survey = surveyor_.run(source, parallelism);
   count_ = survey.count;
@@ -24,24 +32,18 @@ void CellRows::build(const BoxSource& source, Parallelism parallelism) {
   do {
     grids_.choose(survey, source, cell_scale);
   } while (!find_cells_of(source, parallelism, cell_scale));
-  for (size_t k = 0; k < 3; ++k) {
-    lower[k].resize(source.count + kPadding);
-    upper[k].resize(source.count + kPadding);
-  }
+  stride_ = spread_stride(source.count + kPadding);
+  corners_.resize(6 * stride_);
   body.resize(source.count + kPadding);
   key.resize(source.count + kPadding);
   first_.resize(grids_.cells + 2);
   first_[0] = 0;
-  if (buckets_ == 1) {
-    sort_at_once(source);
-    return;
-  }
   fill_buckets(source, parallelism);
   for_each_block(buckets_, 1, parallelism,
                  [&](size_t bucket, size_t, size_t) { sort_bucket(bucket); });
 }
 
-// False if a box reaches further than into the next cell: then `cell_scale` is larger.
+// False if a box reaches further than its grid allows: then `cell_scale` is larger.
 bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
                              std::array<float, 3>& cell_scale) {
   const size_t tasks = block_count(source.count, kBoxesPerTask);
@@ -62,7 +64,10 @@ bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
                      const size_t last = std::min(end, i + BoxBlock::kBoxes);
                      find_cells(buffer.load(source, i, last), grids_, keys, reach_[task]);
                      std::copy_n(keys, last - i, keys_.data() + i);
-                     if (buckets_ == 1) continue;
+                     if (buckets_ == 1) {
+                       counts[0] += static_cast<uint32_t>(last - i);
+                       continue;
+                     }
                      for (size_t k = 0; k < last - i; ++k) {
                        ++counts[keys[k].cell() >> bucket_shift_];
                      }
@@ -72,9 +77,11 @@ bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
   for (size_t task = 0; task < tasks; ++task) reach.add(reach_[task]);
   bool is_short = true;
   for (size_t k = 0; k < 3; ++k) {
-    float farthest = 0;
-    for (size_t g = 0; g < grids_.count; ++g) farthest = std::max(farthest, reach.cells[g][k]);
-    if (farthest <= 1) continue;
+    bool too_far = false;
+    for (size_t g = 0; g < grids_.count; ++g) {
+      too_far |= reach.cells[g][k] > static_cast<float>(grids_.grid[g].reach[k]);
+    }
+    if (!too_far) continue;
     is_short = false;
     cell_scale[k] *= 2;
   }
@@ -94,73 +101,50 @@ void CellRows::fill_buckets(const BoxSource& source, Parallelism parallelism) {
   bucket_begin_[buckets_] = offset;
 
   records_.resize(source.count);
-  for_each_block(source.count, kBoxesPerTask, parallelism,
-                 [&](size_t task, size_t begin, size_t end) {
-                   uint32_t* offsets = offsets_.data() + task * buckets_;
-                   for_each_record(source, begin, end, [&](const Record& record) {
-                     records_[offsets[record.key.cell() >> bucket_shift_]++] = record;
-                   });
-                 });
-}
-
-// visit(record) for boxes [begin, end) of the source.
-template <class Visit>
-void CellRows::for_each_record(const BoxSource& source, size_t begin, size_t end,
-                               const Visit& visit) const {
+  order_.resize(source.count);
   const std::array<uint8_t, 3>& axis = grids_.axis;
-  BlockBuffer buffer;
-  for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
-    const BoxBlock block = buffer.load(source, i, std::min(end, i + BoxBlock::kBoxes));
-    for (size_t k = 0; k < block.count; ++k) {
-      visit(Record{{block.lower[axis[0]][k], block.lower[axis[1]][k], block.lower[axis[2]][k]},
-                   {block.upper[axis[0]][k], block.upper[axis[1]][k], block.upper[axis[2]][k]},
-                   source.body(i + k),
-                   keys_[i + k]});
-    }
-  }
-}
-
-void CellRows::sort_at_once(const BoxSource& source) {
-  start_cells(0, grids_.cells + 1, 0, std::span<const CellKey>(keys_.data(), source.count),
-              [](CellKey of_box) { return of_box; });
-  for_each_record(source, 0, source.count, [&](const Record& record) { place(record); });
+  for_each_block(
+      source.count, kBoxesPerTask, parallelism, [&](size_t task, size_t begin, size_t end) {
+        BlockBuffer buffer;
+        uint32_t* offsets = offsets_.data() + task * buckets_;
+        for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
+          const BoxBlock block = buffer.load(source, i, std::min(end, i + BoxBlock::kBoxes));
+          for (size_t k = 0; k < block.count; ++k) {
+            const CellKey box_key = keys_[i + k];
+            records_[offsets[box_key.cell() >> bucket_shift_]++] = {
+                {block.lower[axis[0]][k], block.lower[axis[1]][k], block.lower[axis[2]][k]},
+                {block.upper[axis[0]][k], block.upper[axis[1]][k], block.upper[axis[2]][k]},
+                source.body(i + k),
+                box_key};
+          }
+        }
+      });
 }
 
 void CellRows::sort_bucket(size_t bucket) {
   const size_t begin = bucket_begin_[bucket];
-  const std::span<const Record> records(records_.data() + begin, bucket_begin_[bucket + 1] - begin);
+  const size_t count = bucket_begin_[bucket + 1] - begin;
+  const BoxRecord* records = records_.data() + begin;
+  const size_t first_cell = bucket << bucket_shift_;
   const size_t last_cell = std::min<size_t>((bucket + 1) << bucket_shift_, grids_.cells + 1);
-  start_cells(bucket << bucket_shift_, last_cell, begin, records,
-              [](const Record& record) { return record.key; });
-  for (const Record& record : records) place(record);
-}
-
-// Notes where cells [first, last) begin, from the boxes in them. Every box that is placed moves its
-// cell's mark on; in the end the marks are where the next cells begin.
-template <class Items, class KeyOf>
-void CellRows::start_cells(size_t first, size_t last, size_t first_row, const Items& items,
-                           const KeyOf& key_of) {
+  // Where each cell begins; after the sort, where it ends, which is where the next one begins.
   uint32_t* next = first_.data() + 1;
-  std::fill(next + first, next + last, 0u);
-  for (const auto& item : items) ++next[key_of(item).cell()];
-  auto row = static_cast<uint32_t>(first_row);
-  for (size_t cell = first; cell < last; ++cell) row += std::exchange(next[cell], row);
-}
-
-void CellRows::place(const Record& record) {
-  const uint32_t row = first_[record.key.cell() + 1]++;
-  for (size_t k = 0; k < 3; ++k) {
-    lower[k][row] = record.lower[k];
-    upper[k][row] = record.upper[k];
+  std::fill(next + first_cell, next + last_cell, 0u);
+  for (size_t i = 0; i < count; ++i) ++next[records[i].key.cell()];
+  auto row = static_cast<uint32_t>(begin);
+  for (size_t cell = first_cell; cell < last_cell; ++cell) row += std::exchange(next[cell], row);
+  for (size_t i = 0; i < count; ++i) {
+    order_[next[records[i].key.cell()]++] = static_cast<uint32_t>(i);
   }
-  body[row] = record.body;
-  key[row] = record.key;
+  write_columns(records, order_.data() + begin, count,
+                {corners_.data() + begin, stride_, body.data() + begin, key.data() + begin});
 }
 
 void CellRows::clear_row(size_t row) {
+  float* corner = corners_.data() + row;
   for (size_t k = 0; k < 3; ++k) {
-    lower[k][row] = std::numeric_limits<float>::infinity();
-    upper[k][row] = -std::numeric_limits<float>::infinity();
+    corner[k * stride_] = std::numeric_limits<float>::infinity();
+    corner[(3 + k) * stride_] = -std::numeric_limits<float>::infinity();
   }
 }
 
@@ -171,13 +155,11 @@ CellRows::Range CellRows::rows_of_grid(size_t g) const {
 }
 
 size_t CellRows::bytes() const {
-  size_t sum = surveyor_.bytes() + records_.capacity() * sizeof(Record) +
+  size_t sum = surveyor_.bytes() + records_.capacity() * sizeof(BoxRecord) +
                reach_.capacity() * sizeof(CellReach);
-  for (size_t k = 0; k < 3; ++k) {
-    sum += (lower[k].capacity() + upper[k].capacity()) * sizeof(float);
-  }
+  sum += corners_.capacity() * sizeof(float);
   sum += (key.capacity() + keys_.capacity()) * sizeof(CellKey);
-  for (const std::vector<uint32_t>* column : {&body, &first_, &offsets_, &bucket_begin_}) {
+  for (const std::vector<uint32_t>* column : {&body, &order_, &first_, &offsets_, &bucket_begin_}) {
     sum += column->capacity() * sizeof(uint32_t);
   }
   return sum;

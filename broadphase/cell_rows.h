@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "broadphase/box_records.h"
 #include "broadphase/cell_grid.h"
 #include "broadphase/cell_keys.h"
 
@@ -14,7 +15,7 @@ namespace carom {
 class CellRows {
  public:
   // Rows behind the last can be read, up to this number.
-  static constexpr size_t kPadding = 16;
+  static constexpr size_t kPadding = 32;
 
   // Replaces the contents by the boxes of `source` that take part.
   void build(const BoxSource& source, Parallelism parallelism);
@@ -25,8 +26,10 @@ class CellRows {
   const CellGrids& grids() const { return grids_; }
   size_t count() const { return count_; }
 
-  // Columns in the order of grids().axis.
-  std::array<std::vector<float>, 3> lower, upper;
+  // Corners, by axis k of grids().axis; one column begins column_stride() behind the other.
+  const float* lower(size_t k) const { return corners_.data() + k * stride_; }
+  const float* upper(size_t k) const { return lower(3 + k); }
+  size_t column_stride() const { return stride_; }
   std::vector<uint32_t> body;
   std::vector<CellKey> key;
 
@@ -41,34 +44,24 @@ class CellRows {
   size_t bytes() const;
 
  private:
-  struct alignas(32) Record {
-    float lower[3], upper[3];
-    uint32_t body;
-    CellKey key;
-  };
-
   bool find_cells_of(const BoxSource& source, Parallelism parallelism,
                      std::array<float, 3>& cell_scale);
-  template <class Visit>
-  void for_each_record(const BoxSource& source, size_t begin, size_t end, const Visit& visit) const;
-  template <class Items, class KeyOf>
-  void start_cells(size_t first, size_t last, size_t first_row, const Items& items,
-                   const KeyOf& key_of);
-  void sort_at_once(const BoxSource& source);
   void fill_buckets(const BoxSource& source, Parallelism parallelism);
   void sort_bucket(size_t bucket);
-  void place(const Record& record);
 
   CellGrids grids_;
   size_t count_ = 0;
+  size_t stride_ = 0;
+  std::vector<float> corners_;
   std::vector<uint32_t> first_;
 
   Surveyor surveyor_;
-  std::vector<CellKey> keys_;  // a box of the source
+  std::vector<CellKey> keys_;    // a box of the source
+  std::vector<uint32_t> order_;  // of the records of a bucket
   std::vector<CellReach> reach_;
   std::vector<uint32_t> offsets_;  // a task and bucket
   std::vector<uint32_t> bucket_begin_;
-  std::vector<Record> records_;
+  std::vector<BoxRecord> records_;
   int bucket_shift_ = 0;
   size_t buckets_ = 0;
 };

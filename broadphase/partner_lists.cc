@@ -6,6 +6,7 @@
 // After the loop over targets.
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "broadphase/partner_lists.h"
 #include "simd/lanes-inl.h"
@@ -17,10 +18,18 @@ namespace {
 using PartnerTag = hn::RebindToUnsigned<FloatTag>;
 using Partners = hn::Vec<PartnerTag>;
 
-// One step of a sorting network: every lane is compared with another one.
+// One step of a sorting network: every lane is compared with another one, `flip` away.
 struct NetworkStep {
   HWY_ALIGN std::array<int32_t, kLanes> other{};
   HWY_ALIGN std::array<uint32_t, kLanes> is_lower{};  // all bits set where the lane keeps the less
+
+  constexpr NetworkStep() = default;
+  constexpr explicit NetworkStep(size_t flip) {
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      other[lane] = static_cast<int32_t>(lane ^ flip);
+      is_lower[lane] = lane < (lane ^ flip) ? 0xffffffffu : 0;
+    }
+  }
 };
 
 constexpr size_t step_count() {
@@ -29,45 +38,68 @@ constexpr size_t step_count() {
   return steps;
 }
 
-// Batcher's bitonic network, with flips instead of descending halves ("Sorting networks and their
-// applications", 1968).
-constexpr auto make_network() {
+// Batcher's bitonic network ("Sorting networks and their applications", 1968): merges of two
+// sorted halves, of which the second is reversed by the first step.
+constexpr auto make_sorting_network() {
   std::array<NetworkStep, step_count()> network{};
   size_t step = 0;
   for (size_t size = 2; size <= kLanes; size *= 2) {
-    for (size_t flip = size - 1; flip > 0; flip = flip == size - 1 ? size / 4 : flip / 2, ++step) {
-      for (size_t lane = 0; lane < kLanes; ++lane) {
-        network[step].other[lane] = static_cast<int32_t>(lane ^ flip);
-        network[step].is_lower[lane] = lane < (lane ^ flip) ? 0xffffffffu : 0;
-      }
-    }
+    network[step++] = NetworkStep(size - 1);
+    for (size_t flip = size / 4; flip > 0; flip /= 2) network[step++] = NetworkStep(flip);
   }
   return network;
 }
 
-HWY_INLINE Partners sort_lanes(Partners v) {
-  if constexpr (kLanes > 1) {
-    static constexpr auto kNetwork = make_network();
-    const PartnerTag tag;
-    for (const NetworkStep& step : kNetwork) {
-      const Partners other = hn::TableLookupLanes(v, hn::SetTableIndices(tag, step.other.data()));
-      const auto is_lower = hn::MaskFromVec(hn::Load(tag, step.is_lower.data()));
-      v = hn::IfThenElse(is_lower, hn::Min(v, other), hn::Max(v, other));
-    }
+// Sorts lanes that rise and then fall, or the reverse.
+constexpr auto make_merging_network() {
+  std::array<NetworkStep, std::countr_zero(kLanes)> network{};
+  size_t step = 0;
+  for (size_t flip = kLanes / 2; flip > 0; flip /= 2) network[step++] = NetworkStep(flip);
+  return network;
+}
+
+inline constexpr auto kSortingNetwork = make_sorting_network();
+inline constexpr auto kMergingNetwork = make_merging_network();
+
+template <class Network>
+HWY_INLINE Partners run(const Network& network, Partners v) {
+  const PartnerTag tag;
+  for (const NetworkStep& step : network) {
+    const Partners other = hn::TableLookupLanes(v, hn::SetTableIndices(tag, step.other.data()));
+    const auto is_lower = hn::MaskFromVec(hn::Load(tag, step.is_lower.data()));
+    v = hn::IfThenElse(is_lower, hn::Min(v, other), hn::Max(v, other));
   }
   return v;
 }
 
-// Partners that fit a vector: sorted without a branch that depends on how many they are. Writes
-// whole vectors; what is too much is overwritten by the next body's.
-HWY_INLINE void write_short(const uint32_t* partners, size_t count, uint32_t body, Pair* out) {
+HWY_INLINE Partners load_partners(const uint32_t* partners, size_t count) {
   const PartnerTag tag;
-  const Partners all =
-      hn::IfThenElse(hn::FirstN(tag, count), hn::LoadU(tag, partners), hn::Set(tag, 0xffffffffu));
-  hn::StoreInterleaved2(hn::Set(tag, body), sort_lanes(all), tag, &out->a);
+  return hn::IfThenElse(hn::FirstN(tag, count), hn::LoadU(tag, partners),
+                        hn::Set(tag, 0xffffffffu));
 }
 
-// A few more: every partner's place is the number of smaller ones.
+// Partners that fit a vector: sorted without a branch that depends on how many they are. Writes
+// whole vectors; what is too much is overwritten by the next body's.
+HWY_INLINE void write_one_vector(const uint32_t* partners, size_t count, uint32_t body, Pair* out) {
+  const PartnerTag tag;
+  const Partners sorted = run(kSortingNetwork, load_partners(partners, count));
+  hn::StoreInterleaved2(hn::Set(tag, body), sorted, tag, &out->a);
+}
+
+// The same for two vectors.
+HWY_INLINE void write_two_vectors(const uint32_t* partners, size_t count, uint32_t body,
+                                  Pair* out) {
+  const PartnerTag tag;
+  const Partners first = run(kSortingNetwork, load_partners(partners, kLanes));
+  const Partners second = run(kSortingNetwork, load_partners(partners + kLanes, count - kLanes));
+  const Partners falling = hn::Reverse(tag, second);
+  const Partners less = run(kMergingNetwork, hn::Min(first, falling));
+  const Partners more = run(kMergingNetwork, hn::Max(first, falling));
+  hn::StoreInterleaved2(hn::Set(tag, body), less, tag, &out->a);
+  hn::StoreInterleaved2(hn::Set(tag, body), more, tag, &out[kLanes].a);
+}
+
+// More of them: every partner's place is the number of smaller ones.
 HWY_INLINE void write_by_rank(const uint32_t* partners, size_t count, uint32_t body, Pair* out) {
   const PartnerTag tag;
   for (size_t i = 0; i < count; ++i) {
@@ -94,7 +126,9 @@ HWY_INLINE void write_all(const PartnerLists& lists, Pair* out) {
     const uint32_t body = lists.first_body + static_cast<uint32_t>(i);
     const uint32_t* partners = lists.partners + begin;
     if (HWY_LIKELY(count <= kLanes && begin + kLanes <= end)) {
-      write_short(partners, count, body, out + begin);
+      write_one_vector(partners, count, body, out + begin);
+    } else if (count <= 2 * kLanes && count > kLanes && begin + 2 * kLanes <= end) {
+      write_two_vectors(partners, count, body, out + begin);
     } else if (count <= kRanked) {
       write_by_rank(partners, count, body, out + begin);
     } else {

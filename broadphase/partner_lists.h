@@ -11,7 +11,7 @@ namespace carom {
 // The partners b of neighbouring bodies a, one body behind the other, each body's in any order.
 struct PartnerLists {
   // Partners that can be read behind the last one.
-  static constexpr size_t kPadding = 16;
+  static constexpr size_t kPadding = 32;
 
   const uint32_t* partners;
   const uint32_t* first;  // where those of body first_body + i begin; one more entry behind

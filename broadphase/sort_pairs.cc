@@ -13,6 +13,17 @@ constexpr size_t kBodiesAtOnce = 1 << 14;
 constexpr size_t kPairsPerBucket = 4096;
 constexpr size_t kMostBuckets = 512;
 
+// Visits all pairs, four places of the list in turn: neighbours share a body mostly, and its
+// counter is not ready so soon again.
+template <class Visit>
+void for_each_spread(std::span<const Pair> pairs, const Visit& visit) {
+  const size_t quarter = pairs.size() / 4;
+  for (size_t i = 0; i < quarter; ++i) {
+    for (size_t k = 0; k < 4; ++k) visit(pairs[k * quarter + i]);
+  }
+  for (size_t i = 4 * quarter; i < pairs.size(); ++i) visit(pairs[i]);
+}
+
 }  // namespace
 
 void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parallelism parallelism,
@@ -57,7 +68,7 @@ void PairSorter::fill_buckets(std::span<const PairList> found, size_t body_count
   offsets_.assign(lists * buckets, 0);
   for_each_block(lists, 1, parallelism, [&](size_t list, size_t, size_t) {
     uint32_t* counts = offsets_.data() + list * buckets;
-    for (const Pair& pair : found[list].pairs()) ++counts[pair.a >> shift];
+    for_each_spread(found[list].pairs(), [&](Pair pair) { ++counts[pair.a >> shift]; });
   });
   bucket_begin_.resize(buckets + 1);
   uint32_t offset = 0;
@@ -71,7 +82,8 @@ void PairSorter::fill_buckets(std::span<const PairList> found, size_t body_count
   buckets_.resize(offset);
   for_each_block(lists, 1, parallelism, [&](size_t list, size_t, size_t) {
     uint32_t* offsets = offsets_.data() + list * buckets;
-    for (const Pair& pair : found[list].pairs()) buckets_[offsets[pair.a >> shift]++] = pair;
+    for_each_spread(found[list].pairs(),
+                    [&](Pair pair) { buckets_[offsets[pair.a >> shift]++] = pair; });
   });
 }
 
@@ -85,12 +97,13 @@ void PairSorter::sort_bucket(size_t index, const Bucket& bucket, const ForEachSp
   uint32_t* next = first + 1;
   std::fill_n(first, bucket.bodies + 1, 0u);
   for_each_span([&](std::span<const Pair> pairs) {
-    for (const Pair& pair : pairs) ++next[pair.a - bucket.first_body];
+    for_each_spread(pairs, [&](Pair pair) { ++next[pair.a - bucket.first_body]; });
   });
   uint32_t offset = 0;
   for (size_t i = 0; i < bucket.bodies; ++i) offset += std::exchange(next[i], offset);
   for_each_span([&](std::span<const Pair> pairs) {
-    for (const Pair& pair : pairs) partners[next[pair.a - bucket.first_body]++] = pair.b;
+    for_each_spread(pairs,
+                    [&](Pair pair) { partners[next[pair.a - bucket.first_body]++] = pair.b; });
   });
   write_sorted({partners, first, bucket.bodies, bucket.first_body}, out.data() + bucket.first_pair);
 }
