@@ -132,6 +132,7 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
     CellGrid& to = grid[g];
     const double most = std::max(1.0, kMostCellsPerBox * static_cast<double>(boxes[g]));
     const double least = layout.affordable_edge(edges[g], most);
+    to.is_coarse = least > 4 * edges[g];
     for (size_t k = 0; k < 3; ++k) {
       const double cell = layout.cell_edge(k, edges[g], least);
       to.cells[k] = static_cast<uint32_t>(cells_along(layout.length(k), cell));

@@ -23,6 +23,7 @@ struct CellGrid {
   uint32_t row_stride = 0;          // from a cell to the one of the next row, and of the next slab
   uint32_t slab_stride = 0;
   float largest_edge = 0;  // boxes with longer edges belong to another grid
+  bool is_coarse = false;  // cells much larger than the boxes, lest they be too many
 
   uint32_t cell_at(uint32_t x, uint32_t y, uint32_t z) const {
     return first_cell + z * slab_stride + y * row_stride + x;

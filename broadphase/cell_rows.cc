@@ -154,6 +154,21 @@ CellRows::Range CellRows::rows_of_grid(size_t g) const {
   return {begin, end};
 }
 
+double CellRows::crowding() const {
+  constexpr size_t kSamples = 256;
+  const size_t step = count_ / kSamples + 1;
+  size_t sum = 0, samples = 0;
+  for (size_t g = 0; g < grids_.count; ++g) {
+    if (!grids_.grid[g].is_coarse) continue;
+    const Range rows = rows_of_grid(g);
+    for (size_t row = rows.begin; row < rows.end; row += step, ++samples) {
+      const uint32_t* first = first_.data() + key[row].cell();
+      sum += first[1] - first[0];
+    }
+  }
+  return samples == 0 ? 0 : static_cast<double>(sum) / static_cast<double>(samples);
+}
+
 size_t CellRows::bytes() const {
   size_t sum = surveyor_.bytes() + records_.capacity() * sizeof(BoxRecord) +
                reach_.capacity() * sizeof(CellReach);

@@ -41,6 +41,10 @@ class CellRows {
   };
   Range rows_of_grid(size_t g) const;
 
+  // Boxes in the cell of a box, on the average of a sample of all boxes whose cells are much larger
+  // than they: many where boxes lie in a few dense places far apart.
+  double crowding() const;
+
   size_t bytes() const;
 
  private:

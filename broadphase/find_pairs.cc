@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "broadphase/box_columns.h"
 #include "broadphase/cell_search.h"
@@ -19,7 +20,9 @@ constexpr size_t kRowsPerBlock = 256;
 // Up to here every box against every other is as fast as sorting,
 constexpr size_t kBruteForceLimit = 128;
 // and up to here a sweep along one axis is as fast as cells.
-constexpr size_t kSweepLimit = 512;
+constexpr size_t kSweepLimit = 350;
+// With more boxes than this in the cell of a box, a sweep may be faster again.
+constexpr double kMostCrowded = 512;
 
 // Turns hits into pairs of bodies that may meet.
 class PairSink final : public HitSink {
@@ -51,8 +54,8 @@ struct Choice {
 Choice choose(BroadphaseMethod wanted, size_t boxes) {
   if (wanted != BroadphaseMethod::automatic) return {wanted, "asked for"};
   if (boxes <= kBruteForceLimit) return {BroadphaseMethod::brute, "at most 128 boxes"};
-  if (boxes <= kSweepLimit) return {BroadphaseMethod::sweep, "at most 512 boxes"};
-  return {BroadphaseMethod::grid, "more than 512 boxes"};
+  if (boxes <= kSweepLimit) return {BroadphaseMethod::sweep, "at most 350 boxes"};
+  return {BroadphaseMethod::grid, "more than 350 boxes"};
 }
 
 }  // namespace
@@ -110,29 +113,43 @@ struct PairFinder::State {
   }
 
   // Boxes that rest are remembered from the moment on that most of them do.
-  void find_by_cells(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
-                     std::vector<Pair>& out, PairSearch& search) {
+  void find_by_cells(const BoundsView& bounds, const PairFilter& filter, bool must,
+                     Parallelism parallelism, std::vector<Pair>& out, PairSearch& search) {
+    using Outcome = RestingBoxes::Outcome;
     constexpr double kRestless = 0.4;
-    const RestingBoxes::Workspace work = {cells, found, sorter, most_pairs};
-    auto outcome = RestingBoxes::Outcome::restless;
+    const double most_crowded = must ? std::numeric_limits<double>::infinity() : kMostCrowded;
+    const RestingBoxes::Workspace work = {cells, found, sorter, most_pairs, most_crowded};
+    Outcome outcome = Outcome::restless;
     if (!resting.is_empty()) {
       outcome = resting.update(bounds, filter, parallelism, work, out);
       sample.forget();
     } else if (sample.changed_share(bounds) <= kRestless) {
       outcome = resting.settle(bounds, filter, parallelism, work, out);
     }
-    if (outcome == RestingBoxes::Outcome::restless) {
+    if (outcome == Outcome::restless) {
       cells.build(BoxSource(bounds), parallelism);
+      if (cells.crowding() > most_crowded) outcome = Outcome::crowded;
+    }
+    if (outcome == Outcome::crowded) {
+      search.method = BroadphaseMethod::sweep;
+      search.reason = "boxes crowd in few places far apart";
+      return find_by_rows(bounds, filter, true, parallelism, out, search);
+    }
+    if (outcome == Outcome::restless) {
       found.start(most_pairs);
       find_pairs_within(cells, filter, parallelism, found);
       sort_found(bounds, parallelism, out, search);
       search.changed = bounds.count;
+      search.grids = cells.grids().count;
+      if (!must) search.reason = "more than 350 boxes, most of them moving";
       return;
     }
-    search.complete = outcome == RestingBoxes::Outcome::found;
+    search.complete = outcome == Outcome::found;
     search.pairs = resting.pairs();
     search.changed = resting.changed();
     search.searched = resting.moving();
+    search.grids = resting.grids();
+    if (!must) search.reason = "more than 350 boxes, most of them at rest";
   }
 
   void forget() {
@@ -154,7 +171,8 @@ PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
   const Choice choice = choose(method, bounds.count);
   PairSearch search{.method = choice.method, .reason = choice.reason};
   if (choice.method == BroadphaseMethod::grid) {
-    state_->find_by_cells(bounds, filter, parallelism, out, search);
+    const bool must = method == BroadphaseMethod::grid;
+    state_->find_by_cells(bounds, filter, must, parallelism, out, search);
   } else {
     const bool sweep = choice.method == BroadphaseMethod::sweep;
     state_->find_by_rows(bounds, filter, sweep, parallelism, out, search);

@@ -33,6 +33,10 @@ RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const 
     }
     rows_.build(BoxSource(bounds, resting_.data(), resting_.size()), parallelism);
   }
+  if (rows_.crowding() > work.most_crowded) {
+    forget();
+    return Outcome::crowded;
+  }
   row_of_.assign(bounds.count, kNoRow);
   for (size_t row = 0; row < rows_.count(); ++row) {
     row_of_[rows_.body[row]] = static_cast<uint32_t>(row);

@@ -20,12 +20,14 @@ class RestingBoxes {
     FoundPairs& found;
     PairSorter& sorter;
     size_t most_pairs;
+    double most_crowded;  // CellRows::crowding()
   };
 
   enum class Outcome {
     found,     // `out` holds all pairs
     too_many,  // there are more pairs than wanted; nothing is remembered
     restless,  // so many boxes moved that a search from scratch costs less
+    crowded,   // cells would hold too many boxes; nothing is remembered
   };
 
   bool is_empty() const { return !holds_any_; }
@@ -42,7 +44,8 @@ class RestingBoxes {
 
   size_t pairs() const { return pair_count_; }        // of the last search, too many or not
   size_t changed() const { return changed_.size(); }  // boxes that differed in the last update
-  size_t moving() const { return moving_.size(); }    // boxes outside the resting structure
+  size_t grids() const { return rows_.grids().count; }
+  size_t moving() const { return moving_.size(); }  // boxes outside the resting structure
   size_t bytes() const;
 
  private:

@@ -1,5 +1,5 @@
-// Pairs of a frame: find_pairs/SCENE/METHOD/cold or warm/THREADS/ISA. Cold: the order of the last
-// frame is forgotten; warm: it is repaired.
+// Pairs of a frame: find_pairs/SCENE/METHOD/cold or warm/THREADS/ISA. Cold: the last frame is
+// forgotten; warm: its order is repaired, or its pairs at rest are kept.
 #include "carom/broadphase/find_pairs.h"
 
 #include <optional>
@@ -18,6 +18,7 @@ namespace {
 constexpr size_t kMostForReference = 10'000;
 constexpr size_t kMostForBruteForce = 10'000;  // to be measured
 constexpr size_t kMostForBruteForceOnce = 100'000;
+constexpr size_t kMostForSweep = 100'000;
 
 reference::Box box_at(const BoundsView& bounds, size_t i) {
   return {{bounds.lower[0][i], bounds.lower[1][i], bounds.lower[2][i]},
@@ -121,8 +122,8 @@ void add(const Case& c) {
 void register_in_full(const SceneSpec& scene) {
   for (const Setup& setup : all_setups()) {
     if (scene.bodies <= kMostForBruteForce) add({scene, BroadphaseMethod::brute, false, setup});
-    add({scene, BroadphaseMethod::sweep, false, setup});
-    add({scene, BroadphaseMethod::sweep, true, setup});
+    if (scene.bodies <= kMostForSweep) add({scene, BroadphaseMethod::sweep, true, setup});
+    for (const bool warm : {false, true}) add({scene, BroadphaseMethod::grid, warm, setup});
   }
 }
 
@@ -133,7 +134,7 @@ void register_find_pairs(const Options& options) {
     register_in_full({"brownian", bodies});
     for (const char* generator : {"varied", "static", "still"}) {
       for (const Setup& setup : strongest_setups()) {
-        add({{generator, bodies}, BroadphaseMethod::sweep, true, setup});
+        add({{generator, bodies}, BroadphaseMethod::grid, true, setup});
       }
     }
   }

@@ -36,11 +36,12 @@ struct PairFilter {
 // What a search did.
 struct PairSearch {
   BroadphaseMethod method = BroadphaseMethod::automatic;  // that ran
-  const char* reason = "";  // why it was chosen, in words; "asked for" if it was
-  size_t pairs = 0;         // that there are
-  bool complete = true;     // false: more than the limit, and none were written
-  size_t changed = 0;       // boxes that differ from those of the last call, where that is known
-  size_t searched = 0;      // boxes whose pairs were searched for; those of all others were kept
+  const char* reason = "";                                // why, in words
+  size_t pairs = 0;                                       // that there are
+  bool complete = true;  // false: more than the limit, and none were written
+  size_t changed = 0;    // boxes that differ from those of the last call, where that is known
+  size_t searched = 0;   // boxes whose pairs were searched for; those of all others were kept
+  size_t grids = 0;      // of the grid method: one for each range of sizes that needs its own
 };
 
 // Finds pairs again and again: keeps its memory, and the order or the pairs of boxes that rest,
