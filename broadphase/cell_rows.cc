@@ -25,7 +25,13 @@ size_t spread_stride(size_t count) {
 
 // A counting sort in two steps: into buckets of neighbouring cells, streams that are written in
 // order; then by cell within a bucket, in cache.
-void CellRows::build(const BoxSource& source, Parallelism parallelism) {
+void CellRows::build(const BoxSource& source, Parallelism parallelism, Scratch& scratch) {
+  constexpr size_t kBytesPerBox = sizeof(CellKey) + sizeof(uint32_t) + sizeof(BoxRecord);
+  scratch.start(source.count * kBytesPerBox, 3);
+  keys_ = scratch.take<CellKey>(source.count);
+  order_ = scratch.take<uint32_t>(source.count);
+  records_ = scratch.take<BoxRecord>(source.count);
+
   const Survey& survey = surveyor_.run(source, parallelism);
   count_ = survey.count;
   std::array<float, 3> cell_scale = {1, 1, 1};
@@ -51,7 +57,6 @@ bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
   bucket_shift_ = 0;
   while ((grids_.cells >> bucket_shift_) >= wanted) ++bucket_shift_;
   buckets_ = (grids_.cells >> bucket_shift_) + 1;
-  keys_.resize(source.count + BoxBlock::kPadding);
   if (reach_.size() < tasks) reach_.resize(tasks);
   offsets_.assign(tasks * buckets_, 0);
   for_each_block(source.count, kBoxesPerTask, parallelism,
@@ -100,8 +105,6 @@ void CellRows::fill_buckets(const BoxSource& source, Parallelism parallelism) {
   }
   bucket_begin_[buckets_] = offset;
 
-  records_.resize(source.count);
-  order_.resize(source.count);
   const std::array<uint8_t, 3>& axis = grids_.axis;
   for_each_block(
       source.count, kBoxesPerTask, parallelism, [&](size_t task, size_t begin, size_t end) {
@@ -170,11 +173,10 @@ double CellRows::crowding() const {
 }
 
 size_t CellRows::bytes() const {
-  size_t sum = surveyor_.bytes() + records_.capacity() * sizeof(BoxRecord) +
-               reach_.capacity() * sizeof(CellReach);
+  size_t sum = surveyor_.bytes() + reach_.capacity() * sizeof(CellReach);
   sum += corners_.capacity() * sizeof(float);
-  sum += (key.capacity() + keys_.capacity()) * sizeof(CellKey);
-  for (const std::vector<uint32_t>* column : {&body, &order_, &first_, &offsets_, &bucket_begin_}) {
+  sum += key.capacity() * sizeof(CellKey);
+  for (const std::vector<uint32_t>* column : {&body, &first_, &offsets_, &bucket_begin_}) {
     sum += column->capacity() * sizeof(uint32_t);
   }
   return sum;

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "broadphase/box_records.h"
 #include "broadphase/cell_grid.h"
 #include "broadphase/cell_keys.h"
+#include "kernel/scratch.h"
 
 namespace carom {
 
@@ -18,7 +20,7 @@ class CellRows {
   static constexpr size_t kPadding = 32;
 
   // Replaces the contents by the boxes of `source` that take part.
-  void build(const BoxSource& source, Parallelism parallelism);
+  void build(const BoxSource& source, Parallelism parallelism, Scratch& scratch);
 
   // Empties the box of a row: nothing meets it any more.
   void clear_row(size_t row);
@@ -60,12 +62,13 @@ class CellRows {
   std::vector<uint32_t> first_;
 
   Surveyor surveyor_;
-  std::vector<CellKey> keys_;    // a box of the source
-  std::vector<uint32_t> order_;  // of the records of a bucket
   std::vector<CellReach> reach_;
   std::vector<uint32_t> offsets_;  // a task and bucket
   std::vector<uint32_t> bucket_begin_;
-  std::vector<BoxRecord> records_;
+  // In scratch memory, while the rows are built.
+  std::span<CellKey> keys_;       // a box of the source
+  std::span<uint32_t> order_;     // of the records of a bucket
+  std::span<BoxRecord> records_;  // by bucket
   int bucket_shift_ = 0;
   size_t buckets_ = 0;
 };

@@ -69,6 +69,7 @@ struct PairFinder::State {
   size_t most_pairs = kMostPairs;
   FoundPairs found;
   PairSorter sorter;
+  Scratch scratch;
   // Brute force and sweep.
   SweepOrder order;
   BoxColumns columns;
@@ -109,7 +110,7 @@ struct PairFinder::State {
     search.pairs = found.count();
     search.searched = bounds.count;
     search.complete = search.pairs <= most_pairs;
-    if (search.complete) sorter.sort(found.lists(), bounds.count, parallelism, out);
+    if (search.complete) sorter.sort(found.lists(), bounds.count, parallelism, out, scratch);
   }
 
   // Boxes that rest are remembered from the moment on that most of them do.
@@ -118,7 +119,7 @@ struct PairFinder::State {
     using Outcome = RestingBoxes::Outcome;
     constexpr double kRestless = 0.4;
     const double most_crowded = must ? std::numeric_limits<double>::infinity() : kMostCrowded;
-    const RestingBoxes::Workspace work = {cells, found, sorter, most_pairs, most_crowded};
+    const RestingBoxes::Workspace work = {cells, found, sorter, scratch, most_pairs, most_crowded};
     Outcome outcome = Outcome::restless;
     if (!resting.is_empty()) {
       outcome = resting.update(bounds, filter, parallelism, work, out);
@@ -127,7 +128,7 @@ struct PairFinder::State {
       outcome = resting.settle(bounds, filter, parallelism, work, out);
     }
     if (outcome == Outcome::restless) {
-      cells.build(BoxSource(bounds), parallelism);
+      cells.build(BoxSource(bounds), parallelism, scratch);
       if (cells.crowding() > most_crowded) outcome = Outcome::crowded;
     }
     if (outcome == Outcome::crowded) {
@@ -187,8 +188,8 @@ void PairFinder::set_most_pairs(size_t pairs) { state_->most_pairs = pairs; }
 
 size_t PairFinder::bytes() const {
   const State& s = *state_;
-  return s.found.bytes() + s.sorter.bytes() + s.order.bytes() + s.columns.bytes() +
-         s.resting.bytes() + s.cells.bytes();
+  return s.found.bytes() + s.sorter.bytes() + s.scratch.bytes() + s.order.bytes() +
+         s.columns.bytes() + s.resting.bytes() + s.cells.bytes();
 }
 
 size_t find_pairs(const BoundsView& bounds, const PairFilter& filter, std::span<Pair> out,

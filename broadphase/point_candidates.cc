@@ -68,7 +68,8 @@ std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t s
         }
       });
   std::vector<Pair> pairs;
-  PairSorter().sort(found.lists(), count, parallelism, pairs);
+  Scratch scratch;
+  PairSorter().sort(found.lists(), count, parallelism, pairs, scratch);
   return pairs;
 }
 

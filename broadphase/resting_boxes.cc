@@ -25,13 +25,13 @@ RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const 
                                                 Parallelism parallelism, Workspace work) {
   idle_ = 0;
   if (moving_.empty()) {
-    rows_.build(BoxSource(bounds), parallelism);
+    rows_.build(BoxSource(bounds), parallelism, work.scratch);
   } else {
     resting_.clear();
     for (uint32_t i = 0; i < bounds.count; ++i) {
       if (!is_moving_[i]) resting_.push_back(i);
     }
-    rows_.build(BoxSource(bounds, resting_.data(), resting_.size()), parallelism);
+    rows_.build(BoxSource(bounds, resting_.data(), resting_.size()), parallelism, work.scratch);
   }
   if (rows_.crowding() > work.most_crowded) {
     forget();
@@ -48,7 +48,7 @@ RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const 
     forget();
     return Outcome::too_many;
   }
-  work.sorter.sort(work.found.lists(), bounds.count, parallelism, pairs_);
+  work.sorter.sort(work.found.lists(), bounds.count, parallelism, pairs_, work.scratch);
   holds_any_ = true;
   return Outcome::found;
 }
@@ -120,7 +120,7 @@ RestingBoxes::Outcome RestingBoxes::find_pairs_of_moving(const BoundsView& bound
   moving_pairs_.clear();
   pair_count_ = pairs_.size();
   if (!moving_.empty()) {
-    work.moving.build(BoxSource(bounds, moving_.data(), moving_.size()), parallelism);
+    work.moving.build(BoxSource(bounds, moving_.data(), moving_.size()), parallelism, work.scratch);
     work.found.start(work.most_pairs - pairs_.size());
     find_pairs_within(work.moving, filter, parallelism, work.found);
     find_pairs_between(work.moving, rows_, filter, parallelism, work.found);
@@ -129,7 +129,7 @@ RestingBoxes::Outcome RestingBoxes::find_pairs_of_moving(const BoundsView& bound
       forget();
       return Outcome::too_many;
     }
-    work.sorter.sort(work.found.lists(), bounds.count, parallelism, moving_pairs_);
+    work.sorter.sort(work.found.lists(), bounds.count, parallelism, moving_pairs_, work.scratch);
   }
   merge_pairs(pairs_, moving_pairs_, parallelism, out);
   return Outcome::found;

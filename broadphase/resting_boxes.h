@@ -19,6 +19,7 @@ class RestingBoxes {
     CellRows& moving;
     FoundPairs& found;
     PairSorter& sorter;
+    Scratch& scratch;
     size_t most_pairs;
     double most_crowded;  // CellRows::crowding()
   };

@@ -27,7 +27,7 @@ void for_each_spread(std::span<const Pair> pairs, const Visit& visit) {
 }  // namespace
 
 void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parallelism parallelism,
-                      std::vector<Pair>& out) {
+                      std::vector<Pair>& out, Scratch& scratch) {
   size_t total = 0;
   for (const PairList& list : found) total += list.pairs().size();
   out.resize(total);
@@ -36,10 +36,14 @@ void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parall
   int shift = 0;
   while ((body_count >> shift) >= wanted) ++shift;
   const size_t buckets = (body_count >> shift) + 1;
-  first_.resize(body_count + 2 * buckets);
-  if (partners_.size() < total + buckets * PartnerLists::kPadding) {
-    partners_.resize(total + buckets * PartnerLists::kPadding);
-  }
+  const size_t padding = buckets * PartnerLists::kPadding;
+  const size_t distributed = buckets == 1 ? 0 : total;
+  scratch.start(
+      distributed * sizeof(Pair) + (body_count + 2 * buckets + total + padding) * sizeof(uint32_t),
+      3);
+  buckets_ = scratch.take<Pair>(distributed);
+  first_ = scratch.take<uint32_t>(body_count + 2 * buckets);
+  partners_ = scratch.take<uint32_t>(total + padding);
   if (buckets == 1) {
     const auto all_lists = [&](const auto& visit) {
       for (const PairList& list : found) visit(list.pairs());
@@ -79,7 +83,6 @@ void PairSorter::fill_buckets(std::span<const PairList> found, size_t body_count
     }
   }
   bucket_begin_[buckets] = offset;
-  buckets_.resize(offset);
   for_each_block(lists, 1, parallelism, [&](size_t list, size_t, size_t) {
     uint32_t* offsets = offsets_.data() + list * buckets;
     for_each_spread(found[list].pairs(),
@@ -109,8 +112,7 @@ void PairSorter::sort_bucket(size_t index, const Bucket& bucket, const ForEachSp
 }
 
 size_t PairSorter::bytes() const {
-  return buckets_.capacity() * sizeof(Pair) + bucket_begin_.capacity() * sizeof(size_t) +
-         (offsets_.capacity() + first_.capacity() + partners_.capacity()) * sizeof(uint32_t);
+  return offsets_.capacity() * sizeof(uint32_t) + bucket_begin_.capacity() * sizeof(size_t);
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include "broadphase/pair_list.h"
 #include "carom/kernel/pair.h"
 #include "kernel/parallel.h"
+#include "kernel/scratch.h"
 
 namespace carom {
 
@@ -18,7 +19,7 @@ class PairSorter {
   // Replaces `out` by all pairs of `found`, sorted. Bodies are below `body_count`; no pair occurs
   // twice.
   void sort(std::span<const PairList> found, size_t body_count, Parallelism parallelism,
-            std::vector<Pair>& out);
+            std::vector<Pair>& out, Scratch& scratch);
 
   size_t bytes() const;
 
@@ -36,11 +37,12 @@ class PairSorter {
   void sort_bucket(size_t index, const Bucket& bucket, const ForEachSpan& for_each_span,
                    std::vector<Pair>& out);
 
-  std::vector<Pair> buckets_;
   std::vector<uint32_t> offsets_;  // one a list of `found` and bucket
   std::vector<size_t> bucket_begin_;
-  std::vector<uint32_t> first_;     // where the pairs of each body begin; one more a bucket
-  std::vector<uint32_t> partners_;  // one a pair, padded a bucket
+  // In scratch memory, while pairs are sorted.
+  std::span<Pair> buckets_;
+  std::span<uint32_t> first_;     // where the pairs of each body begin; two more a bucket
+  std::span<uint32_t> partners_;  // one a pair, padded a bucket
 };
 
 }  // namespace carom

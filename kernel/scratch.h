@@ -1,0 +1,43 @@
+// Working memory that stages use one after the other: nothing in it outlives a stage.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace carom {
+
+class Scratch {
+ public:
+  // Gives back what the last stage took, and makes room for so many bytes in `arrays` arrays.
+  void start(size_t bytes, size_t arrays) {
+    const size_t lines = bytes / sizeof(Line) + arrays;
+    if (lines_.size() < lines) {
+      lines_.clear();  // the contents need not be copied
+      lines_.resize(lines);
+    }
+    used_ = 0;
+  }
+
+  // An array of anything, at the start of a cache line.
+  template <class T>
+  std::span<T> take(size_t count) {
+    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(Line));
+    const std::span<T> taken(reinterpret_cast<T*>(lines_.data() + used_), count);
+    used_ += (count * sizeof(T) + sizeof(Line) - 1) / sizeof(Line);
+    return taken;
+  }
+
+  size_t bytes() const { return lines_.capacity() * sizeof(Line); }
+
+ private:
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+
+  std::vector<Line> lines_;
+  size_t used_ = 0;
+};
+
+}  // namespace carom
