@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# setup.sh build|dev|ci|peers: installs the packages that are missing (Debian 12, Ubuntu 24.04 or later).
+# setup.sh build|dev|peers|ci: installs missing packages (Debian 12, Ubuntu 24.04 or later).
 # build: what building, testing and benchmarking need. dev: clang and its tools as well.
-# ci: a cross compiler for AArch64 too. peers: build, and the libraries Carom is compared with.
+# peers: build, and the libraries Carom is compared with. ci: all, and a cross compiler for AArch64.
 set -euo pipefail
 
 build_packages=(
@@ -16,7 +16,7 @@ peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev)
 case "${1:-build}" in
   build) packages=("${build_packages[@]}") ;;
   dev) packages=("${build_packages[@]}" "${dev_packages[@]}") ;;
-  ci) packages=("${build_packages[@]}" "${dev_packages[@]}" "${ci_packages[@]}") ;;
+  ci) packages=("${build_packages[@]}" "${dev_packages[@]}" "${ci_packages[@]}" "${peer_packages[@]}") ;;
   peers) packages=("${build_packages[@]}" "${peer_packages[@]}") ;;
   *) echo "usage: setup.sh build|dev|ci|peers" >&2; exit 2 ;;
 esac
