@@ -10,13 +10,13 @@ build_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libboost-dev
 )
 dev_packages=(clang clang-format clang-tidy libclang-rt-dev)
-ci_packages=(g++-aarch64-linux-gnu)
 peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev)
+ci_packages=("${dev_packages[@]}" "${peer_packages[@]}" g++-aarch64-linux-gnu)
 
 case "${1:-build}" in
   build) packages=("${build_packages[@]}") ;;
   dev) packages=("${build_packages[@]}" "${dev_packages[@]}") ;;
-  ci) packages=("${build_packages[@]}" "${dev_packages[@]}" "${ci_packages[@]}" "${peer_packages[@]}") ;;
+  ci) packages=("${build_packages[@]}" "${ci_packages[@]}") ;;
   peers) packages=("${build_packages[@]}" "${peer_packages[@]}") ;;
   *) echo "usage: setup.sh build|dev|ci|peers" >&2; exit 2 ;;
 esac
