@@ -4,12 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "broadphase/cell_keys.h"
+
 namespace carom {
 namespace {
 
 // Boxes a cell, on average, from which boxes of other sizes get a grid of their own.
 constexpr double kFullCell = 12;
 constexpr double kMostCellsPerBox = 2.25;
+// Of all grids; with their empty cells they are up to 4.5 times as many, all with a key.
+constexpr double kMostCells = (1 << CellKey::kCellBits) / 5;
 constexpr double kMostCellsPerAxis = 1 << 22;
 
 struct Range {
@@ -32,11 +36,14 @@ Range populated_range(const Survey& survey, const BoxSource& source, size_t axis
   }
   if (samples < 4) return all;
   std::sort(sample.begin(), sample.begin() + samples);
-  const double quartile_1 = sample[samples / 4];
-  const double quartile_3 = sample[samples * 3 / 4];
-  const double reach = kFar * (quartile_3 - quartile_1);
-  if (reach <= 0) return all;
-  return {std::max(all.low, quartile_1 - reach), std::min(all.high, quartile_3 + reach)};
+  double low = sample[samples / 4];
+  double high = sample[samples * 3 / 4];
+  if (low == high) {  // a flat world: few lie elsewhere, and fewer far away
+    low = sample[samples / 16];
+    high = sample[samples - 1 - samples / 16];
+  }
+  const double reach = kFar * (high - low);
+  return {std::max(all.low, low - reach), std::min(all.high, high + reach)};
 }
 
 double cells_along(double length, double cell) {
@@ -55,7 +62,8 @@ struct Layout {
     // A little more than the boxes, so that rounding cannot make them reach two cells further; and
     // never so small that its inverse overflows.
     constexpr double kSpare = 1 + 1.0 / 256;
-    return std::max({std::min(box, longest_edge[k]) * kSpare * cell_scale[k], least, 1e-37});
+    return std::max({std::min(box, longest_edge[k]) * kSpare * cell_scale[k], least,
+                     length(k) / kMostCellsPerAxis, 1e-37});
   }
 
   double cell_count(double box, double least) const {
@@ -127,10 +135,12 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
   std::reverse(boxes.begin(), boxes.begin() + count);
   std::reverse(edges.begin(), edges.begin() + count);
 
+  const double most_cells_per_box =
+      std::min(kMostCellsPerBox, kMostCells / static_cast<double>(survey.count));
   cells = 0;
   for (size_t g = 0; g < count; ++g) {
     CellGrid& to = grid[g];
-    const double most = std::max(1.0, kMostCellsPerBox * static_cast<double>(boxes[g]));
+    const double most = std::max(1.0, most_cells_per_box * static_cast<double>(boxes[g]));
     const double least = layout.affordable_edge(edges[g], most);
     to.is_coarse = least > 4 * edges[g];
     for (size_t k = 0; k < 3; ++k) {

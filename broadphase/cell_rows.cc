@@ -146,8 +146,8 @@ void CellRows::sort_bucket(size_t bucket) {
 void CellRows::clear_row(size_t row) {
   float* corner = corners_.data() + row;
   for (size_t k = 0; k < 3; ++k) {
-    corner[k * stride_] = std::numeric_limits<float>::infinity();
-    corner[(3 + k) * stride_] = -std::numeric_limits<float>::infinity();
+    corner[k * stride_] = std::numeric_limits<float>::quiet_NaN();
+    corner[(3 + k) * stride_] = std::numeric_limits<float>::quiet_NaN();
   }
 }
 

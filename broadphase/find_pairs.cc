@@ -117,7 +117,7 @@ struct PairFinder::State {
   void find_by_cells(const BoundsView& bounds, const PairFilter& filter, bool must,
                      Parallelism parallelism, std::vector<Pair>& out, PairSearch& search) {
     using Outcome = RestingBoxes::Outcome;
-    constexpr double kRestless = 0.4;
+    constexpr double kRestless = 0.2;  // less than what RestingBoxes bears
     const double most_crowded = must ? std::numeric_limits<double>::infinity() : kMostCrowded;
     const RestingBoxes::Workspace work = {cells, found, sorter, scratch, most_pairs, most_crowded};
     Outcome outcome = Outcome::restless;
@@ -148,7 +148,7 @@ struct PairFinder::State {
     search.complete = outcome == Outcome::found;
     search.pairs = resting.pairs();
     search.changed = resting.changed();
-    search.searched = resting.moving();
+    search.searched = resting.searched();
     search.grids = resting.grids();
     if (!must) search.reason = "more than 350 boxes, most of them at rest";
   }
@@ -184,7 +184,10 @@ PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
 
 void PairFinder::forget() { state_->forget(); }
 
-void PairFinder::set_most_pairs(size_t pairs) { state_->most_pairs = pairs; }
+void PairFinder::set_most_pairs(size_t pairs) {
+  constexpr size_t kMostOffsets = 0xffffffffu;  // what the sort counts with
+  state_->most_pairs = std::min(pairs, kMostOffsets);
+}
 
 size_t PairFinder::bytes() const {
   const State& s = *state_;
@@ -195,6 +198,7 @@ size_t PairFinder::bytes() const {
 size_t find_pairs(const BoundsView& bounds, const PairFilter& filter, std::span<Pair> out,
                   BroadphaseMethod method, Parallelism parallelism) {
   PairFinder finder;
+  finder.set_most_pairs(std::max(out.size(), PairFinder::kMostPairs));
   std::vector<Pair> pairs;
   const PairSearch search = finder.find(bounds, filter, pairs, method, parallelism);
   if (search.pairs <= out.size()) std::copy(pairs.begin(), pairs.end(), out.begin());

@@ -24,6 +24,7 @@ RestingBoxes::Outcome RestingBoxes::settle(const BoundsView& bounds, const PairF
 RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const PairFilter& filter,
                                                 Parallelism parallelism, Workspace work) {
   idle_ = 0;
+  searched_ = bounds.count;
   if (moving_.empty()) {
     rows_.build(BoxSource(bounds), parallelism, work.scratch);
   } else {
@@ -57,7 +58,7 @@ RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairF
                                            Parallelism parallelism, Workspace work,
                                            std::vector<Pair>& out) {
   // From this share of moving boxes on, a search from scratch costs less.
-  constexpr double kRestless = 0.4;
+  constexpr double kRestless = 0.25;
   const size_t count_before = memory_.count();
   memory_.update(bounds, filter, parallelism, changed_);
   const size_t moving_before = moving_.size();
@@ -69,6 +70,7 @@ RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairF
   if (moving_.size() != moving_before || bounds.count < count_before) drop_pairs_of_moving();
 
   // Boxes that came to rest join the others when searching for them has cost about as much as that.
+  searched_ = moving_.size();
   idle_ += moving_.size() - std::min(moving_.size(), changed_.size());
   if (idle_ > memory_.count()) {
     for (const uint32_t body : moving_) is_moving_[body] = 0;
@@ -121,14 +123,16 @@ RestingBoxes::Outcome RestingBoxes::find_pairs_of_moving(const BoundsView& bound
   pair_count_ = pairs_.size();
   if (!moving_.empty()) {
     work.moving.build(BoxSource(bounds, moving_.data(), moving_.size()), parallelism, work.scratch);
-    work.found.start(work.most_pairs - pairs_.size());
+    work.found.start(work.most_pairs - std::min(work.most_pairs, pairs_.size()));
     find_pairs_within(work.moving, filter, parallelism, work.found);
     find_pairs_between(work.moving, rows_, filter, parallelism, work.found);
     pair_count_ += work.found.count();
-    if (pair_count_ > work.most_pairs) {
-      forget();
-      return Outcome::too_many;
-    }
+  }
+  if (pair_count_ > work.most_pairs) {
+    forget();
+    return Outcome::too_many;
+  }
+  if (!moving_.empty()) {
     work.sorter.sort(work.found.lists(), bounds.count, parallelism, moving_pairs_, work.scratch);
   }
   merge_pairs(pairs_, moving_pairs_, parallelism, out);

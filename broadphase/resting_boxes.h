@@ -46,7 +46,7 @@ class RestingBoxes {
   size_t pairs() const { return pair_count_; }        // of the last search, too many or not
   size_t changed() const { return changed_.size(); }  // boxes that differed in the last update
   size_t grids() const { return rows_.grids().count; }
-  size_t moving() const { return moving_.size(); }  // boxes outside the resting structure
+  size_t searched() const { return searched_; }  // boxes whose pairs the last search found
   size_t bytes() const;
 
  private:
@@ -69,6 +69,7 @@ class RestingBoxes {
   std::vector<Pair> moving_pairs_;  // all others
   std::vector<uint32_t> changed_, resting_, merged_;
   size_t pair_count_ = 0;
+  size_t searched_ = 0;
   size_t idle_ = 0;  // boxes searched for although they rested, summed since the last settlement
 };
 

@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
 namespace carom::cli {
@@ -74,6 +76,13 @@ Result<void> check_tier(const std::string& tier) {
   if (tier == "standard") return {};
   return contains(kPlanned, tier) ? not_yet("tier", tier, "standard")
                                   : unknown("tier", tier, "standard");
+}
+
+Result<void> check_margin(double margin) {
+  if (margin >= 0 && margin <= std::numeric_limits<float>::max()) return {};
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", margin);
+  return Error{"--margin " + std::string(text) + ": not a number of metres from 0 to 3.4e38"};
 }
 
 Result<BroadphaseMethod> parse_broadphase(const std::string& text) {

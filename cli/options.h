@@ -34,6 +34,8 @@ inline constexpr int kMaxThreads = 1024;
 Result<void> check_threads(int threads);
 // Only the standard tier exists yet.
 Result<void> check_tier(const std::string& tier);
+// Metres, finite and not negative.
+Result<void> check_margin(double margin);
 Result<BroadphaseMethod> parse_broadphase(const std::string& text);
 
 struct NamedDetail {

@@ -22,6 +22,7 @@ struct RunOptions {
   uint64_t frames = 0;  // 0: not given
   EngineOptions engine;
   std::string broadphase = "auto";
+  double margin = 0;
   bool no_cache = false;
   std::string json;
   std::string pairs_out;
@@ -36,9 +37,11 @@ Result<WorldSettings> world_settings(const RunOptions& options) {
   if (!detail) return detail.error();
   Result<BroadphaseMethod> broadphase = parse_broadphase(options.broadphase);
   if (!broadphase) return broadphase.error();
+  if (Result<void> margin = check_margin(options.margin); !margin) return margin.error();
   WorldSettings settings;
   settings.detail = *detail;
   settings.broadphase = *broadphase;
+  settings.margin = static_cast<float>(options.margin);
   settings.carry_results = !options.no_cache;
   return settings;
 }
@@ -73,6 +76,8 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
                    .threads = options.engine.threads,
                    .isa = name(active_isa()),
                    .detail = options.engine.detail,
+                   .margin = settings.margin,
+                   .memory = {},
                    .record = {}};
   Progress progress(console, "frame", report.frames);
   std::optional<Error> failure;
@@ -85,7 +90,7 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
     }
   });
   if (failure) return *failure;
-  report.world_bytes = world.bytes();
+  report.memory = world.memory();
   report.peak_rss_bytes = peak_rss_bytes();
   return report;
 }
@@ -138,6 +143,9 @@ void add_run_command(CLI::App& program, Action& action) {
   command.add_option("--detail", options->engine.detail, "pairs, overlap or contact")
       ->capture_default_str();
   command.add_option("--broadphase", options->broadphase, "auto, grid, sweep or brute")
+      ->capture_default_str();
+  command
+      .add_option("--margin", options->margin, "Metres to fatten bounds by; pairs are kept longer")
       ->capture_default_str();
   command.add_flag("--no-cache", options->no_cache,
                    "Test every pair anew and drop the sort order between frames");

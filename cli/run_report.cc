@@ -33,9 +33,18 @@ double stage_median(const RunRecord& record, Stage stage) {
   return median(steady(record.stage_ms[static_cast<size_t>(stage)]));
 }
 
+double share(size_t bytes, uint64_t count) {
+  return count == 0 ? 0 : static_cast<double>(bytes) / static_cast<double>(count);
+}
+
 double bytes_per_body(const RunReport& report) {
-  if (report.bodies == 0) return 0;
-  return static_cast<double>(report.world_bytes) / static_cast<double>(report.bodies);
+  return share(report.memory.total(), report.bodies);
+}
+
+// Of the pairs of the last frame.
+double bytes_per_pair(const RunReport& report) {
+  const std::vector<uint64_t>& pairs = report.record.pairs;
+  return share(report.memory.pairs_and_results, pairs.empty() ? 0 : pairs.back());
 }
 
 Json events_json(const RunRecord& record) {
@@ -81,6 +90,7 @@ Json to_json(const RunReport& report) {
   json["detail"] = report.detail;
   json["broadphase"] = name(record.search.method);
   json["broadphase_reason"] = record.search.reason;
+  json["margin"] = report.margin;
   json["pipeline"] = Json::array();
   for (Stage stage : stages_run(record)) json["pipeline"].push_back(name(stage));
   json["frame_ms"] = {
@@ -97,6 +107,12 @@ Json to_json(const RunReport& report) {
   json["quarantined_per_frame"] = record.quarantined;
   json["state_hash"] = record.hash.text();
   json["bytes_per_body"] = bytes_per_body(report);
+  json["broadphase_bytes_per_body"] = share(report.memory.broadphase, report.bodies);
+  json["bytes_per_pair"] = bytes_per_pair(report);
+  json["memory"] = {{"bodies", report.memory.bodies},
+                    {"bounds", report.memory.bounds},
+                    {"broadphase", report.memory.broadphase},
+                    {"pairs_and_results", report.memory.pairs_and_results}};
   json["peak_rss_bytes"] = report.peak_rss_bytes;
   json["version"] = build_info::kVersion;
   json["commit"] = build_info::kCommit;
@@ -124,6 +140,7 @@ void print(const RunReport& report, std::ostream& out) {
   table.add({"kept pairs", extent(record.kept)});
   table.add({"state hash", record.hash.text()});
   table.add({"memory", number("%.1f bytes a body, ", bytes_per_body(report)) +
+                           number("%.1f bytes a pair, ", bytes_per_pair(report)) +
                            number("%.1f MB at the peak", 1e-6 * report.peak_rss_bytes)});
   table.print(out);
 }

@@ -17,7 +17,8 @@ struct RunReport {
   int threads = 1;
   std::string isa;
   std::string detail;
-  uint64_t world_bytes = 0;
+  float margin = 0;    // metres
+  WorldMemory memory;  // at the end
   uint64_t peak_rss_bytes = 0;
   RunRecord record;
 };

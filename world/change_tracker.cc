@@ -45,7 +45,7 @@ uint32_t count_set(const uint8_t* flags, size_t count) {
 
 void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
-  all_unchanged_ = !bodies.any_touched() && changed_.size() == rows;
+  all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
   resize_and_give_back(changed_, rows);
   resize_and_give_back(block_changes_, block_count(rows, kRowsPerBlock));
   // New rows are touched, whatever their copies hold.
@@ -54,7 +54,12 @@ void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
   const bool reshaped = compare_boxes(bodies, parallelism);
   if (reshaped) mark_changed_boxes(bodies, parallelism);
   if (moved || reshaped) all_unchanged_ = false;
-  mark_touched(bodies);
+  if (knows_last_) {
+    mark_touched(bodies);
+  } else {
+    mark_all();
+  }
+  knows_last_ = true;
   changed_count_ = std::accumulate(block_changes_.begin(), block_changes_.end(), size_t{0});
 }
 
@@ -130,6 +135,14 @@ void ChangeTracker::mark_touched(const BodyStore& bodies) {
     if (index >= changed_.size() || changed_[index]) continue;
     changed_[index] = 1;
     ++block_changes_[index / kRowsPerBlock];
+  }
+}
+
+void ChangeTracker::mark_all() {
+  std::fill(changed_.begin(), changed_.end(), uint8_t{1});
+  for (size_t block = 0; block < block_changes_.size(); ++block) {
+    const size_t first = block * kRowsPerBlock;
+    block_changes_[block] = static_cast<uint32_t>(std::min(kRowsPerBlock, changed_.size() - first));
   }
 }
 

@@ -16,13 +16,16 @@ class ChangeTracker {
   // Compares with the last call and remembers the bodies as they are now.
   void update(BodyStore& bodies, Parallelism parallelism);
 
+  // For callers that leave out steps: the next update finds everything changed.
+  void forget() { knows_last_ = false; }
+
   // Pose, shape or properties of the body at this index differ, or it is another body.
   bool changed(uint32_t index) const { return changed_[index]; }
 
   // How many indices there are of which that is true; bodies that went may be among them.
   size_t changed_count() const { return changed_count_; }
 
-  // Nothing differs at all, bodies that came and went included.
+  // There was a last step, and nothing differs at all, bodies that came and went included.
   bool all_unchanged() const { return all_unchanged_; }
 
   size_t bytes() const;
@@ -33,6 +36,7 @@ class ChangeTracker {
   bool compare_records(const std::vector<T>& now, std::vector<T>& last, Parallelism parallelism);
   void mark_changed_boxes(const BodyStore& bodies, Parallelism parallelism);
   void mark_touched(const BodyStore& bodies);
+  void mark_all();
 
   // One byte a row, and how many are set in each block of rows: a block without any is all zero and
   // need not be written.
@@ -40,6 +44,7 @@ class ChangeTracker {
   std::vector<uint32_t> block_changes_;
   size_t changed_count_ = 0;
   bool all_unchanged_ = false;
+  bool knows_last_ = false;
   std::vector<float> last_records32_;
   std::vector<double> last_records64_;
   std::array<std::vector<float>, 6> last_boxes_;

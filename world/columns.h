@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "kernel/block_lists.h"
+
 namespace carom {
 
 template <class T>
@@ -28,6 +30,20 @@ void give_back(std::vector<T>& column, size_t needed) {
   smaller.reserve(kept);
   smaller.insert(smaller.end(), column.begin(), column.end());
   column.swap(smaller);
+}
+
+// The same for working memory: what it holds is of no use any more.
+template <class T>
+void give_back_scratch(std::vector<T>& column, size_t needed) {
+  if (column.size() > needed) column.resize(needed);
+  give_back(column, needed);
+}
+
+// The same for lists that together seldom hold more than `needed` items.
+template <class T>
+void give_back(BlockLists<T>& lists, size_t needed) {
+  constexpr size_t kAlwaysKept = 1 << 16;
+  if (lists.bytes() > 8 * needed * sizeof(T) + kAlwaysKept) lists = {};
 }
 
 // Resizes to a number of rows that may have fallen for good.

@@ -4,11 +4,21 @@
 #include <utility>
 
 #include "kernel/parallel.h"
+#include "world/columns.h"
 
 namespace carom {
 namespace {
 
 constexpr size_t kFloatColumns = 10;
+
+bool bounds_overlap(const BoundsView& bounds, Pair pair) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const float* lower = bounds.lower[axis];
+    const float* upper = bounds.upper[axis];
+    if (!(lower[pair.a] <= upper[pair.b] && lower[pair.b] <= upper[pair.a])) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -24,6 +34,15 @@ ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail) {
           {column(1), column(2), column(3)},
           {column(4), column(5), column(6)},
           {column(7), column(8), column(9)}};
+}
+
+void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const BoundsView& bounds,
+                                Parallelism parallelism) {
+  for_each_block(rows_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      if (overlap_[i]) overlap_[i] = bounds_overlap(bounds, pairs[i]);
+    }
+  });
 }
 
 Eigen::Vector3f ResultBuffer::vector(size_t column, size_t row) const {
@@ -44,8 +63,14 @@ Contact ResultBuffer::contact(size_t row, Pair pair) const {
           .status = static_cast<Status>(status_[row])};
 }
 
+void ResultBuffer::give_back_beyond(size_t pairs) {
+  give_back_scratch(overlap_, pairs);
+  give_back_scratch(status_, pairs);
+  give_back_scratch(floats_, kFloatColumns * pairs);
+}
+
 size_t ResultBuffer::bytes() const {
-  return overlap_.capacity() + status_.capacity() + floats_.capacity() * sizeof(float);
+  return bytes_of(overlap_) + bytes_of(status_) + bytes_of(floats_);
 }
 
 void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,

@@ -17,9 +17,15 @@ class ResultBuffer {
   // Room for `pairs` results; at Detail::overlap for the decisions alone.
   ResultColumns prepare(size_t pairs, Detail detail);
 
+  // Bounds are exact, tests are not: pairs whose bounds lie apart do not overlap, even where the
+  // rounded result of the test touches.
+  void reject_apart(const std::vector<Pair>& pairs, const BoundsView& bounds,
+                    Parallelism parallelism);
+
   bool overlap(size_t row) const { return overlap_[row]; }
   Contact contact(size_t row, Pair pair) const;
 
+  void give_back_beyond(size_t pairs);
   size_t bytes() const;
 
  private:

@@ -1,9 +1,5 @@
 #include "world/event_stage.h"
 
-#include <algorithm>
-
-#include "world/columns.h"
-
 namespace carom {
 namespace {
 
@@ -33,33 +29,24 @@ void EventStage::run(const PairHistory& last, const PairHistory& now, const Body
     return index < generation_.size() && last_id(index) == bodies.id_of(index);
   };
 
-  // A block of current pairs and the last step's pairs between them; one block, at least.
+  lists_.reset(merge_block_count(now.pairs.size()));
   const auto merge = [&](size_t block, size_t begin, size_t stop) {
     std::vector<Event>& out = lists_[block];
-    const MergeRange range = matching_range(last.pairs, now.pairs, begin, stop);
-    size_t before = range.begin;
-    for (size_t i = begin; i < stop; ++i) {
+    const auto gone = [&](size_t before) {
+      if (last.overlaps[before]) end(out, before);
+    };
+    const auto there = [&](size_t i, size_t before) {
       const Pair pair = now.pairs[i];
-      for (; before < range.end && last.pairs[before] < pair; ++before) {
-        if (last.overlaps[before]) end(out, before);
-      }
-      const bool known = before < range.end && last.pairs[before] == pair;
-      const bool overlapped = known && last.overlaps[before];
+      const bool overlapped = before != kNotThere && last.overlaps[before];
       const bool same = is_same_body(pair.a) && is_same_body(pair.b);
       if (overlapped && !(now.overlaps[i] && same)) end(out, before);
       if (now.overlaps[i]) {
         overlap(out, overlapped && same ? EventKind::persist : EventKind::begin, i);
       }
-      before += known;
-    }
-    for (; before < range.end; ++before) {
-      if (last.overlaps[before]) end(out, before);
-    }
+    };
+    merge_block(last.pairs, now.pairs, begin, stop, gone, there);
   };
-  const size_t blocks = block_count(now.pairs.size(), kPairsPerMergeBlock);
-  lists_.reset(std::max<size_t>(1, blocks));
-  if (blocks == 0) merge(0, 0, 0);
-  for_each_block(now.pairs.size(), kPairsPerMergeBlock, parallelism, merge);
+  for_each_merge_block(now.pairs.size(), parallelism, merge);
   lists_.concatenate(events, parallelism);
 }
 

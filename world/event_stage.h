@@ -8,6 +8,7 @@
 #include "carom/kernel/parallelism.h"
 #include "kernel/block_lists.h"
 #include "world/body_store.h"
+#include "world/columns.h"
 #include "world/pair_history.h"
 
 namespace carom {
@@ -21,6 +22,7 @@ class EventStage {
   // Remembers the generations of all bodies, which name the bodies of ended overlaps next time.
   void remember(const BodyStore& bodies);
 
+  void give_back_beyond(size_t pairs) { give_back(lists_, pairs); }
   size_t bytes() const { return lists_.bytes() + generation_.capacity() * sizeof(uint32_t); }
 
  private:

@@ -1,7 +1,8 @@
 #include "world/pair_history.h"
 
-#include <algorithm>
 #include <utility>
+
+#include "world/columns.h"
 
 namespace carom {
 
@@ -12,9 +13,15 @@ void PairHistory::clear() {
   contacts.clear();
 }
 
+void PairHistory::give_back_beyond(size_t count) {
+  give_back(pairs, count);
+  give_back(overlaps, count);
+  give_back(contact, count);
+  give_back(contacts, count);
+}
+
 size_t PairHistory::bytes() const {
-  return pairs.capacity() * sizeof(Pair) + overlaps.capacity() +
-         contact.capacity() * sizeof(uint32_t) + contacts.capacity() * sizeof(Contact);
+  return bytes_of(pairs) + bytes_of(overlaps) + bytes_of(contact) + bytes_of(contacts);
 }
 
 MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,
@@ -65,9 +72,14 @@ void CarryPlan::match(const PairHistory& last, const std::vector<Pair>& now,
                  });
 }
 
+void CarryPlan::give_back_beyond(size_t pairs) {
+  give_back_scratch(row_, pairs);
+  give_back_scratch(last_, pairs);
+  give_back_scratch(to_test_, pairs);
+}
+
 size_t CarryPlan::bytes() const {
-  return (row_.capacity() + last_.capacity()) * sizeof(uint32_t) +
-         to_test_.capacity() * sizeof(Pair) + block_first_.capacity() * sizeof(size_t);
+  return bytes_of(row_) + bytes_of(last_) + bytes_of(to_test_) + bytes_of(block_first_);
 }
 
 }  // namespace carom

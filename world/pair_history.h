@@ -1,6 +1,7 @@
 // The pairs of one step with their outcome, and how the next step's pairs relate to them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct PairHistory {
   std::vector<Contact> contacts;
 
   void clear();
+  void give_back_beyond(size_t pairs);
   size_t bytes() const;
 };
 
@@ -36,6 +38,37 @@ struct MergeRange {
 };
 MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,
                           size_t end);
+
+// Blocks of `pairs` pairs, one at least: it takes what the last step had.
+inline size_t merge_block_count(size_t pairs) {
+  return std::max<size_t>(1, block_count(pairs, kPairsPerMergeBlock));
+}
+
+// body(block, begin, end) for each of them.
+template <class Body>
+void for_each_merge_block(size_t pairs, Parallelism parallelism, const Body& body) {
+  if (pairs == 0) body(0, 0, 0);
+  for_each_block(pairs, kPairsPerMergeBlock, parallelism, body);
+}
+
+inline constexpr size_t kNotThere = ~size_t{0};
+
+// Goes through block [begin, end) of `now` and what belongs to it of `last`, in order:
+//   gone(index into last)                     pairs that `now` lacks
+//   there(index into now, index into last)    the others; kNotThere where `last` lacks them
+template <class Gone, class There>
+void merge_block(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,
+                 size_t end, const Gone& gone, const There& there) {
+  const MergeRange range = matching_range(last, now, begin, end);
+  size_t before = range.begin;
+  for (size_t i = begin; i < end; ++i) {
+    for (; before < range.end && last[before] < now[i]; ++before) gone(before);
+    const bool known = before < range.end && last[before] == now[i];
+    there(i, known ? before : kNotThere);
+    before += known;
+  }
+  for (; before < range.end; ++before) gone(before);
+}
 
 // What is tested and what is carried over from the last step.
 class CarryPlan {
@@ -65,6 +98,7 @@ class CarryPlan {
   // Index of a carried pair in the last step.
   uint32_t last_index(size_t i) const { return last_[i]; }
 
+  void give_back_beyond(size_t pairs);
   size_t bytes() const;
 
  private:

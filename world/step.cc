@@ -22,36 +22,82 @@ void World::State::run(Stage stage, const Work& work) {
 const StepReport& World::State::step() {
   const FloatEnvironment environment;
   const Parallelism parallelism = settings.parallelism;
+  const size_t last_pairs = now.pairs.size();
   report = {.step = report.step + 1, .search = {}};
 
-  if (carries()) run(Stage::changes, [&] { changes.update(bodies, parallelism); });
-  const bool still = carries() && report.step > 1 && changes.all_unchanged();
+  const bool still = is_still();
   if (still) {
     plan.carry_all();
+    last.clear();
+    pair_changes.clear();
   } else {
-    if (carries() || has_events()) std::swap(last, now);
-    run(Stage::bounds, [&] { find_bounds(); });
-    run(Stage::broadphase, [&] { find_pairs(); });
-    if (has_narrowphase()) {
-      run(Stage::pairs, [&] { plan_tests(); });
-      run(Stage::narrowphase, [&] { test_pairs(); });
-      run(Stage::results, [&] {
-        contact_stage.run(plan, last, results, bodies, settings.detail, parallelism, now);
-      });
-    }
+    if (needs_last()) std::swap(last, now);
+    find_all();
   }
   if (settings.detail == Detail::contact && bodies.has_velocities()) {
     run(Stage::velocities,
         [&] { set_normal_velocities(bodies.linear_velocities(), parallelism, now.contacts); });
   }
-  if (has_events()) {
+  if (has_events() && !(still && was_still)) {  // otherwise all persists once more
     run(Stage::events, [&] {
       event_stage.run(still ? now : last, now, bodies, parallelism, events);
       event_stage.remember(bodies);
     });
   }
   bodies.clear_touched();
+  was_still = still;
+  if (watches_rest()) watch_rest(still);
+  give_back_memory(last_pairs);
+  fill_report();
+  return report;
+}
 
+// Whether the step repeats the last one.
+bool World::State::is_still() {
+  if (!carries() && !(watches_rest() && rest_watch.is_on())) return false;
+  run(Stage::changes, [&] { changes.update(bodies, settings.parallelism); });
+  return changes.all_unchanged();
+}
+
+void World::State::find_all() {
+  run(Stage::bounds, [&] { find_bounds(); });
+  if (has_margin()) {
+    run(Stage::margins,
+        [&] { fat_bounds.update(bounds_view(), settings.margin, settings.parallelism); });
+  }
+  run(Stage::broadphase, [&] { find_pairs(); });
+  if (settings.pair_changes || has_narrowphase()) run(Stage::pairs, [&] { compare_pairs(); });
+  if (!has_narrowphase()) return;
+  run(Stage::narrowphase, [&] { test_pairs(); });
+  run(Stage::results, [&] {
+    contact_stage.run(plan, last, results, bodies, settings.detail, settings.parallelism, now);
+  });
+}
+
+// The broadphase knows what changed where it keeps something; a sample of the bodies tells the
+// rest.
+void World::State::watch_rest(bool still) {
+  if (still) {
+    rest_watch.saw_rest();
+  } else {
+    rest_watch.saw_step(search.changed == 0 && sample.changed_share(bounds_view()) == 0);
+    if (!rest_watch.is_on()) changes.forget();
+  }
+}
+
+// Memory that neither this step nor the last one needed, so that pairs may come and go in turns.
+void World::State::give_back_memory(size_t last_pairs) {
+  const size_t pairs = std::max(now.pairs.size(), last_pairs);
+  now.give_back_beyond(pairs);
+  last.give_back_beyond(pairs);
+  pair_changes.give_back_beyond(pairs);
+  plan.give_back_beyond(pairs);
+  results.give_back_beyond(pairs);
+  event_stage.give_back_beyond(pairs);
+  give_back(events, pairs);
+}
+
+void World::State::fill_report() {
   report.bodies = bodies.size();
   report.quarantined = quarantined.size();
   report.pairs = now.pairs.size();
@@ -60,7 +106,6 @@ const StepReport& World::State::step() {
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
   report.contacts = now.contacts.size();
   report.search = search;
-  return report;
 }
 
 BoundsView World::State::bounds_view() const {
@@ -96,11 +141,17 @@ void World::State::find_quarantined() {
 void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
   finder.set_most_pairs(settings.most_pairs);
-  search = finder.find(bounds_view(), bodies.filter(), now.pairs, settings.broadphase,
-                       settings.parallelism);
+  const BoundsView searched = has_margin() ? fat_bounds.view() : bounds_view();
+  search =
+      finder.find(searched, bodies.filter(), now.pairs, settings.broadphase, settings.parallelism);
 }
 
-void World::State::plan_tests() {
+// What came and went, and what is to be tested.
+void World::State::compare_pairs() {
+  if (settings.pair_changes) {
+    pair_changes.run(last.pairs, now.pairs, bodies, settings.parallelism);
+  }
+  if (!has_narrowphase()) return;
   if (carries()) {
     plan.match(last, now.pairs, changes, settings.parallelism);
   } else {
@@ -111,14 +162,21 @@ void World::State::plan_tests() {
 void World::State::test_pairs() {
   collide_pairs(bodies.view(), plan.pairs_to_test(now.pairs), settings.detail,
                 results.prepare(plan.tested(), settings.detail), settings.parallelism);
+  if (has_margin()) {
+    results.reject_apart(plan.pairs_to_test(now.pairs), bounds_view(), settings.parallelism);
+  }
 }
 
-size_t World::State::bytes() const {
-  size_t sum = bodies.bytes() + changes.bytes() + finder.bytes() + now.bytes() + last.bytes() +
-               plan.bytes() + results.bytes() + contact_stage.bytes() + event_stage.bytes() +
-               events.capacity() * sizeof(Event) + quarantined.capacity() * sizeof(BodyId);
-  for (const std::vector<float>& column : bounds) sum += column.capacity() * sizeof(float);
-  return sum;
+WorldMemory World::State::memory() const {
+  WorldMemory memory;
+  memory.bodies = bodies.bytes() + changes.bytes() + bytes_of(quarantined);
+  memory.bounds = fat_bounds.bytes();
+  for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
+  memory.broadphase = finder.bytes();
+  memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
+                             results.bytes() + contact_stage.bytes() + event_stage.bytes() +
+                             bytes_of(events);
+  return memory;
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <cmath>
 
 #include "kernel/float_environment.h"
 #include "world/world_state.h"
@@ -10,11 +11,14 @@ namespace carom {
 
 const char* name(Stage stage) {
   static constexpr std::array<const char*, kStageCount> kNames = {
-      "changes", "bounds", "broadphase", "pairs", "narrowphase", "results", "velocities", "events"};
+      "changes",     "bounds",  "margins",    "broadphase", "pairs",
+      "narrowphase", "results", "velocities", "events"};
   return kNames[static_cast<size_t>(stage)];
 }
 
-World::World(const WorldSettings& settings) : state_(std::make_unique<State>(settings)) {}
+World::World(const WorldSettings& settings) : state_(std::make_unique<State>(settings)) {
+  assert(std::isfinite(settings.margin) && settings.margin >= 0);
+}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -161,6 +165,9 @@ std::span<const Event> World::events() const { return state_->events; }
 std::span<const BodyId> World::quarantined() const { return state_->quarantined; }
 const StepReport& World::report() const { return state_->report; }
 
-size_t World::bytes() const { return state_->bytes(); }
+std::span<const Pair> World::added_pairs() const { return state_->pair_changes.added; }
+std::span<const Pair> World::removed_pairs() const { return state_->pair_changes.removed; }
+
+WorldMemory World::memory() const { return state_->memory(); }
 
 }  // namespace carom

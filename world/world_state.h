@@ -3,12 +3,16 @@
 
 #include <vector>
 
+#include "broadphase/box_memory.h"
 #include "carom/world/world.h"
 #include "world/body_store.h"
 #include "world/change_tracker.h"
 #include "world/contact_stage.h"
 #include "world/event_stage.h"
+#include "world/fat_bounds.h"
+#include "world/pair_changes.h"
 #include "world/pair_history.h"
+#include "world/rest_watch.h"
 
 namespace carom {
 
@@ -17,31 +21,45 @@ struct World::State {
 
   const StepReport& step();
   BoundsView bounds_view() const;
-  size_t bytes() const;
+  WorldMemory memory() const;
 
   WorldSettings settings;
   BodyStore bodies;
   StepReport report;
 
   PairHistory now;
+  PairChanges pair_changes;
   std::vector<Event> events;
   std::vector<BodyId> quarantined;
 
  private:
   bool has_narrowphase() const { return settings.detail != Detail::pairs; }
   bool has_events() const { return settings.events && has_narrowphase(); }
+  bool has_margin() const { return settings.margin > 0; }
   bool carries() const { return settings.carry_results && has_narrowphase(); }
+  // Without results to carry, comparing all bodies pays only where none of them moves.
+  bool watches_rest() const { return settings.carry_results && !has_narrowphase(); }
+  bool needs_last() const { return carries() || has_events() || settings.pair_changes; }
 
   template <class Work>
   void run(Stage stage, const Work& work);
+  bool is_still();
+  void find_all();
+  void watch_rest(bool still);
+  void give_back_memory(size_t last_pairs);
+  void fill_report();
   void find_bounds();
   void find_quarantined();
   void find_pairs();
-  void plan_tests();
+  void compare_pairs();
   void test_pairs();
 
+  bool was_still = false;  // the last step repeated the one before
   ChangeTracker changes;
+  RestWatch rest_watch;
+  BoxSample sample;
   std::array<std::vector<float>, 6> bounds;
+  FatBounds fat_bounds;
   PairFinder finder;
   PairSearch search;
   PairHistory last;

@@ -127,15 +127,19 @@ enum class BoxFamily {
   infinite,
   spoilt,
   subnormal,
+  decades,  // sizes over six decades
+  line,     // along one axis, far beyond what others measure
+  outlier,  // a few far away from the rest
   any_bits,
 };
 
-inline constexpr int kBoxFamilies = 14;
+inline constexpr int kBoxFamilies = 17;
 
 inline const char* name(BoxFamily family) {
   constexpr const char* kNames[kBoxFamilies] = {
-      "random", "clustered",   "lattice", "equal keys", "one point", "flat",      "plane",
-      "giant",  "far cluster", "huge",    "infinite",   "spoilt",    "subnormal", "any bits"};
+      "random",    "clustered", "lattice",     "equal keys", "one point", "flat",
+      "plane",     "giant",     "far cluster", "huge",       "infinite",  "spoilt",
+      "subnormal", "decades",   "line",        "outlier",    "any bits"};
   return kNames[static_cast<int>(family)];
 }
 
@@ -143,6 +147,8 @@ inline TestBox make_box(BoxFamily family, BoxMaker& maker, size_t i, size_t coun
   Random& random = maker.random();
   const double side = side_for(count);
   TestBox box = maker.in_cube(side);
+  const double size = family == BoxFamily::decades ? random.log_uniform(1e-5, 10) : 1;
+  const bool is_far = family == BoxFamily::outlier && random.chance(0.02);
   for (int axis = 0; axis < 3; ++axis) {
     float& lower = box.lower[axis];
     float& upper = box.upper[axis];
@@ -197,6 +203,18 @@ inline TestBox make_box(BoxFamily family, BoxMaker& maker, size_t i, size_t coun
       case BoxFamily::subnormal:
         lower = static_cast<float>(random.below(99)) * 0x1p-149f;
         upper = lower + static_cast<float>(random.below(30)) * 0x1p-149f;
+        break;
+      case BoxFamily::decades:
+        upper = lower + maker.uniform(0, size);
+        break;
+      case BoxFamily::line:
+        lower =
+            axis == 1 ? maker.uniform(0, 0.7 * static_cast<double>(count)) : maker.uniform(0, 1);
+        upper = lower + 1;
+        break;
+      case BoxFamily::outlier:
+        if (is_far) lower += maker.uniform(-1e6, 1e6);
+        upper = lower + 1;
         break;
       case BoxFamily::any_bits:
         lower = random.any_float();
@@ -256,7 +274,7 @@ inline std::vector<Pair> plain_pairs(const Boxes& boxes, const PairFilter& filte
   std::vector<Pair> pairs;
   for (uint32_t a = 0; a < boxes.size(); ++a) {
     for (uint32_t b = a + 1; b < boxes.size(); ++b) {
-      if (overlap(boxes[a], boxes[b]) && may_meet(filter, a, b)) pairs.push_back({a, b});
+      if (overlap(boxes[a], boxes[b]) && test::may_meet(filter, a, b)) pairs.push_back({a, b});
     }
   }
   return pairs;

@@ -51,6 +51,58 @@ TEST(FindPairs, OfManyBoxes) {
   }
 }
 
+// The limits of the automatic choice.
+TEST(FindPairs, OfAboutAsManyBoxesAsChangeTheMethod) {
+  for (const auto& [count, method] :
+       std::initializer_list<std::pair<size_t, BroadphaseMethod>>{{128, BroadphaseMethod::brute},
+                                                                  {129, BroadphaseMethod::sweep},
+                                                                  {350, BroadphaseMethod::sweep},
+                                                                  {351, BroadphaseMethod::grid},
+                                                                  {512, BroadphaseMethod::grid}}) {
+    const Boxes boxes = make_boxes(BoxFamily::decades, count);
+    const LaidOutBoxes memory(boxes);
+    std::vector<Pair> pairs;
+    const PairSearch search = PairFinder().find(memory.view(), {}, pairs);
+    EXPECT_EQ(search.method, method) << count;
+    EXPECT_EQ(search.pairs, pairs.size());
+    EXPECT_TRUE(search.complete);
+    EXPECT_TRUE(pairs == plain_pairs(boxes)) << difference(pairs, plain_pairs(boxes), boxes);
+  }
+}
+
+// Where cells would be crowded, a sweep takes their place, unless cells were asked for.
+TEST(FindPairs, OfCrowdsFarApart) {
+  BoxMaker maker(12);
+  Boxes crowds, spread = make_boxes(BoxFamily::random, 4000);
+  for (size_t i = 0; i < spread.size(); ++i) {
+    crowds.push_back(maker.in_cube(20, 0.5));
+    for (int axis = 0; axis < 3; ++axis) {
+      const float far = 1e5f * static_cast<float>(i % 4);
+      crowds[i].lower[axis] += far;
+      crowds[i].upper[axis] += far;
+    }
+  }
+  const std::vector<Pair> crowds_expected = plain_pairs(crowds);
+  const std::vector<Pair> spread_expected = plain_pairs(spread);
+  PairFinder automatic, cells;
+  size_t sweeps = 0;
+  for (int frame = 0; frame < 24; ++frame) {
+    const bool crowded = frame / 6 % 2 == 0;
+    const Boxes& boxes = crowded ? crowds : spread;
+    const std::vector<Pair>& expected = crowded ? crowds_expected : spread_expected;
+    const LaidOutBoxes memory(boxes);
+    std::vector<Pair> pairs;
+    const PairSearch search = automatic.find(memory.view(), {}, pairs);
+    EXPECT_TRUE(pairs == expected) << frame << ": " << difference(pairs, expected, boxes);
+    EXPECT_EQ(search.grids == 0, search.method == BroadphaseMethod::sweep);
+    sweeps += search.method == BroadphaseMethod::sweep;
+    EXPECT_EQ(cells.find(memory.view(), {}, pairs, BroadphaseMethod::grid).method,
+              BroadphaseMethod::grid);
+    EXPECT_TRUE(pairs == expected) << frame << ": " << difference(pairs, expected, boxes);
+  }
+  EXPECT_EQ(sweeps, 12u);
+}
+
 TEST(FindPairs, FamiliesHaveHitsAndMisses) {
   for (int i = 0; i < kBoxFamilies; ++i) {
     const auto family = static_cast<BoxFamily>(i);
@@ -231,10 +283,63 @@ TEST(FindPairs, PermutingTheBoxesPermutesThePairs) {
   }
 }
 
+// Coordinates with so few bits that no sum is rounded.
+TEST(FindPairs, MovingTheWholeWorldChangesNothing) {
+  Random random(10);
+  for (const size_t count : {100, 700, 5000}) {
+    Boxes boxes(count);
+    for (TestBox& box : boxes) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const uint64_t extent = static_cast<uint64_t>(16 * side_for(count));
+        box.lower[axis] = static_cast<float>(random.below(extent)) / 16;
+        box.upper[axis] = box.lower[axis] + static_cast<float>(random.below(25)) / 16;
+      }
+    }
+    const std::vector<Pair> expected = plain_pairs(boxes);
+    PairFinder finder;
+    for (int power = -4; power <= 14; power += 2) {
+      for (const int axis : {0, 1, 2}) {
+        for (const float way : {std::ldexp(1.0f, power), -std::ldexp(1.0f, power + 1)}) {
+          for (TestBox& box : boxes) {
+            box.lower[axis] += way;
+            box.upper[axis] += way;
+          }
+          for (const BroadphaseMethod method : {BroadphaseMethod::sweep, BroadphaseMethod::grid}) {
+            ASSERT_TRUE(found_pairs(finder, boxes, method) == expected)
+                << count << " boxes, " << carom::name(method);
+          }
+        }
+      }
+    }
+  }
+}
+
+// Powers of two scale boxes without rounding, from tiny to huge.
+TEST(FindPairs, ScalingTheWholeWorldChangesNothing) {
+  for (const BoxFamily family : {BoxFamily::lattice, BoxFamily::random, BoxFamily::decades}) {
+    const Boxes boxes = make_boxes(family, 800);
+    const std::vector<Pair> expected = plain_pairs(boxes);
+    for (const int power : {-90, -60, -20, -1, 1, 10, 60, 120}) {
+      Boxes scaled = boxes;
+      for (TestBox& box : scaled) {
+        for (int axis = 0; axis < 3; ++axis) {
+          box.lower[axis] = std::ldexp(box.lower[axis], power);
+          box.upper[axis] = std::ldexp(box.upper[axis], power);
+        }
+      }
+      for (const BroadphaseMethod method : {BroadphaseMethod::sweep, BroadphaseMethod::grid}) {
+        EXPECT_TRUE(found_pairs(scaled, method) == expected)
+            << name(family) << " times 2^" << power << ", " << carom::name(method);
+      }
+    }
+  }
+}
+
 TEST(BroadphaseMethod, Names) {
   EXPECT_STREQ(carom::name(BroadphaseMethod::automatic), "auto");
   EXPECT_STREQ(carom::name(BroadphaseMethod::brute), "brute");
   EXPECT_STREQ(carom::name(BroadphaseMethod::sweep), "sweep");
+  EXPECT_STREQ(carom::name(BroadphaseMethod::grid), "grid");
 }
 
 }  // namespace

@@ -77,6 +77,10 @@ TEST_F(ErrorsTest, OptionsOfRun) {
   expect_error({"run", scene, "--detail", "toi"}, {"detail 'toi' does not exist"});
   expect_error({"run", scene, "--detail", "some"}, {"unknown detail 'some'"});
   expect_error({"run", scene, "--broadphase", "octree"}, {"unknown broadphase 'octree'", "sweep"});
+  for (const char* margin : {"-1", "nan", "inf", "1e39", "-1e-9"}) {
+    expect_error({"run", scene, "--margin", margin}, {"--margin", "metres"});
+  }
+  expect_error({"run", scene, "--margin", "wide"}, {"--margin", "wide"});
   expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("x")}, {"the same file"});
   expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("./x")}, {"the same file"});
   expect_error({"run", scene, "--json", "x", "--pairs-out", "./x"}, {"the same file"});

@@ -5,6 +5,7 @@
 
 #include "carom/reference/reference.h"
 #include "carom/simd/isa.h"
+#include "cli/replay.h"
 #include "cli/scene_source.h"
 #include "io/npz.h"
 #include "io/recording.h"
@@ -92,6 +93,64 @@ TEST_F(RunTest, HashDoesNotDependOnHowTheSceneIsRun) {
     EXPECT_EQ(run_json({scene, "--broadphase", "sweep"})["state_hash"], hash);
     EXPECT_NE(run_json({scene + ",seed=2"})["state_hash"], hash);
   }
+}
+
+// Candidates are more with a margin, and fewer bodies are searched; what touches is the same.
+TEST_F(RunTest, MarginsChangeTheCandidatesAlone) {
+  const std::string scene = "brownian:n=1500,frames=30,density=0.2,shape=sphere,speed=0.3";
+  const json exact = run_json({scene});
+  const json fat = run_json({scene, "--margin", "0.2"});
+  EXPECT_EQ(exact["margin"], 0);
+  EXPECT_FLOAT_EQ(fat["margin"].get<float>(), 0.2f);
+  EXPECT_FALSE(exact["stage_ms"].contains("margins"));
+  EXPECT_TRUE(fat["stage_ms"].contains("margins"));
+  EXPECT_EQ(fat["contacts_per_frame"], exact["contacts_per_frame"]);
+  EXPECT_EQ(fat["events_per_frame"], exact["events_per_frame"]);
+  EXPECT_GT(fat["pairs_per_frame"][29], exact["pairs_per_frame"][29]);
+  EXPECT_LT(fat["searched_bodies_per_frame"][29], exact["searched_bodies_per_frame"][29]);
+}
+
+TEST_F(RunTest, MemoryIsAccounted) {
+  const json report = run_json({"brownian:n=3000,frames=3,density=0.5"});
+  size_t sum = 0;
+  for (const char* part : {"bodies", "bounds", "broadphase", "pairs_and_results"}) {
+    EXPECT_GT(report["memory"][part], 0) << part;
+    sum += report["memory"][part].get<size_t>();
+  }
+  EXPECT_DOUBLE_EQ(report["bytes_per_body"], static_cast<double>(sum) / 3000);
+  EXPECT_DOUBLE_EQ(report["broadphase_bytes_per_body"],
+                   report["memory"]["broadphase"].get<double>() / 3000);
+  EXPECT_DOUBLE_EQ(report["bytes_per_pair"], report["memory"]["pairs_and_results"].get<double>() /
+                                                 report["pairs_per_frame"][2].get<double>());
+}
+
+TEST_F(RunTest, NoPairsNoBytesAPair) {
+  EXPECT_EQ(run_json({"still:n=1,frames=2"})["bytes_per_pair"], 0);
+}
+
+TEST_F(RunTest, StillScenesSearchNothingAtAnyDetail) {
+  for (const char* detail : {"pairs", "overlap", "contact"}) {
+    const json report = run_json({"still:n=2000,frames=20", "--detail", detail});
+    EXPECT_EQ(report["searched_bodies_per_frame"].back(), 0) << detail;
+    EXPECT_EQ(report["stage_ms"]["broadphase"], 0) << detail;
+  }
+}
+
+TEST_F(RunTest, MorePairsThanTheWorldMayFindAreAnError) {
+  auto scene = open_source("brownian:n=50,frames=3,density=1000");
+  ASSERT_TRUE(scene);
+  auto player = Player::create((*scene)->info(), "heap");
+  ASSERT_TRUE(player);
+  (*scene)->want(player->wanted(Detail::pairs));
+  World world({.detail = Detail::pairs, .most_pairs = 10});
+  std::ostringstream out, err;
+  Console console{out, err};
+  Progress progress(console, "frame", 3);
+  std::optional<PairsOutput> pairs_out;
+  const auto record = replay(**scene, *player, world, 3, pairs_out, progress);
+  ASSERT_FALSE(record);
+  EXPECT_NE(record.error().message.find("frame 0 has"), std::string::npos);
+  EXPECT_NE(record.error().message.find("the limit of 10"), std::string::npos);
 }
 
 TEST_F(RunTest, ForcedIsaEndsWithTheCommand) {

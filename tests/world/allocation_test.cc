@@ -147,6 +147,11 @@ TEST(Allocations, NoneWithOtherSettings) {
   expect_no_allocations({.detail = Detail::overlap}, spec, 100);
   expect_no_allocations({.broadphase = BroadphaseMethod::brute}, spec, 100);
   expect_no_allocations({.events = false}, spec, 100);
+  for (const Detail detail : {Detail::pairs, Detail::contact}) {
+    const WorldSettings all{.detail = detail, .margin = 0.2f, .pair_changes = true};
+    for (const size_t movers : {0, 1, 400}) expect_no_allocations(all, spec, movers, true);
+    expect_no_allocations(all, {.count = 3000, .side = 14}, 100, true);
+  }
   expect_no_allocations({.carry_results = false}, spec, 400);
   expect_no_allocations({}, {.count = 60, .side = 3}, 60, true);
 }

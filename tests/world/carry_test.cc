@@ -54,6 +54,10 @@ TEST(Carry, AStillStepFindsNoBoundsAndNoPairs) {
   }
   EXPECT_TRUE(report.ran(Stage::changes));
   EXPECT_TRUE(report.ran(Stage::events));
+  EXPECT_EQ(world.events().size(), report.overlaps);
+  // From the second one on, even the events are those of the step before.
+  EXPECT_FALSE(world.step().ran(Stage::events));
+  EXPECT_EQ(world.events().size(), report.overlaps);
 
   // Whatever is done to a body wakes the world.
   world.set_position(ids[0], world.position(ids[0]) + Eigen::Vector3d(0.25, 0, 0));

@@ -150,5 +150,26 @@ TEST(ChangeTracker, CountsExactlyWhatMoved) {
   EXPECT_TRUE(tracked.tracker.all_unchanged());
 }
 
+TEST(ChangeTracker, FindsEverythingChangedAfterItForgot) {
+  Tracked tracked(PositionType::float32);
+  tracked.store.add({.shape = Sphere{0}});  // all zero, as memory that was never written
+  for (size_t i = 1; i < kBodies; ++i) tracked.add();
+  const auto update = [&] {
+    tracked.tracker.update(tracked.store, Parallelism::none);
+    tracked.store.clear_touched();
+    return tracked.tracker.changed_count();
+  };
+  update();
+  update();
+  tracked.tracker.forget();
+  tracked.store.set_position(7, {50, 0, 0});
+  EXPECT_EQ(update(), kBodies);
+  EXPECT_TRUE(tracked.tracker.changed(0));
+  EXPECT_FALSE(tracked.tracker.all_unchanged());
+  EXPECT_EQ(update(), 0u);
+  EXPECT_TRUE(tracked.tracker.all_unchanged());
+  EXPECT_FALSE(tracked.tracker.changed(kBodies - 1));
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -68,10 +68,14 @@ TEST(SameBits, OnAnyNumberOfThreads) {
   CrowdSpec many = kCrowd;
   many.count = 12000;
   many.side = 22;
-  const std::vector<Results> expected = history({.parallelism = Parallelism::none}, many);
-  for (const int threads : {1, 2, 4}) {
-    ThreadArena arena(threads);
-    arena.run([&] { expect_equal(history({.parallelism = arena.parallelism()}, many), expected); });
+  for (const float margin : {0.0f, 0.1f}) {
+    const WorldSettings alone{.parallelism = Parallelism::none, .margin = margin};
+    const std::vector<Results> expected = history(alone, many);
+    for (const int threads : {1, 2, 4}) {
+      ThreadArena arena(threads);
+      const WorldSettings settings{.parallelism = arena.parallelism(), .margin = margin};
+      arena.run([&] { expect_equal(history(settings, many), expected); });
+    }
   }
 }
 

@@ -64,6 +64,7 @@ class CAROM_EXPORT PairFinder {
 
   // A search that finds more pairs counts them, and gives none: boxes that all overlap make
   // n (n - 1) / 2 pairs, more than a machine holds. A pair takes about 28 bytes while it is found.
+  // Less than 2^32.
   static constexpr size_t kMostPairs = size_t{1} << 28;
   void set_most_pairs(size_t pairs);
 

@@ -12,6 +12,7 @@ namespace carom {
 enum class Stage : uint8_t {
   changes,      // which bodies changed since the last step
   bounds,       // world bounds of every body
+  margins,      // bounds fattened, of bodies that left those they had
   broadphase,   // pairs of overlapping bounds
   pairs,        // merge with the last step's pairs: what is carried, what is to be tested
   narrowphase,  // tests, batch by batch
@@ -20,7 +21,7 @@ enum class Stage : uint8_t {
   events,       // begin, persist, end
 };
 
-inline constexpr int kStageCount = 8;
+inline constexpr int kStageCount = 9;
 
 // "changes", "bounds", ...
 CAROM_EXPORT const char* name(Stage stage);
@@ -29,13 +30,13 @@ struct StepReport {
   uint64_t step = 0;  // 1 for the first
   size_t bodies = 0;  // living, quarantined ones included
   size_t quarantined = 0;
-  size_t pairs = 0;
+  size_t pairs = 0;     // candidates
   size_t tested = 0;    // pairs the narrow phase ran
   size_t kept = 0;      // pairs whose last result was carried over
   size_t overlaps = 0;  // overlapping pairs, sensors included
   size_t contacts = 0;
-  PairSearch search;        // of the last broadphase that ran; incomplete: the step found no pairs
-  uint32_t stages_run = 0;  // bit s: Stage(s) ran
+  PairSearch search;  // of the last broadphase that ran; incomplete: too many pairs, none given
+  uint32_t stages_run = 0;              // bit s: Stage(s) ran
   uint64_t stage_ns[kStageCount] = {};  // 0 where it did not
 
   bool ran(Stage stage) const { return stages_run >> static_cast<int>(stage) & 1; }

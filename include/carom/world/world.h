@@ -25,7 +25,18 @@ struct WorldSettings {
   Parallelism parallelism = Parallelism::arena;
   bool events = true;         // begin, persist and end of overlaps
   bool carry_results = true;  // false: every pair is found and tested anew every step
-  size_t most_pairs = PairFinder::kMostPairs;  // a step that finds more gives none
+
+  // Metres by which bounds are fattened, finite and >= 0. A body keeps its fat bounds, and the
+  // pairs they make, until its true bounds leave them: for many bodies that move little at a time.
+  // Pairs are candidates then, and which ones depends on the way the bodies took; overlaps,
+  // contacts and events are those of a world without margin.
+  float margin = 0;
+
+  bool pair_changes = false;  // World::added_pairs() and removed_pairs()
+
+  // A step that finds more is incomplete (StepReport::search): it has no pairs, like a step in
+  // which nothing meets. What overlapped before ends, and begins again in the next complete step.
+  size_t most_pairs = PairFinder::kMostPairs;
 };
 
 // Writable arrays of a world, indexed by BodyId::index. They move when bodies are added or
@@ -51,6 +62,16 @@ struct PointHit {
   uint32_t point;    // index into the query
   uint32_t body;     // body index
   float separation;  // <= 0: how deep it lies, in metres
+};
+
+// Memory of a world, in bytes.
+struct WorldMemory {
+  size_t bodies = 0;             // bodies, and the copies that say what changed
+  size_t bounds = 0;             // fat ones included
+  size_t broadphase = 0;         // search structures and what they keep
+  size_t pairs_and_results = 0;  // of this step and the last one; contacts and events, too
+
+  size_t total() const { return bodies + bounds + broadphase + pairs_and_results; }
 };
 
 // All functions take ids of living bodies unless they say otherwise; a dead id is a programming
@@ -103,12 +124,17 @@ class CAROM_EXPORT World {
   const StepReport& step();
 
   // Results of the last step, sorted by (a, b); valid until the next one.
-  std::span<const Pair> pairs() const;        // bodies whose bounds overlap
+  std::span<const Pair> pairs() const;        // bodies whose bounds (fat ones, if any) overlap
   std::span<const uint8_t> overlaps() const;  // one a pair: 1 overlap, 0 separate
   std::span<const Contact> contacts() const;  // overlapping pairs without sensors
   std::span<const Event> events() const;
   std::span<const BodyId> quarantined() const;  // bodies left out: NaN, infinite or negative size
   const StepReport& report() const;
+
+  // With WorldSettings::pair_changes: pairs that the step before had not, and those that it alone
+  // had. If one of its bodies was replaced by another one with the same index, a pair is in both.
+  std::span<const Pair> added_pairs() const;
+  std::span<const Pair> removed_pairs() const;
 
   // Replaces `hits` by all bodies that hold each point (x, y, z float32, `stride` bytes apart),
   // sorted by (point, body). Asks the bounds of the last step: bodies must not have changed since.
@@ -117,7 +143,8 @@ class CAROM_EXPORT World {
                    std::vector<PointHit>& hits) const;
 
   // Memory held, in bytes.
-  size_t bytes() const;
+  WorldMemory memory() const;
+  size_t bytes() const { return memory().total(); }
 
  private:
   struct State;
