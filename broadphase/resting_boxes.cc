@@ -57,13 +57,13 @@ RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const 
 RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairFilter& filter,
                                            Parallelism parallelism, Workspace work,
                                            std::vector<Pair>& out) {
-  // From this share of moving boxes on, a search from scratch costs less.
-  constexpr double kRestless = 0.25;
+  // To search for a box that moves costs about as much as four in a search from scratch.
+  constexpr size_t kCostOfMoving = 4;
   const size_t count_before = memory_.count();
   memory_.update(bounds, filter, parallelism, changed_);
   const size_t moving_before = moving_.size();
   wake(count_before);
-  if (static_cast<double>(moving_.size()) > kRestless * static_cast<double>(bounds.count)) {
+  if (kCostOfMoving * moving_.size() > bounds.count) {
     forget();
     return Outcome::restless;
   }
@@ -72,7 +72,7 @@ RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairF
   // Boxes that came to rest join the others when searching for them has cost about as much as that.
   searched_ = moving_.size();
   idle_ += moving_.size() - std::min(moving_.size(), changed_.size());
-  if (idle_ > memory_.count()) {
+  if (kCostOfMoving * idle_ > memory_.count()) {
     for (const uint32_t body : moving_) is_moving_[body] = 0;
     for (const uint32_t body : changed_) is_moving_[body] = 1;
     moving_ = changed_;

@@ -92,7 +92,7 @@ class History {
       case 16:
         return flip_zeros();
       case 17:
-        return replace_some(0.3, [&](TestBox& box) { drift(box, 0.1); });
+        return replace_some(0.15, [&](TestBox& box) { drift(box, 0.1); });
       case 18:
         for (int i = 0; i < 9; ++i) step(random().below(18));
         return;

@@ -96,6 +96,12 @@ TEST_F(RunTest, HashDoesNotDependOnHowTheSceneIsRun) {
 }
 
 // Candidates are more with a margin, and fewer bodies are searched; what touches is the same.
+uint64_t sum_of(const json& list) {
+  uint64_t sum = 0;
+  for (const json& item : list) sum += item.get<uint64_t>();
+  return sum;
+}
+
 TEST_F(RunTest, MarginsChangeTheCandidatesAlone) {
   const std::string scene = "brownian:n=1500,frames=30,density=0.2,shape=sphere,speed=0.3";
   const json exact = run_json({scene});
@@ -107,7 +113,7 @@ TEST_F(RunTest, MarginsChangeTheCandidatesAlone) {
   EXPECT_EQ(fat["contacts_per_frame"], exact["contacts_per_frame"]);
   EXPECT_EQ(fat["events_per_frame"], exact["events_per_frame"]);
   EXPECT_GT(fat["pairs_per_frame"][29], exact["pairs_per_frame"][29]);
-  EXPECT_LT(fat["searched_bodies_per_frame"][29], exact["searched_bodies_per_frame"][29]);
+  EXPECT_LT(sum_of(fat["searched_bodies_per_frame"]), sum_of(exact["searched_bodies_per_frame"]));
 }
 
 TEST_F(RunTest, MemoryIsAccounted) {
