@@ -15,6 +15,7 @@ RestingBoxes::Outcome RestingBoxes::settle(const BoundsView& bounds, const PairF
   memory_.update(bounds, filter, parallelism, changed_);
   is_moving_.assign(bounds.count, 0);
   moving_.clear();
+  resting_.reserve(bounds.count);  // now, so that to settle again allocates nothing
   const Outcome outcome = settle_rest(bounds, filter, parallelism, work);
   if (outcome == Outcome::found) merge_pairs(pairs_, {}, parallelism, out);
   return outcome;
