@@ -21,6 +21,8 @@ constexpr size_t kRowsPerBlock = 256;
 constexpr size_t kBruteForceLimit = 128;
 // and up to here a sweep along one axis is as fast as cells.
 constexpr size_t kSweepLimit = 350;
+// So few are done before other threads have woken up.
+constexpr size_t kSerialLimit = 2048;
 // With more boxes than this in the cell of a box, a sweep may be faster again.
 constexpr double kMostCrowded = 512;
 
@@ -169,6 +171,7 @@ PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
                             std::vector<Pair>& out, BroadphaseMethod method,
                             Parallelism parallelism) {
   const FloatEnvironment environment;
+  if (bounds.count <= kSerialLimit) parallelism = Parallelism::none;
   const Choice choice = choose(method, bounds.count);
   PairSearch search{.method = choice.method, .reason = choice.reason};
   if (choice.method == BroadphaseMethod::grid) {
