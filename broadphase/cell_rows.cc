@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <span>
 #include <utility>
+
+#include "kernel/bucket_offsets.h"
 
 namespace carom {
 namespace {
@@ -94,17 +95,7 @@ bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
 }
 
 void CellRows::fill_buckets(const BoxSource& source, Parallelism parallelism) {
-  const size_t tasks = block_count(source.count, kBoxesPerTask);
-  bucket_begin_.resize(buckets_ + 1);
-  uint32_t offset = 0;
-  for (size_t bucket = 0; bucket < buckets_; ++bucket) {
-    bucket_begin_[bucket] = offset;
-    for (size_t task = 0; task < tasks; ++task) {
-      offset += std::exchange(offsets_[task * buckets_ + bucket], offset);
-    }
-  }
-  bucket_begin_[buckets_] = offset;
-
+  counts_to_offsets(block_count(source.count, kBoxesPerTask), buckets_, offsets_, bucket_begin_);
   const std::array<uint8_t, 3>& axis = grids_.axis;
   for_each_block(
       source.count, kBoxesPerTask, parallelism, [&](size_t task, size_t begin, size_t end) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "broadphase/partner_lists.h"
+#include "kernel/bucket_offsets.h"
 
 namespace carom {
 namespace {
@@ -74,15 +75,7 @@ void PairSorter::fill_buckets(std::span<const PairList> found, size_t body_count
     uint32_t* counts = offsets_.data() + list * buckets;
     for_each_spread(found[list].pairs(), [&](Pair pair) { ++counts[pair.a >> shift]; });
   });
-  bucket_begin_.resize(buckets + 1);
-  uint32_t offset = 0;
-  for (size_t bucket = 0; bucket < buckets; ++bucket) {
-    bucket_begin_[bucket] = offset;
-    for (size_t list = 0; list < lists; ++list) {
-      offset += std::exchange(offsets_[list * buckets + bucket], offset);
-    }
-  }
-  bucket_begin_[buckets] = offset;
+  counts_to_offsets(lists, buckets, offsets_, bucket_begin_);
   for_each_block(lists, 1, parallelism, [&](size_t list, size_t, size_t) {
     uint32_t* offsets = offsets_.data() + list * buckets;
     for_each_spread(found[list].pairs(),
@@ -112,7 +105,7 @@ void PairSorter::sort_bucket(size_t index, const Bucket& bucket, const ForEachSp
 }
 
 size_t PairSorter::bytes() const {
-  return offsets_.capacity() * sizeof(uint32_t) + bucket_begin_.capacity() * sizeof(size_t);
+  return offsets_.capacity() * sizeof(uint32_t) + bucket_begin_.capacity() * sizeof(uint32_t);
 }
 
 }  // namespace carom

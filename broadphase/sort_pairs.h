@@ -38,7 +38,7 @@ class PairSorter {
                    std::vector<Pair>& out);
 
   std::vector<uint32_t> offsets_;  // one a list of `found` and bucket
-  std::vector<size_t> bucket_begin_;
+  std::vector<uint32_t> bucket_begin_;
   // In scratch memory, while pairs are sorted.
   std::span<Pair> buckets_;
   std::span<uint32_t> first_;     // where the pairs of each body begin; two more a bucket

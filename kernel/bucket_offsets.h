@@ -1,0 +1,26 @@
+// The middle step of a parallel distribution into buckets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+// counts[task * buckets + bucket], how many items of a bucket a task has, becomes where they go;
+// `begin` where every bucket begins, and behind the last one their sum.
+inline void counts_to_offsets(size_t tasks, size_t buckets, std::vector<uint32_t>& counts,
+                              std::vector<uint32_t>& begin) {
+  begin.resize(buckets + 1);
+  uint32_t offset = 0;
+  for (size_t bucket = 0; bucket < buckets; ++bucket) {
+    begin[bucket] = offset;
+    for (size_t task = 0; task < tasks; ++task) {
+      offset += std::exchange(counts[task * buckets + bucket], offset);
+    }
+  }
+  begin[buckets] = offset;
+}
+
+}  // namespace carom
