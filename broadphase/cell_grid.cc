@@ -13,7 +13,7 @@ namespace {
 constexpr double kFullCell = 12;
 constexpr double kMostCellsPerBox = 2.25;
 // Of all grids; with their empty cells they are up to 4.5 times as many, all with a key.
-constexpr double kMostCells = (1 << CellKey::kCellBits) / 5;
+constexpr double kMostCells = (1 << CellKey::kCellBits) / 5.0;
 constexpr double kMostCellsPerAxis = 1 << 22;
 
 struct Range {
