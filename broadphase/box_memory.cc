@@ -59,10 +59,10 @@ void BoxMemory::resize(const BoundsView& bounds, const PairFilter& filter) {
   known_ = std::min(count_, bounds.count);
   count_ = bounds.count;
   for (std::vector<float>& column : columns_) column.resize(count_);
-  const bool same_columns = resize_column(filter.layer, count_, known_, filter_.layer) &
-                            resize_column(filter.mask, count_, known_, filter_.mask) &
-                            resize_column(filter.owner, count_, known_, filter_.owner) &
-                            resize_column(filter.motion, count_, known_, filter_.motion);
+  bool same_columns = resize_column(filter.layer, count_, known_, filter_.layer);
+  same_columns &= resize_column(filter.mask, count_, known_, filter_.mask);
+  same_columns &= resize_column(filter.owner, count_, known_, filter_.owner);
+  same_columns &= resize_column(filter.motion, count_, known_, filter_.motion);
   if (!same_columns) known_ = 0;
 }
 
