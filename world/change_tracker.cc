@@ -49,8 +49,8 @@ void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
   resize_and_give_back(changed_, rows);
   resize_and_give_back(block_changes_, block_count(rows, kRowsPerBlock));
   // New rows are touched, whatever their copies hold.
-  const bool moved = compare_records(bodies.records32(), last_records32_, parallelism) |
-                     compare_records(bodies.records64(), last_records64_, parallelism);
+  bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
+  moved |= compare_records(bodies.records64(), last_records64_, parallelism);
   const bool reshaped = compare_boxes(bodies, parallelism);
   if (reshaped) mark_changed_boxes(bodies, parallelism);
   if (moved || reshaped) all_unchanged_ = false;
