@@ -35,10 +35,7 @@ Options take_options(std::vector<char*>& arguments) {
 void register_all(const Options& options) {
   register_bounds();
   register_find_pairs(options);
-#define CAROM_PAIR(name, kind_a, kind_b) \
-  register_##name({#name, ShapeKind::kind_a, ShapeKind::kind_b}, options);
-#include "narrowphase/pair_list.inc"
-#undef CAROM_PAIR
+  register_narrowphase(options);
   register_world(options);
 }
 

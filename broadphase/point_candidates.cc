@@ -29,9 +29,9 @@ class CandidateSink final : public HitSink {
   PairList& out_;
 };
 
-// Box i with `first_axis` as axis 0.
-Box turned_box(const BoundsView& bounds, size_t i, size_t first_axis) {
-  Box box;
+// SearchBox i with `first_axis` as axis 0.
+SearchBox turned_box(const BoundsView& bounds, size_t i, size_t first_axis) {
+  SearchBox box;
   for (size_t k = 0; k < 3; ++k) {
     box.lower[k] = value_at(bounds, bounds.lower[(first_axis + k) % 3], i);
     box.upper[k] = value_at(bounds, bounds.upper[(first_axis + k) % 3], i);
@@ -61,7 +61,7 @@ std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t s
         const auto first = points.lower[0].begin();
         for (size_t i = begin; i < end; ++i) {
           if (!takes_part(bounds, i)) continue;
-          const Box box = turned_box(bounds, i, axis);
+          const SearchBox box = turned_box(bounds, i, axis);
           const auto row =
               std::lower_bound(first, first + static_cast<ptrdiff_t>(points.count), box.lower[0]);
           sweep_box(points, box, i, static_cast<size_t>(row - first), sink);

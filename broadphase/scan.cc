@@ -15,7 +15,7 @@ namespace {
 struct BoxLanes {
   F lower[3], upper[3];
 
-  explicit HWY_INLINE BoxLanes(const Box& box)
+  explicit HWY_INLINE BoxLanes(const SearchBox& box)
       : lower{splat(box.lower[0]), splat(box.lower[1]), splat(box.lower[2])},
         upper{splat(box.upper[0]), splat(box.upper[1]), splat(box.upper[2])} {}
 };
@@ -58,7 +58,7 @@ class Hits {
 enum class RowOrder { any, ascending };  // by lower[0]
 
 template <RowOrder kOrder>
-HWY_INLINE void scan_from(const BoxColumns& columns, const Box& box, size_t box_row,
+HWY_INLINE void scan_from(const BoxColumns& columns, const SearchBox& box, size_t box_row,
                           size_t first_row, HitSink& sink) {
   const FloatTag tag;
   const BoxLanes lanes(box);
@@ -77,7 +77,7 @@ HWY_INLINE void scan_from(const BoxColumns& columns, const Box& box, size_t box_
   hits.flush();
 }
 
-HWY_INLINE Box box_at(const BoxColumns& columns, size_t row) {
+HWY_INLINE SearchBox box_at(const BoxColumns& columns, size_t row) {
   return {{columns.lower[0][row], columns.lower[1][row], columns.lower[2][row]},
           {columns.upper[0][row], columns.upper[1][row], columns.upper[2][row]}};
 }
@@ -97,7 +97,7 @@ void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sin
   scan_rows<RowOrder::any>(columns, begin, end, sink);
 }
 
-void sweep_box(const BoxColumns& columns, const Box& box, size_t box_row, size_t first_row,
+void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,
                HitSink& sink) {
   scan_from<RowOrder::ascending>(columns, box, box_row, first_row, sink);
 }
@@ -126,7 +126,7 @@ void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sin
   CAROM_DISPATCH(test_rows)(columns, begin, end, sink);
 }
 
-void sweep_box(const BoxColumns& columns, const Box& box, size_t box_row, size_t first_row,
+void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,
                HitSink& sink) {
   CAROM_DISPATCH(sweep_box)(columns, box, box_row, first_row, sink);
 }

@@ -8,7 +8,7 @@
 
 namespace carom {
 
-struct Box {
+struct SearchBox {
   float lower[3];
   float upper[3];
 };
@@ -31,7 +31,7 @@ void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& si
 void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
 
 // `box` against the rows from `first_row` on, which ascend by lower[0].
-void sweep_box(const BoxColumns& columns, const Box& box, size_t box_row, size_t first_row,
+void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,
                HitSink& sink);
 
 }  // namespace carom

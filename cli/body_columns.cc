@@ -11,19 +11,21 @@ void BodyColumns::reserve(size_t count) {
     record32_.reserve(4 * count);
   }
   kind_.reserve(count);
+  first_row_.reserve(count);
   for (auto& column : lower_) column.reserve(count);
   for (auto& column : upper_) column.reserve(count);
 }
 
-void BodyColumns::push(const Shape& shape, const Eigen::Vector3d& position) {
+void BodyColumns::push(const Shape& shape, const Pose& pose) {
   const Sphere* sphere = std::get_if<Sphere>(&shape);
-  const Aabb box = sphere ? Aabb{} : std::get<Aabb>(shape);
-  const float radius = sphere ? sphere->radius : 0;
-  kind_.push_back(sphere ? ShapeKind::sphere : ShapeKind::aabb);
-  for (int axis = 0; axis < 3; ++axis) {
-    lower_[axis].push_back(box.lower[axis]);
-    upper_[axis].push_back(box.upper[axis]);
-  }
+  const Aabb* box = std::get_if<Aabb>(&shape);
+  push_position(pose.position, sphere ? sphere->radius : 0);
+  push_box(box ? *box : Aabb{});
+  push_rows(shape, pose.orientation);
+  kind_.push_back(kind_of(shape));
+}
+
+void BodyColumns::push_position(const Eigen::Vector3d& position, float radius) {
   if (positions_ == PositionType::float64) {
     record64_.insert(record64_.end(), {position.x(), position.y(), position.z(), radius});
   } else {
@@ -32,13 +34,42 @@ void BodyColumns::push(const Shape& shape, const Eigen::Vector3d& position) {
   }
 }
 
-Shape BodyColumns::shape(size_t index) const {
-  if (kind_[index] == ShapeKind::sphere) {
-    return Sphere{positions_ == PositionType::float64 ? static_cast<float>(record64_[4 * index + 3])
-                                                      : record32_[4 * index + 3]};
+void BodyColumns::push_box(const Aabb& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lower_[axis].push_back(box.lower[axis]);
+    upper_[axis].push_back(box.upper[axis]);
   }
-  return Aabb{{lower_[0][index], lower_[1][index], lower_[2][index]},
-              {upper_[0][index], upper_[1][index], upper_[2][index]}};
+}
+
+void BodyColumns::push_rows(const Shape& shape, const Eigen::Quaternionf& orientation) {
+  const uint32_t count = row_count(kind_of(shape));
+  const auto rows = shape_rows(shape);
+  first_row_.push_back(count ? static_cast<uint32_t>(rows_.size()) : 0);
+  rows_.insert(rows_.end(), rows.begin(), rows.begin() + count);
+  if (rows_.empty()) return;
+  orientation_.resize(size(), {0, 0, 0, 1});  // of the bodies before the first that has rows
+  orientation_.push_back({orientation.x(), orientation.y(), orientation.z(), orientation.w()});
+}
+
+Shape BodyColumns::shape(size_t index) const {
+  switch (kind_[index]) {
+    case ShapeKind::sphere:
+      return Sphere{positions_ == PositionType::float64
+                        ? static_cast<float>(record64_[4 * index + 3])
+                        : record32_[4 * index + 3]};
+    case ShapeKind::aabb:
+      return Aabb{{lower_[0][index], lower_[1][index], lower_[2][index]},
+                  {upper_[0][index], upper_[1][index], upper_[2][index]}};
+    default:
+      return shape_from_rows(kind_[index], &rows_[first_row_[index]]);
+  }
+}
+
+Pose BodyColumns::pose(size_t index) const {
+  Pose pose;
+  pose.position = position(index);
+  if (!orientation_.empty()) pose.orientation = Eigen::Quaternionf(orientation_[index].data());
+  return pose;
 }
 
 Eigen::Vector3d BodyColumns::position(size_t index) const {
@@ -66,6 +97,10 @@ Collidables BodyColumns::view() const {
   for (int axis = 0; axis < 3; ++axis) {
     bodies.boxes.lower[axis] = lower_[axis].data();
     bodies.boxes.upper[axis] = upper_[axis].data();
+  }
+  if (!rows_.empty()) {
+    bodies.orientation.data = orientation_.front().data();
+    bodies.rows = {rows_.front().data(), uniform ? nullptr : first_row_.data()};
   }
   return bodies;
 }

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "carom/narrowphase/collide.h"
 #include "carom_build_info.h"
 #include "cli/commands.h"
 #include "cli/options.h"
+#include "cli/pair_kinds.h"
 #include "cli/table.h"
 
 namespace carom::cli {
@@ -14,14 +14,11 @@ namespace {
 
 // "sphere-sphere, sphere-aabb, ...": all pairs of kinds that have a kernel.
 std::string supported_pairs() {
+  BodiesOfKind two_of_each;
+  two_of_each.fill(2);
   std::string text;
-  for (int a = 0; a < kShapeKindCount; ++a) {
-    for (int b = a; b < kShapeKindCount; ++b) {
-      auto kind_a = static_cast<ShapeKind>(a);
-      auto kind_b = static_cast<ShapeKind>(b);
-      if (!supports(kind_a, kind_b)) continue;
-      text += (text.empty() ? "" : ", ") + std::string(name(kind_a)) + "-" + name(kind_b);
-    }
+  for (const std::string& pair : pair_kinds(two_of_each)) {
+    text += (text.empty() ? "" : ", ") + pair;
   }
   return text;
 }

@@ -96,7 +96,7 @@ Result<BroadphaseMethod> parse_broadphase(const std::string& text) {
 }
 
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known) {
-  constexpr std::array kPlanned = {"manifold"sv, "toi"sv};
+  constexpr std::array kPlanned = {"toi"sv};
   std::string names;
   for (const NamedDetail& entry : known) {
     if (text == entry.name) return entry.detail;

@@ -1,6 +1,6 @@
 #include "cli/pair_set.h"
 
-#include <cmath>
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -9,27 +9,34 @@
 namespace carom::cli {
 namespace {
 
-bool is_rotation(const std::array<float, 4>& q) {
-  bool finite =
-      std::isfinite(q[0]) && std::isfinite(q[1]) && std::isfinite(q[2]) && std::isfinite(q[3]);
-  return finite && (q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0);
+bool is_rotation(const Eigen::Quaternionf& q) {
+  return q.coeffs().allFinite() && (q.coeffs().array() != 0).any();
 }
 
-Eigen::Vector3d position_of(const io::PairSide& side, size_t index) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  if (!side.orientation.empty() && !is_rotation(side.orientation[index])) {
-    return Eigen::Vector3d::Constant(kNan);
+Pose pose_of(const io::PairSide& side, size_t index) {
+  Pose pose;
+  if (!side.position64.empty()) {
+    pose.position = Eigen::Vector3d(side.position64[index].data());
+  } else {
+    pose.position = Eigen::Map<const Eigen::Vector3f>(side.position32[index].data()).cast<double>();
   }
-  if (!side.position64.empty()) return Eigen::Vector3d(side.position64[index].data());
-  return Eigen::Map<const Eigen::Vector3f>(side.position32[index].data()).cast<double>();
+  if (!side.orientation.empty()) {
+    pose.orientation = Eigen::Quaternionf(side.orientation[index].data());
+  }
+  return pose;
 }
 
 BodyColumns columns_of(const io::PairSide& side, const std::vector<Shape>& shapes,
                        PositionType positions) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   BodyColumns columns(positions);
   columns.reserve(side.shape.size());
   for (size_t i = 0; i < side.shape.size(); ++i) {
-    columns.push(shapes[side.shape[i]], position_of(side, i));
+    const Shape& shape = shapes[side.shape[i]];
+    Pose pose = pose_of(side, i);
+    bool ignores_orientation = row_count(kind_of(shape)) == 0;
+    if (ignores_orientation && !is_rotation(pose.orientation)) pose.position.setConstant(kNan);
+    columns.push(shape, pose);
   }
   return columns;
 }
@@ -47,36 +54,45 @@ Result<PairSet> read_pair_set(const std::string& path) {
 
 PairColumns::PairColumns(size_t pairs, Detail detail)
     : detail_(detail), overlap_(pairs), status_(pairs) {
-  if (detail != Detail::contact) return;
+  if (detail < Detail::contact) return;
   separation_.resize(pairs);
   for (Column3* columns : {&normal_, &point_a_, &point_b_}) {
     for (std::vector<float>& column : *columns) column.resize(pairs);
   }
+  if (detail < Detail::manifold) return;
+  manifold_count_.resize(pairs);
+  manifold_.resize(pairs);
 }
 
 ResultColumns PairColumns::columns() {
   ResultColumns out;
   out.overlap = overlap_.data();
   out.status = status_.data();
-  if (detail_ != Detail::contact) return out;
+  if (detail_ < Detail::contact) return out;
   out.separation = separation_.data();
   for (int axis = 0; axis < 3; ++axis) {
     out.normal[axis] = normal_[axis].data();
     out.point_a[axis] = point_a_[axis].data();
     out.point_b[axis] = point_b_[axis].data();
   }
+  if (detail_ < Detail::manifold) return out;
+  out.manifold_count = manifold_count_.data();
+  out.manifold = manifold_.data();
   return out;
 }
 
 PairColumns::Row PairColumns::row(size_t index) const {
-  Row row{overlap_[index], status_[index], 0, {}, {}, {}};
-  if (detail_ != Detail::contact) return row;
+  Row row{overlap_[index], status_[index], 0, 0, {}, {}, {}, {}};
+  if (detail_ < Detail::contact) return row;
   row.separation = separation_[index];
   for (int axis = 0; axis < 3; ++axis) {
     row.normal[axis] = normal_[axis][index];
     row.point_a[axis] = point_a_[axis][index];
     row.point_b[axis] = point_b_[axis][index];
   }
+  if (detail_ < Detail::manifold) return row;
+  row.manifold_count = manifold_count_[index];
+  row.manifold = manifold_[index];
   return row;
 }
 
@@ -84,6 +100,22 @@ std::vector<std::array<float, 3>> PairColumns::rows_of(const Column3& column) {
   std::vector<std::array<float, 3>> rows(column[0].size());
   for (size_t i = 0; i < rows.size(); ++i) rows[i] = {column[0][i], column[1][i], column[2][i]};
   return rows;
+}
+
+void PairColumns::add_manifolds(io::PairResults& results) const {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  std::array<float, 12> no_points;
+  no_points.fill(kNan);
+  results.manifold_count = manifold_count_;
+  results.manifold_point.assign(manifold_.size(), no_points);
+  results.manifold_separation.assign(manifold_.size(), {kNan, kNan, kNan, kNan});
+  for (size_t pair = 0; pair < manifold_.size(); ++pair) {
+    for (size_t i = 0; i < manifold_count_[pair]; ++i) {
+      const std::array<float, 3>& point = manifold_[pair].point[i];
+      std::copy(point.begin(), point.end(), &results.manifold_point[pair][3 * i]);
+      results.manifold_separation[pair][i] = manifold_[pair].separation[i];
+    }
+  }
 }
 
 io::PairResults PairColumns::results() const {
@@ -95,6 +127,7 @@ io::PairResults PairColumns::results() const {
   results.point_a = rows_of(point_a_);
   results.point_b = rows_of(point_b_);
   results.status = status_;
+  add_manifolds(results);
   return results;
 }
 

@@ -20,8 +20,9 @@ struct PairSet {
   size_t size() const { return a.size(); }
 };
 
-// Reads a file of pairs. Orientations do not matter to spheres and aabbs, but one that is no
-// rotation (NaN, infinite or zero) makes its body invalid: it gets a NaN position.
+// Reads a file of pairs. An orientation that is no rotation (NaN, infinite or zero) makes its body
+// invalid, whatever the kind: kernels do not read those of spheres and aabbs, so such a body gets a
+// NaN position.
 Result<PairSet> read_pair_set(const std::string& path);
 
 // Memory for the results of pairs at a detail.
@@ -35,19 +36,23 @@ class PairColumns {
   struct Row {
     uint8_t overlap;
     uint8_t status;
+    uint8_t manifold_count;
     float separation;
     std::array<float, 3> normal;
     std::array<float, 3> point_a;
     std::array<float, 3> point_b;
+    ManifoldPoints manifold;
   };
   // Zero where the detail lacks it.
   Row row(size_t index) const;
 
+  // As the file holds them: places of a manifold that hold no point are NaN.
   io::PairResults results() const;
 
  private:
   using Column3 = std::array<std::vector<float>, 3>;
   static std::vector<std::array<float, 3>> rows_of(const Column3& column);
+  void add_manifolds(io::PairResults& results) const;
 
   Detail detail_;
   std::vector<uint8_t> overlap_;
@@ -56,6 +61,8 @@ class PairColumns {
   Column3 normal_;
   Column3 point_a_;
   Column3 point_b_;
+  std::vector<uint8_t> manifold_count_;
+  std::vector<ManifoldPoints> manifold_;
 };
 
 }  // namespace carom::cli

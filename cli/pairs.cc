@@ -20,8 +20,10 @@ namespace carom::cli {
 namespace {
 
 // `distance` asks for nothing beyond what the contact kernels of these shapes give.
-constexpr NamedDetail kDetails[] = {
-    {"overlap", Detail::overlap}, {"contact", Detail::contact}, {"distance", Detail::contact}};
+constexpr NamedDetail kDetails[] = {{"overlap", Detail::overlap},
+                                    {"contact", Detail::contact},
+                                    {"manifold", Detail::manifold},
+                                    {"distance", Detail::contact}};
 
 struct PairsOptions {
   std::string input;
@@ -139,7 +141,7 @@ void add_pairs_command(CLI::App& program, Action& action) {
       ->required()
       ->check(file_name());
   add_engine_options(command, options->engine);
-  command.add_option("--detail", options->engine.detail, "overlap, contact or distance")
+  command.add_option("--detail", options->engine.detail, "overlap, contact, manifold or distance")
       ->capture_default_str();
   command.add_option("--repeat", options->repeat, "Runs to take the median time of")
       ->check(CLI::Range(1, 1'000'000))

@@ -18,7 +18,17 @@ void write_positions(const std::vector<T>& rows, T* records) {
   }
 }
 
+// Spheres and aabbs are the same however they are turned.
+bool reads_orientations(const io::SceneInfo& info, const std::vector<Shape>& shapes) {
+  return info.has_orientation &&
+         std::any_of(info.body_shape.begin(), info.body_shape.end(),
+                     [&](uint32_t shape) { return row_count(kind_of(shapes[shape])) > 0; });
+}
+
 }  // namespace
+
+Player::Player(const io::SceneInfo& info, std::vector<Shape> shapes)
+    : info_(&info), shapes_(std::move(shapes)), oriented_(reads_orientations(*info_, shapes_)) {}
 
 Result<Player> Player::create(const io::SceneInfo& info, const std::string& source) {
   Result<std::vector<Shape>> shapes = convert_shapes(info.shapes, source);
@@ -30,9 +40,16 @@ PositionType Player::positions() const {
   return info_->float64_positions ? PositionType::float64 : PositionType::float32;
 }
 
+BodiesOfKind Player::bodies_of_kind() const {
+  BodiesOfKind bodies{};
+  if (info_->bounds_recording) bodies[static_cast<size_t>(ShapeKind::aabb)] = info_->bodies;
+  for (uint32_t shape : info_->body_shape) ++bodies[static_cast<size_t>(kind_of(shapes_[shape]))];
+  return bodies;
+}
+
 io::SceneArrays Player::wanted(Detail detail) const {
-  return {.orientation = false,
-          .linear_velocity = detail == Detail::contact,
+  return {.orientation = oriented_,
+          .linear_velocity = detail >= Detail::contact,
           .angular_velocity = false};
 }
 
@@ -50,6 +67,7 @@ BodyDesc Player::body(const io::SceneFrame& frame, size_t index) const {
   } else if (!frame.position64.empty()) {
     desc.position = Eigen::Map<const Eigen::Vector3d>(&frame.position64[3 * index]);
   }
+  if (oriented_) desc.orientation = Eigen::Quaternionf(&frame.orientation[4 * index]);
   if (!frame.linear_velocity.empty()) {
     desc.linear_velocity = Eigen::Map<const Eigen::Vector3f>(&frame.linear_velocity[3 * index]);
   }
@@ -87,6 +105,7 @@ void Player::move(const io::SceneFrame& frame, World& world) const {
   } else {
     write_positions(frame.position32, arrays.record32);
   }
+  write_orientations(frame, world);
   write_velocities(frame, world);
 }
 
@@ -100,6 +119,11 @@ void Player::write_boxes(const io::SceneFrame& frame, World& world) const {
       boxes.upper[axis][slot] = box[4 + axis];
     }
   }
+}
+
+void Player::write_orientations(const io::SceneFrame& frame, World& world) const {
+  if (!oriented_) return;
+  std::copy(frame.orientation.begin(), frame.orientation.end(), world.arrays().orientation);
 }
 
 void Player::write_velocities(const io::SceneFrame& frame, World& world) const {

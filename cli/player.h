@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "carom/world/world.h"
+#include "cli/pair_kinds.h"
 #include "io/scene.h"
 
 namespace carom::cli {
@@ -17,6 +18,8 @@ class Player {
 
   const io::SceneInfo& info() const { return *info_; }
   PositionType positions() const;
+  // How many bodies have which kind.
+  BodiesOfKind bodies_of_kind() const;
   // The arrays of a frame that are read at this detail.
   io::SceneArrays wanted(Detail detail) const;
 
@@ -30,15 +33,16 @@ class Player {
   BodyDesc body(const io::SceneFrame& frame, size_t index) const;
 
  private:
-  Player(const io::SceneInfo& info, std::vector<Shape> shapes)
-      : info_(&info), shapes_(std::move(shapes)) {}
+  Player(const io::SceneInfo& info, std::vector<Shape> shapes);
 
   Shape shape(const io::SceneFrame& frame, size_t index) const;
   void write_boxes(const io::SceneFrame& frame, World& world) const;
+  void write_orientations(const io::SceneFrame& frame, World& world) const;
   void write_velocities(const io::SceneFrame& frame, World& world) const;
 
   const io::SceneInfo* info_;
   std::vector<Shape> shapes_;
+  bool oriented_;  // some body has a kind whose orientation matters, and the scene gives it
 };
 
 }  // namespace carom::cli

@@ -19,7 +19,7 @@ class Recorder {
     record_.kept.push_back(report.kept);
     record_.quarantined.push_back(report.quarantined);
     Detail detail = world_.settings().detail;
-    if (detail == Detail::contact) record_.contacts.push_back(report.contacts);
+    if (detail >= Detail::contact) record_.contacts.push_back(report.contacts);
     if (detail == Detail::overlap) record_.contacts.push_back(report.overlaps);
     record_.search = report.search;
     record_.searched.push_back(report.ran(Stage::broadphase) ? report.search.searched : 0);
@@ -29,6 +29,7 @@ class Recorder {
     record_.hash.add(world_.pairs());
     record_.hash.add(world_.overlaps());
     record_.hash.add(world_.contacts());
+    if (detail == Detail::manifold) record_.hash.add(world_.manifolds());
   }
 
   RunRecord finish() {

@@ -14,8 +14,10 @@
 namespace carom::cli {
 namespace {
 
-constexpr NamedDetail kDetails[] = {
-    {"pairs", Detail::pairs}, {"overlap", Detail::overlap}, {"contact", Detail::contact}};
+constexpr NamedDetail kDetails[] = {{"pairs", Detail::pairs},
+                                    {"overlap", Detail::overlap},
+                                    {"contact", Detail::contact},
+                                    {"manifold", Detail::manifold}};
 
 struct RunOptions {
   std::string scene;
@@ -76,6 +78,7 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
                    .threads = options.engine.threads,
                    .isa = name(active_isa()),
                    .detail = options.engine.detail,
+                   .pair_kinds = pair_kinds(player->bodies_of_kind()),
                    .margin = settings.margin,
                    .memory = {},
                    .record = {}};
@@ -140,7 +143,7 @@ void add_run_command(CLI::App& program, Action& action) {
   command.add_option("--frames", options->frames, "Frames to run; all of the scene if not given")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
   add_engine_options(command, options->engine);
-  command.add_option("--detail", options->engine.detail, "pairs, overlap or contact")
+  command.add_option("--detail", options->engine.detail, "pairs, overlap, contact or manifold")
       ->capture_default_str();
   command.add_option("--broadphase", options->broadphase, "auto, grid, sweep or brute")
       ->capture_default_str();

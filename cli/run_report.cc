@@ -93,6 +93,7 @@ Json to_json(const RunReport& report) {
   json["margin"] = report.margin;
   json["pipeline"] = Json::array();
   for (Stage stage : stages_run(record)) json["pipeline"].push_back(name(stage));
+  json["pair_kinds"] = report.pair_kinds;
   json["frame_ms"] = {
       {"median", frame.median}, {"min", frame.min}, {"p99", frame.p99}, {"mean", frame.mean}};
   json["stage_ms"] = Json::object();

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "cli/replay.h"
 
@@ -17,8 +18,9 @@ struct RunReport {
   int threads = 1;
   std::string isa;
   std::string detail;
-  float margin = 0;    // metres
-  WorldMemory memory;  // at the end
+  std::vector<std::string> pair_kinds;  // that the bodies of the scene can make
+  float margin = 0;                     // metres
+  WorldMemory memory;                   // at the end
   uint64_t peak_rss_bytes = 0;
   RunRecord record;
 };

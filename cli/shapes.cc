@@ -7,28 +7,71 @@
 namespace carom::cli {
 namespace {
 
+Error shape_error(const std::string& source, size_t index, const std::string& text) {
+  return io::file_error(source, "shape_kind: shape " + std::to_string(index) + " is " + text);
+}
+
 Error no_kernel(const std::string& source, size_t index, ShapeKind kind) {
-  std::string kind_name = name(kind);
-  const char* article = kind_name.front() == 'a' ? "an " : "a ";
-  return io::file_error(source, "shape_kind: shape " + std::to_string(index) + " is " + article +
-                                    kind_name + ", which this version has no kernel for");
+  return shape_error(source, index,
+                     std::string("a ") + name(kind) + ", which this version has no kernel for");
+}
+
+Eigen::Vector3f vector(const float* xyz) { return Eigen::Map<const Eigen::Vector3f>(xyz); }
+
+// The triangle's indices are relative to the mesh's vertices.
+Triangle only_triangle(const io::SceneShapes& shapes, size_t index) {
+  const std::array<float, 8>& params = shapes.params[index];
+  const std::array<uint32_t, 3>& indices = shapes.triangles[shapes.triangle_range[index][0]];
+  Triangle triangle;
+  for (size_t corner = 0; corner < 3; ++corner) {
+    size_t vertex = size_t{shapes.vertex_range[index][0]} + indices[corner];
+    triangle.corners[corner] = vector(shapes.vertices[vertex].data());
+  }
+  triangle.one_sided = params[0] != 0;
+  triangle.thickness = params[1];
+  return triangle;
+}
+
+Result<Shape> convert_mesh(const io::SceneShapes& shapes, size_t index, const std::string& source) {
+  uint32_t triangles = shapes.triangle_range[index][1];
+  if (triangles == 1) return Shape(only_triangle(shapes, index));
+  return shape_error(source, index,
+                     "a mesh of " + std::to_string(triangles) +
+                         " triangles; this version has kernels for meshes of one triangle only");
+}
+
+Result<Shape> convert_shape(const io::SceneShapes& shapes, size_t index,
+                            const std::string& source) {
+  const std::array<float, 8>& params = shapes.params[index];
+  auto kind = static_cast<ShapeKind>(shapes.kind[index]);
+  switch (kind) {
+    case ShapeKind::sphere:
+      return Shape(Sphere{params[0]});
+    case ShapeKind::capsule:
+      return Shape(Capsule{vector(&params[0]), vector(&params[3]), params[6]});
+    case ShapeKind::aabb:
+      return Shape(Aabb::from_half_extents(vector(&params[0])));
+    case ShapeKind::box:
+      return Shape(Box{vector(&params[0])});
+    case ShapeKind::mesh:
+      return convert_mesh(shapes, index, source);
+    case ShapeKind::halfspace:
+      return Shape(Halfspace{vector(&params[0]), params[3]});
+    default:
+      return no_kernel(source, index, kind);
+  }
 }
 
 }  // namespace
 
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes,
                                           const std::string& source) {
-  std::vector<Shape> converted(shapes.kind.size());
-  for (size_t i = 0; i < converted.size(); ++i) {
-    const std::array<float, 8>& params = shapes.params[i];
-    auto kind = static_cast<ShapeKind>(shapes.kind[i]);
-    if (kind == ShapeKind::sphere) {
-      converted[i] = Sphere{params[0]};
-    } else if (kind == ShapeKind::aabb) {
-      converted[i] = Aabb::from_half_extents({params[0], params[1], params[2]});
-    } else {
-      return no_kernel(source, i, kind);
-    }
+  std::vector<Shape> converted;
+  converted.reserve(shapes.kind.size());
+  for (size_t i = 0; i < shapes.kind.size(); ++i) {
+    Result<Shape> shape = convert_shape(shapes, i, source);
+    if (!shape) return shape.error();
+    converted.push_back(*shape);
   }
   return converted;
 }

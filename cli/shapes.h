@@ -10,8 +10,9 @@
 
 namespace carom::cli {
 
-// Refuses kinds that have no kernel yet; `source` names the file in the message. Sizes are passed
-// on as they are: what is invalid is for the kernels to say.
+// Refuses kinds that have no kernel yet; `source` names the file in the message. A mesh of one
+// triangle becomes a Triangle. Sizes are passed on as they are: what is invalid is for the kernels
+// to say.
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes, const std::string& source);
 
 }  // namespace carom::cli

@@ -1,7 +1,7 @@
 #include "cli/verify_builtin.h"
 
+#include <array>
 #include <cassert>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -15,25 +15,67 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+// Body i of a mixed scene has shape i and motion i % kMotions: half-spaces are static.
+constexpr uint32_t kMotions = 3;
+constexpr uint32_t kHalfspaceStride = 67 * kMotions;
+
 std::unique_ptr<io::SceneReader> generate(const std::string& text) {
   Result<io::GeneratorSpec> spec = io::parse_generator(text);
   assert(spec);
   return io::open_generator(*spec);
 }
 
-// A generated scene of boxes in which every other body is a sphere, with layers, masks, owners,
-// sensors and all kinds of motion, and with bodies that are ill-formed in some frames.
+// Every other shape a sphere.
+void make_spheres(io::SceneShapes& shapes) {
+  for (size_t i = 0; i < shapes.kind.size(); i += 2) {
+    shapes.kind[i] = static_cast<uint8_t>(ShapeKind::sphere);
+  }
+}
+
+// A mesh of one triangle within these half extents.
+void make_triangle(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
+  const auto [x, y, z] = half;
+  shapes.params[index] = {index % 2 ? 1.0f : 0.0f, index % 3 ? 0.0f : 0.2f * x};
+  shapes.vertex_range[index] = {static_cast<uint32_t>(shapes.vertices.size()), 3};
+  shapes.triangle_range[index] = {static_cast<uint32_t>(shapes.triangles.size()), 1};
+  shapes.vertices.insert(shapes.vertices.end(), {{x, y, z}, {-x, y, -z}, {0, -y, z}});
+  shapes.triangles.push_back({0, 1, 2});
+}
+
+// Spheres, capsules, aabbs, boxes and triangles in turn, and a few half-spaces, all from the half
+// extents that `shapes` holds.
+void make_all_kinds(io::SceneShapes& shapes) {
+  constexpr std::array kKinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
+                                 ShapeKind::box, ShapeKind::mesh};
+  shapes.vertex_range.resize(shapes.kind.size());
+  shapes.triangle_range.resize(shapes.kind.size());
+  for (size_t i = 0; i < shapes.kind.size(); ++i) {
+    const bool halfspace = i % kHalfspaceStride == 0;
+    const ShapeKind kind = halfspace ? ShapeKind::halfspace : kKinds[i % kKinds.size()];
+    shapes.kind[i] = static_cast<uint8_t>(kind);
+    std::array<float, 8>& params = shapes.params[i];
+    const std::array half = {params[0], params[1], params[2]};
+    if (kind == ShapeKind::capsule) params = {-half[0], 0, half[2], half[0], 0, 0, half[1] / 2};
+    if (kind == ShapeKind::halfspace) params = {half[0], -half[1], half[2], -1};
+    if (kind == ShapeKind::mesh) make_triangle(shapes, i, half);
+  }
+  shapes.params[16][6] = -1;  // the radius of a capsule
+  shapes.vertices[5][1] = kNan;
+}
+
+// A generated scene of boxes of which some become other kinds, with layers, masks, owners, sensors
+// and all kinds of motion, and with bodies that are ill-formed in some frames.
 class MixedScene : public io::SceneReader {
  public:
-  explicit MixedScene(std::unique_ptr<io::SceneReader> base)
+  // `oriented`: half of the bodies turn in every frame.
+  MixedScene(std::unique_ptr<io::SceneReader> base, void (*change)(io::SceneShapes&), bool oriented)
       : base_(std::move(base)), info_(base_->info()) {
-    for (size_t i = 0; i < info_.shapes.kind.size(); i += 2) {
-      info_.shapes.kind[i] = static_cast<uint8_t>(ShapeKind::sphere);
-    }
+    change(info_.shapes);
+    info_.has_orientation = oriented;
     info_.shapes.params[11][0] = -1;
     info_.shapes.params[12][0] = kNan;
     for (uint32_t i = 0; i < info_.bodies; ++i) {
-      info_.body_motion.push_back(static_cast<uint8_t>(i % 3));
+      info_.body_motion.push_back(static_cast<uint8_t>(i % kMotions));
       info_.layer.push_back(1u << i % 5);
       info_.mask.push_back(i % 4 == 0 ? 0x0fu : 0x1fu);
       info_.owner.push_back(i % 10 < 4 ? 1 + i % 4 : 0);
@@ -46,19 +88,39 @@ class MixedScene : public io::SceneReader {
 
   Result<void> read_frame(io::SceneFrame& frame) override {
     Result<void> read = base_->read_frame(frame);
-    if (read && frame_++ % 3 == 1) {
+    if (!read) return read;
+    if (info_.has_orientation) turn(frame.orientation);
+    if (frame_++ % 3 == 1) {
       spoil(frame.position32);
       spoil(frame.position64);
+      spoil_orientations(frame.orientation);
     }
-    return read;
+    return {};
   }
 
  private:
+  // Quaternions that are not unit.
+  void turn(std::vector<float>& orientations) const {
+    orientations.clear();
+    for (uint64_t i = 0; i < info_.bodies; ++i) {
+      io::Random random(i, i % 2 ? 0 : frame_ % info_.frames);
+      for (int k = 0; k < 4; ++k) {
+        orientations.push_back(static_cast<float>(random.between(-1, 1)));
+      }
+    }
+  }
+
   template <class T>
   static void spoil(std::vector<T>& rows) {
     if (rows.empty()) return;
     rows[3 * 20 + 1] = kNan;
     rows[3 * 21 + 2] = kInfinity;
+  }
+
+  static void spoil_orientations(std::vector<float>& rows) {
+    if (rows.empty()) return;
+    for (int k = 0; k < 4; ++k) rows[4 * 23 + k] = 0;
+    rows[4 * 24 + 3] = kNan;
   }
 
   std::unique_ptr<io::SceneReader> base_;
@@ -94,69 +156,6 @@ class RecordedScene : public io::SceneReader {
   io::SceneFrame frame_;
 };
 
-// Sizes over six decades, about half of the pairs overlapping.
-class RandomPairs {
- public:
-  RandomPairs(PositionType positions, uint64_t seed)
-      : random_(seed, 0), pairs_{BodyColumns(positions), BodyColumns(positions)} {
-    spread_ = positions == PositionType::float64 ? 1e7 : 100;
-  }
-
-  void add(ShapeKind a, ShapeKind b) {
-    double size_a = sizes_.draw(random_);
-    double size_b = size_a * random_.between(0.1, 1);
-    Eigen::Vector3d position = vector(spread_);
-    double touch = reach(a) * size_a + reach(b) * size_b;
-    pairs_.a.push(shape(a, size_a), position);
-    pairs_.b.push(shape(b, size_b), position + vector(1.25 * touch));
-  }
-
-  // Coincident, touching, empty and ill-formed bodies.
-  void add_special(ShapeKind a, ShapeKind b) {
-    const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-    const double denormal = std::numeric_limits<float>::denorm_min();
-    for (double size :
-         {0.0, 1.0, 1e-30, 1e18, 3 * denormal, -1.0, double{kNan}, double{kInfinity}}) {
-      for (double distance : {0.0, 1.0, 2.0, -2.0, 2e-30, 2e18, double{kNan}, double{kInfinity}}) {
-        for (int axis = 0; axis < 3; ++axis) {
-          pairs_.a.push(even_shape(a, 1.0), origin);
-          pairs_.b.push(even_shape(b, size), distance * Eigen::Vector3d::Unit(axis));
-        }
-      }
-    }
-  }
-
-  PairSet take() { return std::move(pairs_); }
-
- private:
-  Eigen::Vector3d vector(double radius) {
-    io::Vec3 v = random_.in_ball(radius);
-    return {v[0], v[1], v[2]};
-  }
-
-  // How far a shape of size 1 reaches in a middling direction.
-  static double reach(ShapeKind kind) { return kind == ShapeKind::sphere ? 1 : 0.8; }
-
-  static Shape even_shape(ShapeKind kind, double size) {
-    auto half = static_cast<float>(size);
-    if (kind == ShapeKind::sphere) return Sphere{half};
-    return Aabb::from_half_extents(Eigen::Vector3f::Constant(half));
-  }
-
-  Shape shape(ShapeKind kind, double size) {
-    if (kind == ShapeKind::sphere) return even_shape(kind, size);
-    auto edge = [&] { return static_cast<float>(size * random_.between(0.3, 1)); };
-    Eigen::Vector3f lower(-edge(), -edge(), -edge());
-    Eigen::Vector3f upper(edge(), edge(), edge());
-    return Aabb{lower, upper};
-  }
-
-  io::Random random_;
-  io::LogUniform sizes_{1e-3, 1e3};
-  PairSet pairs_;
-  double spread_;
-};
-
 }  // namespace
 
 std::vector<BuiltinScene> builtin_scenes() {
@@ -169,35 +168,19 @@ std::vector<BuiltinScene> builtin_scenes() {
         "still:n=500,frames=4,density=0.4,shape=sphere"}) {
     scenes.push_back({text, generate(text)});
   }
-  const std::string mixed = "brownian:n=403,frames=10,density=0.8,speed=3";
-  scenes.push_back({"mixed bodies, float32", std::make_unique<MixedScene>(generate(mixed))});
-  scenes.push_back({"mixed bodies, float64",
-                    std::make_unique<MixedScene>(generate(mixed + ",positions=float64"))});
+  for (const char* positions : {"float32", "float64"}) {
+    const auto mixed = [&](auto change, bool oriented) {
+      return std::make_unique<MixedScene>(
+          generate(std::string("brownian:n=403,frames=10,density=0.8,speed=3,positions=") +
+                   positions),
+          change, oriented);
+    };
+    scenes.push_back({std::string("spheres and aabbs, ") + positions, mixed(make_spheres, false)});
+    scenes.push_back({std::string("all kinds, ") + positions, mixed(make_all_kinds, true)});
+  }
   scenes.push_back(
       {"recording of bounds", std::make_unique<RecordedScene>(generate("static:n=800,frames=8"))});
   return scenes;
-}
-
-std::vector<BuiltinPairs> builtin_pairs() {
-  constexpr size_t kPairs = 2003;
-  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::aabb};
-  std::vector<BuiltinPairs> sets;
-  for (PositionType positions : {PositionType::float32, PositionType::float64}) {
-    const std::string type = positions == PositionType::float64 ? ", float64" : ", float32";
-    RandomPairs mixed(positions, 99);
-    for (ShapeKind a : kKinds) {
-      for (ShapeKind b : kKinds) {
-        RandomPairs pairs(positions, sets.size());
-        for (size_t i = 0; i < kPairs; ++i) pairs.add(a, b);
-        pairs.add_special(a, b);
-        mixed.add_special(a, b);
-        sets.push_back({std::string(name(a)) + "-" + name(b) + " pairs" + type, pairs.take()});
-      }
-    }
-    for (size_t i = 0; i < kPairs; ++i) mixed.add(kKinds[i % 2], kKinds[i / 2 % 2]);
-    sets.push_back({"mixed pairs" + type, mixed.take()});
-  }
-  return sets;
 }
 
 }  // namespace carom::cli

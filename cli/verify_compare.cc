@@ -44,6 +44,15 @@ std::optional<Mismatch> compare_overlaps(const FrameView& expected, const FrameV
                   expected.pairs.empty() ? Pair{0, 0} : expected.pairs[std::min(*index, last)]};
 }
 
+// One a contact; the contacts are known to agree.
+std::optional<Mismatch> compare_manifolds(const FrameView& expected, const FrameView& actual) {
+  std::optional<size_t> index = first_difference(expected.manifolds, actual.manifolds);
+  if (!index) return std::nullopt;
+  const std::span<const Contact> contacts = expected.contacts;
+  if (contacts.empty()) return Mismatch{"manifolds", {0, 0}};
+  return Mismatch{"manifolds", pair_of(contacts[std::min(*index, contacts.size() - 1)])};
+}
+
 template <class T>
 const T* find(std::span<const T> list, Pair pair) {
   auto found = std::find_if(list.begin(), list.end(),
@@ -56,6 +65,12 @@ std::string event_text(const Event& event) {
   return std::string(kKinds[static_cast<size_t>(event.kind)]) +
          (event.sensor ? " of a sensor" : "") + ", contact " +
          (event.contact == kNoContact ? "none" : std::to_string(event.contact));
+}
+
+std::string manifold_text(const FrameView& frame, const Contact& contact) {
+  const auto index = static_cast<size_t>(&contact - frame.contacts.data());
+  if (index >= frame.manifolds.size()) return "";
+  return ": " + text_of(frame.manifolds[index]);
 }
 
 std::string findings(const FrameView& frame, Pair pair) {
@@ -71,7 +86,8 @@ std::string findings(const FrameView& frame, Pair pair) {
   const Event* event = find(frame.events, pair);
   text += ", event " + (event ? event_text(*event) : "none");
   const Contact* contact = find(frame.contacts, pair);
-  return text + ", contact " + (contact ? text_of(*contact) : "none");
+  text += ", contact " + (contact ? text_of(*contact) : "none");
+  return contact ? text + manifold_text(frame, *contact) : text;
 }
 
 const BodyDesc* find_body(std::span<const reference::Body> bodies, uint32_t index) {
@@ -87,13 +103,15 @@ std::string describe_body(std::span<const reference::Body> bodies, uint32_t inde
   std::string head = "  body " + std::to_string(index) + ": ";
   if (!body) return head + "does not exist\n";
   return head + text_of(*body, positions) + "\n    bounds " +
-         text_of(reference::bounds(body->shape, body->position, positions)) + '\n';
+         text_of(reference::bounds(body->shape, {body->position, body->orientation}, positions)) +
+         '\n';
 }
 
 }  // namespace
 
 FrameView view_of(const reference::Frame& frame) {
-  return {frame.pairs, frame.overlaps, frame.contacts, frame.events, frame.quarantined};
+  return {frame.pairs,     frame.overlaps, frame.contacts,
+          frame.manifolds, frame.events,   frame.quarantined};
 }
 
 std::optional<Mismatch> compare(const FrameView& expected, const FrameView& actual) {
@@ -101,6 +119,7 @@ std::optional<Mismatch> compare(const FrameView& expected, const FrameView& actu
   if (!mismatch) mismatch = compare_lists("pairs", expected.pairs, actual.pairs);
   if (!mismatch) mismatch = compare_overlaps(expected, actual);
   if (!mismatch) mismatch = compare_lists("contacts", expected.contacts, actual.contacts);
+  if (!mismatch) mismatch = compare_manifolds(expected, actual);
   if (!mismatch) mismatch = compare_lists("events", expected.events, actual.events);
   return mismatch;
 }

@@ -26,7 +26,21 @@ constexpr std::array kVariants = {
     Variant{"world frame", false, Detail::contact, WitnessFrame::world},
     Variant{"shuffled", true, Detail::contact, WitnessFrame::body},
     Variant{"detail overlap", false, Detail::overlap, WitnessFrame::body},
+    Variant{"detail manifold", false, Detail::manifold, WitnessFrame::body},
+    Variant{"manifold shuffled in the world", true, Detail::manifold, WitnessFrame::world},
 };
+
+// The reference takes only pairs that have a kernel.
+Result<void> check_kernels(const PairSet& pairs) {
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    ShapeKind a = kind_of(pairs.a.shape(i));
+    ShapeKind b = kind_of(pairs.b.shape(i));
+    if (supports(a, b)) continue;
+    return Error{"pair " + std::to_string(i) + ": no kernel for " + name(a) + " against " +
+                 name(b)};
+  }
+  return {};
+}
 
 std::string compared_text() {
   std::string text;
@@ -44,7 +58,8 @@ bool same_bits(const T& x, const T& y) {
 bool same_bits(const Row& x, const Row& y) {
   return x.overlap == y.overlap && x.status == y.status && same_bits(x.separation, y.separation) &&
          same_bits(x.normal, y.normal) && same_bits(x.point_a, y.point_a) &&
-         same_bits(x.point_b, y.point_b);
+         same_bits(x.point_b, y.point_b) && x.manifold_count == y.manifold_count &&
+         same_bits(x.manifold, y.manifold);
 }
 
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
@@ -60,6 +75,12 @@ std::array<float, 3> in_world(const std::array<float, 3>& arm, const Eigen::Vect
   return point;
 }
 
+// The unused places of a manifold are zero in any frame.
+ManifoldPoints in_world(ManifoldPoints manifold, size_t count, const Eigen::Vector3d& position) {
+  for (size_t i = 0; i < count; ++i) manifold.point[i] = in_world(manifold.point[i], position);
+  return manifold;
+}
+
 std::string text_of(const std::array<float, 3>& v) {
   return cli::text_of(Eigen::Vector3f(v[0], v[1], v[2]));
 }
@@ -67,7 +88,8 @@ std::string text_of(const std::array<float, 3>& v) {
 std::string text_of(const Row& row) {
   return "overlap " + std::to_string(row.overlap) + " status " + std::to_string(row.status) +
          " separation " + cli::text_of(double{row.separation}) + " normal " + text_of(row.normal) +
-         " point_a " + text_of(row.point_a) + " point_b " + text_of(row.point_b);
+         " point_a " + text_of(row.point_a) + " point_b " + text_of(row.point_b) + " manifold of " +
+         std::to_string(row.manifold_count) + ": " + cli::text_of(row.manifold);
 }
 
 class PairVerifier {
@@ -76,8 +98,9 @@ class PairVerifier {
   PairVerifier(System& system, const PairSet& pairs, Progress progress)
       : system_(system),
         pairs_(pairs),
+        overlap_(pairs.size(), Detail::overlap),
         contact_(pairs.size(), Detail::contact),
-        overlap_(pairs.size(), Detail::overlap) {
+        manifold_(pairs.size(), Detail::manifold) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       progress.update(i);
       expected_.push_back(reference_row(i));
@@ -109,29 +132,38 @@ class PairVerifier {
  private:
   Row reference_row(size_t index) const {
     const reference::PairResult result =
-        reference::collide(pairs_.a.shape(index), pairs_.a.position(index), pairs_.b.shape(index),
-                           pairs_.b.position(index), pairs_.a.positions());
+        reference::collide(pairs_.a.shape(index), pairs_.a.pose(index), pairs_.b.shape(index),
+                           pairs_.b.pose(index), pairs_.a.positions());
     return {static_cast<uint8_t>(result.overlap),
             static_cast<uint8_t>(result.status),
+            result.manifold_count,
             result.separation,
             array_of(result.normal),
             array_of(result.arm_a),
-            array_of(result.arm_b)};
+            array_of(result.arm_b),
+            result.manifold};
   }
 
   // The reference's result of a pair, as a variant gives it.
   Row expected(size_t index, const Variant& variant) const {
     Row row = expected_[index];
-    if (variant.detail == Detail::overlap) return {row.overlap, row.status, 0, {}, {}, {}};
+    if (variant.detail == Detail::overlap) return {row.overlap, row.status, 0, 0, {}, {}, {}, {}};
+    if (variant.detail == Detail::contact) {
+      row.manifold_count = 0;
+      row.manifold = {};
+    }
     bool invalid = row.status == static_cast<uint8_t>(Status::invalid);
     if (variant.frame == WitnessFrame::body || invalid) return row;
-    row.point_a = in_world(row.point_a, pairs_.a.position(index));
-    row.point_b = in_world(row.point_b, pairs_.b.position(index));
+    const Eigen::Vector3d position_a = pairs_.a.pose(index).position;
+    row.point_a = in_world(row.point_a, position_a);
+    row.point_b = in_world(row.point_b, pairs_.b.pose(index).position);
+    row.manifold = in_world(row.manifold, row.manifold_count, position_a);
     return row;
   }
 
   PairColumns& columns(const Variant& variant) {
-    return variant.detail == Detail::contact ? contact_ : overlap_;
+    if (variant.detail == Detail::overlap) return overlap_;
+    return variant.detail == Detail::contact ? contact_ : manifold_;
   }
 
   Result<void> test(const Engine& engine, const Variant& variant) {
@@ -165,10 +197,8 @@ class PairVerifier {
                       const Row& got) const {
     PositionType positions = pairs_.a.positions();
     std::string text;
-    text +=
-        "  a: " + cli::text_of(pairs_.a.shape(index), pairs_.a.position(index), positions) + '\n';
-    text +=
-        "  b: " + cli::text_of(pairs_.b.shape(index), pairs_.b.position(index), positions) + '\n';
+    text += "  a: " + cli::text_of(pairs_.a.shape(index), pairs_.a.pose(index), positions) + '\n';
+    text += "  b: " + cli::text_of(pairs_.b.shape(index), pairs_.b.pose(index), positions) + '\n';
     text += "  reference: " + text_of(want) + '\n';
     text += "  carom:     " + text_of(got) + '\n';
     return {std::string(name(engine.isa)) + ", threads " + std::to_string(engine.threads) + ", " +
@@ -178,8 +208,9 @@ class PairVerifier {
 
   System& system_;
   const PairSet& pairs_;
-  PairColumns contact_;
   PairColumns overlap_;
+  PairColumns contact_;
+  PairColumns manifold_;
   std::vector<Row> expected_;
   std::vector<Pair> order_;
   uint64_t runs_ = 0;
@@ -190,6 +221,9 @@ class PairVerifier {
 
 Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
                                    const std::string& source, const Console& console) {
+  if (Result<void> kernels = check_kernels(pairs); !kernels) {
+    return Error{source + ": " + kernels.error().message};
+  }
   VerifyOutcome outcome{source, compared_text(), {}, {}};
   PairVerifier verifier(system, pairs, Progress(console, source + ": pair", pairs.size()));
   Progress progress(console, source + ": run", engines.list().size() * kVariants.size());

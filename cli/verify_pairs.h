@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-// Tests the pairs row by row and in another order, at both details, with witness points in both
+// Tests the pairs row by row and in another order, at every detail, with witness points in both
 // frames, and stops at the first difference.
 Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
                                    const std::string& source, const Console& console);

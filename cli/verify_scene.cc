@@ -24,6 +24,9 @@ constexpr std::array kVariants = {
     Variant{"sweep without cache", BroadphaseMethod::sweep, false, Detail::contact},
     Variant{"brute", BroadphaseMethod::brute, true, Detail::contact},
     Variant{"sweep at detail overlap", BroadphaseMethod::sweep, true, Detail::overlap},
+    Variant{"grid at detail manifold", BroadphaseMethod::grid, true, Detail::manifold},
+    Variant{"grid at detail manifold without cache", BroadphaseMethod::grid, false,
+            Detail::manifold},
 };
 
 // Above this, comparing all boxes with all others on every engine would take minutes a frame. The
@@ -47,7 +50,14 @@ std::string names_of(const std::vector<Variant>& variants) {
   return text;
 }
 
-// What the reference says at detail overlap, where it has said it at detail contact.
+// What the reference says at detail contact, where it has said it at detail manifold.
+reference::Frame without_manifolds(reference::Frame frame) {
+  frame.manifolds.clear();
+  for (Contact& contact : frame.contacts) contact.manifold_count = 0;
+  return frame;
+}
+
+// And at detail overlap.
 reference::Frame without_contacts(reference::Frame frame) {
   frame.contacts.clear();
   for (Event& event : frame.events) event.contact = kNoContact;
@@ -101,9 +111,15 @@ class SceneVerifier {
       bodies_[i] = {BodyId{static_cast<uint32_t>(i), 0}, player_.body(frame, i)};
     }
     expected_ =
-        reference::step(bodies_, player_.positions(), Detail::contact,
+        reference::step(bodies_, player_.positions(), Detail::manifold,
                         player_.info().has_linear_velocity, frame_ == 0 ? nullptr : &expected_);
-    expected_overlap_ = without_contacts(expected_);
+    expected_contact_ = without_manifolds(expected_);
+    expected_overlap_ = without_contacts(expected_contact_);
+  }
+
+  const reference::Frame& expected_at(Detail detail) const {
+    if (detail == Detail::overlap) return expected_overlap_;
+    return detail == Detail::contact ? expected_contact_ : expected_;
   }
 
   bool verify_engine(VerifyRow& row, const Variant& variant, Stepper& stepper,
@@ -111,8 +127,7 @@ class SceneVerifier {
     force_isa(row.engine.isa);
     FrameView actual;
     row.engine.arena->run([&] { actual = stepper.step(frame); });
-    bool contacts = variant.detail == Detail::contact;
-    FrameView expected = view_of(contacts ? expected_ : expected_overlap_);
+    FrameView expected = view_of(expected_at(variant.detail));
     std::optional<Mismatch> mismatch = compare(expected, actual);
     if (!mismatch) return true;
     row.differs = true;
@@ -130,7 +145,8 @@ class SceneVerifier {
   std::vector<VerifyRow> rows_;
   std::vector<std::unique_ptr<Stepper>> steppers_;  // variants_.size() a row
   std::vector<reference::Body> bodies_;
-  reference::Frame expected_;
+  reference::Frame expected_;  // at detail manifold
+  reference::Frame expected_contact_;
   reference::Frame expected_overlap_;
   uint64_t frame_ = 0;
   std::optional<Difference> difference_;
@@ -143,7 +159,7 @@ Result<VerifyOutcome> verify_scene(System& system, const Engines& engines, io::S
                                    const Console& console) {
   Result<Player> player = Player::create(scene.info(), source);
   if (!player) return player.error();
-  scene.want(player->wanted(Detail::contact));
+  scene.want(player->wanted(Detail::manifold));
   SceneVerifier verifier(system, engines, *player);
   Progress progress(console, source + ": frame", frames);
   io::SceneFrame frame;

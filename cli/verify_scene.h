@@ -11,7 +11,8 @@
 namespace carom::cli {
 
 // Runs one world a way of running (instruction set, threads, broadphase, with and without carried
-// results, at both details) beside the reference, and stops at the first difference.
+// results, at every detail that tests pairs) beside the reference, and stops at the first
+// difference.
 Result<VerifyOutcome> verify_scene(System& system, const Engines& engines, io::SceneReader& scene,
                                    const std::string& source, uint64_t frames,
                                    const Console& console);

@@ -16,8 +16,8 @@ class WorldStepper : public Stepper {
     }
     started_ = true;
     world_.step();
-    return {world_.pairs(), world_.overlaps(), world_.contacts(), world_.events(),
-            world_.quarantined()};
+    return {world_.pairs(),     world_.overlaps(), world_.contacts(),
+            world_.manifolds(), world_.events(),   world_.quarantined()};
   }
 
  private:

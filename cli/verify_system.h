@@ -15,6 +15,7 @@ struct FrameView {
   std::span<const Pair> pairs;
   std::span<const uint8_t> overlaps;
   std::span<const Contact> contacts;
+  std::span<const ManifoldPoints> manifolds;
   std::span<const Event> events;
   std::span<const BodyId> quarantined;
 };

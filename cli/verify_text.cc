@@ -1,6 +1,9 @@
 #include "cli/verify_text.h"
 
 #include <cstdio>
+#include <variant>
+
+#include "carom/kernel/views.h"
 
 namespace carom::cli {
 namespace {
@@ -10,6 +13,34 @@ std::string list(const Vector& v) {
   char text[160];
   std::snprintf(text, sizeof text, "(%a, %a, %a)", double{v[0]}, double{v[1]}, double{v[2]});
   return text;
+}
+
+std::string parameters(const Sphere& sphere) { return "radius " + text_of(sphere.radius); }
+
+std::string parameters(const Aabb& box) {
+  return "lower " + list(box.lower) + " upper " + list(box.upper);
+}
+
+std::string parameters(const Capsule& capsule) {
+  return "a " + list(capsule.a) + " b " + list(capsule.b) + " radius " + text_of(capsule.radius);
+}
+
+std::string parameters(const Box& box) { return "half " + list(box.half); }
+
+std::string parameters(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  return list(a) + ' ' + list(b) + ' ' + list(c) + " thickness " + text_of(triangle.thickness) +
+         (triangle.one_sided ? " one-sided" : "") + " inner edges " +
+         std::to_string(triangle.inner_edges);
+}
+
+std::string parameters(const Halfspace& halfspace) {
+  return "normal " + list(halfspace.normal) + " offset " + text_of(halfspace.offset);
+}
+
+std::string list(const Eigen::Quaternionf& q) {
+  return "(" + text_of(q.x()) + ", " + text_of(q.y()) + ", " + text_of(q.z()) + ", " +
+         text_of(q.w()) + ")";
 }
 
 }  // namespace
@@ -23,21 +54,18 @@ std::string text_of(double value) {
 std::string text_of(const Eigen::Vector3f& v) { return list(v); }
 std::string text_of(const Eigen::Vector3d& v) { return list(v); }
 
-std::string text_of(const Shape& shape, const Eigen::Vector3d& position, PositionType positions) {
-  std::string text;
-  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
-    text = "sphere radius " + text_of(double{sphere->radius});
-  } else {
-    const Aabb& box = std::get<Aabb>(shape);
-    text = "aabb lower " + text_of(box.lower) + " upper " + text_of(box.upper);
-  }
-  return text + " at " + text_of(position) +
-         (positions == PositionType::float64 ? " float64" : " float32");
+std::string text_of(const Shape& shape, const Pose& pose, PositionType positions) {
+  const ShapeKind kind = kind_of(shape);
+  std::string text =
+      name(kind) + (' ' + std::visit([](const auto& s) { return parameters(s); }, shape));
+  text += " at " + text_of(pose.position);
+  if (row_count(kind) > 0) text += " orientation " + list(pose.orientation);
+  return text + (positions == PositionType::float64 ? " float64" : " float32");
 }
 
 std::string text_of(const BodyDesc& body, PositionType positions) {
-  std::string text =
-      text_of(body.shape, body.position, positions) + " velocity " + text_of(body.linear_velocity);
+  std::string text = text_of(body.shape, {body.position, body.orientation}, positions) +
+                     " velocity " + text_of(body.linear_velocity);
   char rest[120];
   std::snprintf(rest, sizeof rest, " motion %d layer %#x mask %#x owner %u%s",
                 static_cast<int>(body.motion), body.layer, body.mask, body.owner,
@@ -49,7 +77,17 @@ std::string text_of(const Contact& contact) {
   return "separation " + text_of(double{contact.separation}) + " normal " +
          text_of(contact.normal) + " arm_a " + text_of(contact.arm_a) + " arm_b " +
          text_of(contact.arm_b) + " normal_velocity " + text_of(double{contact.normal_velocity}) +
-         " status " + std::to_string(static_cast<int>(contact.status));
+         " status " + std::to_string(static_cast<int>(contact.status)) + " manifold of " +
+         std::to_string(contact.manifold_count);
+}
+
+std::string text_of(const ManifoldPoints& manifold) {
+  std::string text;
+  for (size_t i = 0; i < manifold.point.size(); ++i) {
+    text += (i ? ", " : "") + list(manifold.point[i]) + " separation " +
+            text_of(manifold.separation[i]);
+  }
+  return text;
 }
 
 std::string text_of(const reference::Box& box) {

@@ -12,10 +12,11 @@ namespace carom::cli {
 std::string text_of(double value);
 std::string text_of(const Eigen::Vector3f& v);
 std::string text_of(const Eigen::Vector3d& v);
-// "sphere radius R at (x, y, z)".
-std::string text_of(const Shape& shape, const Eigen::Vector3d& position, PositionType positions);
+// "box half (x, y, z) at (x, y, z) orientation (x, y, z, w) float32".
+std::string text_of(const Shape& shape, const Pose& pose, PositionType positions);
 std::string text_of(const BodyDesc& body, PositionType positions);
 std::string text_of(const Contact& contact);
+std::string text_of(const ManifoldPoints& manifold);
 std::string text_of(const reference::Box& box);
 
 }  // namespace carom::cli

@@ -30,7 +30,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "aar
   # members of classes: it would refuse to inline. Nothing here calls a cryptographic instruction.
   add_compile_options(-march=armv8-a+crypto)
 endif()
-include_directories(${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+# Headers that CMake writes are beside those of the sources.
+include_directories(${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include
+                    ${PROJECT_BINARY_DIR}/generated)
 if(CAROM_SCALAR_ONLY)
   add_compile_definitions(HWY_COMPILE_ONLY_SCALAR)
 else()

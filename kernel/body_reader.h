@@ -2,6 +2,7 @@
 // size. One rule for bounds, kernels and queries; comparisons are ordered so that NaN fails them.
 #pragma once
 
+#include <array>
 #include <cfloat>
 #include <cmath>
 #include <cstring>
@@ -32,6 +33,34 @@ struct Position {
 template <class T>
 bool is_finite(const Position<T>& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+using Row = std::array<float, 4>;
+
+inline bool is_finite(const Row& row) {
+  return std::isfinite(row[0]) && std::isfinite(row[1]) && std::isfinite(row[2]) &&
+         std::isfinite(row[3]);
+}
+
+inline bool is_direction(float x, float y, float z) { return x != 0 || y != 0 || z != 0; }
+
+// Capsules, boxes, half-spaces, triangles: their parameters.
+inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
+  for (uint32_t i = 0; i < row_count(kind); ++i) {
+    if (!is_finite(rows[i])) return false;
+  }
+  switch (kind) {
+    case ShapeKind::capsule:
+      return rows[0][3] >= 0;
+    case ShapeKind::triangle:  // thickness and the bits of inner edges
+      return rows[0][3] >= 0 && rows[2][3] >= 0 && rows[2][3] <= 7;
+    case ShapeKind::box:
+      return rows[0][0] >= 0 && rows[0][1] >= 0 && rows[0][2] >= 0;
+    case ShapeKind::halfspace:
+      return is_direction(rows[0][0], rows[0][1], rows[0][2]);
+    default:
+      return true;
+  }
 }
 
 // Reads single bodies of a view: for rare paths, scalar stages and set-up.
@@ -83,9 +112,41 @@ struct BodyReader {
     return load_strided<float>(bodies.boxes.upper[axis], bodies.boxes.stride, box(i));
   }
 
+  // The identity where the view has no orientations.
+  Row orientation(size_t i) const {
+    if (!bodies.orientation.data) return {0, 0, 0, 1};
+    return load_strided<Row>(bodies.orientation.data, bodies.orientation.stride, i);
+  }
+
+  // Index of the body's first row of parameters, and row k of those.
+  size_t first_row(size_t i) const {
+    return bodies.rows.first ? bodies.rows.first[i] : i * row_count(kind(i));
+  }
+  Row row(size_t i, size_t k) const {
+    return load_strided<Row>(bodies.rows.data, sizeof(Row), first_row(i) + k);
+  }
+  std::array<Row, kMostRows> rows(size_t i) const {
+    std::array<Row, kMostRows> rows{};
+    for (uint32_t k = 0; k < row_count(kind(i)); ++k) rows[k] = row(i, k);
+    return rows;
+  }
+
   bool is_valid(size_t i) const {
     if (bodies.position.data && !is_finite(position<double>(i))) return false;
     if (kind(i) == ShapeKind::sphere) return is_valid_radius(radius(i));
+    if (kind(i) == ShapeKind::aabb) return is_valid_box(i);
+    return has_valid_parameters(i);
+  }
+
+  // Orientation and rows of a kind that has them.
+  bool has_valid_parameters(size_t i) const {
+    const Row q = orientation(i);
+    return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0) &&
+           are_valid_rows(kind(i), rows(i).data());
+  }
+
+ private:
+  bool is_valid_box(size_t i) const {
     for (size_t axis = 0; axis < 3; ++axis) {
       if (!is_valid_box_axis(lower(axis, i), upper(axis, i))) return false;
     }

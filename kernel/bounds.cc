@@ -84,12 +84,15 @@ size_t bounds_at(const Positions& positions, const BodyReader& reader, const Bou
   if (bodies.uniform_kind == ShapeKind::sphere) {
     return bounds_of(positions, SphereExtents(), out, begin, end);
   }
-  return bounds_of(positions, BoxExtents(bodies), out, begin, end);
+  if (bodies.uniform_kind == ShapeKind::aabb) {
+    return bounds_of(positions, BoxExtents(bodies), out, begin, end);
+  }
+  return bounds_of(positions, MixedExtents(reader), out, begin, end);
 }
 
 size_t lane_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin, size_t end) {
   const BodyReader reader{bodies};
-  const bool are_boxes = !bodies.kind && bodies.uniform_kind != ShapeKind::sphere;
+  const bool are_boxes = !bodies.kind && bodies.uniform_kind == ShapeKind::aabb;
   if (!bodies.position.data && are_boxes) {
     return bounds_of(NoPositions(), BoxExtents(bodies), out, begin, end);
   }
@@ -109,8 +112,10 @@ size_t lane_count() { return kLanes; }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <algorithm>
 #include <atomic>
 
+#include "kernel/extent.h"
 #include "kernel/outward.h"
 #include "kernel/parallel.h"
 #include "simd/dispatch.h"
@@ -120,19 +125,6 @@ namespace {
 
 HWY_EXPORT(lane_bounds);
 HWY_EXPORT(lane_count);
-
-struct Extent {
-  std::array<float, 3> lower, upper;
-};
-
-Extent extent_of(const BodyReader& reader, size_t i) {
-  if (reader.kind(i) == ShapeKind::sphere) {
-    const float r = reader.radius(i);
-    return {{-r, -r, -r}, {r, r, r}};
-  }
-  return {{reader.lower(0, i), reader.lower(1, i), reader.lower(2, i)},
-          {reader.upper(0, i), reader.upper(1, i), reader.upper(2, i)}};
-}
 
 // One body at a time: what is left of a block after whole vectors.
 size_t single_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin,
@@ -156,6 +148,25 @@ size_t single_bounds(const Collidables& bodies, const BoundsColumns& out, size_t
   return valid;
 }
 
+bool has_halfspaces(const Collidables& bodies) {
+  if (!bodies.kind) return bodies.uniform_kind == ShapeKind::halfspace;
+  return std::find(bodies.kind, bodies.kind + bodies.count, ShapeKind::halfspace) !=
+         bodies.kind + bodies.count;
+}
+
+// All of space, except of those that are not valid.
+void open_halfspaces(const Collidables& bodies, const BoundsColumns& out) {
+  const BodyReader reader{bodies};
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (size_t i = 0; i < bodies.count; ++i) {
+    if (reader.kind(i) != ShapeKind::halfspace || out.lower[0][i] > out.upper[0][i]) continue;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      out.lower[axis][i] = -infinity;
+      out.upper[axis][i] = infinity;
+    }
+  }
+}
+
 }  // namespace
 
 size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
@@ -167,6 +178,7 @@ size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
     valid += CAROM_DISPATCH(lane_bounds)(bodies, out, begin, whole) +
              single_bounds(bodies, out, whole, end);
   });
+  if (has_halfspaces(bodies)) open_halfspaces(bodies, out);
   return bodies.count - valid;
 }
 

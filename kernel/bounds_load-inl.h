@@ -11,6 +11,7 @@
 
 #include "kernel/body_reader.h"
 #include "kernel/bounds_sums-inl.h"
+#include "kernel/extent.h"
 #include "simd/gather-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -190,7 +191,7 @@ struct BoxExtents {
   }
 };
 
-// Spheres and boxes side by side.
+// Any kinds side by side.
 struct MixedExtents {
   const BodyReader& reader;
   BoxExtents boxes;
@@ -198,29 +199,28 @@ struct MixedExtents {
   explicit MixedExtents(const BodyReader& bodies) : reader(bodies), boxes(bodies.bodies) {}
 
   HWY_INLINE void load(size_t first, F radius, F3& lower, F3& upper) const {
-    HWY_ALIGN float box_lanes[kLanes];
-    size_t count = 0;
-    size_t some_box = 0;
+    size_t spheres = 0;
+    size_t aabbs = 0;
     for (size_t i = 0; i < kLanes; ++i) {
-      const bool is_box = reader.kind(first + i) != ShapeKind::sphere;
-      box_lanes[i] = is_box;
-      some_box = is_box ? first + i : some_box;
-      count += is_box;
+      spheres += reader.kind(first + i) == ShapeKind::sphere;
+      aabbs += reader.kind(first + i) == ShapeKind::aabb;
     }
-    if (count == kLanes) return boxes.load(first, radius, lower, upper);
-    SphereExtents().load(first, radius, lower, upper);
-    if (count == 0) return;
+    if (spheres == kLanes) return SphereExtents().load(first, radius, lower, upper);
+    if (aabbs == kLanes) return boxes.load(first, radius, lower, upper);
+    load_singly(first, lower, upper);
+  }
 
-    // Spheres have no row of their own: theirs is that of a neighbour.
-    size_t rows[kLanes];
+  void load_singly(size_t first, F3& lower, F3& upper) const {
+    HWY_ALIGN float corners[6][kLanes];
     for (size_t i = 0; i < kLanes; ++i) {
-      rows[i] = boxes.row(box_lanes[i] != 0 ? first + i : some_box);
+      const Extent extent = extent_of(reader, first + i);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        corners[axis][i] = extent.lower[axis];
+        corners[3 + axis][i] = extent.upper[axis];
+      }
     }
-    F3 box_lower, box_upper;
-    boxes.gather_rows(rows, box_lower, box_upper);
-    const Mask is_box = hn::Ne(hn::Load(FloatTag(), box_lanes), splat(0));
-    lower = select(is_box, box_lower, lower);
-    upper = select(is_box, box_upper, upper);
+    lower = {load_scalars(corners[0]), load_scalars(corners[1]), load_scalars(corners[2])};
+    upper = {load_scalars(corners[3]), load_scalars(corners[4]), load_scalars(corners[5])};
   }
 };
 

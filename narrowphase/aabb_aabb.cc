@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
+#include "narrowphase/manifold-inl.h"
 #include "simd/axis-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -13,15 +14,16 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 struct AabbAabb {
-  using A = BoxLanes;
-  using B = BoxLanes;
+  using A = AabbLanes;
+  using B = AabbLanes;
   // Differences of given coordinates: exact for boxes in world coordinates.
-  static constexpr bool kIsExactNearTouch = true;
+  static constexpr Units kUnits = Units::metres;
+  static constexpr Unsure kUnsure = Unsure::nothing;
 
   template <class Report>
-  static HWY_INLINE void test(const F3& relative, const A& a, const B& b, Report& report) {
-    const F3 b_lower = b.lower + relative;  // in the frame of A
-    const F3 b_upper = b.upper + relative;
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    const F3 b_lower = b.lower + pose.d;  // in the frame of A
+    const F3 b_upper = b.upper + pose.d;
     const F3 gap_if_above = b_lower - a.upper;
     const F3 gap_if_below = a.lower - b_upper;
     const Mask3 above = {hn::Ge(gap_if_above.x, gap_if_below.x),
@@ -46,7 +48,7 @@ struct AabbAabb {
            hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
            select(overlapping, signed_axis(axis, below), away),
            select(at_face, select(above, a.upper, a.lower), middle),
-           select(at_face, select(above, b.lower, b.upper), middle - relative));
+           select(at_face, select(above, b.lower, b.upper), middle - pose.d));
   }
 
  private:
@@ -56,7 +58,16 @@ struct AabbAabb {
   }
 };
 
-void aabb_aabb(const Batch& batch) { run_batch<AabbAabb>(batch); }
+void aabb_aabb(const Batch& batch) {
+  switch (batch.pass) {
+    case Pass::test:
+      return run_batch<AabbAabb>(batch);
+    case Pass::distance:
+      return;  // the test yields it
+    case Pass::manifold:
+      return run_manifold<AabbLanes, AabbLanes>(batch);
+  }
+}
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

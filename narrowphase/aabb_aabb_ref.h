@@ -42,7 +42,7 @@ inline Separation aabb_aabb(const Vector3f& lower_a, const Vector3f& upper_a,
   const int axis = axes[0].gap >= axes[1].gap && axes[0].gap >= axes[2].gap ? 0
                    : axes[1].gap >= axes[2].gap                             ? 1
                                                                             : 2;
-  Separation result{};
+  Separation result;
   result.separation = is_separate ? distance.length : axes[axis].gap;
   for (int i = 0; i < 3; ++i) {
     if (is_separate) {

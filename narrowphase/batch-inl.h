@@ -2,13 +2,13 @@
 //
 // A kernel is a policy:
 //   using A, using B   shape lanes of the two sides
-//   static void test(const F3& relative, const A&, const B&, Report& report)
-//   static constexpr bool kIsExactNearTouch
+//   static void test(const PoseLanes& pose, const A&, const B&, Report& report)
+//   static constexpr Units kUnits
+//   static constexpr Unsure kUnsure
 // test() calls
-//   report(overlap, near_touch, degenerate, separation, normal, arm_a, arm_b)
-// once; names and signs as in Contact. It is branch-free, the same at every detail: what a detail
-// does not store, the compiler drops. Lanes in `near_touch` lie within rounding of touching: their
-// separation is computed again in double precision, one by one, unless the kernel is exact there.
+//   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
+// once; names, frames and signs as in Contact. It is branch-free, the same at every detail: what a
+// detail does not store, the compiler drops. Lanes in `unsure` are those that float32 cannot decide.
 #if defined(CAROM_NARROWPHASE_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_INL_H_
@@ -16,35 +16,62 @@
 #define CAROM_NARROWPHASE_BATCH_INL_H_
 #endif
 
-#include <limits>
 #include <type_traits>
 
+#include "kernel/tolerances.h"
+#include "narrowphase/kernel_policy.h"
 #include "narrowphase/load-inl.h"
-#include "narrowphase/single_pair.h"
-#include "narrowphase/store-inl.h"
+#include "narrowphase/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-template <class Kernel, class Records, Detail kDetail, WitnessFrame kFrame>
+// Changes the units and returns the metres a unit.
+template <Units kUnits, class A, class B>
+HWY_INLINE F to_units(PoseLanes& pose, A& a, B& b) {
+  if constexpr (kUnits == Units::metres) return splat(1);
+  F up, down;
+  power_of_two(max(largest_component(pose.d), max(a.extent(), b.extent())), up, down);
+  pose.d = pose.d * down;
+  a.scale(down);
+  b.scale(down);
+  return up;
+}
+
+template <class A, class B, class Bodies>
+HWY_INLINE void load_orientations(const Batch& batch, const Bodies& bodies, PoseLanes& pose) {
+  if constexpr (A::kIsOriented) load_orientation<Role::a>(batch.a, bodies, pose.a);
+  if constexpr (B::kIsOriented) load_orientation<Role::b>(batch.b, bodies, pose.b);
+}
+
+// The identity in lanes that are not valid; elsewhere squares neither vanish nor overflow.
+HWY_INLINE void clear_unless(Mask valid, Quaternion& q) {
+  F up, down;
+  power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
+  q.v = zero_unless(valid, q.v * down);
+  q.w = hn::IfThenElse(valid, hn::Mul(q.w, down), splat(1));
+}
+
+template <class Kernel, class Records, Detail kDetail, class Frame>
 struct BatchLoop {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
+  using Report = LaneReport<Kernel, Records::kHasLow, kDetail, Frame>;
 
   static void run(const Batch& batch) {
     const size_t whole = batch.count - batch.count % kLanes;
     // A copy that nothing else can see: stores of bytes might change `batch`, for all the compiler
     // knows, and would make it read every field again.
     const Batch local = batch;
-    if (has_dense_rows(batch)) {
-      for (size_t row = 0; row < whole; row += kLanes) {
-        if (HWY_UNLIKELY(!run_plain(local, batch, row, DenseRows{row}))) run_odd(batch, row);
+    bool is_done = false;
+    if constexpr (Records::kHasDenseLoop) {
+      is_done = has_dense_rows(batch);
+      for (size_t row = 0; is_done && row < whole; row += kLanes) {
+        run_vector(local, batch, row, DenseRows{row});
       }
-    } else {
-      for (size_t row = 0; row < whole; row += kLanes) {
-        const Listed listed{local.pairs + row};
-        if (HWY_UNLIKELY(!run_plain(local, batch, row, listed))) run_odd(batch, row);
-      }
+    }
+    for (size_t row = 0; !is_done && row < whole; row += kLanes) {
+      run_vector(local, batch, row, Listed{local.pairs + row});
     }
     if (whole < batch.count) run_tail(batch, whole);
   }
@@ -57,94 +84,43 @@ struct BatchLoop {
     return batch.pairs_are_rows && dense_records && A::is_dense(batch.a) && B::is_dense(batch.b);
   }
 
-  // False, and nothing done, if a lane is not plainly valid. `batch` is a private copy of `source`.
+  // `batch` is a private copy of `source`.
   template <class Bodies>
-  static HWY_INLINE bool run_plain(const Batch& batch, const Batch& source, size_t row,
-                                   const Bodies& bodies) {
-    PositionLanes positions;
-    Records::load(batch, bodies, positions);
-    const A a = A::template load<Role::a>(batch.a, bodies, positions);
-    const B b = B::template load<Role::b>(batch.b, bodies, positions);
-    const Mask plain = is_plainly_valid(positions.relative, a, b);
-    if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), plain))) return false;
-    PlainReport report{batch.out, source, row, positions};
-    Kernel::test(positions.relative, a, b, report);
-    return true;
-  }
-
-  // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
-  static HWY_NOINLINE void run_odd(const Batch& batch, size_t row) {
-    const Mask valid = valid_lanes(batch, row);
-    const Listed bodies{batch.pairs + row};
+  static HWY_INLINE void run_vector(const Batch& batch, const Batch& source, size_t row,
+                                    const Bodies& bodies) {
     PositionLanes positions;
     Records::load(batch, bodies, positions);
     A a = A::template load<Role::a>(batch.a, bodies, positions);
     B b = B::template load<Role::b>(batch.b, bodies, positions);
+    PoseLanes pose;
+    load_orientations<A, B>(batch, bodies, pose);
+    pose.d = positions.relative;
+    Mask valid = is_plainly_valid(pose, a, b);
+    // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
+    const bool is_odd = !hn::AllTrue(FloatTag(), valid);
+    if (HWY_UNLIKELY(is_odd)) {
+      valid = valid_lanes(source, row);
+      clear_unless(valid, positions, pose, a, b);
+    }
+    const F up = to_units<Kernel::kUnits>(pose, a, b);
+    Report report{batch, source, row, positions, up, valid, is_odd};
+    Kernel::test(pose, a, b, report);
+  }
+
+  static HWY_INLINE void clear_unless(Mask valid, PositionLanes& positions, PoseLanes& pose, A& a,
+                                      B& b) {
     a.clear_unless(valid);
     b.clear_unless(valid);
-    positions.relative = zero_unless(valid, clamp_to_finite(positions.relative));
+    if constexpr (A::kIsOriented) HWY_NAMESPACE::clear_unless(valid, pose.a);
+    if constexpr (B::kIsOriented) HWY_NAMESPACE::clear_unless(valid, pose.b);
+    pose.d = zero_unless(valid, clamp_to_finite(pose.d));
     positions.a = zero_unless(valid, positions.a);
     positions.b = zero_unless(valid, positions.b);
     if constexpr (Records::kHasLow) {
       positions.a_low = zero_unless(valid, positions.a_low);
       positions.b_low = zero_unless(valid, positions.b_low);
     }
-    OddReport report{{batch.out, batch, row, positions}, valid};
-    Kernel::test(positions.relative, a, b, report);
   }
-
-  // What a kernel says of its lanes goes to the columns.
-  struct PlainReport {
-    const ResultColumns& out;
-    const Batch& batch;
-    size_t row;
-    const PositionLanes& positions;
-
-    HWY_INLINE void operator()(Mask overlap, Mask near_touch, Mask degenerate, F separation,
-                               const F3& normal, const F3& arm_a, const F3& arm_b) const {
-      refine(near_touch, separation, overlap);
-      store_bytes(bytes_where(degenerate, static_cast<int32_t>(Status::degenerate)), out.status,
-                  row);
-      store_answer(overlap, separation, normal, arm_a, arm_b);
-    }
-
-    HWY_INLINE void refine(Mask near_touch, F& separation, Mask& overlap) const {
-      if constexpr (Kernel::kIsExactNearTouch) return;
-      if (HWY_LIKELY(hn::AllFalse(FloatTag(), near_touch))) return;
-      separation = refined(batch, row, near_touch, separation);
-      overlap = hn::Le(separation, splat(0));
-    }
-
-    HWY_INLINE void store_answer(Mask overlap, F separation, const F3& normal, const F3& arm_a,
-                                 const F3& arm_b) const {
-      store_bytes(bytes_where(overlap, 1), out.overlap, row);
-      if constexpr (kDetail == Detail::contact) {
-        store(separation, out.separation, row);
-        store(normal, out.normal, row);
-        store(witness(positions.a, positions.a_low, arm_a), out.point_a, row);
-        store(witness(positions.b, positions.b_low, arm_b), out.point_b, row);
-      }
-    }
-  };
-
-  // NaN where there is no answer; in world coordinates, too, since 0 + NaN is that NaN.
-  struct OddReport {
-    PlainReport plain;
-    Mask valid;
-
-    HWY_INLINE void operator()(Mask overlap, Mask near_touch, Mask degenerate, F separation,
-                               const F3& normal, const F3& arm_a, const F3& arm_b) const {
-      plain.refine(hn::And(near_touch, valid), separation, overlap);
-      const I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
-      const I invalid = bytes_where(hn::Not(valid), static_cast<int32_t>(Status::invalid));
-      store_bytes(hn::IfThenElse(hn::RebindMask(IntTag(), valid), status, invalid),
-                  plain.out.status, plain.row);
-      const F3 nan = splat3(std::numeric_limits<float>::quiet_NaN());
-      plain.store_answer(hn::And(overlap, valid), hn::IfThenElse(valid, separation, nan.x),
-                         select(valid, normal, nan), select(valid, arm_a, nan),
-                         select(valid, arm_b, nan));
-    }
-  };
 
   // A batch of one whole vector, filled up by repeating the last pair.
   static HWY_NOINLINE void run_tail(const Batch& batch, size_t first_row) {
@@ -164,22 +140,18 @@ struct BatchLoop {
   }
 
   // One comparison for everything that must be finite: NaN and infinity survive the sum.
-  static HWY_INLINE Mask is_plainly_valid(const F3& relative, const A& a, const B& b) {
-    const F distance =
-        hn::Add(hn::Add(hn::Abs(relative.x), hn::Abs(relative.y)), hn::Abs(relative.z));
-    const F sum = hn::Add(distance, hn::Add(a.size(), b.size()));
-    return hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
+  static HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) {
+    const F sum = hn::Add(sum_of_sizes(pose.d), hn::Add(a.size(), b.size()));
+    Mask valid =
+        hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
+    if constexpr (A::kIsOriented) valid = hn::And(valid, is_plain(pose.a));
+    if constexpr (B::kIsOriented) valid = hn::And(valid, is_plain(pose.b));
+    return valid;
   }
 
-  static HWY_NOINLINE F refined(const Batch& batch, size_t row, Mask near_touch, F separation) {
-    HWY_ALIGN float values[kLanes];
-    HWY_ALIGN float flags[kLanes];
-    hn::Store(separation, FloatTag(), values);
-    hn::Store(hn::IfThenElseZero(near_touch, splat(1)), FloatTag(), flags);
-    for (size_t i = 0; i < kLanes; ++i) {
-      if (flags[i] != 0) values[i] = near_touch_separation(batch, A::kKind, B::kKind, row + i);
-    }
-    return hn::Load(FloatTag(), values);
+  static HWY_INLINE Mask is_plain(const Quaternion& q) {
+    const F norm = squared_norm(q);
+    return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
   }
 
   static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {
@@ -189,39 +161,46 @@ struct BatchLoop {
     }
     return hn::Gt(hn::Load(FloatTag(), flags), hn::Zero(FloatTag()));
   }
-
-  static HWY_INLINE F3 witness(const F3& position, const F3& low, const F3& arm) {
-    if constexpr (kFrame == WitnessFrame::body) return arm;
-    if constexpr (Records::kHasLow) return position + (low + arm);
-    return position + arm;
-  }
 };
 
-template <class Kernel, class Records>
-void run_with_records(const Batch& batch) {
+template <class Kernel, class Records, class Frame>
+void run_at_detail(const Batch& batch) {
   if (batch.detail == Detail::overlap) {
-    BatchLoop<Kernel, Records, Detail::overlap, WitnessFrame::body>::run(batch);
-  } else if (batch.frame == WitnessFrame::body) {
-    BatchLoop<Kernel, Records, Detail::contact, WitnessFrame::body>::run(batch);
+    BatchLoop<Kernel, Records, Detail::overlap, Frame>::run(batch);
   } else {
-    BatchLoop<Kernel, Records, Detail::contact, WitnessFrame::world>::run(batch);
+    BatchLoop<Kernel, Records, Detail::contact, Frame>::run(batch);
   }
 }
 
+template <class Kernel, class Records>
+void run_with_records(const Batch& batch) {
+  if (batch.frame == WitnessFrame::body) {
+    run_at_detail<Kernel, Records, BodyFrame>(batch);
+  } else {
+    run_at_detail<Kernel, Records, WorldFrame>(batch);
+  }
+}
+
+// Kernels of a few operations are compiled for every layout; for the others looking at it in the
+// loop costs nothing that counts, and compiling them takes long.
 template <class Kernel>
 void run_batch(const Batch& batch) {
-  switch (batch.layout) {
-    case PositionLayout::none:
-      if constexpr (std::is_same_v<typename Kernel::A, BoxLanes>) {
-        run_with_records<Kernel, NoRecords>(batch);
-      }
-      break;
-    case PositionLayout::records32:
-      run_with_records<Kernel, Records32>(batch);
-      break;
-    case PositionLayout::records64:
-      run_with_records<Kernel, Records64>(batch);
-      break;
+  if constexpr (Kernel::kUnits == Units::scaled) {
+    run_at_detail<Kernel, AnyRecords, AnyFrame>(batch);
+  } else {
+    switch (batch.layout) {
+      case PositionLayout::none:
+        if constexpr (Kernel::A::kKind == ShapeKind::aabb && Kernel::B::kKind == ShapeKind::aabb) {
+          run_with_records<Kernel, NoRecords>(batch);
+        }
+        break;
+      case PositionLayout::records32:
+        run_with_records<Kernel, Records32>(batch);
+        break;
+      case PositionLayout::records64:
+        run_with_records<Kernel, Records64>(batch);
+        break;
+    }
   }
 }
 

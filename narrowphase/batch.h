@@ -17,13 +17,26 @@ enum class PositionLayout : uint8_t {
   records64,  // x, y, z, w float64
 };
 
-// One side of the batch. Records and boxes as in Collidables, restricted to what kernels load.
+// One side of the batch. Names as in Collidables, restricted to what kernels load. There is always
+// an orientation: one for all with stride 0 where nothing is turned.
 struct BatchSide {
   const void* records = nullptr;
   size_t record_stride = 0;
   AabbColumns boxes;
   const uint32_t* box_slot = nullptr;  // nullptr: the body's own index
+  OrientationView orientation;
+  ShapeRows rows;
 };
+
+// What a run of a batch does. All pairs are tested; some kinds leave work for rows that need it.
+enum class Pass : uint8_t {
+  test,      // decision, and the contact of overlapping pairs; where there is no distance pass, all
+  distance,  // the contact columns of separate pairs
+  manifold,  // points of overlapping pairs, whose results are in `tested`
+};
+
+// The passes of a kind beside the test.
+enum class MorePasses : uint8_t { none, manifold, distance_and_manifold };
 
 // Row i tests a[pairs[i].a] against b[pairs[i].b]; the result goes to row i of `out`, which has
 // every column that the detail fills.
@@ -36,11 +49,13 @@ struct Batch {
   size_t count = 0;
   Detail detail = Detail::contact;
   WitnessFrame frame = WitnessFrame::world;
+  Pass pass = Pass::test;
+  ResultColumns tested;  // for Pass::manifold: separation, normal and point_a, relative to A
   ResultColumns out;
 };
 
 // run_NAME(batch) for every pair kind, on the ISA in use.
-#define CAROM_PAIR(name, kind_a, kind_b) void run_##name(const Batch& batch);
+#define CAROM_PAIR(name, kind_a, kind_b, passes) void run_##name(const Batch& batch);
 #include "narrowphase/pair_list.inc"
 #undef CAROM_PAIR
 

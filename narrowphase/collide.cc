@@ -4,6 +4,7 @@
 #include <cassert>
 #include <string>
 
+#include "kernel/body_reader.h"
 #include "kernel/parallel.h"
 #include "narrowphase/collide_pairs.h"
 #include "narrowphase/pair_block.h"
@@ -24,24 +25,38 @@ KindSet kinds_in(const Collidables& bodies) {
   return present;
 }
 
-Result<void> check_kinds(const Collidables& a, const Collidables& b) {
+Error no_kernel(ShapeKind a, ShapeKind b) {
+  return {std::string("no kernel for ") + name(a) + " against " + name(b)};
+}
+
+// By the kinds that are there; only if some of them do not meet, by every pair.
+template <class PairAt>
+Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t count,
+                         const PairAt& pair_at) {
   const KindSet in_a = kinds_in(a);
   const KindSet in_b = kinds_in(b);
+  bool all_meet = true;
   for (size_t i = 0; i < in_a.size(); ++i) {
     for (size_t j = 0; j < in_b.size(); ++j) {
-      const auto kind_a = static_cast<ShapeKind>(i);
-      const auto kind_b = static_cast<ShapeKind>(j);
-      if (in_a[i] && in_b[j] && !supports(kind_a, kind_b)) {
-        return Error{std::string("no kernel for ") + name(kind_a) + " against " + name(kind_b)};
-      }
+      if (!in_a[i] || !in_b[j]) continue;
+      all_meet = all_meet && supports(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
     }
+  }
+  if (all_meet) return {};
+  const BodyReader reader_a{a};
+  const BodyReader reader_b{b};
+  for (size_t i = 0; i < count; ++i) {
+    const Pair pair = pair_at(i);
+    const ShapeKind kind_a = reader_a.kind(pair.a);
+    const ShapeKind kind_b = reader_b.kind(pair.b);
+    if (!supports(kind_a, kind_b)) return no_kernel(kind_a, kind_b);
   }
   return {};
 }
 
 void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pairs, size_t count,
                     Detail detail, const ResultColumns& out, WitnessFrame frame,
-                    Parallelism parallelism) {
+                    bool wants_distances, Parallelism parallelism) {
   if (detail == Detail::pairs) return;
   for_each_block(count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     run_pair_block({.a = a,
@@ -51,6 +66,7 @@ void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pair
                     .count = end - begin,
                     .detail = detail,
                     .frame = frame,
+                    .wants_distances = wants_distances,
                     .out = from_row(out, begin)});
   });
 }
@@ -62,22 +78,26 @@ bool supports(ShapeKind a, ShapeKind b) { return find_pair_kind(a, b).exists(); 
 Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
                      Detail detail, const ResultColumns& out, WitnessFrame frame,
                      Parallelism parallelism) {
-  if (Result<void> checked = check_kinds(a, b); !checked) return checked;
-  collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, parallelism);
+  const auto pair_at = [&](size_t i) { return pairs[i]; };
+  if (Result<void> checked = check_kinds(a, b, pairs.size(), pair_at); !checked) return checked;
+  collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, true, parallelism);
   return {};
 }
 
 Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                           const ResultColumns& out, WitnessFrame frame, Parallelism parallelism) {
   assert(a.count == b.count);
-  if (Result<void> checked = check_kinds(a, b); !checked) return checked;
-  collide_blocks(a, b, nullptr, a.count, detail, out, frame, parallelism);
+  const auto pair_at = [](size_t i) -> Pair {
+    return {static_cast<uint32_t>(i), static_cast<uint32_t>(i)};
+  };
+  if (Result<void> checked = check_kinds(a, b, a.count, pair_at); !checked) return checked;
+  collide_blocks(a, b, nullptr, a.count, detail, out, frame, true, parallelism);
   return {};
 }
 
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
                    const ResultColumns& out, Parallelism parallelism) {
-  collide_blocks(bodies, bodies, pairs.data(), pairs.size(), detail, out, WitnessFrame::body,
+  collide_blocks(bodies, bodies, pairs.data(), pairs.size(), detail, out, WitnessFrame::body, false,
                  parallelism);
 }
 

@@ -11,7 +11,7 @@
 namespace carom {
 
 // collide() within one set, with witness points relative to the bodies. The kinds were checked when
-// the bodies were added.
+// the bodies were added. Of separate pairs the decision alone is sure to be written.
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
                    const ResultColumns& out, Parallelism parallelism);
 

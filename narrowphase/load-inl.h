@@ -10,6 +10,7 @@
 
 #include "narrowphase/batch.h"
 #include "simd/gather-inl.h"
+#include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -124,6 +125,7 @@ struct RelativeSource {
 
 // Boxes given in world coordinates.
 struct NoRecords {
+  static constexpr bool kHasDenseLoop = true;
   static constexpr bool kHasLow = false;
   static constexpr size_t kDenseStride = 0;
 
@@ -134,6 +136,7 @@ struct NoRecords {
 };
 
 struct Records32 {
+  static constexpr bool kHasDenseLoop = true;
   static constexpr bool kHasLow = false;
   static constexpr size_t kDenseStride = 4 * sizeof(float);
 
@@ -146,6 +149,7 @@ struct Records32 {
 };
 
 struct Records64 {
+  static constexpr bool kHasDenseLoop = true;
   static constexpr bool kHasLow = true;
   static constexpr size_t kDenseStride = 4 * sizeof(double);
 
@@ -162,10 +166,77 @@ struct Records64 {
   }
 };
 
+// Float32 or float64, as the batch says.
+struct AnyRecords {
+  static constexpr bool kHasDenseLoop = false;
+  static constexpr bool kHasLow = true;
+
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
+    if (batch.layout == PositionLayout::records64) {
+      Records64::load(batch, bodies, out);
+    } else {
+      Records32::load(batch, bodies, out);
+      out.a_low = out.b_low = splat3(-0.0f);  // which changes no sum, not even of zeros
+    }
+  }
+};
+
+// Row k of the shapes' parameters, `kRows` rows a shape.
+template <Role kRole, uint32_t kRows, class Bodies>
+struct RowSource {
+  const BatchSide& side;
+  const Bodies& bodies;
+  size_t k;
+
+  HWY_INLINE const float* row(size_t i) const {
+    const size_t body = bodies.template body<kRole>(i);
+    const size_t first = side.rows.first ? side.rows.first[body] : body * kRows;
+    return side.rows.data + 4 * (first + k);
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), row(i)); }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const { return row(i)[c]; }
+};
+
+template <Role kRole, uint32_t kRows, class Bodies>
+HWY_INLINE void load_row(const BatchSide& side, const Bodies& bodies, size_t k, F3& xyz, F& w) {
+  transpose_records(RowSource<kRole, kRows, Bodies>{side, bodies, k}, xyz, w);
+}
+
+template <Role kRole, class Bodies>
+struct OrientationSource {
+  const BatchSide& side;
+  const Bodies& bodies;
+
+  HWY_INLINE const float* quaternion(size_t i) const {
+    const size_t offset = bodies.template body<kRole>(i) * side.orientation.stride;
+    return reinterpret_cast<const float*>(reinterpret_cast<const char*>(side.orientation.data) +
+                                          offset);
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), quaternion(i)); }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const { return quaternion(i)[c]; }
+};
+
+template <Role kRole, class Bodies>
+HWY_INLINE void load_orientation(const BatchSide& side, const Bodies& bodies, Quaternion& q) {
+  transpose_records(OrientationSource<kRole, Bodies>{side, bodies}, q.v, q.w);
+}
+
+HWY_INLINE F sum_of_sizes(const F3& v) {
+  return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
+}
+
 // Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite; it may
-// be valid without, if its size overflows.
+// be valid without, if its size overflows. Kernels that work in scaled units use
+//   extent()    the greatest coordinate
+//   scale(F s)  makes the shape s times as large
 struct SphereLanes {
   static constexpr ShapeKind kKind = ShapeKind::sphere;
+  static constexpr bool kIsOriented = false;
   F radius;
 
   static bool is_dense(const BatchSide&) { return true; }
@@ -177,10 +248,13 @@ struct SphereLanes {
   HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
   HWY_INLINE F size() const { return radius; }
   HWY_INLINE void clear_unless(Mask keep) { radius = hn::IfThenElseZero(keep, radius); }
+  HWY_INLINE F extent() const { return radius; }
+  HWY_INLINE void scale(F s) { radius = hn::Mul(radius, s); }
 };
 
-struct BoxLanes {
+struct AabbLanes {
   static constexpr ShapeKind kKind = ShapeKind::aabb;
+  static constexpr bool kIsOriented = false;
   F3 lower, upper;
 
   static bool is_dense(const BatchSide& side) {
@@ -188,7 +262,7 @@ struct BoxLanes {
   }
 
   template <Role kRole>
-  static HWY_INLINE BoxLanes load(const BatchSide& side, const Listed& bodies,
+  static HWY_INLINE AabbLanes load(const BatchSide& side, const Listed& bodies,
                                   const PositionLanes&) {
     size_t offsets[kLanes];  // in bytes
     for (size_t i = 0; i < kLanes; ++i) {
@@ -206,7 +280,7 @@ struct BoxLanes {
   }
 
   template <Role>
-  static HWY_INLINE BoxLanes load(const BatchSide& side, const DenseRows& rows,
+  static HWY_INLINE AabbLanes load(const BatchSide& side, const DenseRows& rows,
                                   const PositionLanes&) {
     const FloatTag tag;
     const AabbColumns& boxes = side.boxes;
@@ -229,6 +303,146 @@ struct BoxLanes {
     lower = zero_unless(keep, lower);
     upper = zero_unless(keep, upper);
   }
+  HWY_INLINE F extent() const { return max(largest_component(lower), largest_component(upper)); }
+  HWY_INLINE void scale(F s) {
+    lower = lower * s;
+    upper = upper * s;
+  }
+};
+
+struct CapsuleLanes {
+  static constexpr ShapeKind kKind = ShapeKind::capsule;
+  static constexpr bool kIsOriented = true;
+  F3 a, b;
+  F radius;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE CapsuleLanes load(const BatchSide& side, const Bodies& bodies,
+                                      const PositionLanes&) {
+    CapsuleLanes capsule;
+    F unused;
+    load_row<kRole, 2>(side, bodies, 0, capsule.a, capsule.radius);
+    load_row<kRole, 2>(side, bodies, 1, capsule.b, unused);
+    return capsule;
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
+  HWY_INLINE F size() const { return hn::Add(hn::Add(sum_of_sizes(a), sum_of_sizes(b)), radius); }
+  HWY_INLINE void clear_unless(Mask keep) {
+    a = zero_unless(keep, a);
+    b = zero_unless(keep, b);
+    radius = hn::IfThenElseZero(keep, radius);
+  }
+  HWY_INLINE F extent() const {
+    return max(max(largest_component(a), largest_component(b)), radius);
+  }
+  HWY_INLINE void scale(F s) {
+    a = a * s;
+    b = b * s;
+    radius = hn::Mul(radius, s);
+  }
+};
+
+struct BoxLanes {
+  static constexpr ShapeKind kKind = ShapeKind::box;
+  static constexpr bool kIsOriented = true;
+  F3 half;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE BoxLanes load(const BatchSide& side, const Bodies& bodies,
+                                  const PositionLanes&) {
+    BoxLanes box;
+    F unused;
+    load_row<kRole, 1>(side, bodies, 0, box.half, unused);
+    return box;
+  }
+  HWY_INLINE Mask is_ordered() const {
+    return hn::Ge(min(min(half.x, half.y), half.z), splat(0));
+  }
+  HWY_INLINE F size() const { return sum_of_sizes(half); }
+  HWY_INLINE void clear_unless(Mask keep) { half = zero_unless(keep, half); }
+  HWY_INLINE F extent() const { return max(max(half.x, half.y), half.z); }
+  HWY_INLINE void scale(F s) { half = half * s; }
+};
+
+struct TriangleLanes {
+  static constexpr ShapeKind kKind = ShapeKind::triangle;
+  static constexpr bool kIsOriented = true;
+  F3 a, b, c;
+  F thickness;
+  Mask is_special;  // thick, one-sided or with inner edges: tested in double precision
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE TriangleLanes load(const BatchSide& side, const Bodies& bodies,
+                                       const PositionLanes&) {
+    TriangleLanes triangle;
+    F one_sided, inner_edges;
+    load_row<kRole, 3>(side, bodies, 0, triangle.a, triangle.thickness);
+    load_row<kRole, 3>(side, bodies, 1, triangle.b, one_sided);
+    load_row<kRole, 3>(side, bodies, 2, triangle.c, inner_edges);
+    const F zero = splat(0);
+    triangle.is_special = hn::Or(hn::Or(hn::Ne(triangle.thickness, zero), hn::Ne(one_sided, zero)),
+                                 hn::Ne(inner_edges, zero));
+    return triangle;
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(thickness, splat(0)); }
+  HWY_INLINE F size() const {
+    return hn::Add(hn::Add(hn::Add(sum_of_sizes(a), sum_of_sizes(b)), sum_of_sizes(c)), thickness);
+  }
+  HWY_INLINE void clear_unless(Mask keep) {
+    a = zero_unless(keep, a);
+    b = zero_unless(keep, b);
+    c = zero_unless(keep, c);
+    thickness = hn::IfThenElseZero(keep, thickness);
+  }
+  HWY_INLINE F extent() const {
+    return max(max(largest_component(a), largest_component(b)),
+               max(largest_component(c), thickness));
+  }
+  HWY_INLINE void scale(F s) {
+    a = a * s;
+    b = b * s;
+    c = c * s;
+    thickness = hn::Mul(thickness, s);
+  }
+};
+
+// With a unit normal.
+struct HalfspaceLanes {
+  static constexpr ShapeKind kKind = ShapeKind::halfspace;
+  static constexpr bool kIsOriented = true;
+  F3 normal;
+  F offset;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE HalfspaceLanes load(const BatchSide& side, const Bodies& bodies,
+                                        const PositionLanes&) {
+    HalfspaceLanes plane;
+    load_row<kRole, 1>(side, bodies, 0, plane.normal, plane.offset);
+    F up, down;
+    power_of_two(largest_component(plane.normal), up, down);
+    const F3 n = plane.normal * down;
+    const F length = hn::Sqrt(dot(n, n));
+    plane.normal = n * hn::Div(splat(1), length);
+    plane.offset = hn::Div(hn::Mul(plane.offset, down), length);
+    return plane;
+  }
+  // A normal of zero gives an offset that is not a number, and one too far to count an infinite one.
+  HWY_INLINE Mask is_ordered() const { return hn::Eq(offset, offset); }
+  HWY_INLINE F size() const { return hn::Add(sum_of_sizes(normal), hn::Abs(offset)); }
+  HWY_INLINE void clear_unless(Mask keep) {
+    normal = zero_unless(keep, normal);
+    offset = hn::IfThenElseZero(keep, clamp_to_finite(offset));
+  }
+  HWY_INLINE F extent() const { return hn::Abs(offset); }
+  HWY_INLINE void scale(F s) { offset = hn::Mul(offset, s); }
 };
 
 }  // namespace carom::HWY_NAMESPACE

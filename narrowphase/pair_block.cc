@@ -1,5 +1,6 @@
 #include "narrowphase/pair_block.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -19,12 +20,26 @@ std::optional<PositionLayout> common_layout(const PositionView& a, const Positio
   return a.type == PositionType::float64 ? PositionLayout::records64 : PositionLayout::records32;
 }
 
-BatchSide side_of(const Collidables& bodies) {
-  return {bodies.position.data, bodies.position.stride, bodies.boxes, bodies.box_slot};
+// Of bodies that are not turned.
+constexpr float kIdentity[4] = {0, 0, 0, 1};
+
+OrientationView orientation_of(const Collidables& bodies) {
+  return bodies.orientation.data ? bodies.orientation : OrientationView{kIdentity, 0};
 }
 
-// The side as seen from body `first` on.
-BatchSide from_body(BatchSide side, size_t first) {
+BatchSide side_of(const Collidables& bodies) {
+  return {bodies.position.data, bodies.position.stride, bodies.boxes,
+          bodies.box_slot,      orientation_of(bodies), bodies.rows};
+}
+
+// The side as seen from body `first` on; all bodies are of one kind.
+BatchSide from_body(BatchSide side, ShapeKind kind, size_t first) {
+  side.orientation.data += first * (side.orientation.stride / sizeof(float));
+  if (side.rows.first) {
+    side.rows.first += first;
+  } else if (side.rows.data) {
+    side.rows.data += first * row_count(kind) * std::tuple_size_v<Row>;
+  }
   if (side.records) {
     side.records = static_cast<const char*>(side.records) + first * side.record_stride;
   }
@@ -53,41 +68,39 @@ bool is_complete(const ResultColumns& out, Detail detail) {
   if (!out.overlap || !out.status) return false;
   if (detail == Detail::overlap) return true;
   bool complete = out.separation != nullptr;
+  if (detail == Detail::manifold) complete = complete && out.manifold_count && out.manifold;
   for (size_t axis = 0; axis < 3; ++axis) {
     complete = complete && out.normal[axis] && out.point_a[axis] && out.point_b[axis];
   }
   return complete;
 }
 
-// Results of a part of a block, in the order of the kernel's batch.
-struct ScratchColumns {
-  std::array<uint8_t, kPairsPerBlock> overlap, status;
-  std::array<std::array<float, kPairsPerBlock>, 10> floats;
-
-  ResultColumns columns() {
-    const auto column3 = [this](size_t i) -> std::array<float*, 3> {
-      return {floats[i].data(), floats[i + 1].data(), floats[i + 2].data()};
-    };
-    return {overlap.data(), status.data(), floats[0].data(), column3(1), column3(4), column3(7)};
-  }
-};
-
 // Bodies copied out of a layout that kernels do not read.
 template <class T>
 struct PackedSide {
   std::array<std::array<T, 4>, kPairsPerBlock> records;
   std::array<uint32_t, kPairsPerBlock> box_slot;
+  std::array<Row, kPairsPerBlock> orientation;
+  std::array<uint32_t, kPairsPerBlock> first_row;
 
   void put(size_t row, const Collidables& bodies, uint32_t index) {
     const BodyReader reader{bodies};
     const Position<T> p = reader.position<T>(index);
-    const bool is_sphere = reader.kind(index) == ShapeKind::sphere;
-    records[row] = {p.x, p.y, p.z, is_sphere ? T{reader.radius(index)} : T{0}};
-    if (!is_sphere) box_slot[row] = static_cast<uint32_t>(reader.box(index));
+    const ShapeKind kind = reader.kind(index);
+    records[row] = {p.x, p.y, p.z, kind == ShapeKind::sphere ? T{reader.radius(index)} : T{0}};
+    if (kind == ShapeKind::aabb) box_slot[row] = static_cast<uint32_t>(reader.box(index));
+    if (row_count(kind) == 0) return;
+    orientation[row] = reader.orientation(index);
+    first_row[row] = static_cast<uint32_t>(reader.first_row(index));
   }
 
   BatchSide side(const Collidables& bodies) const {
-    return {records.data(), sizeof(records[0]), bodies.boxes, box_slot.data()};
+    return {records.data(),
+            sizeof(records[0]),
+            bodies.boxes,
+            box_slot.data(),
+            {orientation[0].data(), sizeof(Row)},
+            {bodies.rows.data, first_row.data()}};
   }
 };
 
@@ -100,7 +113,7 @@ class BlockRunner {
   void run() {
     if (!block_.a.kind && !block_.b.kind) {
       const PairKindRef kind = find_pair_kind(block_.a.uniform_kind, block_.b.uniform_kind);
-      if (layout_ && !kind.flipped && is_complete(block_.out, block_.detail)) {
+      if (layout_ && !kind.flipped && !moves_points() && is_complete(block_.out, block_.detail)) {
         return run_in_place(kind);
       }
     }
@@ -113,6 +126,11 @@ class BlockRunner {
   }
 
  private:
+  // Manifolds are found relative to the bodies.
+  bool moves_points() const {
+    return block_.detail == Detail::manifold && block_.frame == WitnessFrame::world;
+  }
+
   static size_t slot(PairKindRef kind) { return size_t{kind.index} * 2 + kind.flipped; }
 
   Pair pair(size_t row) const {
@@ -129,7 +147,7 @@ class BlockRunner {
     batch.b = side_of(b);
     if (layout_) batch.layout = *layout_;
     batch.detail = block_.detail;
-    batch.frame = block_.frame;
+    batch.frame = moves_points() ? WitnessFrame::body : block_.frame;
     return batch;
   }
 
@@ -138,14 +156,14 @@ class BlockRunner {
     Batch whole = batch(kind);
     whole.pairs = block_.pairs;
     if (!block_.pairs) {
-      whole.a = from_body(whole.a, block_.first);
-      whole.b = from_body(whole.b, block_.first);
+      whole.a = from_body(whole.a, kPairKinds[kind.index].a, block_.first);
+      whole.b = from_body(whole.b, kPairKinds[kind.index].b, block_.first);
       whole.pairs = kRowPairs.data();
       whole.pairs_are_rows = true;
     }
     whole.count = block_.count;
     whole.out = block_.out;
-    kPairKinds[kind.index].run(whole);
+    run_passes(kPairKinds[kind.index], whole, block_.wants_distances);
   }
 
   void sort_by_kind() {
@@ -171,8 +189,10 @@ class BlockRunner {
     part.pairs = pairs_.data();
     part.count = count;
     part.out = scratch_.columns();
+    part.out.manifold_count = manifold_count_.data();
+    part.out.manifold = manifold_.data();
     if (layout_) {
-      kPairKinds[kind.index].run(part);
+      run_passes(kPairKinds[kind.index], part, block_.wants_distances);
     } else if (BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64()) {
       run_packed<double>(kind, part, PositionLayout::records64);
     } else {
@@ -194,7 +214,7 @@ class BlockRunner {
     part.b = packed_b.side(b);
     part.layout = layout;
     part.pairs = kRowPairs.data();
-    kPairKinds[kind.index].run(part);
+    run_passes(kPairKinds[kind.index], part, block_.wants_distances);
   }
 
   // Back to the rows of the block; what was flipped is turned round.
@@ -203,7 +223,9 @@ class BlockRunner {
     const ResultColumns& to = block_.out;
     copy(from.overlap, to.overlap, count);
     copy(from.status, to.status, count);
-    if (block_.detail != Detail::contact) return;
+    if (!has_contacts(block_.detail)) return;
+    if (block_.detail == Detail::manifold) scatter_manifolds(kind, count);
+    if (moves_points()) move_witnesses(kind, count);
     copy(from.separation, to.separation, count);
     for (size_t axis = 0; axis < 3; ++axis) {
       if (kind.flipped) negate(from.normal[axis], count);
@@ -211,6 +233,77 @@ class BlockRunner {
       copy(from.point_a[axis], (kind.flipped ? to.point_b : to.point_a)[axis], count);
       copy(from.point_b[axis], (kind.flipped ? to.point_a : to.point_b)[axis], count);
     }
+  }
+
+  // Points are on the side that is the kernel's A, relative to it.
+  void scatter_manifolds(PairKindRef kind, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t k = 0; k < manifold_count_[i]; ++k) {
+        std::array<float, 3>& point = manifold_[i].point[k];
+        if (kind.flipped) point = on_kernel_b(point, manifold_[i].separation[k], i);
+        if (moves_points()) point = in_world(block_.a, pair(rows_[i]).a, point);
+      }
+    }
+    copy(manifold_count_.data(), block_.out.manifold_count, count);
+    copy(manifold_.data(), block_.out.manifold, count);
+  }
+
+  // The point of the kernel's B that faces one of its A, relative to B.
+  std::array<float, 3> on_kernel_b(const std::array<float, 3>& on_a, float separation,
+                                   size_t i) const {
+    const Pair p = pair(rows_[i]);
+    const std::array<float, 3> d = relative_position(p);  // of the kernel's A, seen from its B
+    const ResultColumns from = const_cast<ScratchColumns&>(scratch_).columns();
+    std::array<float, 3> on_b;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      on_b[axis] = (on_a[axis] + from.normal[axis][i] * separation) + d[axis];
+    }
+    return on_b;
+  }
+
+  // The position of B less that of A, in float32.
+  std::array<float, 3> relative_position(Pair p) const {
+    const BodyReader a{block_.a};
+    const BodyReader b{block_.b};
+    const bool is_float64 = a.is_float64() || b.is_float64();
+    return is_float64 ? difference(a.position<double>(p.a), b.position<double>(p.b))
+                      : difference(a.position<float>(p.a), b.position<float>(p.b));
+  }
+
+  template <class T>
+  static std::array<float, 3> difference(const Position<T>& a, const Position<T>& b) {
+    const auto finite = [](T x) {
+      return std::clamp(static_cast<float>(x), -FLT_MAX, FLT_MAX);
+    };
+    return {finite(b.x - a.x), finite(b.y - a.y), finite(b.z - a.z)};
+  }
+
+  void move_witnesses(PairKindRef kind, size_t count) {
+    const ResultColumns from = scratch_.columns();
+    for (size_t i = 0; i < count; ++i) {
+      const Pair p = pair(rows_[i]);
+      move(kind.flipped ? from.point_b : from.point_a, i, block_.a, p.a);
+      move(kind.flipped ? from.point_a : from.point_b, i, block_.b, p.b);
+    }
+  }
+
+  static void move(const std::array<float*, 3>& columns, size_t i, const Collidables& bodies,
+                   uint32_t body) {
+    const auto moved = in_world(bodies, body, {columns[0][i], columns[1][i], columns[2][i]});
+    for (size_t axis = 0; axis < 3; ++axis) columns[axis][i] = moved[axis];
+  }
+
+  // As the kernels do it: a float64 position is a float32 and what that leaves.
+  static std::array<float, 3> in_world(const Collidables& bodies, uint32_t body,
+                                       const std::array<float, 3>& arm) {
+    const BodyReader reader{bodies};
+    const Position<double> p = reader.position<double>(body);
+    const auto sum = [&reader](double position, float x) {
+      if (x != x) return x;
+      const auto high = static_cast<float>(position);
+      return reader.is_float64() ? high + (static_cast<float>(position - high) + x) : high + x;
+    };
+    return {sum(p.x, arm[0]), sum(p.y, arm[1]), sum(p.z, arm[2])};
   }
 
   template <class T>
@@ -233,6 +326,8 @@ class BlockRunner {
   std::array<uint16_t, kPairsPerBlock> rows_;
   std::array<Pair, kPairsPerBlock> pairs_;
   ScratchColumns scratch_;
+  std::array<uint8_t, kPairsPerBlock> manifold_count_;
+  std::array<ManifoldPoints, kPairsPerBlock> manifold_;
 };
 
 }  // namespace
@@ -245,7 +340,8 @@ ResultColumns from_row(const ResultColumns& columns, size_t row) {
     return {shift(c[0]), shift(c[1]), shift(c[2])};
   };
   return {shift(columns.overlap), shift(columns.status),   shift(columns.separation),
-          shift3(columns.normal), shift3(columns.point_a), shift3(columns.point_b)};
+          shift3(columns.normal), shift3(columns.point_a), shift3(columns.point_b),
+          shift(columns.manifold_count), shift(columns.manifold)};
 }
 
 }  // namespace carom

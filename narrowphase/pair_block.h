@@ -6,11 +6,9 @@
 #include "carom/kernel/contact.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/views.h"
+#include "narrowphase/passes.h"
 
 namespace carom {
-
-// Small enough for the scratch of a block to stay in L2, large enough to amortise a task.
-inline constexpr size_t kPairsPerBlock = 1024;
 
 struct PairBlock {
   const Collidables& a;
@@ -20,6 +18,8 @@ struct PairBlock {
   size_t count;  // <= kPairsPerBlock
   Detail detail;
   WitnessFrame frame;
+  // False: of separate pairs the decision is enough; their other columns may hold anything.
+  bool wants_distances = true;
   ResultColumns out;  // of the block
 };
 

@@ -13,10 +13,15 @@ struct PairKind {
   ShapeKind a;
   ShapeKind b;
   void (*run)(const Batch& batch);
+  MorePasses more;
+
+  bool has_distance_pass() const { return more == MorePasses::distance_and_manifold; }
+  bool has_manifold_pass() const { return more != MorePasses::none; }
 };
 
 inline constexpr std::array kPairKinds = {
-#define CAROM_PAIR(name, kind_a, kind_b) PairKind{ShapeKind::kind_a, ShapeKind::kind_b, run_##name},
+#define CAROM_PAIR(name, kind_a, kind_b, passes) \
+  PairKind{ShapeKind::kind_a, ShapeKind::kind_b, run_##name, MorePasses::passes},
 #include "narrowphase/pair_list.inc"
 #undef CAROM_PAIR
 };
@@ -30,13 +35,24 @@ struct PairKindRef {
   bool exists() const { return index != 0xff; }
 };
 
-constexpr PairKindRef find_pair_kind(ShapeKind a, ShapeKind b) {
+// By the kinds of both sides.
+inline constexpr auto kPairKindTable = [] {
+  std::array<std::array<PairKindRef, kShapeKindCount>, kShapeKindCount> table{};
   for (size_t i = 0; i < kPairKinds.size(); ++i) {
-    const auto index = static_cast<uint8_t>(i);
-    if (kPairKinds[i].a == a && kPairKinds[i].b == b) return {index, false};
-    if (kPairKinds[i].a == b && kPairKinds[i].b == a) return {index, true};
+    const auto a = static_cast<size_t>(kPairKinds[i].a);
+    const auto b = static_cast<size_t>(kPairKinds[i].b);
+    table[b][a] = {static_cast<uint8_t>(i), true};
+    table[a][b] = {static_cast<uint8_t>(i), false};
   }
-  return {};
+  return table;
+}();
+
+constexpr PairKindRef find_pair_kind(ShapeKind a, ShapeKind b) {
+  const auto row = static_cast<size_t>(a);
+  const auto column = static_cast<size_t>(b);
+  return row < kPairKindTable.size() && column < kPairKindTable.size()
+             ? kPairKindTable[row][column]
+             : PairKindRef{};
 }
 
 }  // namespace carom

@@ -8,17 +8,25 @@
 namespace carom::reference {
 
 // Names, frames and signs as in Contact.
-struct Separation {
-  float separation;
-  Eigen::Vector3f normal;
-  Eigen::Vector3f arm_a;
-  Eigen::Vector3f arm_b;
+template <class Real>
+struct SeparationAs {
+  using Vector = Eigen::Matrix<Real, 3, 1>;
+
+  Real separation;
+  Vector normal;
+  Vector arm_a;
+  Vector arm_b;
   Status status = Status::ok;
+  // Real is too coarse: the pair lies within rounding of touching, or has no good normal in it.
+  bool is_unsure = false;
 };
 
+using Separation = SeparationAs<float>;
+
 // The same with A and B exchanged.
-inline Separation flipped(const Separation& s) {
-  return {s.separation, -s.normal, s.arm_b, s.arm_a, s.status};
+template <class Real>
+SeparationAs<Real> flipped(const SeparationAs<Real>& s) {
+  return {s.separation, -s.normal, s.arm_b, s.arm_a, s.status, s.is_unsure};
 }
 
 }  // namespace carom::reference

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kernel/body_reader.h"
+#include "narrowphase/any_pair_ref.h"
 
 namespace carom {
 namespace {
@@ -18,6 +19,8 @@ Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind
   view.uniform_kind = kind;
   view.boxes = side.boxes;
   view.box_slot = side.box_slot;
+  view.orientation = side.orientation;
+  view.rows = side.rows;
   return view;
 }
 
@@ -54,6 +57,51 @@ float sphere_box_separation(const BodyReader& box, size_t box_index, const Posit
   return static_cast<float>(0 - (way_out + radius));
 }
 
+// Of a sphere and a sphere or aabb.
+float sphere_separation(const Batch& batch, ShapeKind kind_b, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_a = view_of(batch.a, batch.layout, ShapeKind::sphere);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  const Position<double> centre =
+      difference(a.position<double>(pair.a), b.position<double>(pair.b));
+  if (kind_b == ShapeKind::aabb) {
+    return sphere_box_separation(b, pair.b, centre, a.radius(pair.a));
+  }
+  return gap(square(centre), double{a.radius(pair.a)} + double{b.radius(pair.b)});
+}
+
+Shape shape_of(const BodyReader& body, size_t index) {
+  switch (body.kind(index)) {
+    case ShapeKind::sphere:
+      return Sphere{body.radius(index)};
+    case ShapeKind::aabb:
+      return Aabb{{body.lower(0, index), body.lower(1, index), body.lower(2, index)},
+                  {body.upper(0, index), body.upper(1, index), body.upper(2, index)}};
+    default:
+      return shape_from_rows(body.kind(index), body.rows(index).data());
+  }
+}
+
+reference::Quaternion<double> orientation_of(const BodyReader& body, size_t index) {
+  const Row q = body.orientation(index);
+  return reference::quaternion_as<double>({q[0], q[1], q[2], q[3]});
+}
+
+reference::SeparationAs<double> exact_separation(const Batch& batch, ShapeKind kind_a,
+                                                 ShapeKind kind_b, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_a = view_of(batch.a, batch.layout, kind_a);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  const Position<double> d = difference(b.position<double>(pair.b), a.position<double>(pair.a));
+  return reference::separation_of<double>(
+      shape_of(a, pair.a), shape_of(b, pair.b),
+      {{d.x, d.y, d.z}, orientation_of(a, pair.a), orientation_of(b, pair.b)});
+}
+
 }  // namespace
 
 bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
@@ -64,17 +112,18 @@ bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_
 }
 
 float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
-  const Pair pair = batch.pairs[row];
-  const Collidables view_a = view_of(batch.a, batch.layout, kind_a);
-  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
-  const BodyReader a{view_a};
-  const BodyReader b{view_b};
-  const Position<double> centre =
-      difference(a.position<double>(pair.a), b.position<double>(pair.b));
-  if (kind_b == ShapeKind::aabb) {
-    return sphere_box_separation(b, pair.b, centre, a.radius(pair.a));
-  }
-  return gap(square(centre), double{a.radius(pair.a)} + double{b.radius(pair.b)});
+  const bool of_sphere = kind_a == ShapeKind::sphere &&
+                         (kind_b == ShapeKind::sphere || kind_b == ShapeKind::aabb);
+  if (of_sphere) return sphere_separation(batch, kind_b, row);
+  return reference::round_separation(exact_separation(batch, kind_a, kind_b, row).separation);
+}
+
+std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
+                                   size_t row) {
+  const auto s = reference::rounded(exact_separation(batch, kind_a, kind_b, row));
+  return {s.separation, s.normal.x(), s.normal.y(), s.normal.z(), s.arm_a.x(), s.arm_a.y(),
+          s.arm_a.z(),  s.arm_b.x(),  s.arm_b.y(),  s.arm_b.z(),
+          s.status == Status::degenerate ? 1.0f : 0.0f};
 }
 
 }  // namespace carom

@@ -1,6 +1,8 @@
 // The rare paths of a batch, one pair at a time: who is valid, and who touches.
 #pragma once
 
+#include <array>
+
 #include "carom/kernel/shape.h"
 #include "kernel/tolerances.h"
 #include "narrowphase/batch.h"
@@ -11,8 +13,12 @@ namespace carom {
 bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);
 
 // The separation of row `row` in double precision, from the positions as given, rounded once; its
-// sign is right unless the gap is below about 1e-15 of the pair's size. Kind A is sphere, kind B
-// sphere or aabb. Both bodies are valid.
+// sign is right unless the gap is below about 1e-15 of the pair's size. Both bodies are valid.
 float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);
+
+// The whole answer of row `row` in double precision, rounded once: separation, normal, arm_a, arm_b,
+// and 1 if the status is degenerate. Both bodies are valid.
+std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
+                                   size_t row);
 
 }  // namespace carom

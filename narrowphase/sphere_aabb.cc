@@ -15,12 +15,13 @@ namespace {
 
 struct SphereAabb {
   using A = SphereLanes;
-  using B = BoxLanes;
-  static constexpr bool kIsExactNearTouch = false;
+  using B = AabbLanes;
+  static constexpr Units kUnits = Units::metres;
+  static constexpr Unsure kUnsure = Unsure::separation;
 
   template <class Report>
-  static HWY_INLINE void test(const F3& relative, const A& sphere, const B& box, Report& report) {
-    const F3 centre = -relative;  // in the frame of the box
+  static HWY_INLINE void test(const PoseLanes& pose, const A& sphere, const B& box, Report& report) {
+    const F3 centre = -pose.d;  // in the frame of the box
     const F3 nearest = min(max(centre, box.lower), box.upper);
     const Length outside = measure(clamp_to_finite(nearest - centre));
     const Mask inside = outside.is_zero;
@@ -38,7 +39,7 @@ struct SphereAabb {
     const F gap = hn::IfThenElse(inside, hn::Neg(pick(axis, way_out)), outside.length);
     const F separation = hn::Sub(gap, sphere.radius);
     const F3 normal = select(inside, signed_axis(axis, upwards), outside.direction);
-    const F size = hn::Add(largest_component(relative), sphere.radius);
+    const F size = hn::Add(largest_component(pose.d), sphere.radius);
     const Mask near_touch = hn::Le(hn::Abs(separation), hn::Mul(size, splat(kNearTouch)));
     report(hn::Le(separation, splat(0)), near_touch, no_lanes(), separation, normal,
            normal * sphere.radius, select(inside, exit, nearest));

@@ -15,11 +15,12 @@ namespace {
 struct SphereSphere {
   using A = SphereLanes;
   using B = SphereLanes;
-  static constexpr bool kIsExactNearTouch = false;
+  static constexpr Units kUnits = Units::metres;
+  static constexpr Unsure kUnsure = Unsure::separation;
 
   template <class Report>
-  static HWY_INLINE void test(const F3& relative, const A& a, const B& b, Report& report) {
-    const Length distance = measure(relative);
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    const Length distance = measure(pose.d);
     // The larger radius first: that difference is exact near touch (Sterbenz), and so is the next.
     const F separation =
         hn::Sub(hn::Sub(distance.length, max(a.radius, b.radius)), min(a.radius, b.radius));

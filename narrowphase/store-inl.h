@@ -43,7 +43,7 @@ class TailColumns {
   void copy_to(const ResultColumns& to, size_t row, size_t count, Detail detail) const {
     copy(overlap_, to.overlap, row, count);
     copy(status_, to.status, row, count);
-    if (detail != Detail::contact) return;
+    if (!has_contacts(detail)) return;
     copy(floats_[0], to.separation, row, count);
     for (size_t axis = 0; axis < 3; ++axis) {
       copy(floats_[1 + axis], to.normal[axis], row, count);

@@ -9,6 +9,7 @@
 
 #include "carom/reference/reference.h"
 #include "kernel/float_environment.h"
+#include "reference/turned_extent.h"
 
 namespace carom::reference {
 namespace {
@@ -53,10 +54,14 @@ float round_up(const ExactSum<double>& s) {
 }
 
 // Corners relative to the position.
-Aabb extent(const Sphere& sphere) {
+Aabb extent(const Sphere& sphere, const Eigen::Quaternionf&) {
   return Aabb::from_half_extents(Eigen::Vector3f::Constant(sphere.radius));
 }
-Aabb extent(const Aabb& box) { return box; }
+Aabb extent(const Aabb& box, const Eigen::Quaternionf&) { return box; }
+template <class Turned>
+Aabb extent(const Turned& shape, const Eigen::Quaternionf& orientation) {
+  return turned_extent(shape, orientation);
+}
 
 // Sums beyond the range of float32 round to infinity, which is not below them (or above): the
 // largest float is.
@@ -73,32 +78,60 @@ Box bounds_at(const Aabb& extent, const Eigen::Vector3<Real>& position) {
   return box;
 }
 
-bool is_valid(const Sphere& sphere) { return std::isfinite(sphere.radius) && sphere.radius >= 0; }
+bool is_size(float x) { return std::isfinite(x) && x >= 0; }
 
-bool is_valid(const Aabb& box) {
+bool is_valid(const Sphere& sphere, const Eigen::Quaternionf&) { return is_size(sphere.radius); }
+
+bool is_valid(const Aabb& box, const Eigen::Quaternionf&) {
   return box.lower.allFinite() && box.upper.allFinite() &&
          (box.lower.array() <= box.upper.array()).all();
 }
 
-}  // namespace
-
-bool is_valid(const Shape& shape, const Eigen::Vector3d& position, PositionType positions) {
-  const FloatEnvironment environment;
-  const bool is_finite = positions == PositionType::float32 ? position.cast<float>().allFinite()
-                                                            : position.allFinite();
-  return is_finite && std::visit([](const auto& s) { return is_valid(s); }, shape);
+bool is_valid_shape(const Capsule& c) {
+  return c.a.allFinite() && c.b.allFinite() && is_size(c.radius);
+}
+bool is_valid_shape(const carom::Box& box) {
+  return box.half.allFinite() && (box.half.array() >= 0).all();
+}
+bool is_valid_shape(const Triangle& t) {
+  return t.corners[0].allFinite() && t.corners[1].allFinite() && t.corners[2].allFinite() &&
+         is_size(t.thickness) && t.inner_edges <= 7;
+}
+bool is_valid_shape(const Halfspace& h) {
+  return h.normal.allFinite() && std::isfinite(h.offset) && !h.normal.isZero(0);
 }
 
-Box bounds(const Shape& shape, const Eigen::Vector3d& position, PositionType positions) {
+template <class Turned>
+bool is_valid(const Turned& shape, const Eigen::Quaternionf& orientation) {
+  const Eigen::Vector4f q = orientation.coeffs();
+  return q.allFinite() && !q.isZero(0) && is_valid_shape(shape);
+}
+
+}  // namespace
+
+bool is_valid(const Shape& shape, const Pose& pose, PositionType positions) {
   const FloatEnvironment environment;
-  if (!is_valid(shape, position, positions)) {
+  const bool is_finite = positions == PositionType::float32
+                             ? pose.position.cast<float>().allFinite()
+                             : pose.position.allFinite();
+  return is_finite &&
+         std::visit([&](const auto& s) { return is_valid(s, pose.orientation); }, shape);
+}
+
+Box bounds(const Shape& shape, const Pose& pose, PositionType positions) {
+  const FloatEnvironment environment;
+  if (!is_valid(shape, pose, positions)) {
     return {Eigen::Vector3f::Constant(kInfinity), Eigen::Vector3f::Constant(-kInfinity)};
   }
-  const Aabb corners = std::visit([](const auto& s) { return extent(s); }, shape);
-  if (positions == PositionType::float32) {
-    return bounds_at<float>(corners, position.cast<float>());
+  if (std::holds_alternative<Halfspace>(shape)) {
+    return {Eigen::Vector3f::Constant(-kInfinity), Eigen::Vector3f::Constant(kInfinity)};
   }
-  return bounds_at<double>(corners, position);
+  const Aabb corners =
+      std::visit([&](const auto& s) { return extent(s, pose.orientation); }, shape);
+  if (positions == PositionType::float32) {
+    return bounds_at<float>(corners, pose.position.cast<float>());
+  }
+  return bounds_at<double>(corners, pose.position);
 }
 
 }  // namespace carom::reference

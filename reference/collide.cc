@@ -1,71 +1,81 @@
-// One pair of bodies -> decision, normal, separation, witness points.
+// One pair of bodies -> decision, normal, separation, witness points, manifold.
 #include <limits>
 #include <variant>
 
 #include "carom/reference/reference.h"
+#include "kernel/body_reader.h"
 #include "kernel/float_environment.h"
-#include "narrowphase/aabb_aabb_ref.h"
-#include "narrowphase/sphere_aabb_ref.h"
-#include "narrowphase/sphere_sphere_ref.h"
+#include "narrowphase/manifold_ref.h"
+#include "narrowphase/any_pair_ref.h"
 
 namespace carom::reference {
 namespace {
 
-// One overload a pair of kinds; `d` is the position of B relative to A's, rounded to float32 and
-// not.
-Separation separation_of(const Sphere& a, const Sphere& b, const Vector3f& d,
-                         const Vector3d& exact_d) {
-  return sphere_sphere(a.radius, b.radius, d, exact_d);
+// Where both are, in the two precisions of the tests.
+struct Poses {
+  PairPose<float> rounded;
+  PairPose<double> exact;
+};
+
+Poses flipped(const Poses& poses) { return {flipped(poses.rounded), flipped(poses.exact)}; }
+
+template <class Real>
+Poses poses_of(const Pose& a, const Pose& b) {
+  const Eigen::Vector3<Real> position_a = a.position.cast<Real>();
+  const Eigen::Vector3<Real> position_b = b.position.cast<Real>();
+  const Eigen::Vector4f q_a = a.orientation.coeffs();
+  const Eigen::Vector4f q_b = b.orientation.coeffs();
+  const Vector3d exact_a = position_a.template cast<double>();
+  const Vector3d exact_b = position_b.template cast<double>();
+  return {{relative_position(position_a, position_b), quaternion_as<float>(q_a),
+           quaternion_as<float>(q_b), relative_position(position_b, position_a)},
+          {exact_b - exact_a, quaternion_as<double>(q_a), quaternion_as<double>(q_b),
+           exact_a - exact_b}};
 }
 
-Separation separation_of(const Sphere& a, const Aabb& b, const Vector3f& d,
-                         const Vector3d& exact_d) {
-  return sphere_aabb(a.radius, b.lower, b.upper, d, exact_d);
+// Shapes without an orientation have tests of their own.
+Separation test(const Sphere& a, const Sphere& b, const Poses& poses) {
+  return sphere_sphere(a.radius, b.radius, poses.rounded.d, poses.exact.d);
+}
+Separation test(const Sphere& a, const Aabb& b, const Poses& poses) {
+  return sphere_aabb(a.radius, b.lower, b.upper, poses.rounded.d, poses.exact.d);
+}
+Separation test(const Aabb& a, const Sphere& b, const Poses& poses) {
+  return flipped(test(b, a, flipped(poses)));
+}
+Separation test(const Aabb& a, const Aabb& b, const Poses& poses) {
+  return aabb_aabb(a.lower, a.upper, b.lower, b.upper, poses.rounded.d);
 }
 
-Separation separation_of(const Aabb& a, const Aabb& b, const Vector3f& d, const Vector3d&) {
-  return aabb_aabb(a.lower, a.upper, b.lower, b.upper, d);
-}
-
-PairResult result_of(const Separation& s) {
-  return {s.separation <= 0, s.status, s.separation, s.normal, s.arm_a, s.arm_b};
+// In float32, and in double precision where that cannot decide.
+template <class A, class B>
+Separation test(const A& a, const B& b, const Poses& poses) {
+  const Separation result = separation_of<float>(a, b, poses.rounded);
+  return result.is_unsure ? rounded(separation_of<double>(a, b, poses.exact)) : result;
 }
 
 PairResult no_answer() {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const Vector3f nan = Vector3f::Constant(kNan);
-  return {false, Status::invalid, kNan, nan, nan, nan};
-}
-
-template <class Real>
-Separation separation_at(const Shape& shape_a, const Eigen::Vector3<Real>& position_a,
-                         const Shape& shape_b, const Eigen::Vector3<Real>& position_b) {
-  const auto test = [&](const auto& a, const auto& b) {
-    const Vector3d exact_d =
-        position_b.template cast<double>() - position_a.template cast<double>();
-    if constexpr (std::is_same_v<decltype(a), const Aabb&> &&
-                  std::is_same_v<decltype(b), const Sphere&>) {
-      return flipped(separation_of(b, a, relative_position(position_b, position_a), -exact_d));
-    } else {
-      return separation_of(a, b, relative_position(position_a, position_b), exact_d);
-    }
-  };
-  return std::visit(test, shape_a, shape_b);
+  return {false, Status::invalid, kNan, nan, nan, nan, 0, {}};
 }
 
 }  // namespace
 
-PairResult collide(const Shape& shape_a, const Eigen::Vector3d& position_a, const Shape& shape_b,
-                   const Eigen::Vector3d& position_b, PositionType positions) {
+PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
+                   const Pose& pose_b, PositionType positions) {
   const FloatEnvironment environment;
-  if (!is_valid(shape_a, position_a, positions) || !is_valid(shape_b, position_b, positions)) {
+  if (!is_valid(shape_a, pose_a, positions) || !is_valid(shape_b, pose_b, positions)) {
     return no_answer();
   }
-  if (positions == PositionType::float32) {
-    return result_of(
-        separation_at<float>(shape_a, position_a.cast<float>(), shape_b, position_b.cast<float>()));
-  }
-  return result_of(separation_at<double>(shape_a, position_a, shape_b, position_b));
+  const Poses poses = positions == PositionType::float32 ? poses_of<float>(pose_a, pose_b)
+                                                         : poses_of<double>(pose_a, pose_b);
+  const Separation s = std::visit(
+      [&](const auto& a, const auto& b) { return test(a, b, poses); }, shape_a, shape_b);
+  const bool overlap = s.separation <= 0;
+  const Manifold manifold = overlap ? manifold_of(shape_a, shape_b, poses.rounded, s) : Manifold{};
+  return {overlap, s.status, s.separation, s.normal, s.arm_a, s.arm_b, manifold.count,
+          manifold.points};
 }
 
 }  // namespace carom::reference

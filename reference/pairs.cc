@@ -1,10 +1,14 @@
-// Boxes -> pairs by brute force: every box against every later one.
+// Boxes -> pairs by brute force: every box against every later one, and against half-spaces.
 //
-// Source of the test: C. Ericson, Real-Time Collision Detection, 2005, section 4.2.1.
+// Source of the tests: C. Ericson, Real-Time Collision Detection, 2005, sections 4.2.1 and 5.2.3;
+// of the bound for rounding: N. J. Higham, Accuracy and Stability of Numerical Algorithms, section
+// 3.1.
 #include "reference/pairs.h"
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
+#include <cmath>
 
 #include "kernel/float_environment.h"
 
@@ -31,6 +35,28 @@ struct Columns {
   std::array<std::vector<float>, 3> lower;
   std::array<std::vector<float>, 3> upper;
 };
+
+// 32 units in the last place; what world_plane() and may_reach() round adds up to less than 16 of
+// the sizes involved.
+constexpr double kRounding = 0x1p-48;
+
+double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
+}
+
+double sum_of_magnitudes(const Eigen::Vector3d& v) {
+  return (std::abs(v.x()) + std::abs(v.y())) + std::abs(v.z());
+}
+
+// The rotation of a quaternion times its squared norm.
+Eigen::Matrix3d scaled_rotation(double x, double y, double z, double w) {
+  const double xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+  Eigen::Matrix3d m;
+  m << (ww + xx) - (yy + zz), 2 * (x * y - w * z), 2 * (x * z + w * y),  //
+      2 * (x * y + w * z), (ww + yy) - (xx + zz), 2 * (y * z - w * x),   //
+      2 * (x * z - w * y), 2 * (y * z + w * x), (ww + zz) - (xx + yy);
+  return m;
+}
 
 constexpr size_t kBlock = 128;
 
@@ -82,6 +108,33 @@ std::vector<Pair> overlapping_pairs(std::span<const Box> boxes) {
     }
   }
   return pairs;
+}
+
+// With M the rotation R of the body times |q|^2 and p its position, n . (R^T (x - p)) <= offset is
+// (M n) . x <= offset |q|^2 + (M n) . p. In double precision products of two floats are exact.
+Plane world_plane(const Halfspace& halfspace, const Pose& pose, PositionType positions) {
+  const Eigen::Vector3d n = halfspace.normal.cast<double>();
+  const Eigen::Quaterniond q = pose.orientation.cast<double>();
+  const Eigen::Matrix3d m = scaled_rotation(q.x(), q.y(), q.z(), q.w());
+  const Eigen::Vector3d normal(dot(m.row(0), n), dot(m.row(1), n), dot(m.row(2), n));
+  const double scale = (q.x() * q.x() + q.y() * q.y()) + (q.z() * q.z() + q.w() * q.w());
+  const double size = scale * sum_of_magnitudes(n);
+  Eigen::Vector3d p = pose.position;
+  if (positions == PositionType::float32) p = p.cast<float>().cast<double>();
+
+  const double offset = halfspace.offset;
+  const double limit = offset * scale + dot(normal, p);
+  const double error = kRounding * (std::abs(offset) * scale + size * sum_of_magnitudes(p));
+  // What vanishes below the smallest double counts, too.
+  return {normal, (limit + error) + DBL_MIN, kRounding * size};
+}
+
+bool may_reach(const Box& box, const Plane& plane) {
+  Eigen::Vector3d lowest;  // corner along the normal
+  for (int i = 0; i < 3; ++i) lowest[i] = plane.normal[i] >= 0 ? box.lower[i] : box.upper[i];
+  const double error = plane.slack * sum_of_magnitudes(lowest);
+  // Infinite corners give NaN, which is certain of nothing.
+  return !(dot(plane.normal, lowest) - error > plane.limit);
 }
 
 }  // namespace carom::reference

@@ -87,6 +87,16 @@ HWY_INLINE F largest_component(const F3& v) {
   return max(max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
+// 2^k with the exponent of a magnitude, kept where both 2^k and 2^-k are normal floats.
+HWY_INLINE void power_of_two(F magnitude, F& up, F& down) {
+  const FloatTag tag;
+  const IntTag bits;
+  I exponent = hn::And(hn::BitCast(bits, magnitude), hn::Set(bits, 0x7f800000));
+  exponent = hn::Min(hn::Max(exponent, hn::Set(bits, 0x00800000)), hn::Set(bits, 0x7e800000));
+  up = hn::BitCast(tag, exponent);
+  down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 0x7f000000), exponent));
+}
+
 // The length of a vector and its direction. `is_zero`: the vector is exactly zero, and the
 // direction not a number.
 struct Length {
@@ -98,20 +108,14 @@ struct Length {
 // Scales by a power of two first (exact), so that squares neither overflow nor vanish: right for
 // every finite vector. A length beyond the largest float is the largest float.
 HWY_INLINE Length measure(const F3& v) {
-  const FloatTag tag;
-  const IntTag bits;
-  // 2^k with the exponent of the largest component, kept where 2^-k is a normal float, too.
-  I exponent = hn::And(hn::BitCast(bits, largest_component(v)), hn::Set(bits, 0x7f800000));
-  exponent = hn::Min(hn::Max(exponent, hn::Set(bits, 0x00800000)), hn::Set(bits, 0x7e800000));
-  const F up = hn::BitCast(tag, exponent);
-  const F down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 0x7f000000), exponent));
-
+  F up, down;
+  power_of_two(largest_component(v), up, down);
   const F3 s = v * down;
   const F square = hn::Add(hn::Add(hn::Mul(s.x, s.x), hn::Mul(s.y, s.y)), hn::Mul(s.z, s.z));
   const F length = hn::Sqrt(square);
   return {.length = min(hn::Mul(length, up), splat(FLT_MAX)),
           .direction = s * hn::Div(splat(1), length),
-          .is_zero = hn::Eq(length, hn::Zero(tag))};
+          .is_zero = hn::Eq(length, splat(0))};
 }
 
 }  // namespace carom::HWY_NAMESPACE

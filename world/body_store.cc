@@ -1,6 +1,7 @@
 #include "world/body_store.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom {
 namespace {
@@ -30,6 +31,8 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   visit(self.records64_, is_float64, 4, 0.0);
   visit(self.velocity_, self.has_velocities_, 1, Eigen::Vector3f(Eigen::Vector3f::Zero()));
   optional(self.box_slot_, 0u);
+  optional(self.first_row_, 0u);
+  optional(self.orientation_, kIdentity);
   optional(self.motion_, Motion::dynamic);
   optional(self.layer_, kEverything);
   optional(self.mask_, kEverything);
@@ -60,8 +63,8 @@ BodyId BodyStore::add(const BodyDesc& body) {
   const uint32_t index = alive_.take();
   if (rows() > generation_.size()) add_row();
   set_position(index, body.position);
-  set_radius(index, 0);
   store_shape(index, body.shape);
+  set_orientation(index, body.orientation);
   set_row(motion_, rows(), index, body.motion, Motion::dynamic);
   set_filter(index, body.layer, body.mask, body.owner);
   set_row(sensor_, rows(), index, uint8_t{body.sensor}, uint8_t{0});
@@ -77,8 +80,7 @@ void BodyStore::remove(BodyId id) {
   const uint32_t index = id.index;
   touch(index, kReplaced);
   count_kind(index, -1);
-  if (kind_[index] == ShapeKind::aabb) release_box(index);
-  kind_[index] = ShapeKind::sphere;
+  change_kind(index, ShapeKind::sphere);
   ++generation_[index];
   alive_.release(index);
   if (rows() < generation_.size()) drop_rows();
@@ -115,6 +117,21 @@ void BodyStore::set_position(uint32_t index, const Eigen::Vector3d& position) {
   }
 }
 
+Eigen::Quaternionf BodyStore::orientation(uint32_t index) const {
+  const Row q = row_count(kind_[index]) > 0 ? orientation_[index] : kIdentity;
+  return {q[3], q[0], q[1], q[2]};
+}
+
+void BodyStore::set_orientation(uint32_t index, const Eigen::Quaternionf& q) {
+  if (row_count(kind_[index]) > 0) orientation_[index] = {q.x(), q.y(), q.z(), q.w()};
+}
+
+float BodyStore::radius(uint32_t index) const {
+  const size_t row = size_t{index} * 4 + 3;
+  return positions_ == PositionType::float64 ? static_cast<float>(records64_[row])
+                                             : records32_[row];
+}
+
 void BodyStore::set_radius(uint32_t index, float radius) {
   const size_t row = size_t{index} * 4 + 3;
   if (positions_ == PositionType::float64) {
@@ -125,21 +142,16 @@ void BodyStore::set_radius(uint32_t index, float radius) {
 }
 
 Shape BodyStore::shape(uint32_t index) const {
-  if (kind_[index] == ShapeKind::aabb) {
-    const uint32_t slot = box_slot_[index];
-    return Aabb{{boxes_[0][slot], boxes_[1][slot], boxes_[2][slot]},
-                {boxes_[3][slot], boxes_[4][slot], boxes_[5][slot]}};
-  }
-  const size_t row = size_t{index} * 4 + 3;
-  return Sphere{positions_ == PositionType::float64 ? static_cast<float>(records64_[row])
-                                                    : records32_[row]};
+  const ShapeKind kind = kind_[index];
+  if (kind == ShapeKind::sphere) return Sphere{radius(index)};
+  if (kind != ShapeKind::aabb) return shape_from_rows(kind, &rows_[first_row_[index]]);
+  const uint32_t slot = box_slot_[index];
+  return Aabb{{boxes_[0][slot], boxes_[1][slot], boxes_[2][slot]},
+              {boxes_[3][slot], boxes_[4][slot], boxes_[5][slot]}};
 }
 
 void BodyStore::set_shape(uint32_t index, const Shape& shape) {
   count_kind(index, -1);
-  const bool had_box = kind_[index] == ShapeKind::aabb;
-  if (had_box && !std::holds_alternative<Aabb>(shape)) release_box(index);
-  set_radius(index, 0);
   store_shape(index, shape);
   touch(index, kShapeTouched);
 }
@@ -149,15 +161,55 @@ void BodyStore::count_kind(uint32_t index, int change) {
 }
 
 void BodyStore::store_shape(uint32_t index, const Shape& shape) {
-  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) {
-    kind_[index] = ShapeKind::sphere;
-    set_radius(index, sphere->radius);
-  } else if (const Aabb* box = std::get_if<Aabb>(&shape)) {
-    if (kind_[index] != ShapeKind::aabb) take_box(index);
-    kind_[index] = ShapeKind::aabb;
-    store_box(index, *box);
-  }
+  const ShapeKind kind = kind_of(shape);
+  change_kind(index, kind);
   count_kind(index, 1);
+  const Sphere* sphere = std::get_if<Sphere>(&shape);
+  set_radius(index, sphere ? sphere->radius : 0);
+  if (const Aabb* box = std::get_if<Aabb>(&shape)) store_box(index, *box);
+  if (row_count(kind) > 0) {
+    const auto rows = carom::shape_rows(shape);
+    std::copy_n(rows.begin(), row_count(kind), rows_.begin() + first_row_[index]);
+  }
+}
+
+// Gives back what the last kind needed and takes what this one needs.
+void BodyStore::change_kind(uint32_t index, ShapeKind kind) {
+  const ShapeKind last = std::exchange(kind_[index], kind);
+  if (last == kind) return;
+  if (last == ShapeKind::aabb) release_box(index);
+  if (kind == ShapeKind::aabb) take_box(index);
+  if (row_count(last) != row_count(kind)) change_rows(index, row_count(last), row_count(kind));
+  if (last == ShapeKind::halfspace) remove_halfspace(index);
+  if (kind == ShapeKind::halfspace) add_halfspace(index);
+}
+
+void BodyStore::change_rows(uint32_t index, uint32_t last_count, uint32_t count) {
+  if (first_row_.empty()) {
+    first_row_.resize(rows(), 0);
+    orientation_.resize(rows(), kIdentity);
+  }
+  if (last_count > 0) row_pool_.release(first_row_[index], last_count);
+  first_row_[index] = count > 0 ? row_pool_.take(count) : 0;
+  if (count == 0) orientation_[index] = kIdentity;
+  resize_rows();
+}
+
+void BodyStore::resize_rows() {
+  const size_t needed = row_pool_.end() > 0 ? row_pool_.end() + kMostRows - 1 : 0;
+  if (needed == rows_.size()) return;
+  resize_and_give_back(rows_, needed);
+  const size_t end = row_pool_.end();
+  std::fill(rows_.begin() + static_cast<ptrdiff_t>(end), rows_.end(), Row{});
+}
+
+void BodyStore::add_halfspace(uint32_t index) {
+  halfspaces_.insert(std::lower_bound(halfspaces_.begin(), halfspaces_.end(), index), index);
+}
+
+void BodyStore::remove_halfspace(uint32_t index) {
+  halfspaces_.erase(std::lower_bound(halfspaces_.begin(), halfspaces_.end(), index));
+  give_back(halfspaces_, halfspaces_.size());
 }
 
 void BodyStore::store_box(uint32_t index, const Aabb& box) {
@@ -243,6 +295,9 @@ Collidables BodyStore::view() const {
   view.box_slot = data_or_null(box_slot_);
   view.boxes.lower = {boxes_[0].data(), boxes_[1].data(), boxes_[2].data()};
   view.boxes.upper = {boxes_[3].data(), boxes_[4].data(), boxes_[5].data()};
+  if (!orientation_.empty()) view.orientation.data = orientation_.front().data();
+  if (!rows_.empty()) view.rows.data = rows_.front().data();
+  view.rows.first = data_or_null(first_row_);
   return view;
 }
 
@@ -251,7 +306,8 @@ PairFilter BodyStore::filter() const {
 }
 
 size_t BodyStore::bytes() const {
-  size_t sum = alive_.bytes() + slots_.bytes() + bytes_of(touched_) + bytes_of(touched_indices_);
+  size_t sum = alive_.bytes() + slots_.bytes() + row_pool_.bytes() + bytes_of(rows_) +
+               bytes_of(halfspaces_) + bytes_of(touched_) + bytes_of(touched_indices_);
   for (const std::vector<float>& column : boxes_) sum += bytes_of(column);
   for_each_column(*this, [&](const auto& column, auto...) { sum += bytes_of(column); });
   return sum;

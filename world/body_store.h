@@ -10,11 +10,15 @@
 #include "carom/kernel/body.h"
 #include "carom/kernel/views.h"
 #include "world/index_pool.h"
+#include "world/row_pool.h"
 
 namespace carom {
 
 class BodyStore {
  public:
+  using Row = std::array<float, 4>;  // of shapes, as shape_rows() says; a quaternion x, y, z, w
+  static constexpr Row kIdentity = {0, 0, 0, 1};
+
   explicit BodyStore(PositionType positions) : positions_(positions) {}
 
   BodyId add(const BodyDesc& body);
@@ -30,9 +34,13 @@ class BodyStore {
 
   Eigen::Vector3d position(uint32_t index) const;
   void set_position(uint32_t index, const Eigen::Vector3d& position);
+  // Of bodies of kinds that have one; the others have the identity, and keep no other.
+  Eigen::Quaternionf orientation(uint32_t index) const;
+  void set_orientation(uint32_t index, const Eigen::Quaternionf& orientation);
   Shape shape(uint32_t index) const;
   void set_shape(uint32_t index, const Shape& shape);
   uint32_t box_slot(uint32_t index) const { return box_slot_[index]; }
+  uint32_t first_row(uint32_t index) const { return first_row_[index]; }
 
   Motion motion(uint32_t index) const;
   void set_motion(uint32_t index, Motion motion);
@@ -49,6 +57,10 @@ class BodyStore {
   std::vector<double>& records64() { return records64_; }
   std::array<std::vector<float>, 6>& boxes() { return boxes_; }
   const std::array<std::vector<float>, 6>& boxes() const { return boxes_; }
+  std::vector<Row>& orientations() { return orientation_; }
+  const std::vector<Row>& orientations() const { return orientation_; }
+  std::span<Row> shape_rows() { return {rows_.data(), row_pool_.end()}; }
+  std::span<const Row> shape_rows() const { return {rows_.data(), row_pool_.end()}; }
   std::span<Eigen::Vector3f> linear_velocities();
   bool has_velocities() const { return has_velocities_; }
 
@@ -56,6 +68,7 @@ class BodyStore {
   Collidables view() const;
   PairFilter filter() const;
   const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
+  const std::vector<uint32_t>& halfspaces() const { return halfspaces_; }  // indices, ascending
 
   // One byte a row: what was done through the calls above since clear_touched(). Writes into the
   // arrays are not seen here.
@@ -76,10 +89,16 @@ class BodyStore {
   void drop_rows();
   void touch(uint32_t index, uint8_t how);
   void count_kind(uint32_t index, int change);
+  void change_kind(uint32_t index, ShapeKind kind);
+  void change_rows(uint32_t index, uint32_t last_count, uint32_t count);
   void store_shape(uint32_t index, const Shape& shape);
   void store_box(uint32_t index, const Aabb& box);
   void take_box(uint32_t index);
   void release_box(uint32_t index);
+  void add_halfspace(uint32_t index);
+  void remove_halfspace(uint32_t index);
+  void resize_rows();
+  float radius(uint32_t index) const;
   void set_radius(uint32_t index, float radius);
 
   PositionType positions_;
@@ -98,6 +117,15 @@ class BodyStore {
   IndexPool slots_;
   std::array<std::vector<float>, 6> boxes_;
   std::vector<uint32_t> box_slot_;  // empty until there is a box; 0 for other kinds
+
+  // Parameters of capsules, boxes, half-spaces and triangles, in blocks of rows. Behind the last
+  // block follow kMostRows - 1 rows of zero, so that as many can be read from any row.
+  RowPool row_pool_;
+  std::vector<Row> rows_;
+  std::vector<uint32_t> first_row_;  // empty until there is such a body; 0 for other kinds
+  std::vector<Row> orientation_;     // likewise; the identity for other kinds
+
+  std::vector<uint32_t> halfspaces_;
 
   // Empty while every body has the default.
   std::vector<Motion> motion_;

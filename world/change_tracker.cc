@@ -37,11 +37,27 @@ void compare_column(const float* now, float* last, size_t count, uint8_t* change
   std::memcpy(last, now, count * sizeof(float));
 }
 
+// The same for rows of four numbers.
+void compare_rows_of(const BodyStore::Row* now, BodyStore::Row* last, size_t count,
+                     uint8_t* changed) {
+  for (size_t i = 0; i < count; ++i) changed[i] |= difference(now[i].data(), last[i].data()) != 0;
+  std::memcpy(last, now, count * sizeof(BodyStore::Row));
+}
+
 uint32_t count_set(const uint8_t* flags, size_t count) {
   return std::accumulate(flags, flags + count, uint32_t{0});
 }
 
 }  // namespace
+
+void ChangeTracker::SlotChanges::resize(size_t slots) {
+  resize_and_give_back(changed, slots);
+  resize_and_give_back(block_changed, block_count(slots, kRowsPerBlock));
+}
+
+bool ChangeTracker::SlotChanges::at(size_t slot) const {
+  return block_changed[slot / kRowsPerBlock] && changed[slot];
+}
 
 void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
@@ -51,8 +67,10 @@ void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
   // New rows are touched, whatever their copies hold.
   bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
   moved |= compare_records(bodies.records64(), last_records64_, parallelism);
-  const bool reshaped = compare_boxes(bodies, parallelism);
-  if (reshaped) mark_changed_boxes(bodies, parallelism);
+  moved |= compare_orientations(bodies, parallelism);
+  bool reshaped = compare_boxes(bodies, parallelism);
+  reshaped |= compare_rows(bodies, parallelism);
+  if (reshaped) mark_changed_shapes(bodies, parallelism);
   if (moved || reshaped) all_unchanged_ = false;
   if (knows_last_) {
     mark_touched(bodies);
@@ -92,40 +110,80 @@ bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& l
   return any;
 }
 
+bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism parallelism) {
+  const std::vector<BodyStore::Row>& now = bodies.orientations();
+  // A body that had none had the identity.
+  last_orientations_.resize(now.size(), BodyStore::kIdentity);
+  give_back(last_orientations_, now.size());
+  std::atomic<bool> any{false};
+  for_each_block(now.size(), kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const size_t count = end - begin;
+                   BodyStore::Row* last = &last_orientations_[begin];
+                   if (std::memcmp(&now[begin], last, count * sizeof(*last)) == 0) return;
+                   compare_rows_of(&now[begin], last, count, &changed_[begin]);
+                   block_changes_[block] = count_set(&changed_[begin], count);
+                   any = true;
+                 });
+  return any;
+}
+
 bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism parallelism) {
   const size_t slots = bodies.boxes()[0].size();
   for (std::vector<float>& column : last_boxes_) resize_and_give_back(column, slots);
-  resize_and_give_back(box_changed_, slots);
-  resize_and_give_back(box_block_changed_, block_count(slots, kRowsPerBlock));
+  box_changes_.resize(slots);
   std::atomic<bool> any{false};
   for_each_block(slots, kRowsPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
     const size_t count = end - begin;
+    uint8_t* changed = &box_changes_.changed[begin];
     bool differs = false;
     for (size_t column = 0; column < 6; ++column) {
       const float* now = &bodies.boxes()[column][begin];
       float* last = &last_boxes_[column][begin];
       if (std::memcmp(now, last, count * sizeof(float)) == 0) continue;
-      if (!differs) std::memset(&box_changed_[begin], 0, count);
-      compare_column(now, last, count, &box_changed_[begin]);
+      if (!differs) std::memset(changed, 0, count);
+      compare_column(now, last, count, changed);
       differs = true;
     }
-    box_block_changed_[block] = differs;
+    box_changes_.block_changed[block] = differs;
     if (differs) any = true;
   });
   return any;
 }
 
-void ChangeTracker::mark_changed_boxes(const BodyStore& bodies, Parallelism parallelism) {
+bool ChangeTracker::compare_rows(const BodyStore& bodies, Parallelism parallelism) {
+  const std::span<const BodyStore::Row> now = bodies.shape_rows();
+  resize_and_give_back(last_rows_, now.size());
+  row_changes_.resize(now.size());
+  std::atomic<bool> any{false};
+  for_each_block(now.size(), kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const size_t count = end - begin;
+                   BodyStore::Row* last = &last_rows_[begin];
+                   const bool differs = std::memcmp(&now[begin], last, count * sizeof(*last)) != 0;
+                   row_changes_.block_changed[block] = differs;
+                   if (!differs) return;
+                   std::memset(&row_changes_.changed[begin], 0, count);
+                   compare_rows_of(&now[begin], last, count, &row_changes_.changed[begin]);
+                   any = true;
+                 });
+  return any;
+}
+
+bool ChangeTracker::shape_changed(const Collidables& view, size_t index) const {
+  const ShapeKind kind = view.kind ? view.kind[index] : view.uniform_kind;
+  if (kind == ShapeKind::aabb) return box_changes_.at(view.box_slot[index]);
+  for (uint32_t k = 0; k < row_count(kind); ++k) {
+    if (row_changes_.at(view.rows.first[index] + k)) return true;
+  }
+  return false;
+}
+
+void ChangeTracker::mark_changed_shapes(const BodyStore& bodies, Parallelism parallelism) {
   const Collidables view = bodies.view();
   for_each_block(changed_.size(), kRowsPerBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
-                   for (size_t i = begin; i < end; ++i) {
-                     const ShapeKind kind = view.kind ? view.kind[i] : view.uniform_kind;
-                     if (kind != ShapeKind::aabb) continue;
-                     const uint32_t slot = view.box_slot[i];
-                     if (box_block_changed_[slot / kRowsPerBlock])
-                       changed_[i] |= box_changed_[slot];
-                   }
+                   for (size_t i = begin; i < end; ++i) changed_[i] |= shape_changed(view, i);
                    block_changes_[block] = count_set(&changed_[begin], end - begin);
                  });
 }
@@ -148,7 +206,8 @@ void ChangeTracker::mark_all() {
 
 size_t ChangeTracker::bytes() const {
   size_t sum = bytes_of(changed_) + bytes_of(block_changes_) + bytes_of(last_records32_) +
-               bytes_of(last_records64_) + bytes_of(box_changed_) + bytes_of(box_block_changed_);
+               bytes_of(last_records64_) + bytes_of(last_orientations_) + bytes_of(last_rows_) +
+               box_changes_.bytes() + row_changes_.bytes();
   for (const std::vector<float>& column : last_boxes_) sum += bytes_of(column);
   return sum;
 }

@@ -8,6 +8,7 @@
 
 #include "carom/kernel/parallelism.h"
 #include "world/body_store.h"
+#include "world/columns.h"
 
 namespace carom {
 
@@ -31,10 +32,23 @@ class ChangeTracker {
   size_t bytes() const;
 
  private:
-  bool compare_boxes(const BodyStore& bodies, Parallelism parallelism);
+  // What changed in arrays that are not indexed by body: boxes, rows of shapes.
+  struct SlotChanges {
+    std::vector<uint8_t> changed;  // one a slot; of use where block_changed is set
+    std::vector<uint8_t> block_changed;
+
+    void resize(size_t slots);
+    bool at(size_t slot) const;
+    size_t bytes() const { return bytes_of(changed) + bytes_of(block_changed); }
+  };
+
   template <class T>
   bool compare_records(const std::vector<T>& now, std::vector<T>& last, Parallelism parallelism);
-  void mark_changed_boxes(const BodyStore& bodies, Parallelism parallelism);
+  bool compare_orientations(const BodyStore& bodies, Parallelism parallelism);
+  bool compare_boxes(const BodyStore& bodies, Parallelism parallelism);
+  bool compare_rows(const BodyStore& bodies, Parallelism parallelism);
+  bool shape_changed(const Collidables& view, size_t index) const;
+  void mark_changed_shapes(const BodyStore& bodies, Parallelism parallelism);
   void mark_touched(const BodyStore& bodies);
   void mark_all();
 
@@ -47,9 +61,11 @@ class ChangeTracker {
   bool knows_last_ = false;
   std::vector<float> last_records32_;
   std::vector<double> last_records64_;
+  std::vector<BodyStore::Row> last_orientations_;
   std::array<std::vector<float>, 6> last_boxes_;
-  std::vector<uint8_t> box_changed_;  // one a slot; of use where box_block_changed_ is set
-  std::vector<uint8_t> box_block_changed_;
+  SlotChanges box_changes_;
+  std::vector<BodyStore::Row> last_rows_;
+  SlotChanges row_changes_;
 };
 
 }  // namespace carom

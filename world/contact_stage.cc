@@ -11,7 +11,13 @@ namespace {
 
 constexpr size_t kFloatColumns = 10;
 
-bool bounds_overlap(const BoundsView& bounds, Pair pair) {
+bool is_empty(const BoundsView& bounds, uint32_t body) {
+  return bounds.lower[0][body] > bounds.upper[0][body];
+}
+
+// Empty bounds are those of half-spaces.
+bool bounds_may_overlap(const BoundsView& bounds, Pair pair) {
+  if (is_empty(bounds, pair.a) || is_empty(bounds, pair.b)) return true;
   for (size_t axis = 0; axis < 3; ++axis) {
     const float* lower = bounds.lower[axis];
     const float* upper = bounds.upper[axis];
@@ -28,19 +34,25 @@ ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail) {
   status_.resize(pairs);
   if (detail == Detail::overlap) return {.overlap = overlap_.data(), .status = status_.data()};
   floats_.resize(pairs * kFloatColumns);
-  return {overlap_.data(),
-          status_.data(),
-          column(0),
-          {column(1), column(2), column(3)},
-          {column(4), column(5), column(6)},
-          {column(7), column(8), column(9)}};
+  ResultColumns columns = {.overlap = overlap_.data(),
+                           .status = status_.data(),
+                           .separation = column(0),
+                           .normal = {column(1), column(2), column(3)},
+                           .point_a = {column(4), column(5), column(6)},
+                           .point_b = {column(7), column(8), column(9)}};
+  if (detail != Detail::manifold) return columns;
+  manifold_count_.resize(pairs);
+  manifold_.resize(pairs);
+  columns.manifold_count = manifold_count_.data();
+  columns.manifold = manifold_.data();
+  return columns;
 }
 
 void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const BoundsView& bounds,
                                 Parallelism parallelism) {
   for_each_block(rows_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      if (overlap_[i]) overlap_[i] = bounds_overlap(bounds, pairs[i]);
+      if (overlap_[i]) overlap_[i] = bounds_may_overlap(bounds, pairs[i]);
     }
   });
 }
@@ -60,28 +72,64 @@ Contact ResultBuffer::contact(size_t row, Pair pair) const {
           .arm_a = vector(4, row),
           .normal_velocity = 0,
           .arm_b = vector(7, row),
-          .status = static_cast<Status>(status_[row])};
+          .status = static_cast<Status>(status_[row]),
+          .manifold_count = manifold_count_.empty() ? uint8_t{0} : manifold_count_[row]};
 }
 
 void ResultBuffer::give_back_beyond(size_t pairs) {
   give_back_scratch(overlap_, pairs);
   give_back_scratch(status_, pairs);
   give_back_scratch(floats_, kFloatColumns * pairs);
+  give_back_scratch(manifold_count_, pairs);
+  give_back_scratch(manifold_, pairs);
 }
 
 size_t ResultBuffer::bytes() const {
-  return bytes_of(overlap_) + bytes_of(status_) + bytes_of(floats_);
+  return bytes_of(overlap_) + bytes_of(status_) + bytes_of(floats_) + bytes_of(manifold_count_) +
+         bytes_of(manifold_);
 }
 
 void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
                        const BodyStore& bodies, Detail detail, Parallelism parallelism,
                        PairHistory& now) {
+  // First what every pair is, and how many contacts each block makes ...
+  find_overlaps(plan, last, results, bodies, parallelism, now);
+  now.contacts.clear();
+  now.manifolds.clear();
+  if (!has_contacts(detail)) return;
+
+  // ... then every contact in its place.
+  const bool has_manifolds = detail == Detail::manifold;
+  size_t contacts = 0;
+  for (size_t& first : block_first_) contacts += std::exchange(first, contacts);
+  now.contacts.resize(contacts);
+  if (has_manifolds) now.manifolds.resize(contacts);
+  for_each_block(now.pairs.size(), kPairsPerMergeBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   size_t next = block_first_[block];
+                   for (size_t i = begin; i < end; ++i) {
+                     if (!now.overlaps[i] || now.contact[i] == PairHistory::kSensor) continue;
+                     const uint32_t row = plan.test_row(i);
+                     const bool carried = row == CarryPlan::kCarried;
+                     const size_t old = carried ? last.contact[plan.last_index(i)] : 0;
+                     now.contacts[next] =
+                         carried ? last.contacts[old] : results.contact(row, now.pairs[i]);
+                     if (has_manifolds) {
+                       now.manifolds[next] = carried ? last.manifolds[old] : results.manifold(row);
+                     }
+                     now.contact[i] = static_cast<uint32_t>(next++);
+                   }
+                 });
+}
+
+void ContactStage::find_overlaps(const CarryPlan& plan, const PairHistory& last,
+                                 const ResultBuffer& results, const BodyStore& bodies,
+                                 Parallelism parallelism, PairHistory& now) {
   const size_t pairs = now.pairs.size();
   now.overlaps.resize(pairs);
   now.contact.resize(pairs);
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
   std::atomic<size_t> overlaps{0};
-  // First what every pair is, and how many contacts each block makes ...
   for_each_block(
       pairs, kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
         size_t overlapping = 0;
@@ -99,25 +147,6 @@ void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const Res
         overlaps += overlapping;
       });
   overlaps_ = overlaps;
-  now.contacts.clear();
-  if (detail != Detail::contact) return;
-
-  // ... then every contact in its place.
-  size_t contacts = 0;
-  for (size_t& first : block_first_) contacts += std::exchange(first, contacts);
-  now.contacts.resize(contacts);
-  for_each_block(pairs, kPairsPerMergeBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   size_t next = block_first_[block];
-                   for (size_t i = begin; i < end; ++i) {
-                     if (!now.overlaps[i] || now.contact[i] == PairHistory::kSensor) continue;
-                     const uint32_t row = plan.test_row(i);
-                     now.contacts[next] = row == CarryPlan::kCarried
-                                              ? last.contacts[last.contact[plan.last_index(i)]]
-                                              : results.contact(row, now.pairs[i]);
-                     now.contact[i] = static_cast<uint32_t>(next++);
-                   }
-                 });
 }
 
 void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,

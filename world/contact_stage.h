@@ -14,16 +14,17 @@ namespace carom {
 // Columns for the narrow phase to write to.
 class ResultBuffer {
  public:
-  // Room for `pairs` results; at Detail::overlap for the decisions alone.
+  // Room for `pairs` results, in the columns that the detail fills.
   ResultColumns prepare(size_t pairs, Detail detail);
 
   // Bounds are exact, tests are not: pairs whose bounds lie apart do not overlap, even where the
-  // rounded result of the test touches.
+  // rounded result of the test touches. Pairs of half-spaces, whose boxes are empty, stay.
   void reject_apart(const std::vector<Pair>& pairs, const BoundsView& bounds,
                     Parallelism parallelism);
 
   bool overlap(size_t row) const { return overlap_[row]; }
   Contact contact(size_t row, Pair pair) const;
+  const ManifoldPoints& manifold(size_t row) const { return manifold_[row]; }
 
   void give_back_beyond(size_t pairs);
   size_t bytes() const;
@@ -35,9 +36,11 @@ class ResultBuffer {
   size_t rows_ = 0;
   std::vector<uint8_t> overlap_, status_;
   std::vector<float> floats_;  // ten columns: separation, normal, arm_a, arm_b
+  std::vector<uint8_t> manifold_count_;
+  std::vector<ManifoldPoints> manifold_;
 };
 
-// Fills overlaps, contact indices and contacts of `now`.
+// Fills overlaps, contact indices, contacts and manifolds of `now`.
 class ContactStage {
  public:
   void run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
@@ -47,8 +50,11 @@ class ContactStage {
   size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
 
  private:
+  void find_overlaps(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
+                     const BodyStore& bodies, Parallelism parallelism, PairHistory& now);
+
   size_t overlaps_ = 0;
-  std::vector<size_t> block_first_;
+  std::vector<size_t> block_first_;  // how many contacts each block has, then the first of them
 };
 
 // Sets the normal velocity of every contact.

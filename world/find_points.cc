@@ -10,8 +10,9 @@ void World::find_points(const float* xyz, size_t count, size_t stride,
   const FloatEnvironment environment;
   hits.clear();
   const Parallelism parallelism = state_->settings.parallelism;
-  const std::vector<Pair> candidates =
+  std::vector<Pair> candidates =
       find_point_candidates(xyz, count, stride, state_->bounds_view(), parallelism);
+  state_->halfspaces.add_point_candidates(xyz, count, stride, candidates);
   std::vector<uint8_t> overlap(candidates.size());
   std::vector<float> separation(candidates.size());
   // Every kind in a world has a kernel against spheres, which is what points are here.

@@ -11,6 +11,7 @@ void PairHistory::clear() {
   overlaps.clear();
   contact.clear();
   contacts.clear();
+  manifolds.clear();
 }
 
 void PairHistory::give_back_beyond(size_t count) {
@@ -18,10 +19,12 @@ void PairHistory::give_back_beyond(size_t count) {
   give_back(overlaps, count);
   give_back(contact, count);
   give_back(contacts, count);
+  give_back(manifolds, count);
 }
 
 size_t PairHistory::bytes() const {
-  return bytes_of(pairs) + bytes_of(overlaps) + bytes_of(contact) + bytes_of(contacts);
+  return bytes_of(pairs) + bytes_of(overlaps) + bytes_of(contact) + bytes_of(contacts) +
+         bytes_of(manifolds);
 }
 
 MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,

@@ -24,6 +24,7 @@ struct PairHistory {
   std::vector<uint8_t> overlaps;
   std::vector<uint32_t> contact;  // index into `contacts`
   std::vector<Contact> contacts;
+  std::vector<ManifoldPoints> manifolds;  // at Detail::manifold one a contact, else none
 
   void clear();
   void give_back_beyond(size_t pairs);

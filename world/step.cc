@@ -34,7 +34,7 @@ const StepReport& World::State::step() {
     if (needs_last()) std::swap(last, now);
     find_all();
   }
-  if (settings.detail == Detail::contact && bodies.has_velocities()) {
+  if (has_contacts(settings.detail) && bodies.has_velocities()) {
     run(Stage::velocities,
         [&] { set_normal_velocities(bodies.linear_velocities(), parallelism, now.contacts); });
   }
@@ -93,6 +93,7 @@ void World::State::give_back_memory(size_t last_pairs) {
   pair_changes.give_back_beyond(pairs);
   plan.give_back_beyond(pairs);
   results.give_back_beyond(pairs);
+  halfspaces.give_back_beyond(pairs);
   event_stage.give_back_beyond(pairs);
   give_back(events, pairs);
 }
@@ -129,6 +130,7 @@ void World::State::find_bounds() {
   }
   quarantined.clear();
   if (invalid > 0) find_quarantined();
+  halfspaces.set_aside(bodies, bounds);
 }
 
 void World::State::find_quarantined() {
@@ -142,8 +144,11 @@ void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
   finder.set_most_pairs(settings.most_pairs);
   const BoundsView searched = has_margin() ? fat_bounds.view() : bounds_view();
-  search =
-      finder.find(searched, bodies.filter(), now.pairs, settings.broadphase, settings.parallelism);
+  std::vector<Pair>& found = halfspaces.has_any() ? halfspaces.other_pairs() : now.pairs;
+  search = finder.find(searched, bodies.filter(), found, settings.broadphase, settings.parallelism);
+  if (!halfspaces.has_any()) return;
+  halfspaces.add_pairs(bounds_view(), bodies.filter(), settings.most_pairs, settings.parallelism,
+                       now.pairs, search);
 }
 
 // What came and went, and what is to be tested.
@@ -172,7 +177,7 @@ WorldMemory World::State::memory() const {
   memory.bodies = bodies.bytes() + changes.bytes() + bytes_of(quarantined);
   memory.bounds = fat_bounds.bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
-  memory.broadphase = finder.bytes();
+  memory.broadphase = finder.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              results.bytes() + contact_stage.bytes() + event_stage.bytes() +
                              bytes_of(events);

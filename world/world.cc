@@ -75,6 +75,16 @@ void World::set_positions(std::span<const BodyId> ids, std::span<const Eigen::Ve
   for (size_t i = 0; i < ids.size(); ++i) set_position(ids[i], positions[i]);
 }
 
+Eigen::Quaternionf World::orientation(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.orientation(id.index);
+}
+
+void World::set_orientation(BodyId id, const Eigen::Quaternionf& orientation) {
+  assert(contains(id));
+  state_->bodies.set_orientation(id.index, orientation);
+}
+
 Shape World::shape(BodyId id) const {
   assert(contains(id));
   return state_->bodies.shape(id.index);
@@ -139,6 +149,7 @@ BodyArrays World::arrays() {
   } else {
     arrays.record32 = bodies.records32().data();
   }
+  if (!bodies.orientations().empty()) arrays.orientation = bodies.orientations().front().data();
   return arrays;
 }
 
@@ -154,6 +165,16 @@ uint32_t World::box_slot(BodyId id) const {
   return state_->bodies.box_slot(id.index);
 }
 
+ShapeRowArrays World::shape_rows() {
+  const std::span<BodyStore::Row> rows = state_->bodies.shape_rows();
+  return {.count = rows.size(), .rows = rows.empty() ? nullptr : rows.front().data()};
+}
+
+uint32_t World::first_row(BodyId id) const {
+  assert(contains(id) && row_count(kind_of(shape(id))) > 0);
+  return state_->bodies.first_row(id.index);
+}
+
 std::span<Eigen::Vector3f> World::linear_velocities() { return state_->bodies.linear_velocities(); }
 
 const StepReport& World::step() { return state_->step(); }
@@ -161,6 +182,7 @@ const StepReport& World::step() { return state_->step(); }
 std::span<const Pair> World::pairs() const { return state_->now.pairs; }
 std::span<const uint8_t> World::overlaps() const { return state_->now.overlaps; }
 std::span<const Contact> World::contacts() const { return state_->now.contacts; }
+std::span<const ManifoldPoints> World::manifolds() const { return state_->now.manifolds; }
 std::span<const Event> World::events() const { return state_->events; }
 std::span<const BodyId> World::quarantined() const { return state_->quarantined; }
 const StepReport& World::report() const { return state_->report; }

@@ -10,6 +10,7 @@
 #include "world/contact_stage.h"
 #include "world/event_stage.h"
 #include "world/fat_bounds.h"
+#include "world/halfspace_stage.h"
 #include "world/pair_changes.h"
 #include "world/pair_history.h"
 #include "world/rest_watch.h"
@@ -27,6 +28,7 @@ struct World::State {
   BodyStore bodies;
   StepReport report;
 
+  HalfspaceStage halfspaces;
   PairHistory now;
   PairChanges pair_changes;
   std::vector<Event> events;

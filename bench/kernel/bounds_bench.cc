@@ -27,8 +27,7 @@ std::vector<PlacedShape> draw_bodies(const SetSpec& spec) {
   test::Random random(1);
   std::vector<PlacedShape> bodies;
   for (size_t i = 0; i < kBodies; ++i) {
-    bodies.push_back(
-        as_stored({draw_shape(spec.kind, random), draw_position(random)}, spec.storage));
+    bodies.push_back(as_stored(draw_body(spec.kind, random), spec.storage));
   }
   return bodies;
 }
@@ -48,8 +47,7 @@ class BodySet {
   void run_reference(std::vector<reference::Box>& out) const {
     out.resize(kBodies);
     for (size_t i = 0; i < kBodies; ++i) {
-      out[i] =
-          reference::bounds(bodies_[i].shape, bodies_[i].position, position_type(spec_.storage));
+      out[i] = reference::bounds(bodies_[i].shape, bodies_[i].pose(), position_type(spec_.storage));
     }
   }
 
@@ -114,7 +112,8 @@ void register_set(const SetSpec& spec) {
 }  // namespace
 
 void register_bounds() {
-  for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::aabb}) {
+  for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
+                               ShapeKind::box, ShapeKind::triangle}) {
     for (const Storage storage : {Storage::f32, Storage::f64}) register_set({kind, storage});
   }
 }

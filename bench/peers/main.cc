@@ -1,14 +1,15 @@
-// carom_peers [--smoke | --large] [--max-bodies N] [--budget S] [--frame-limit S] [--out FILE.json]
-//             [RECORDING.aabb...]
-// Compares the broadphase with those of other libraries, in one run: on generated scenes of 1k, 10k
-// and 100k bodies, and on recordings of bounds.
-//   --smoke          1k bodies, a few frames: does everything still run?
+// carom_peers [--smoke | --large] [--max-bodies N] [--pairs N] [--budget S] [--frame-limit S]
+//             [--out FILE.json] [RECORDING.aabb...]
+// Compares Carom with other libraries, in one run: the broadphase on generated scenes of 1k, 10k
+// and 100k bodies and on recordings of bounds, the narrow phase on streams of pairs.
+//   --smoke          1k bodies, a few frames, 2000 pairs: does everything still run?
 //   --large          a million bodies as well
 //   --max-bodies N   generated scenes have at most so many; 0: recordings alone
-//   --budget S       seconds of frames a peer and scene (1)
+//   --pairs N        of a stream (100000); 0: no narrow phase
+//   --budget S       seconds of frames a peer and scene, and of passes a runner and stream (1)
 //   --frame-limit S  a peer that needs longer for a frame is left out (5)
 //   --out FILE       the results as JSON
-// Exit code 1 if a peer, or Carom, finds other pairs than it should.
+// Exit code 1 if a peer, or Carom, finds other pairs or decides otherwise than it should.
 #include <charconv>
 #include <cstdio>
 #include <limits>
@@ -16,7 +17,10 @@
 #include <string>
 #include <string_view>
 
-#include "bench/peers/comparison.h"
+#include "bench/peers/broadphase/comparison.h"
+#include "bench/peers/broadphase/report.h"
+#include "bench/peers/narrowphase/comparison.h"
+#include "bench/peers/narrowphase/report.h"
 #include "bench/peers/report.h"
 
 namespace carom::bench {
@@ -25,6 +29,7 @@ namespace {
 struct Arguments {
   TimeLimits limits;
   size_t max_bodies = 100'000;
+  size_t pairs = 100'000;
   std::string out;
   std::vector<std::string> recordings;
 };
@@ -38,6 +43,7 @@ bool parse(std::string_view text, T& value) {
 // Takes the flag's value, if it is one of those that have one.
 bool take_value(std::string_view flag, std::string_view value, Arguments& arguments) {
   if (flag == "--max-bodies") return parse(value, arguments.max_bodies);
+  if (flag == "--pairs") return parse(value, arguments.pairs);
   if (flag == "--budget") return parse(value, arguments.limits.budget);
   if (flag == "--frame-limit") return parse(value, arguments.limits.frame_limit);
   if (flag != "--out") return false;
@@ -51,6 +57,7 @@ std::optional<Arguments> parse(int argc, char** argv) {
     const std::string_view argument = argv[i];
     if (argument == "--smoke") {
       arguments.max_bodies = 1'000;
+      arguments.pairs = 2'000;
       arguments.limits.budget = 0.01;
     } else if (argument == "--large") {
       arguments.max_bodies = 1'000'000;
@@ -85,9 +92,9 @@ SmallerScene medians(const SceneResult& result) {
   return medians;
 }
 
-class Comparison {
+class BroadphaseComparison {
  public:
-  explicit Comparison(const TimeLimits& limits) : limits_(limits) {}
+  explicit BroadphaseComparison(const TimeLimits& limits) : limits_(limits) {}
 
   const SceneResult& run(const PeerScene& scene, const SmallerScene& smaller) {
     results_.push_back(compare(scene, kinds_, limits_, smaller));
@@ -119,25 +126,46 @@ class Comparison {
   std::vector<SceneResult> results_;
 };
 
+std::vector<StreamResult> compare_streams(size_t pairs, double budget) {
+  std::vector<StreamResult> results;
+  for (const PeerStreamSpec& spec : peer_streams()) {
+    results.push_back(compare(spec, pairs, budget));
+    print(results.back());
+  }
+  return results;
+}
+
 int fail(const Error& error) {
   std::fprintf(stderr, "carom_peers: %s\n", error.message.c_str());
   return 1;
 }
 
-int run(const Arguments& arguments) {
-  Comparison comparison(arguments.limits);
-  comparison.run_generated(arguments.max_bodies);
-  for (const std::string& path : arguments.recordings) {
-    if (const Result<void> done = comparison.run_recording(path); !done) return fail(done.error());
-  }
-  if (!arguments.out.empty()) {
-    const Result<void> written = write_json(arguments.out, comparison.results(), arguments.limits);
-    if (!written) return fail(written.error());
-  }
-  for (const SceneResult& result : comparison.results()) {
+// What differs is found in the report.
+int check(const Comparisons& comparisons) {
+  for (const SceneResult& result : comparisons.scenes) {
     if (!result.all_equal()) return fail({result.scene + ": pairs differ"});
   }
+  for (const StreamResult& result : comparisons.streams) {
+    if (!result.agrees()) return fail({result.pair + ": decisions differ"});
+  }
   return 0;
+}
+
+int run(const Arguments& arguments) {
+  BroadphaseComparison broadphase(arguments.limits);
+  broadphase.run_generated(arguments.max_bodies);
+  for (const std::string& path : arguments.recordings) {
+    if (const Result<void> done = broadphase.run_recording(path); !done) return fail(done.error());
+  }
+  Comparisons comparisons = {arguments.limits, broadphase.results(), {}};
+  if (arguments.pairs > 0) {
+    comparisons.streams = compare_streams(arguments.pairs, arguments.limits.budget);
+  }
+  if (!arguments.out.empty()) {
+    const Result<void> written = write_json(arguments.out, comparisons);
+    if (!written) return fail(written.error());
+  }
+  return check(comparisons);
 }
 
 }  // namespace

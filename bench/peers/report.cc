@@ -3,11 +3,12 @@
 #include <CGAL/version.h>
 
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bench/peers/broadphase/report.h"
+#include "bench/peers/narrowphase/report.h"
 #include "bench/support/context.h"
 #include "carom/simd/isa.h"
 #include "io/atomic_file.h"
@@ -16,28 +17,6 @@ namespace carom::bench {
 namespace {
 
 using nlohmann::ordered_json;
-
-// How many times faster than the yardstick; 0: unknown.
-double times_yardstick(const SceneResult& result, const PeerResult& peer) {
-  const PeerResult* yardstick = result.timed(kYardstick);
-  return yardstick ? yardstick->median_seconds / peer.median_seconds : 0;
-}
-
-double ns_per_body(const SceneResult& result, const PeerResult& peer) {
-  return 1e9 * peer.median_seconds / static_cast<double>(result.bodies);
-}
-
-const char* name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::timed:
-      return "timed";
-    case Outcome::too_slow:
-      return "too slow";
-    case Outcome::different:
-      return "different pairs";
-  }
-  return "";
-}
 
 std::string now() {
   const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -62,59 +41,12 @@ ordered_json context_json(const TimeLimits& limits) {
   return json;
 }
 
-ordered_json peer_json(const SceneResult& result, const PeerResult& peer) {
-  ordered_json json = {
-      {"peer", peer.peer}, {"threads", peer.threads}, {"outcome", name(peer.outcome)}};
-  if (peer.outcome != Outcome::timed) {
-    json["detail"] = peer.detail;
-    return json;
-  }
-  json["ms"] = 1e3 * peer.median_seconds;
-  json["ms_min"] = 1e3 * peer.least_seconds;
-  json["ns_per_body"] = ns_per_body(result, peer);
-  json["times_cgal"] = times_yardstick(result, peer);
-  json["frames"] = peer.frames;
-  return json;
-}
-
-ordered_json scene_json(const SceneResult& result) {
-  ordered_json json = {{"scene", result.scene},
-                       {"bodies", result.bodies},
-                       {"pairs", result.pairs},
-                       {"held_to_brute_force", result.held_to_brute_force},
-                       {"brute_force_difference", result.brute_force}};
-  json["peers"] = ordered_json::array();
-  for (const PeerResult& peer : result.peers) json["peers"].push_back(peer_json(result, peer));
-  return json;
-}
-
 }  // namespace
 
-void print(const SceneResult& result) {
-  std::printf("\n%s: %zu bodies, %zu pairs\n", result.scene.c_str(), result.bodies, result.pairs);
-  if (!result.brute_force.empty()) {
-    std::printf("  Carom differs from brute force: %s\n", result.brute_force.c_str());
-    return;
-  }
-  std::printf("  %-24s %7s %10s %10s %9s %8s\n", "peer", "threads", "ms/frame", "ns/body", "x CGAL",
-              "frames");
-  for (const PeerResult& peer : result.peers) {
-    std::printf("  %-24s %7d ", peer.peer.c_str(), peer.threads);
-    if (peer.outcome == Outcome::timed) {
-      std::printf("%10.4f %10.1f %9.2f %8zu\n", 1e3 * peer.median_seconds,
-                  ns_per_body(result, peer), times_yardstick(result, peer), peer.frames);
-    } else {
-      std::printf("%s: %s\n", name(peer.outcome), peer.detail.c_str());
-    }
-  }
-  std::fflush(stdout);
-}
-
-Result<void> write_json(const std::string& path, const std::vector<SceneResult>& results,
-                        const TimeLimits& limits) {
-  ordered_json json = {{"context", context_json(limits)}};
-  json["scenes"] = ordered_json::array();
-  for (const SceneResult& result : results) json["scenes"].push_back(scene_json(result));
+Result<void> write_json(const std::string& path, const Comparisons& comparisons) {
+  const ordered_json json = {{"context", context_json(comparisons.limits)},
+                             {"scenes", scenes_json(comparisons.scenes)},
+                             {"streams", streams_json(comparisons.streams)}};
   return io::write_text_file(path, json.dump(2) + "\n");
 }
 

@@ -1,17 +1,21 @@
-// The comparison as tables and as JSON.
+// Both comparisons in one file of JSON.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "bench/peers/comparison.h"
+#include "bench/peers/broadphase/comparison.h"
+#include "bench/peers/narrowphase/comparison.h"
 #include "carom/kernel/result.h"
 
 namespace carom::bench {
 
-void print(const SceneResult& result);
+struct Comparisons {
+  TimeLimits limits;
+  std::vector<SceneResult> scenes;
+  std::vector<StreamResult> streams;
+};
 
-Result<void> write_json(const std::string& path, const std::vector<SceneResult>& results,
-                        const TimeLimits& limits);
+Result<void> write_json(const std::string& path, const Comparisons& comparisons);
 
 }  // namespace carom::bench

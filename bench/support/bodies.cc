@@ -1,6 +1,6 @@
 #include "bench/support/bodies.h"
 
-#include <array>
+#include <numbers>
 #include <variant>
 
 #include "carom/reference/reference.h"
@@ -11,6 +11,56 @@ namespace {
 float radius_of(const Shape& shape) {
   const auto* sphere = std::get_if<Sphere>(&shape);
   return sphere ? sphere->radius : 0;
+}
+
+float draw_size(test::Random& random) { return static_cast<float>(random.uniform(0.5, 2)); }
+
+Eigen::Vector3f draw_half(test::Random& random) {
+  const float x = draw_size(random), y = draw_size(random);
+  return {x, y, draw_size(random)};
+}
+
+Capsule draw_capsule(test::Random& random) {
+  const Eigen::Vector3f end(0, draw_size(random), 0);
+  return {-end, end, draw_size(random) / 2};
+}
+
+Triangle draw_triangle(test::Random& random) {
+  Triangle triangle;
+  Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+  for (Eigen::Vector3f& corner : triangle.corners) {
+    corner = draw_size(random) * random.direction().cast<float>();
+    middle += corner / 3;
+  }
+  for (Eigen::Vector3f& corner : triangle.corners) corner -= middle;
+  return triangle;
+}
+
+Shape draw_shape(ShapeKind kind, test::Random& random) {
+  switch (kind) {
+    case ShapeKind::sphere:
+      return Sphere{draw_size(random)};
+    case ShapeKind::capsule:
+      return draw_capsule(random);
+    case ShapeKind::box:
+      return Box{draw_half(random)};
+    case ShapeKind::triangle:
+      return draw_triangle(random);
+    case ShapeKind::halfspace:
+      return Halfspace{random.direction().cast<float>(), draw_size(random)};
+    default:
+      return Aabb::from_half_extents(draw_half(random));
+  }
+}
+
+Eigen::Vector3d draw_position(test::Random& random) {
+  const double x = random.uniform(-100, 100), y = random.uniform(-100, 100);
+  return {x, y, random.uniform(-100, 100)};
+}
+
+Eigen::Quaternionf draw_orientation(test::Random& random) {
+  const double angle = random.uniform(0, 2 * std::numbers::pi);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, random.direction())).cast<float>();
 }
 
 }  // namespace
@@ -24,22 +74,16 @@ PositionType position_type(Storage storage) {
   return storage == Storage::f64 ? PositionType::float64 : PositionType::float32;
 }
 
-Shape draw_shape(ShapeKind kind, test::Random& random) {
-  const auto size = [&] { return static_cast<float>(random.uniform(0.5, 2)); };
-  if (kind == ShapeKind::sphere) return Sphere{size()};
-  const float x = size(), y = size(), z = size();
-  return Aabb::from_half_extents({x, y, z});
+PlacedShape draw_body(ShapeKind kind, test::Random& random) {
+  PlacedShape body = {draw_shape(kind, random), draw_position(random)};
+  if (row_count(kind) > 0) body.orientation = draw_orientation(random);
+  return body;
 }
 
-Eigen::Vector3d draw_position(test::Random& random) {
-  const double x = random.uniform(-100, 100), y = random.uniform(-100, 100);
-  return {x, y, random.uniform(-100, 100)};
-}
-
-Eigen::Vector3d half_extents(const Shape& shape) {
-  const reference::Box box =
-      reference::bounds(shape, Eigen::Vector3d::Zero(), PositionType::float32);
-  return (box.upper - box.lower).cast<double>() / 2;
+Eigen::AlignedBox3d local_bounds(const PlacedShape& body) {
+  const Pose turned = {Eigen::Vector3d::Zero(), body.orientation};
+  const reference::Box box = reference::bounds(body.shape, turned, PositionType::float32);
+  return {box.lower.cast<double>(), box.upper.cast<double>()};
 }
 
 PlacedShape as_stored(PlacedShape body, Storage storage) {
@@ -58,6 +102,7 @@ DenseBodies::DenseBodies(ShapeKind kind, std::span<const PlacedShape> bodies, St
   if (storage == Storage::f32) store_records(bodies, records32_);
   if (storage == Storage::f64) store_records(bodies, records64_);
   if (kind == ShapeKind::aabb) store_boxes(bodies);
+  if (row_count(kind) > 0) store_rows(bodies);
 }
 
 template <class T>
@@ -86,6 +131,16 @@ void DenseBodies::store_boxes(std::span<const PlacedShape> bodies) {
     view_.boxes.lower[axis] = lower;
     view_.boxes.upper[axis] = upper;
   }
+}
+
+void DenseBodies::store_rows(std::span<const PlacedShape> bodies) {
+  for (const PlacedShape& body : bodies) {
+    for (const float x : body.orientation.coeffs()) orientations_.push_back(x);
+    const auto rows = shape_rows(body.shape);
+    rows_.insert(rows_.end(), rows.begin(), rows.begin() + row_count(view_.uniform_kind));
+  }
+  view_.orientation.data = orientations_.data();
+  view_.rows.data = rows_.front().data();
 }
 
 }  // namespace carom::bench

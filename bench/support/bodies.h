@@ -1,6 +1,8 @@
 // Bodies as the library reads them, and random ones.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -22,13 +24,12 @@ enum class Storage {
 const char* name(Storage storage);
 PositionType position_type(Storage storage);
 
-// Sizes from 0.5 to 2 metres about the origin.
-Shape draw_shape(ShapeKind kind, test::Random& random);
-// Anywhere within 100 m of the origin.
-Eigen::Vector3d draw_position(test::Random& random);
+// Sizes from 0.25 to 2 metres, about the body's origin; anywhere within 100 m of the world's,
+// turned any way. Capsules are along their y axis.
+PlacedShape draw_body(ShapeKind kind, test::Random& random);
 
-// Half the extents of the shape's bounds.
-Eigen::Vector3d half_extents(const Shape& shape);
+// Bounds relative to the body's position.
+Eigen::AlignedBox3d local_bounds(const PlacedShape& body);
 
 // The body with its position, or its corners in world coordinates, rounded as stored.
 PlacedShape as_stored(PlacedShape body, Storage storage);
@@ -46,10 +47,13 @@ class DenseBodies {
   template <class T>
   void store_records(std::span<const PlacedShape> bodies, std::vector<T>& records);
   void store_boxes(std::span<const PlacedShape> bodies);
+  void store_rows(std::span<const PlacedShape> bodies);
 
   std::vector<float> records32_;
   std::vector<double> records64_;
   std::vector<float> boxes_;  // six columns
+  std::vector<float> orientations_;
+  std::vector<std::array<float, 4>> rows_;
   Collidables view_;
 };
 

@@ -1,7 +1,9 @@
 #include "bench/support/pair_stream.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -11,6 +13,7 @@
 namespace carom::bench {
 namespace {
 
+constexpr size_t kByteColumns = 3;
 constexpr size_t kFloatColumns = 10;
 
 reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& b,
@@ -18,17 +21,43 @@ reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& 
   return test::reference_result({a, b}, position_type(storage));
 }
 
-// B near A, so that the two overlap or do not, as asked for. Separate ones are near misses too: at
-// most 1.3 times as far off as bounds that touch.
+// Near misses are at most so many times as far off as bounds that touch.
+constexpr double kReach = 1.3;
+
+// From A's position to that of B, so that their bounds are near each other.
+Eigen::Vector3d draw_way(const PlacedShape& a, const PlacedShape& b, test::Random& random) {
+  const Eigen::AlignedBox3d bounds_a = local_bounds(a), bounds_b = local_bounds(b);
+  const Eigen::Vector3d reach = kReach / 2 * (bounds_a.sizes() + bounds_b.sizes());
+  Eigen::Vector3d way = bounds_a.center() - bounds_b.center();
+  for (int axis = 0; axis < 3; ++axis) way[axis] += random.uniform(-reach[axis], reach[axis]);
+  return way;
+}
+
+// From the position of a half-space to that of a body near its plane.
+Eigen::Vector3d draw_way_from_plane(const PlacedShape& plane, const PlacedShape& body,
+                                    test::Random& random) {
+  const auto& halfspace = std::get<Halfspace>(plane.shape);
+  const Eigen::Vector3d normal = (plane.orientation * halfspace.normal).cast<double>();
+  const Eigen::AlignedBox3d bounds = local_bounds(body);
+  const double reach = kReach / 2 * bounds.sizes().dot(normal.cwiseAbs());
+  const Eigen::Vector3d along = normal.cross(random.direction()) * 10;
+  return normal * (halfspace.offset + random.uniform(-reach, reach)) + along - bounds.center();
+}
+
+Eigen::Vector3d draw_way(const StreamSpec& spec, const PlacedShape& a, const PlacedShape& b,
+                         test::Random& random) {
+  if (spec.kind_a == ShapeKind::halfspace) return draw_way_from_plane(a, b, random);
+  if (spec.kind_b == ShapeKind::halfspace) return -draw_way_from_plane(b, a, random);
+  return draw_way(a, b, random);
+}
+
+// B near A, so that the two overlap or do not, as asked for.
 test::TestPair draw_pair(const StreamSpec& spec, bool overlap, test::Random& random) {
-  const PlacedShape a = {draw_shape(spec.kind_a, random), draw_position(random)};
-  PlacedShape b = {draw_shape(spec.kind_b, random)};
-  const Eigen::Vector3d reach = 1.3 * (half_extents(a.shape) + half_extents(b.shape));
+  const PlacedShape a = draw_body(spec.kind_a, random);
+  PlacedShape b = draw_body(spec.kind_b, random);
   const PlacedShape stored_a = as_stored(a, spec.storage);
   for (;;) {
-    for (int axis = 0; axis < 3; ++axis) {
-      b.position[axis] = a.position[axis] + random.uniform(-reach[axis], reach[axis]);
-    }
+    b.position = a.position + draw_way(spec, a, b, random);
     const PlacedShape stored_b = as_stored(b, spec.storage);
     if (reference_result(stored_a, stored_b, spec.storage).overlap == overlap) {
       return {stored_a, stored_b};
@@ -56,19 +85,29 @@ float world_coordinate(double position, float arm) {
 
 }  // namespace
 
-ResultArrays::ResultArrays(size_t count) : bytes_(2 * count), floats_(kFloatColumns * count) {
+const char* name(Detail detail) {
+  static constexpr std::array<const char*, 4> kNames = {"pairs", "overlap", "contact", "manifold"};
+  return kNames[static_cast<size_t>(detail)];
+}
+
+ResultArrays::ResultArrays(size_t count)
+    : bytes_(kByteColumns * count), floats_(kFloatColumns * count), manifolds_(count) {
   const auto column = [&](size_t i) { return &floats_[i * count]; };
   columns_ = {.overlap = &bytes_[0],
               .status = &bytes_[count],
               .separation = column(0),
               .normal = {column(1), column(2), column(3)},
               .point_a = {column(4), column(5), column(6)},
-              .point_b = {column(7), column(8), column(9)}};
+              .point_b = {column(7), column(8), column(9)},
+              .manifold_count = &bytes_[2 * count],
+              .manifold = manifolds_.data()};
 }
 
 void ResultArrays::spoil() {
   std::fill(bytes_.begin(), bytes_.end(), uint8_t{0xa5});
-  std::fill(floats_.begin(), floats_.end(), std::numeric_limits<float>::signaling_NaN());
+  const float nan = std::numeric_limits<float>::signaling_NaN();
+  std::fill(floats_.begin(), floats_.end(), nan);
+  for (ManifoldPoints& manifold : manifolds_) manifold.separation.fill(nan);
 }
 
 PairStream::PairStream(const StreamSpec& spec) : spec_(spec) {
@@ -76,7 +115,7 @@ PairStream::PairStream(const StreamSpec& spec) : spec_(spec) {
   a_ = std::make_unique<DenseBodies>(spec.kind_a, bodies_a_, spec.storage);
   b_ = std::make_unique<DenseBodies>(spec.kind_b, bodies_b_, spec.storage);
   PassTimes times;
-  for (int pass = 0; pass < 5; ++pass) times.measure([&] { run_reference(expected_); });
+  for (int pass = 0; pass < 3; ++pass) times.measure([&] { run_reference(expected_); });
   reference_seconds_ = times.median();
 }
 
@@ -139,7 +178,21 @@ bool PairStream::has_expected_bits(size_t row, Detail detail, const ResultColumn
            same_bits(out.point_a[column][row], point_a) &&
            same_bits(out.point_b[column][row], point_b);
   }
-  return same;
+  return same && (detail == Detail::contact || has_expected_manifold(row, out));
+}
+
+bool PairStream::has_expected_manifold(size_t row, const ResultColumns& out) const {
+  const reference::PairResult& expected = expected_[row];
+  if (out.manifold_count[row] != expected.manifold_count) return false;
+  const Eigen::Vector3d& position = bodies_a_[pairs_[row].a].position;
+  ManifoldPoints manifold = expected.manifold;
+  for (size_t i = 0; i < expected.manifold_count; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      float& x = manifold.point[i][static_cast<size_t>(axis)];
+      x = world_coordinate(position[axis], x);
+    }
+  }
+  return std::memcmp(&manifold, &out.manifold[row], sizeof manifold) == 0;
 }
 
 }  // namespace carom::bench

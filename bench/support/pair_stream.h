@@ -21,6 +21,8 @@ enum class Access {
   pairs,  // a list of pairs as the broadphase yields it: a ascends, b is anywhere
 };
 
+const char* name(Detail detail);
+
 struct StreamSpec {
   ShapeKind kind_a;
   ShapeKind kind_b;
@@ -44,6 +46,7 @@ class ResultArrays {
  private:
   std::vector<uint8_t> bytes_;
   std::vector<float> floats_;
+  std::vector<ManifoldPoints> manifolds_;
   ResultColumns columns_;
 };
 
@@ -52,6 +55,11 @@ class PairStream {
   explicit PairStream(const StreamSpec& spec);
 
   const StreamSpec& spec() const { return spec_; }
+  // Bodies as they are stored; with Access::rows pair i is row i of both.
+  const std::vector<PlacedShape>& bodies_a() const { return bodies_a_; }
+  const std::vector<PlacedShape>& bodies_b() const { return bodies_b_; }
+  // What the reference says of pair i.
+  const reference::PairResult& expected(size_t i) const { return expected_[i]; }
   double hit_percent() const;
   // The time of one pass of the reference.
   double reference_seconds() const { return reference_seconds_; }
@@ -66,6 +74,7 @@ class PairStream {
  private:
   void draw();
   bool has_expected_bits(size_t row, Detail detail, const ResultColumns& out) const;
+  bool has_expected_manifold(size_t row, const ResultColumns& out) const;
 
   StreamSpec spec_;
   std::vector<PlacedShape> bodies_a_;

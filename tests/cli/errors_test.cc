@@ -11,12 +11,27 @@ namespace {
 
 using ErrorsTest = CliTest;
 
-// One body of that kind, `frames` frames; frame `bad_frame` holds nothing but NaN.
+// A sphere, and a shape of that kind; a mesh of two triangles.
+io::SceneShapes shapes_with(uint8_t kind) {
+  io::SceneShapes shapes;
+  shapes.kind = {0, kind};
+  shapes.params = {{1}, {6, 0, 0, 1, 0, 0, 1}};
+  shapes.vertex_range = {{0, 0}, {0, 4}};
+  shapes.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  shapes.triangle_range = {{0, 0}, {0, 2}};
+  shapes.triangles = {{0, 1, 2}, {1, 2, 3}};
+  shapes.child_range = {{0, 0}, {0, 1}};
+  shapes.child_shape = {0};
+  shapes.child_position = {{0, 0, 0}};
+  shapes.child_orientation = {{0, 0, 0, 1}};
+  return shapes;
+}
+
+// One body, a sphere, `frames` frames; frame `bad_frame` holds nothing but NaN.
 void write_scene(const std::string& path, uint8_t kind, int frames = 2, int bad_frame = -1) {
   io::SceneInfo info;
   info.bodies = 1;
-  info.shapes.kind = {0, kind};
-  info.shapes.params = {{1}, {0, 0, 0, 1, 0, 0, 1}};
+  info.shapes = shapes_with(kind);
   info.body_shape = {0};
   auto writer = io::SceneWriter::create(path, info);
   ASSERT_TRUE(writer) << writer.error().message;
@@ -29,13 +44,13 @@ void write_scene(const std::string& path, uint8_t kind, int frames = 2, int bad_
   ASSERT_TRUE(writer->finish());
 }
 
-void write_pairs(const std::string& path, uint8_t kind) {
+// One pair of the sphere, or of the other shape, with itself.
+void write_pairs(const std::string& path, uint8_t kind, uint32_t shape = 0) {
   io::PairsFile file;
   file.pairs = 1;
-  file.shapes.kind = {0, kind};
-  file.shapes.params = {{1}, {0, 0, 0, 1, 0, 0, 1}};
+  file.shapes = shapes_with(kind);
   for (io::PairSide* side : {&file.a, &file.b}) {
-    side->shape = {0};
+    side->shape = {shape};
     side->position32 = {{0, 0, 0}};
   }
   const auto written = io::write_pairs(path, file);
@@ -73,7 +88,6 @@ TEST_F(ErrorsTest, OptionsOfRun) {
   expect_error({"run", scene, "--isa", "neon"}, {"'neon' cannot be used here", "scalar"});
   expect_error({"run", scene, "--tier", "exact"}, {"tier 'exact' does not exist in this version"});
   expect_error({"run", scene, "--tier", "best"}, {"unknown tier 'best'"});
-  expect_error({"run", scene, "--detail", "manifold"}, {"detail 'manifold' does not exist"});
   expect_error({"run", scene, "--detail", "toi"}, {"detail 'toi' does not exist"});
   expect_error({"run", scene, "--detail", "some"}, {"unknown detail 'some'"});
   expect_error({"run", scene, "--broadphase", "octree"}, {"unknown broadphase 'octree'", "sweep"});
@@ -94,7 +108,7 @@ TEST_F(ErrorsTest, OptionsOfPairs) {
     expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), option, value}, {part});
   };
   fails("--detail", "toi", "detail 'toi' does not exist");
-  fails("--detail", "manifold", "detail 'manifold' does not exist");
+  fails("--detail", "toi", "(there are: overlap, contact, manifold, distance)");
   fails("--detail", "pairs", "unknown detail 'pairs'");
   fails("--tier", "certified", "tier 'certified'");
   fails("--isa", "mmx", "unknown ISA");
@@ -149,15 +163,29 @@ TEST_F(ErrorsTest, FilesThatAreNone) {
 }
 
 TEST_F(ErrorsTest, KindsWithoutKernel) {
-  write_scene(path("capsule.npz"), 1);
-  const std::string text =
-      "capsule.npz: shape_kind: shape 1 is a capsule, which this version has "
-      "no kernel for";
-  expect_error({"run", path("capsule.npz"), "--json", path("out.json")}, {text});
-  expect_error({"verify", path("capsule.npz")}, {text});
-  write_pairs(path("capsule.npz"), 1);
-  expect_error({"pairs", path("capsule.npz"), "-o", path("out.npz")}, {text});
-  expect_error({"verify", path("capsule.npz")}, {text});
+  constexpr char kNoKernel[] = ", which this version has no kernel for";
+  const std::pair<uint8_t, std::string> kinds[] = {
+      {4, std::string("a dop") + kNoKernel},
+      {5, std::string("a hull") + kNoKernel},
+      {6, "a mesh of 2 triangles; this version has kernels for meshes of one triangle only"},
+      {7, std::string("a compound") + kNoKernel}};
+  for (const auto& [kind, what] : kinds) {
+    const std::string text = "file.npz: shape_kind: shape 1 is " + what;
+    write_scene(path("file.npz"), kind);
+    expect_error({"run", path("file.npz"), "--json", path("out.json")}, {text});
+    expect_error({"verify", path("file.npz")}, {text});
+    write_pairs(path("file.npz"), kind);
+    expect_error({"pairs", path("file.npz"), "-o", path("out.npz")}, {text});
+    expect_error({"verify", path("file.npz")}, {text});
+  }
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ErrorsTest, HalfspacesAgainstEachOther) {
+  write_pairs(path("in.npz"), 8, 1);
+  const std::string text = "no kernel for halfspace against halfspace";
+  expect_error({"pairs", path("in.npz"), "-o", path("out.npz")}, {"in.npz: ", text});
+  expect_error({"verify", path("in.npz")}, {"in.npz: ", "pair 0: ", text});
   EXPECT_EQ(files(), 1u);
 }
 
@@ -167,10 +195,10 @@ TEST_F(ErrorsTest, ControlCharactersDoNotBreakTheLine) {
   expect_error({"run", "brownian:n=\n5"}, {"'n=?5'"});
   expect_error({"run", "still:n=5", "--detail", "so\nme"}, {"'so?me'"});
   expect_error({"run", path("a\nb.npz")}, {"a?b.npz"});
-  write_scene(path("a\nb.npz"), 1);
+  write_scene(path("a\nb.npz"), 5);
   expect_error({"run", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
   expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
-  write_pairs(path("a\nb.npz"), 1);
+  write_pairs(path("a\nb.npz"), 5);
   expect_error({"pairs", path("a\nb.npz"), "-o", path("x.npz")}, {"a?b.npz: shape_kind"});
   expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
   write_pairs(path("a\nb.npz"), 2);

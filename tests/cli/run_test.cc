@@ -7,6 +7,7 @@
 #include "carom/simd/isa.h"
 #include "cli/replay.h"
 #include "cli/scene_source.h"
+#include "cli/verify_builtin.h"
 #include "io/npz.h"
 #include "io/recording.h"
 #include "tests/cli/cli_test_util.h"
@@ -60,9 +61,91 @@ TEST_F(RunTest, PipelineHoldsOnlyWhatTheDetailNeeds) {
   };
   EXPECT_TRUE(stages("contact").count("results"));
   EXPECT_TRUE(stages("contact").count("velocities"));
+  EXPECT_EQ(stages("manifold"), stages("contact"));
   EXPECT_TRUE(stages("overlap").count("narrowphase"));
   EXPECT_FALSE(stages("overlap").count("velocities"));
   EXPECT_FALSE(stages("pairs").count("narrowphase"));
+}
+
+// Writes what `carom verify` calls by that name.
+void write_builtin(const std::string& name, const std::string& path) {
+  for (BuiltinScene& builtin : builtin_scenes()) {
+    if (builtin.name != name) continue;
+    auto writer = io::SceneWriter::create(path, builtin.scene->info());
+    ASSERT_TRUE(writer) << writer.error().message;
+    io::SceneFrame frame;
+    for (uint64_t i = 0; i < builtin.scene->info().frames; ++i) {
+      ASSERT_TRUE(builtin.scene->read_frame(frame));
+      ASSERT_TRUE(writer->write_frame(frame));
+    }
+    ASSERT_TRUE(writer->finish());
+    return;
+  }
+  FAIL() << "no scene " << name;
+}
+
+TEST_F(RunTest, ScenesOfAllKindsDoNotDependOnHowTheyAreRun) {
+  for (const char* positions : {"float32", "float64"}) {
+    write_builtin(std::string("all kinds, ") + positions, path("scene.npz"));
+    const auto hash_with = [&](std::vector<std::string> options) {
+      options.insert(options.begin(), {path("scene.npz"), "--detail", "manifold"});
+      return run_json(options)["state_hash"].get<std::string>();
+    };
+    const std::string hash = hash_with({});
+    for (const Isa isa : usable_isas()) {
+      for (const char* threads : {"1", "3"}) {
+        EXPECT_EQ(hash_with({"--isa", name(isa), "--threads", threads}), hash) << name(isa);
+      }
+    }
+    EXPECT_EQ(hash_with({"--no-cache"}), hash);
+    EXPECT_EQ(hash_with({"--broadphase", "brute"}), hash);
+    EXPECT_EQ(hash_with({"--broadphase", "sweep"}), hash);
+  }
+}
+
+TEST_F(RunTest, DetailsAgreeForAllKinds) {
+  write_builtin("all kinds, float32", path("scene.npz"));
+  const json manifold = run_json({path("scene.npz"), "--detail", "manifold"});
+  EXPECT_EQ(manifold["detail"], "manifold");
+  const json contact = run_json({path("scene.npz")});
+  const json overlap = run_json({path("scene.npz"), "--detail", "overlap"});
+  EXPECT_EQ(manifold["contacts_per_frame"], contact["contacts_per_frame"]);
+  EXPECT_EQ(manifold["events_per_frame"], contact["events_per_frame"]);
+  EXPECT_EQ(manifold["events_per_frame"], overlap["events_per_frame"]);
+  EXPECT_EQ(manifold["pairs_per_frame"], overlap["pairs_per_frame"]);
+  EXPECT_NE(manifold["state_hash"], contact["state_hash"]);
+}
+
+TEST_F(RunTest, PairKindsAreThoseOfTheBodies) {
+  EXPECT_EQ(run_json({"still:n=9,frames=1,shape=sphere"})["pair_kinds"],
+            json::array({"sphere-sphere"}));
+  EXPECT_EQ(run_json({"still:n=1,frames=1"})["pair_kinds"], json::array());
+  write_builtin("spheres and aabbs, float32", path("scene.npz"));
+  EXPECT_EQ(run_json({path("scene.npz")})["pair_kinds"],
+            json::array({"sphere-sphere", "sphere-aabb", "aabb-aabb"}));
+}
+
+// A ball beside a box that turns by an eighth and back.
+TEST_F(RunTest, BodiesTurnFromFrameToFrame) {
+  io::SceneInfo info;
+  info.bodies = 2;
+  info.has_orientation = true;
+  info.shapes.kind = {0, 3};
+  info.shapes.params = {{0.25f}, {1, 1, 1}};
+  info.body_shape = {0, 1};
+  auto writer = io::SceneWriter::create(path("scene.npz"), info);
+  ASSERT_TRUE(writer) << writer.error().message;
+  for (const float turn : {0.0f, 0.41421356f, 0.0f, -0.41421356f}) {
+    io::SceneFrame frame;
+    frame.position32 = {1.5f, 0, 0, 0, 0, 0};
+    frame.orientation = {0, 0, 0, 1, 0, 0, turn, 1};
+    ASSERT_TRUE(writer->write_frame(frame));
+  }
+  ASSERT_TRUE(writer->finish());
+  const json report = run_json({path("scene.npz"), "--frames", "6"});
+  EXPECT_EQ(report["contacts_per_frame"].get<std::vector<int>>(),
+            (std::vector<int>{0, 1, 0, 1, 0, 1}));
+  EXPECT_EQ(report["pair_kinds"], json::array({"sphere-box"}));
 }
 
 TEST_F(RunTest, DetailsAgree) {
@@ -135,7 +218,7 @@ TEST_F(RunTest, NoPairsNoBytesAPair) {
 }
 
 TEST_F(RunTest, StillScenesSearchNothingAtAnyDetail) {
-  for (const char* detail : {"pairs", "overlap", "contact"}) {
+  for (const char* detail : {"pairs", "overlap", "contact", "manifold"}) {
     const json report = run_json({"still:n=2000,frames=20", "--detail", detail});
     EXPECT_EQ(report["searched_bodies_per_frame"].back(), 0) << detail;
     EXPECT_EQ(report["stage_ms"]["broadphase"], 0) << detail;
@@ -193,7 +276,7 @@ std::vector<Pair> brute_pairs(const io::SceneInfo& info, const io::SceneFrame& f
     const std::array<float, 8>& params = info.shapes.params[info.body_shape[i]];
     boxes.push_back(reference::bounds(
         Aabb::from_half_extents({params[0], params[1], params[2]}),
-        Eigen::Map<const Eigen::Vector3f>(&frame.position32[3 * i]).cast<double>(),
+        {.position = Eigen::Map<const Eigen::Vector3f>(&frame.position32[3 * i]).cast<double>()},
         PositionType::float32));
   }
   std::vector<Pair> pairs;

@@ -38,9 +38,22 @@ TEST(SharedTest, ScenesOfOtherKindsAreRefused) {
   const std::string shared = shared_folder();
   if (shared.empty()) return;
   expect_error({"run", shared + "/scenes/junkyard.npz"},
-               {"junkyard.npz: shape_kind: shape 0 is a "});
-  expect_error({"verify", shared + "/pairs/capsule_capsule.npz"},
-               {"capsule_capsule.npz: shape_kind: shape 0 is a capsule"});
+               {"junkyard.npz: shape_kind: shape ", " is a "});
+  expect_error({"verify", shared + "/pairs/hull8_hull8.npz"},
+               {"hull8_hull8.npz: shape_kind: shape 0 is a hull"});
+}
+
+// Spheres that settle between half-spaces.
+TEST(SharedTest, SpheresBetweenHalfspaces) {
+  const std::string shared = shared_folder();
+  if (shared.empty()) return;
+  const std::string scene = shared + "/scenes/spheres.npz";
+  const CommandResult run = run_command({"run", scene, "--detail", "manifold", "--json", "-"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");  // no body is left out
+  for (const auto& contacts : run.json()["contacts_per_frame"]) EXPECT_GT(contacts, 0);
+  const CommandResult verified = run_command({"verify", scene, "--frames", "2", "--threads", "1"});
+  EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
 }
 
 }  // namespace

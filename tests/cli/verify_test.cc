@@ -47,8 +47,9 @@ void expect_found(const Verdict& verdict, std::initializer_list<std::string> par
 // A world whose results are tampered with.
 class BrokenStepper : public Stepper {
  public:
-  using Break = std::function<void(int frame, std::vector<Pair>&, std::vector<uint8_t>&,
-                                   std::vector<Contact>&, std::vector<Event>&)>;
+  using Break =
+      std::function<void(int frame, std::vector<Pair>&, std::vector<uint8_t>&,
+                         std::vector<Contact>&, std::vector<ManifoldPoints>&, std::vector<Event>&)>;
   BrokenStepper(std::unique_ptr<Stepper> base, Break damage)
       : base_(std::move(base)), break_(std::move(damage)) {}
 
@@ -57,9 +58,10 @@ class BrokenStepper : public Stepper {
     pairs_.assign(view.pairs.begin(), view.pairs.end());
     overlaps_.assign(view.overlaps.begin(), view.overlaps.end());
     contacts_.assign(view.contacts.begin(), view.contacts.end());
+    manifolds_.assign(view.manifolds.begin(), view.manifolds.end());
     events_.assign(view.events.begin(), view.events.end());
-    break_(frame_++, pairs_, overlaps_, contacts_, events_);
-    return {pairs_, overlaps_, contacts_, events_, view.quarantined};
+    break_(frame_++, pairs_, overlaps_, contacts_, manifolds_, events_);
+    return {pairs_, overlaps_, contacts_, manifolds_, events_, view.quarantined};
   }
 
  private:
@@ -68,6 +70,7 @@ class BrokenStepper : public Stepper {
   std::vector<Pair> pairs_;
   std::vector<uint8_t> overlaps_;
   std::vector<Contact> contacts_;
+  std::vector<ManifoldPoints> manifolds_;
   std::vector<Event> events_;
   int frame_ = 0;
 };
@@ -102,8 +105,8 @@ TEST_F(VerifyTest, BuiltinPairsHitAndMiss) {
     size_t overlaps = 0;
     for (size_t i = 0; i < set.pairs.size(); ++i) {
       overlaps +=
-          reference::collide(set.pairs.a.shape(i), set.pairs.a.position(i), set.pairs.b.shape(i),
-                             set.pairs.b.position(i), set.pairs.a.positions())
+          reference::collide(set.pairs.a.shape(i), set.pairs.a.pose(i), set.pairs.b.shape(i),
+                             set.pairs.b.pose(i), set.pairs.a.positions())
               .overlap;
     }
     EXPECT_GT(overlaps, set.pairs.size() * 3 / 10) << set.name;
@@ -112,7 +115,7 @@ TEST_F(VerifyTest, BuiltinPairsHitAndMiss) {
 }
 
 TEST_F(VerifyTest, OneBitOfAContact) {
-  BrokenWorld system([](int frame, auto&, auto&, std::vector<Contact>& contacts, auto&) {
+  BrokenWorld system([](int frame, auto&, auto&, std::vector<Contact>& contacts, auto&, auto&) {
     if (frame == 2 && contacts.size() > 5) {
       contacts[5].separation = std::nextafter(contacts[5].separation, 1.0f);
     }
@@ -121,8 +124,19 @@ TEST_F(VerifyTest, OneBitOfAContact) {
                {"frame 2: contacts differ at pair (", "sphere radius 0x1p-1", "separation -0x"});
 }
 
+TEST_F(VerifyTest, OneBitOfAManifold) {
+  BrokenWorld system(
+      [](int frame, auto&, auto&, auto&, std::vector<ManifoldPoints>& manifolds, auto&) {
+        if (frame != 1 || manifolds.size() <= 7) return;
+        float& x = manifolds[7].point[0][2];
+        x = std::nextafter(x, 1e9f);
+      });
+  expect_found(verify_with(system, {kScene}),
+               {"detail manifold", "frame 1: manifolds differ at pair (", " manifold of 1: ("});
+}
+
 TEST_F(VerifyTest, AMissingPair) {
-  BrokenWorld system([](int frame, std::vector<Pair>& pairs, auto&, auto&, auto&) {
+  BrokenWorld system([](int frame, std::vector<Pair>& pairs, auto&, auto&, auto&, auto&) {
     if (frame == 1) pairs.pop_back();
   });
   expect_found(verify_with(system, {kScene}),
@@ -131,12 +145,12 @@ TEST_F(VerifyTest, AMissingPair) {
 
 TEST_F(VerifyTest, AWrongDecision) {
   BrokenWorld system(
-      [](int, auto&, std::vector<uint8_t>& overlaps, auto&, auto&) { overlaps[3] ^= 1; });
+      [](int, auto&, std::vector<uint8_t>& overlaps, auto&, auto&, auto&) { overlaps[3] ^= 1; });
   expect_found(verify_with(system, {kScene}), {"frame 0: overlaps differ"});
 }
 
 TEST_F(VerifyTest, AWrongEvent) {
-  BrokenWorld system([](int frame, auto&, auto&, auto&, std::vector<Event>& events) {
+  BrokenWorld system([](int frame, auto&, auto&, auto&, auto&, std::vector<Event>& events) {
     if (frame == 3) events[0].kind = EventKind::end;
   });
   expect_found(verify_with(system, {kScene}), {"frame 3: events differ", "event end"});
@@ -145,7 +159,7 @@ TEST_F(VerifyTest, AWrongEvent) {
 // Kernels that are wrong in one lane, on one instruction set, at one detail, or by position.
 class BrokenKernel : public System {
  public:
-  enum class Flaw { last_bit, overlap_only, list_only, threads };
+  enum class Flaw { last_bit, overlap_only, list_only, threads, manifold };
   explicit BrokenKernel(Flaw flaw) : flaw_(flaw) {}
 
   Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
@@ -157,6 +171,7 @@ class BrokenKernel : public System {
     }
     if (flaw_ == Flaw::overlap_only && detail == Detail::overlap) out.overlap[17] ^= 1;
     if (flaw_ == Flaw::threads && parallelism == Parallelism::arena) out.overlap[17] ^= 1;
+    if (flaw_ == Flaw::manifold && out.manifold) out.manifold[17].separation[3] += 1;
     return done;
   }
 
@@ -177,11 +192,36 @@ TEST_F(VerifyTest, BrokenKernels) {
   const std::pair<Flaw, std::string> kCases[] = {{Flaw::last_bit, "rows: pair 17 differs"},
                                                  {Flaw::overlap_only, "detail overlap: pair 17"},
                                                  {Flaw::list_only, "shuffled: pair "},
-                                                 {Flaw::threads, "threads 2, rows: pair 17"}};
+                                                 {Flaw::threads, "threads 2, rows: pair 17"},
+                                                 {Flaw::manifold, "detail manifold: pair 17"}};
   for (const auto& [flaw, text] : kCases) {
     BrokenKernel system(flaw);
     expect_found(verify_with(system, {}), {"sphere-sphere pairs, float32: ", text, "  a: sphere"});
   }
+}
+
+// Inputs can be pasted back: orientations and all parameters are there.
+TEST_F(VerifyTest, DifferencesShowOrientedShapes) {
+  io::PairsFile file;
+  file.pairs = 18;
+  file.shapes.kind = {1, 6};
+  file.shapes.params = {{1, 0, 0, -1, 0, 0, 0.5f}, {1, 0.25f}};
+  file.shapes.vertex_range = {{0, 0}, {0, 3}};
+  file.shapes.vertices = {{4, 0, 0}, {0, 8, 0}, {0, 0, 16}};
+  file.shapes.triangle_range = {{0, 0}, {0, 1}};
+  file.shapes.triangles = {{0, 1, 2}};
+  for (io::PairSide* side : {&file.a, &file.b}) {
+    side->shape.assign(18, side == &file.b);
+    side->position32.assign(18, {0, 0, 0});
+    side->orientation.assign(18, {0, 2, 0, 1});
+  }
+  ASSERT_TRUE(io::write_pairs(path("in.npz"), file));
+  BrokenKernel system(BrokenKernel::Flaw::threads);
+  expect_found(verify_with(system, {path("in.npz")}),
+               {"  a: capsule a (0x1p+0, 0x0p+0, 0x0p+0) b (-0x1p+0, 0x0p+0, 0x0p+0) radius 0x1p-1",
+                "orientation (0x0p+0, 0x1p+1, 0x0p+0, 0x1p+0) float32",
+                "  b: triangle (0x1p+2, 0x0p+0, 0x0p+0) (0x0p+0, 0x1p+3, 0x0p+0) (0x0p+0, 0x0p+0, "
+                "0x1p+4) thickness 0x1p-2 one-sided inner edges 0"});
 }
 
 class SlowKernel : public System {

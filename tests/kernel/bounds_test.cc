@@ -14,6 +14,7 @@
 #include "carom/kernel/thread_arena.h"
 #include "kernel/bounds_columns.h"
 #include "kernel/outward.h"
+#include "tests/support/bounds_memory.h"
 #include "tests/support/families.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
@@ -97,38 +98,10 @@ reference::Box scalar_sums(const PlacedShape& body) {
 }
 
 reference::Box expected_bounds(const PlacedShape& body, PositionType positions) {
-  if (!reference::is_valid(body.shape, body.position, positions)) {
+  if (!reference::is_valid(body.shape, body.pose(), positions)) {
     return {Eigen::Vector3f::Constant(kInfinity), Eigen::Vector3f::Constant(-kInfinity)};
   }
   return positions == PositionType::float32 ? scalar_sums<float>(body) : scalar_sums<double>(body);
-}
-
-// Six columns, each of which ends where its memory ends.
-class BoundsMemory {
- public:
-  explicit BoundsMemory(size_t count) {
-    for (int i = 0; i < 6; ++i) columns_.emplace_back(count, sizeof(float), sizeof(float));
-  }
-  BoundsColumns out() {
-    const auto at = [&](int i) { return columns_[i].as<float>(); };
-    return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
-  }
-  reference::Box box(size_t i) const {
-    reference::Box box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = columns_[axis].get<float>(i);
-      box.upper[axis] = columns_[3 + axis].get<float>(i);
-    }
-    return box;
-  }
-
- private:
-  std::vector<GuardedArray> columns_;
-};
-
-bool same_bits(const reference::Box& x, const reference::Box& y) {
-  return std::memcmp(x.lower.data(), y.lower.data(), sizeof x.lower) == 0 &&
-         std::memcmp(x.upper.data(), y.upper.data(), sizeof x.upper) == 0;
 }
 
 void expect_bounds(const Bodies& bodies, const Layout& layout, const FloatMode& mode = kDefaultMode,
@@ -332,7 +305,7 @@ TEST(Bounds, InvalidBodiesAreEmptyAndCounted) {
     }
   });
   // Too far for float32, not for float64.
-  expect_bounds({sphere(1e39, 0, 0, 1)}, {.positions = PositionType::float64});
+  expect_bounds(Bodies(1, sphere(1e39, 0, 0, 1)), {.positions = PositionType::float64});
 }
 
 // Everything at the edge of what floats hold.
@@ -371,7 +344,7 @@ TEST(Bounds, AreThoseOfTheReference) {
       bodies.insert(bodies.end(), more.begin(), more.end());
     }
     for (const PlacedShape& body : bodies) {
-      const reference::Box expected = reference::bounds(body.shape, body.position, positions);
+      const reference::Box expected = reference::bounds(body.shape, body.pose(), positions);
       const reference::Box got = expected_bounds(body, positions);
       EXPECT_TRUE(same_bits(got, expected))
           << show(body) << ", " << name(positions) << "\n"

@@ -17,8 +17,8 @@ namespace carom::test {
 namespace {
 
 TEST(ShapeKind, HasANameForEveryCode) {
-  const char* const names[] = {"sphere", "capsule", "aabb",     "box",      "dop",
-                               "hull",   "mesh",    "compound", "halfspace"};
+  const char* const names[] = {"sphere", "capsule", "aabb",     "box",       "dop",
+                               "hull",   "mesh",    "compound", "halfspace", "triangle"};
   for (int code = 0; code < kShapeKindCount; ++code) {
     EXPECT_STREQ(carom::name(static_cast<ShapeKind>(code)), names[code]);
   }
@@ -71,13 +71,54 @@ TEST(BodyReader, ReadsWhatWasWritten) {
       for (size_t i = 0; i < bodies.size(); ++i) {
         EXPECT_EQ(reader.kind(i), kind_of(bodies[i].shape));
         EXPECT_EQ(reader.is_valid(i),
-                  reference::is_valid(bodies[i].shape, bodies[i].position, positions));
+                  reference::is_valid(bodies[i].shape, bodies[i].pose(), positions));
       }
       EXPECT_EQ(reader.position<double>(0).z, 3);
       EXPECT_EQ(reader.radius(0), 4);
       EXPECT_EQ(reader.lower(1, 3), -5);
       EXPECT_EQ(reader.upper(2, 3), 6);
     }
+  }
+}
+
+std::vector<PlacedShape> bodies_with_rows() {
+  const Eigen::Quaternionf turned(1, 2, 3, 4);
+  const std::array<Eigen::Vector3f, 3> corners = {
+      Eigen::Vector3f(1, 2, 3), Eigen::Vector3f(4, 5, 6), Eigen::Vector3f(7, 8, 10)};
+  PlacedShape prism = triangle({1, 2, 3}, corners);
+  std::get<Triangle>(prism.shape) = {corners, 0.5f, true, 5};
+  return {oriented_box({1, 2, 3}, {4, 5, 6}, turned), capsule({1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10),
+          prism, halfspace({1, 2, 3}, {4, 5, 6}, 7), sphere(1, 2, 3, 4)};
+}
+
+TEST(BodyReader, ReadsRowsAndOrientations) {
+  std::vector<PlacedShape> bodies = bodies_with_rows();
+  const size_t valid = bodies.size();
+  bodies.push_back(oriented_box({0, 0, 0}, {1, -1, 1}));
+  bodies.push_back(oriented_box({0, 0, 0}, {1, 1, 1}, Eigen::Quaternionf(0, 0, 0, 0)));
+  bodies.push_back(capsule({0, 0, 0}, {0, 0, 0}, {1, 1, 1}, -1));
+  bodies.push_back(halfspace({0, 0, 0}, {0, 0, 0}, 1));
+  for (const RowOrder order : {RowOrder::dense, RowOrder::backwards, RowOrder::shared}) {
+    const LaidOut set(bodies, {.orientation_stride = 28, .rows = order});
+    const BodyReader reader{set.view()};
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      EXPECT_EQ(reader.rows(i), shape_rows(bodies[i].shape));
+      EXPECT_EQ(reader.is_valid(i), i < valid);
+      EXPECT_EQ(reader.is_valid(i),
+                reference::is_valid(bodies[i].shape, bodies[i].pose(), PositionType::float32));
+    }
+    EXPECT_EQ(reader.orientation(0), (std::array<float, 4>{2, 3, 4, 1}));
+  }
+}
+
+TEST(ShapeRows, HoldAllOfAShape) {
+  for (const PlacedShape& body : bodies_with_rows()) {
+    if (!has_rows(body.shape)) continue;
+    const ShapeKind kind = kind_of(body.shape);
+    const auto rows = shape_rows(body.shape);
+    const Shape again = shape_from_rows(kind, rows.data());
+    EXPECT_EQ(kind_of(again), kind);
+    EXPECT_EQ(shape_rows(again), rows);
   }
 }
 

@@ -214,7 +214,7 @@ TEST(Cases, C61_SameContactFarFromTheOrigin) {
   EXPECT_EQ(here.normal, there.normal);
 
   const reference::Box bounds =
-      reference::bounds(Aabb::from_half_extents(half), {1e7 + 0.9, 0, 0}, PositionType::float64);
+      reference::bounds(Aabb::from_half_extents(half), {{1e7 + 0.9, 0, 0}}, PositionType::float64);
   EXPECT_LE(static_cast<double>(bounds.lower.x()), 1e7 + 0.9 - 0.5);
   EXPECT_GE(static_cast<double>(bounds.upper.x()), 1e7 + 0.9 + 0.5);
 }

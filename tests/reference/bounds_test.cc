@@ -27,7 +27,7 @@ void expect_tight_below(float bound, const Rational& exact) {
 
 void expect_tight(const PlacedShape& body, PositionType positions) {
   SCOPED_TRACE(show(body) + ", " + name(positions));
-  const reference::Box box = reference::bounds(body.shape, body.position, positions);
+  const reference::Box box = reference::bounds(body.shape, body.pose(), positions);
   const RoundedBox shape = rounded_box(body.shape);
   const Eigen::Vector3d position = stored(body.position, positions);
   for (int i = 0; i < 3; ++i) {
@@ -59,13 +59,14 @@ RC_GTEST_PROP(ReferenceBounds, AreTightForSpheresOfAnyBits, (uint32_t radius, ui
   const PlacedShape body{Sphere{std::fabs(std::bit_cast<float>(radius))},
                          {std::bit_cast<double>(x), 0, std::bit_cast<float>(radius)}};
   for (const PositionType positions : kPositionTypes) {
-    if (reference::is_valid(body.shape, body.position, positions)) expect_tight(body, positions);
+    if (reference::is_valid(body.shape, body.pose(), positions)) expect_tight(body, positions);
   }
   RC_ASSERT(!testing::Test::HasFailure());
 }
 
 TEST(ReferenceBounds, ExactWhereCornersAreFloats) {
-  const reference::Box box = reference::bounds(Sphere{0.5f}, {1, -2, 1024}, PositionType::float32);
+  const reference::Box box =
+      reference::bounds(Sphere{0.5f}, {{1, -2, 1024}}, PositionType::float32);
   EXPECT_EQ(box.lower, Eigen::Vector3f(0.5f, -2.5f, 1023.5f));
   EXPECT_EQ(box.upper, Eigen::Vector3f(1.5f, -1.5f, 1024.5f));
 }
@@ -73,11 +74,11 @@ TEST(ReferenceBounds, ExactWhereCornersAreFloats) {
 TEST(ReferenceBounds, OverflowOutwards) {
   const float largest = std::numeric_limits<float>::max();
   const reference::Box box =
-      reference::bounds(Sphere{largest}, {largest, -largest, 0}, PositionType::float32);
+      reference::bounds(Sphere{largest}, {{largest, -largest, 0}}, PositionType::float32);
   EXPECT_EQ(box.lower, Eigen::Vector3f(0, -kInfinity, -largest));
   EXPECT_EQ(box.upper, Eigen::Vector3f(kInfinity, 0, largest));
   const reference::Box far =
-      reference::bounds(Sphere{1}, {1e300, -1e300, 0}, PositionType::float64);
+      reference::bounds(Sphere{1}, {{1e300, -1e300, 0}}, PositionType::float64);
   EXPECT_EQ(far.lower, Eigen::Vector3f(largest, -kInfinity, -1));
   EXPECT_EQ(far.upper, Eigen::Vector3f(kInfinity, -largest, 1));
 }
@@ -91,18 +92,17 @@ TEST(ReferenceBounds, InvalidBodiesAreEmpty) {
   for (const FloatMode& mode : float_modes()) {
     for (const PlacedShape& body : bodies) {
       const ScopedFloatMode scoped(mode);
-      EXPECT_FALSE(reference::is_valid(body.shape, body.position, PositionType::float32));
-      const reference::Box box =
-          reference::bounds(body.shape, body.position, PositionType::float64);
+      EXPECT_FALSE(reference::is_valid(body.shape, body.pose(), PositionType::float32));
+      const reference::Box box = reference::bounds(body.shape, body.pose(), PositionType::float64);
       EXPECT_EQ(box.lower, Eigen::Vector3f::Constant(kInfinity));
       EXPECT_EQ(box.upper, Eigen::Vector3f::Constant(-kInfinity));
       EXPECT_FALSE(reference::overlap(box, box));
     }
   }
   // Too far for float32, not for float64.
-  EXPECT_FALSE(reference::is_valid(Sphere{1}, {1e39, 0, 0}, PositionType::float32));
-  EXPECT_TRUE(reference::is_valid(Sphere{1}, {1e39, 0, 0}, PositionType::float64));
-  EXPECT_TRUE(reference::is_valid(Sphere{-0.0f}, {0, 0, 0}, PositionType::float32));
+  EXPECT_FALSE(reference::is_valid(Sphere{1}, {{1e39, 0, 0}}, PositionType::float32));
+  EXPECT_TRUE(reference::is_valid(Sphere{1}, {{1e39, 0, 0}}, PositionType::float64));
+  EXPECT_TRUE(reference::is_valid(Sphere{-0.0f}, {{0, 0, 0}}, PositionType::float32));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <cstring>
 #include <map>
 #include <set>
 
@@ -239,7 +240,135 @@ TEST(ReferenceStep, LesserDetails) {
   for (const Event& event : overlap.events) EXPECT_EQ(event.contact, kNoContact);
   EXPECT_EQ(pairs.pairs, contact.pairs);
   EXPECT_TRUE(pairs.overlaps.empty());
+  EXPECT_TRUE(contact.manifolds.empty());
   EXPECT_TRUE(pairs.events.empty());
+}
+
+// Boxes and half-spaces whose numbers are quarters, turned by quarters of a turn: every height is
+// exact.
+class Quarters {
+ public:
+  explicit Quarters(uint64_t seed) : random_(seed) {}
+
+  Body body(uint32_t index) {
+    Body body{{index, index % 3}, {}};
+    for (int i = 0; i < 3; ++i) body.desc.position[i] = quarter(-4, 4);
+    body.desc.shape = Aabb::from_half_extents(Eigen::Vector3f::Constant(quarter(0, 2)));
+    if (random_.chance(0.3)) {
+      Halfspace halfspace{Eigen::Vector3f::Zero(), quarter(-3, 3)};
+      halfspace.normal[static_cast<int>(random_.below(3))] = random_.chance(0.5) ? 2.0f : -0.5f;
+      body.desc.shape = halfspace;
+      const float turn = random_.chance(0.5) ? 1.0f : -2.0f;
+      body.desc.orientation = Eigen::Quaternionf(turn, 0, 0, 0);
+      if (random_.chance(0.7)) body.desc.orientation.coeffs()[random_.below(3)] = turn;
+    }
+    body.desc.motion = random_.chance(0.3) ? Motion::fixed : Motion::dynamic;
+    body.desc.owner = static_cast<uint32_t>(random_.below(9));
+    body.desc.sensor = random_.chance(0.1);
+    return body;
+  }
+
+ private:
+  float quarter(int low, int high) {
+    return static_cast<float>(low) +
+           0.25f * static_cast<float>(random_.below(4 * (high - low) + 1));
+  }
+
+  Random random_;
+};
+
+// Of the lowest corner of the body above the plane.
+double height_above(const BodyDesc& body, const BodyDesc& plane) {
+  const auto& halfspace = std::get<Halfspace>(plane.shape);
+  const Eigen::Matrix3d rotation = plane.orientation.cast<double>().normalized().toRotationMatrix();
+  const Eigen::Vector3d n = (rotation * halfspace.normal.cast<double>() * 4).array().round() / 4;
+  const Eigen::Vector3d half = std::get<Aabb>(body.shape).upper.cast<double>();
+  return n.dot(body.position - plane.position) - n.cwiseAbs().dot(half) - halfspace.offset;
+}
+
+TEST(ReferenceStep, HalfspacesMeetWhatReachesIntoThem) {
+  for (const PositionType positions : kPositionTypes) {
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+      Quarters quarters(seed);
+      std::vector<Body> bodies;
+      for (uint32_t i = 0; i < 60; ++i) bodies.push_back(quarters.body(2 * i));
+      const Frame frame = reference::step(bodies, positions, Detail::contact, true, nullptr);
+      std::vector<Pair> expected;
+      for (const Body& a : bodies) {
+        for (const Body& b : bodies) {
+          if (a.id.index >= b.id.index || !filter_passes(a.desc, b.desc)) continue;
+          const bool plane_a = std::holds_alternative<Halfspace>(a.desc.shape);
+          const bool plane_b = std::holds_alternative<Halfspace>(b.desc.shape);
+          if (plane_a && plane_b) continue;
+          const bool meets = plane_a   ? height_above(b.desc, a.desc) <= 0
+                             : plane_b ? height_above(a.desc, b.desc) <= 0
+                                       : boxes_overlap(a, b, positions);
+          if (meets) expected.push_back({a.id.index, b.id.index});
+        }
+      }
+      EXPECT_EQ(frame.pairs, expected);
+      EXPECT_GT(expected.size(), 300u);
+      // Boxes along the axes fill their bounds.
+      EXPECT_EQ(frame.overlaps, std::vector<uint8_t>(expected.size(), 1));
+    }
+  }
+}
+
+TEST(ReferenceStep, HalfspacesThatMakeNoPlaneAreQuarantined) {
+  std::vector<Body> bodies(5);
+  for (uint32_t i = 0; i < bodies.size(); ++i) {
+    bodies[i].id = {i, 0};
+    bodies[i].desc.shape = Halfspace{};
+  }
+  bodies[0].desc.shape = Sphere{1};
+  bodies[1].desc.shape = Halfspace{{0, 0, 0}, 1};
+  bodies[2].desc.orientation.coeffs().setZero();
+  bodies[3].desc.orientation.coeffs()[1] = std::nanf("");
+  const Frame frame =
+      reference::step(bodies, PositionType::float32, Detail::contact, true, nullptr);
+  EXPECT_EQ(frame.quarantined, (std::vector<BodyId>{{1, 0}, {2, 0}, {3, 0}}));
+  EXPECT_EQ(frame.pairs, (std::vector<Pair>{{0, 4}}));
+}
+
+TEST(ReferenceStep, ManifoldsAreThoseOfThePairs) {
+  Random random(1);
+  std::vector<Body> bodies;
+  for (uint32_t i = 0; i < 120; ++i) {
+    Body body{{i, 0}, {}};
+    for (int k = 0; k < 3; ++k) body.desc.position[k] = random.uniform(0, 4);
+    for (int k = 0; k < 4; ++k) {
+      body.desc.orientation.coeffs()[k] = static_cast<float>(random.uniform(-1, 1));
+    }
+    body.desc.shape = Box{{0.5f, 0.25f, 0.75f}};
+    if (i % 3 == 1) body.desc.shape = Sphere{0.5f};
+    if (i == 50) body.desc.shape = Halfspace{{1, 2, 3}, 1};
+    body.desc.sensor = random.chance(0.1);
+    bodies.push_back(body);
+  }
+  const auto run = [&](Detail detail) {
+    return reference::step(bodies, PositionType::float64, detail, true, nullptr);
+  };
+  const Frame contact = run(Detail::contact);
+  const Frame manifold = run(Detail::manifold);
+  EXPECT_TRUE(contact.manifolds.empty());
+  ASSERT_EQ(manifold.contacts.size(), contact.contacts.size());
+  ASSERT_EQ(manifold.manifolds.size(), contact.contacts.size());
+  EXPECT_GT(contact.contacts.size(), 100u);
+  EXPECT_EQ(manifold.events.size(), contact.events.size());
+  size_t points = 0;
+  for (size_t i = 0; i < contact.contacts.size(); ++i) {
+    const Contact& c = manifold.contacts[i];
+    const BodyDesc& a = bodies[c.a].desc;
+    const BodyDesc& b = bodies[c.b].desc;
+    const reference::PairResult result =
+        reference::collide(a.shape, {a.position, a.orientation}, b.shape,
+                           {b.position, b.orientation}, PositionType::float64);
+    EXPECT_EQ(contact.contacts[i].manifold_count, 0);
+    EXPECT_EQ(c.manifold_count, result.manifold_count);
+    EXPECT_EQ(std::memcmp(&manifold.manifolds[i], &result.manifold, sizeof result.manifold), 0);
+    points += c.manifold_count;
+  }
+  EXPECT_GT(points, contact.contacts.size() * 3 / 2);
 }
 
 TEST(ReferenceStep, WithoutVelocitiesNormalVelocityIsZero) {

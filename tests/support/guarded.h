@@ -49,7 +49,9 @@ class GuardedBytes {
 class GuardedArray {
  public:
   GuardedArray(size_t count, size_t element, size_t stride)
-      : stride_(stride), bytes_(count == 0 ? 0 : (count - 1) * stride + element) {}
+      : element_(element),
+        stride_(stride),
+        bytes_(count == 0 ? 0 : (count - 1) * stride + element) {}
 
   template <class T>
   void set(size_t i, T value, size_t offset = 0) {
@@ -62,6 +64,8 @@ class GuardedArray {
     return value;
   }
 
+  void copy(size_t i, void* to) const { std::memcpy(to, bytes_.data() + i * stride_, element_); }
+
   size_t stride() const { return stride_; }
   template <class T>
   T* as() {
@@ -73,6 +77,7 @@ class GuardedArray {
   }
 
  private:
+  size_t element_;
   size_t stride_;
   GuardedBytes bytes_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <span>
 #include <string>
@@ -13,14 +14,23 @@
 
 namespace carom::test {
 
+// Where the rows of a body's parameters are.
+enum class RowOrder : uint8_t {
+  dense,      // in the order of bodies; without `first` if all are of one kind
+  backwards,  // found by `first`
+  shared,     // found by `first`; equal shapes have the same
+};
+
 struct Layout {
   PositionType positions = PositionType::float32;
   RadiusLayout radius = RadiusLayout::fourth;
   size_t stride = 0;  // 0: dense
   size_t radius_stride = sizeof(float);
   size_t box_stride = sizeof(float);
-  bool box_slots = false;     // boxes in an order of their own
-  bool always_kinds = false;  // a kind a body even if all are the same
+  bool box_slots = false;                         // boxes in an order of their own
+  bool always_kinds = false;                      // a kind a body even if all are the same
+  size_t orientation_stride = 4 * sizeof(float);  // 0: absent if no body is turned
+  RowOrder rows = RowOrder::dense;
 
   size_t component() const { return positions == PositionType::float32 ? 4 : 8; }
   size_t record() const { return (radius == RadiusLayout::fourth ? 4 : 3) * component(); }
@@ -31,69 +41,62 @@ inline std::string show(const Layout& layout) {
          std::to_string(static_cast<int>(layout.radius)) + ", stride " +
          std::to_string(layout.stride) + ", radius stride " + std::to_string(layout.radius_stride) +
          ", box stride " + std::to_string(layout.box_stride) +
-         (layout.box_slots ? ", box slots" : "");
+         (layout.box_slots ? ", box slots" : "") + ", orientation stride " +
+         std::to_string(layout.orientation_stride) + ", row order " +
+         std::to_string(static_cast<int>(layout.rows));
 }
 
-inline ShapeKind kind_of(const Shape& shape) {
-  return std::holds_alternative<Sphere>(shape) ? ShapeKind::sphere : ShapeKind::aabb;
-}
-
-class LaidOut {
+// The kinds of a set, or the one kind of all.
+class LaidOutKinds {
  public:
-  LaidOut(std::span<const PlacedShape> bodies, const Layout& layout)
-      : layout_(layout),
-        slots_(slots(bodies, layout)),
-        records_(bodies.size(), layout.record(), layout.stride ? layout.stride : layout.record()),
-        radii_(layout.radius == RadiusLayout::column ? bodies.size() : 0, sizeof(float),
-               layout.radius_stride),
-        kinds_(bodies.size(), sizeof(ShapeKind), sizeof(ShapeKind)),
-        slot_column_(layout.box_slots ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
-    for (int column = 0; column < 6; ++column) {
-      boxes_.emplace_back(box_rows(bodies), sizeof(float), layout.box_stride);
+  LaidOutKinds(std::span<const PlacedShape> bodies, bool always)
+      : kinds_(bodies.size(), sizeof(ShapeKind), sizeof(ShapeKind)) {
+    if (!bodies.empty()) first_ = kind_of(bodies[0].shape);
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      kinds_.set(i, kind_of(bodies[i].shape));
+      are_mixed_ |= kind_of(bodies[i].shape) != first_;
     }
-    for (size_t i = 0; i < bodies.size(); ++i) set(i, bodies[i]);
-    make_view(bodies);
+    is_given_ = always || are_mixed_;
   }
 
-  const Collidables& view() const { return view_; }
+  bool are_mixed() const { return are_mixed_; }
+  void add_to(Collidables& view) const {
+    view.uniform_kind = first_;
+    if (is_given_) view.kind = kinds_.as<ShapeKind>();
+  }
 
  private:
-  static std::vector<uint32_t> slots(std::span<const PlacedShape> bodies, const Layout& layout) {
-    std::vector<uint32_t> slots(bodies.size());
-    std::iota(slots.begin(), slots.end(), 0);
-    if (!layout.box_slots) return slots;
-    uint32_t boxes = 0;
-    for (const PlacedShape& body : bodies) boxes += kind_of(body.shape) == ShapeKind::aabb;
-    // Backwards, so that no order of bodies is the order of boxes.
+  GuardedArray kinds_;
+  ShapeKind first_ = ShapeKind::sphere;
+  bool are_mixed_ = false;
+  bool is_given_ = false;
+};
+
+// Positions and radii.
+class LaidOutPositions {
+ public:
+  LaidOutPositions(std::span<const PlacedShape> bodies, const Layout& layout)
+      : layout_(layout),
+        records_(bodies.size(), layout.record(), layout.stride ? layout.stride : layout.record()),
+        radii_(layout.radius == RadiusLayout::column ? bodies.size() : 0, sizeof(float),
+               layout.radius_stride) {
     for (size_t i = 0; i < bodies.size(); ++i) {
-      slots[i] = kind_of(bodies[i].shape) == ShapeKind::aabb ? --boxes : 0xffffffffu;
-    }
-    return slots;
-  }
-
-  size_t box_rows(std::span<const PlacedShape> bodies) const {
-    const auto count = std::count_if(bodies.begin(), bodies.end(), [](const PlacedShape& body) {
-      return kind_of(body.shape) == ShapeKind::aabb;
-    });
-    return layout_.box_slots ? static_cast<size_t>(count) : count ? bodies.size() : 0;
-  }
-
-  void set(size_t i, const PlacedShape& body) {
-    for (int axis = 0; axis < 3; ++axis) set_component(i, axis, body.position[axis]);
-    kinds_.set(i, kind_of(body.shape));
-    if (layout_.box_slots) slot_column_.set(i, slots_[i]);
-    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-      set_radius(i, sphere->radius);
-    } else {
-      set_radius(i, 1.0f);
-      const Aabb& box = std::get<Aabb>(body.shape);
-      for (int axis = 0; axis < 3; ++axis) {
-        boxes_[axis].set(slots_[i], box.lower[axis]);
-        boxes_[3 + axis].set(slots_[i], box.upper[axis]);
-      }
+      for (int axis = 0; axis < 3; ++axis) set_component(i, axis, bodies[i].position[axis]);
+      const auto* sphere = std::get_if<Sphere>(&bodies[i].shape);
+      set_radius(i, sphere ? sphere->radius : 1);
     }
   }
 
+  void add_to(Collidables& view) const {
+    view.position = {.data = records_.as<char>(),
+                     .stride = records_.stride(),
+                     .type = layout_.positions,
+                     .radius_layout = layout_.radius,
+                     .radius = radii_.as<float>(),
+                     .radius_stride = layout_.radius_stride};
+  }
+
+ private:
   void set_component(size_t i, int component, double value) {
     if (layout_.positions == PositionType::float32) {
       records_.set(i, static_cast<float>(value), component * sizeof(float));
@@ -107,34 +110,175 @@ class LaidOut {
     if (layout_.radius == RadiusLayout::column) radii_.set(i, radius);
   }
 
-  void make_view(std::span<const PlacedShape> bodies) {
-    view_.count = bodies.size();
-    view_.position = {.data = records_.as<char>(),
-                      .stride = records_.stride(),
-                      .type = layout_.positions,
-                      .radius_layout = layout_.radius,
-                      .radius = radii_.as<float>(),
-                      .radius_stride = layout_.radius_stride};
-    const bool mixed = std::any_of(bodies.begin(), bodies.end(), [&](const PlacedShape& body) {
-      return kind_of(body.shape) != kind_of(bodies[0].shape);
-    });
-    if (mixed || layout_.always_kinds) view_.kind = kinds_.as<ShapeKind>();
-    if (!bodies.empty()) view_.uniform_kind = kind_of(bodies[0].shape);
-    for (int axis = 0; axis < 3; ++axis) {
-      view_.boxes.lower[axis] = boxes_[axis].as<float>();
-      view_.boxes.upper[axis] = boxes_[3 + axis].as<float>();
+  Layout layout_;
+  GuardedArray records_;
+  GuardedArray radii_;
+};
+
+// Corners of aabbs.
+class LaidOutBoxes {
+ public:
+  LaidOutBoxes(std::span<const PlacedShape> bodies, const Layout& layout)
+      : layout_(layout),
+        slots_(layout.box_slots ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
+    auto count = static_cast<uint32_t>(std::count_if(bodies.begin(), bodies.end(), is_box));
+    const size_t rows = layout.box_slots || count == 0 ? count : bodies.size();
+    for (int column = 0; column < 6; ++column) {
+      columns_.emplace_back(rows, sizeof(float), layout.box_stride);
     }
-    view_.boxes.stride = layout_.box_stride;
-    if (layout_.box_slots) view_.box_slot = slot_column_.as<uint32_t>();
+    // Slots run backwards, so that no order of bodies is the order of boxes.
+    for (uint32_t i = 0; i < bodies.size(); ++i) {
+      const uint32_t slot = !is_box(bodies[i]) ? 0xffffffffu : layout.box_slots ? --count : i;
+      if (layout.box_slots) slots_.set(i, slot);
+      if (is_box(bodies[i])) set(slot, std::get<Aabb>(bodies[i].shape));
+    }
+  }
+
+  void add_to(Collidables& view) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      view.boxes.lower[axis] = columns_[axis].as<float>();
+      view.boxes.upper[axis] = columns_[3 + axis].as<float>();
+    }
+    view.boxes.stride = layout_.box_stride;
+    if (layout_.box_slots) view.box_slot = slots_.as<uint32_t>();
+  }
+
+ private:
+  static bool is_box(const PlacedShape& body) { return kind_of(body.shape) == ShapeKind::aabb; }
+
+  void set(size_t row, const Aabb& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      columns_[axis].set(row, box.lower[axis]);
+      columns_[3 + axis].set(row, box.upper[axis]);
+    }
   }
 
   Layout layout_;
-  std::vector<uint32_t> slots_;
-  GuardedArray records_;
-  GuardedArray radii_;
-  GuardedArray kinds_;
-  GuardedArray slot_column_;
-  std::vector<GuardedArray> boxes_;
+  GuardedArray slots_;
+  std::vector<GuardedArray> columns_;
+};
+
+// Orientations; those of spheres and aabbs are whatever the bodies say.
+class LaidOutOrientations {
+ public:
+  LaidOutOrientations(std::span<const PlacedShape> bodies, size_t stride)
+      : is_given_(std::any_of(bodies.begin(), bodies.end(),
+                              [&](const PlacedShape& body) {
+                                return has_rows(body.shape) && (stride > 0 || is_turned(body));
+                              })),
+        stride_(stride > 0 ? stride : kSize),
+        quaternions_(is_given_ ? bodies.size() : 0, kSize, stride_) {
+    for (size_t i = 0; is_given_ && i < bodies.size(); ++i) {
+      for (int c = 0; c < 4; ++c) {
+        quaternions_.set(i, bodies[i].orientation.coeffs()[c], c * sizeof(float));
+      }
+    }
+  }
+
+  void add_to(Collidables& view) const {
+    if (is_given_) view.orientation = {quaternions_.as<float>(), stride_};
+  }
+
+ private:
+  static constexpr size_t kSize = 4 * sizeof(float);
+
+  static bool is_turned(const PlacedShape& body) {
+    return body.orientation.coeffs() != Eigen::Vector4f(0, 0, 0, 1);
+  }
+
+  bool is_given_;
+  size_t stride_;
+  GuardedArray quaternions_;
+};
+
+// Parameters of the kinds that have rows.
+class LaidOutRows {
+ public:
+  LaidOutRows(std::span<const PlacedShape> bodies, RowOrder order, bool is_first_given)
+      : is_first_given_(is_first_given || order != RowOrder::dense),
+        places_(places(bodies, order)),
+        rows_(rows_in(bodies, places_), kRowSize, kRowSize),
+        first_(is_first_given_ ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      if (is_first_given_) first_.set(i, places_[i]);
+      const auto rows = shape_rows(bodies[i].shape);
+      for (uint32_t k = 0; k < row_count(kind_of(bodies[i].shape)); ++k) {
+        rows_.set(places_[i] + k, rows[k]);
+      }
+    }
+  }
+
+  void add_to(Collidables& view) const {
+    view.rows.data = rows_.as<float>();
+    if (is_first_given_) view.rows.first = first_.as<uint32_t>();
+  }
+
+ private:
+  static constexpr size_t kRowSize = 4 * sizeof(float);
+
+  // The first row of each; bodies that have none get a number that nobody may use.
+  static std::vector<uint32_t> places(std::span<const PlacedShape> bodies, RowOrder order) {
+    std::vector<uint32_t> places(bodies.size(), 0xffffffffu);
+    std::map<std::string, uint32_t> known;
+    uint32_t next = 0;
+    for (size_t step = 0; step < bodies.size(); ++step) {
+      const size_t i = order == RowOrder::dense ? step : bodies.size() - 1 - step;
+      const uint32_t count = row_count(kind_of(bodies[i].shape));
+      if (count == 0) continue;
+      const uint32_t place = order == RowOrder::shared
+                                 ? known.emplace(bytes_of(bodies[i].shape), next).first->second
+                                 : next;
+      if (place == next) next += count;
+      places[i] = place;
+    }
+    return places;
+  }
+
+  static std::string bytes_of(const Shape& shape) {
+    const auto rows = shape_rows(shape);
+    std::string bytes(1, static_cast<char>(kind_of(shape)));
+    return bytes.append(reinterpret_cast<const char*>(rows.data()), sizeof rows);
+  }
+
+  static size_t rows_in(std::span<const PlacedShape> bodies, const std::vector<uint32_t>& places) {
+    size_t rows = 0;
+    for (size_t i = 0; i < bodies.size(); ++i) {
+      const uint32_t count = row_count(kind_of(bodies[i].shape));
+      if (count > 0) rows = std::max<size_t>(rows, places[i] + count);
+    }
+    return rows;
+  }
+
+  bool is_first_given_;
+  std::vector<uint32_t> places_;
+  GuardedArray rows_;
+  GuardedArray first_;
+};
+
+class LaidOut {
+ public:
+  LaidOut(std::span<const PlacedShape> bodies, const Layout& layout)
+      : kinds_(bodies, layout.always_kinds),
+        positions_(bodies, layout),
+        boxes_(bodies, layout),
+        orientations_(bodies, layout.orientation_stride),
+        rows_(bodies, layout.rows, kinds_.are_mixed()) {
+    view_.count = bodies.size();
+    kinds_.add_to(view_);
+    positions_.add_to(view_);
+    boxes_.add_to(view_);
+    orientations_.add_to(view_);
+    rows_.add_to(view_);
+  }
+
+  const Collidables& view() const { return view_; }
+
+ private:
+  LaidOutKinds kinds_;
+  LaidOutPositions positions_;
+  LaidOutBoxes boxes_;
+  LaidOutOrientations orientations_;
+  LaidOutRows rows_;
   Collidables view_;
 };
 

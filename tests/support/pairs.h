@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
 #include <string>
 #include <vector>
 
 #include "carom/kernel/body.h"
+#include "carom/kernel/views.h"
 #include "carom/reference/reference.h"
 
 namespace carom::test {
@@ -13,6 +16,9 @@ namespace carom::test {
 struct PlacedShape {
   Shape shape;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+
+  Pose pose() const { return {position, orientation}; }
 };
 
 struct TestPair {
@@ -26,14 +32,39 @@ inline PlacedShape sphere(double x, double y, double z, double radius) {
   return {Sphere{static_cast<float>(radius)}, {x, y, z}};
 }
 
-// A box of these half extents.
+// A box along the axes of these half extents.
 inline PlacedShape box(const Eigen::Vector3d& position, const Eigen::Vector3f& half) {
   return {Aabb::from_half_extents(half), position};
 }
 
+inline PlacedShape oriented_box(
+    const Eigen::Vector3d& position, const Eigen::Vector3f& half,
+    const Eigen::Quaternionf& orientation = Eigen::Quaternionf::Identity()) {
+  return {Box{half}, position, orientation};
+}
+
+inline PlacedShape capsule(const Eigen::Vector3d& position, const Eigen::Vector3f& a,
+                           const Eigen::Vector3f& b, float radius) {
+  return {Capsule{a, b, radius}, position};
+}
+
+inline PlacedShape triangle(const Eigen::Vector3d& position,
+                            const std::array<Eigen::Vector3f, 3>& corners) {
+  Triangle triangle;
+  triangle.corners = corners;
+  return {triangle, position};
+}
+
+inline PlacedShape halfspace(const Eigen::Vector3d& position, const Eigen::Vector3f& normal,
+                             float offset) {
+  return {Halfspace{normal, offset}, position};
+}
+
+// Whether a body of this kind is described by rows of parameters, and turns with its orientation.
+inline bool has_rows(const Shape& shape) { return row_count(kind_of(shape)) > 0; }
+
 inline reference::PairResult reference_result(const TestPair& pair, PositionType positions) {
-  return reference::collide(pair.a.shape, pair.a.position, pair.b.shape, pair.b.position,
-                            positions);
+  return reference::collide(pair.a.shape, pair.a.pose(), pair.b.shape, pair.b.pose(), positions);
 }
 
 // The position as it is stored.

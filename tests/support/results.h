@@ -20,22 +20,33 @@ namespace carom::test {
 struct Row {
   uint8_t overlap;
   uint8_t status;
-  uint8_t unused[2];
+  uint8_t manifold_count;
+  uint8_t unused;
   float separation;
   std::array<float, 3> normal;
   std::array<float, 3> point_a;
   std::array<float, 3> point_b;
+  ManifoldPoints manifold;
 };
-static_assert(sizeof(Row) == 44);
+static_assert(sizeof(Row) == 108);
 
 inline constexpr int kUntouched = 0xa5;
 
 inline bool same_bits(const Row& x, const Row& y) { return std::memcmp(&x, &y, sizeof x) == 0; }
 
+inline std::string show(const ManifoldPoints& manifold) {
+  std::string text;
+  for (size_t i = 0; i < manifold.point.size(); ++i) {
+    text += " (" + hex3(manifold.point[i]) + ": " + hex(manifold.separation[i]) + ")";
+  }
+  return text;
+}
+
 inline std::string show(const Row& row) {
   return std::string("overlap ") + std::to_string(row.overlap) + " status " +
          std::to_string(row.status) + " separation " + hex(row.separation) + " normal " +
-         hex3(row.normal) + " point_a " + hex3(row.point_a) + " point_b " + hex3(row.point_b);
+         hex3(row.normal) + " point_a " + hex3(row.point_a) + " point_b " + hex3(row.point_b) +
+         " manifold " + std::to_string(row.manifold_count) + show(row.manifold);
 }
 
 // A witness point in world coordinates: the position as the sum of two floats, so that nothing is
@@ -47,8 +58,9 @@ inline float world_coordinate(double position, float arm, PositionType positions
   return high + (low + arm);
 }
 
-inline std::array<float, 3> witness(const PlacedShape& body, const Eigen::Vector3f& arm,
-                                    PositionType positions, WitnessFrame frame) {
+template <class Arm>
+std::array<float, 3> witness(const PlacedShape& body, const Arm& arm, PositionType positions,
+                             WitnessFrame frame) {
   std::array<float, 3> point;
   for (int i = 0; i < 3; ++i) {
     point[i] = frame == WitnessFrame::body ? arm[i]
@@ -61,8 +73,8 @@ inline std::array<float, 3> witness(const PlacedShape& body, const Eigen::Vector
 inline Row expected_row(const TestPair& pair, PositionType positions, Detail detail,
                         WitnessFrame frame) {
   Row row;
-  std::memset(&row, kUntouched, sizeof row);
-  std::memset(row.unused, 0, sizeof row.unused);
+  std::memset(static_cast<void*>(&row), kUntouched, sizeof row);
+  row.unused = 0;
   if (detail == Detail::pairs) return row;
   const reference::PairResult result = reference_result(pair, positions);
   row.overlap = result.overlap ? 1 : 0;
@@ -76,6 +88,12 @@ inline Row expected_row(const TestPair& pair, PositionType positions, Detail det
     row.point_a = witness(pair.a, result.arm_a, positions, frame);
     row.point_b = witness(pair.b, result.arm_b, positions, frame);
   }
+  if (detail == Detail::contact) return row;
+  row.manifold_count = result.manifold_count;
+  row.manifold = result.manifold;
+  for (size_t i = 0; i < result.manifold_count; ++i) {
+    row.manifold.point[i] = witness(pair.a, result.manifold.point[i], positions, frame);
+  }
   return row;
 }
 
@@ -83,13 +101,13 @@ inline Row expected_row(const TestPair& pair, PositionType positions, Detail det
 class Columns {
  public:
   explicit Columns(size_t count, unsigned missing = 0) : count_(count), missing_(missing) {
-    for (int column = 0; column < kColumns; ++column) {
-      const size_t element = column < 2 ? 1 : sizeof(float);
-      columns_.emplace_back(count, element, element);
-    }
+    for (const size_t size : kSizes) columns_.emplace_back(count, size, size);
   }
 
-  static constexpr int kColumns = 12;
+  static constexpr int kColumns = 14;
+  // Of their elements, and where those are in a Row.
+  static constexpr size_t kSizes[kColumns] = {1, 1, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 1, 64};
+  static constexpr size_t kOffsets[kColumns] = {0, 1, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 2, 44};
 
   ResultColumns out() {
     const auto floats = [&](int column) {
@@ -104,18 +122,15 @@ class Columns {
       out.point_a[i] = floats(6 + i);
       out.point_b[i] = floats(9 + i);
     }
+    out.manifold_count = is_missing(12) ? nullptr : at<uint8_t>(12);
+    out.manifold = is_missing(13) ? nullptr : at<ManifoldPoints>(13);
     return out;
   }
 
   Row row(size_t i) const {
     Row row{};
-    row.overlap = columns_[0].get<uint8_t>(i);
-    row.status = columns_[1].get<uint8_t>(i);
-    row.separation = columns_[2].get<float>(i);
-    for (int k = 0; k < 3; ++k) {
-      row.normal[k] = columns_[3 + k].get<float>(i);
-      row.point_a[k] = columns_[6 + k].get<float>(i);
-      row.point_b[k] = columns_[9 + k].get<float>(i);
+    for (int column = 0; column < kColumns; ++column) {
+      columns_[column].copy(i, reinterpret_cast<char*>(&row) + kOffsets[column]);
     }
     return row;
   }
@@ -138,6 +153,15 @@ class Columns {
   unsigned missing_;
   std::vector<GuardedArray> columns_;
 };
+
+// Leaves columns of a row as they were before the call, those of the bits of `missing`.
+inline void forget_columns(Row& row, unsigned missing) {
+  for (int column = 0; column < Columns::kColumns; ++column) {
+    if ((missing >> column & 1) == 0) continue;
+    std::memset(reinterpret_cast<char*>(&row) + Columns::kOffsets[column], kUntouched,
+                Columns::kSizes[column]);
+  }
+}
 
 // Fails at the first row that differs, with its inputs.
 inline testing::AssertionResult same_rows(std::span<const Row> expected,

@@ -19,15 +19,29 @@ std::string hex3(const Vector& v) {
   return hex(v[0]) + ", " + hex(v[1]) + ", " + hex(v[2]);
 }
 
-inline std::string show(const PlacedShape& body) {
+inline std::string show(const Sphere& sphere) { return "r " + hex(sphere.radius); }
+inline std::string show(const Aabb& box) { return hex3(box.lower) + " .. " + hex3(box.upper); }
+inline std::string show(const Capsule& capsule) {
+  return hex3(capsule.a) + " .. " + hex3(capsule.b) + " r " + hex(capsule.radius);
+}
+inline std::string show(const Box& box) { return "half " + hex3(box.half); }
+inline std::string show(const Triangle& triangle) {
   std::string text;
-  if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-    text = std::string("sphere r ") + hex(sphere->radius);
-  } else {
-    const Aabb& box = std::get<Aabb>(body.shape);
-    text = std::string("aabb ") + hex3(box.lower) + " .. " + hex3(box.upper);
-  }
-  return text + " @ " + hex3(body.position);
+  for (const Eigen::Vector3f& corner : triangle.corners) text += "(" + hex3(corner) + ") ";
+  return text + "thickness " + hex(triangle.thickness) + (triangle.one_sided ? " one-sided" : "") +
+         " inner edges " + std::to_string(triangle.inner_edges);
+}
+inline std::string show(const Halfspace& halfspace) {
+  return "(" + hex3(halfspace.normal) + ") <= " + hex(halfspace.offset);
+}
+
+inline std::string show(const PlacedShape& body) {
+  std::string text = carom::name(kind_of(body.shape));
+  text += " " + std::visit([](const auto& shape) { return show(shape); }, body.shape);
+  text += " @ " + hex3(body.position);
+  if (!has_rows(body.shape)) return text;
+  const Eigen::Vector4f& q = body.orientation.coeffs();
+  return text + " turned " + hex3(q) + ", " + hex(q[3]);
 }
 
 inline std::string show(const TestPair& pair) { return show(pair.a) + "\n" + show(pair.b); }

@@ -8,7 +8,7 @@
 
 namespace carom::test {
 
-// Sphere and box as a box grown by a radius.
+// Sphere and aabb as a box grown by a radius.
 struct RoundedBox {
   Eigen::Vector3d lower;
   Eigen::Vector3d upper;
@@ -33,10 +33,25 @@ inline double textbook_separation(const Shape& shape_a, const Shape& shape_b,
   return core - a.radius - b.radius;
 }
 
-// Radius of the ball about the body's origin that contains it.
+// Radius of the ball about the body's origin that contains it; 0 of half-spaces.
+inline double bounding_radius(const Sphere& sphere) { return sphere.radius; }
+inline double bounding_radius(const Aabb& box) {
+  return box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).cast<double>().stableNorm();
+}
+inline double bounding_radius(const Capsule& c) {
+  return std::max(c.a.cast<double>().stableNorm(), c.b.cast<double>().stableNorm()) + c.radius;
+}
+inline double bounding_radius(const Box& box) { return box.half.cast<double>().stableNorm(); }
+inline double bounding_radius(const Triangle& triangle) {
+  double radius = 0;
+  for (const Eigen::Vector3f& corner : triangle.corners) {
+    radius = std::max(radius, corner.cast<double>().stableNorm());
+  }
+  return radius + triangle.thickness;
+}
+inline double bounding_radius(const Halfspace&) { return 0; }
 inline double bounding_radius(const Shape& shape) {
-  const RoundedBox box = rounded_box(shape);
-  return box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).stableNorm() + box.radius;
+  return std::visit([](const auto& s) { return bounding_radius(s); }, shape);
 }
 
 }  // namespace carom::test

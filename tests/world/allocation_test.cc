@@ -72,6 +72,7 @@ class Carousel {
     const auto& way = kWays[turn_++ % 4];
     for (size_t i = 0; i < movers; ++i) {
       world_.set_position(ids_[i], homes_[i] + Eigen::Vector3d(way[0], way[1], 0));
+      world_.set_orientation(ids_[i], {1, static_cast<float>(way[0]), 0, 0.5f});
     }
     world_.step();
   }
@@ -136,6 +137,20 @@ TEST(Allocations, NoneWithMovingBodies) {
   }
 }
 
+TEST(Allocations, NoneWithAllKinds) {
+  for (const size_t halfspaces : {0, 3}) {
+    const CrowdSpec spec{
+        .oriented = true, .halfspaces = halfspaces, .filters = true, .velocities = true};
+    for (const size_t movers : {0, 40, 400}) {
+      for (const Detail detail : {Detail::pairs, Detail::contact, Detail::manifold}) {
+        expect_no_allocations({.detail = detail}, spec, movers, true);
+        expect_no_allocations({.detail = detail, .margin = 0.2f, .pair_changes = true}, spec,
+                              movers);
+      }
+    }
+  }
+}
+
 TEST(Allocations, NoneInAWorldOfManyBlocks) {
   expect_no_allocations({}, {.count = 9000, .side = 20}, 900, true);
   expect_no_allocations({}, {.count = 9000, .side = 20}, 9000);
@@ -159,9 +174,10 @@ TEST(Allocations, NoneWithOtherSettings) {
 
 // Bodies fail, recover, go and are replaced.
 TEST(Allocations, NoneWhenBodiesAreReplacedOrSpoilt) {
+  const CrowdSpec spec{.oriented = true, .halfspaces = 6};
   World world;
-  std::vector<BodyId> ids = add_crowd(world, {});
-  const std::vector<BodyDesc> crowd = make_crowd({});
+  std::vector<BodyId> ids = add_crowd(world, spec);
+  const std::vector<BodyDesc> crowd = make_crowd(spec);
   const auto round = [&] {
     for (const double x : {std::nan(""), 1.0}) {
       world.set_position(ids[3], {x, 1, 1});

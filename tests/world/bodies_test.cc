@@ -266,8 +266,143 @@ TEST(Bodies, ChangeTheKindOfTheirShape) {
   }
 }
 
+// One of each kind, with numbers that tell which is which.
+const Shape kShapes[] = {
+    Sphere{0.25f},
+    Aabb{{-1, -2, -3}, {4, 5, 6}},
+    Capsule{{1, 2, 3}, {-1, 0, 2}, 0.5f},
+    Box{{1, 2, 3}},
+    Triangle{{{{0, 0, 1}, {2, 0, 0}, {0, 3, 0}}}, 0.125f, true, 5},
+    Halfspace{{0, 3, 4}, -2},
+};
+
+// The shape as numbers.
+std::vector<float> numbers(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return {s->radius};
+  if (const auto* b = std::get_if<Aabb>(&shape)) {
+    return {b->lower.x(), b->lower.y(), b->lower.z(), b->upper.x(), b->upper.y(), b->upper.z()};
+  }
+  std::vector<float> all;
+  const auto rows = shape_rows(shape);
+  for (uint32_t i = 0; i < row_count(kind_of(shape)); ++i) {
+    all.insert(all.end(), rows[i].begin(), rows[i].end());
+  }
+  return all;
+}
+
+void expect_shape(const World& world, BodyId id, const Shape& shape) {
+  const Shape got = world.shape(id);
+  EXPECT_EQ(kind_of(got), kind_of(shape));
+  EXPECT_EQ(numbers(got), numbers(shape));
+}
+
+TEST(Bodies, OfEveryKindKeepShapeAndOrientation) {
+  const Eigen::Quaternionf turn(0.5f, 1, -2, 3), identity = Eigen::Quaternionf::Identity();
+  for (const PositionType positions : kPositionTypes) {
+    World world(settings_with(positions));
+    std::vector<BodyId> ids;
+    for (const Shape& shape : kShapes)
+      ids.push_back(world.add({.shape = shape, .orientation = turn}));
+    for (size_t i = 0; i < ids.size(); ++i) {
+      const bool turns = row_count(kind_of(kShapes[i])) > 0;
+      expect_shape(world, ids[i], kShapes[i]);
+      EXPECT_EQ(world.orientation(ids[i]).coeffs(), (turns ? turn : identity).coeffs());
+      world.set_orientation(ids[i], {4, 3, 2, 1});
+      const Eigen::Vector4f expected = turns ? Eigen::Vector4f(3, 2, 1, 4) : identity.coeffs();
+      EXPECT_EQ(world.orientation(ids[i]).coeffs(), expected);
+    }
+    // A new body at the same index starts from what it is given.
+    for (size_t i = 0; i < ids.size(); ++i) {
+      world.remove(ids[i]);
+      const BodyId next = world.add({.shape = kShapes[(i + 1) % ids.size()]});
+      ASSERT_EQ(next.index, ids[i].index);
+      EXPECT_EQ(world.orientation(next).coeffs(), identity.coeffs());
+      expect_shape(world, next, kShapes[(i + 1) % ids.size()]);
+    }
+  }
+}
+
+TEST(Bodies, BecomeEveryKindFromEveryKind) {
+  const Eigen::Quaternionf turn(0.5f, 1, -2, 3);
+  for (const Shape& from : kShapes) {
+    for (const Shape& to : kShapes) {
+      World world;
+      std::vector<BodyId> others;
+      for (const Shape& shape : kShapes) others.push_back(world.add({.shape = shape}));
+      const BodyId id = world.add({.shape = from, .orientation = turn});
+      for (const Shape& shape : kShapes) others.push_back(world.add({.shape = shape}));
+      world.set_shape(id, to);
+      expect_shape(world, id, to);
+      const bool turned = row_count(kind_of(from)) > 0 && row_count(kind_of(to)) > 0;
+      EXPECT_EQ(world.orientation(id).coeffs(),
+                (turned ? turn : Eigen::Quaternionf::Identity()).coeffs());
+      world.set_shape(id, from);
+      expect_shape(world, id, from);
+      for (size_t i = 0; i < others.size(); ++i) expect_shape(world, others[i], kShapes[i % 6]);
+    }
+  }
+}
+
+TEST(Bodies, RowsOfShapesAreUsedAgainAndGivenBack) {
+  World world;
+  EXPECT_EQ(world.shape_rows().count, 0u);
+  EXPECT_EQ(world.shape_rows().rows, nullptr);
+  EXPECT_EQ(world.arrays().orientation, nullptr);
+  const BodyId ball_id = world.add(ball(0));
+  EXPECT_EQ(world.arrays().orientation, nullptr);
+  const BodyId box = world.add({.shape = kShapes[3]});            // row 0
+  const BodyId capsule = world.add({.shape = kShapes[2]});        // 1, 2
+  const BodyId triangle = world.add({.shape = kShapes[4]});       // 3, 4, 5
+  const BodyId other_capsule = world.add({.shape = kShapes[2]});  // 6, 7
+  EXPECT_EQ(world.shape_rows().count, 8u);
+  EXPECT_EQ(world.first_row(triangle), 3u);
+  EXPECT_EQ(world.first_row(other_capsule), 6u);
+  world.remove(capsule);
+  EXPECT_EQ(world.shape_rows().count, 8u);
+  EXPECT_EQ(world.first_row(world.add({.shape = kShapes[5]})), 8u) << "no block of one is free";
+  world.set_shape(ball_id, kShapes[2]);
+  EXPECT_EQ(world.first_row(ball_id), 1u);
+  expect_shape(world, ball_id, kShapes[2]);
+  world.set_shape(box, kShapes[5]);
+  EXPECT_EQ(world.first_row(box), 0u) << "as many rows";
+  expect_shape(world, other_capsule, kShapes[2]);
+  expect_shape(world, triangle, kShapes[4]);
+  std::vector<BodyId> all;
+  for (uint32_t i = 0; i < world.arrays().count; ++i) all.push_back(world.id_of(i));
+  world.remove(all);
+  EXPECT_EQ(world.shape_rows().count, 0u);
+  EXPECT_EQ(world.arrays().orientation, nullptr);
+}
+
+TEST(Bodies, AreTurnedAndReshapedThroughTheArrays) {
+  World world;
+  world.add(ball(-50));
+  const BodyId plank = world.add({.shape = Box{{2, 0.5f, 0.5f}}});
+  const BodyId rod =
+      world.add({.shape = Capsule{{0, 0, 0}, {0, 0, 0}, 0.5f}, .position = {0, 2, 0}});
+  const auto contacts = [&] {
+    world.step();
+    return world.contacts().size();
+  };
+  EXPECT_EQ(contacts(), 0u);
+  float* q = world.arrays().orientation + 4 * plank.index;
+  q[2] = q[3] = 3;  // a quarter turn about z
+  EXPECT_EQ(contacts(), 1u);
+  EXPECT_EQ(world.orientation(plank).coeffs(), Eigen::Vector4f(0, 0, 3, 3));
+  q[2] = 0;
+  EXPECT_EQ(contacts(), 0u);
+  float* row = world.shape_rows().rows + 4 * world.first_row(rod);
+  row[3] = 1.75f;  // its radius
+  EXPECT_EQ(contacts(), 1u);
+  EXPECT_EQ(std::get<Capsule>(world.shape(rod)).radius, 1.75f);
+  row[3] = 0.5f;
+  EXPECT_EQ(contacts(), 0u);
+  row[4 + 1] = -1.25f;  // y of its other end
+  EXPECT_EQ(contacts(), 1u);
+}
+
 TEST(Bodies, EmptyWorldAndWorldOfOne) {
-  for (const Detail detail : {Detail::pairs, Detail::overlap, Detail::contact}) {
+  for (const Detail detail : {Detail::pairs, Detail::overlap, Detail::contact, Detail::manifold}) {
     for (const BroadphaseMethod method :
          {BroadphaseMethod::automatic, BroadphaseMethod::brute, BroadphaseMethod::sweep}) {
       WorldSettings settings;

@@ -100,6 +100,26 @@ TEST(Carry, AMovedBoxCornerRetestsItsPairs) {
   }
 }
 
+TEST(Carry, ATurnedBodyRetestsItsPairs) {
+  World world({.detail = Detail::manifold});
+  const std::vector<BodyId> ids = add_crowd(world, {.oriented = true, .halfspaces = 2});
+  world.step();
+  Random random(1);
+  for (const BodyId id : ids) {
+    const ShapeKind kind = kind_of(world.shape(id));
+    if (row_count(kind) == 0) continue;
+    if (random.chance(0.5)) {
+      world.arrays().orientation[4 * id.index + random.below(4)] += 0.125f;
+    } else {
+      const size_t row = world.first_row(id) + random.below(row_count(kind));
+      world.shape_rows().rows[4 * row + random.below(3)] += 0.125f;
+    }
+    const StepReport& report = world.step();
+    EXPECT_EQ(report.tested, pairs_of(world, id.index));
+    EXPECT_EQ(report.kept, report.pairs - report.tested);
+  }
+}
+
 TEST(Carry, AReplacedBodyIsTestedAgain) {
   World world;
   world.add({.shape = Sphere{1}});

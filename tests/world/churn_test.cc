@@ -18,6 +18,14 @@ BodyDesc body_at(double x, bool box = false) {
   return body;
 }
 
+// The i-th of a row of all kinds but half-spaces.
+BodyDesc any_body(size_t i) {
+  const Shape shapes[] = {Sphere{0.5f}, Aabb::from_half_extents({0.5f, 0.5f, 0.5f}),
+                          Capsule{{0, 0, 0}, {0, 0, 1}, 0.5f}, Box{{0.5f, 0.5f, 0.5f}},
+                          Triangle{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}}};
+  return {.shape = shapes[i % 5], .position = {4.0 * static_cast<double>(i % 1000), 0, 0}};
+}
+
 // Takes `count` random items out of the list.
 template <class T>
 std::vector<T> draw(std::vector<T>& items, size_t count, Random& random) {
@@ -70,7 +78,7 @@ TEST(Churn, AWorldGrowsAndShrinksInBatches) {
       std::vector<BodyDesc> batch;
       while (living.size() < 200000) {
         batch.clear();
-        for (size_t i = random.below(20000); i > 0; --i) batch.push_back(body_at(0, i % 3 == 0));
+        for (size_t i = random.below(20000); i > 0; --i) batch.push_back(any_body(i));
         world.add(batch, living);
         const std::vector<BodyId> gone = draw(living, batch.size() / 10, random);
         EXPECT_EQ(world.remove(gone), gone.size());
@@ -92,6 +100,7 @@ TEST(Churn, AWorldGrowsAndShrinksInBatches) {
       EXPECT_EQ(world.size(), 0u);
       EXPECT_EQ(world.arrays().count, 0u);
       EXPECT_EQ(world.boxes().count, 0u);
+      EXPECT_EQ(world.shape_rows().count, 0u);
       world.step();
       EXPECT_LT(world.bytes(), peak / 20);
     }
@@ -182,7 +191,8 @@ TEST(Churn, ManyStepsOfASmallWorldDoNotGrowIt) {
   std::vector<BodyId> living;
   const auto step = [&] {
     if (living.size() < 20 && random.chance(0.6)) {
-      BodyDesc body = body_at(0, random.chance(0.5));
+      BodyDesc body = any_body(random.below(5));
+      if (random.chance(0.1)) body.shape = Halfspace{};
       body.position = random_position(random, 3);
       living.push_back(world.add(body));
     } else if (!living.empty()) {

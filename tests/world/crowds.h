@@ -15,8 +15,10 @@ namespace carom::test {
 struct CrowdSpec {
   size_t count = 400;
   double side = 7;
-  bool boxes = true;
-  bool filters = false;  // layers, owners, sensors, static bodies
+  bool boxes = true;      // aabbs
+  bool oriented = false;  // capsules, oriented boxes, triangles
+  size_t halfspaces = 0;  // through the middle, and the first bodies of the crowd
+  bool filters = false;   // layers, owners, sensors, static bodies
   bool velocities = false;
   uint64_t seed = 1;
 };
@@ -28,15 +30,65 @@ inline Eigen::Vector3d random_position(Random& random, double side) {
   return position;
 }
 
+inline float random_size(Random& random) { return static_cast<float>(random.uniform(0.1, 0.8)); }
+
+inline Eigen::Vector3f random_corner(Random& random) {
+  return (random.direction() * random.uniform(0.1, 0.8)).cast<float>();
+}
+
+// Not a unit quaternion.
+inline Eigen::Quaternionf random_orientation(Random& random) {
+  Eigen::Quaternionf q;
+  for (int i = 0; i < 4; ++i) q.coeffs()[i] = static_cast<float>(random.uniform(-2, 2));
+  return q;
+}
+
+inline Shape random_shape(ShapeKind kind, Random& random) {
+  const auto size = [&] { return random_size(random); };
+  switch (kind) {
+    case ShapeKind::aabb:
+      return Aabb::from_half_extents({size(), size(), size()});
+    case ShapeKind::capsule:
+      return Capsule{random_corner(random), random_corner(random), size() / 2};
+    case ShapeKind::box:
+      return Box{{size(), size(), size()}};
+    case ShapeKind::triangle: {
+      Triangle triangle;
+      for (Eigen::Vector3f& corner : triangle.corners) corner = random_corner(random);
+      if (random.chance(0.3)) triangle.thickness = size() / 4;
+      triangle.one_sided = random.chance(0.3);
+      triangle.inner_edges = static_cast<uint8_t>(random.chance(0.5) ? random.below(8) : 0);
+      return triangle;
+    }
+    case ShapeKind::halfspace:
+      return Halfspace{random.direction().cast<float>() * size(), size() - 0.5f};
+    default:
+      return Sphere{size()};
+  }
+}
+
+inline constexpr ShapeKind kOrientedKinds[] = {ShapeKind::capsule, ShapeKind::box,
+                                               ShapeKind::triangle};
+inline constexpr ShapeKind kAllKinds[] = {ShapeKind::sphere,   ShapeKind::aabb,
+                                          ShapeKind::capsule,  ShapeKind::box,
+                                          ShapeKind::triangle, ShapeKind::halfspace};
+
 inline std::vector<BodyDesc> make_crowd(const CrowdSpec& spec) {
   Random random(spec.seed);
-  const auto size = [&] { return static_cast<float>(random.uniform(0.1, 0.8)); };
   std::vector<BodyDesc> bodies(spec.count);
-  for (BodyDesc& body : bodies) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    BodyDesc& body = bodies[i];
     body.position = random_position(random, spec.side);
-    body.shape = Sphere{size()};
-    if (spec.boxes && random.chance(0.4)) {
-      body.shape = Aabb::from_half_extents({size(), size(), size()});
+    body.shape = random_shape(ShapeKind::sphere, random);
+    if (spec.boxes && random.chance(0.4)) body.shape = random_shape(ShapeKind::aabb, random);
+    if (spec.oriented && random.chance(0.6)) {
+      body.shape = random_shape(kOrientedKinds[random.below(3)], random);
+      body.orientation = random_orientation(random);
+    }
+    if (i < spec.halfspaces) {
+      body.shape = random_shape(ShapeKind::halfspace, random);
+      body.orientation = random_orientation(random);
+      body.position = Eigen::Vector3d::Constant(spec.side / 2);
     }
     if (spec.velocities) body.linear_velocity = random.direction().cast<float>();
     if (!spec.filters) continue;
@@ -63,19 +115,26 @@ inline void move_some(World& world, std::span<const BodyId> ids, double share, R
   }
 }
 
+// The same for orientations; spheres and aabbs have none, and stay as they are.
+inline void turn_some(World& world, std::span<const BodyId> ids, double share, Random& random) {
+  for (const BodyId id : ids) {
+    if (random.chance(share)) world.set_orientation(id, random_orientation(random));
+  }
+}
+
 template <class T>
 std::string as_bytes(std::span<const T> items) {
   return {reinterpret_cast<const char*>(items.data()), items.size_bytes()};
 }
 
 struct Results {
-  std::string pairs, overlaps, contacts, events, quarantined;
+  std::string pairs, overlaps, contacts, manifolds, events, quarantined;
   bool operator==(const Results&) const = default;
 };
 
 inline Results results(const World& world) {
-  return {as_bytes(world.pairs()), as_bytes(world.overlaps()), as_bytes(world.contacts()),
-          as_bytes(world.events()), as_bytes(world.quarantined())};
+  return {as_bytes(world.pairs()),     as_bytes(world.overlaps()), as_bytes(world.contacts()),
+          as_bytes(world.manifolds()), as_bytes(world.events()),   as_bytes(world.quarantined())};
 }
 
 }  // namespace carom::test

@@ -13,6 +13,7 @@
 
 #include "carom/reference/reference.h"
 #include "carom/world/world.h"
+#include "tests/world/crowds.h"
 
 namespace carom::test {
 
@@ -33,12 +34,17 @@ template <class T>
 struct Coverage {
   size_t tested = 0, kept = 0, overlapping = 0, pairs = 0, quarantined = 0, sensors = 0;
   size_t events[3] = {};
+  size_t with_halfspaces = 0, halfspace_overlaps = 0;  // pairs
+  size_t manifolds[5] = {};                            // by number of points
 };
+
+enum class Kinds { spheres_and_aabbs, all };
 
 // A world beside a plain list of its bodies.
 class History {
  public:
-  History(const WorldSettings& settings, uint32_t seed) : world_(settings), random_(seed) {}
+  History(const WorldSettings& settings, uint32_t seed, Kinds kinds = Kinds::spheres_and_aabbs)
+      : world_(settings), random_(seed), shapes_(seed), kinds_(kinds) {}
 
   Coverage coverage;
 
@@ -60,6 +66,7 @@ class History {
       body.shape = Aabb{{-static_cast<float>(uniform(0.1, 0.8)), -0.5f, -0.3f},
                         {static_cast<float>(uniform(0.1, 0.8)), 0.25f, 0.5f}};
     }
+    if (kinds_ == Kinds::all && chance(0.7)) make_oriented(body, filters);
     body.linear_velocity = Eigen::Vector3f::Random();
     if (!filters) return body;
     if (chance(0.3)) body.motion = Motion::fixed;
@@ -99,6 +106,40 @@ class History {
     }
   }
 
+  // Turns about `share` of the bodies that have an orientation, half of them in the arrays; some
+  // are spoilt for a while.
+  void turn(double share) {
+    for (auto& [index, body] : bodies_) {
+      if (!has_rows(body.desc) || !chance(share)) continue;
+      body.desc.orientation = chance(0.02) ? spoilt_orientation() : random_orientation(shapes_);
+      if (chance(0.5)) {
+        world_.set_orientation(body.id, body.desc.orientation);
+      } else {
+        std::memcpy(world_.arrays().orientation + 4 * index, body.desc.orientation.coeffs().data(),
+                    4 * sizeof(float));
+      }
+    }
+  }
+
+  // Changes one number in the rows of about `share` of the bodies that have rows.
+  void write_rows(double share) {
+    const ShapeRowArrays arrays = world_.shape_rows();
+    for (auto& [index, body] : bodies_) {
+      if (!has_rows(body.desc) || !chance(share)) continue;
+      std::array<std::array<float, 4>, kMostRows> rows = shape_rows(body.desc.shape);
+      const ShapeKind kind = kind_of(body.desc.shape);
+      const size_t row = shapes_.below(row_count(kind));
+      const size_t column = shapes_.below(4);
+      const bool is_radius = kind == ShapeKind::capsule && row == 0;
+      if (column == 3 && !is_radius && kind != ShapeKind::halfspace) continue;
+      rows[row][column] = chance(0.02) ? NAN : static_cast<float>(uniform(0.05, 0.8));
+      body.desc.shape = shape_from_rows(kind, rows.data());
+      const uint32_t first = world_.first_row(body.id);
+      ASSERT_LT(first + row, arrays.count);
+      std::memcpy(arrays.rows + 4 * (first + row), rows[row].data(), sizeof rows[row]);
+    }
+  }
+
   void change_random_body(double side, bool filters) {
     if (bodies_.empty()) return;
     reference::Body& body = pick()->second;
@@ -107,6 +148,7 @@ class History {
       case 0:
         body.desc.shape = other.shape;
         world_.set_shape(body.id, other.shape);
+        if (!has_rows(other)) body.desc.orientation.setIdentity();
         break;
       case 1:
         body.desc.motion = other.motion;
@@ -135,6 +177,7 @@ class History {
     EXPECT_TRUE(same_bytes<Pair>(world_.pairs(), frame.pairs)) << "pairs";
     EXPECT_TRUE(same_bytes<uint8_t>(world_.overlaps(), frame.overlaps)) << "overlaps";
     EXPECT_TRUE(same_bytes<Contact>(world_.contacts(), frame.contacts)) << "contacts";
+    EXPECT_TRUE(same_bytes<ManifoldPoints>(world_.manifolds(), frame.manifolds)) << "manifolds";
     if (settings.events) {
       EXPECT_TRUE(same_bytes<Event>(world_.events(), frame.events)) << "events";
     }
@@ -152,10 +195,43 @@ class History {
       ++coverage.events[static_cast<int>(event.kind)];
       coverage.sensors += event.sensor;
     }
+    cover_halfspaces();
+    for (const Contact& contact : world_.contacts()) ++coverage.manifolds[contact.manifold_count];
     frame_ = std::move(frame);
   }
 
  private:
+  static bool has_rows(const BodyDesc& body) { return row_count(kind_of(body.shape)) > 0; }
+
+  Eigen::Quaternionf spoilt_orientation() {
+    Eigen::Quaternionf q(0, 0, 0, 0);
+    if (chance(0.5)) q.coeffs()[static_cast<int>(uniform(0, 4))] = chance(0.5) ? NAN : INFINITY;
+    return q;
+  }
+
+  void make_oriented(BodyDesc& body, bool spoil) {
+    body.shape = random_shape(kOrientedKinds[shapes_.below(3)], shapes_);
+    if (chance(0.03)) body.shape = random_shape(ShapeKind::halfspace, shapes_);
+    body.orientation = random_orientation(shapes_);
+    if (!spoil) return;
+    if (chance(0.01)) body.orientation = spoilt_orientation();
+    if (chance(0.01)) body.shape = Halfspace{{0, 0, 0}, 1};
+    if (chance(0.01)) body.shape = Capsule{{0, 0, 1}, {0, NAN, 0}, 1};
+    if (chance(0.01)) body.shape = Box{{1, -1, 1}};
+  }
+
+  void cover_halfspaces() {
+    const auto is_halfspace = [&](uint32_t index) {
+      return kind_of(bodies_.at(index).desc.shape) == ShapeKind::halfspace;
+    };
+    for (size_t i = 0; i < world_.pairs().size(); ++i) {
+      const Pair pair = world_.pairs()[i];
+      if (!is_halfspace(pair.a) && !is_halfspace(pair.b)) continue;
+      ++coverage.with_halfspaces;
+      if (!world_.overlaps().empty()) coverage.halfspace_overlaps += world_.overlaps()[i];
+    }
+  }
+
   std::map<uint32_t, reference::Body>::iterator pick() {
     auto it = bodies_.begin();
     std::advance(it, static_cast<int>(uniform(0, static_cast<double>(bodies_.size()))));
@@ -175,6 +251,8 @@ class History {
 
   World world_;
   std::mt19937 random_;
+  Random shapes_;
+  Kinds kinds_;
   std::map<uint32_t, reference::Body> bodies_;
   reference::Frame frame_;
 };

@@ -7,12 +7,13 @@ namespace carom {
 namespace {
 
 using test::History;
+using test::Kinds;
 
 // Every kind of change at once, at many rates.
 void run_history(const WorldSettings& settings, uint32_t seed, int steps,
-                 test::Coverage* coverage = nullptr) {
+                 test::Coverage* coverage = nullptr, Kinds kinds = Kinds::spheres_and_aabbs) {
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
-  History history(settings, seed);
+  History history(settings, seed, kinds);
   const bool filters = seed % 3 != 0;
   const double side = history.uniform(2, 8);
   if (coverage) history.coverage = *coverage;
@@ -28,6 +29,11 @@ void run_history(const WorldSettings& settings, uint32_t seed, int steps,
     if (history.chance(0.2)) history.move(1, side);  // everything teleports
     if (history.chance(0.6)) history.move(history.uniform(0, 1), 0.2);
     if (history.chance(0.3)) history.change_random_body(side, filters);
+    if (kinds == Kinds::all) {
+      if (history.chance(0.5)) history.turn(history.uniform(0, 1));
+      if (history.chance(0.4)) history.write_rows(history.uniform(0, 0.5));
+      if (history.chance(0.3)) history.change_random_body(side, filters);
+    }
     history.step_and_check();
     if (::testing::Test::HasFailure()) return;
   }
@@ -56,18 +62,47 @@ TEST(History, MatchesReference) {
   for (const size_t count : coverage.events) EXPECT_GT(count, 1000u);
 }
 
+TEST(History, OfAllKindsMatchesReference) {
+  constexpr Detail kDetails[] = {Detail::manifold, Detail::contact, Detail::overlap, Detail::pairs};
+  test::Coverage coverage;
+  for (uint32_t seed = 0; seed < 800; ++seed) {
+    WorldSettings settings;
+    settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
+    settings.broadphase = seed % 3 ? BroadphaseMethod::automatic : BroadphaseMethod::grid;
+    settings.carry_results = seed % 7 != 0;
+    settings.detail = kDetails[seed % 11 < 8 ? 0 : seed % 11 - 7];
+    run_history(settings, seed, 12, &coverage, Kinds::all);
+    ASSERT_FALSE(HasFailure());
+  }
+  EXPECT_GT(coverage.overlapping, coverage.pairs * 2 / 10);
+  EXPECT_LT(coverage.overlapping, coverage.pairs * 8 / 10);
+  EXPECT_GT(coverage.kept, coverage.pairs / 20);
+  EXPECT_GT(coverage.tested, coverage.pairs / 10);
+  EXPECT_GT(coverage.quarantined, 1000u);
+  EXPECT_GT(coverage.sensors, 1000u);
+  EXPECT_GT(coverage.with_halfspaces, 10000u);
+  EXPECT_GT(coverage.halfspace_overlaps, 5000u);
+  EXPECT_LT(coverage.halfspace_overlaps, coverage.with_halfspaces);
+  for (const size_t count : coverage.events) EXPECT_GT(count, 1000u);
+  for (const size_t count : coverage.manifolds) EXPECT_GT(count, 1000u);
+}
+
 TEST(History, MatchesReferenceOnEveryIsa) {
+  const WorldSettings manifold{.detail = Detail::manifold};
   for (const Isa isa : usable_isas()) {
     ASSERT_TRUE(force_isa(isa));
     for (uint32_t seed = 1000; seed < 1020; ++seed) run_history({}, seed, 8);
+    for (uint32_t seed = 0; seed < 10; ++seed) run_history(manifold, seed, 8, nullptr, Kinds::all);
   }
   unforce_isa();
 }
 
 TEST(History, MatchesReferenceOnThreads) {
+  const WorldSettings manifold{.detail = Detail::manifold};
   ThreadArena arena(4);
-  arena.run([] {
+  arena.run([&] {
     for (uint32_t seed = 2000; seed < 2020; ++seed) run_history({}, seed, 8);
+    for (uint32_t seed = 50; seed < 60; ++seed) run_history(manifold, seed, 8, nullptr, Kinds::all);
   });
 }
 

@@ -134,7 +134,7 @@ class Twins {
     for (size_t i = random_.below(4); i > 0; --i) add(crowd_[random_.below(crowd_.size())]);
     const BodyId id = ids_[random_.below(ids_.size())];
     const auto size = static_cast<float>(random_.uniform(-0.1, 1));
-    switch (random_.below(6)) {
+    switch (random_.below(spec_.oriented ? 9 : 6)) {
       case 0:
         both([&](World& world) { world.set_shape(id, Sphere{size}); });
         break;
@@ -150,6 +150,17 @@ class Twins {
       case 4:
         both([&](World& world) { world.set_sensor(id, random_.below(2) == 0); });
         break;
+      case 6:
+        both([&](World& world) { world.set_orientation(id, random_orientation(random_)); });
+        break;
+      case 7:
+        both([&](World& world) {
+          world.set_shape(id, random_shape(kAllKinds[random_.below(6)], random_));
+        });
+        break;
+      case 8:
+        both([&](World& world) { world.set_orientation(id, {0, 0, 0, 0}); });
+        break;
       default:;
     }
   }
@@ -158,6 +169,7 @@ class Twins {
     plain_.step();
     fat_.step();
     ASSERT_EQ(as_bytes(fat_.contacts()), as_bytes(plain_.contacts()));
+    ASSERT_EQ(as_bytes(fat_.manifolds()), as_bytes(plain_.manifolds()));
     ASSERT_EQ(as_bytes(fat_.events()), as_bytes(plain_.events()));
     ASSERT_EQ(as_bytes(fat_.quarantined()), as_bytes(plain_.quarantined()));
     ASSERT_TRUE(std::is_sorted(fat_.pairs().begin(), fat_.pairs().end()));
@@ -210,6 +222,8 @@ void run_history(const WorldSettings& settings, float margin, uint64_t seed, siz
   SCOPED_TRACE(::testing::Message() << "seed " << seed << ", margin " << margin);
   const CrowdSpec spec{.count = count,
                        .side = std::cbrt(static_cast<double>(count)),
+                       .oriented = seed % 4 < 2,
+                       .halfspaces = seed % 4 == 1 ? size_t{3} : size_t{0},
                        .filters = seed % 3 == 0,
                        .velocities = seed % 2 == 0,
                        .seed = seed + 1};
@@ -230,6 +244,7 @@ TEST(Margin, RandomHistoriesGiveTheSameResults) {
     settings.carry_results = seed % 7 != 0;
     settings.detail = seed % 4 == 3   ? Detail::overlap
                       : seed % 8 == 4 ? Detail::pairs
+                      : seed % 4 == 1 ? Detail::manifold
                                       : Detail::contact;
     run_history(settings, kMargins[seed % 5], seed);
     ASSERT_FALSE(HasFailure());

@@ -27,38 +27,51 @@ const WorldSettings kSettings[] = {{},
                                    {.detail = Detail::overlap, .carry_results = false},
                                    {.events = false, .margin = 0.1f}};
 
-TEST(Memory, AnEmptiedWorldGivesItBack) {
-  for (const WorldSettings& settings : kSettings) {
-    World world(settings);
-    const std::vector<BodyId> ids = add_crowd(world, kDense);
-    Random random(1);
-    for (int i = 0; i < 3; ++i) {
-      world.step();
-      move_some(world, ids, 0.3, random);
-    }
+const WorldSettings kManifold{.detail = Detail::manifold};
+constexpr CrowdSpec kDenseOriented{.count = 8000, .side = 13, .oriented = true, .halfspaces = 2};
+
+void expect_given_back(const WorldSettings& settings, const CrowdSpec& spec) {
+  World world(settings);
+  const std::vector<BodyId> ids = add_crowd(world, spec);
+  Random random(1);
+  for (int i = 0; i < 3; ++i) {
     world.step();
-    const WorldMemory full = world.memory();
-    world.remove(ids);
-    for (int i = 0; i < 3; ++i) world.step();
-    EXPECT_LT(world.memory().pairs_and_results, full.pairs_and_results / 20 + (128 << 10));
-    EXPECT_LT(world.memory().bounds, full.bounds / 10);
-    EXPECT_LT(world.memory().bodies, full.bodies / 5);
+    move_some(world, ids, 0.3, random);
   }
+  world.step();
+  const WorldMemory full = world.memory();
+  world.remove(ids);
+  for (int i = 0; i < 3; ++i) world.step();
+  EXPECT_LT(world.memory().pairs_and_results, full.pairs_and_results / 20 + (128 << 10));
+  EXPECT_LT(world.memory().bounds, full.bounds / 20 + (32 << 10));
+  EXPECT_LT(world.memory().bodies, full.bodies / 5);
+}
+
+TEST(Memory, AnEmptiedWorldGivesItBack) {
+  for (const WorldSettings& settings : kSettings) expect_given_back(settings, kDense);
+  expect_given_back(kManifold, kDenseOriented);
 }
 
 // All bodies stay, and hardly meet any more.
+void expect_given_back_after_parting(const WorldSettings& settings, const CrowdSpec& spec) {
+  World world(settings);
+  const std::vector<BodyId> ids = add_crowd(world, spec);
+  for (int i = 0; i < 2; ++i) world.step();
+  const size_t full = world.memory().pairs_and_results;
+  for (int i = 0; i < 4; ++i) {
+    for (size_t k = 0; k < ids.size(); ++k) world.set_position(ids[k], {3.0 * k, 0.1 * i, 0});
+    world.step();
+  }
+  EXPECT_LT(world.memory().pairs_and_results, full / 10 + (256 << 10));
+}
+
 TEST(Memory, BodiesThatPartGiveThatOfTheirPairsBack) {
   for (const WorldSettings& settings : kSettings) {
-    World world(settings);
-    const std::vector<BodyId> ids = add_crowd(world, kDense);
-    for (int i = 0; i < 2; ++i) world.step();
-    const size_t full = world.memory().pairs_and_results;
-    for (int i = 0; i < 4; ++i) {
-      for (size_t k = 0; k < ids.size(); ++k) world.set_position(ids[k], {3.0 * k, 0.1 * i, 0});
-      world.step();
-    }
-    EXPECT_LT(world.memory().pairs_and_results, full / 10 + (256 << 10));
+    expect_given_back_after_parting(settings, kDense);
   }
+  CrowdSpec oriented = kDenseOriented;
+  oriented.halfspaces = 0;
+  expect_given_back_after_parting(kManifold, oriented);
 }
 
 }  // namespace

@@ -74,7 +74,10 @@ TEST(PairChanges, MatchSetsOfPairs) {
     settings.events = seed % 2 == 0;
     settings.carry_results = seed % 5 != 0;
     settings.margin = seed % 7 == 0 ? 0.2f : 0.0f;
-    run_history(settings, {.count = seed % 4 ? 300u : 1000u, .side = 7, .seed = seed});
+    run_history(settings, {.count = seed % 4 ? 300u : 1000u,
+                           .side = 7,
+                           .halfspaces = seed % 2 ? size_t{3} : size_t{0},
+                           .seed = seed});
     ASSERT_FALSE(HasFailure()) << seed;
   }
 }

@@ -43,12 +43,15 @@ TEST(PayForUse, StagesThatRun) {
   settings = {};
   settings.detail = Detail::pairs;
   EXPECT_EQ(first_step(settings, {.velocities = true}), "bounds broadphase");
+  settings.detail = Detail::manifold;
+  EXPECT_EQ(first_step(settings, {.oriented = true, .halfspaces = 1, .velocities = true}),
+            "changes bounds broadphase pairs narrowphase results velocities events");
 }
 
 TEST(PayForUse, DetailDecidesWhatThereIs) {
   for (const bool filters : {false, true}) {
     World worlds[] = {World({.detail = Detail::pairs}), World({.detail = Detail::overlap}),
-                      World({.detail = Detail::contact})};
+                      World({.detail = Detail::contact}), World({.detail = Detail::manifold})};
     for (World& world : worlds) {
       add_crowd(world, {.filters = filters});
       world.step();
@@ -66,6 +69,9 @@ TEST(PayForUse, DetailDecidesWhatThereIs) {
     EXPECT_EQ(worlds[1].events().size(), worlds[2].events().size());
     EXPECT_LT(worlds[0].bytes(), worlds[1].bytes());
     EXPECT_LT(worlds[1].bytes(), worlds[2].bytes());
+    EXPECT_LT(worlds[2].bytes(), worlds[3].bytes());
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(worlds[i].manifolds().empty());
+    EXPECT_EQ(worlds[3].manifolds().size(), worlds[2].contacts().size());
   }
 }
 
@@ -89,6 +95,34 @@ TEST(PayForUse, ColumnsThatNobodyNeedsDoNotExist) {
   EXPECT_GE(grows_by({.owner = 1}), 1000 * sizeof(uint32_t));
   EXPECT_GE(grows_by({.sensor = true}), 1000u);
   EXPECT_GE(grows_by({.user = 1}), 1000 * sizeof(uint64_t));
+  // Shapes with rows: the place of the rows and the quaternion.
+  for (const Shape& shape :
+       {Shape(Box{}), Shape(Capsule{}), Shape(Triangle{}), Shape(Halfspace{})}) {
+    EXPECT_GE(grows_by({.shape = shape}), 1000 * (sizeof(uint32_t) + 4 * sizeof(float)));
+  }
+}
+
+// Spheres and aabbs have no orientation, whatever they are given.
+TEST(PayForUse, WithoutShapesThatTurnThereAreNoOrientations) {
+  const Eigen::Quaternionf turn(1, 2, 3, 4);
+  World turned, plain;
+  for (BodyDesc body : make_crowd({.filters = true})) {
+    plain.add(body);
+    body.orientation = turn;
+    turned.set_orientation(turned.add(body), turn);
+  }
+  for (int i = 0; i < 3; ++i) {
+    plain.step();
+    turned.step();
+  }
+  EXPECT_EQ(turned.bytes(), plain.bytes());
+  EXPECT_EQ(turned.arrays().orientation, nullptr);
+  EXPECT_EQ(turned.shape_rows().count, 0u);
+  // The copy that says what changed is made with them.
+  const size_t before = turned.memory().bodies;
+  turned.add({.shape = Box{}});
+  turned.step();
+  EXPECT_GE(turned.memory().bodies, before + 400 * (sizeof(uint32_t) + 8 * sizeof(float)));
 }
 
 // After some steps in which everything moved.

@@ -43,7 +43,8 @@ std::vector<PointHit> plain_hits(const World& world, std::span<const BodyId> ids
     const Eigen::Vector3d at(points[i].x, points[i].y, points[i].z);
     for (const BodyId id : ids) {
       const reference::PairResult result = reference::collide(
-          Sphere{0}, at, world.shape(id), world.position(id), world.settings().positions);
+          Sphere{0}, {at}, world.shape(id), {world.position(id), world.orientation(id)},
+          world.settings().positions);
       if (result.overlap) hits.push_back({i, id.index, result.separation});
     }
   }
@@ -72,6 +73,27 @@ TEST(FindPoints, InSpheresAndBoxes) {
       expect_hits(world, ids, 7);
       expect_hits(world, ids, 7, 1);
       expect_hits(world, ids, 7, 0);
+    }
+  });
+}
+
+TEST(FindPoints, InBodiesOfAllKinds) {
+  for_each_isa([] {
+    for (const size_t halfspaces : {0, 1, 5}) {
+      for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
+        World world({.positions = positions});
+        std::vector<BodyId> ids = add_crowd(world, {.oriented = true, .halfspaces = halfspaces});
+        ids.push_back(world.add({.shape = Halfspace{{1, 0, 0}, 2}}));
+        ids.push_back(world.add({.shape = Halfspace{{0, 0, 0}, 2}}));
+        world.step();
+        expect_hits(world, ids, 7);
+        for (int i = 0; i < 3; ++i) world.step();
+        expect_hits(world, ids, 7, 1);
+        world.remove(ids[0]);
+        ids.erase(ids.begin());
+        world.step();
+        expect_hits(world, ids, 7);
+      }
     }
   });
 }

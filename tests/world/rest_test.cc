@@ -56,6 +56,10 @@ TEST(Rest, WhateverIsDoneToABodyIsSeen) {
       },
       [](World& w, BodyId id) { w.set_shape(id, Sphere{2}); },
       [](World& w, BodyId id) { w.set_shape(id, Sphere{-1}); },
+      [](World& w, BodyId id) { w.set_shape(id, Halfspace{}); },
+      [](World& w, BodyId id) {
+        w.set_shape(id, Box{{1, 2, 0.1f}});
+      },
       [](World& w, BodyId id) { w.set_filter(id, 0, 0, 0); },
       [](World& w, BodyId id) { w.set_motion(id, Motion::fixed); },
       [](World& w, BodyId id) { w.remove(id); },
@@ -77,6 +81,37 @@ TEST(Rest, WhateverIsDoneToABodyIsSeen) {
       settle(resting);
       EXPECT_TRUE(results(resting) == results(fresh));
       EXPECT_EQ(resting.report().quarantined, fresh.report().quarantined);
+    }
+  }
+}
+
+TEST(Rest, WhatIsWrittenToOrientationsAndRowsIsSeen) {
+  const std::function<void(World&, BodyId)> changes[] = {
+      [](World& w, BodyId id) {
+        w.set_orientation(id, {1, 2, 3, 4});
+      },
+      [](World& w, BodyId id) { w.arrays().orientation[4 * id.index + 1] += 1; },
+      [](World& w, BodyId id) { w.arrays().orientation[4 * id.index + 1] = std::nanf(""); },
+      [](World& w, BodyId id) { w.shape_rows().rows[4 * w.first_row(id)] += 1; },
+  };
+  for (const size_t count : kCounts) {
+    for (const auto& change : changes) {
+      for (const Shape& shape : {Shape(Box{{1, 0.5f, 2}}), Shape(Halfspace{{1, 2, 0}, 0})}) {
+        World resting(pairs_only()), fresh({.detail = Detail::pairs, .carry_results = false});
+        CrowdSpec spec = crowd_of(count);
+        spec.oriented = true;
+        const BodyId id = add_crowd(resting, spec)[count / 2];
+        add_crowd(fresh, spec);
+        for (World* world : {&resting, &fresh}) world->set_shape(id, shape);
+        settle(resting);
+        for (World* world : {&resting, &fresh}) {
+          change(*world, id);
+          EXPECT_TRUE(searches(*world));
+        }
+        EXPECT_TRUE(results(resting) == results(fresh));
+        settle(resting);
+        EXPECT_TRUE(results(resting) == results(fresh));
+      }
     }
   }
 }

@@ -10,6 +10,12 @@ namespace carom::test {
 namespace {
 
 constexpr CrowdSpec kCrowd{.count = 1500, .side = 11, .filters = true, .velocities = true};
+constexpr CrowdSpec kOriented{.count = 1500,
+                              .side = 11,
+                              .oriented = true,
+                              .halfspaces = 3,
+                              .filters = true,
+                              .velocities = true};
 
 // Bodies move, come, go and fail.
 std::vector<Results> history(const WorldSettings& settings, const CrowdSpec& spec = kCrowd,
@@ -26,6 +32,7 @@ std::vector<Results> history(const WorldSettings& settings, const CrowdSpec& spe
     all.push_back(results(world));
     if (frame == 2) continue;  // a still one
     move_some(world, ids, frame == 5 ? 1 : 0.3, random);
+    if (spec.oriented) turn_some(world, ids, 0.3, random);
     for (int i = 0; i < 5; ++i) {
       const size_t which = random.below(ids.size());
       world.remove(ids[which]);
@@ -42,6 +49,7 @@ void expect_equal(const std::vector<Results>& got, const std::vector<Results>& e
     EXPECT_EQ(got[i].pairs == expected[i].pairs, true) << "pairs of frame " << i;
     EXPECT_EQ(got[i].overlaps == expected[i].overlaps, true) << "overlaps of frame " << i;
     EXPECT_EQ(got[i].contacts == expected[i].contacts, true) << "contacts of frame " << i;
+    EXPECT_EQ(got[i].manifolds == expected[i].manifolds, true) << "manifolds of frame " << i;
     EXPECT_EQ(got[i].events == expected[i].events, true) << "events of frame " << i;
     EXPECT_EQ(got[i].quarantined == expected[i].quarantined, true) << "frame " << i;
   }
@@ -53,6 +61,26 @@ TEST(SameBits, OnEveryIsa) {
     const std::vector<Results> expected = history(settings);
     EXPECT_GT(expected[0].contacts.size(), 100 * sizeof(Contact));
     for_each_isa([&] { expect_equal(history(settings), expected); });
+  }
+}
+
+TEST(SameBits, OfAllKindsOnEveryIsa) {
+  for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
+    const WorldSettings settings{.positions = positions, .detail = Detail::manifold};
+    const std::vector<Results> expected = history(settings, kOriented);
+    EXPECT_GT(expected[0].manifolds.size(), 100 * sizeof(ManifoldPoints));
+    for_each_isa([&] { expect_equal(history(settings, kOriented), expected); });
+  }
+}
+
+TEST(SameBits, OfAllKindsWithEveryBroadphaseAndOnThreads) {
+  WorldSettings settings{.detail = Detail::manifold};
+  const std::vector<Results> expected = history(settings, kOriented);
+  ThreadArena arena(4);
+  for (const BroadphaseMethod method :
+       {BroadphaseMethod::brute, BroadphaseMethod::sweep, BroadphaseMethod::grid}) {
+    settings.broadphase = method;
+    arena.run([&] { expect_equal(history(settings, kOriented), expected); });
   }
 }
 
@@ -126,6 +154,17 @@ TEST(SameBits, TheCallersFloatModeIsItsOwnAgain) {
 
 // Contacts are relative to the bodies: a float64 world may lie anywhere. Bounds are float32 and
 // coarser there, so that more pairs are tested.
+TEST(SameBits, OfAllKindsInAnyFloatModeOfTheCaller) {
+  const WorldSettings settings{.detail = Detail::manifold};
+  const std::vector<Results> expected = history(settings, kOriented);
+  for (const FloatMode& mode : float_modes()) {
+    SCOPED_TRACE(mode.name);
+    if ((mode.mxcsr & 0x6000) != 0) continue;
+    const ScopedFloatMode scoped(mode);
+    expect_equal(history(settings, kOriented), expected);
+  }
+}
+
 TEST(SameBits, FarFromTheOriginInFloat64) {
   const WorldSettings settings{.positions = PositionType::float64};
   const std::vector<Results> near = history(settings);

@@ -11,8 +11,11 @@ namespace carom {
 enum class Detail : uint8_t {
   pairs,    // candidate pairs only, no narrow phase
   overlap,  // the decision
-  contact,  // decision, normal, separation, witness points
+  contact,   // decision, normal, separation, witness points
+  manifold,  // and up to four points of every overlap
 };
+
+constexpr bool has_contacts(Detail detail) { return detail >= Detail::contact; }
 
 enum class Status : uint8_t {
   ok = 0,
@@ -42,9 +45,19 @@ struct Contact {
   float normal_velocity;
   Eigen::Vector3f arm_b;
   Status status;
-  std::array<uint8_t, 3> reserved{};  // zero, so that contacts compare and hash as bytes
+  uint8_t manifold_count = 0;         // at Detail::manifold, 1 to 4
+  std::array<uint8_t, 2> reserved{};  // zero, so that contacts compare and hash as bytes
 };
 static_assert(sizeof(Contact) == 64);
+
+// The points of one overlap, 64 bytes: up to four, on the surface of A, spread as wide as the area
+// in which A and B overlap along the contact's normal. Point i is to B's surface
+// separation[i] * normal away; none is deeper than the contact's separation. Unused ones are zero.
+struct ManifoldPoints {
+  std::array<std::array<float, 3>, 4> point{};
+  std::array<float, 4> separation{};
+};
+static_assert(sizeof(ManifoldPoints) == 64);
 
 // Where stateless calls write; one entry a pair in every column that is not nullptr. Columns are
 // dense. A pair that has no answer gets overlap 0, status 3 and NaN elsewhere.
@@ -55,6 +68,8 @@ struct ResultColumns {
   std::array<float*, 3> normal{};
   std::array<float*, 3> point_a{};
   std::array<float*, 3> point_b{};
+  uint8_t* manifold_count = nullptr;   // 0 for separate pairs, else 1 to 4
+  ManifoldPoints* manifold = nullptr;  // in the frame of point_a
 };
 
 // The frame of the witness points in ResultColumns.

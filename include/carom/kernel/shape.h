@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <variant>
 
@@ -9,7 +10,8 @@
 
 namespace carom {
 
-// The codes of the file format; kinds that have no kernel yet are refused by name.
+// The codes of the file format, and `triangle`, which is a mesh of one triangle there. Kinds that
+// have no kernel yet are refused by name.
 enum class ShapeKind : uint8_t {
   sphere = 0,
   capsule = 1,
@@ -20,9 +22,10 @@ enum class ShapeKind : uint8_t {
   mesh = 6,
   compound = 7,
   halfspace = 8,
+  triangle = 9,
 };
 
-inline constexpr int kShapeKindCount = 9;
+inline constexpr int kShapeKindCount = 10;
 
 // "sphere", "capsule", ...; "unknown" for a code that is none.
 CAROM_EXPORT const char* name(ShapeKind kind);
@@ -41,6 +44,40 @@ struct Aabb {
   static Aabb from_half_extents(const Eigen::Vector3f& half) { return {-half, half}; }
 };
 
-using Shape = std::variant<Sphere, Aabb>;
+// All points within `radius` of the segment from a to b, in the body's frame. radius >= 0; a == b is
+// a sphere.
+struct Capsule {
+  Eigen::Vector3f a = Eigen::Vector3f::Zero();
+  Eigen::Vector3f b = Eigen::Vector3f::Zero();
+  float radius = 0;
+};
+
+// Oriented box about the body's position: |x_i| <= half_i in the body's frame. half >= 0.
+struct Box {
+  Eigen::Vector3f half = Eigen::Vector3f::Zero();
+};
+
+// One triangle, in the body's frame. Its front is the side from which the corners run
+// counter-clockwise. Triangles without area are segments or points.
+struct Triangle {
+  std::array<Eigen::Vector3f, 3> corners = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(),
+                                            Eigen::Vector3f::Zero()};
+  float thickness = 0;     // >= 0: a prism that reaches so far behind the front
+  bool one_sided = false;  // meets only what comes from the front
+  // Bit i: the edge from corner i to the next is inside a mesh, and contacts there keep the normal
+  // of the face.
+  uint8_t inner_edges = 0;
+};
+
+// All x of the body's frame with normal . x <= offset. The normal need not be a unit vector, but
+// not zero. Half-spaces have no bounds: they are candidates with every body that reaches into them.
+struct Halfspace {
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
+  float offset = 0;
+};
+
+using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace>;
+
+CAROM_EXPORT ShapeKind kind_of(const Shape& shape);
 
 }  // namespace carom

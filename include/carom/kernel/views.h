@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "carom/export.h"
 #include "carom/kernel/body.h"
 #include "carom/kernel/shape.h"
 
@@ -37,11 +38,53 @@ struct AabbColumns {
   size_t stride = sizeof(float);
 };
 
+// Orientations as quaternions x, y, z, w (float32), which need not be unit ones: the rotation is
+// M(q) / |q|^2. Absent (data == nullptr): none is rotated.
+struct OrientationView {
+  const float* data = nullptr;
+  size_t stride = 4 * sizeof(float);
+};
+
+// Parameters of capsules, boxes, half-spaces and triangles: rows of four floats, as many in a row
+// as the kind has.
+//   capsule    ax ay az radius | bx by bz 0
+//   box        hx hy hz 0
+//   halfspace  nx ny nz offset
+//   triangle   three corners, each with a fourth number: thickness, one_sided (0 or 1), inner_edges
+//              (0 to 7)
+struct ShapeRows {
+  const float* data = nullptr;
+  const uint32_t* first = nullptr;  // one a body: its first row; nullptr: body i's is i * row_count
+};
+
+inline constexpr size_t kMostRows = 3;
+
+// How many rows a body of this kind has; 0: it has none.
+constexpr uint32_t row_count(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::box:
+    case ShapeKind::halfspace:
+      return 1;
+    case ShapeKind::capsule:
+      return 2;
+    case ShapeKind::triangle:
+      return 3;
+    default:
+      return 0;
+  }
+}
+
+// The rows of a shape, as many as its kind has.
+CAROM_EXPORT std::array<std::array<float, 4>, kMostRows> shape_rows(const Shape& shape);
+// The shape of a kind that has rows.
+CAROM_EXPORT Shape shape_from_rows(ShapeKind kind, const std::array<float, 4>* rows);
+
 // A set of bodies to test: what the narrow phase and the bounds stage read.
 //   position  indexed by body; may be absent (data == nullptr) if all bodies are boxes given in
 //             world coordinates
 //   kind      one per body; nullptr: all are `uniform_kind`
 //   box_slot  the row of `boxes` of an aabb body; nullptr: the body's own index
+//   orientation, rows  of capsules, boxes, half-spaces and triangles; of mixed kinds with rows.first
 struct Collidables {
   size_t count = 0;
   PositionView position;
@@ -49,6 +92,8 @@ struct Collidables {
   ShapeKind uniform_kind = ShapeKind::sphere;
   AabbColumns boxes;
   const uint32_t* box_slot = nullptr;
+  OrientationView orientation;
+  ShapeRows rows;
 };
 
 // Views of common layouts.

@@ -17,12 +17,12 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 
 // Tests pair i = (a[pairs[i].a], b[pairs[i].b]) and writes row i of `out`; `a` and `b` may be the
 // same set. Columns of `out` hold pairs.size() entries. At Detail::overlap only overlap and status
-// are written; Detail::pairs writes nothing. Indices must lie inside their sets.
+// are written, at Detail::contact all but the manifolds; Detail::pairs writes nothing. Indices must lie inside their sets.
 //
 // float32 throughout, after one subtraction of the positions in their own type: the error does not
 // depend on the distance from the origin. Bits are the same on every instruction set and for any
 // number of threads, and do not depend on a pair's place in the list.
-// Fails if the sets hold a pair of kinds that no kernel exists for; nothing is written then.
+// Fails if a pair is of kinds that no kernel exists for; nothing is written then.
 CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
                                   const ResultColumns& out,

@@ -29,16 +29,17 @@ struct PairResult {
   Eigen::Vector3f normal;
   Eigen::Vector3f arm_a;
   Eigen::Vector3f arm_b;
+  uint8_t manifold_count;   // 0 for separate pairs
+  ManifoldPoints manifold;  // relative to the position of A
 };
 
-// The smallest float32 box that contains the body; empty if the body is not valid. `positions` says
-// in which type the position is stored: float32 positions are rounded first.
-CAROM_EXPORT Box bounds(const Shape& shape, const Eigen::Vector3d& position,
-                        PositionType positions);
+// A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the
+// body is not valid, infinite for half-spaces. `positions` says in which type the position is
+// stored: float32 positions are rounded first.
+CAROM_EXPORT Box bounds(const Shape& shape, const Pose& pose, PositionType positions);
 
-// Finite position, finite and not negative size.
-CAROM_EXPORT bool is_valid(const Shape& shape, const Eigen::Vector3d& position,
-                           PositionType positions);
+// Finite pose, finite and not negative size.
+CAROM_EXPORT bool is_valid(const Shape& shape, const Pose& pose, PositionType positions);
 
 // Closed boxes: touching is overlap.
 CAROM_EXPORT bool overlap(const Box& a, const Box& b);
@@ -46,10 +47,9 @@ CAROM_EXPORT bool overlap(const Box& a, const Box& b);
 // Whether layers, masks, owners and motion let two bodies meet.
 CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b);
 
-// Tests A against B, whatever their kinds.
-CAROM_EXPORT PairResult collide(const Shape& shape_a, const Eigen::Vector3d& position_a,
-                                const Shape& shape_b, const Eigen::Vector3d& position_b,
-                                PositionType positions);
+// Tests A against B, whatever their kinds; carom::supports() must be true of them.
+CAROM_EXPORT PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
+                                const Pose& pose_b, PositionType positions);
 
 // A body as the world sees it in one frame. bodies[i].id.index need not be i, but must ascend.
 struct Body {
@@ -62,6 +62,7 @@ struct Frame {
   std::vector<Pair> pairs;
   std::vector<uint8_t> overlaps;
   std::vector<Contact> contacts;
+  std::vector<ManifoldPoints> manifolds;  // at Detail::manifold one a contact, else none
   std::vector<Event> events;
   std::vector<BodyId> quarantined;
   std::vector<Event> touching;  // what the next frame needs of this one: the overlaps with ids

@@ -47,6 +47,10 @@ struct BodyArrays {
   // radius of a sphere; leave it alone for other kinds.
   float* record32 = nullptr;
   double* record64 = nullptr;
+  // Quaternions x, y, z, w, which need not be unit ones; nullptr until there is a body of a kind
+  // that has an orientation: capsule, box, half-space, triangle. Those of spheres and aabbs are
+  // ignored.
+  float* orientation = nullptr;
 };
 
 // Corners of aabb bodies relative to their positions, in six columns, indexed by box slot. A body
@@ -55,6 +59,13 @@ struct BoxArrays {
   size_t count = 0;  // highest slot in use + 1
   std::array<float*, 3> lower{};
   std::array<float*, 3> upper{};
+};
+
+// Parameters of capsules, boxes, half-spaces and triangles in rows of four floats, as ShapeRows
+// says. A body keeps its rows for as long as its kind has as many.
+struct ShapeRowArrays {
+  size_t count = 0;  // highest row in use + 1
+  float* rows = nullptr;
 };
 
 // A point inside a body or on its surface.
@@ -99,6 +110,10 @@ class CAROM_EXPORT World {
   Eigen::Vector3d position(BodyId id) const;
   void set_position(BodyId id, const Eigen::Vector3d& position);
   void set_positions(std::span<const BodyId> ids, std::span<const Eigen::Vector3d> positions);
+  // Spheres and aabbs have no orientation: they answer with the identity, and keep no other. A body
+  // that changes from one of these kinds begins with the identity.
+  Eigen::Quaternionf orientation(BodyId id) const;
+  void set_orientation(BodyId id, const Eigen::Quaternionf& orientation);
   Shape shape(BodyId id) const;
   void set_shape(BodyId id, const Shape& shape);
   Eigen::Vector3f linear_velocity(BodyId id) const;
@@ -115,6 +130,8 @@ class CAROM_EXPORT World {
   BodyArrays arrays();
   BoxArrays boxes();
   uint32_t box_slot(BodyId id) const;  // of an aabb body
+  ShapeRowArrays shape_rows();
+  uint32_t first_row(BodyId id) const;  // of a capsule, box, half-space or triangle
   // One a body index; made on first use, and contacts carry normal velocities from then on. The
   // span moves when bodies are added or removed.
   std::span<Eigen::Vector3f> linear_velocities();
@@ -124,11 +141,16 @@ class CAROM_EXPORT World {
   const StepReport& step();
 
   // Results of the last step, sorted by (a, b); valid until the next one.
-  std::span<const Pair> pairs() const;        // bodies whose bounds (fat ones, if any) overlap
+  // Bodies whose bounds (fat ones, if any) overlap; half-spaces with those whose bounds (never fat
+  // ones) reach into them. Two half-spaces are no pair.
+  std::span<const Pair> pairs() const;
   std::span<const uint8_t> overlaps() const;  // one a pair: 1 overlap, 0 separate
   std::span<const Contact> contacts() const;  // overlapping pairs without sensors
+  // At Detail::manifold one a contact, else none; points are relative to the position of body A.
+  std::span<const ManifoldPoints> manifolds() const;
   std::span<const Event> events() const;
-  std::span<const BodyId> quarantined() const;  // bodies left out: NaN, infinite or negative size
+  // Bodies left out: NaN, infinite or negative size, a quaternion or a plane's normal of zero.
+  std::span<const BodyId> quarantined() const;
   const StepReport& report() const;
 
   // With WorldSettings::pair_changes: pairs that the step before had not, and those that it alone

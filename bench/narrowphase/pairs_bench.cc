@@ -1,0 +1,150 @@
+// Every pair of kinds that has a kernel: NAME/DETAIL/STORAGE/hitPERCENT/ACCESS/RUNNER.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "bench/support/cached.h"
+#include "bench/support/measure.h"
+#include "bench/support/pair_stream.h"
+#include "bench/support/suites.h"
+
+namespace carom::bench {
+namespace {
+
+struct KindPair {
+  const char* name;
+  ShapeKind a;
+  ShapeKind b;
+};
+
+constexpr KindPair kKindPairs[] = {
+#define CAROM_PAIR(name, kind_a, kind_b, passes) {#name, ShapeKind::kind_a, ShapeKind::kind_b},
+#include "narrowphase/pair_list.inc"
+#undef CAROM_PAIR
+};
+
+// These are measured with float64 positions and other hit rates as well.
+constexpr const char* kInDepth[] = {"sphere_sphere", "sphere_aabb", "aabb_aabb", "box_box"};
+
+// Why the stream is not what its name says, or the results not those of the reference.
+std::optional<std::string> problem(const PairStream& stream, Detail detail, ResultArrays& results) {
+  if (std::abs(stream.hit_percent() - stream.spec().hit_percent) > 2) {
+    return "the hit rate is " + std::to_string(stream.hit_percent()) + " %";
+  }
+  results.spoil();
+  if (const Result<void> done = stream.run(detail, results.columns()); !done) {
+    return done.error().message;
+  }
+  return stream.difference(detail, results.columns());
+}
+
+// So many passes make an iteration that reading the clock does not count.
+size_t passes(const PairStream& stream) {
+  constexpr size_t kPairs = 50'000;
+  return std::max<size_t>(1, kPairs / stream.spec().count);
+}
+
+template <class Pass>
+void measure(benchmark::State& state, const PairStream& stream, const Pass& pass) {
+  const size_t repeats = passes(stream);
+  PassTimes times;
+  for (auto _ : state) {
+    times.measure([&] {
+      for (size_t i = 0; i < repeats; ++i) pass();
+    });
+  }
+  report(state, "pair", repeats * stream.spec().count, times,
+         static_cast<double>(repeats) * stream.reference_seconds());
+}
+
+void measure_kernel(benchmark::State& state, const PairStream& stream, Detail detail, Isa isa) {
+  ResultArrays results(stream.spec().count);
+  if (!use_isa(state, isa)) return;
+  if (const auto wrong = problem(stream, detail, results)) return fail(state, *wrong);
+  measure(state, stream, [&] {
+    benchmark::DoNotOptimize(stream.run(detail, results.columns()));
+    benchmark::ClobberMemory();
+  });
+}
+
+void measure_reference(benchmark::State& state, const PairStream& stream) {
+  std::vector<reference::PairResult> results;
+  measure(state, stream, [&] {
+    stream.run_reference(results);
+    benchmark::ClobberMemory();
+  });
+}
+
+// The same stream on every runner. `access` stands in the name.
+void register_stream(const KindPair& kinds, const StreamSpec& spec, Detail detail,
+                     const char* access) {
+  const std::string stream_name = std::string(kinds.name) + "/" + name(detail) + "/" +
+                                  name(spec.storage) + "/hit" + std::to_string(spec.hit_percent) +
+                                  "/" + access + "/";
+  for (const Runner& runner : all_runners()) {
+    const auto body = [spec, detail, runner](benchmark::State& state) {
+      const auto& stream = cached<PairStream>(spec);
+      if (runner.isa) {
+        measure_kernel(state, stream, detail, *runner.isa);
+      } else {
+        measure_reference(state, stream);
+      }
+    };
+    benchmark::RegisterBenchmark((stream_name + runner.name()).c_str(), body)
+        ->Unit(benchmark::kMicrosecond);
+  }
+}
+
+// As rows and as a list of pairs, at every detail.
+void register_streams(const KindPair& kinds, Storage storage, int hit_percent, size_t count) {
+  for (const Access access : {Access::rows, Access::pairs}) {
+    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+      register_stream(kinds,
+                      {.kind_a = kinds.a,
+                       .kind_b = kinds.b,
+                       .storage = storage,
+                       .hit_percent = hit_percent,
+                       .access = access,
+                       .count = count},
+                      detail, access == Access::rows ? "rows" : "pairs");
+    }
+  }
+}
+
+void register_in_depth(const KindPair& kinds, size_t count) {
+  for (const Storage storage : {Storage::f32, Storage::f64}) {
+    for (const int hit_percent : {10, 50, 90}) {
+      register_streams(kinds, storage, hit_percent, count);
+    }
+  }
+}
+
+// Boxes in world coordinates, few enough for inputs and results to stay in L2: what the kernel
+// itself can do.
+void register_in_l2(const KindPair& kinds) {
+  constexpr size_t kPairs = 4096;
+  for (const int hit_percent : {10, 50, 90}) {
+    register_stream(kinds,
+                    {.kind_a = kinds.a,
+                     .kind_b = kinds.b,
+                     .storage = Storage::world,
+                     .hit_percent = hit_percent,
+                     .count = kPairs},
+                    Detail::overlap, "l2");
+  }
+}
+
+}  // namespace
+
+void register_narrowphase(const Options& options) {
+  for (const KindPair& kinds : kKindPairs) {
+    if (std::count(std::begin(kInDepth), std::end(kInDepth), std::string(kinds.name)) > 0) {
+      register_in_depth(kinds, options.pairs);
+    } else {
+      register_streams(kinds, Storage::f32, 50, options.pairs);
+    }
+    if (kinds.a == ShapeKind::aabb && kinds.b == ShapeKind::aabb) register_in_l2(kinds);
+  }
+}
+
+}  // namespace carom::bench

@@ -1,0 +1,192 @@
+#include "bench/peers/narrowphase/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "bench/peers/narrowphase/pair_peer.h"
+#include "bench/support/measure.h"
+#include "bench/support/pair_stream.h"
+
+namespace carom::bench {
+namespace {
+
+constexpr double kBand = 1e-3;           // of the mean bounding radius: nearer touch is excluded
+constexpr double kMostDifferent = 1e-3;  // of Bullet's decisions
+constexpr int kTurns = 5;
+
+std::array<float, 9> peer_size(const Sphere& sphere) { return {sphere.radius}; }
+std::array<float, 9> peer_size(const Capsule& capsule) { return {capsule.radius, capsule.b.y()}; }
+std::array<float, 9> peer_size(const Aabb& box) {
+  return {box.upper.x(), box.upper.y(), box.upper.z()};
+}
+std::array<float, 9> peer_size(const Box& box) {
+  return {box.half.x(), box.half.y(), box.half.z()};
+}
+std::array<float, 9> peer_size(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
+}
+std::array<float, 9> peer_size(const Halfspace& /*halfspace*/) { return {}; }  // no such stream
+
+PeerShape peer_shape(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::sphere:
+      return PeerShape::sphere;
+    case ShapeKind::capsule:
+      return PeerShape::capsule;
+    case ShapeKind::triangle:
+      return PeerShape::triangle;
+    default:
+      return PeerShape::box;
+  }
+}
+
+// Boxes along the axes are boxes that are not turned.
+PeerBodies peer_bodies(ShapeKind kind, const std::vector<PlacedShape>& bodies) {
+  PeerBodies all = {peer_shape(kind), {}};
+  for (const PlacedShape& body : bodies) {
+    const Eigen::Vector3f p = body.position.cast<float>();
+    const Eigen::Vector4f q = body.orientation.coeffs();
+    all.bodies.push_back(
+        {{p.x(), p.y(), p.z()},
+         {q.x(), q.y(), q.z(), q.w()},
+         std::visit([](const auto& shape) { return peer_size(shape); }, body.shape)});
+  }
+  return all;
+}
+
+double mean_radius(const PlacedShape& a, const PlacedShape& b) {
+  return (local_bounds(a).diagonal().norm() + local_bounds(b).diagonal().norm()) / 4;
+}
+
+void compare_decisions(const PairStream& stream, std::span<const uint8_t> bullet,
+                       StreamResult& result) {
+  for (size_t i = 0; i < bullet.size(); ++i) {
+    const reference::PairResult& expected = stream.expected(i);
+    const double radius = mean_radius(stream.bodies_a()[i], stream.bodies_b()[i]);
+    if (std::fabs(expected.separation) <= kBand * radius) {
+      ++result.excluded;
+    } else if (expected.overlap != (bullet[i] != 0)) {
+      ++result.different;
+    }
+  }
+}
+
+// Why Carom's results are not those of its reference.
+std::string difference(const PairStream& stream, Detail detail) {
+  ResultArrays results(stream.spec().count);
+  for (const Isa isa : usable_isas()) {
+    force_isa(isa);
+    results.spoil();
+    if (const Result<void> done = stream.run(detail, results.columns()); !done) {
+      return done.error().message;
+    }
+    if (const auto found = stream.difference(detail, results.columns())) {
+      return std::string(name(isa)) + ": " + *found;
+    }
+  }
+  return "";
+}
+
+class TimedRunner {
+ public:
+  TimedRunner(std::string name, std::function<void()> pass)
+      : name_(std::move(name)), pass_(std::move(pass)) {}
+
+  // The first pass is not timed: others have had the caches.
+  void take_turn(double seconds) {
+    pass_();
+    const Stopwatch turn;
+    do {
+      const Stopwatch watch;
+      pass_();
+      times_.push_back(watch.seconds());
+    } while (turn.seconds() < seconds);
+  }
+
+  RunnerResult result() {
+    std::sort(times_.begin(), times_.end());
+    return {name_, times_.size(), times_[times_.size() / 2], times_.front()};
+  }
+
+ private:
+  std::string name_;
+  std::function<void()> pass_;
+  std::vector<double> times_;
+};
+
+// So that the drift of a machine's clock meets all alike.
+std::vector<RunnerResult> time_in_turns(const PairStream& stream, Detail detail, PairPeer& bullet,
+                                        double budget) {
+  ResultArrays results(stream.spec().count);
+  std::vector<reference::PairResult> reference_results;
+  std::vector<uint8_t> overlaps(stream.spec().count);
+  std::vector<TimedRunner> runners;
+  runners.emplace_back("bullet", [&] { bullet.run(overlaps); });
+  runners.emplace_back("reference", [&] { stream.run_reference(reference_results); });
+  for (const Isa isa : usable_isas()) {
+    runners.emplace_back(name(isa), [&, isa] {
+      force_isa(isa);
+      (void)stream.run(detail, results.columns());
+    });
+  }
+  for (int turn = 0; turn < kTurns; ++turn) {
+    for (TimedRunner& runner : runners) runner.take_turn(budget / kTurns);
+  }
+  unforce_isa();
+  std::vector<RunnerResult> timed;
+  for (TimedRunner& runner : runners) timed.push_back(runner.result());
+  return timed;
+}
+
+}  // namespace
+
+std::vector<PeerStreamSpec> peer_streams() {
+  using enum ShapeKind;
+  using enum Detail;
+  return {{"sphere_sphere", sphere, sphere, contact},
+          {"sphere_box", sphere, box, contact},
+          {"sphere_aabb", sphere, aabb, contact},
+          {"sphere_capsule", sphere, capsule, contact},
+          {"capsule_capsule", capsule, capsule, contact},
+          {"capsule_box", capsule, box, contact},
+          {"box_box", box, box, overlap},
+          {"box_box", box, box, manifold},
+          {"sphere_triangle", sphere, triangle, contact},
+          {"capsule_triangle", capsule, triangle, contact},
+          {"box_triangle", box, triangle, contact}};
+}
+
+const RunnerResult* StreamResult::timed(const std::string& runner) const {
+  const auto found = std::find_if(runners.begin(), runners.end(),
+                                  [&](const RunnerResult& r) { return r.runner == runner; });
+  return found == runners.end() ? nullptr : &*found;
+}
+
+bool StreamResult::agrees() const {
+  return wrong.empty() &&
+         static_cast<double>(different) <= kMostDifferent * static_cast<double>(pairs - excluded);
+}
+
+StreamResult compare(const PeerStreamSpec& spec, size_t pairs, double budget) {
+  const PairStream stream({.kind_a = spec.a, .kind_b = spec.b, .count = pairs});
+  const std::unique_ptr<PairPeer> bullet = make_bullet_pairs(
+      peer_bodies(spec.a, stream.bodies_a()), peer_bodies(spec.b, stream.bodies_b()),
+      spec.detail == Detail::overlap ? PeerDetail::overlap : PeerDetail::contact);
+  StreamResult result;
+  result.pair = spec.pair;
+  result.detail = spec.detail;
+  result.pairs = pairs;
+  result.hit_percent = stream.hit_percent();
+  result.wrong = difference(stream, spec.detail);
+  std::vector<uint8_t> overlaps(pairs);
+  result.bullet_points = bullet->run(overlaps);
+  compare_decisions(stream, overlaps, result);
+  if (!result.agrees()) return result;
+
+  result.runners = time_in_turns(stream, spec.detail, *bullet, budget);
+  return result;
+}
+
+}  // namespace carom::bench

@@ -1,0 +1,48 @@
+// Streams of pairs: Carom, its scalar reference and Bullet. First the decisions are compared, then
+// all are timed in turns.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/kernel/contact.h"
+#include "carom/kernel/shape.h"
+
+namespace carom::bench {
+
+struct PeerStreamSpec {
+  const char* pair;  // as narrowphase/pair_list.inc calls it
+  ShapeKind a;
+  ShapeKind b;
+  Detail detail;
+};
+
+std::vector<PeerStreamSpec> peer_streams();
+
+struct RunnerResult {
+  std::string runner;  // "bullet", "reference", or the name of an instruction set
+  size_t passes = 0;
+  double median_seconds = 0;  // of a pass
+  double least_seconds = 0;
+};
+
+struct StreamResult {
+  std::string pair;
+  Detail detail = Detail::contact;
+  size_t pairs = 0;
+  double hit_percent = 0;
+  std::string wrong;     // how Carom differs from its reference; empty: not at all
+  size_t excluded = 0;   // pairs too near touch for Bullet's decision to be compared
+  size_t different = 0;  // of the others, those that Bullet decides otherwise
+  size_t bullet_points = 0;
+  std::vector<RunnerResult> runners;  // none where a decision is wrong
+
+  const RunnerResult* timed(const std::string& runner) const;
+  bool agrees() const;
+};
+
+// `budget`: seconds of passes a runner.
+StreamResult compare(const PeerStreamSpec& spec, size_t pairs, double budget);
+
+}  // namespace carom::bench

@@ -1,0 +1,19 @@
+// What a kernel says about itself, for all targets.
+#pragma once
+
+namespace carom {
+
+// The units in which a kernel works.
+enum class Units {
+  metres,
+  scaled,  // a power of two: the greatest coordinate of the pair lies between one and two
+};
+
+// What is computed again in double precision, one lane at a time, where float32 cannot decide.
+enum class Unsure {
+  nothing,     // the kernel is exact near touch
+  separation,  // the separation alone: the normal is good
+  everything,
+};
+
+}  // namespace carom

@@ -1,0 +1,172 @@
+// The manifold pass of a batch: rows that overlap, with their contacts -> up to four points each.
+#if defined(CAROM_NARROWPHASE_MANIFOLD_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_MANIFOLD_INL_H_
+#undef CAROM_NARROWPHASE_MANIFOLD_INL_H_
+#else
+#define CAROM_NARROWPHASE_MANIFOLD_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstring>
+
+#include "narrowphase/batch-inl.h"
+#include "narrowphase/contact_points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// The results of one vector.
+struct ManifoldRows {
+  uint8_t count[kLanes];
+  HWY_ALIGN float records[4][kLanes][4];  // quarters of ManifoldPoints
+
+  void copy_to(const ResultColumns& out, size_t row, size_t rows) const {
+    std::memcpy(out.manifold_count + row, count, rows);
+    for (size_t i = 0; i < rows; ++i) {
+      char* to = reinterpret_cast<char*>(out.manifold + row + i);
+      for (size_t k = 0; k < 4; ++k) {
+        std::memcpy(to + k * sizeof(records[k][i]), records[k][i], sizeof(records[k][i]));
+      }
+    }
+  }
+};
+
+template <class A, class B, class Records>
+class ManifoldLoop {
+ public:
+  static void run(const Batch& batch) {
+    const Batch local = batch;  // see BatchLoop
+    size_t row = 0;
+    for (; row + kLanes <= local.count; row += kLanes) {
+      run_rows(local, local.pairs + row, local.tested, row, row, kLanes);
+    }
+    if constexpr (kLanes > 1) {
+      if (row < local.count) run_tail(local, row);
+    }
+  }
+
+ private:
+  // A whole vector, filled up by repeating the last row.
+  static HWY_NOINLINE void run_tail(const Batch& batch, size_t first_row) {
+    Pair pairs[kLanes];
+    TailColumns contacts;
+    const ResultColumns tested = contacts.columns();
+    for (size_t i = 0; i < kLanes; ++i) {
+      const size_t row = std::min(first_row + i, batch.count - 1);
+      pairs[i] = batch.pairs[row];
+      tested.separation[i] = batch.tested.separation[row];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        tested.normal[axis][i] = batch.tested.normal[axis][row];
+        tested.point_a[axis][i] = batch.tested.point_a[axis][row];
+      }
+    }
+    run_rows(batch, pairs, tested, 0, first_row, batch.count - first_row);
+  }
+
+  // Contacts from row `from` of `tested` on; results to row `to` on, the first `count`.
+  static HWY_INLINE void run_rows(const Batch& batch, const Pair* pairs,
+                                  const ResultColumns& tested, size_t from, size_t to,
+                                  size_t count) {
+    const Listed bodies{pairs};
+    PositionLanes positions;
+    Records::load(batch, bodies, positions);
+    A a = A::template load<Role::a>(batch.a, bodies, positions);
+    B b = B::template load<Role::b>(batch.b, bodies, positions);
+    PoseLanes pose;
+    pose.d = clamp_to_finite(positions.relative);
+    const F up = to_units<Units::scaled>(pose, a, b);
+    const F down = hn::Div(splat(1), up);
+    PlacedPair placed;
+    place<A, Role::a>(batch.a, bodies, splat3(0), placed.a);
+    // The sum turns -0, which depends on who is A, into 0.
+    place<B, Role::b>(batch.b, bodies, pose.d + splat3(0), placed.b);
+
+    const FloatTag tag;
+    const auto column = [&](const float* values) HWY_ATTR { return hn::LoadU(tag, values + from); };
+    const ContactLanes contact = {
+        hn::Mul(column(tested.separation), down),
+        {column(tested.normal[0]), column(tested.normal[1]), column(tested.normal[2])},
+        {hn::Mul(column(tested.point_a[0]), down), hn::Mul(column(tested.point_a[1]), down),
+         hn::Mul(column(tested.point_a[2]), down)}};
+    PointLanes points;
+    contact_points(a, b, placed, contact, points);
+    ManifoldRows rows;
+    put_records(points, contact, up, rows);
+    rows.copy_to(batch.out, to, count);
+  }
+
+  template <class Shape, Role kRole>
+  static HWY_INLINE void place(const BatchSide& side, const Listed& bodies, const F3& origin,
+                               Placed& placed) {
+    placed.origin = origin;
+    if constexpr (Shape::kIsOriented) {
+      Quaternion q;
+      load_orientation<kRole>(side, bodies, q);
+      make_plain(q);
+      placed.turn = rotation_of(q);
+    } else {
+      const F zero = splat(0);
+      const F one = splat(1);
+      placed.turn = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+    }
+  }
+
+  // Extreme ones are scaled, as everywhere.
+  static HWY_INLINE void make_plain(Quaternion& q) {
+    const F norm = squared_norm(q);
+    const Mask plain = hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)),
+                               hn::Le(norm, splat(kGreatestSquaredNorm)));
+    if (HWY_LIKELY(hn::AllTrue(FloatTag(), plain))) return;
+    Quaternion scaled = q;
+    clear_unless(hn::Not(no_lanes()), scaled);
+    q.v = select(plain, q.v, scaled.v);
+    q.w = hn::IfThenElse(plain, q.w, scaled.w);
+  }
+
+  // Back in metres; none deeper than the contact, none apart. One point alone is the witness.
+  static HWY_INLINE void put_records(PointLanes& points, const ContactLanes& contact, F up,
+                                     ManifoldRows& rows) {
+    const Mask has_more = points.used[1];
+    points.point[0] = select(has_more, points.point[0], contact.arm_a);
+    points.s[0] = hn::IfThenElse(has_more, points.s[0], contact.separation);
+    points.used[0] = hn::Not(no_lanes());
+    const FloatTag tag;
+    F count = splat(0);
+    F s[4];
+    for (size_t k = 0; k < 4; ++k) {
+      count = hn::Add(count, hn::IfThenElseZero(points.used[k], splat(1)));
+      points.point[k] = zero_unless(points.used[k], points.point[k] * up);
+      s[k] = min(max(points.s[k], contact.separation), splat(0));
+      s[k] = hn::IfThenElseZero(points.used[k], hn::Mul(s[k], up));
+    }
+    const F3(&p)[4] = points.point;
+    store_bytes(hn::ConvertTo(IntTag(), count), rows.count, 0);
+    hn::StoreInterleaved4(p[0].x, p[0].y, p[0].z, p[1].x, tag, rows.records[0][0]);
+    hn::StoreInterleaved4(p[1].y, p[1].z, p[2].x, p[2].y, tag, rows.records[1][0]);
+    hn::StoreInterleaved4(p[2].z, p[3].x, p[3].y, p[3].z, tag, rows.records[2][0]);
+    hn::StoreInterleaved4(s[0], s[1], s[2], s[3], tag, rows.records[3][0]);
+  }
+};
+
+// Pass::manifold of the kernels.
+template <class A, class B>
+void run_manifold(const Batch& batch) {
+  switch (batch.layout) {
+    case PositionLayout::none:
+      if constexpr (A::kKind == ShapeKind::aabb && B::kKind == ShapeKind::aabb) {
+        ManifoldLoop<A, B, NoRecords>::run(batch);
+      }
+      break;
+    case PositionLayout::records32:
+      ManifoldLoop<A, B, Records32>::run(batch);
+      break;
+    case PositionLayout::records64:
+      ManifoldLoop<A, B, Records64>::run(batch);
+      break;
+  }
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_MANIFOLD_INL_H_

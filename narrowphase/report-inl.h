@@ -1,0 +1,150 @@
+// What a kernel says of its lanes -> columns of results.
+#if defined(CAROM_NARROWPHASE_REPORT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_REPORT_INL_H_
+#undef CAROM_NARROWPHASE_REPORT_INL_H_
+#else
+#define CAROM_NARROWPHASE_REPORT_INL_H_
+#endif
+
+#include <limits>
+
+#include "narrowphase/kernel_policy.h"
+#include "narrowphase/load-inl.h"
+#include "narrowphase/single_pair.h"
+#include "narrowphase/store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+struct AnswerLanes {
+  F separation;
+  F3 normal, arm_a, arm_b;
+};
+
+// The frame of witness points: known to the compiler, or looked up in the batch.
+struct BodyFrame {
+  static HWY_INLINE bool is_world(const Batch&) { return false; }
+};
+struct WorldFrame {
+  static HWY_INLINE bool is_world(const Batch&) { return true; }
+};
+struct AnyFrame {
+  static HWY_INLINE bool is_world(const Batch& batch) { return batch.frame == WitnessFrame::world; }
+};
+
+// Writes columns at Detail::overlap or Detail::contact. Kernels may report in other units than
+// metres.
+template <class Kernel, bool kHasLow, Detail kDetail, class Frame>
+struct LaneReport {
+  using A = typename Kernel::A;
+  using B = typename Kernel::B;
+
+  const Batch& batch;   // a private copy
+  const Batch& source;  // of this one
+  size_t row;
+  const PositionLanes& positions;
+  F up;  // metres a unit
+  Mask valid;
+  bool is_odd;  // not all lanes may be valid
+
+  HWY_INLINE void operator()(Mask overlap, Mask unsure, Mask degenerate, F separation,
+                             const F3& normal, const F3& arm_a, const F3& arm_b) const {
+    AnswerLanes answer = in_metres(separation, normal, arm_a, arm_b);
+    refine(hn::And(unsure, valid), answer, overlap, degenerate);
+    I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
+    if (HWY_UNLIKELY(is_odd)) blot_out_invalid(answer, overlap, status);
+    store_bytes(status, batch.out.status, row);
+    store_answer(overlap, answer);
+  }
+
+ private:
+  static HWY_INLINE F scaled(F v, F up) { return clamp_to_finite(hn::Mul(v, up)); }
+
+  HWY_INLINE AnswerLanes in_metres(F separation, const F3& normal, const F3& arm_a,
+                                   const F3& arm_b) const {
+    if constexpr (Kernel::kUnits == Units::metres) return {separation, normal, arm_a, arm_b};
+    return {scaled(separation, up), normal, arm_a * up, arm_b * up};
+  }
+
+  HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
+    if constexpr (Kernel::kUnsure == Unsure::nothing) return;
+    if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
+    if constexpr (Kernel::kUnsure == Unsure::separation || kDetail == Detail::overlap) {
+      answer.separation = refined(unsure, answer.separation);
+    } else {
+      AnswerLanes in_memory = answer;  // `answer` itself stays in registers
+      refine_all(unsure, in_memory, degenerate);
+      answer = in_memory;
+    }
+    overlap = hn::Le(answer.separation, splat(0));
+  }
+
+  // NaN where there is no answer; in world coordinates, too, since 0 + NaN is that NaN.
+  HWY_INLINE void blot_out_invalid(AnswerLanes& answer, Mask& overlap, I& status) const {
+    const F3 nan = splat3(std::numeric_limits<float>::quiet_NaN());
+    overlap = hn::And(overlap, valid);
+    const I invalid = bytes_where(hn::Not(valid), static_cast<int32_t>(Status::invalid));
+    status = hn::IfThenElse(hn::RebindMask(IntTag(), valid), status, invalid);
+    answer.separation = hn::IfThenElse(valid, answer.separation, nan.x);
+    answer.normal = select(valid, answer.normal, nan);
+    answer.arm_a = select(valid, answer.arm_a, nan);
+    answer.arm_b = select(valid, answer.arm_b, nan);
+  }
+
+  HWY_INLINE void store_answer(Mask overlap, const AnswerLanes& answer) const {
+    store_bytes(bytes_where(overlap, 1), batch.out.overlap, row);
+    if constexpr (kDetail == Detail::contact) {
+      store(answer.separation, batch.out.separation, row);
+      store(answer.normal, batch.out.normal, row);
+      store(witness(positions.a, positions.a_low, answer.arm_a), batch.out.point_a, row);
+      store(witness(positions.b, positions.b_low, answer.arm_b), batch.out.point_b, row);
+    }
+  }
+
+  HWY_NOINLINE F refined(Mask unsure, F separation) const {
+    HWY_ALIGN float values[kLanes];
+    hn::Store(separation, FloatTag(), values);
+    for_each_lane(unsure, [&](size_t i) {
+      values[i] = near_touch_separation(source, A::kKind, B::kKind, row + i);
+    });
+    return hn::Load(FloatTag(), values);
+  }
+
+  HWY_NOINLINE void refine_all(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
+    constexpr size_t kColumns = 11;
+    HWY_ALIGN float values[kColumns][kLanes];
+    F* const columns[kColumns - 1] = {
+        &answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z,
+        &answer.arm_a.x,    &answer.arm_a.y,  &answer.arm_a.z,  &answer.arm_b.x,
+        &answer.arm_b.y,    &answer.arm_b.z};
+    for (size_t c = 0; c + 1 < kColumns; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
+    hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kColumns - 1]);
+    for_each_lane(unsure, [&](size_t i) {
+      const std::array<float, kColumns> exact =
+          exact_answer(source, A::kKind, B::kKind, row + i);
+      for (size_t c = 0; c < kColumns; ++c) values[c][i] = exact[c];
+    });
+    for (size_t c = 0; c + 1 < kColumns; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
+    degenerate = hn::Ne(hn::Load(FloatTag(), values[kColumns - 1]), splat(0));
+  }
+
+  template <class Body>
+  static HWY_INLINE void for_each_lane(Mask mask, const Body& body) {
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(hn::IfThenElseZero(mask, splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] != 0) body(i);
+    }
+  }
+
+  HWY_INLINE F3 witness(const F3& position, const F3& low, const F3& arm) const {
+    if (!Frame::is_world(batch)) return arm;
+    if constexpr (kHasLow) return position + (low + arm);
+    return position + arm;
+  }
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_REPORT_INL_H_

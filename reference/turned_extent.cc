@@ -1,0 +1,131 @@
+// In double precision, whose own rounding is added before the result is rounded outwards to float32.
+//
+// Source of the extent of a box: C. Ericson, Real-Time Collision Detection, 2005, section 4.2.6.
+#include "reference/turned_extent.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace carom::reference {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRounding = 0x1p-46;  // of a rotation and the sums that follow, generously
+constexpr float kLargest = std::numeric_limits<float>::max();
+
+// Rows of M(q) / |q|^2.
+struct Turn {
+  Vector3d x, y, z;
+
+  explicit Turn(const Eigen::Quaternionf& q) {
+    const double i = q.x(), j = q.y(), k = q.z(), w = q.w();
+    const double s = 2 / ((i * i + j * j) + (k * k + w * w));
+    x = {1 - s * (j * j + k * k), s * (i * j - w * k), s * (i * k + w * j)};
+    y = {s * (i * j + w * k), 1 - s * (i * i + k * k), s * (j * k - w * i)};
+    z = {s * (i * k - w * j), s * (j * k + w * i), 1 - s * (i * i + j * j)};
+  }
+
+  const Vector3d& row(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+};
+
+double dot(const Vector3d& a, const Vector3d& b) {
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+
+double greatest(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
+
+// The largest float that is not above x, and the smallest that is not below.
+float round_down(double x) {
+  if (x <= -double{kLargest}) return -kLargest;
+  const auto rounded = static_cast<float>(x);
+  return rounded > x ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
+}
+float round_up(double x) { return -round_down(-x); }
+
+void set_axis(Aabb& extent, int axis, double lower, double upper, double slack) {
+  extent.lower[axis] = round_down(lower - slack);
+  extent.upper[axis] = round_up(upper + slack);
+}
+
+// The interval of points along one axis of the world.
+struct Interval {
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = -std::numeric_limits<double>::infinity();
+
+  Interval(const Vector3d& row, const std::vector<Vector3d>& points) {
+    for (const Vector3d& point : points) {
+      lower = std::fmin(lower, dot(row, point));
+      upper = std::fmax(upper, dot(row, point));
+    }
+  }
+};
+
+double greatest(const std::vector<Vector3d>& points, double size) {
+  for (const Vector3d& point : points) size = std::fmax(size, greatest(point));
+  return size;
+}
+
+// Against the front, `thickness` long; zero if the triangle has hardly any area, and with it no
+// direction to rely on.
+Vector3d way_back(const std::vector<Vector3d>& corners, double thickness) {
+  const Vector3d u = corners[1] - corners[0];
+  const Vector3d v = corners[2] - corners[0];
+  const Vector3d n(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+                   u.x() * v.y() - u.y() * v.x());
+  const double length = std::sqrt(dot(n, n));
+  if (!(length > 0x1p-24 * greatest(u) * greatest(v))) return Vector3d::Zero();
+  return {-n.x() / length * thickness, -n.y() / length * thickness, -n.z() / length * thickness};
+}
+
+}  // namespace
+
+Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  const std::vector<Vector3d> ends = {capsule.a.cast<double>(), capsule.b.cast<double>()};
+  const double radius = capsule.radius;
+  const double slack = kRounding * greatest(ends, radius);
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval ends_on_axis(turn.row(axis), ends);
+    set_axis(extent, axis, ends_on_axis.lower - radius, ends_on_axis.upper + radius, slack);
+  }
+  return extent;
+}
+
+Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  const Vector3d half = box.half.cast<double>();
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reach = dot(turn.row(axis).cwiseAbs(), half);
+    set_axis(extent, axis, -reach, reach, kRounding * greatest(half));
+  }
+  return extent;
+}
+
+Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  std::vector<Vector3d> corners;
+  for (const Eigen::Vector3f& corner : triangle.corners) corners.push_back(corner.cast<double>());
+  const double thickness = triangle.thickness;
+  const double slack = kRounding * greatest(corners, thickness);
+  const Vector3d back = thickness > 0 ? way_back(corners, thickness) : Vector3d::Zero().eval();
+  const double reach = thickness * (greatest(back) > 0 ? 0x1p-24 : 1);
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    Interval front(turn.row(axis), corners);
+    const double shift = dot(turn.row(axis), back);
+    if (thickness > 0) {
+      front.lower += std::fmin(shift, 0.0) - reach;
+      front.upper += std::fmax(shift, 0.0) + reach;
+    }
+    set_axis(extent, axis, front.lower, front.upper, slack);
+  }
+  return extent;
+}
+
+Aabb turned_extent(const Halfspace&, const Eigen::Quaternionf&) { return {}; }
+
+}  // namespace carom::reference

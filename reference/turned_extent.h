@@ -1,0 +1,17 @@
+// How far shapes that are turned reach from their position along the world axes.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "carom/kernel/shape.h"
+
+namespace carom::reference {
+
+// Corners relative to the position, rounded outwards. Shape and orientation are valid.
+Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientation);
+// Nothing: half-spaces have no extent.
+Aabb turned_extent(const Halfspace& plane, const Eigen::Quaternionf& orientation);
+
+}  // namespace carom::reference

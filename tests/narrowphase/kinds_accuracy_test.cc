@@ -1,0 +1,36 @@
+// Every pair of kinds against the oracle, with the bounds that the library states.
+#include <gtest/gtest.h>
+
+#include "tests/support/kind_checks.h"
+#include "tests/support/kind_pairs.h"
+
+namespace carom::test {
+namespace {
+
+constexpr size_t kCount = 100;
+
+int failure_count() {
+  return testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count();
+}
+
+class KindsAccuracy : public testing::TestWithParam<ConvexFamily> {};
+
+TEST_P(KindsAccuracy, IsWithinBounds) {
+  uint64_t seed = 1;
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    for (const PositionType positions : kPositionTypes) {
+      SCOPED_TRACE(name(kinds));
+      for (const TestPair& pair : make_kind_pairs(GetParam(), kinds, positions, kCount, ++seed)) {
+        const int failures_before = failure_count();
+        checked_result(pair, positions);
+        if (failure_count() > failures_before) break;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, KindsAccuracy, testing::ValuesIn(convex_families()),
+                         family_name);
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,227 @@
+// Every pair of kinds that has a kernel, on every ISA, against the reference, bit for bit.
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "tests/support/isas.h"
+#include "tests/support/kind_pairs.h"
+#include "tests/support/run.h"
+
+namespace carom::test {
+namespace {
+
+constexpr Detail kDetails[] = {Detail::overlap, Detail::contact, Detail::manifold};
+
+void expect_reference_bits(std::span<const TestPair> pairs, Call call) {
+  for (const Detail detail : kDetails) {
+    SCOPED_TRACE("detail " + std::to_string(static_cast<int>(detail)));
+    call.detail = detail;
+    const std::vector<Row> expected =
+        expected_rows(pairs, call.layout_a.positions, detail, call.frame);
+    for_each_isa([&] {
+      EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs));
+      EXPECT_TRUE(same_rows(expected, run_list(pairs, call), pairs));
+    });
+  }
+}
+
+class KindsBits : public testing::TestWithParam<ConvexFamily> {};
+
+TEST_P(KindsBits, EqualReference) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    for (const PositionType positions : kPositionTypes) {
+      SCOPED_TRACE(name(kinds) + ", " + name(positions));
+      std::vector<TestPair> pairs = make_kind_pairs(GetParam(), kinds, positions, 70);
+      vary_triangles(pairs);
+      expect_reference_bits(pairs, call_with(positions));
+    }
+  }
+}
+
+std::vector<ConvexFamily> all_families() {
+  std::vector<ConvexFamily> all = convex_families();
+  all.push_back({.name = "huge", .smallest = 1e30, .largest = 3e38, .distance_in_sizes = true});
+  all.push_back({.name = "huge ratio", .smallest = 1e-44, .largest = 3e38, .ratio = 1e20});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, KindsBits, testing::ValuesIn(all_families()), family_name);
+
+TEST(KindsBits, EqualReferenceForAnyInput) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    const std::vector<TestPair> pairs = make_kind_nonsense(kinds, 1500);
+    for (const PositionType positions : kPositionTypes) {
+      expect_reference_bits(pairs, call_with(positions));
+    }
+  }
+}
+
+// Float64 positions beyond the range of float32, of which only the difference must be in it.
+TEST(KindsBits, EqualReferenceForDistantFloat64Positions) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    for (const double distance : {1e12, 1e30, 1e38, 3e38}) {
+      const ConvexFamily family{.name = "",
+                                .smallest = 1e-6 * distance,
+                                .largest = 1e-3 * distance,
+                                .distance = distance};
+      expect_reference_bits(make_kind_pairs(family, kinds, PositionType::float64, 40),
+                            call_with(PositionType::float64));
+    }
+  }
+}
+
+TEST(KindsBits, CountsAroundLanes) {
+  std::vector<size_t> counts = {31, 32, 33, 63, 64, 65, 127, 128, 129, 255, 256, 257, 1025};
+  for (size_t count = 0; count <= 17; ++count) counts.push_back(count);
+  Call call;
+  call.detail = Detail::manifold;
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    const std::vector<TestPair> pairs =
+        make_kind_pairs({.name = ""}, kinds, PositionType::float32, 1025);
+    const std::vector<Row> expected = expected_rows(pairs, PositionType::float32, Detail::manifold);
+    for_each_isa([&] {
+      for (const size_t count : counts) {
+        SCOPED_TRACE(count);
+        const auto first_pairs = std::span(pairs).first(count);
+        const auto first_rows = std::span(expected).first(count);
+        EXPECT_TRUE(same_rows(first_rows, run_rows(first_pairs, call), first_pairs));
+        EXPECT_TRUE(same_rows(first_rows, run_list(first_pairs, call), first_pairs));
+      }
+    });
+  }
+}
+
+std::vector<Layout> layouts(PositionType positions) {
+  const Layout plain{.positions = positions};
+  std::vector<Layout> all(6, plain);
+  all[1].orientation_stride = 0;
+  all[2].rows = RowOrder::backwards;
+  all[3].rows = RowOrder::shared;
+  all[3].orientation_stride = 20;
+  all[4].box_slots = true;
+  all[4].orientation_stride = 48;
+  all[4].stride = 64;
+  all[5].radius = RadiusLayout::column;
+  all[5].always_kinds = true;
+  return all;
+}
+
+TEST(KindsBits, Layouts) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    for (const PositionType positions : kPositionTypes) {
+      std::vector<TestPair> pairs = make_kind_pairs({.name = ""}, kinds, positions, 69);
+      for (size_t i = 1; i < pairs.size(); i += 3) {  // some share their shapes
+        pairs[i].a.shape = pairs[0].a.shape;
+        pairs[i].b.shape = pairs[0].b.shape;
+      }
+      for (const Layout& layout : layouts(positions)) {
+        SCOPED_TRACE(name(kinds) + ", " + show(layout));
+        Call call;
+        call.layout_a = call.layout_b = layout;
+        expect_reference_bits(pairs, call);
+      }
+    }
+  }
+}
+
+TEST(KindsBits, OrientationsAreTheIdentityWhereAbsent) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    std::vector<TestPair> pairs = make_kind_pairs({.name = ""}, kinds, PositionType::float32, 40);
+    for (TestPair& pair : pairs) pair.a.orientation.setIdentity();
+    Call call;
+    call.layout_a.orientation_stride = 0;
+    const std::vector<Row> expected = expected_rows(pairs, PositionType::float32);
+    for_each_isa([&] { EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs)); });
+  }
+}
+
+TEST(KindsBits, MixedKindsInOneList) {
+  for (const char* family : {"plain", "touch", "lattice", "degenerate"}) {
+    const auto families = convex_families();
+    const auto found = std::find_if(families.begin(), families.end(), [&](const auto& each) {
+      return std::string(each.name) == family;
+    });
+    ASSERT_NE(found, families.end());
+    for (const PositionType positions : kPositionTypes) {
+      const std::vector<TestPair> pairs = make_mixed_kind_pairs(*found, positions, 1500);
+      for (const Layout& layout : layouts(positions)) {
+        SCOPED_TRACE(std::string(family) + ", " + show(layout));
+        Call call;
+        call.layout_a = call.layout_b = layout;
+        for (const size_t count : {1, 2, 3, 17, 1023, 1024, 1025, 1500}) {
+          expect_reference_bits(std::span(pairs).first(count), call);
+        }
+      }
+    }
+  }
+}
+
+TEST(KindsBits, BodyFrameWitnesses) {
+  for (const PositionType positions : kPositionTypes) {
+    Call call = call_with(positions);
+    call.frame = WitnessFrame::body;
+    expect_reference_bits(make_mixed_kind_pairs({.name = "", .distance = 1e6}, positions, 700),
+                          call);
+  }
+}
+
+TEST(KindsBits, ColumnsLeftOut) {
+  const std::vector<TestPair> pairs =
+      make_mixed_kind_pairs({.name = ""}, PositionType::float32, 300);
+  const std::vector<Row> complete = expected_rows(pairs, PositionType::float32, Detail::manifold);
+  Call call;
+  call.detail = Detail::manifold;
+  for_each_isa([&] {
+    for (unsigned missing = 0; missing < 1u << Columns::kColumns; missing += 1021) {
+      std::vector<Row> expected = complete;
+      for (Row& row : expected) forget_columns(row, missing);
+      call.missing = missing;
+      EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs));
+      EXPECT_TRUE(same_rows(expected, run_list(pairs, call), pairs));
+    }
+  });
+}
+
+TEST(KindsBits, DoNotDependOnThreads) {
+  const std::vector<TestPair> pairs =
+      make_mixed_kind_pairs({.name = ""}, PositionType::float32, 6000);
+  const std::vector<Row> expected = expected_rows(pairs, PositionType::float32, Detail::manifold);
+  Call call;
+  call.detail = Detail::manifold;
+  call.parallelism = Parallelism::arena;
+  for_each_isa([&] {
+    for (const int threads : {1, 2, 4}) {
+      SCOPED_TRACE(threads);
+      tbb::task_arena arena(threads);
+      arena.execute([&] { EXPECT_TRUE(same_rows(expected, run_list(pairs, call), pairs)); });
+    }
+  });
+}
+
+TEST(KindsBits, DoNotDependOnTheFloatModeOfTheCaller) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    const std::vector<TestPair> pairs = make_pairs_of_families(kinds, PositionType::float32, 5);
+    Call call;
+    call.detail = Detail::manifold;
+    call.frame = WitnessFrame::body;
+    const std::vector<Row> expected =
+        expected_rows(pairs, PositionType::float32, call.detail, call.frame);
+    for_each_isa([&] {
+      for (const FloatMode& mode : float_modes()) {
+        SCOPED_TRACE(mode.name);
+        call.mode = mode;
+        EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs));
+        EXPECT_TRUE(same_rows(expected, run_list(pairs, call), pairs));
+      }
+    });
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,332 @@
+// Inputs that broke other collision systems, or were made to, for capsules, oriented boxes,
+// triangles and half-spaces. Exact answers are recomputed from the inputs as they are after
+// rounding to float32; unrotated boxes are tested as boxes along the axes, too.
+#include <gtest/gtest.h>
+
+#include "tests/support/isas.h"
+#include "tests/support/kind_checks.h"
+#include "tests/support/run.h"
+
+namespace carom::test {
+namespace {
+
+using Eigen::AngleAxisf;
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+using Eigen::Vector4f;
+using Result = reference::PairResult;
+
+constexpr double kEps = 0x1p-23;
+constexpr auto kFloat32 = PositionType::float32;
+
+// Tests the pair on every ISA, both ways round, and checks it against the exact answer; returns the
+// result of (A, B).
+Result checked(const TestPair& pair, PositionType positions = kFloat32) {
+  for (const TestPair& each : {pair, swapped(pair)}) {
+    checked_result(each, positions);
+    Call call = call_with(positions);
+    call.detail = Detail::manifold;
+    for_each_isa([&] {
+      EXPECT_TRUE(same_rows(expected_rows({&each, 1}, positions, Detail::manifold),
+                            run_rows({&each, 1}, call), {&each, 1}));
+    });
+  }
+  return reference_result(pair, positions);
+}
+
+double exact_separation(const TestPair& pair, PositionType positions = kFloat32) {
+  return static_cast<double>(ExactKinds(pair, positions).answer.value);
+}
+
+// The pair itself, and with one box or both along the axes if they are not turned.
+std::vector<TestPair> with_aabbs(const TestPair& pair) {
+  const auto versions = [](const PlacedShape& body) {
+    std::vector<PlacedShape> all{body};
+    const auto* turnable = std::get_if<Box>(&body.shape);
+    if (turnable && body.orientation.coeffs() == Vector4f(0, 0, 0, 1)) {
+      all.push_back(box(body.position, turnable->half));
+    }
+    return all;
+  };
+  std::vector<TestPair> all;
+  for (const PlacedShape& a : versions(pair.a)) {
+    for (const PlacedShape& b : versions(pair.b)) all.push_back({a, b});
+  }
+  return all;
+}
+
+Quaternionf turn(float angle, const Vector3f& axis) {
+  return Quaternionf(AngleAxisf(angle, axis.normalized()));
+}
+
+TEST(KindsCases, C13_SphereSinkingIntoATopFace) {
+  float last = -1;
+  for (int i = 0; i <= 200; ++i) {
+    const double z = -0.01 + (0.01 - 1e-6) * i / 200;
+    const auto result =
+        checked({sphere(0.1, 0.2, z, 0.005), oriented_box({0, 0, -0.255}, {0.5, 0.5, 0.25})});
+    EXPECT_NEAR(result.separation, z, 1e-7);
+    EXPECT_EQ(result.normal.head<2>(), Eigen::Vector2f(0, 0));
+    EXPECT_FLOAT_EQ(result.normal.z(), -1);
+    EXPECT_GE(result.separation, last);
+    last = result.separation;
+  }
+}
+
+TEST(KindsCases, C13_SphereSinkingIntoThePlaneOfAHalfspace) {
+  for (int i = 0; i <= 200; ++i) {
+    const double z = -0.01 + (0.01 - 1e-6) * i / 200;
+    const auto result =
+        checked({sphere(0.1, 0.2, z, 0.005), halfspace({3, 4, -0.255}, {0, 0, 1}, 0.25f)});
+    EXPECT_NEAR(result.separation, z, 1e-7);
+    EXPECT_EQ(result.normal, Vector3f(0, 0, -1));
+  }
+}
+
+TEST(KindsCases, C14_SphereThatTouchesAnEdge) {
+  const auto result = checked({sphere(1.79e-10, 0.04, 0.33, 0.06),
+                               oriented_box({0.05, 0.15, 0.35}, Vector3f::Constant(0.05f))});
+  EXPECT_NEAR(result.separation, 0, 1e-6);
+}
+
+TEST(KindsCases, C15_CubesThatOverlapALittle) {
+  const Vector3f half(1, 1, 1);
+  for (const TestPair& pair :
+       with_aabbs({oriented_box({0, 0, 0}, half), oriented_box({0, 0, 1.9}, half)})) {
+    const auto result = checked(pair);
+    EXPECT_NEAR(result.separation, -0.1, 2e-6);
+    EXPECT_EQ(result.normal, Vector3f(0, 0, 1));
+    EXPECT_EQ(result.manifold_count, 4);
+  }
+}
+
+TEST(KindsCases, C16_DistanceOfUnitCubes) {
+  const Vector3f half(0.5f, 0.5f, 0.5f);
+  for (const TestPair& pair :
+       with_aabbs({oriented_box({0, 0, 0}, half), oriented_box({0, 4, 0}, half)})) {
+    const auto result = checked(pair);
+    EXPECT_EQ(result.separation, 3);
+    EXPECT_EQ(result.normal, Vector3f(0, 1, 0));
+  }
+}
+
+TEST(KindsCases, C19_FlatBoxInsideATallOne) {
+  for (const TestPair& pair :
+       with_aabbs({oriented_box({-0.675, 0, 0.9115}, {0.307f, 1.5f, 0.185f}),
+                   oriented_box({-0.692, 0, 0.935}, {0.247f, 0.276f, 0.005f})})) {
+    const auto result = checked(pair);
+    EXPECT_NEAR(result.separation, -0.1665, 2e-6);
+    EXPECT_EQ(result.normal, Vector3f(0, 0, 1));
+  }
+}
+
+TEST(KindsCases, C21_LeastOverlapAlongZ) {
+  for (const TestPair& pair :
+       with_aabbs({oriented_box({-0.071, -0.772, 0.8}, {0.1f, 0.165f, 0.05f}),
+                   oriented_box({0.121, -0.787696057, 0.534220442}, {0.226f, 0.135f, 0.3f})})) {
+    const auto result = checked(pair);
+    EXPECT_NEAR(result.separation, -0.0842204420, 1e-6);
+    EXPECT_EQ(result.normal, Vector3f(0, 0, -1));
+  }
+}
+
+TEST(KindsCases, C22_EqualTiltedCubesAFewFloatsFromTouch) {
+  for (const Quaternionf& tilt : {Quaternionf::Identity(), turn(0.7853982f, {0, 0, 1}),
+                                  turn(0.3f, {1, 2, 3}), turn(1e-4f, {0, 1, 0})}) {
+    for (const float side : {0.01f, 0.25f, 0.5f, 10.0f, 1000.0f}) {
+      const Vector3f half = Vector3f::Constant(side / 2);
+      for (int steps = -4; steps <= 4; ++steps) {
+        float distance = side;
+        for (int i = 0; i < std::abs(steps); ++i) {
+          distance = std::nextafter(distance, steps > 0 ? 2 * side : 0.0f);
+        }
+        const Eigen::Vector3d x = (tilt * Vector3f(distance, 0, 0)).cast<double>();
+        checked({oriented_box({0, 0, 0}, half, tilt), oriented_box(x, half, tilt)});
+      }
+    }
+  }
+}
+
+TEST(KindsCases, C28_BoxesThatTouchAwayFromTheOrigin) {
+  const Vector3f half(1, 1, 1);
+  for (const TestPair& pair :
+       with_aabbs({oriented_box({0, 0, 1.8599132}, half), oriented_box({0, 2, 1.8599132}, half)})) {
+    const auto result = checked(pair);
+    EXPECT_EQ(result.separation, 0);
+    EXPECT_TRUE(result.overlap);
+  }
+}
+
+TEST(KindsCases, C30_DepthDoesNotDependOnTheSizeOfASlab) {
+  for (const float angle : {0.0f, 0.4f}) {
+    for (const float depth : {1e-6f, 1e-4f, 1e-2f, 0.1f}) {
+      for (const float s : {1.0f, 10.0f, 25.0f, 50.0f, 100.0f}) {
+        const auto small_box =
+            oriented_box({0.3, 0.2, 0.35f - depth}, {0.1f, 0.1f, 0.1f}, turn(angle, {0, 0, 1}));
+        for (const TestPair& pair :
+             with_aabbs({oriented_box({0, 0, 0}, {s, s, 0.25f}), small_box})) {
+          const auto result = checked(pair);
+          EXPECT_NEAR((result.normal - Vector3f(0, 0, 1)).norm(), 0, 2 * kEps);
+          EXPECT_NEAR(result.separation, exact_separation(pair), kEps);
+        }
+      }
+    }
+  }
+}
+
+TEST(KindsCases, C31_FlushBoxes) {
+  const Vector3f half = Vector3f::Constant(0.0355f);
+  for (const TestPair& pair :
+       with_aabbs({oriented_box({0, 0, 0}, half), oriented_box({0.071 - 0.000056, 0, 0}, half)})) {
+    const auto result = checked(pair);
+    EXPECT_NEAR(result.separation, -0.000056, 2e-8);
+    EXPECT_EQ(result.manifold_count, 4);
+    for (size_t i = 0; i < result.manifold_count; ++i) {
+      EXPECT_GE(result.manifold.separation[i], exact_separation(pair) - 1e-8);
+    }
+  }
+}
+
+TEST(KindsCases, C33_EqualDepthAlongEveryAxis) {
+  for (const TestPair& pair :
+       with_aabbs({oriented_box({0, 0, 0}, {10, 10, 10}), oriented_box({14, 14, 14}, {5, 5, 5})})) {
+    const auto result = checked(pair);
+    EXPECT_EQ(result.separation, -1);
+    EXPECT_EQ(result.normal.cwiseAbs().sum(), 1);
+  }
+}
+
+// Hovering, and sunk by as much: there the manifold is the whole face.
+TEST(KindsCases, C34_BoxThatTurnsOverASlab) {
+  for (const double gap : {0.0005, -0.0005}) {
+    for (int step = 0; step <= 480; ++step) {
+      const float angle = static_cast<float>(2 * M_PI * step / 480);
+      const auto hovering =
+          oriented_box({0, 0.75 + gap, 0}, {0.25f, 0.75f, 0.375f}, turn(angle, {0, 1, 0}));
+      for (const TestPair& pair :
+           with_aabbs({oriented_box({0, -0.5, 0}, {5, 0.5f, 5}), hovering})) {
+        const auto result = checked(pair);
+        EXPECT_NEAR(result.separation, gap, 1e-6);
+        EXPECT_GT(result.normal.y(), 0.99999f);
+        EXPECT_EQ(result.manifold_count, gap > 0 ? 0 : 4);
+      }
+      if (HasFailure()) return;
+    }
+  }
+}
+
+// The normal is close to the triangle's own: a capsule that leans on a face.
+void expect_normal_of_face(const TestPair& pair) {
+  const auto result = checked(pair);
+  const auto& corners = std::get<Triangle>(pair.b.shape).corners;
+  const Vector3f face = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  EXPECT_TRUE(result.overlap);
+  EXPECT_TRUE(std::isfinite(result.separation));
+  EXPECT_GT(std::fabs(result.normal.dot(face)), 0.99f) << hex3(result.normal);
+}
+
+TEST(KindsCases, C35_CapsuleThatSinksIntoATriangle) {
+  expect_normal_of_face(
+      {capsule({0, 0, 0}, {0, 0, -0.5f}, {0, 0, 0.5f}, 0.37f),
+       triangle({0, 0, 0}, {Vector3f(-0.479988575f, -1.36185002f, 0.269966960f),
+                            Vector3f(-0.104996204f, 0.388152480f, 0.269967079f),
+                            Vector3f(-0.104996204f, -1.36185002f, 0.269966960f)})});
+}
+
+TEST(KindsCases, C36_CapsuleThatSinksIntoALargeTriangle) {
+  expect_normal_of_face({capsule({0, 0, 0}, {0, 0, -0.675f}, {0, 0, 0.675f}, 0.42f),
+                         triangle({0, 0, 0}, {Vector3f(-0.0904417038f, -4.72410202f, 0.307858467f),
+                                              Vector3f(-0.0904417038f, 5.27589798f, 0.307857513f),
+                                              Vector3f(9.9095583f, 5.27589798f, 0.307864189f)})});
+}
+
+TEST(KindsCases, C45_SegmentThroughTheCentroidOfADistantTriangle) {
+  const std::array<Vector3f, 3> corners = {Vector3f(2832.862f, 200, -641.5822f),
+                                           Vector3f(2834.611f, 200.0066f, -643.3685f),
+                                           Vector3f(2834.289f, 200, -640.1809f)};
+  const Vector3f centroid = (corners[0] + corners[1] + corners[2]) / 3;
+  for (const Vector3f& way : {Vector3f(0, 10, 0), Vector3f(3, 5, -2), Vector3f(0, 0.01f, 0)}) {
+    const auto result = checked(
+        {capsule({0, 0, 0}, centroid - way, centroid + way, 0), triangle({0, 0, 0}, corners)});
+    EXPECT_TRUE(result.overlap);
+  }
+}
+
+TEST(KindsCases, C61_SameContactFarFromTheOrigin) {
+  const Vector3f half(0.5f, 0.5f, 0.5f);
+  for (const Quaternionf& tilt : {Quaternionf::Identity(), turn(0.3f, {1, 2, 3})}) {
+    const auto at = [&](double x) {
+      return TestPair{oriented_box({x, 0, 0}, half, tilt), oriented_box({x + 0.9, 0, 0}, half)};
+    };
+    const auto here = checked(at(0), PositionType::float64);
+    const auto there = checked(at(1e7), PositionType::float64);
+    EXPECT_NEAR(here.separation, there.separation, 1e-4);
+    EXPECT_LE((here.arm_a - there.arm_a).norm(), 1e-4);
+    EXPECT_LE((here.arm_b - there.arm_b).norm(), 1e-4);
+    EXPECT_LE((here.normal - there.normal).norm(), 1e-4);
+  }
+}
+
+// Two coplanar triangles that share the edge from (0, -5, 0) to (0, 5, 0).
+std::array<PlacedShape, 2> coplanar_triangles(bool is_inner) {
+  const Vector3f lower(0, -5, 0), upper(0, 5, 0);
+  PlacedShape left = triangle({0, 0, 0}, {lower, upper, Vector3f(-9, 0, 0)});
+  PlacedShape right = triangle({0, 0, 0}, {lower, Vector3f(9, 0, 0), upper});
+  std::get<Triangle>(left.shape).inner_edges = is_inner ? 1 : 0;
+  std::get<Triangle>(right.shape).inner_edges = is_inner ? 4 : 0;
+  return {left, right};
+}
+
+std::vector<PlacedShape> resting_at(double x) {
+  return {sphere(x, 0, 2.99, 3), capsule({x, 0, 2.99}, {-0.5f, 0, 0}, {0.5f, 0, 0}, 3),
+          capsule({x, 0, 2.99}, {0, -0.5f, 0}, {0, 0.5f, 0}, 3),
+          capsule({x, 0, 2.99}, {0, 0, 0}, {0, 0, 2}, 3)};
+}
+
+TEST(KindsCases, C64_NoGhostContactsAtInnerEdges) {
+  for (const PlacedShape& triangle : coplanar_triangles(true)) {
+    for (const double x : {-0.2, -0.05, 0.0, 0.05, 0.2}) {
+      for (const PlacedShape& body : resting_at(x)) {
+        const TestPair pair{body, triangle};
+        SCOPED_TRACE(show(pair));
+        const Result result = reference_result(pair, kFloat32);
+        EXPECT_LE((result.normal - Vector3f(0, 0, -1)).norm(), 1e-6f) << hex3(result.normal);
+        const Result other = reference_result(swapped(pair), kFloat32);
+        EXPECT_LE((other.normal - Vector3f(0, 0, 1)).norm(), 1e-6f) << hex3(other.normal);
+      }
+    }
+  }
+}
+
+// Edges that are not inside a mesh turn the normal, so that bodies roll off.
+TEST(KindsCases, C64_OuterEdgesTurnTheNormal) {
+  const PlacedShape left = coplanar_triangles(false)[0];
+  const Result result = checked({sphere(0.2, 0, 2.99, 3), left});
+  EXPECT_LT(result.normal.x(), -0.05f);
+}
+
+// What touches the front of a one-sided triangle meets it, what is behind it does not.
+TEST(KindsCases, OneSidedTrianglesMeetWhatIsInFront) {
+  PlacedShape two_sided = coplanar_triangles(false)[1];
+  PlacedShape one_sided = two_sided;
+  std::get<Triangle>(one_sided.shape).one_sided = true;
+  for (const double z : {0.3, -0.3}) {
+    for (const PlacedShape& body :
+         {sphere(3, 0, z, 0.5), capsule({3, 0, z}, {-0.5f, 0, 0}, {0.5f, 0, 0}, 0.5f),
+          oriented_box({3, 0, z}, {0.7f, 0.6f, 0.5f}, turn(0.2f, {0, 0, 1})),
+          box({3, 0, z}, {0.7f, 0.6f, 0.5f})}) {
+      SCOPED_TRACE(show(body));
+      const Result both = checked({body, two_sided});
+      const Result front = reference_result({body, one_sided}, kFloat32);
+      EXPECT_TRUE(both.overlap);
+      EXPECT_EQ(front.overlap, z > 0);
+      EXPECT_EQ(front.manifold_count > 0, z > 0);
+      if (z > 0) {
+        EXPECT_EQ(front.separation, both.separation);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

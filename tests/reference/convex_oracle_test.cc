@@ -1,0 +1,249 @@
+// The oracle itself: closed forms, itself with 50 digits, and what duality says of any answer.
+#include "tests/support/convex_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <numbers>
+
+#include "tests/support/convex_families.h"
+
+namespace carom::test {
+namespace {
+
+using Real50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                             boost::multiprecision::et_off>;
+using Vec = Vec3<long double>;
+
+constexpr long double kTight = 1e-17L;
+constexpr double kTurn45 = 0.41421356237309503;  // tan(pi / 8)
+
+Pose at(double x, double y, double z, const Eigen::Quaternionf& q = {1, 0, 0, 0}) {
+  return {{x, y, z}, q};
+}
+
+Shape box(double x, double y, double z) { return Box{Eigen::Vector3d(x, y, z).cast<float>()}; }
+
+Shape capsule(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float radius) {
+  return Capsule{a, b, radius};
+}
+
+Shape triangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
+               float thickness = 0) {
+  return Triangle{{a, b, c}, thickness};
+}
+
+// Beyond double, which EXPECT_NEAR is for.
+void expect_near(long double x, long double expected, long double tolerance) {
+  EXPECT_LE(std::fabs(x - expected), tolerance) << x << " instead of " << expected;
+}
+
+// Both ways round.
+void expect_separation(const ConvexPair& pair, long double expected, long double tolerance) {
+  expect_near(pair.oracle().separation().value, expected, tolerance);
+  expect_near(swapped(pair).oracle().separation().value, expected, tolerance);
+}
+
+void expect_normal(const ConvexPair& pair, const Vec& expected) {
+  EXPECT_GE(dot(pair.oracle().separation().normal, expected), 1 - 1e-12L);
+}
+
+TEST(ConvexOracle, Spheres) {
+  const Shape r25 = Sphere{2.5f};
+  expect_separation({r25, at(0, 0, 0), r25, at(3, 4, 0)}, 0, 0);
+  expect_separation({r25, at(1e6, 1e6, 1e6), r25, at(1e6 + 3, 1e6 + 4, 1e6)}, 0, 0);
+  expect_separation({Sphere{2}, at(1, 2, 3), Sphere{2}, at(1, 2, 3)}, -4, 0);
+  expect_separation({Sphere{0}, at(1, 2, 3), Sphere{0}, at(1, 2, 3)}, 0, 0);
+  expect_normal({r25, at(0, 0, 0), r25, at(0, 9, 0)}, {0, 1, 0});
+}
+
+TEST(ConvexOracle, CasesOfBoxes) {
+  const Shape cube = box(1, 1, 1);
+  expect_separation({cube, at(0, 0, 0), cube, at(0, 0, 1.9)}, -0.1L, 1e-15L);
+  expect_separation({box(.5, .5, .5), at(0, 0, 0), box(.5, .5, .5), at(0, 4, 0)}, 3, 0);
+  expect_separation(
+      {box(.307, 1.5, .185), at(-.675, 0, .9115), box(.247, .276, .005), at(-.692, 0, .935)},
+      -.1665L, 1e-7L);
+  expect_separation({box(.1, .165, .05), at(-.071, -.772, .8), box(.226, .135, .3),
+                     at(.121, -.787696057, .534220442)},
+                    -.0842204420L, 1e-7L);
+  expect_separation({cube, at(0, 0, 0), cube, at(0, 2, 1.8599132)}, 0, 0);
+  expect_separation({box(10, 10, 10), at(0, 0, 0), box(5, 5, 5), at(14, 14, 14)}, -1, 0);
+}
+
+TEST(ConvexOracle, FeaturesOfBoxes) {
+  const Shape cube = box(1, 1, 1);
+  const Eigen::Quaternionf quarter(1, 0, 0, 1), eighth_z(1, 0, 0, static_cast<float>(kTurn45)),
+      eighth_x(1, static_cast<float>(kTurn45), 0, 0);
+  // vertex to vertex, edge to face, crossed edges
+  expect_separation({cube, at(0, 0, 0), cube, at(4, 4, 3)}, 3, 1e-18L);
+  expect_separation({cube, at(0, 0, 0), cube, at(4, 0, 0, quarter)}, 2, 1e-18L);
+  const long double root2 = std::numbers::sqrt2_v<long double>;
+  expect_separation({cube, at(0, 0, 0), cube, at(4, 0, 0, eighth_z)}, 3 - root2, 1e-7L);
+  expect_separation({box(1, 1, 1), at(0, 0, 0, eighth_z), box(1, 1, 1), at(0, 4, 0, eighth_x)},
+                    4 - 2 * root2, 1e-7L);
+  expect_separation({box(1, 1, 1), at(0, 0, 0, eighth_z), box(1, 1, 1), at(0, 2.5, 0, eighth_x)},
+                    2.5L - 2 * root2, 1e-7L);
+}
+
+TEST(ConvexOracle, CapsulesAndTriangles) {
+  const Shape along_x = capsule({-1, 0, 0}, {1, 0, 0}, 0.25f);
+  const Shape along_y = capsule({0, -1, 0}, {0, 1, 0}, 0.25f);
+  expect_separation({along_x, at(0, 0, 0), along_y, at(0, 0, 2)}, 1.5L, 0);
+  expect_separation({along_x, at(0, 0, 0), along_y, at(0, 0, 0)}, -.5L, 0);
+  expect_separation({along_x, at(0, 0, 0), along_x, at(0, 0, 0)}, -.5L, 1e-18L);
+  expect_separation({along_x, at(0, 0, 0), along_x, at(3, 0, 0)}, .5L, 1e-18L);
+  const Shape point = capsule({0, 0, 0}, {0, 0, 0}, 1);
+  expect_separation({point, at(0, 0, 0), Sphere{1}, at(0, 3, 4)}, 3, 1e-18L);
+
+  const Shape flat = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
+  const Shape thick = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 2);
+  expect_separation({flat, at(0, 0, 0), Sphere{.5f}, at(1, 1, 1)}, .5L, 1e-18L);
+  expect_separation({flat, at(0, 0, 0), Sphere{.5f}, at(1, 1, 0)}, -.5L, 1e-18L);
+  expect_separation({flat, at(0, 0, 0), Sphere{.5f}, at(-3, -4, 0)}, 4.5L, 1e-18L);
+  expect_separation({flat, at(0, 0, 0), flat, at(1, 1, 0)}, 0, 1e-18L);
+  expect_separation({flat, at(0, 0, 0), flat, at(5, 0, 0)}, 1, 1e-18L);
+  expect_separation({thick, at(0, 0, 0), Sphere{.5f}, at(1, 1, -.75)}, -1.25L, 1e-18L);
+  expect_separation({thick, at(0, 0, 0), Sphere{.5f}, at(1, 1, -4)}, 1.5L, 1e-18L);
+  const Shape line = triangle({0, 0, 0}, {4, 0, 0}, {2, 0, 0}, 1);
+  expect_separation({line, at(0, 0, 0), Sphere{.5f}, at(1, 1, 0)}, .5L, 1e-18L);
+}
+
+TEST(ConvexOracle, Halfspaces) {
+  const Shape ground = Halfspace{{0, 0, 2}, 1};  // z <= 0.5
+  expect_separation({ground, at(0, 0, 0), Sphere{1}, at(7, 8, 2)}, .5L, 0);
+  expect_separation({ground, at(0, 0, 1), box(1, 1, 1), at(7, 8, 2)}, -.5L, 0);
+  expect_normal({ground, at(0, 0, 0), Sphere{1}, at(7, 8, 2)}, {0, 0, 1});
+  expect_normal({Sphere{1}, at(7, 8, 2), ground, at(0, 0, 0)}, {0, 0, -1});
+  const Shape ceiling = Halfspace{{0, 0, -1}, 1};
+  expect_separation({ground, at(0, 0, 0), ceiling, at(0, 0, 3)}, 1.5L, 0);
+  const ConvexPair crossed{ground, at(0, 0, 0), Halfspace{{1, 0, 0}, 0}, at(0, 0, 3)};
+  EXPECT_TRUE(std::isinf(crossed.oracle().separation().value));
+}
+
+// Two edges that cross at a small angle, one above the other: the gap is that of the two planes.
+TEST(ConvexOracle, NearParallelEdges) {
+  for (double angle : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2}) {
+    const auto half = static_cast<float>(angle / 2);
+    const Eigen::Quaternionf turn(1, 0, 0, half);
+    const Shape rod = capsule({-1e6f, 0, 0}, {1e6f, 0, 0}, 0);
+    expect_separation({rod, at(0, 0, 0), rod, at(0, 0, 0x1p-30, turn)}, 0x1p-30L, 1e-18L);
+    const Shape slab = box(1, 1, 1);
+    expect_separation({slab, at(0, 0, 0), slab, at(0, 0, 1.5, turn)}, -.5L, 1e-18L);
+  }
+}
+
+TEST(ConvexOracle, SignedDistanceOfPoints) {
+  const ConvexShape<> cube(box(1, 2, 3), at(0, 0, 0));
+  EXPECT_EQ(signed_distance(cube, Vec{0, 0, 0}), -1);
+  EXPECT_EQ(signed_distance(cube, Vec{1, 0, 2}), 0);
+  EXPECT_EQ(signed_distance(cube, Vec{4, 6, 3}), 5);
+  const ConvexShape<> pill(capsule({0, 0, -1}, {0, 0, 1}, 2), at(1, 0, 0));
+  EXPECT_EQ(signed_distance(pill, Vec{1, 0, 0}), -2);
+  EXPECT_EQ(signed_distance(pill, Vec{1, 3, 0}), 1);
+}
+
+class ConvexOracleFamilies : public testing::TestWithParam<ConvexFamily> {
+ protected:
+  template <class Check>
+  void each(size_t count, PositionType positions, Check check) {
+    for (const KindPair& kinds : convex_kind_pairs()) {
+      SCOPED_TRACE(name(kinds));
+      for (const ConvexPair& pair : make_convex_pairs(GetParam(), kinds, positions, count)) {
+        check(pair);
+        if (HasFailure()) return;
+      }
+    }
+  }
+};
+
+long double size_of(const ConvexOracle<>& oracle) {
+  return oracle.scale() + std::fabs(oracle.separation().value);
+}
+
+TEST_P(ConvexOracleFamilies, FiftyDigitsAgree) {
+  each(2, PositionType::float64, [](const ConvexPair& pair) {
+    const ConvexOracle<> oracle = pair.oracle();
+    const Real50 precise = pair.oracle<Real50>().separation().value;
+    const Real50 error = abs(Real50(oracle.separation().value) - precise);
+    EXPECT_LE(error, kTight * size_of(oracle)) << precise << " " << oracle.scale();
+  });
+}
+
+TEST_P(ConvexOracleFamilies, NoAxisIsBetter) {
+  Random random(1);
+  each(20, PositionType::float32, [&](const ConvexPair& pair) {
+    const ConvexOracle<> oracle = pair.oracle();
+    const auto [value, normal] = oracle.separation();
+    const long double tolerance = kTight * size_of(oracle);
+    expect_near(length(normal), 1, 1e-17L);
+    for (int i = 0; i < 40; ++i) {
+      const Vec any = vec3_as<long double>(random.direction());
+      const long double tilt = random.log_uniform(1e-12, 1);
+      EXPECT_LE(oracle.gap_along(any), value + tolerance);
+      EXPECT_LE(oracle.gap_along(normal + any * tilt), value + tolerance);
+    }
+  });
+}
+
+// So what is said of a gap is proven: a point of each so far apart, and an axis that parts them so.
+TEST_P(ConvexOracleFamilies, TheNormalAttainsTheSeparation) {
+  each(20, PositionType::float32, [](const ConvexPair& pair) {
+    const ConvexOracle<> oracle = pair.oracle();
+    const auto [value, normal] = oracle.separation();
+    const long double regret = value - oracle.gap_along(normal);
+    // The way between points is as good a direction as the gap is large.
+    const long double cores = value + oracle.a.radius + oracle.b.radius;
+    const long double blur = cores > 0 ? kTight * size_of(oracle) / cores : 0;
+    EXPECT_LE(regret, size_of(oracle) * (kTight + std::min(blur, 1e-9L))) << value;
+  });
+}
+
+TEST_P(ConvexOracleFamilies, OrderDoesNotMatter) {
+  each(20, PositionType::float32, [](const ConvexPair& pair) {
+    const ConvexOracle<> oracle = pair.oracle();
+    expect_near(swapped(pair).oracle().separation().value, oracle.separation().value,
+                kTight * size_of(oracle));
+  });
+}
+
+// Half of the free pairs overlap, and those near touch are within a few floats of it.
+TEST_P(ConvexOracleFamilies, PairsAreWhatTheyAreMeantToBe) {
+  int overlaps = 0, near = 0, total = 0;
+  each(40, PositionType::float32, [&](const ConvexPair& pair) {
+    const ConvexOracle<> oracle = pair.oracle();
+    const long double gap = oracle.separation().value;
+    ++total;
+    overlaps += gap <= 0;
+    near += std::fabs(gap) <= 1e-5L * oracle.scale();
+  });
+  if (GetParam().placement == ConvexPlacement::free) {
+    EXPECT_GE(overlaps, 0.3 * total);
+    EXPECT_LE(overlaps, 0.7 * total);
+  }
+  if (GetParam().placement == ConvexPlacement::near_touch && GetParam().distance == 0) {
+    EXPECT_GE(near, 0.9 * total);
+  }
+}
+
+std::string family_name(const testing::TestParamInfo<ConvexFamily>& info) {
+  std::string text = info.param.name;
+  std::erase_if(text, [](char c) { return c == ','; });
+  std::replace(text.begin(), text.end(), ' ', '_');
+  return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ConvexOracleFamilies, testing::ValuesIn(convex_families()),
+                         family_name);
+
+TEST(ConvexFamilies, NonsenseIsMade) {
+  for (const KindPair& kinds : convex_kind_pairs()) {
+    for (const ConvexPair& pair : make_convex_nonsense(kinds, 50)) {
+      EXPECT_EQ(kind_of(pair.shape_a), kinds.a);
+      EXPECT_EQ(kind_of(pair.shape_b), kinds.b);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

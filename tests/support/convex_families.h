@@ -1,0 +1,386 @@
+// Families of random pairs of placed shapes: the ways in which inputs are hard, for any two kinds
+// that have a direct solution.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "tests/support/convex_oracle.h"
+#include "tests/support/convex_random.h"
+
+namespace carom::test {
+
+struct KindPair {
+  ShapeKind a;
+  ShapeKind b;
+};
+
+inline constexpr ShapeKind kConvexKinds[] = {ShapeKind::sphere,   ShapeKind::capsule,
+                                             ShapeKind::aabb,     ShapeKind::box,
+                                             ShapeKind::triangle, ShapeKind::halfspace};
+
+// All ordered pairs of them, but for two half-spaces.
+inline std::vector<KindPair> convex_kind_pairs() {
+  std::vector<KindPair> all;
+  for (ShapeKind a : kConvexKinds) {
+    for (ShapeKind b : kConvexKinds) {
+      if (a != ShapeKind::halfspace || b != ShapeKind::halfspace) all.push_back({a, b});
+    }
+  }
+  return all;
+}
+
+inline std::string name(const KindPair& kinds) {
+  return std::string(carom::name(kinds.a)) + "_" + carom::name(kinds.b);
+}
+
+struct ConvexPair {
+  Shape shape_a;
+  Pose pose_a;
+  Shape shape_b;
+  Pose pose_b;
+
+  template <class R = long double>
+  ConvexOracle<R> oracle() const {
+    return ConvexOracle<R>(shape_a, pose_a, shape_b, pose_b);
+  }
+};
+
+inline ConvexPair swapped(const ConvexPair& pair) {
+  return {pair.shape_b, pair.pose_b, pair.shape_a, pair.pose_a};
+}
+
+enum class ConvexPlacement {
+  free,        // anywhere between touching middles and twice as far as touch
+  near_touch,  // touching, then moved by a few floats
+  coincident,  // same position
+  same_pose,   // same position and rotation
+  lattice,     // small integers and quarter turns: true ties
+};
+
+struct ConvexFamily {
+  const char* name;
+  double smallest = 0.5;  // sizes, log-uniform
+  double largest = 2;
+  double ratio = 1;      // of the sizes of the two
+  double aspect = 4;     // of lengths, radii and halves
+  double distance = 10;  // of A from the origin, in metres or in sizes
+  bool distance_in_sizes = false;
+  ConvexPlacement placement = ConvexPlacement::free;
+  bool degenerate = false;
+  bool near_parallel = false;  // rotations that differ by 0 or 1e-8 to 1e-1
+};
+
+inline std::vector<ConvexFamily> convex_families() {
+  using enum ConvexPlacement;
+  return {
+      {.name = "plain"},
+      {.name = "at 1e3", .distance = 1e3},
+      {.name = "at 1e6", .smallest = 0.5, .largest = 1e3, .distance = 1e6},
+      {.name = "at 1e9", .smallest = 0.5, .largest = 1e6, .distance = 1e9},
+      {.name = "sizes", .smallest = 1e-30, .largest = 1e18, .distance_in_sizes = true},
+      {.name = "ratio", .ratio = 1e10},
+      {.name = "aspect", .aspect = 1e6},
+      {.name = "touch", .distance = 0, .placement = near_touch},
+      {.name = "touch at 1e3", .distance = 1e3, .placement = near_touch},
+      {.name = "touch of all sizes",
+       .smallest = 1e-30,
+       .largest = 1e18,
+       .ratio = 1e3,
+       .distance = 0,
+       .placement = near_touch},
+      {.name = "touch of long and flat", .aspect = 1e4, .distance = 0, .placement = near_touch},
+      {.name = "coincident", .placement = coincident},
+      {.name = "coincident at 1e9", .distance = 1e9, .placement = coincident},
+      {.name = "same pose", .placement = same_pose},
+      {.name = "lattice", .smallest = 1, .largest = 1, .placement = lattice},
+      {.name = "lattice of subnormals",
+       .smallest = 0x1p-140,
+       .largest = 0x1p-140,
+       .placement = lattice},
+      {.name = "degenerate", .degenerate = true},
+      {.name = "degenerate touch", .distance = 0, .placement = near_touch, .degenerate = true},
+      {.name = "degenerate, same pose", .placement = same_pose, .degenerate = true},
+      {.name = "near parallel", .near_parallel = true},
+      {.name = "near parallel touch",
+       .distance = 0,
+       .placement = near_touch,
+       .near_parallel = true},
+      {.name = "near parallel, coincident", .placement = coincident, .near_parallel = true},
+      {.name = "subnormal", .smallest = 1e-44, .largest = 1e-36, .distance_in_sizes = true},
+  };
+}
+
+class ConvexPairMaker {
+ public:
+  ConvexPairMaker(const ConvexFamily& family, KindPair kinds, PositionType positions, uint64_t seed)
+      : family_(family),
+        kinds_(kinds),
+        positions_(positions),
+        random_(seed),
+        shapes_({.aspect = family.aspect,
+                 .degenerate = family.degenerate,
+                 .lattice = family.placement == ConvexPlacement::lattice,
+                 .aligned = family.near_parallel},
+                random_) {}
+  ConvexPairMaker(const ConvexPairMaker&) = delete;
+  ConvexPairMaker& operator=(const ConvexPairMaker&) = delete;
+
+  ConvexPair next() {
+    ConvexPair pair;
+    const bool lattice = family_.placement == ConvexPlacement::lattice;
+    const double size =
+        lattice ? family_.smallest : random_.log_uniform(family_.smallest, family_.largest);
+    const double size_b =
+        lattice ? size : size * random_.log_uniform(1 / family_.ratio, family_.ratio);
+    pair.shape_a = shapes_.shape(kinds_.a, size);
+    pair.shape_b = shapes_.shape(kinds_.b, size_b);
+    orient(pair);
+    if (lattice) {
+      for (Pose* pose : {&pair.pose_a, &pair.pose_b}) {
+        for (int i = 0; i < 3; ++i) pose->position[i] = size * shapes_.integer(-3, 3);
+      }
+      return pair;
+    }
+    const double distance = family_.distance * (family_.distance_in_sizes ? size : 1);
+    pair.pose_a.position = stored(random_.direction() * distance);
+    pair.pose_b.position = pair.pose_a.position;
+    if (family_.placement == ConvexPlacement::free) {
+      place<double>(pair, size, random_.uniform(0, 2), 10);
+    } else if (family_.placement == ConvexPlacement::near_touch) {
+      place<long double>(pair, size, 1 + 0x1p-23 * shapes_.integer(-8, 8), 100);
+      nudge(pair.pose_b.position);
+    } else if (kinds_.a == kinds_.b && random_.chance(0.3)) {
+      pair.shape_b = pair.shape_a;
+    }
+    return pair;
+  }
+
+ private:
+  template <class R>
+  using Vec = Vec3<R>;
+
+  void orient(ConvexPair& pair) {
+    Eigen::Quaternionf& a = pair.pose_a.orientation;
+    Eigen::Quaternionf& b = pair.pose_b.orientation;
+    const bool lattice = family_.placement == ConvexPlacement::lattice;
+    a = lattice ? shapes_.quarter_turns() : shapes_.orientation();
+    b = lattice ? shapes_.quarter_turns() : shapes_.orientation();
+    if (family_.near_parallel) turn_a_little(a, b);
+    if (family_.placement == ConvexPlacement::same_pose) b = a;
+  }
+
+  // A quaternion near identity keeps its small angle; near others that is lost in rounding.
+  void turn_a_little(Eigen::Quaternionf& a, Eigen::Quaternionf& b) {
+    if (random_.chance(0.6)) a = shapes_.quarter_turns();
+    const int power = shapes_.integer(1, 9);
+    const double angle = power == 9 ? 0 : std::pow(10.0, -power);
+    const Eigen::Vector3d axis = random_.chance(0.5)
+                                     ? random_.direction()
+                                     : Eigen::Vector3d::Unit(shapes_.integer(0, 2)).eval();
+    const Eigen::Vector3d v = axis * (angle / 2);
+    b = (a.cast<double>() * Eigen::Quaterniond(1, v.x(), v.y(), v.z())).cast<float>();
+  }
+
+  Eigen::Vector3d stored(const Eigen::Vector3d& position) const {
+    if (positions_ == PositionType::float64) return position;
+    return position.cast<float>().cast<double>();
+  }
+
+  // Moves B from where the middles of the two meet until they touch, times the factor.
+  template <class R>
+  void place(ConvexPair& pair, double size, double factor, int steps) {
+    ConvexOracle<R> oracle = pair.oracle<R>();
+    if (oracle.a.is_halfspace && oracle.b.is_halfspace) return;
+    const Vec<R> start = meeting(oracle.a, oracle.b);
+    oracle.b.translate(start);
+    const Vec<R> direction = way(oracle);
+    R reach = distance_to_touch(oracle, direction, steps) * R(factor);
+    // Flat ones part at once.
+    const bool flat = reach < R(1e-12 * size);
+    if (flat && family_.placement == ConvexPlacement::free && random_.chance(0.6)) {
+      reach = R(random_.uniform(0, 1) * size);
+    }
+    const Vec<R> shift = start + direction * reach;
+    const Eigen::Vector3d to(static_cast<double>(shift.x), static_cast<double>(shift.y),
+                             static_cast<double>(shift.z));
+    pair.pose_b.position = stored(pair.pose_a.position + to);
+  }
+
+  // The way of B to where both have their middle, for half-spaces a random one close by.
+  template <class R>
+  Vec<R> meeting(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+    if (!a.is_halfspace && !b.is_halfspace) return a.centroid() - b.centroid();
+    const ConvexShape<R>& plane = a.is_halfspace ? a : b;
+    const ConvexShape<R>& body = a.is_halfspace ? b : a;
+    const Vec<R> drift = vec3_as<R>(random_.direction()) * body.bounding_radius;
+    const Vec<R> way = plane.normal * (plane.offset - dot(plane.normal, body.centroid())) +
+                       across(drift, plane.normal);
+    return a.is_halfspace ? way : -way;
+  }
+
+  // Any direction, or one that long and flat shapes have between them; out of half-spaces.
+  template <class R>
+  Vec<R> way(const ConvexOracle<R>& oracle) {
+    const Vec<R> any = vec3_as<R>(random_.direction());
+    if (oracle.a.is_halfspace) return normalized(oracle.a.normal * R(1.1) + any);
+    if (oracle.b.is_halfspace) return normalized(any - oracle.b.normal * R(1.1));
+    if (random_.chance(0.5)) return any;
+    const Vec<R> from = point_in(oracle.b);
+    const Vec<R> within = normalized(point_in(oracle.a) - from);
+    return dot(within, within) > 0 ? within : any;
+  }
+
+  template <class R>
+  Vec<R> point_in(const ConvexShape<R>& shape) {
+    const Vec<R>& p = shape.points[random_.below(shape.points.size())];
+    const Vec<R>& q = shape.points[random_.below(shape.points.size())];
+    return p + (q - p) * R(random_.uniform(0, 1));
+  }
+
+  // The separation is a convex function of the way; false position with the Illinois rule.
+  template <class R>
+  static R distance_to_touch(const ConvexOracle<R>& oracle, const Vec<R>& direction, int steps) {
+    const auto gap = [&](const R& t) {
+      ConvexShape<R> b = oracle.b;
+      b.translate(direction * t);
+      return exact_separation(oracle.a, b);
+    };
+    R low = 0, gap_low = gap(low);
+    if (!(gap_low < 0)) return low;
+    R high = oracle.scale(), gap_high = gap(high);
+    while (!(gap_high > 0)) {
+      high *= 2;
+      gap_high = gap(high);
+    }
+    R best = -gap_low < gap_high ? low : high, least = std::min<R>(-gap_low, gap_high);
+    int kept = 0;  // the end that stayed in the last step: 1 high, -1 low
+    for (int i = 0; i < steps; ++i) {
+      const R t = low - gap_low * ((high - low) / (gap_high - gap_low));
+      if (!(t > low && t < high)) break;
+      const R gap_t = gap(t);
+      const R off = gap_t < 0 ? -gap_t : gap_t;
+      if (off < least) {
+        best = t;
+        least = off;
+      }
+      if (gap_t > 0) {
+        high = t;
+        gap_high = gap_t;
+        if (kept == -1) gap_low /= 2;
+        kept = -1;
+      } else {
+        low = t;
+        gap_low = gap_t;
+        if (kept == 1) gap_high /= 2;
+        kept = 1;
+      }
+    }
+    return best;
+  }
+
+  // Moves one coordinate by up to four of its floats.
+  void nudge(Eigen::Vector3d& position) {
+    double& x = position[shapes_.integer(0, 2)];
+    const double towards = random_.chance(0.5) ? HUGE_VAL : -HUGE_VAL;
+    for (int steps = shapes_.integer(0, 4); steps > 0; --steps) {
+      x = positions_ == PositionType::float64
+              ? std::nextafter(x, towards)
+              : std::nextafter(static_cast<float>(x), static_cast<float>(towards));
+    }
+  }
+
+  ConvexFamily family_;
+  KindPair kinds_;
+  PositionType positions_;
+  Random random_;
+  ConvexRandom shapes_;
+};
+
+inline std::vector<ConvexPair> make_convex_pairs(const ConvexFamily& family, KindPair kinds,
+                                                 PositionType positions, size_t count,
+                                                 uint64_t seed = 1) {
+  ConvexPairMaker maker(family, kinds, positions, seed);
+  std::vector<ConvexPair> pairs;
+  for (size_t i = 0; i < count; ++i) pairs.push_back(maker.next());
+  return pairs;
+}
+
+namespace convex {
+
+// Puts floats of any bits at all here and there; most of the pairs stay valid.
+class Spoiler {
+ public:
+  explicit Spoiler(Random& random) : random_(random) {}
+
+  void operator()(Pose& pose) {
+    for (int i = 0; i < 3; ++i) {
+      if (random_.chance(0.1)) pose.position[i] = random_.any_float();
+    }
+    for (int i = 0; i < 4; ++i) spoil(pose.orientation.coeffs()[i]);
+    if (random_.chance(0.05)) pose.orientation.coeffs().setZero();
+  }
+
+  void operator()(Sphere& sphere) { spoil_size(sphere.radius); }
+  void operator()(Capsule& capsule) {
+    spoil(capsule.a);
+    spoil(capsule.b);
+    spoil_size(capsule.radius);
+  }
+  void operator()(Aabb& box) {
+    spoil(box.lower);
+    spoil(box.upper);
+    for (int i = 0; i < 3; ++i) {
+      const bool ordered = !(box.lower[i] > box.upper[i]);
+      if (!ordered && random_.chance(0.9)) std::swap(box.lower[i], box.upper[i]);
+    }
+  }
+  void operator()(carom::Box& box) {
+    for (int i = 0; i < 3; ++i) spoil_size(box.half[i]);
+  }
+  void operator()(Triangle& triangle) {
+    for (Eigen::Vector3f& corner : triangle.corners) spoil(corner);
+    spoil_size(triangle.thickness);
+    triangle.one_sided = random_.chance(0.3);
+    triangle.inner_edges = static_cast<uint8_t>(random_.below(8));
+  }
+  void operator()(Halfspace& halfspace) {
+    spoil(halfspace.normal);
+    spoil(halfspace.offset);
+  }
+
+ private:
+  void spoil(float& x) {
+    if (random_.chance(0.1)) x = random_.any_float();
+  }
+  void spoil(Eigen::Vector3f& v) {
+    for (int i = 0; i < 3; ++i) spoil(v[i]);
+  }
+  void spoil_size(float& x) {
+    spoil(x);
+    if (random_.chance(0.9)) x = std::fabs(x);
+  }
+
+  Random& random_;
+};
+
+}  // namespace convex
+
+// Only bit equality can be asked of the answers to these.
+inline std::vector<ConvexPair> make_convex_nonsense(KindPair kinds, size_t count,
+                                                    uint64_t seed = 1) {
+  std::vector<ConvexPair> pairs =
+      make_convex_pairs({.name = ""}, kinds, PositionType::float32, count, seed);
+  Random random(seed);
+  convex::Spoiler spoil(random);
+  for (ConvexPair& pair : pairs) {
+    for (Shape* shape : {&pair.shape_a, &pair.shape_b}) std::visit(spoil, *shape);
+    for (Pose* pose : {&pair.pose_a, &pair.pose_b}) spoil(*pose);
+  }
+  return pairs;
+}
+
+}  // namespace carom::test

@@ -1,0 +1,261 @@
+// The signed distance of two placed shapes by trying everything: all pairs of features if they are
+// apart, all axes that could be the least way out if they overlap. In long double by default; any
+// other real type will do.
+#pragma once
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "tests/support/convex_shape.h"
+
+namespace carom::test {
+
+template <class R = long double>
+struct ConvexSeparation {
+  R value;         // <= 0: overlap by that much
+  Vec3<R> normal;  // unit, from A to B; the gap along it is the separation
+};
+
+namespace convex {
+
+// The axis that parts two cores best; if they overlap, their least penetration.
+template <class R>
+class AxisSearch {
+ public:
+  using Vec = Vec3<R>;
+
+  AxisSearch(const ConvexShape<R>& a, const ConvexShape<R>& b) : a_(a), b_(b) { try_all(); }
+
+  R gap() const { return gap_; }
+  const Vec& axis() const { return axis_; }
+
+  // Both ways along n, a unit vector or zero.
+  void try_axis(const Vec& n) {
+    if (!(dot(n, n) > 0)) return;
+    const auto [low_a, high_a] = extent(a_, n);
+    const auto [low_b, high_b] = extent(b_, n);
+    keep(low_b - high_a, n);
+    keep(low_a - high_b, -n);
+  }
+
+ private:
+  static std::pair<R, R> extent(const ConvexShape<R>& shape, const Vec& n) {
+    R low = dot(shape.points[0], n), high = low;
+    for (const Vec& p : shape.points) {
+      const R x = dot(p, n);
+      if (x < low) low = x;
+      if (x > high) high = x;
+    }
+    return {low, high};
+  }
+
+  void keep(const R& gap, const Vec& n) {
+    if (found_ && !(gap > gap_)) return;
+    found_ = true;
+    gap_ = gap;
+    axis_ = n;
+  }
+
+  // No axis is one too many: each bounds the separation from below. The first three kinds suffice
+  // for solid differences of the cores, the rest serve flat ones.
+  void try_all() {
+    for (const Vec& n : a_.normals) try_axis(n);
+    for (const Vec& n : b_.normals) try_axis(n);
+    for (const Vec& u : a_.directions) {
+      for (const Vec& v : b_.directions) try_cross(u, v);
+    }
+    const Vec between = b_.points[0] - a_.points[0];
+    try_axis(normalized(between));
+    for (const auto* directions : {&a_.directions, &b_.directions}) {
+      for (const Vec& u : *directions) {
+        try_axis(u);
+        try_axis(common_normal(u, least_axis(u)));
+        try_axis(normalized(across(normalized(across(between, u)), u)));
+      }
+    }
+    try_axis(least_axis(between));
+  }
+
+  void try_cross(const Vec& u, const Vec& v) {
+    const Vec n = common_normal(u, v);
+    try_axis(n);
+    try_axis(cross(n, u));
+    try_axis(common_normal(v, n));
+  }
+
+  // The coordinate axis that is the least along u.
+  static Vec least_axis(const Vec& u) {
+    const R x = u.x * u.x, y = u.y * u.y, z = u.z * u.z;
+    if (x <= y && x <= z) return {R(1), R(0), R(0)};
+    return y <= z ? Vec{R(0), R(1), R(0)} : Vec{R(0), R(0), R(1)};
+  }
+
+  const ConvexShape<R>& a_;
+  const ConvexShape<R>& b_;
+  bool found_ = false;
+  R gap_{0};
+  Vec axis_;
+};
+
+// The least distance of two cores that do not overlap, and the way from A to B. All of their
+// features are tried.
+template <class R>
+class FeatureSearch {
+ public:
+  using Vec = Vec3<R>;
+
+  FeatureSearch(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+    for (const auto& e : a.edges) {
+      for (const auto& f : b.edges) edge_edge(e, f);
+    }
+    points_to_faces(a.points, b, R(1));
+    points_to_faces(b.points, a, R(-1));
+    points_to_edges(a.points, b, R(1));
+    points_to_edges(b.points, a, R(-1));
+    for (const Vec& p : a.points) {
+      for (const Vec& q : b.points) keep(q - p);
+    }
+  }
+
+  const R& distance() const { return distance_; }
+  const Vec& way() const { return way_; }
+
+ private:
+  // The lower features come last and have to be closer by more than rounding: the way to an edge
+  // is as good as the edge, the way to a point beside it only as good as the root of an epsilon.
+  void keep(const Vec& way) {
+    const R distance = length(way);
+    const R enough = distance_ * (1 - 8 * std::numeric_limits<R>::epsilon());
+    if (found_ && !(distance < enough)) return;
+    found_ = true;
+    distance_ = distance;
+    way_ = way;
+  }
+
+  void points_to_faces(const std::vector<Vec>& points, const ConvexShape<R>& shape, const R& sign) {
+    for (const Vec& p : points) {
+      for (const auto& face : shape.faces) point_face(p, face, sign);
+    }
+  }
+
+  void points_to_edges(const std::vector<Vec>& points, const ConvexShape<R>& shape, const R& sign) {
+    for (const Vec& p : points) {
+      for (const auto& edge : shape.edges) point_edge(p, edge, sign);
+    }
+  }
+
+  void point_edge(const Vec& p, const ConvexEdge<R>& edge, const R& sign) {
+    const Vec d = p - edge.start;
+    const R t = dot(d, edge.direction);
+    if (t > 0 && t < edge.size) keep((edge.direction * t - d) * sign);
+  }
+
+  // The face over the point. Measured from its longest edge, so that the uncertain tilt of a sliver
+  // does no harm: nothing of it is far from that edge.
+  void point_face(const Vec& p, const ConvexFace<R>& face, const R& sign) {
+    const Vec d = p - face.origin;
+    const R y = dot(d, face.v);
+    if (!(face.height > 0) || y < 0 || y > face.height) return;
+    const R x = dot(d, face.u);
+    const R share = y / face.height;
+    const R left = face.apex_x * share;
+    const R right = face.base + (face.apex_x - face.base) * share;
+    if (x >= left && x <= right) keep(face.normal * (-dot(d, face.normal) * sign));
+  }
+
+  // Edges that cross, seen along their common normal; parallel ones are left to their ends.
+  void edge_edge(const ConvexEdge<R>& e, const ConvexEdge<R>& f) {
+    const Vec n = common_normal(e.direction, f.direction);
+    const Vec across_e = cross(n, e.direction);
+    const R slope = dot(f.direction, across_e);
+    if (!(slope * slope > 0)) return;
+    const Vec d = f.start - e.start;
+    const R t = -dot(d, across_e) / slope;
+    if (!(t >= 0 && t <= f.size)) return;
+    const R s = dot(d, e.direction) + t * dot(f.direction, e.direction);
+    if (s >= 0 && s <= e.size) keep(n * dot(d, n));
+  }
+
+  bool found_ = false;
+  Vec way_;
+  R distance_{0};
+};
+
+// The gap of A and a half-space B, along the normal of B.
+template <class R>
+R gap_to_halfspace(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+  return -a.support(-b.normal) - b.offset;
+}
+
+// Two half-spaces are apart only if they look into exactly opposite directions.
+template <class R>
+R halfspace_gap(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+  const Vec3<R> sum = a.normal + b.normal;
+  if (dot(sum, sum) > 0) return -std::numeric_limits<R>::infinity();
+  return -a.offset - b.offset;
+}
+
+template <class R>
+ConvexSeparation<R> halfspace_separation(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+  if (a.is_halfspace && b.is_halfspace) return {halfspace_gap(a, b), a.normal};
+  if (a.is_halfspace) return {gap_to_halfspace(b, a), a.normal};
+  return {gap_to_halfspace(a, b), -b.normal};
+}
+
+}  // namespace convex
+
+// Signed distance with the normal that attains it. Where several do, one of them; of half-spaces
+// that cross, -infinity.
+template <class R>
+ConvexSeparation<R> separation_with_normal(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+  if (a.is_halfspace || b.is_halfspace) return convex::halfspace_separation(a, b);
+  convex::AxisSearch<R> axes(a, b);
+  const R radii = a.radius + b.radius;
+  if (!(axes.gap() > 0)) return {axes.gap() - radii, axes.axis()};
+  const convex::FeatureSearch<R> features(a, b);
+  axes.try_axis(normalized(features.way()));
+  return {features.distance() - radii, axes.axis()};
+}
+
+template <class R>
+R exact_separation(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+  return separation_with_normal(a, b).value;
+}
+
+// The gap between the projections on n, which points from A to B and need not be a unit vector;
+// never more than the separation, and the separation for the true normal. With half-spaces, whose
+// projections have no end: how far B is to be moved against n to touch, and the separation
+// projected on n if they are apart.
+template <class R>
+R gap_along(const ConvexShape<R>& a, const ConvexShape<R>& b, const Vec3<R>& n) {
+  const Vec3<R> unit = normalized(n);
+  if (!a.is_halfspace && !b.is_halfspace) return -b.support(-unit) - a.support(unit);
+  const ConvexSeparation<R> true_one = convex::halfspace_separation(a, b);
+  const R share = dot(unit, true_one.normal);
+  if (!(share > 0)) return -std::numeric_limits<R>::infinity();
+  return true_one.value > 0 ? true_one.value * share : true_one.value / share;
+}
+
+// Of a point from the surface: negative inside.
+template <class R>
+R signed_distance(const ConvexShape<R>& shape, const Vec3<R>& point) {
+  return exact_separation(shape, ConvexShape<R>(point));
+}
+
+// Two bodies as they are stored, in coordinates relative to the position of A.
+template <class R = long double>
+struct ConvexOracle {
+  ConvexShape<R> a;
+  ConvexShape<R> b;
+
+  ConvexOracle(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b)
+      : a(shape_a, pose_a, pose_a.position), b(shape_b, pose_b, pose_a.position) {}
+
+  ConvexSeparation<R> separation() const { return separation_with_normal(a, b); }
+  // Mean of the bounding radii.
+  R scale() const { return (a.bounding_radius + b.bounding_radius) / 2; }
+  R gap_along(const Vec3<R>& n) const { return test::gap_along(a, b, n); }
+};
+
+}  // namespace carom::test

@@ -1,0 +1,184 @@
+// Random shapes and orientations of the kinds that have a direct solution.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "carom/kernel/body.h"
+#include "tests/support/random.h"
+
+namespace carom::test {
+
+// How the shapes of a family are drawn.
+struct ConvexStyle {
+  double aspect = 4;        // of lengths, radii and halves
+  bool degenerate = false;  // zero radii, zero lengths, flat boxes, triangles without area
+  bool lattice = false;     // small integers times the size
+  bool aligned = false;     // edges along the axes of the body
+};
+
+class ConvexRandom {
+ public:
+  ConvexRandom(const ConvexStyle& style, Random& random) : style_(style), random_(random) {}
+
+  Shape shape(ShapeKind kind, double size) {
+    switch (kind) {
+      case ShapeKind::sphere:
+        return Sphere{static_cast<float>(style_.degenerate && random_.chance(0.5) ? 0
+                                         : style_.lattice ? size * integer(1, 5) / 2
+                                                          : size)};
+      case ShapeKind::capsule:
+        return capsule(size);
+      case ShapeKind::aabb:
+        return aabb(size);
+      case ShapeKind::box:
+        return Box{half(size)};
+      case ShapeKind::triangle:
+        return triangle(size);
+      default:
+        return halfspace(size);
+    }
+  }
+
+  // Uniform; one in five is no unit quaternion.
+  Eigen::Quaternionf orientation() {
+    const double u = random_.uniform(0, 1);
+    const double s = random_.uniform(0, 2 * std::numbers::pi);
+    const double t = random_.uniform(0, 2 * std::numbers::pi);
+    const double size = random_.chance(0.2) ? random_.log_uniform(0.1, 10) : 1;
+    const double a = size * std::sqrt(1 - u);
+    const double b = size * std::sqrt(u);
+    return Eigen::Quaterniond(b * std::cos(t), a * std::sin(s), a * std::cos(s), b * std::sin(t))
+        .cast<float>();
+  }
+
+  // One of the 24 that take the axes to each other, exactly; as integers, so it is seldom unit.
+  Eigen::Quaternionf quarter_turns() {
+    Eigen::Quaternionf q = Eigen::Quaternionf::Identity();
+    const int turns = integer(0, 3);
+    for (int i = 0; i < turns; ++i) {
+      Eigen::Quaternionf quarter(1, 0, 0, 0);
+      quarter.coeffs()[integer(0, 2)] = 1;
+      q = q * quarter;
+    }
+    const float largest = q.coeffs().cwiseAbs().maxCoeff();
+    q.coeffs() /= largest;
+    return q;
+  }
+
+  int integer(int low, int high) {
+    return low + static_cast<int>(random_.below(static_cast<uint64_t>(high - low + 1)));
+  }
+
+ private:
+  // At most `size`, by up to the aspect ratio less.
+  double extent(double size) {
+    if (style_.degenerate && random_.chance(0.4)) return 0;
+    if (style_.lattice) return size * integer(0, 2);
+    return size * random_.log_uniform(1 / style_.aspect, 1);
+  }
+
+  Eigen::Vector3d extents(double size) {
+    Eigen::Vector3d all;
+    for (double& x : all) x = extent(size);
+    return all;
+  }
+
+  Eigen::Vector3f half(double size) { return extents(size).cast<float>(); }
+
+  // Of the middle of a shape from the body's origin.
+  Eigen::Vector3d shift(double size) {
+    if (random_.chance(0.5)) return Eigen::Vector3d::Zero();
+    return style_.lattice ? lattice_point(size, 1).eval() : vector(size);
+  }
+
+  Eigen::Vector3d vector(double size) {
+    Eigen::Vector3d all;
+    for (double& x : all) x = random_.uniform(-size, size);
+    return all;
+  }
+
+  Eigen::Vector3d lattice_point(double size, int largest) {
+    Eigen::Vector3d all;
+    for (double& x : all) x = size * integer(-largest, largest);
+    return all;
+  }
+
+  // Along an axis, or anywhere.
+  Eigen::Vector3d direction() {
+    if (!style_.lattice && !(style_.aligned && random_.chance(0.7))) return random_.direction();
+    return Eigen::Vector3d::Unit(integer(0, 2));
+  }
+
+  Capsule capsule(double size) {
+    const Eigen::Vector3d middle = shift(size);
+    const double half = extent(size);
+    const Eigen::Vector3d along = direction() * half;
+    Capsule capsule;
+    capsule.a = (middle - along).cast<float>();
+    capsule.b = (middle + along).cast<float>();
+    capsule.radius = static_cast<float>(extent(size));
+    return capsule;
+  }
+
+  Aabb aabb(double size) {
+    const Eigen::Vector3d middle = shift(size);
+    const Eigen::Vector3d reach = half(size).cast<double>();
+    return {(middle - reach).cast<float>(), (middle + reach).cast<float>()};
+  }
+
+  Triangle triangle(double size) {
+    const Eigen::Vector3d middle = shift(size);
+    const Eigen::Vector3d scale = extents(size);
+    const int flat = style_.aligned && random_.chance(0.7) ? integer(0, 2) : -1;
+    Triangle triangle;
+    for (Eigen::Vector3f& corner : triangle.corners) {
+      Eigen::Vector3d p = middle;
+      p += style_.lattice ? lattice_point(size, 2).eval() : vector(1).cwiseProduct(scale).eval();
+      if (flat >= 0) p[flat] = middle[flat];
+      corner = p.cast<float>();
+    }
+    if (flat >= 0) {  // one edge along an axis
+      triangle.corners[1][(flat + 1) % 3] = triangle.corners[0][(flat + 1) % 3];
+    }
+    if (style_.degenerate && random_.chance(0.7)) spoil(triangle, size);
+    if (!style_.degenerate && random_.chance(0.3)) {
+      triangle.thickness = static_cast<float>(style_.lattice ? size * integer(0, 2)
+                                                             : size * random_.log_uniform(0.01, 1));
+    }
+    return triangle;
+  }
+
+  // Points, segments, slivers.
+  void spoil(Triangle& triangle, double size) {
+    auto& [a, b, c] = triangle.corners;
+    const int kind = integer(0, 4);
+    if (kind == 0) b = c = a;
+    if (kind == 1) c = random_.chance(0.5) ? a : b;
+    if (kind == 2) b = (a + c) / 2;  // collinear but for rounding
+    if (kind >= 3) {
+      const double width = size * random_.log_uniform(1e-7, 1e-2);
+      const Eigen::Vector3d on_edge =
+          a.cast<double>() + (b - a).cast<double>() * random_.uniform(-0.2, 1.2);
+      c = (on_edge + random_.direction() * width).cast<float>();
+    }
+    std::swap(triangle.corners[0], triangle.corners[static_cast<size_t>(integer(0, 2))]);
+  }
+
+  Halfspace halfspace(double size) {
+    Halfspace halfspace;
+    const double length = style_.lattice ? 1 : random_.log_uniform(0.1, 10);
+    halfspace.normal = (direction() * length).cast<float>();
+    if (random_.chance(0.5)) halfspace.normal = -halfspace.normal;
+    const double offset = style_.lattice ? size * integer(-2, 2) : random_.uniform(-size, size);
+    halfspace.offset = static_cast<float>(offset * length);
+    return halfspace;
+  }
+
+  ConvexStyle style_;
+  Random& random_;
+};
+
+}  // namespace carom::test

@@ -1,0 +1,273 @@
+// Placed shapes for the oracle: the hull of a few points, grown by a radius, or a half-space. In
+// any real type; nothing of it is shared with the library.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "carom/kernel/body.h"
+
+namespace carom::test {
+
+template <class R>
+struct Vec3 {
+  R x{0}, y{0}, z{0};
+
+  friend Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+  friend Vec3 operator*(const Vec3& a, const R& s) { return {a.x * s, a.y * s, a.z * s}; }
+};
+
+template <class R, class Vector>
+Vec3<R> vec3_as(const Vector& v) {
+  return {R(v[0]), R(v[1]), R(v[2])};
+}
+
+template <class R>
+R dot(const Vec3<R>& a, const Vec3<R>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class R>
+Vec3<R> cross(const Vec3<R>& a, const Vec3<R>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class R>
+R length(const Vec3<R>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
+
+// Zero stays zero.
+template <class R>
+Vec3<R> normalized(const Vec3<R>& a) {
+  const R size = length(a);
+  return size > 0 ? a * (1 / size) : Vec3<R>{};
+}
+
+// What is left of `a` across the unit vector u.
+template <class R>
+Vec3<R> across(const Vec3<R>& a, const Vec3<R>& u) {
+  return a - u * dot(a, u);
+}
+
+// The unit vector across both of two unit vectors, zero if they are parallel. However near parallel
+// they are, the result is at right angles to u up to rounding: what is uncertain is the turn about
+// u, where v has next to no extent.
+template <class R>
+Vec3<R> common_normal(const Vec3<R>& u, const Vec3<R>& v) {
+  return normalized(across(normalized(across(normalized(cross(u, v)), u)), u));
+}
+
+template <class R>
+struct Rotation {
+  std::array<Vec3<R>, 3> column;
+
+  // M(q) / |q|^2
+  explicit Rotation(const Eigen::Quaternionf& q) {
+    const R x(q.x()), y(q.y()), z(q.z()), w(q.w());
+    const R s = 1 / (x * x + y * y + z * z + w * w);
+    column[0] = Vec3<R>{w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)};
+    column[1] = Vec3<R>{2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)};
+    column[2] = Vec3<R>{2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z};
+    for (Vec3<R>& c : column) c = c * s;
+  }
+
+  Vec3<R> operator()(const Vec3<R>& v) const {
+    return column[0] * v.x + column[1] * v.y + column[2] * v.z;
+  }
+};
+
+// Of an edge of no length the direction is zero.
+template <class R>
+struct ConvexEdge {
+  Vec3<R> start;
+  Vec3<R> direction;  // unit
+  R size;
+
+  ConvexEdge(const Vec3<R>& from, const Vec3<R>& to)
+      : start(from), direction(normalized(to - from)), size(length(to - from)) {}
+};
+
+// A triangle over its longest edge: corners (0, 0), (base, 0) and (apex_x, height) of u and v from
+// the origin, height >= 0. Without area the normal is zero.
+template <class R>
+struct ConvexFace {
+  Vec3<R> origin, u, v, normal;
+  R base, apex_x, height;
+
+  ConvexFace(Vec3<R> a, Vec3<R> b, Vec3<R> c) {
+    const R ab = length(b - a), bc = length(c - b), ca = length(a - c);
+    if (bc > ab && bc >= ca) {
+      std::swap(a, c);
+    } else if (ca > ab) {
+      std::swap(b, c);
+    }
+    origin = a;
+    u = normalized(b - a);
+    normal = common_normal(u, normalized(c - a));
+    v = cross(normal, u);
+    base = length(b - a);
+    apex_x = dot(c - a, u);
+    height = dot(c - a, v);
+  }
+};
+
+// Coordinates are relative to a point in space that the caller chooses. One-sided triangles are
+// taken as two-sided ones, and thick triangles without area as having no thickness.
+template <class R = long double>
+struct ConvexShape {
+  using Vec = Vec3<R>;
+
+  std::vector<Vec> points;  // the core's
+  R radius{0};              // around the core
+  R bounding_radius{0};     // about the body's own origin; of a half-space: to its plane
+  bool is_halfspace = false;
+  Vec normal;   // of a half-space: all x with normal . x <= offset; unit
+  R offset{0};  // of a half-space
+  std::vector<ConvexEdge<R>> edges;
+  std::vector<ConvexFace<R>> faces;
+  std::vector<Vec> directions;  // of edges, unit
+  std::vector<Vec> normals;     // of faces and, in the plane, of flat cores; unit
+
+  // A point.
+  explicit ConvexShape(const Vec& point) : points{point} {}
+
+  ConvexShape(const Shape& shape, const Pose& pose,
+              const Eigen::Vector3d& relative_to = Eigen::Vector3d::Zero()) {
+    std::visit([this](const auto& s) { this->build(s); }, shape);
+    for (const Vec& p : points) bounding_radius = std::max<R>(bounding_radius, length(p));
+    bounding_radius += radius;
+    if (!std::holds_alternative<Sphere>(shape) && !std::holds_alternative<Aabb>(shape)) {
+      rotate(Rotation<R>(pose.orientation));
+    }
+    translate(vec3_as<R>(pose.position) - vec3_as<R>(relative_to));
+  }
+
+  // Largest n . x, n being a unit vector; not of half-spaces.
+  R support(const Vec& n) const {
+    R best = dot(points[0], n);
+    for (const Vec& p : points) best = std::max<R>(best, dot(p, n));
+    return best + radius;
+  }
+
+  Vec centroid() const {
+    if (is_halfspace) return normal * offset;
+    Vec sum;
+    for (const Vec& p : points) sum = sum + p;
+    return sum * (1 / R(points.size()));
+  }
+
+  void translate(const Vec& by) {
+    for (Vec& p : points) p = p + by;
+    for (auto& edge : edges) edge.start = edge.start + by;
+    for (auto& face : faces) face.origin = face.origin + by;
+    offset += dot(normal, by);
+  }
+
+ private:
+  void build(const Sphere& sphere) {
+    points = {Vec{}};
+    radius = R(sphere.radius);
+  }
+
+  void build(const Capsule& capsule) {
+    points = {vec3_as<R>(capsule.a), vec3_as<R>(capsule.b)};
+    radius = R(capsule.radius);
+    add_edge(0, 1);
+    directions = {edges[0].direction};
+  }
+
+  void build(const Aabb& box) { build_box(vec3_as<R>(box.lower), vec3_as<R>(box.upper)); }
+  void build(const carom::Box& box) { build_box(-vec3_as<R>(box.half), vec3_as<R>(box.half)); }
+
+  // Point i is at the upper end of axis k if bit k of i is set.
+  void build_box(const Vec& lower, const Vec& upper) {
+    for (int i = 0; i < 8; ++i) {
+      points.push_back(
+          {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y, i & 4 ? upper.z : lower.z});
+    }
+    directions = {{R(1), R(0), R(0)}, {R(0), R(1), R(0)}, {R(0), R(0), R(1)}};
+    normals = directions;
+    for (int k = 0; k < 3; ++k) {
+      const size_t along = 1u << k, next = 1u << (k + 1) % 3, last = 1u << (k + 2) % 3;
+      for (size_t corner : {size_t{0}, next, last, next | last}) add_edge(corner, corner | along);
+      for (size_t corner : {size_t{0}, along}) {
+        add_quad(corner, corner | next, corner | next | last, corner | last);
+      }
+    }
+  }
+
+  void build(const Triangle& triangle) {
+    for (const Eigen::Vector3f& corner : triangle.corners) points.push_back(vec3_as<R>(corner));
+    for (size_t i = 0; i < 3; ++i) add_edge(i, (i + 1) % 3);
+    for (const auto& edge : edges) directions.push_back(edge.direction);
+    add_face(0, 1, 2);
+    const Vec front = front_normal();
+    if (!(dot(front, front) > 0)) return;
+    normals.push_back(front);
+    for (const auto& edge : edges) {
+      normals.push_back(normalized(across(cross(front, edge.direction), edge.direction)));
+    }
+    if (triangle.thickness > 0) extrude(front * -R(triangle.thickness), front);
+  }
+
+  Vec front_normal() const {
+    const Vec n = faces[0].normal;
+    return dot(n, cross(points[1] - points[0], points[2] - points[0])) < 0 ? -n : n;
+  }
+
+  void extrude(const Vec& depth, const Vec& front) {
+    for (size_t i = 0; i < 3; ++i) points.push_back(points[i] + depth);
+    add_face(3, 4, 5);
+    for (size_t i = 0; i < 3; ++i) {
+      const size_t j = (i + 1) % 3;
+      add_edge(i + 3, j + 3);
+      add_edge(i, i + 3);
+      add_quad(i, j, j + 3, i + 3);
+    }
+    directions.push_back(front);
+  }
+
+  void build(const Halfspace& halfspace) {
+    is_halfspace = true;
+    const Vec n = vec3_as<R>(halfspace.normal);
+    normal = normalized(n);
+    offset = R(halfspace.offset) / length(n);
+    bounding_radius = offset < 0 ? -offset : offset;
+  }
+
+  void add_edge(size_t i, size_t j) { edges.emplace_back(points[i], points[j]); }
+  void add_face(size_t i, size_t j, size_t k) {
+    faces.emplace_back(points[i], points[j], points[k]);
+  }
+  void add_quad(size_t i, size_t j, size_t k, size_t l) {
+    add_face(i, j, k);
+    add_face(i, k, l);
+  }
+
+  // From the body's frame: directions stay as good as those of the body's own numbers.
+  void rotate(const Rotation<R>& rotation) {
+    const auto turn = [&](Vec& v) { v = rotation(v); };
+    std::for_each(points.begin(), points.end(), turn);
+    std::for_each(directions.begin(), directions.end(), turn);
+    std::for_each(normals.begin(), normals.end(), turn);
+    for (auto& edge : edges) {
+      for (Vec* v : {&edge.start, &edge.direction}) turn(*v);
+    }
+    for (auto& face : faces) {
+      for (Vec* v : {&face.origin, &face.u, &face.v, &face.normal}) turn(*v);
+    }
+    turn(normal);
+  }
+};
+
+}  // namespace carom::test

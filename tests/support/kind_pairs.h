@@ -1,0 +1,164 @@
+// Random pairs of every two kinds that have a kernel.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <vector>
+
+#include "carom/narrowphase/collide.h"
+#include "tests/support/convex_families.h"
+#include "tests/support/pairs.h"
+
+namespace carom::test {
+
+// In both orders.
+inline std::vector<KindPair> supported_kind_pairs() {
+  std::vector<KindPair> all;
+  for (const ShapeKind a : kConvexKinds) {
+    for (const ShapeKind b : kConvexKinds) {
+      if (supports(a, b)) all.push_back({a, b});
+    }
+  }
+  return all;
+}
+
+// What GoogleTest calls a test of a family.
+inline std::string family_name(const testing::TestParamInfo<ConvexFamily>& info) {
+  std::string text = info.param.name;
+  const auto is_other = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; };
+  std::replace_if(text.begin(), text.end(), is_other, '_');
+  return text;
+}
+
+inline bool has_halfspace(const KindPair& kinds) {
+  return kinds.a == ShapeKind::halfspace || kinds.b == ShapeKind::halfspace;
+}
+
+inline TestPair as_test_pair(const ConvexPair& pair) {
+  return {{pair.shape_a, pair.pose_a.position, pair.pose_a.orientation},
+          {pair.shape_b, pair.pose_b.position, pair.pose_b.orientation}};
+}
+
+inline std::vector<TestPair> make_kind_pairs(const ConvexFamily& family, const KindPair& kinds,
+                                             PositionType positions, size_t count,
+                                             uint64_t seed = 1) {
+  std::vector<TestPair> pairs;
+  ConvexPairMaker maker(family, kinds, positions, seed);
+  for (size_t i = 0; i < count; ++i) pairs.push_back(as_test_pair(maker.next()));
+  return pairs;
+}
+
+// Pairs of all kinds in turn, in no order that suits lanes.
+inline std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family,
+                                                   PositionType positions, size_t count,
+                                                   uint64_t seed = 1) {
+  const std::vector<KindPair> kinds = supported_kind_pairs();
+  Random random(seed);
+  std::vector<TestPair> pairs;
+  for (size_t i = 0; i < count; ++i) {
+    const KindPair& some = kinds[random.below(kinds.size())];
+    pairs.push_back(make_kind_pairs(family, some, positions, 1, random.bits())[0]);
+  }
+  return pairs;
+}
+
+// One of each family.
+inline std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,
+                                                    size_t count_each = 1, uint64_t seed = 1) {
+  std::vector<TestPair> pairs;
+  for (const ConvexFamily& family : convex_families()) {
+    for (const TestPair& pair : make_kind_pairs(family, kinds, positions, count_each, seed)) {
+      pairs.push_back(pair);
+    }
+  }
+  return pairs;
+}
+
+// Turns numbers of a body into floats of any bits at all; most bodies stay valid.
+class Spoiler {
+ public:
+  explicit Spoiler(uint64_t seed) : random_(seed) {}
+
+  void spoil(TestPair& pair) {
+    spoil(pair.a);
+    spoil(pair.b);
+  }
+
+ private:
+  void spoil(PlacedShape& body) {
+    for (int i = 0; i < 3; ++i) {
+      if (random_.chance(0.1)) body.position[i] = random_.any_float();
+    }
+    for (int i = 0; i < 4; ++i) spoil(body.orientation.coeffs()[i]);
+    std::visit([this](auto& shape) { spoil_shape(shape); }, body.shape);
+  }
+
+  void spoil(float& x) {
+    if (random_.chance(0.1)) x = random_.any_float();
+  }
+  void spoil(Eigen::Vector3f& v) {
+    for (int i = 0; i < 3; ++i) spoil(v[i]);
+  }
+  void spoil_size(float& x) {
+    spoil(x);
+    if (random_.chance(0.9)) x = std::fabs(x);
+  }
+
+  void spoil_shape(Sphere& sphere) { spoil_size(sphere.radius); }
+  void spoil_shape(Aabb& box) {
+    spoil(box.lower);
+    spoil(box.upper);
+    for (int i = 0; i < 3; ++i) {
+      if (box.lower[i] > box.upper[i] && random_.chance(0.9)) std::swap(box.lower[i], box.upper[i]);
+    }
+  }
+  void spoil_shape(Capsule& capsule) {
+    spoil(capsule.a);
+    spoil(capsule.b);
+    spoil_size(capsule.radius);
+  }
+  void spoil_shape(Box& box) {
+    for (int i = 0; i < 3; ++i) spoil_size(box.half[i]);
+  }
+  void spoil_shape(Triangle& triangle) {
+    for (Eigen::Vector3f& corner : triangle.corners) spoil(corner);
+    spoil_size(triangle.thickness);
+    triangle.one_sided = random_.chance(0.5);
+    triangle.inner_edges = static_cast<uint8_t>(random_.below(random_.chance(0.95) ? 8 : 256));
+  }
+  void spoil_shape(Halfspace& halfspace) {
+    spoil(halfspace.normal);
+    spoil(halfspace.offset);
+    if (random_.chance(0.02)) halfspace.normal.setZero();
+  }
+
+  Random random_;
+};
+
+// Only bit equality can be asked for.
+inline std::vector<TestPair> make_kind_nonsense(const KindPair& kinds, size_t count,
+                                                uint64_t seed = 1) {
+  std::vector<TestPair> pairs =
+      make_kind_pairs({.name = ""}, kinds, PositionType::float32, count, seed);
+  Spoiler spoiler(seed);
+  for (TestPair& pair : pairs) spoiler.spoil(pair);
+  return pairs;
+}
+
+// Triangles that are one-sided and have inner edges, at random.
+inline void vary_triangles(std::vector<TestPair>& pairs, uint64_t seed = 1) {
+  Random random(seed);
+  for (TestPair& pair : pairs) {
+    for (PlacedShape* body : {&pair.a, &pair.b}) {
+      if (auto* triangle = std::get_if<Triangle>(&body->shape)) {
+        triangle->one_sided = random.chance(0.5);
+        triangle->inner_edges = static_cast<uint8_t>(random.below(8));
+      }
+    }
+  }
+}
+
+}  // namespace carom::test
