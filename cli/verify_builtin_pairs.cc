@@ -1,6 +1,7 @@
 // Random and special pairs of every two kinds that have a kernel.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -61,7 +62,7 @@ class RandomPairs {
         separate(shape_a, pose_a, shape_b, pose_b, 0);
         break;
       default:
-        separate(shape_a, pose_a, shape_b, pose_b, size_b * random_.between(-0.3, 0.3));
+        separate(shape_a, pose_a, shape_b, pose_b, size_b * random_.between(-depth(a, b), 0.3));
     }
     push(shape_a, pose_a, shape_b, pose_b);
   }
@@ -103,11 +104,18 @@ class RandomPairs {
     pairs_.b.push(shape_b, pose_b);
   }
 
-  // Moves B along the normal until it is about this far from A.
+  // How deep two shapes may overlap before they are apart again; triangles have no inside.
+  static double depth(ShapeKind a, ShapeKind b) {
+    return a == ShapeKind::triangle || b == ShapeKind::triangle ? 0.05 : 0.3;
+  }
+
+  // Moves B along the normal until it is about this far from A, unless it comes from behind a
+  // one-sided triangle.
   void separate(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, Pose& pose_b,
                 double separation) const {
     const reference::PairResult now =
         reference::collide(shape_a, pose_a, shape_b, pose_b, pairs_.a.positions());
+    if (!std::isfinite(now.separation)) return;
     pose_b.position += (separation - double{now.separation}) * now.normal.cast<double>();
   }
 

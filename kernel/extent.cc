@@ -41,8 +41,7 @@ Intervals box_intervals(const std::array<Vector, 3>& turn, const Row& half) {
   Intervals result;
   for (size_t axis = 0; axis < 3; ++axis) {
     const Vector& r = turn[axis];
-    const double reach =
-        dot({std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2])}, vector_of(half));
+    const double reach = dot({std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2])}, vector_of(half));
     result[axis] = {-reach, reach};
   }
   return result;
@@ -120,8 +119,8 @@ Extent turned_extent(const BodyReader& reader, size_t i) {
   const double slack = kRounding * greatest_of(rows);
   switch (kind) {
     case ShapeKind::capsule:
-      return outward(point_intervals<2>(turn, {vector_of(rows[0]), vector_of(rows[1])}),
-                     rows[0][3], slack);
+      return outward(point_intervals<2>(turn, {vector_of(rows[0]), vector_of(rows[1])}), rows[0][3],
+                     slack);
     case ShapeKind::box:
       return outward(box_intervals(turn, rows[0]), 0, slack);
     case ShapeKind::triangle:

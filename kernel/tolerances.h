@@ -22,8 +22,8 @@ inline constexpr Real kNearSegment = Real(0x1p-16);
 template <>
 inline constexpr double kNearSegment<double> = 0x1p-44;
 
-// Quaternions whose squares neither vanish nor overflow are used as they are; others are scaled by a
-// power of two first, which changes no bit of their rotation.
+// Quaternions whose squares neither vanish nor overflow are used as they are; others are scaled by
+// a power of two first, which changes no bit of their rotation.
 inline constexpr float kLeastSquaredNorm = 0x1p-60f;
 inline constexpr float kGreatestSquaredNorm = 0x1p60f;
 

@@ -5,15 +5,16 @@
 #include <variant>
 
 #include "kernel/tolerances.h"
-#include "narrowphase/scaled_ref.h"
 #include "narrowphase/all_pairs_ref.h"
+#include "narrowphase/scaled_ref.h"
 
 namespace carom::reference {
 
 // Whether there is separation(a, b, pose) in this order of the shapes.
 template <class A, class B, class Real>
-concept HasSeparation =
-    requires(A a, B b, PairPose<Real> pose) { separation(a, b, pose); };
+concept HasSeparation = requires(A a, B b, PairPose<Real> pose) {
+  separation(a, b, pose);
+};
 
 // In scaled units; the shapes in either order.
 template <class Real, class A, class B>
@@ -34,8 +35,8 @@ SeparationAs<Real> separation_of(const A& a, const B& b, const PairPose<Real>& p
 
 template <class Real>
 SeparationAs<Real> separation_of(const Shape& a, const Shape& b, const PairPose<Real>& pose) {
-  return std::visit(
-      [&](const auto& x, const auto& y) { return separation_of<Real>(x, y, pose); }, a, b);
+  return std::visit([&](const auto& x, const auto& y) { return separation_of<Real>(x, y, pose); },
+                    a, b);
 }
 
 // Squares of what is used neither vanish nor overflow; the rotation is the same to the bit.

@@ -8,7 +8,8 @@
 // test() calls
 //   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
 // once; names, frames and signs as in Contact. It is branch-free, the same at every detail: what a
-// detail does not store, the compiler drops. Lanes in `unsure` are those that float32 cannot decide.
+// detail does not store, the compiler drops. Lanes in `unsure` are those that float32 cannot
+// decide.
 #if defined(CAROM_NARROWPHASE_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_INL_H_
@@ -52,11 +53,11 @@ HWY_INLINE void clear_unless(Mask valid, Quaternion& q) {
   q.w = hn::IfThenElse(valid, hn::Mul(q.w, down), splat(1));
 }
 
-template <class Kernel, class Records, Detail kDetail, class Frame>
+template <class Kernel, class Records, Detail kDetail>
 struct BatchLoop {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
-  using Report = LaneReport<Kernel, Records::kHasLow, kDetail, Frame>;
+  using Report = LaneReport<Kernel, Records::kHasLow, kDetail>;
 
   static void run(const Batch& batch) {
     const size_t whole = batch.count - batch.count % kLanes;
@@ -142,8 +143,7 @@ struct BatchLoop {
   // One comparison for everything that must be finite: NaN and infinity survive the sum.
   static HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) {
     const F sum = hn::Add(sum_of_sizes(pose.d), hn::Add(a.size(), b.size()));
-    Mask valid =
-        hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
+    Mask valid = hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
     if constexpr (A::kIsOriented) valid = hn::And(valid, is_plain(pose.a));
     if constexpr (B::kIsOriented) valid = hn::And(valid, is_plain(pose.b));
     return valid;
@@ -151,7 +151,8 @@ struct BatchLoop {
 
   static HWY_INLINE Mask is_plain(const Quaternion& q) {
     const F norm = squared_norm(q);
-    return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
+    return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)),
+                   hn::Le(norm, splat(kGreatestSquaredNorm)));
   }
 
   static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {
@@ -163,21 +164,12 @@ struct BatchLoop {
   }
 };
 
-template <class Kernel, class Records, class Frame>
-void run_at_detail(const Batch& batch) {
-  if (batch.detail == Detail::overlap) {
-    BatchLoop<Kernel, Records, Detail::overlap, Frame>::run(batch);
-  } else {
-    BatchLoop<Kernel, Records, Detail::contact, Frame>::run(batch);
-  }
-}
-
 template <class Kernel, class Records>
 void run_with_records(const Batch& batch) {
-  if (batch.frame == WitnessFrame::body) {
-    run_at_detail<Kernel, Records, BodyFrame>(batch);
+  if (batch.detail == Detail::overlap) {
+    BatchLoop<Kernel, Records, Detail::overlap>::run(batch);
   } else {
-    run_at_detail<Kernel, Records, WorldFrame>(batch);
+    BatchLoop<Kernel, Records, Detail::contact>::run(batch);
   }
 }
 
@@ -186,7 +178,7 @@ void run_with_records(const Batch& batch) {
 template <class Kernel>
 void run_batch(const Batch& batch) {
   if constexpr (Kernel::kUnits == Units::scaled) {
-    run_at_detail<Kernel, AnyRecords, AnyFrame>(batch);
+    run_with_records<Kernel, AnyRecords>(batch);
   } else {
     switch (batch.layout) {
       case PositionLayout::none:

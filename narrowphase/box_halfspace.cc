@@ -29,8 +29,7 @@ struct BoxHalfspace {
     const F3 slope = rotate_back(turn, normal);
     const F3 drop = {hn::Mul(hn::Abs(slope.x), box.half.x), hn::Mul(hn::Abs(slope.y), box.half.y),
                      hn::Mul(hn::Abs(slope.z), box.half.z)};
-    const F separation =
-        hn::Sub(hn::Neg(hn::Add(hn::Add(drop.x, drop.y), drop.z)), height);
+    const F separation = hn::Sub(hn::Neg(hn::Add(hn::Add(drop.x, drop.y), drop.z)), height);
 
     const F size = box.extent();
     const F flat = hn::Mul(splat(kLyingFlat), size);

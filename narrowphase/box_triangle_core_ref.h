@@ -1,6 +1,8 @@
 // Box against triangle, scalar. The box lies about the origin along the coordinate axes.
 #pragma once
 
+#include <type_traits>
+
 #include <array>
 #include <utility>
 
@@ -131,7 +133,8 @@ BoxContact<Real> box_triangle(PlacedTriangle<Real> triangle, const Vector3<Real>
   const Vector3<Real> normal = plane_normal(triangle, edges);
   const BoxAxis<Real> axis = separating_axis(triangle, edges, normal, half);
 
-  const bool overlap = axis.gap <= 0;
+  // Directions between points that nearly touch tell nothing. (In float the pair is unsure then.)
+  const bool overlap = axis.gap <= (std::is_same_v<Real, double> ? Real(0x1p-36) : Real(0));
   const Vector3<Real> inwards = axis.normal * min(axis.gap, Real(0));
   for (int i = 0; i < 3; ++i) {
     triangle.corners[i] -= inwards;

@@ -21,9 +21,7 @@ HWY_INLINE F3 clamp_to_box(const F3& x, const F3& half) {
           clamp(x.z, hn::Neg(half.z), half.z)};
 }
 
-HWY_INLINE F3 to_b(const BoxPairLanes& p, const F3& x) {
-  return rotate_back(p.turn, x - p.centre);
-}
+HWY_INLINE F3 to_b(const BoxPairLanes& p, const F3& x) { return rotate_back(p.turn, x - p.centre); }
 HWY_INLINE F3 from_b(const BoxPairLanes& p, const F3& q) { return rotate(p.turn, q) + p.centre; }
 
 HWY_INLINE Mask3 are_across(const F3& direction) {
@@ -203,8 +201,7 @@ HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
   const F3 q_on_b = clamp_to_box(q, p.half_b);
   const F3 y = from_b(p, q_on_b);
   const Mask in_frame_b = hn::Gt(free_axes(q, p.half_b), free_axes(y, p.half_a));
-  const F3 way =
-      select(in_frame_b, rotate(p.turn, q_on_b - q), y - clamp_to_box(y, p.half_a));
+  const F3 way = select(in_frame_b, rotate(p.turn, q_on_b - q), y - clamp_to_box(y, p.half_a));
   const F length = hn::Sqrt(dot(way, way));
   const F3 direction = way * hn::Div(splat(1), length);
 

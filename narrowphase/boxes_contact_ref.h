@@ -29,7 +29,7 @@ Vector3<Real> on_feature(const Vector3<Real>& half, const Vector3<Real>& directi
   Vector3<Real> point;
   for (int i = 0; i < 3; ++i) {
     const bool across = std::fabs(direction[i]) <= kAcross<Real>;
-    point[i] = across                ? clamp<Real>(target[i], -half[i], half[i])
+    point[i] = across             ? clamp<Real>(target[i], -half[i], half[i])
                : direction[i] > 0 ? half[i]
                                   : -half[i];
   }
@@ -51,17 +51,49 @@ Vector3<Real> clamp_to_box(const Vector3<Real>& x, const Vector3<Real>& half) {
 }
 
 // Points of both features that face each other along the normal: alternating projections, which end
-// after one step where one of the features is a corner (von Neumann).
+// after one step where one of the features is a corner (von Neumann). `target` is where they begin.
 template <class Real>
-BoxWitness<Real> facing_features(const BoxPair<Real>& p, const Vector3<Real>& normal) {
+BoxWitness<Real> facing_features_near(const BoxPair<Real>& p, const Vector3<Real>& normal,
+                                      const Vector3<Real>& target) {
   const Vector3<Real> from_b_out = -rotate_back(p.turn, normal);
   BoxWitness<Real> w;
-  w.on_a = on_feature(p.half_a, normal, p.centre);
+  w.on_a = on_feature(p.half_a, normal, target);
   for (int round = 0; round < 2; ++round) {
     w.on_b = from_b(p, on_feature(p.half_b, from_b_out, to_b(p, w.on_a)));
     w.on_a = on_feature(p.half_a, normal, w.on_b);
   }
   return w;
+}
+
+template <class Real>
+Real off_axis_squared(const BoxWitness<Real>& w, const Vector3<Real>& normal) {
+  const Vector3<Real> way = w.on_b - w.on_a;
+  const Vector3<Real> across = way - normal * dot(way, normal);
+  return dot(across, across);
+}
+
+template <class Real>
+BoxWitness<Real> facing_features(const BoxPair<Real>& p, const Vector3<Real>& normal) {
+  return facing_features_near(p, normal, p.centre);
+}
+
+// Faces that lie on each other almost edge to edge, slightly turned, meet near a corner of one of
+// them; two steps from anywhere else do not lead there.
+template <>
+inline BoxWitness<double> facing_features(const BoxPair<double>& p, const Vector3<double>& normal) {
+  BoxWitness<double> best = facing_features_near(p, normal, p.centre);
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto signs = [corner](const Vector3<double>& half) -> Vector3<double> {
+      return {corner & 1 ? half.x() : -half.x(), corner & 2 ? half.y() : -half.y(),
+              corner & 4 ? half.z() : -half.z()};
+    };
+    for (const Vector3<double>& target :
+         {signs(p.half_a), Vector3<double>(from_b(p, signs(p.half_b)))}) {
+      const BoxWitness<double> next = facing_features_near(p, normal, target);
+      if (off_axis_squared(next, normal) < off_axis_squared(best, normal)) best = next;
+    }
+  }
+  return best;
 }
 
 // The nearest points of the two edges that face each other along a cross product of edges.
@@ -101,8 +133,8 @@ bool is_edge_contact(const BoxPair<Real>& p, const SeparatingAxis<Real>& axis) {
 // Where the boxes are nearest to each other if that is along the axis.
 template <class Real>
 BoxWitness<Real> witness_along(const BoxPair<Real>& p, const SeparatingAxis<Real>& axis) {
-  const BoxWitness<Real> found = is_edge_contact(p, axis) ? facing_edges(p, axis)
-                                                          : facing_features(p, axis.normal);
+  const BoxWitness<Real> found =
+      is_edge_contact(p, axis) ? facing_edges(p, axis) : facing_features(p, axis.normal);
   const Vector3<Real> on_b = found.on_a + axis.normal * axis.gap;
   const Vector3<Real> off_axis = found.on_b - on_b;
   return {found.on_a, on_b, dot(off_axis, off_axis) > Real(kOffAxisSquared)};

@@ -25,7 +25,8 @@ struct NearestCorner {
   NearestCorner(const Vector3<Real>& half, const Vector3<Real>& centre,
                 const std::array<Vector3<Real>, 3>& h) {
     for (int signs = 0; signs < 8; ++signs) {
-      const Vector3<Real> x = signs & 1 ? Vector3<Real>(centre + h[0]) : Vector3<Real>(centre - h[0]);
+      const Vector3<Real> x =
+          signs & 1 ? Vector3<Real>(centre + h[0]) : Vector3<Real>(centre - h[0]);
       const Vector3<Real> y = signs & 2 ? Vector3<Real>(x + h[1]) : Vector3<Real>(x - h[1]);
       const Vector3<Real> z = signs & 4 ? Vector3<Real>(y + h[2]) : Vector3<Real>(y - h[2]);
       Vector3<Real> outside;
@@ -38,7 +39,8 @@ struct NearestCorner {
 
 template <class Real>
 NearestCorner<Real> nearest_corner_of_b(const BoxPair<Real>& p) {
-  return {p.half_a, p.centre,
+  return {p.half_a,
+          p.centre,
           {p.turn.x * p.half_b.x(), p.turn.y * p.half_b.y(), p.turn.z * p.half_b.z()}};
 }
 
@@ -48,7 +50,8 @@ NearestCorner<Real> nearest_corner_of_a(const BoxPair<Real>& p) {
   const Vector3<Real> row_x(p.turn.x.x(), p.turn.y.x(), p.turn.z.x());
   const Vector3<Real> row_y(p.turn.x.y(), p.turn.y.y(), p.turn.z.y());
   const Vector3<Real> row_z(p.turn.x.z(), p.turn.y.z(), p.turn.z.z());
-  return {p.half_b, -rotate_back(p.turn, p.centre),
+  return {p.half_b,
+          -rotate_back(p.turn, p.centre),
           {row_x * p.half_a.x(), row_y * p.half_a.y(), row_z * p.half_a.z()}};
 }
 
@@ -109,11 +112,12 @@ BoxDistance<Real> distance_of(const BoxPair<Real>& p, const SeparatingAxis<Real>
   // The way from A to B in the frame of the box that it leaves along a face or an edge: it is
   // perpendicular to that exactly.
   const bool in_frame_b = free_axes(q, p.half_b) > free_axes(y, p.half_a);
-  const Vector3<Real> way = in_frame_b ? rotate<Real>(p.turn, q_on_b - q)
-                                       : Vector3<Real>(y - clamp_to_box(y, p.half_a));
+  const Vector3<Real> way =
+      in_frame_b ? rotate<Real>(p.turn, q_on_b - q) : Vector3<Real>(y - clamp_to_box(y, p.half_a));
   const Real distance = std::sqrt(dot(way, way));
   const Vector3<Real> normal = way * (1 / distance);
-  // The better normal is the one that keeps the boxes further apart, whichever has the nearer points.
+  // The better normal is the one that keeps the boxes further apart, whichever has the nearer
+  // points.
   if (!(gap_along(p, normal) > axis.gap)) return {axis.gap, axis.normal, witness_along(p, axis)};
   return {distance, normal, {y - normal * distance, y}};
 }

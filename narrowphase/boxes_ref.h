@@ -1,4 +1,5 @@
-// Two boxes -> their separation: overlapping along the best separating axis, apart by their distance.
+// Two boxes -> their separation: overlapping along the best separating axis, apart by their
+// distance.
 #pragma once
 
 #include "narrowphase/boxes_distance_ref.h"

@@ -20,7 +20,6 @@ struct BoxPairLanes {
   F3 half_a, half_b;
 };
 
-
 struct SeparatingAxisLanes {
   F gap;      // the greatest; the separation of overlapping boxes
   F3 normal;  // unit, from A to B
@@ -143,17 +142,17 @@ HWY_INLINE void offer_edges(const BoxPairLanes& p, const AxisCrosses& crosses, B
   const F half_m = kB == 0 ? p.half_b.y : p.half_b.x;
   const F half_n = kB == 2 ? p.half_b.y : p.half_b.z;
 
-  const F distance = hn::Abs(hn::Sub(hn::Mul(component<l>(p.centre), vk),
-                                     hn::Mul(component<k>(p.centre), vl)));
+  const F distance =
+      hn::Abs(hn::Sub(hn::Mul(component<l>(p.centre), vk), hn::Mul(component<k>(p.centre), vl)));
   const F reach_a = hn::Add(hn::Mul(component<k>(p.half_a), hn::Abs(vl)),
                             hn::Mul(component<l>(p.half_a), hn::Abs(vk)));
   const F reach_b = hn::Add(hn::Mul(half_m, on_m), hn::Mul(half_n, on_n));
   const F gap = hn::Sub(distance, hn::Add(reach_a, reach_b));
 
   const F square = hn::Mul(gap, hn::Abs(gap));
-  const Mask better = hn::And(hn::Ge(squared, splat(kLeastCross)),
-                              hn::Gt(hn::Mul(square, best.squared),
-                                     hn::Mul(best.signed_square, squared)));
+  const Mask better =
+      hn::And(hn::Ge(squared, splat(kLeastCross)),
+              hn::Gt(hn::Mul(square, best.squared), hn::Mul(best.signed_square, squared)));
   best.signed_square = hn::IfThenElse(better, square, best.signed_square);
   best.squared = hn::IfThenElse(better, squared, best.squared);
   best.number = hn::IfThenElse(better, splat(3 * kA + kB), best.number);

@@ -1,9 +1,9 @@
 // Two oriented boxes by the separating axis theorem.
 //
-// Source: S. Gottschalk, M. Lin, D. Manocha, OBBTree, SIGGRAPH 1996; C. Ericson, Real-Time Collision
-// Detection, 2005, section 4.4.1. Other than there, both boxes are projected in full on the cross
-// products of edges: these are exact in the frame of A, and what is found along them is a bound of
-// the separation for any rounding of the rotation, however nearly parallel the edges are.
+// Source: S. Gottschalk, M. Lin, D. Manocha, OBBTree, SIGGRAPH 1996; C. Ericson, Real-Time
+// Collision Detection, 2005, section 4.4.1. Other than there, both boxes are projected in full on
+// the cross products of edges: these are exact in the frame of A, and what is found along them is a
+// bound of the separation for any rounding of the rotation, however nearly parallel the edges are.
 #pragma once
 
 #include "narrowphase/vector_ref.h"
@@ -13,8 +13,8 @@ namespace carom::reference {
 // In the frame of A, about its centre.
 template <class Real>
 struct BoxPair {
-  Vector3<Real> centre;   // of B
-  Rotation<Real> turn;    // of B
+  Vector3<Real> centre;  // of B
+  Rotation<Real> turn;   // of B
   Vector3<Real> half_a, half_b;
 };
 
@@ -56,8 +56,7 @@ SeparatingAxis<Real> best_face(const BoxPair<Real>& p) {
   SeparatingAxis<Real> best{-std::numeric_limits<Real>::infinity(), {}};
   int axis = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vector3<Real> row(std::fabs(p.turn.x[i]), std::fabs(p.turn.y[i]),
-                            std::fabs(p.turn.z[i]));
+    const Vector3<Real> row(std::fabs(p.turn.x[i]), std::fabs(p.turn.y[i]), std::fabs(p.turn.z[i]));
     const Real gap = std::fabs(p.centre[i]) - (p.half_a[i] + dot(row, p.half_b));
     if (gap > best.gap) best.gap = gap, axis = i;
   }
@@ -65,8 +64,7 @@ SeparatingAxis<Real> best_face(const BoxPair<Real>& p) {
     const Vector3<Real>& direction = column(p.turn, j);
     const Vector3<Real> size(std::fabs(direction.x()), std::fabs(direction.y()),
                              std::fabs(direction.z()));
-    const Real gap =
-        std::fabs(dot(direction, p.centre)) - (p.half_b[j] + dot(size, p.half_a));
+    const Real gap = std::fabs(dot(direction, p.centre)) - (p.half_b[j] + dot(size, p.half_a));
     if (gap > best.gap) best.gap = gap, axis = 3 + j;
   }
   best.normal = axis < 3 ? Vector3<Real>(Vector3<Real>::Unit(axis)) : column(p.turn, axis - 3);

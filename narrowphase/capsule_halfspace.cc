@@ -30,12 +30,11 @@ struct CapsuleHalfspace {
     const F3 b = rotate(turn, capsule.b);
     const F height_a = dot(normal, a);
     const F height_b = dot(normal, b);
-    const F separation =
-        hn::Sub(hn::Sub(min(height_a, height_b), height), capsule.radius);
+    const F separation = hn::Sub(hn::Sub(min(height_a, height_b), height), capsule.radius);
 
     const F size = capsule.extent();
-    const Mask lies_flat = hn::Le(hn::Abs(hn::Sub(height_a, height_b)),
-                                  hn::Mul(splat(kLyingFlat), size));
+    const Mask lies_flat =
+        hn::Le(hn::Abs(hn::Sub(height_a, height_b)), hn::Mul(splat(kLyingFlat), size));
     const F3 end = select(hn::Lt(height_a, height_b), a, b);
     const F3 core = select(lies_flat, (a + b) * splat(0.5f), end);
     report_over_plane(normal, plane_size, separation, core - normal * capsule.radius, size, pose.d,

@@ -206,8 +206,8 @@ HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& 
     const F r_y = hn::Sub(face.corner_y(k), seen.y[0]);
     const F beside_u = hn::Mul(area_left(u.x, u.y, r_x, r_y), side);
     const F beside_v = hn::Mul(area_left(r_x, r_y, v.x, v.y), side);
-    const Mask above = hn::And(hn::Ge(hn::Add(beside_u, slack_u), zero),
-                               hn::Ge(hn::Add(beside_v, slack_v), zero));
+    const Mask above =
+        hn::And(hn::Ge(hn::Add(beside_u, slack_u), zero), hn::Ge(hn::Add(beside_v, slack_v), zero));
     const Mask below = hn::And(hn::Le(beside_u, most_u), hn::Le(beside_v, most_v));
     const F rise = hn::Add(hn::Mul(r_x, slope_x), hn::Mul(r_y, slope_y));
     out.put(kFirst + k, hn::And(has_area, hn::And(above, below)), face.corner_x(k),
@@ -222,8 +222,8 @@ HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, co
                             ClipPoints<kCount>& out) {
   const F zero = splat(0);
   const F facing = dot(normal, m);
-  const F area = area_left(ways[0].x, ways[0].y, hn::Sub(seen.x[2], seen.x[0]),
-                           hn::Sub(seen.y[2], seen.y[0]));
+  const F area =
+      area_left(ways[0].x, ways[0].y, hn::Sub(seen.x[2], seen.x[0]), hn::Sub(seen.y[2], seen.y[0]));
   const F side = hn::IfThenElse(hn::Lt(area, zero), splat(-1), splat(1));
   const F slope_x = hn::Div(dot(face.frame.u, normal), facing);
   const F slope_y = hn::Div(dot(face.frame.v, normal), facing);
@@ -240,13 +240,14 @@ HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, co
       const F left = area_left(ways[i].x, ways[i].y, hn::Sub(x, seen.x[i]), hn::Sub(y, seen.y[i]));
       covered = hn::And(covered, hn::Ge(hn::Add(hn::Mul(left, side), slack[i]), zero));
     }
-    const F rise = hn::Add(hn::Mul(hn::Sub(seen.x[0], x), slope_x),
-                           hn::Mul(hn::Sub(seen.y[0], y), slope_y));
+    const F rise =
+        hn::Add(hn::Mul(hn::Sub(seen.x[0], x), slope_x), hn::Mul(hn::Sub(seen.y[0], y), slope_y));
     out.put(kFirst + k, covered, x, y, hn::Add(seen.s[0], rise), splat(kTouchingPoint));
   }
 }
 
-// Where a face of another box is not above a face along m, a unit vector: the corners of that region.
+// Where a face of another box is not above a face along m, a unit vector: the corners of that
+// region.
 HWY_INLINE void clip(const Rectangle& face, const Rectangle& other, const F3& m,
                      ClipPoints<12>& out) {
   const FaceView view(face.frame, m);

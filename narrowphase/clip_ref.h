@@ -62,7 +62,9 @@ struct Span {
   float far = 1;
 };
 
-inline float crossing(float rate) { return std::fabs(rate) > kLeastCrossing ? rate : kLeastCrossing; }
+inline float crossing(float rate) {
+  return std::fabs(rate) > kLeastCrossing ? rate : kLeastCrossing;
+}
 
 // Between two parallel sides.
 inline void clip_between(float from, float rate, float lower, float upper, Span& span) {
@@ -95,7 +97,8 @@ inline Span clip_edge(const TriangleFace& face, const SeenEdge& edge) {
   for (size_t k = 0; k < 3; ++k) {
     const Point2 a = face.points[k], b = face.points[(k + 1) % 3];
     const float start = area_left(a, b, edge.from.x, edge.from.y) + slack_of_edge(a, b);
-    const float rate = crossing((area_left(a, b, edge.to.x, edge.to.y) + slack_of_edge(a, b)) - start);
+    const float rate =
+        crossing((area_left(a, b, edge.to.x, edge.to.y) + slack_of_edge(a, b)) - start);
     const float t = -start / rate;
     if (rate > 0) {
       span.near = max(span.near, t);
@@ -218,7 +221,8 @@ void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
   }
 }
 
-// Where a face of another box is not above a face along m, a unit vector: the corners of that region.
+// Where a face of another box is not above a face along m, a unit vector: the corners of that
+// region.
 inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vector3f& m) {
   ClipPoints out;
   const FaceView view(face.frame, m);

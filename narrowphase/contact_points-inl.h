@@ -34,8 +34,7 @@ HWY_INLINE void use_if(Mask mask, PointLanes& out) {
   for (Mask& used : out.used) used = hn::And(used, mask);
 }
 
-template <class A, class B>
-  requires(kIsBox<A> && kIsBox<B>)
+template <AnyBox A, AnyBox B>
 HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
   Rectangle face, other;
@@ -46,8 +45,7 @@ HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
   put_on_frame(face.frame, all, splat(kSamePoint), out);
 }
 
-template <class A>
-  requires kIsBox<A>
+template <AnyBox A>
 HWY_INLINE void contact_points(const A& a, const TriangleLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
   F3 corners[3];
@@ -100,8 +98,7 @@ HWY_INLINE void contact_points(const TriangleLanes& a, const TriangleLanes& b,
   use_if(shown, out);
 }
 
-template <class B>
-  requires kIsBox<B>
+template <AnyBox B>
 HWY_INLINE void contact_points(const CapsuleLanes& a, const B& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
   SurfaceLine line;
@@ -136,14 +133,11 @@ HWY_INLINE void contact_points(const CapsuleLanes& a, const HalfspaceLanes&,
   touch_plane(a, placed.a, contact, out);
 }
 
-HWY_INLINE F same_point_limit(F size) {
-  return hn::Mul(splat(kSamePoint), hn::Mul(size, size));
-}
+HWY_INLINE F same_point_limit(F size) { return hn::Mul(splat(kSamePoint), hn::Mul(size, size)); }
 
-// The corners of a face over a plane, measured from the lowest of them: however far the plane's body
-// is, that rounds no more than the shape itself.
-template <class A>
-  requires kIsBox<A>
+// The corners of a face over a plane, measured from the lowest of them: however far the plane's
+// body is, that rounds no more than the shape itself.
+template <AnyBox A>
 HWY_INLINE void contact_points(const A& a, const HalfspaceLanes&, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
   const F3& m = contact.normal;
@@ -153,8 +147,7 @@ HWY_INLINE void contact_points(const A& a, const HalfspaceLanes&, const PlacedPa
   const F along_y = dot(face.frame.v, m);
   F depth[4];
   for (size_t k = 0; k < 4; ++k) {
-    depth[k] =
-        hn::Add(hn::Mul(face.corner_x(k), along_x), hn::Mul(face.corner_y(k), along_y));
+    depth[k] = hn::Add(hn::Mul(face.corner_x(k), along_x), hn::Mul(face.corner_y(k), along_y));
   }
   const F lowest = max(max(max(depth[0], depth[1]), depth[2]), depth[3]);
   const F size = a.extent();

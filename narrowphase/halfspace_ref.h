@@ -1,7 +1,7 @@
 // Convex shapes over the plane of a half-space: the lowest point decides.
 //
-// Source: C. Ericson, Real-Time Collision Detection, 2005, section 5.2.2 and 5.2.3 (the least height
-// of a shape over a plane).
+// Source: C. Ericson, Real-Time Collision Detection, 2005, section 5.2.2 and 5.2.3 (the least
+// height of a shape over a plane).
 #pragma once
 
 #include <cstddef>

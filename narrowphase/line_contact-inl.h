@@ -18,8 +18,8 @@ struct ContactLanes {
   F3 arm_a;
 };
 
-// Points on A, the used ones first, and how far B is from there along the normal. Unless two or more
-// are used there is the witness alone.
+// Points on A, the used ones first, and how far B is from there along the normal. Unless two or
+// more are used there is the witness alone.
 struct PointLanes {
   F3 point[4];
   F s[4];
@@ -40,16 +40,15 @@ struct TwoPoints {
   F s[2];
 };
 
-// The witness, or the deeper of the two if that is as deep; and the one farthest from it. `limit` as
-// for reduce().
+// The witness, or the deeper of the two if that is as deep; and the one farthest from it. `limit`
+// as for reduce().
 HWY_INLINE void reduce_line(const ContactLanes& contact, const TwoPoints& two, F touching, F limit,
                             PointLanes& out) {
   witness_only(out);
   const Mask second_is_deeper = hn::Lt(two.s[1], two.s[0]);
   const F deepest = hn::IfThenElse(second_is_deeper, two.s[1], two.s[0]);
   const Mask is_witness =
-      hn::Not(hn::And(is_point(deepest),
-                      hn::Le(deepest, hn::Add(contact.separation, touching))));
+      hn::Not(hn::And(is_point(deepest), hn::Le(deepest, hn::Add(contact.separation, touching))));
   const F3 first =
       select(is_witness, contact.arm_a, select(second_is_deeper, two.point[1], two.point[0]));
   out.point[0] = first;
@@ -131,8 +130,8 @@ HWY_INLINE void touch_plane(const CapsuleLanes& capsule, const Placed& placed,
 }
 
 // From a point along n to where that enters the cylinder about an axis; not beyond its ends.
-HWY_INLINE F enter_cylinder(const F3& point, const F3& n, const F3& start, const F3& axis,
-                            F radius, Mask exists) {
+HWY_INLINE F enter_cylinder(const F3& point, const F3& n, const F3& start, const F3& axis, F radius,
+                            Mask exists) {
   const F zero = splat(0);
   const F one = splat(1);
   const F squared = dot(axis, axis);
@@ -147,8 +146,7 @@ HWY_INLINE F enter_cylinder(const F3& point, const F3& n, const F3& start, const
   const F t = hn::Div(dot(r + n * s, axis), squared);
   const F over = max(max(hn::Neg(t), hn::Sub(t, one)), zero);
   const F reach = hn::Add(hn::Mul(splat(kOverhang), radius), splat(kClipSlack));
-  const Mask ends_well =
-      hn::Le(hn::Mul(hn::Mul(over, over), squared), hn::Mul(reach, reach));
+  const Mask ends_well = hn::Le(hn::Mul(hn::Mul(over, over), squared), hn::Mul(reach, reach));
   const Mask hit = hn::And(hn::And(hn::Ge(left, zero), ends_well), exists);
   return s_where(hn::And(hit, hn::Le(s, splat(kTouchingPoint))), s);
 }
@@ -166,9 +164,8 @@ HWY_INLINE void touch_capsule(const CapsuleLanes& capsule_a, const Placed& place
   const F3 axis = ends[1] - ends[0];
   const F3 turn = cross(along, axis);
   const F squares = hn::Mul(dot(along, along), dot(axis, axis));
-  const Mask same_direction =
-      hn::And(hn::Gt(squares, splat(0)),
-              hn::Le(dot(turn, turn), hn::Mul(splat(kSameDirection), squares)));
+  const Mask same_direction = hn::And(
+      hn::Gt(squares, splat(0)), hn::Le(dot(turn, turn), hn::Mul(splat(kSameDirection), squares)));
   const Mask exists = hn::And(line.exists, same_direction);
   const F rate = dot(along, axis);
   const F3 shift = line.a + n * contact.separation;

@@ -37,9 +37,9 @@ inline SurfaceLine line_towards(const Vector3f& m, const CapsuleShape<float>& ca
   return {a + way, b + way, squared > kEndOn};
 }
 
-// The witness, or the deeper of two other points if that is as deep; and the one farthest from it. One
-// point alone is the witness.
-// Points with an s beyond `touching` do not count; `limit` as for reduce().
+// The witness, or the deeper of two other points if that is as deep; and the one farthest from it.
+// One point alone is the witness. Points with an s beyond `touching` do not count; `limit` as for
+// reduce().
 inline ContactPoints reduce_line(const ScaledContact& contact, const ContactPoints& two,
                                  float touching, float limit) {
   ContactPoint first = {contact.arm_a, contact.separation};

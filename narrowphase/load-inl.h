@@ -263,7 +263,7 @@ struct AabbLanes {
 
   template <Role kRole>
   static HWY_INLINE AabbLanes load(const BatchSide& side, const Listed& bodies,
-                                  const PositionLanes&) {
+                                   const PositionLanes&) {
     size_t offsets[kLanes];  // in bytes
     for (size_t i = 0; i < kLanes; ++i) {
       const size_t body = bodies.template body<kRole>(i);
@@ -281,7 +281,7 @@ struct AabbLanes {
 
   template <Role>
   static HWY_INLINE AabbLanes load(const BatchSide& side, const DenseRows& rows,
-                                  const PositionLanes&) {
+                                   const PositionLanes&) {
     const FloatTag tag;
     const AabbColumns& boxes = side.boxes;
     const size_t row = rows.row;
@@ -359,9 +359,7 @@ struct BoxLanes {
     load_row<kRole, 1>(side, bodies, 0, box.half, unused);
     return box;
   }
-  HWY_INLINE Mask is_ordered() const {
-    return hn::Ge(min(min(half.x, half.y), half.z), splat(0));
-  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(min(min(half.x, half.y), half.z), splat(0)); }
   HWY_INLINE F size() const { return sum_of_sizes(half); }
   HWY_INLINE void clear_unless(Mask keep) { half = zero_unless(keep, half); }
   HWY_INLINE F extent() const { return max(max(half.x, half.y), half.z); }
@@ -374,6 +372,7 @@ struct TriangleLanes {
   F3 a, b, c;
   F thickness;
   Mask is_special;  // thick, one-sided or with inner edges: tested in double precision
+  Mask has_valid_flags;
 
   static bool is_dense(const BatchSide&) { return true; }
 
@@ -388,9 +387,14 @@ struct TriangleLanes {
     const F zero = splat(0);
     triangle.is_special = hn::Or(hn::Or(hn::Ne(triangle.thickness, zero), hn::Ne(one_sided, zero)),
                                  hn::Ne(inner_edges, zero));
+    triangle.has_valid_flags =
+        hn::And(hn::Le(hn::Abs(one_sided), splat(FLT_MAX)),
+                hn::And(hn::Ge(inner_edges, zero), hn::Le(inner_edges, splat(7))));
     return triangle;
   }
-  HWY_INLINE Mask is_ordered() const { return hn::Ge(thickness, splat(0)); }
+  HWY_INLINE Mask is_ordered() const {
+    return hn::And(hn::Ge(thickness, splat(0)), has_valid_flags);
+  }
   HWY_INLINE F size() const {
     return hn::Add(hn::Add(hn::Add(sum_of_sizes(a), sum_of_sizes(b)), sum_of_sizes(c)), thickness);
   }
@@ -434,7 +438,8 @@ struct HalfspaceLanes {
     plane.offset = hn::Div(hn::Mul(plane.offset, down), length);
     return plane;
   }
-  // A normal of zero gives an offset that is not a number, and one too far to count an infinite one.
+  // A normal of zero gives an offset that is not a number, and one too far to count an infinite
+  // one.
   HWY_INLINE Mask is_ordered() const { return hn::Eq(offset, offset); }
   HWY_INLINE F size() const { return hn::Add(sum_of_sizes(normal), hn::Abs(offset)); }
   HWY_INLINE void clear_unless(Mask keep) {

@@ -114,8 +114,8 @@ class ManifoldLoop {
   // Extreme ones are scaled, as everywhere.
   static HWY_INLINE void make_plain(Quaternion& q) {
     const F norm = squared_norm(q);
-    const Mask plain = hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)),
-                               hn::Le(norm, splat(kGreatestSquaredNorm)));
+    const Mask plain =
+        hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
     if (HWY_LIKELY(hn::AllTrue(FloatTag(), plain))) return;
     Quaternion scaled = q;
     clear_unless(hn::Not(no_lanes()), scaled);
@@ -151,18 +151,9 @@ class ManifoldLoop {
 // Pass::manifold of the kernels.
 template <class A, class B>
 void run_manifold(const Batch& batch) {
-  switch (batch.layout) {
-    case PositionLayout::none:
-      if constexpr (A::kKind == ShapeKind::aabb && B::kKind == ShapeKind::aabb) {
-        ManifoldLoop<A, B, NoRecords>::run(batch);
-      }
-      break;
-    case PositionLayout::records32:
-      ManifoldLoop<A, B, Records32>::run(batch);
-      break;
-    case PositionLayout::records64:
-      ManifoldLoop<A, B, Records64>::run(batch);
-      break;
+  if (batch.layout != PositionLayout::none) return ManifoldLoop<A, B, AnyRecords>::run(batch);
+  if constexpr (A::kKind == ShapeKind::aabb && B::kKind == ShapeKind::aabb) {
+    ManifoldLoop<A, B, NoRecords>::run(batch);
   }
 }
 

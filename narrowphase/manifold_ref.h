@@ -2,6 +2,9 @@
 // along the contact's normal cover one another.
 #pragma once
 
+#include <type_traits>
+#include <variant>
+
 #include "carom/kernel/contact.h"
 #include "narrowphase/line_contact_ref.h"
 #include "narrowphase/reduce_ref.h"
@@ -36,9 +39,9 @@ inline ContactPoints or_witness(const ContactPoints& points, const ScaledContact
 }
 
 template <AnyBox A, AnyBox B>
-  requires(std::is_same_v<A, AabbShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
-ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
-                       const ScaledContact& contact) {
+requires(std::is_same_v<A, AabbShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
+    ContactPoints
+    manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
   const Rectangle other = face_towards(-contact.normal, b, placed.b);
   const ClipPoints points = reduce(clip(face, other, contact.normal), kSamePoint);
@@ -102,8 +105,8 @@ inline ContactPoints manifold(const CapsuleShape<float>& a, const HalfspaceShape
   return touch_plane(a, placed.a, contact);
 }
 
-// The corners of a face over a plane, measured from the lowest of them: however far the plane's body
-// is, that rounds no more than the shape itself.
+// The corners of a face over a plane, measured from the lowest of them: however far the plane's
+// body is, that rounds no more than the shape itself.
 template <AnyBox A>
 ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
                        const ScaledContact& contact) {
@@ -160,11 +163,11 @@ concept HasFaces = requires(A a, B b, PlacedPair placed, ScaledContact contact) 
   manifold(a, b, placed, contact);
 };
 
-inline const Rotation<float> kNotTurned = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+inline Rotation<float> not_turned() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
 
 template <class Shape>
 Placed placed_at(const Vector3f& origin, const Quaternion<float>& q) {
-  if constexpr (std::is_same_v<Shape, AabbShape<float>>) return {kNotTurned, origin};
+  if constexpr (std::is_same_v<Shape, AabbShape<float>>) return {not_turned(), origin};
   return {rotation_of(q), origin};
 }
 
@@ -181,9 +184,9 @@ inline Manifold in_metres(const ContactPoints& points, const ScaledContact& cont
 
 // The shapes in the order of the list of pairs.
 template <class A, class B>
-  requires HasFaces<A, B>
-Manifold manifold_in_order(const A& a, const B& b, const PairPose<float>& pose,
-                           const Separation& contact) {
+requires HasFaces<A, B> Manifold manifold_in_order(const A& a, const B& b,
+                                                   const PairPose<float>& pose,
+                                                   const Separation& contact) {
   const Scale scale = scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
   const ScaledContact scaled = {contact.separation * scale.down, contact.normal,
                                 contact.arm_a * scale.down};
@@ -235,8 +238,8 @@ Manifold manifold_of_kinds(const A& a, const B& b, const PairPose<float>& pose,
 }
 
 // Of an overlap: in metres, on A's surface, relative to its position.
-inline Manifold manifold_of(const Shape& shape_a, const Shape& shape_b,
-                            const PairPose<float>& pose, const Separation& contact) {
+inline Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<float>& pose,
+                            const Separation& contact) {
   return std::visit(
       [&](const auto& a, const auto& b) {
         return manifold_of_kinds(shape_as<float>(a), shape_as<float>(b), pose, contact);

@@ -272,9 +272,7 @@ class BlockRunner {
 
   template <class T>
   static std::array<float, 3> difference(const Position<T>& a, const Position<T>& b) {
-    const auto finite = [](T x) {
-      return std::clamp(static_cast<float>(x), -FLT_MAX, FLT_MAX);
-    };
+    const auto finite = [](T x) { return std::clamp(static_cast<float>(x), -FLT_MAX, FLT_MAX); };
     return {finite(b.x - a.x), finite(b.y - a.y), finite(b.z - a.z)};
   }
 
@@ -339,8 +337,8 @@ ResultColumns from_row(const ResultColumns& columns, size_t row) {
   const auto shift3 = [&shift](const std::array<float*, 3>& c) -> std::array<float*, 3> {
     return {shift(c[0]), shift(c[1]), shift(c[2])};
   };
-  return {shift(columns.overlap), shift(columns.status),   shift(columns.separation),
-          shift3(columns.normal), shift3(columns.point_a), shift3(columns.point_b),
+  return {shift(columns.overlap),        shift(columns.status),   shift(columns.separation),
+          shift3(columns.normal),        shift3(columns.point_a), shift3(columns.point_b),
           shift(columns.manifold_count), shift(columns.manifold)};
 }
 

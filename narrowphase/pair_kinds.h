@@ -50,9 +50,8 @@ inline constexpr auto kPairKindTable = [] {
 constexpr PairKindRef find_pair_kind(ShapeKind a, ShapeKind b) {
   const auto row = static_cast<size_t>(a);
   const auto column = static_cast<size_t>(b);
-  return row < kPairKindTable.size() && column < kPairKindTable.size()
-             ? kPairKindTable[row][column]
-             : PairKindRef{};
+  return row < kPairKindTable.size() && column < kPairKindTable.size() ? kPairKindTable[row][column]
+                                                                       : PairKindRef{};
 }
 
 }  // namespace carom

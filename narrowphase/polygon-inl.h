@@ -51,8 +51,7 @@ struct TriangleFace {
 };
 
 template <class Shape>
-inline constexpr bool kIsBox =
-    std::is_same_v<Shape, AabbLanes> || std::is_same_v<Shape, BoxLanes>;
+concept AnyBox = std::is_same_v<Shape, AabbLanes> || std::is_same_v<Shape, BoxLanes>;
 
 HWY_INLINE F3 pick(const AxisMasks& axis, const F3& x, const F3& y, const F3& z) {
   return select(axis.x, x, select(axis.y, y, z));
@@ -71,7 +70,7 @@ HWY_INLINE void pick_bounds(const AxisMasks& axis, const BoxLanes& box, F& lower
 }
 
 // The face whose normal is nearest to m; of equals that of the first axis.
-template <class Box>
+template <AnyBox Box>
 HWY_INLINE void face_towards(const F3& m, const Box& box, const Placed& placed, Rectangle& face) {
   const Rotation& turn = placed.turn;
   const F3 along = rotate_back(turn, m);

@@ -92,8 +92,8 @@ inline TriangleFace triangle_face(const std::array<Vector3f, 3>& corners) {
     squares[i] = dot(edges[i], edges[i]);
   }
   const size_t first = squares[0] >= squares[1] && squares[0] >= squares[2] ? 0
-                       : squares[1] >= squares[2]                          ? 1
-                                                                           : 2;
+                       : squares[1] >= squares[2]                           ? 1
+                                                                            : 2;
   const Vector3f along = edges[first];
   const Vector3f back = edges[(first + 2) % 3];
   const float squared_length = squares[first];

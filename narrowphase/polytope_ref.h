@@ -1,5 +1,5 @@
-// Shapes as the hull of a few points, grown by a radius: for tests in double precision that take any
-// two of them, clear rather than fast.
+// Shapes as the hull of a few points, grown by a radius: for tests in double precision that take
+// any two of them, clear rather than fast.
 #pragma once
 
 #include <array>
@@ -43,9 +43,9 @@ struct PolytopeEdge {
 
 // Of a triangle: what its front and its inner edges exclude.
 struct FrontRules {
-  Vector3d front = Vector3d::Zero();  // unit; zero: there is no front, and no rule
+  Vector3d front = Vector3d::Zero();   // unit; zero: there is no front, and no rule
   Vector3d corner = Vector3d::Zero();  // the first
-  std::array<Vector3d, 2> sides;      // from there to the others
+  std::array<Vector3d, 2> sides;       // from there to the others
   double thickness = 0;
   bool one_sided = false;
   uint8_t inner_edges = 0;

@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
 template <size_t kCount>
-HWY_INLINE void move_where(Mask mask, const ClipPoints<kCount>& from, size_t i,
-                           ClipPoints<4>& to, size_t k) {
+HWY_INLINE void move_where(Mask mask, const ClipPoints<kCount>& from, size_t i, ClipPoints<4>& to,
+                           size_t k) {
   to.x[k] = hn::IfThenElse(mask, from.x[i], to.x[k]);
   to.y[k] = hn::IfThenElse(mask, from.y[i], to.y[k]);
   to.s[k] = hn::IfThenElse(mask, from.s[i], to.s[k]);
@@ -27,7 +27,7 @@ HWY_INLINE void put_deepest(const ClipPoints<kCount>& all, ClipPoints<4>& few) {
   for (size_t i = 1; i < kCount; ++i) move_where(hn::Lt(all.s[i], few.s[0]), all, i, few, 0);
 }
 
-// The square of how far the second is from the first.
+// The square of how far the second is from the first. What is no point fails every comparison.
 template <size_t kCount>
 HWY_INLINE F put_farthest(const ClipPoints<kCount>& all, ClipPoints<4>& few) {
   const F x = few.x[0];
@@ -41,7 +41,7 @@ HWY_INLINE F put_farthest(const ClipPoints<kCount>& all, ClipPoints<4>& few) {
     const F dy = hn::Sub(all.y[i], y);
     const F squared = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
     move_where(hn::Gt(squared, farthest), all, i, few, 1);
-    farthest = max(squared, farthest);  // not of what is not a number
+    farthest = max(squared, farthest);
   }
   return farthest;
 }
@@ -69,9 +69,9 @@ HWY_INLINE void put_sides(const ClipPoints<kCount>& all, ClipPoints<4>& few, F& 
   }
 }
 
-// Up to four: the deepest, the one farthest from it, and on either side of the line through them the
-// one farthest from that. `limit`: the square of the distance at which points are one. Those that are
-// used come first; if the first is not, there are none.
+// Up to four: the deepest, the one farthest from it, and on either side of the line through them
+// the one farthest from that. `limit`: the square of the distance at which points are one. Those
+// that are used come first; if the first is not, there are none.
 template <size_t kCount>
 HWY_INLINE void reduce(const ClipPoints<kCount>& all, F limit, ClipPoints<4>& few,
                        Mask (&used)[4]) {

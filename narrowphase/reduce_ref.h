@@ -5,8 +5,8 @@
 
 namespace carom::reference {
 
-// Up to four: the deepest, the one farthest from it, and on either side of the line through them the
-// one farthest from that. `limit`: the square of the distance at which points are one.
+// Up to four: the deepest, the one farthest from it, and on either side of the line through them
+// the one farthest from that. `limit`: the square of the distance at which points are one.
 inline ClipPoints reduce(const ClipPoints& all, float limit) {
   if (all.empty()) return {};
   ClipPoint first = all[0];

@@ -21,20 +21,9 @@ struct AnswerLanes {
   F3 normal, arm_a, arm_b;
 };
 
-// The frame of witness points: known to the compiler, or looked up in the batch.
-struct BodyFrame {
-  static HWY_INLINE bool is_world(const Batch&) { return false; }
-};
-struct WorldFrame {
-  static HWY_INLINE bool is_world(const Batch&) { return true; }
-};
-struct AnyFrame {
-  static HWY_INLINE bool is_world(const Batch& batch) { return batch.frame == WitnessFrame::world; }
-};
-
 // Writes columns at Detail::overlap or Detail::contact. Kernels may report in other units than
 // metres.
-template <class Kernel, bool kHasLow, Detail kDetail, class Frame>
+template <class Kernel, bool kHasLow, Detail kDetail>
 struct LaneReport {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
@@ -50,6 +39,8 @@ struct LaneReport {
   HWY_INLINE void operator()(Mask overlap, Mask unsure, Mask degenerate, F separation,
                              const F3& normal, const F3& arm_a, const F3& arm_b) const {
     AnswerLanes answer = in_metres(separation, normal, arm_a, arm_b);
+    // What is a gap in other units may be none in metres.
+    if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
     refine(hn::And(unsure, valid), answer, overlap, degenerate);
     I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
     if (HWY_UNLIKELY(is_odd)) blot_out_invalid(answer, overlap, status);
@@ -69,7 +60,7 @@ struct LaneReport {
   HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
     if constexpr (Kernel::kUnsure == Unsure::nothing) return;
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
-    if constexpr (Kernel::kUnsure == Unsure::separation || kDetail == Detail::overlap) {
+    if constexpr (Kernel::kUnsure == Unsure::separation) {
       answer.separation = refined(unsure, answer.separation);
     } else {
       AnswerLanes in_memory = answer;  // `answer` itself stays in registers
@@ -114,14 +105,12 @@ struct LaneReport {
     constexpr size_t kColumns = 11;
     HWY_ALIGN float values[kColumns][kLanes];
     F* const columns[kColumns - 1] = {
-        &answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z,
-        &answer.arm_a.x,    &answer.arm_a.y,  &answer.arm_a.z,  &answer.arm_b.x,
-        &answer.arm_b.y,    &answer.arm_b.z};
+        &answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z, &answer.arm_a.x,
+        &answer.arm_a.y,    &answer.arm_a.z,  &answer.arm_b.x,  &answer.arm_b.y,  &answer.arm_b.z};
     for (size_t c = 0; c + 1 < kColumns; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
     hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kColumns - 1]);
     for_each_lane(unsure, [&](size_t i) {
-      const std::array<float, kColumns> exact =
-          exact_answer(source, A::kKind, B::kKind, row + i);
+      const std::array<float, kColumns> exact = exact_answer(source, A::kKind, B::kKind, row + i);
       for (size_t c = 0; c < kColumns; ++c) values[c][i] = exact[c];
     });
     for (size_t c = 0; c + 1 < kColumns; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
@@ -138,7 +127,7 @@ struct LaneReport {
   }
 
   HWY_INLINE F3 witness(const F3& position, const F3& low, const F3& arm) const {
-    if (!Frame::is_world(batch)) return arm;
+    if (batch.frame == WitnessFrame::body) return arm;
     if constexpr (kHasLow) return position + (low + arm);
     return position + arm;
   }

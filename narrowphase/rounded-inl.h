@@ -23,8 +23,7 @@ template <class Report>
 HWY_INLINE void report_grown(const F3& core_a, const F3& core_b, const F3& normal, F distance,
                              F radius_a, F radius_b, const PoseLanes& pose, Mask unsure,
                              Mask degenerate, Report& report) {
-  const F separation =
-      hn::Sub(hn::Sub(distance, max(radius_a, radius_b)), min(radius_a, radius_b));
+  const F separation = hn::Sub(hn::Sub(distance, max(radius_a, radius_b)), min(radius_a, radius_b));
   report(hn::Le(separation, splat(0)), hn::Or(unsure, is_near_touch(separation)), degenerate,
          separation, normal, core_a + normal * radius_a, (core_b - pose.d) - normal * radius_b);
 }

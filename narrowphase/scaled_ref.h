@@ -36,7 +36,8 @@ SeparationAs<Real> in_scaled_units(const A& a, const B& b, const PairPose<Real>&
 // To the nearest float, except that what is not zero keeps its sign.
 inline float round_separation(double separation) {
   constexpr float kSmallest = std::numeric_limits<float>::denorm_min();
-  if (separation > kLargest) return std::isinf(separation) ? static_cast<float>(separation) : kLargest;
+  if (separation > kLargest)
+    return std::isinf(separation) ? static_cast<float>(separation) : kLargest;
   if (separation < -double{kLargest}) return -kLargest;
   const auto rounded = static_cast<float>(separation);
   return separation > 0 && rounded < kSmallest ? kSmallest : rounded;

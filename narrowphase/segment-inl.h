@@ -21,9 +21,9 @@ HWY_INLINE F clamped_ratio(F a, F b) {
 // Neither of the two ends.
 HWY_INLINE Mask is_inside(F t) { return hn::And(hn::Gt(t, splat(0)), hn::Lt(t, splat(1))); }
 
-// The point of the segment from a to b that is nearest to p, and the way there: where that is not an
-// end (`is_across`) it is perpendicular to the segment, since what rounding leaves along it would
-// tilt the normal.
+// The point of the segment from a to b that is nearest to p, and the way there: where that is not
+// an end (`is_across`) it is perpendicular to the segment, since what rounding leaves along it
+// would tilt the normal.
 HWY_INLINE void nearest_on_segment(const F3& p, const F3& a, const F3& b, F3& point, F3& delta,
                                    Mask& is_across) {
   const F3 d = b - a;
@@ -35,8 +35,9 @@ HWY_INLINE void nearest_on_segment(const F3& p, const F3& a, const F3& b, F3& po
   delta = select(is_across, way - d * hn::Div(dot(way, d), squared), way);
 }
 
-// Where p + d s and q + e t, r being q - p, are nearest, and the way there. The first s in a form that
-// keeps the error of the distance at that of the coordinates, however near parallel the two are.
+// Where p + d s and q + e t, r being q - p, are nearest, and the way there. The first s in a form
+// that keeps the error of the distance at that of the coordinates, however near parallel the two
+// are.
 HWY_INLINE void nearest_of_segments(const F3& r, const F3& d, F dd, const F3& e, F ee, F& s, F& t,
                                     F3& delta) {
   const F3 n = cross(d, e);
@@ -52,8 +53,8 @@ HWY_INLINE Mask way_between(const F3& d, F dd, const F3& e, F ee, F s, F t, cons
                             F3& way) {
   using Tolerance = CoreTolerance<float>;
   const F3 n = cross(d, e);
-  const F least = max(hn::Mul(splat(Tolerance::kParallel), hn::Mul(dd, ee)),
-                      splat(Tolerance::kVanishing));
+  const F least =
+      max(hn::Mul(splat(Tolerance::kParallel), hn::Mul(dd, ee)), splat(Tolerance::kVanishing));
   const Mask in_d = is_inside(s);
   const Mask in_e = is_inside(t);
   const Mask across = hn::And(hn::And(in_d, in_e), hn::Gt(dot(n, n), least));
@@ -67,8 +68,7 @@ HWY_INLINE Mask way_between(const F3& d, F dd, const F3& e, F ee, F s, F t, cons
 
 // Some unit vector perpendicular to d; +x if d is zero.
 HWY_INLINE F3 any_perpendicular(const F3& d) {
-  const AxisMasks axis =
-      least_axis({hn::Abs(d.x), hn::Abs(d.y), hn::Abs(d.z)});
+  const AxisMasks axis = least_axis({hn::Abs(d.x), hn::Abs(d.y), hn::Abs(d.z)});
   const F zero = splat(0);
   const F3 v = select(axis.x, {zero, hn::Neg(d.z), d.y},
                       select(axis.y, {d.z, zero, hn::Neg(d.x)}, {hn::Neg(d.y), d.x, zero}));

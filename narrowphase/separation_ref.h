@@ -23,10 +23,11 @@ struct SeparationAs {
 
 using Separation = SeparationAs<float>;
 
-// The same with A and B exchanged.
+// The same with A and B exchanged. NaN (no answer) stays the one NaN it is.
 template <class Real>
 SeparationAs<Real> flipped(const SeparationAs<Real>& s) {
-  return {s.separation, -s.normal, s.arm_b, s.arm_a, s.status, s.is_unsure};
+  const auto negated = [](Real x) { return x == x ? -x : x; };
+  return {s.separation, s.normal.unaryExpr(negated), s.arm_b, s.arm_a, s.status, s.is_unsure};
 }
 
 }  // namespace carom::reference

@@ -60,7 +60,8 @@ struct TriangleShape {
                max(largest_component(corners[2]), thickness));
   }
   TriangleShape scaled(Real s) const {
-    return {{corners[0] * s, corners[1] * s, corners[2] * s}, thickness * s, one_sided, inner_edges};
+    return {
+        {corners[0] * s, corners[1] * s, corners[2] * s}, thickness * s, one_sided, inner_edges};
   }
 };
 

@@ -112,8 +112,8 @@ bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_
 }
 
 float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
-  const bool of_sphere = kind_a == ShapeKind::sphere &&
-                         (kind_b == ShapeKind::sphere || kind_b == ShapeKind::aabb);
+  const bool of_sphere =
+      kind_a == ShapeKind::sphere && (kind_b == ShapeKind::sphere || kind_b == ShapeKind::aabb);
   if (of_sphere) return sphere_separation(batch, kind_b, row);
   return reference::round_separation(exact_separation(batch, kind_a, kind_b, row).separation);
 }
@@ -121,8 +121,16 @@ float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind
 std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
                                    size_t row) {
   const auto s = reference::rounded(exact_separation(batch, kind_a, kind_b, row));
-  return {s.separation, s.normal.x(), s.normal.y(), s.normal.z(), s.arm_a.x(), s.arm_a.y(),
-          s.arm_a.z(),  s.arm_b.x(),  s.arm_b.y(),  s.arm_b.z(),
+  return {s.separation,
+          s.normal.x(),
+          s.normal.y(),
+          s.normal.z(),
+          s.arm_a.x(),
+          s.arm_a.y(),
+          s.arm_a.z(),
+          s.arm_b.x(),
+          s.arm_b.y(),
+          s.arm_b.z(),
           s.status == Status::degenerate ? 1.0f : 0.0f};
 }
 

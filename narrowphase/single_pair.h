@@ -16,8 +16,8 @@ bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_
 // sign is right unless the gap is below about 1e-15 of the pair's size. Both bodies are valid.
 float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);
 
-// The whole answer of row `row` in double precision, rounded once: separation, normal, arm_a, arm_b,
-// and 1 if the status is degenerate. Both bodies are valid.
+// The whole answer of row `row` in double precision, rounded once: separation, normal, arm_a,
+// arm_b, and 1 if the status is degenerate. Both bodies are valid.
 std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
                                    size_t row);
 

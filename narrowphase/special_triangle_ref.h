@@ -1,27 +1,27 @@
 // Triangles that are thick, one-sided or inside a mesh, against any convex shape, in double
 // precision: pairs are rare, and tested one at a time.
 //
-// The separation of convex shapes is the greatest gap between their projections, over all directions:
-// a distance if they are apart, the least way out if they overlap. It is attained in one of few
-// directions: normals of faces, common normals of edges and, if the shapes are apart, the ways from
-// points to edges and points. All of them are tried.
+// The separation of convex shapes is the greatest gap between their projections, over all
+// directions: a distance if they are apart, the least way out if they overlap. It is attained in
+// one of few directions: normals of faces, common normals of edges and, if the shapes are apart,
+// the ways from points to edges and points. All of them are tried.
 //
 //   thickness    The shape is the prism between the triangle and its copy moved by the thickness
 //                against the unit normal of the front.
 //   one_sided    What comes from behind does not collide: if the middle of the other shape (of its
 //                segment, box or corners) lies behind the triangle's back, the pair never touches:
-//                its separation is infinite, its normal and points are not numbers. Half-spaces have
-//                no middle: they come from behind if their normal looks to the front's side.
+//                its separation is infinite, its normal and points are not numbers. Half-spaces
+//                have no middle: they come from behind if their normal looks to the front's side.
 //                All others leave towards the front's side.
 //   inner_edges  Nothing leaves over an inner edge, or over a corner between two of them: contacts
 //                there have the normal of the face, and the separation is measured along it.
 //
-// The last two choose the way out of overlaps: whether shapes overlap, and how far they are apart if
-// they do not, they leave alone. Where they leave no way at all they do not count. A triangle without
-// area has no front, and none of the three.
+// Apart from what comes from behind, the last two change neither whether shapes overlap nor how far
+// they are apart: they choose the way out of overlaps. Where no way is left they do not count. A
+// triangle without area has no front, and none of the three.
 //
-// Sources: C. Ericson, Real-Time Collision Detection, 2005, sections 5.2.1 and 5.4.3 (separating
-// axes); S. Cameron and R. Culley, Determining the Minimum Translational Distance between Two Convex
+// Sources: C. Ericson, Real-Time Collision Detection, 2005, section 5.2.1 (separating axes);
+// S. Cameron and R. Culley, Determining the Minimum Translational Distance between Two Convex
 // Polyhedra, ICRA 1986 (which directions suffice).
 #pragma once
 
@@ -171,8 +171,8 @@ class GapSearch {
 };
 
 // Of two flat convex sets that lie in planes across n, given by points: the middle of where they
-// meet, seen along n, in the plane of the first. Of sets that do not meet, of the first's points that
-// are nearest.
+// meet, seen along n, in the plane of the first. Of sets that do not meet, of the first's points
+// that are nearest.
 class Meeting {
  public:
   using Points = FewOf<Vector3d, 8>;
@@ -317,9 +317,25 @@ SeparationAs<double> separation_of(const A& a, const TriangleShape<double>& b,
 inline std::array<double, 19> numbers_of(const TriangleShape<double>& t,
                                          const Quaternion<double>& q, const Vector3d& d) {
   const auto& [a, b, c] = t.corners;
-  return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z(), t.thickness,
-          t.one_sided ? 1.0 : 0.0, double{t.inner_edges}, q.v.x(), q.v.y(), q.v.z(), q.w,
-          d.x(), d.y(), d.z()};
+  return {a.x(),
+          a.y(),
+          a.z(),
+          b.x(),
+          b.y(),
+          b.z(),
+          c.x(),
+          c.y(),
+          c.z(),
+          t.thickness,
+          static_cast<double>(t.one_sided),
+          static_cast<double>(t.inner_edges),
+          q.v.x(),
+          q.v.y(),
+          q.v.z(),
+          q.w,
+          d.x(),
+          d.y(),
+          d.z()};
 }
 
 // In one order, whichever is asked for: the rules may turn a rounding into another way out.

@@ -20,7 +20,8 @@ struct SphereAabb {
   static constexpr Unsure kUnsure = Unsure::separation;
 
   template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& sphere, const B& box, Report& report) {
+  static HWY_INLINE void test(const PoseLanes& pose, const A& sphere, const B& box,
+                              Report& report) {
     const F3 centre = -pose.d;  // in the frame of the box
     const F3 nearest = min(max(centre, box.lower), box.upper);
     const Length outside = measure(clamp_to_finite(nearest - centre));

@@ -22,8 +22,8 @@ SeparationAs<Real> separation(const SphereShape<Real>& sphere, const CapsuleShap
   // A centre on the segment may leave in any direction across it.
   const Real least = nearest.is_across ? kNearSegment<Real> : Real(kCoincident);
   const bool coincide = distance <= least;
-  const Vector3<Real> normal = coincide ? any_perpendicular<Real>(b - a)
-                                        : Vector3<Real>(nearest.delta * (1 / distance));
+  const Vector3<Real> normal =
+      coincide ? any_perpendicular<Real>(b - a) : Vector3<Real>(nearest.delta * (1 / distance));
   SeparationAs<Real> result =
       grown(centre, nearest.point, normal, distance, sphere.radius, capsule.radius, pose);
   result.is_unsure = result.is_unsure || coincide;

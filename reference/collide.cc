@@ -5,8 +5,8 @@
 #include "carom/reference/reference.h"
 #include "kernel/body_reader.h"
 #include "kernel/float_environment.h"
-#include "narrowphase/manifold_ref.h"
 #include "narrowphase/any_pair_ref.h"
+#include "narrowphase/manifold_ref.h"
 
 namespace carom::reference {
 namespace {
@@ -70,12 +70,12 @@ PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_
   }
   const Poses poses = positions == PositionType::float32 ? poses_of<float>(pose_a, pose_b)
                                                          : poses_of<double>(pose_a, pose_b);
-  const Separation s = std::visit(
-      [&](const auto& a, const auto& b) { return test(a, b, poses); }, shape_a, shape_b);
+  const Separation s =
+      std::visit([&](const auto& a, const auto& b) { return test(a, b, poses); }, shape_a, shape_b);
   const bool overlap = s.separation <= 0;
   const Manifold manifold = overlap ? manifold_of(shape_a, shape_b, poses.rounded, s) : Manifold{};
-  return {overlap, s.status, s.separation, s.normal, s.arm_a, s.arm_b, manifold.count,
-          manifold.points};
+  return {overlap, s.status, s.separation,   s.normal,
+          s.arm_a, s.arm_b,  manifold.count, manifold.points};
 }
 
 }  // namespace carom::reference

@@ -1,4 +1,5 @@
-// In double precision, whose own rounding is added before the result is rounded outwards to float32.
+// In double precision, whose own rounding is added before the result is rounded outwards to
+// float32.
 //
 // Source of the extent of a box: C. Ericson, Real-Time Collision Detection, 2005, section 4.2.6.
 #include "reference/turned_extent.h"

@@ -218,10 +218,11 @@ def streams_page(report):
     yield (f"{machine(context)}; Bullet {context['libraries']['bullet']} as the distribution "
            f"compiled it, called from files compiled with `{context['peer_flags']}`; "
            f"{build(context)}.\n")
-    yield ("Nanoseconds a pair, median of the passes over a stream; all in one run, in turns, on "
-           "one thread. `reference`: Carom's scalar reference, which always finds everything; then "
-           "Carom on every instruction set. `x Bullet`: how many times faster than Bullet the "
-           "strongest is. `must` and `aim` are targets for it, bold where reached.\n")
+    yield ("Nanoseconds of processor time a pair, median of the passes over a stream; all in one "
+           "run, in turns, on one thread. `reference`: Carom's scalar reference, which always "
+           "finds everything; then Carom on every instruction set. `x Bullet`: how many times "
+           "faster than Bullet the strongest is. `must` and `aim` are targets for it, bold where "
+           "reached.\n")
     yield from streams_table(streams, isas)
     yield ("\nA stream holds random pairs, half of which overlap; the others are near misses: at "
            "most 1.3 times as far off as bounds that touch. Sizes are from 0.25 to 2 m, "

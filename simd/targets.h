@@ -3,8 +3,15 @@
 
 // The ISAs that FORMATS names: emulated scalar, SSE4, AVX2, AVX-512, NEON. The others would add
 // compile time and no speed (SSSE3, the VNNI flavour of AVX-512) or have vectors of unknown length.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+// Builds that are slow to compile and run (sanitizers) have the scalar target and AVX2 alone.
+#ifdef CAROM_FEW_TARGETS
+#define CAROM_LEFT_OUT_TARGETS (HWY_SSE4 | HWY_AVX3)
+#else
+#define CAROM_LEFT_OUT_TARGETS 0
+#endif
+#define HWY_DISABLED_TARGETS                                                             \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV | \
+   CAROM_LEFT_OUT_TARGETS)
 
 // The scalar target is one plain float a lane with every compiler: Highway's emulated 128-bit
 // vectors, the other choice, are miscompiled by g++ before 12.3.

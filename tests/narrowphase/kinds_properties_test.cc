@@ -23,7 +23,16 @@ double rounding(const TestPair& pair, const Result& result) {
   return 4e-6 * (size_of(pair) + std::fabs(result.separation)) + 0x1p-143;
 }
 
+// NaN is NaN: that is the normal of what a one-sided triangle does not meet.
+void expect_same(const Eigen::Vector3f& x, const Eigen::Vector3f& y) {
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(x[i] == y[i] || (std::isnan(x[i]) && std::isnan(y[i]))) << hex3(x) << "\n"
+                                                                        << hex3(y);
+  }
+}
+
 void expect_close(const TestPair& pair, const Result& result, const Result& other) {
+  if (result.separation == other.separation) return;
   EXPECT_NEAR(result.separation, other.separation, rounding(pair, result));
   if (std::fabs(result.separation) > rounding(pair, result)) {
     EXPECT_EQ(result.overlap, other.overlap);
@@ -51,9 +60,9 @@ void expect_mirrored(const Result& result, const Result& other) {
   EXPECT_EQ(result.overlap, other.overlap);
   EXPECT_EQ(result.status, other.status);
   EXPECT_EQ(result.separation, other.separation);
-  EXPECT_EQ(result.normal, Eigen::Vector3f(-other.normal));
-  EXPECT_EQ(result.arm_a, other.arm_b);
-  EXPECT_EQ(result.arm_b, other.arm_a);
+  expect_same(result.normal, -other.normal);
+  expect_same(result.arm_a, other.arm_b);
+  expect_same(result.arm_b, other.arm_a);
   EXPECT_EQ(result.manifold_count, other.manifold_count);
   EXPECT_EQ(result.manifold.separation, other.manifold.separation);
 }
@@ -68,7 +77,9 @@ void expect_mirrored_points(const TestPair& pair, PositionType positions, const 
     const Eigen::Vector3d on_b =
         Eigen::Map<const Eigen::Vector3f>(other.manifold.point[i].data()).cast<double>();
     const Eigen::Vector3d way = result.normal.cast<double>() * result.manifold.separation[i];
-    EXPECT_LE((on_a + way - d - on_b).norm(), rounding(pair, result)) << "manifold point " << i;
+    // The sum is in float32, and bodies may be far from a half-space.
+    const double tolerance = rounding(pair, result) + 0x1p-22 * d.norm();
+    EXPECT_LE((on_a + way - d - on_b).norm(), tolerance) << "manifold point " << i;
   }
 }
 
@@ -182,9 +193,9 @@ void expect_scaled(const Result& result, const Result& other, float factor) {
   EXPECT_EQ(other.overlap, result.overlap);
   EXPECT_EQ(other.status, result.status);
   EXPECT_EQ(other.separation, result.separation * factor);
-  EXPECT_EQ(other.normal, result.normal);
-  EXPECT_EQ(other.arm_a, Eigen::Vector3f(result.arm_a * factor));
-  EXPECT_EQ(other.arm_b, Eigen::Vector3f(result.arm_b * factor));
+  expect_same(other.normal, result.normal);
+  expect_same(other.arm_a, result.arm_a * factor);
+  expect_same(other.arm_b, result.arm_b * factor);
   ASSERT_EQ(other.manifold_count, result.manifold_count);
   for (size_t i = 0; i < result.manifold_count; ++i) {
     EXPECT_EQ(other.manifold.separation[i], result.manifold.separation[i] * factor);
@@ -192,6 +203,11 @@ void expect_scaled(const Result& result, const Result& other, float factor) {
       EXPECT_EQ(other.manifold.point[i][k], result.manifold.point[i][k] * factor);
     }
   }
+}
+
+// Beside the origin there are numbers that small factors would take out of the range of floats.
+bool is_ordinary(const PlacedShape& body) {
+  return ((body.position.array() == 0) || (body.position.array().abs() > 1e-20)).all();
 }
 
 // Arithmetic in powers of two is exact: so is the world at another scale.
@@ -202,6 +218,7 @@ TEST(KindsProperties, ScalingByAPowerOfTwoScalesTheResult) {
       std::vector<TestPair> pairs = make_kind_pairs(family, kinds, PositionType::float32, 15);
       vary_triangles(pairs);
       for (const TestPair& pair : pairs) {
+        if (!is_ordinary(pair.a) || !is_ordinary(pair.b)) continue;
         SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
         const Result result = reference_result(pair, PositionType::float32);
         for (const float factor : {0x1p-40f, 0x1p-3f, 0x1p-1f, 0x1p1f, 0x1p7f, 0x1p40f}) {

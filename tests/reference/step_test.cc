@@ -307,7 +307,7 @@ TEST(ReferenceStep, HalfspacesMeetWhatReachesIntoThem) {
         }
       }
       EXPECT_EQ(frame.pairs, expected);
-      EXPECT_GT(expected.size(), 300u);
+      EXPECT_GT(expected.size(), 200u);
       // Boxes along the axes fill their bounds.
       EXPECT_EQ(frame.overlaps, std::vector<uint8_t>(expected.size(), 1));
     }

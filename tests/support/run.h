@@ -1,6 +1,7 @@
 // Calls the library on pairs laid out in guarded memory.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -61,21 +62,42 @@ inline std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& ca
   return columns.rows();
 }
 
-// All bodies in one set, the second sides before the first ones, and a list of pairs.
-inline std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call) {
-  std::vector<PlacedShape> bodies = side_b(pairs);
-  const std::vector<PlacedShape> firsts = side_a(pairs);
-  bodies.insert(bodies.end(), firsts.begin(), firsts.end());
-  const auto count = static_cast<uint32_t>(pairs.size());
-  GuardedArray list(pairs.size(), sizeof(Pair), sizeof(Pair));
-  for (uint32_t i = 0; i < count; ++i) list.set(i, Pair{count + i, i});
-  const LaidOut set(bodies, call.layout_a);
-  Columns columns(pairs.size(), call.missing);
+inline bool hold_halfspaces(std::span<const PlacedShape> bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const PlacedShape& body) {
+    return kind_of(body.shape) == ShapeKind::halfspace;
+  });
+}
+
+// Row i of the list is pair i; `to_first` and `to_second` say where its bodies are in their sets.
+template <class First, class Second>
+std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, const Call& call,
+                           const First& to_first, const Second& to_second) {
+  GuardedArray list(count, sizeof(Pair), sizeof(Pair));
+  for (uint32_t i = 0; i < count; ++i) list.set(i, Pair{to_first(i), to_second(i)});
+  Columns columns(count, call.missing);
   expect_success(call, [&] {
-    return carom::collide(set.view(), set.view(), std::span(list.as<Pair>(), pairs.size()),
-                          call.detail, columns.out(), call.frame, call.parallelism);
+    return carom::collide(a.view(), b.view(), std::span(list.as<Pair>(), count), call.detail,
+                          columns.out(), call.frame, call.parallelism);
   });
   return columns.rows();
+}
+
+// All bodies in one set, the second sides before the first ones, and a list of pairs. Sets that
+// hold half-spaces cannot meet themselves: then there are two, one of them backwards.
+inline std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call) {
+  std::vector<PlacedShape> firsts = side_a(pairs);
+  std::vector<PlacedShape> seconds = side_b(pairs);
+  const auto count = static_cast<uint32_t>(pairs.size());
+  const auto same = [](uint32_t i) { return i; };
+  if (hold_halfspaces(firsts) || hold_halfspaces(seconds)) {
+    std::reverse(seconds.begin(), seconds.end());
+    return run_pairs(LaidOut(firsts, call.layout_a), LaidOut(seconds, call.layout_b), count, call,
+                     same, [&](uint32_t i) { return count - 1 - i; });
+  }
+  seconds.insert(seconds.end(), firsts.begin(), firsts.end());
+  const LaidOut set(seconds, call.layout_a);
+  return run_pairs(
+      set, set, count, call, [&](uint32_t i) { return count + i; }, same);
 }
 
 }  // namespace carom::test

@@ -21,7 +21,7 @@ TEST(Manifolds, ThereIsOneAContact) {
   World world(kManifold);
   add_crowd(world, kCrowd);
   world.step();
-  ASSERT_GT(world.contacts().size(), 200u);
+  ASSERT_GT(world.contacts().size(), 100u);
   ASSERT_EQ(world.manifolds().size(), world.contacts().size());
   for (size_t i = 0; i < world.contacts().size(); ++i) {
     const Contact& contact = world.contacts()[i];

@@ -23,7 +23,7 @@ std::vector<PeerStreamSpec> peer_streams();
 struct RunnerResult {
   std::string runner;  // "bullet", "reference", or the name of an instruction set
   size_t passes = 0;
-  double median_seconds = 0;  // of a pass
+  double median_seconds = 0;  // of processor time, of a pass
   double least_seconds = 0;
 };
 

@@ -24,8 +24,8 @@ enum class Motion : uint8_t { fixed = 0, kinematic = 1, dynamic = 2 };
 // Storage of positions, chosen once a world (or a call) from what the scene needs.
 enum class PositionType : uint8_t { float32, float64 };
 
-// Where a body is: x of its own frame is at position + R x of the world. The orientation need not be
-// a unit quaternion (R = M(q) / |q|^2), but not zero; spheres and aabbs ignore it.
+// Where a body is: x of its own frame is at position + R x of the world. The orientation need not
+// be a unit quaternion (R = M(q) / |q|^2), but not zero; spheres and aabbs ignore it.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world frame, metres
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
@@ -35,9 +35,9 @@ struct Pose {
 // owner, and not both are fixed (static).
 struct BodyDesc {
   Shape shape = Sphere{};
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();         // world frame, metres
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               // world frame, metres
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();  // as in Pose
-  Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();  // world frame, metres a second
+  Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();        // world frame, metres a second
   Motion motion = Motion::dynamic;
   uint32_t layer = 0xffffffffu;
   uint32_t mask = 0xffffffffu;

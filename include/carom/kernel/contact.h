@@ -9,8 +9,8 @@ namespace carom {
 
 // How much is asked for; nothing beyond it is computed.
 enum class Detail : uint8_t {
-  pairs,    // candidate pairs only, no narrow phase
-  overlap,  // the decision
+  pairs,     // candidate pairs only, no narrow phase
+  overlap,   // the decision
   contact,   // decision, normal, separation, witness points
   manifold,  // and up to four points of every overlap
 };

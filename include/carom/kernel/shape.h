@@ -44,8 +44,8 @@ struct Aabb {
   static Aabb from_half_extents(const Eigen::Vector3f& half) { return {-half, half}; }
 };
 
-// All points within `radius` of the segment from a to b, in the body's frame. radius >= 0; a == b is
-// a sphere.
+// All points within `radius` of the segment from a to b, in the body's frame. radius >= 0; a == b
+// is a sphere.
 struct Capsule {
   Eigen::Vector3f a = Eigen::Vector3f::Zero();
   Eigen::Vector3f b = Eigen::Vector3f::Zero();

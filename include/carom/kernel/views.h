@@ -84,7 +84,8 @@ CAROM_EXPORT Shape shape_from_rows(ShapeKind kind, const std::array<float, 4>* r
 //             world coordinates
 //   kind      one per body; nullptr: all are `uniform_kind`
 //   box_slot  the row of `boxes` of an aabb body; nullptr: the body's own index
-//   orientation, rows  of capsules, boxes, half-spaces and triangles; of mixed kinds with rows.first
+//   orientation, rows  of capsules, boxes, half-spaces and triangles; of mixed kinds with
+//   rows.first
 struct Collidables {
   size_t count = 0;
   PositionView position;

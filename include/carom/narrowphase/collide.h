@@ -17,7 +17,8 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 
 // Tests pair i = (a[pairs[i].a], b[pairs[i].b]) and writes row i of `out`; `a` and `b` may be the
 // same set. Columns of `out` hold pairs.size() entries. At Detail::overlap only overlap and status
-// are written, at Detail::contact all but the manifolds; Detail::pairs writes nothing. Indices must lie inside their sets.
+// are written, at Detail::contact all but the manifolds; Detail::pairs writes nothing. Indices must
+// lie inside their sets.
 //
 // float32 throughout, after one subtraction of the positions in their own type: the error does not
 // depend on the distance from the origin. Bits are the same on every instruction set and for any
