@@ -62,7 +62,8 @@ class RandomPairs {
         separate(shape_a, pose_a, shape_b, pose_b, 0);
         break;
       default:
-        separate(shape_a, pose_a, shape_b, pose_b, size_b * random_.between(-depth(a, b), 0.3));
+        separate(shape_a, pose_a, shape_b, pose_b,
+                 size_b * depth(a, b) * random_.between(-1, a == b ? 0.25 : 0.5));
     }
     push(shape_a, pose_a, shape_b, pose_b);
   }

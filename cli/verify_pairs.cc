@@ -65,19 +65,23 @@ bool same_bits(const Row& x, const Row& y) {
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 // position + arm as the library rounds it: a float64 position is a float32 and what that leaves.
-std::array<float, 3> in_world(const std::array<float, 3>& arm, const Eigen::Vector3d& position) {
+std::array<float, 3> in_world(const std::array<float, 3>& arm, const Eigen::Vector3d& position,
+                              PositionType positions) {
   std::array<float, 3> point{};
   for (int axis = 0; axis < 3; ++axis) {
     float high = static_cast<float>(position[axis]);
     float low = static_cast<float>(position[axis] - double{high});
-    point[axis] = high + (low + arm[axis]);
+    point[axis] = positions == PositionType::float32 ? high + arm[axis] : high + (low + arm[axis]);
   }
   return point;
 }
 
 // The unused places of a manifold are zero in any frame.
-ManifoldPoints in_world(ManifoldPoints manifold, size_t count, const Eigen::Vector3d& position) {
-  for (size_t i = 0; i < count; ++i) manifold.point[i] = in_world(manifold.point[i], position);
+ManifoldPoints in_world(ManifoldPoints manifold, size_t count, const Eigen::Vector3d& position,
+                        PositionType positions) {
+  for (size_t i = 0; i < count; ++i) {
+    manifold.point[i] = in_world(manifold.point[i], position, positions);
+  }
   return manifold;
 }
 
@@ -155,9 +159,10 @@ class PairVerifier {
     bool invalid = row.status == static_cast<uint8_t>(Status::invalid);
     if (variant.frame == WitnessFrame::body || invalid) return row;
     const Eigen::Vector3d position_a = pairs_.a.pose(index).position;
-    row.point_a = in_world(row.point_a, position_a);
-    row.point_b = in_world(row.point_b, pairs_.b.pose(index).position);
-    row.manifold = in_world(row.manifold, row.manifold_count, position_a);
+    const PositionType positions = pairs_.a.positions();
+    row.point_a = in_world(row.point_a, position_a, positions);
+    row.point_b = in_world(row.point_b, pairs_.b.pose(index).position, positions);
+    row.manifold = in_world(row.manifold, row.manifold_count, position_a, positions);
     return row;
   }
 

@@ -51,17 +51,21 @@ struct TriangleShape {
   Real thickness;
   bool one_sided;
   uint8_t inner_edges;
+  bool has_properties;  // one of the three above, whatever scaling makes of the thickness
 
   // What the kernels do not test: the general test in double precision does.
-  bool is_special() const { return thickness > 0 || one_sided || inner_edges > 0; }
+  bool is_special() const { return has_properties; }
 
   Real size() const {
     return max(max(largest_component(corners[0]), largest_component(corners[1])),
                max(largest_component(corners[2]), thickness));
   }
   TriangleShape scaled(Real s) const {
-    return {
-        {corners[0] * s, corners[1] * s, corners[2] * s}, thickness * s, one_sided, inner_edges};
+    return {{corners[0] * s, corners[1] * s, corners[2] * s},
+            thickness * s,
+            one_sided,
+            inner_edges,
+            has_properties};
   }
 };
 
@@ -97,7 +101,8 @@ TriangleShape<Real> shape_as(const Triangle& t) {
   return {{t.corners[0].cast<Real>(), t.corners[1].cast<Real>(), t.corners[2].cast<Real>()},
           t.thickness,
           t.one_sided,
-          t.inner_edges};
+          t.inner_edges,
+          t.thickness > 0 || t.one_sided || t.inner_edges > 0};
 }
 // Normals are scaled by a power of two first, so that their squares neither vanish nor overflow.
 template <class Real>

@@ -205,7 +205,7 @@ TEST_F(VerifyTest, DifferencesShowOrientedShapes) {
   io::PairsFile file;
   file.pairs = 18;
   file.shapes.kind = {1, 6};
-  file.shapes.params = {{1, 0, 0, -1, 0, 0, 0.5f}, {1, 0.25f}};
+  file.shapes.params = {{1, 0, 0, -1, 0, 0, 0.75f}, {1, 0.25f}};
   file.shapes.vertex_range = {{0, 0}, {0, 3}};
   file.shapes.vertices = {{4, 0, 0}, {0, 8, 0}, {0, 0, 16}};
   file.shapes.triangle_range = {{0, 0}, {0, 1}};
@@ -217,11 +217,12 @@ TEST_F(VerifyTest, DifferencesShowOrientedShapes) {
   }
   ASSERT_TRUE(io::write_pairs(path("in.npz"), file));
   BrokenKernel system(BrokenKernel::Flaw::threads);
-  expect_found(verify_with(system, {path("in.npz")}),
-               {"  a: capsule a (0x1p+0, 0x0p+0, 0x0p+0) b (-0x1p+0, 0x0p+0, 0x0p+0) radius 0x1p-1",
-                "orientation (0x0p+0, 0x1p+1, 0x0p+0, 0x1p+0) float32",
-                "  b: triangle (0x1p+2, 0x0p+0, 0x0p+0) (0x0p+0, 0x1p+3, 0x0p+0) (0x0p+0, 0x0p+0, "
-                "0x1p+4) thickness 0x1p-2 one-sided inner edges 0"});
+  expect_found(
+      verify_with(system, {path("in.npz")}),
+      {"  a: capsule a (0x1p+0, 0x0p+0, 0x0p+0) b (-0x1p+0, 0x0p+0, 0x0p+0) radius 0x1.8p-1",
+       "orientation (0x0p+0, 0x1p+1, 0x0p+0, 0x1p+0) float32",
+       "  b: triangle (0x1p+2, 0x0p+0, 0x0p+0) (0x0p+0, 0x1p+3, 0x0p+0) (0x0p+0, 0x0p+0, "
+       "0x1p+4) thickness 0x1p-2 one-sided inner edges 0"});
 }
 
 class SlowKernel : public System {
