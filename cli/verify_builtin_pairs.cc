@@ -63,7 +63,7 @@ class RandomPairs {
         break;
       default:
         separate(shape_a, pose_a, shape_b, pose_b,
-                 size_b * depth(a, b) * random_.between(-1, a == b ? 0.25 : 0.5));
+                 size_b * depth(a, b) * random_.between(-1, both_triangles(a, b) ? 0 : 0.5));
     }
     push(shape_a, pose_a, shape_b, pose_b);
   }
@@ -108,6 +108,11 @@ class RandomPairs {
   // How deep two shapes may overlap before they are apart again; triangles have no inside.
   static double depth(ShapeKind a, ShapeKind b) {
     return a == ShapeKind::triangle || b == ShapeKind::triangle ? 0.05 : 0.3;
+  }
+
+  // One-sided ones often do not meet at all.
+  static bool both_triangles(ShapeKind a, ShapeKind b) {
+    return a == ShapeKind::triangle && b == ShapeKind::triangle;
   }
 
   // Moves B along the normal until it is about this far from A, unless it comes from behind a
