@@ -25,7 +25,7 @@ ToSegment<Real> nearest_on_segment(const Vector3<Real>& p, const Vector3<Real>& 
   const Vector3<Real> point = a + d * t;
   Vector3<Real> delta = point - p;
   // What rounding left along the segment would tilt the normal of a near pair.
-  const bool is_across = t > 0 && t < 1;
+  const bool is_across = t > Real(0) && t < Real(1);
   if (is_across) delta -= d * (dot(delta, d) / squared);
   return {point, delta, is_across};
 }
@@ -39,7 +39,7 @@ Real clamped_ratio(Real a, Real b) {
 // Neither of the two ends.
 template <class Real>
 bool is_inside(Real t) {
-  return t > 0 && t < 1;
+  return t > Real(0) && t < Real(1);
 }
 
 // Where two segments, p + d s and q + e t, are nearest.

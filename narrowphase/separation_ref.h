@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "carom/kernel/contact.h"
 
@@ -26,7 +27,7 @@ using Separation = SeparationAs<float>;
 // The same with A and B exchanged. NaN (no answer) stays the one NaN it is.
 template <class Real>
 SeparationAs<Real> flipped(const SeparationAs<Real>& s) {
-  const auto negated = [](Real x) { return x == x ? -x : x; };
+  const auto negated = [](Real x) { return std::isnan(x) ? x : -x; };
   return {s.separation, s.normal.unaryExpr(negated), s.arm_b, s.arm_a, s.status, s.is_unsure};
 }
 

@@ -103,7 +103,7 @@ bool is_valid_shape(const Halfspace& h) {
 
 template <class Turned>
 bool is_valid(const Turned& shape, const Eigen::Quaternionf& orientation) {
-  const Eigen::Vector4f q = orientation.coeffs();
+  const Eigen::Vector4f& q = orientation.coeffs();
   return q.allFinite() && !q.isZero(0) && is_valid_shape(shape);
 }
 

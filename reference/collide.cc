@@ -25,8 +25,8 @@ Poses poses_of(const Pose& a, const Pose& b) {
   const Eigen::Vector3<Real> position_b = b.position.cast<Real>();
   const Eigen::Vector4f q_a = a.orientation.coeffs();
   const Eigen::Vector4f q_b = b.orientation.coeffs();
-  const Vector3d exact_a = position_a.template cast<double>();
-  const Vector3d exact_b = position_b.template cast<double>();
+  const Vector3d& exact_a = position_a.template cast<double>();
+  const Vector3d& exact_b = position_b.template cast<double>();
   return {{relative_position(position_a, position_b), quaternion_as<float>(q_a),
            quaternion_as<float>(q_b), relative_position(position_b, position_a)},
           {exact_b - exact_a, quaternion_as<double>(q_a), quaternion_as<double>(q_b),

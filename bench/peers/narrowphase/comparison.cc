@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <functional>
+#include <optional>
 
 #include "bench/peers/narrowphase/pair_peer.h"
 #include "bench/support/measure.h"
@@ -95,11 +96,12 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 
 class TimedRunner {
  public:
-  TimedRunner(std::string name, std::function<void()> pass)
-      : name_(std::move(name)), pass_(std::move(pass)) {}
+  TimedRunner(std::string name, std::function<void()> pass, std::optional<Isa> isa = std::nullopt)
+      : name_(std::move(name)), pass_(std::move(pass)), isa_(isa) {}
 
   // The first pass is not timed: others have had the caches.
   void take_turn(double seconds) {
+    if (isa_) force_isa(*isa_);
     pass_();
     const Stopwatch turn;
     do {
@@ -117,6 +119,7 @@ class TimedRunner {
  private:
   std::string name_;
   std::function<void()> pass_;
+  std::optional<Isa> isa_;
   std::vector<double> times_;
 };
 
@@ -130,10 +133,8 @@ std::vector<RunnerResult> time_in_turns(const PairStream& stream, Detail detail,
   runners.emplace_back("bullet", [&] { bullet.run(overlaps); });
   runners.emplace_back("reference", [&] { stream.run_reference(reference_results); });
   for (const Isa isa : usable_isas()) {
-    runners.emplace_back(name(isa), [&, isa] {
-      force_isa(isa);
-      (void)stream.run(detail, results.columns());
-    });
+    const auto pass = [&] { (void)stream.run(detail, results.columns()); };
+    runners.emplace_back(name(isa), pass, isa);
   }
   for (int turn = 0; turn < kTurns; ++turn) {
     for (TimedRunner& runner : runners) runner.take_turn(budget / kTurns);
