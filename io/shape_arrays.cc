@@ -8,6 +8,9 @@ namespace {
 
 using Range = std::array<uint32_t, 2>;
 
+// The file format's codes end here: a lone triangle is a mesh of one.
+constexpr uint8_t kLastKind = uint8_t(ShapeKind::halfspace);
+
 bool needs_vertices(uint8_t kind) {
   return kind == uint8_t(ShapeKind::dop) || kind == uint8_t(ShapeKind::hull) ||
          kind == uint8_t(ShapeKind::mesh);
@@ -45,10 +48,10 @@ Result<void> first_error(std::initializer_list<Result<void>> results) {
 
 Result<void> check_kinds(const SceneShapes& shapes, const std::string& path) {
   for (size_t i = 0; i < shapes.kind.size(); ++i) {
-    if (shapes.kind[i] >= kShapeKindCount) {
+    if (shapes.kind[i] > kLastKind) {
       return member_error(path, "shape_kind",
                           element(i) + "is the unknown kind " + std::to_string(shapes.kind[i]) +
-                              " (0 to " + std::to_string(kShapeKindCount - 1) + " was expected)");
+                              " (0 to " + std::to_string(kLastKind) + " was expected)");
     }
   }
   return {};
