@@ -29,11 +29,23 @@ Result<void> write_scene(io::SceneReader& scene, const std::string& path, Progre
   return writer->finish();
 }
 
+const char* object_type(const io::SceneInfo& info) {
+  switch (static_cast<ShapeKind>(info.shapes.kind.front())) {
+    case ShapeKind::sphere:
+      return "Spheres";
+    case ShapeKind::capsule:
+      return "Capsules";
+    case ShapeKind::box:
+      return "Boxes";
+    default:
+      return "Cubes";
+  }
+}
+
 Result<void> write_recording(io::SceneReader& scene, const std::string& path, Progress& progress) {
   const io::SceneInfo& info = scene.info();
-  bool spheres = info.shapes.kind.front() == static_cast<uint8_t>(ShapeKind::sphere);
   Result<io::RecordingWriter> writer =
-      io::RecordingWriter::create(path, info.name, spheres ? "Spheres" : "Cubes", info.bodies);
+      io::RecordingWriter::create(path, info.name, object_type(info), info.bodies);
   if (!writer) return writer.error();
   SceneBounds bounds(info);
   io::SceneFrame frame;

@@ -1,6 +1,7 @@
 #include "cli/scene_bounds.h"
 
 #include "carom/kernel/bounds.h"
+#include "cli/shapes.h"
 #include "io/recording.h"
 
 namespace carom::cli {
@@ -17,7 +18,20 @@ SceneBounds::SceneBounds(const io::SceneInfo& info)
       negative_half_[axis][i] = -params[axis];
     }
   }
+  add_rows();
 }
+
+void SceneBounds::add_rows() {
+  const uint32_t count = row_count(kind());
+  if (count == 0) return;
+  const std::vector<Shape> shapes = *convert_shapes(info_.shapes, info_.name);
+  for (uint32_t shape : info_.body_shape) {
+    const auto rows = shape_rows(shapes[shape]);
+    rows_.insert(rows_.end(), rows.begin(), rows.begin() + count);
+  }
+}
+
+ShapeKind SceneBounds::kind() const { return static_cast<ShapeKind>(info_.shapes.kind.front()); }
 
 const std::vector<float>& SceneBounds::boxes(const io::SceneFrame& frame) {
   BoundsColumns columns;
@@ -39,7 +53,7 @@ const std::vector<float>& SceneBounds::boxes(const io::SceneFrame& frame) {
 Collidables SceneBounds::view(const io::SceneFrame& frame) const {
   Collidables bodies;
   bodies.count = info_.bodies;
-  bodies.uniform_kind = static_cast<ShapeKind>(info_.shapes.kind.front());
+  bodies.uniform_kind = kind();
   bodies.position.radius_layout = RadiusLayout::column;
   bodies.position.radius = half_[0].data();
   if (info_.float64_positions) {
@@ -53,6 +67,10 @@ Collidables SceneBounds::view(const io::SceneFrame& frame) const {
   for (size_t axis = 0; axis < 3; ++axis) {
     bodies.boxes.lower[axis] = negative_half_[axis].data();
     bodies.boxes.upper[axis] = half_[axis].data();
+  }
+  if (!rows_.empty()) {
+    bodies.orientation.data = frame.orientation.data();
+    bodies.rows.data = rows_.front().data();
   }
   return bodies;
 }

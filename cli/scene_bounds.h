@@ -11,7 +11,8 @@ namespace carom::cli {
 
 class SceneBounds {
  public:
-  // Of a scene that is all spheres or all boxes. `info` has to live as long.
+  // Of a scene of spheres, of aabbs, of boxes or of capsules, as generators make them. `info` has
+  // to live as long.
   explicit SceneBounds(const io::SceneInfo& info);
 
   // min x y z 0, max x y z 0 a body; valid until the next call.
@@ -19,6 +20,8 @@ class SceneBounds {
 
  private:
   using Columns = std::array<std::vector<float>, 3>;
+  void add_rows();
+  ShapeKind kind() const;
   Collidables view(const io::SceneFrame& frame) const;
 
   const io::SceneInfo& info_;
@@ -26,6 +29,7 @@ class SceneBounds {
   Columns negative_half_;
   Columns lower_;
   Columns upper_;
+  std::vector<std::array<float, 4>> rows_;  // of boxes and capsules
   std::vector<float> boxes_;
 };
 

@@ -1,14 +1,30 @@
 #include "io/generate/generator.h"
 
+#include <array>
 #include <cmath>
-#include <utility>
+#include <tuple>
 
 #include "io/generate/population.h"
+#include "io/generate/rotation.h"
 
 namespace carom::io {
 namespace {
 
 constexpr uint64_t kSteeringStream = 16;
+
+std::array<float, 8> shape_params(ShapeKind shape, const Population& population, size_t body) {
+  if (shape == ShapeKind::capsule) {
+    auto quarter = static_cast<float>(population.edges[body][1] / 4);
+    return {0, -quarter, 0, 0, quarter, 0, quarter};
+  }
+  std::array<float, 8> params{};
+  for (int axis = 0; axis < (shape == ShapeKind::sphere ? 1 : 3); ++axis) {
+    double half =
+        shape == ShapeKind::box ? population.edges[body][axis] / 2 : population.half[body][axis];
+    params[axis] = static_cast<float>(half);
+  }
+  return params;
+}
 
 SceneInfo scene_info(const GeneratorSpec& spec, const Population& population) {
   SceneInfo info;
@@ -16,18 +32,17 @@ SceneInfo scene_info(const GeneratorSpec& spec, const Population& population) {
   info.bodies = spec.bodies;
   info.frames = spec.frames;
   info.float64_positions = spec.float64_positions;
+  info.has_orientation = spec.has_orientation();
   info.has_linear_velocity = true;
+  info.has_angular_velocity = spec.has_orientation();
   info.dt = spec.dt;
-  bool one_shape =
-      spec.spheres && (spec.kind == GeneratorKind::brownian || spec.kind == GeneratorKind::still);
+  bool one_size = spec.kind == GeneratorKind::brownian || spec.kind == GeneratorKind::still;
+  bool one_shape = one_size && spec.shape != ShapeKind::aabb;
   size_t shapes = one_shape ? 1 : spec.bodies;
-  ShapeKind code = spec.spheres ? ShapeKind::sphere : ShapeKind::aabb;
-  info.shapes.kind.assign(shapes, static_cast<uint8_t>(code));
+  info.shapes.kind.assign(shapes, static_cast<uint8_t>(spec.shape));
   info.shapes.params.resize(shapes);
   for (size_t i = 0; i < shapes; ++i) {
-    for (int axis = 0; axis < (spec.spheres ? 1 : 3); ++axis) {
-      info.shapes.params[i][axis] = static_cast<float>(population.half[i][axis]);
-    }
+    info.shapes.params[i] = shape_params(spec.shape, population, i);
   }
   info.body_shape.resize(spec.bodies);
   for (size_t i = 0; i < spec.bodies && !one_shape; ++i) {
@@ -72,9 +87,14 @@ class GeneratedScene : public SceneReader {
   }
 
   void advance() {
-    if (population_.speed == 0) return;
-    for (uint64_t i = 0; i < spec_.bodies; i += population_.mover_stride) move(i);
-    for (uint64_t i = 0; i < (population_.movers() + 99) / 100; ++i) steer();
+    uint64_t stride = population_.mover_stride;
+    if (population_.speed > 0) {
+      for (uint64_t i = 0; i < spec_.bodies; i += stride) move(i);
+      for (uint64_t i = 0; i < (population_.movers() + 99) / 100; ++i) steer();
+    }
+    if (population_.spin > 0) {
+      for (uint64_t i = 0; i < spec_.bodies; i += stride) turn(i);
+    }
   }
 
   void move(uint64_t body) {
@@ -90,6 +110,13 @@ class GeneratedScene : public SceneReader {
     }
   }
 
+  void turn(uint64_t body) {
+    const Vec3& velocity = population_.angular_velocity[body];
+    Quaternion& orientation = population_.orientation[body];
+    Vec3 angle = {velocity[0] * spec_.dt, velocity[1] * spec_.dt, velocity[2] * spec_.dt};
+    orientation = normalized(product(rotation_by(angle), orientation));
+  }
+
   // A new velocity for a mover drawn at random; one may be drawn twice.
   void steer() {
     uint64_t mover = steering_.below(static_cast<uint32_t>(population_.movers()));
@@ -97,31 +124,23 @@ class GeneratedScene : public SceneReader {
   }
 
   void store(SceneFrame& frame) const {
-    frame = {std::move(frame.position32),
-             std::move(frame.position64),
-             {},
-             std::move(frame.linear_velocity),
-             {},
-             {}};
-    if (spec_.float64_positions) {
-      frame.position32.clear();
-      store_rows(population_.position, frame.position64);
-    } else {
-      frame.position64.clear();
-      store_rows(population_.position, frame.position32);
-    }
-    if (wanted_.linear_velocity) {
-      store_rows(population_.velocity, frame.linear_velocity);
-    } else {
-      frame.linear_velocity.clear();
-    }
+    const Population& bodies = population_;
+    bool float64 = spec_.float64_positions;
+    store_rows(!float64, bodies.position, frame.position32);
+    store_rows(float64, bodies.position, frame.position64);
+    store_rows(wanted_.orientation, bodies.orientation, frame.orientation);
+    store_rows(wanted_.linear_velocity, bodies.velocity, frame.linear_velocity);
+    store_rows(wanted_.angular_velocity, bodies.angular_velocity, frame.angular_velocity);
+    frame.boxes.clear();
   }
 
-  template <class T>
-  static void store_rows(const std::vector<Vec3>& rows, std::vector<T>& out) {
-    out.resize(3 * rows.size());
-    for (size_t i = 0; i < rows.size(); ++i) {
-      for (size_t axis = 0; axis < 3; ++axis) out[3 * i + axis] = static_cast<T>(rows[i][axis]);
+  template <class Row, class T>
+  static void store_rows(bool wanted, const std::vector<Row>& rows, std::vector<T>& out) {
+    out.resize(wanted ? rows.size() * std::tuple_size_v<Row> : 0);
+    if (!wanted) return;
+    T* next = out.data();
+    for (const Row& row : rows) {
+      for (double value : row) *next++ = static_cast<T>(value);
     }
   }
 

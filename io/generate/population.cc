@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/generate/ground.h"
+#include "io/generate/rotation.h"
 
 namespace carom::io {
 namespace {
@@ -10,12 +11,41 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDensity = 0.1;
 constexpr double kBodiesPerSquareMetre = 1.0 / 6.0;
+constexpr double kSpin = 1;  // radians a second
 
-enum Stream : uint64_t { kShapes = 1, kPlaces = 2, kVelocities = 3, kGround = 4 };
+enum Stream : uint64_t { kShapes = 1, kPlaces = 2, kVelocities = 3, kGround = 4, kSpins = 5 };
 
 double volume(const GeneratorSpec& spec, double edge) {
   double cube = edge * edge * edge;
-  return spec.spheres ? cube * (kPi / 6) : cube;
+  if (spec.shape == ShapeKind::sphere) return cube * (kPi / 6);
+  if (spec.shape == ShapeKind::capsule) return cube * (kPi * 5 / 96);
+  return cube;
+}
+
+// Capsules are as long as the edge, and half as wide.
+Vec3 half_extents(ShapeKind shape, const Vec3& edges, const Quaternion& orientation) {
+  if (shape == ShapeKind::box) return half_extents_turned(edges, orientation);
+  Vec3 half = half_extents_turned({0, edges[1] / 2, 0}, orientation);
+  for (int axis = 0; axis < 3; ++axis) half[axis] += edges[axis] / 4;
+  return half;
+}
+
+// A body with these edges; `half` gets the room that it takes.
+void draw_body(const GeneratorSpec& spec, const Vec3& edges, Random& random, uint64_t body,
+               Population& population) {
+  Vec3& half = population.half[body];
+  if (spec.has_orientation()) {
+    Quaternion orientation = random.rotation();
+    population.edges[body] = edges;
+    population.orientation[body] = normalized(orientation);
+    half = half_extents(spec.shape, edges, orientation);
+  } else if (spec.shape == ShapeKind::sphere) {
+    half = {edges[0] / 2, edges[1] / 2, edges[2] / 2};
+  } else if (spec.kind == GeneratorKind::level) {
+    half = half_extents_turned_about_y(edges, random);
+  } else {
+    half = half_extents_turned(edges, random.rotation());
+  }
 }
 
 // Draws the sizes; returns the sum of the volumes.
@@ -23,20 +53,25 @@ double draw_cubes(const GeneratorSpec& spec, Population& population) {
   Random random(spec.seed, kShapes);
   LogUniform sizes(1, 316);
   double sum = 0;
-  for (Vec3& half : population.half) {
+  for (uint64_t i = 0; i < spec.bodies; ++i) {
     double edge = spec.kind == GeneratorKind::varied ? sizes.draw(random) : 1.0;
     sum += volume(spec, edge);
-    half = spec.spheres ? Vec3{edge / 2, edge / 2, edge / 2}
-                        : half_extents_turned({edge, edge, edge}, random);
+    draw_body(spec, {edge, edge, edge}, random, i, population);
   }
   return sum;
 }
 
+// For the bodies that move.
+void draw_vectors(Random random, double greatest, uint64_t stride, std::vector<Vec3>& vectors) {
+  for (uint64_t i = 0; i < vectors.size(); i += stride) vectors[i] = random.in_ball(greatest);
+}
+
 void draw_velocities(const GeneratorSpec& spec, Population& population) {
-  Random random(spec.seed, kVelocities);
-  for (uint64_t i = 0; i < population.velocity.size(); i += population.mover_stride) {
-    population.velocity[i] = random.in_ball(population.speed);
-  }
+  uint64_t stride = population.mover_stride;
+  draw_vectors({spec.seed, kVelocities}, population.speed, stride, population.velocity);
+  if (!spec.has_orientation()) return;
+  population.spin = spec.spin.value_or(population.speed > 0 ? kSpin : 0);
+  draw_vectors({spec.seed, kSpins}, population.spin, stride, population.angular_velocity);
 }
 
 double default_speed(const GeneratorSpec& spec, double side) {
@@ -69,17 +104,13 @@ void fill_cube(const GeneratorSpec& spec, Population& population) {
 
 void draw_boxes(const GeneratorSpec& spec, Population& population) {
   Random random(spec.seed, kShapes);
-  LogUniform edges(0.5, 4);
-  for (Vec3& half : population.half) {
-    if (spec.spheres) {
-      double radius = edges.draw(random) / 2;
-      half = {radius, radius, radius};
-    } else {
-      double x = edges.draw(random);
-      double y = edges.draw(random);
-      double z = edges.draw(random);
-      half = half_extents_turned_about_y({x, y, z}, random);
-    }
+  LogUniform sizes(0.5, 4);
+  bool round = spec.shape == ShapeKind::sphere || spec.shape == ShapeKind::capsule;
+  for (uint64_t i = 0; i < spec.bodies; ++i) {
+    double x = sizes.draw(random);
+    double y = round ? x : sizes.draw(random);
+    double z = round ? x : sizes.draw(random);
+    draw_body(spec, {x, y, z}, random, i, population);
   }
 }
 
@@ -131,6 +162,11 @@ Population populate(const GeneratorSpec& spec) {
   population.half.resize(spec.bodies);
   population.position.resize(spec.bodies);
   population.velocity.resize(spec.bodies);
+  if (spec.has_orientation()) {
+    population.edges.resize(spec.bodies);
+    population.orientation.resize(spec.bodies);
+    population.angular_velocity.resize(spec.bodies);
+  }
   if (spec.kind == GeneratorKind::level) {
     fill_level(spec, population);
   } else {

@@ -13,10 +13,15 @@ struct Population {
   Vec3 lower{};  // the world's walls
   Vec3 upper{};
   double speed = 0;           // the greatest, metres a second
+  double spin = 0;            // the greatest, radians a second
   uint64_t mover_stride = 1;  // bodies 0, stride, 2 stride ... move, others never do
-  std::vector<Vec3> half;     // half extents; spheres: the radius, three times
+  std::vector<Vec3> half;     // half the extents along the world's axes, as the scene starts
   std::vector<Vec3> position;
   std::vector<Vec3> velocity;
+  // Of boxes and capsules; otherwise empty.
+  std::vector<Vec3> edges;  // capsules: the length, three times
+  std::vector<Quaternion> orientation;
+  std::vector<Vec3> angular_velocity;
 
   uint64_t movers() const { return (position.size() + mover_stride - 1) / mover_stride; }
 };

@@ -21,6 +21,18 @@ Vec3 Random::in_disc(double radius) {
   }
 }
 
+Quaternion Random::rotation() {
+  // A direction in four dimensions is a uniform rotation.
+  for (;;) {
+    double x = between(-1, 1);
+    double y = between(-1, 1);
+    double z = between(-1, 1);
+    double w = between(-1, 1);
+    double norm2 = (x * x + y * y) + (z * z + w * w);
+    if (norm2 <= 1 && norm2 >= 0x1p-20) return {x, y, z, w};
+  }
+}
+
 LogUniform::LogUniform(double lower, double upper) : lower_(lower) {
   double root = upper / lower;
   for (double& entry : roots_) entry = root = std::sqrt(root);
@@ -44,29 +56,6 @@ double cube_root(double value) {
     if (!(next < root)) return root;
     root = next;
   }
-}
-
-Vec3 half_extents_turned(const Vec3& edges, Random& random) {
-  // A direction in four dimensions is a uniform rotation.
-  double x, y, z, w, norm2;
-  do {
-    x = random.between(-1, 1);
-    y = random.between(-1, 1);
-    z = random.between(-1, 1);
-    w = random.between(-1, 1);
-    norm2 = (x * x + y * y) + (z * z + w * w);
-  } while (norm2 > 1 || norm2 < 0x1p-20);
-  const Vec3 rows[3] = {
-      {(x * x + w * w) - (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-      {2 * (x * y + z * w), (y * y + w * w) - (x * x + z * z), 2 * (y * z - x * w)},
-      {2 * (x * z - y * w), 2 * (y * z + x * w), (z * z + w * w) - (x * x + y * y)}};
-  Vec3 half;
-  for (int i = 0; i < 3; ++i) {
-    double reach = (std::fabs(rows[i][0]) * edges[0] + std::fabs(rows[i][1]) * edges[1]) +
-                   std::fabs(rows[i][2]) * edges[2];
-    half[i] = 0.5 * reach / norm2;
-  }
-  return half;
 }
 
 Vec3 half_extents_turned_about_y(const Vec3& edges, Random& random) {

@@ -10,6 +10,7 @@
 namespace carom::io {
 
 using Vec3 = std::array<double, 3>;
+using Quaternion = std::array<double, 4>;  // x, y, z, w
 
 // SplitMix64 (Steele, Lea and Flood 2014).
 inline uint64_t mix64(uint64_t value) {
@@ -34,6 +35,8 @@ class Random {
   Vec3 in_ball(double radius);
   // Uniform in the disc of that radius: x and z, y is 0.
   Vec3 in_disc(double radius);
+  // Uniform among all rotations; not a unit quaternion.
+  Quaternion rotation();
 
  private:
   static constexpr uint64_t kStep = 0x9e3779b97f4a7c15u;
@@ -55,9 +58,7 @@ class LogUniform {
 
 double cube_root(double value);
 
-// Half the extents, along the world axes, of a box with these edges in a random orientation.
-Vec3 half_extents_turned(const Vec3& edges, Random& random);
-// The same, turned about y alone.
+// Half the extents, along the world axes, of a box with these edges, turned about y at random.
 Vec3 half_extents_turned_about_y(const Vec3& edges, Random& random);
 
 }  // namespace carom::io

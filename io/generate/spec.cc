@@ -25,14 +25,22 @@ std::optional<GeneratorKind> kind_from_name(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<ShapeKind> shape_from_name(std::string_view name) {
+  if (name == "cube") return ShapeKind::aabb;
+  if (name == "sphere") return ShapeKind::sphere;
+  if (name == "box") return ShapeKind::box;
+  if (name == "capsule") return ShapeKind::capsule;
+  return std::nullopt;
+}
+
 const char* keys_of(GeneratorKind kind) {
   switch (kind) {
     case GeneratorKind::level:
-      return "n, frames, seed, density, speed, dt, shape, positions, motion";
+      return "n, frames, seed, density, speed, dt, shape, spin, positions, motion";
     case GeneratorKind::still:
       return "n, frames, seed, density, dt, shape, positions";
     default:
-      return "n, frames, seed, density, speed, dt, shape, positions";
+      return "n, frames, seed, density, speed, dt, shape, spin, positions";
   }
 }
 
@@ -60,6 +68,12 @@ class SpecParser {
     return assign_key();
   }
 
+  // What depends on more than one key.
+  Result<void> check() const {
+    if (!spec_.spin || spec_.has_orientation()) return {};
+    return spec_error(spec_, "'spin' needs shape=box or shape=capsule");
+  }
+
  private:
   Result<void> assign_key() {
     bool moves = spec_.kind != GeneratorKind::still;
@@ -69,7 +83,8 @@ class SpecParser {
     if (key_ == "density") return real(1e-9, 1e3, spec_.density.emplace());
     if (key_ == "speed" && moves) return real(0, 1e9, spec_.speed.emplace());
     if (key_ == "dt") return real(1e-9, 1e6, spec_.dt);
-    if (key_ == "shape") return choice("cube", "sphere", spec_.spheres);
+    if (key_ == "shape") return shape();
+    if (key_ == "spin" && moves) return real(0, 1e6, spec_.spin.emplace());
     if (key_ == "positions") return choice("float32", "float64", spec_.float64_positions);
     if (key_ == "motion" && spec_.kind == GeneratorKind::level) {
       return choice("dynamic", "static", spec_.mark_static);
@@ -96,6 +111,13 @@ class SpecParser {
       return spec_error(spec_, quoted() + range);
     }
     out = *value;
+    return {};
+  }
+
+  Result<void> shape() {
+    std::optional<ShapeKind> kind = shape_from_name(value_);
+    if (!kind) return spec_error(spec_, quoted() + " is none of cube, sphere, box, capsule");
+    spec_.shape = *kind;
     return {};
   }
 
@@ -134,7 +156,9 @@ const char kGeneratorHelp[] =
     "  speed=S           the greatest, metres a second: brownian 0.75 world sides, varied 5 / dt,\n"
     "                    static 6\n"
     "  dt=0.0333...      seconds between frames\n"
-    "  shape=cube        bounds of cubes that keep a random orientation; or sphere\n"
+    "  shape=cube        bounds of cubes that keep a random orientation; or sphere; or box or\n"
+    "                    capsule, which start in random orientations and turn as they move\n"
+    "  spin=1            box and capsule: the greatest, radians a second; with speed=0: 0\n"
     "  positions=float32 or float64\n"
     "  motion=dynamic    static only: motion=static marks what never moves as static\n";
 
@@ -167,9 +191,11 @@ Result<GeneratorSpec> parse_generator(const std::string& text) {
     size_t comma = rest.find(',');
     Result<void> done = parser.assign(rest.substr(0, comma));
     if (!done) return done.error();
-    if (comma == std::string_view::npos) return spec;
+    if (comma == std::string_view::npos) break;
     rest.remove_prefix(comma + 1);
   }
+  Result<void> valid = parser.check();
+  return valid ? Result<GeneratorSpec>(spec) : valid.error();
 }
 
 }  // namespace carom::io

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "carom/kernel/result.h"
+#include "carom/kernel/shape.h"
 
 namespace carom::io {
 
@@ -25,9 +26,12 @@ struct GeneratorSpec {
   std::optional<double> density;  // sum of volumes / world volume; static: bodies a square metre
   std::optional<double> speed;    // the greatest, metres a second
   double dt = 1.0 / 30.0;
-  bool spheres = false;
+  ShapeKind shape = ShapeKind::aabb;  // or sphere, box, capsule
+  std::optional<double> spin;         // the greatest, radians a second; shapes that turn only
   bool float64_positions = false;
   bool mark_static = false;  // static: bodies that never move are static bodies
+
+  bool has_orientation() const { return shape == ShapeKind::box || shape == ShapeKind::capsule; }
 };
 
 // The kinds, "brownian, varied, static, still".

@@ -15,7 +15,7 @@ using ErrorsTest = CliTest;
 io::SceneShapes shapes_with(uint8_t kind) {
   io::SceneShapes shapes;
   shapes.kind = {0, kind};
-  shapes.params = {{1}, {6, 0, 0, 1, 0, 0, 1}};
+  shapes.params = {{1}, {7, 0, 0, 1, 0, 0, 1}};
   shapes.vertex_range = {{0, 0}, {0, 4}};
   shapes.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   shapes.triangle_range = {{0, 0}, {0, 2}};
@@ -95,6 +95,9 @@ TEST_F(ErrorsTest, OptionsOfRun) {
     expect_error({"run", scene, "--margin", margin}, {"--margin", "metres"});
   }
   expect_error({"run", scene, "--margin", "wide"}, {"--margin", "wide"});
+  for (const char* directions : {"-14", "7", "15"}) {
+    expect_error({"run", scene, "--dop-bounds", directions}, {"--dop-bounds", "6, 14, 18 and 26"});
+  }
   expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("x")}, {"the same file"});
   expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("./x")}, {"the same file"});
   expect_error({"run", scene, "--json", "x", "--pairs-out", "./x"}, {"the same file"});
@@ -143,7 +146,11 @@ TEST_F(ErrorsTest, Generators) {
   fails("brownian:density=0", {"'density=0'"});
   fails("brownian:density=nan", {"'density=nan'"});
   fails("brownian:speed=-1", {"'speed=-1'"});
-  fails("brownian:shape=cone", {"'shape=cone'", "cube", "sphere"});
+  fails("brownian:shape=cone", {"'shape=cone'", "cube, sphere, box, capsule"});
+  fails("brownian:shape=box,spin=-1", {"'spin=-1'", "from 0"});
+  fails("brownian:spin=2", {"'spin' needs shape=box or shape=capsule"});
+  fails("varied:spin=2,shape=sphere", {"'spin' needs shape=box or shape=capsule"});
+  fails("still:shape=box,spin=2", {"unknown key 'spin'", "shape, positions"});
   fails("brownian:positions=float16", {"float32"});
   expect_error({"run", "tornado:n=5"}, {"unknown generator 'tornado'"});
   expect_error({"generate", "still:n=3,frames=1", "-o", path("no/such/folder.npz")},
@@ -165,7 +172,7 @@ TEST_F(ErrorsTest, FilesThatAreNone) {
 TEST_F(ErrorsTest, KindsWithoutKernel) {
   constexpr char kNoKernel[] = ", which this version has no kernel for";
   const std::pair<uint8_t, std::string> kinds[] = {
-      {4, std::string("a dop") + kNoKernel},
+      {4, "a dop of k = 7 (6, 14, 18 or 26 was expected)"},
       {5, std::string("a hull") + kNoKernel},
       {6, "a mesh of 2 triangles; this version has kernels for meshes of one triangle only"},
       {7, std::string("a compound") + kNoKernel}};

@@ -1,4 +1,5 @@
 // carom generate, and the generators themselves.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,6 +33,9 @@ std::string hash_of(const std::string& spec, uint64_t frames) {
     hash.add(std::span(std::as_const(frame).position32));
     hash.add(std::span(std::as_const(frame).position64));
     hash.add(std::span(std::as_const(frame).linear_velocity));
+    if (!scene->info().has_orientation) continue;
+    hash.add(std::span(std::as_const(frame).orientation));
+    hash.add(std::span(std::as_const(frame).angular_velocity));
   }
   return hash.text();
 }
@@ -44,6 +48,8 @@ TEST_F(GenerateTest, ScenesNeverChange) {
   EXPECT_EQ(hash_of("varied:n=1000", 5), "4163794500e30071");
   EXPECT_EQ(hash_of("static:n=1000", 5), "b647eae9c47b591c");
   EXPECT_EQ(hash_of("still:n=1000", 2), "11af23cd1e077964");
+  EXPECT_EQ(hash_of("varied:n=1000,shape=box", 5), "03079dcb9c2193a2");
+  EXPECT_EQ(hash_of("static:n=1000,shape=capsule,spin=20", 5), "7f43ce247eb284b6");
 }
 
 TEST_F(GenerateTest, SeedsDiffer) {
@@ -51,18 +57,20 @@ TEST_F(GenerateTest, SeedsDiffer) {
 }
 
 TEST_F(GenerateTest, TheFirstFrameComesAfterTheLast) {
-  const auto scene = open("brownian:n=50,frames=3");
+  const auto scene = open("brownian:n=50,frames=3,shape=box");
   io::SceneFrame first, frame;
   ASSERT_TRUE(scene->read_frame(first));
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(scene->read_frame(frame));
   EXPECT_EQ(frame.position32, first.position32);
   EXPECT_EQ(frame.linear_velocity, first.linear_velocity);
+  EXPECT_EQ(frame.orientation, first.orientation);
 }
 
 TEST_F(GenerateTest, RoundTripThroughAFile) {
   for (const std::string spec :
        {"brownian:n=60,frames=4", "varied:n=60,frames=4,shape=sphere",
-        "static:n=60,frames=4,positions=float64,motion=static", "still:n=60,frames=2"}) {
+        "static:n=60,frames=4,positions=float64,motion=static", "still:n=60,frames=2",
+        "static:n=60,frames=4,shape=box", "brownian:n=60,frames=4,shape=capsule"}) {
     const CommandResult result = run_command({"generate", spec, "-o", path("scene.npz")});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.out + result.err, "");
@@ -81,13 +89,18 @@ TEST_F(GenerateTest, RoundTripThroughAFile) {
       EXPECT_EQ(a.position32, b.position32);
       EXPECT_EQ(a.position64, b.position64);
       EXPECT_EQ(a.linear_velocity, b.linear_velocity);
+      EXPECT_EQ(a.orientation, b.orientation);
+      EXPECT_EQ(a.angular_velocity, b.angular_velocity);
     }
   }
 }
 
 TEST_F(GenerateTest, ARecordingHasThePairsOfItsScene) {
-  for (const std::string spec : {"brownian:n=400,frames=4,density=0.5",
-                                 "varied:n=300,frames=3,shape=sphere,positions=float64"}) {
+  for (const std::string spec :
+       {"brownian:n=400,frames=4,density=0.5",
+        "varied:n=300,frames=3,shape=sphere,positions=float64",
+        "static:n=300,frames=3,shape=box,density=0.5",
+        "brownian:n=300,frames=3,shape=capsule,density=0.5,positions=float64"}) {
     ASSERT_EQ(run_command({"generate", spec, "-o", path("scene.aabb")}).code, 0);
     const auto of_scene = run_command({"run", spec, "--detail", "pairs", "--json", "-"}).json();
     const auto of_recording =
@@ -167,6 +180,128 @@ TEST_F(GenerateTest, StillNeverMoves) {
   ASSERT_TRUE(scene->read_frame(later));
   EXPECT_EQ(first.position32, later.position32);
   EXPECT_EQ(later.linear_velocity, std::vector<float>(300, 0));
+}
+
+std::vector<io::SceneFrame> all_frames(const std::string& spec) {
+  const auto scene = open(spec);
+  std::vector<io::SceneFrame> frames(scene->info().frames);
+  for (io::SceneFrame& frame : frames) EXPECT_TRUE(scene->read_frame(frame));
+  return frames;
+}
+
+Eigen::Quaterniond orientation(const io::SceneFrame& frame, size_t body) {
+  return Eigen::Quaternionf(&frame.orientation[4 * body]).cast<double>();
+}
+
+Eigen::Vector3d angular_velocity(const io::SceneFrame& frame, size_t body) {
+  return Eigen::Vector3f(&frame.angular_velocity[3 * body]).cast<double>();
+}
+
+TEST_F(GenerateTest, CubesAndSpheresHaveNoOrientation) {
+  for (const std::string shape : {"cube", "sphere"}) {
+    const auto scene = open("brownian:n=10,shape=" + shape);
+    io::SceneFrame frame;
+    ASSERT_TRUE(scene->read_frame(frame));
+    EXPECT_FALSE(scene->info().has_orientation || scene->info().has_angular_velocity);
+    EXPECT_TRUE(frame.orientation.empty() && frame.angular_velocity.empty());
+  }
+}
+
+// Boxes start as the cubes of which shape=cube has the bounds.
+TEST_F(GenerateTest, BoxesAreTheCubes) {
+  for (const std::string generator : {"brownian", "varied", "still"}) {
+    const auto cubes = open(generator + ":n=300");
+    const auto boxes = open(generator + ":n=300,shape=box");
+    io::SceneFrame cube, box;
+    ASSERT_TRUE(cubes->read_frame(cube));
+    ASSERT_TRUE(boxes->read_frame(box));
+    EXPECT_EQ(cube.position32, box.position32);
+    for (size_t i = 0; i < 300; ++i) {
+      const Eigen::Matrix3d turn = orientation(box, i).toRotationMatrix().cwiseAbs();
+      const io::SceneShapes& shapes = boxes->info().shapes;
+      const Eigen::Vector3f half(shapes.params[boxes->info().body_shape[i]].data());
+      const Eigen::Vector3f bounds(cubes->info().shapes.params[i].data());
+      if (generator != "varied") {
+        EXPECT_EQ(half, Eigen::Vector3f::Constant(0.5f));
+      }
+      EXPECT_TRUE((turn * half.cast<double>()).isApprox(bounds.cast<double>(), 1e-6));
+    }
+  }
+}
+
+TEST_F(GenerateTest, CapsulesAreAsLongAsTheirEdge) {
+  const auto scene = open("brownian:n=30,shape=capsule");
+  ASSERT_EQ(scene->info().shapes.kind,
+            std::vector<uint8_t>{static_cast<uint8_t>(ShapeKind::capsule)});
+  const std::array<float, 8> expected = {0, -0.25f, 0, 0, 0.25f, 0, 0.25f};
+  EXPECT_EQ(scene->info().shapes.params.front(), expected);
+}
+
+TEST_F(GenerateTest, OrientationsAreUniform) {
+  const auto frames = all_frames("still:n=20000,frames=1,shape=box");
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < 20000; ++i) {
+    const Eigen::Matrix3d turn = orientation(frames[0], i).toRotationMatrix();
+    mean += turn / 20000;
+    squares += turn.cwiseAbs2() / 20000;
+  }
+  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_LT((squares.array() - 1.0 / 3).abs().maxCoeff(), 0.02);
+}
+
+TEST_F(GenerateTest, BodiesTurnByTheirAngularVelocity) {
+  constexpr double kTime = 40 * 0.05;
+  const auto frames = all_frames("varied:n=100,frames=41,dt=0.05,spin=3,shape=capsule");
+  double fastest = 0;
+  for (size_t i = 0; i < 100; ++i) {
+    const Eigen::Vector3d velocity = angular_velocity(frames.front(), i);
+    const Eigen::AngleAxisd turn(velocity.norm() * kTime, velocity.normalized());
+    const Eigen::Quaterniond expected = turn * orientation(frames.front(), i);
+    EXPECT_LT(expected.angularDistance(orientation(frames.back(), i)), 2e-6);
+    fastest = std::fmax(fastest, velocity.norm());
+    for (const io::SceneFrame& frame : frames) {
+      EXPECT_NEAR(orientation(frame, i).norm(), 1, 2e-7);
+      EXPECT_EQ(angular_velocity(frame, i), velocity);
+    }
+  }
+  EXPECT_LE(fastest, 3);
+  EXPECT_GE(fastest, 2.8);
+}
+
+TEST_F(GenerateTest, WhatRestsDoesNotTurn) {
+  const auto frames = all_frames("static:n=1000,frames=3,shape=box");
+  for (size_t i = 0; i < 1000; ++i) {
+    const bool turns = i % 10 == 0;
+    EXPECT_EQ(!turns, orientation(frames[0], i).coeffs() == orientation(frames[2], i).coeffs());
+    EXPECT_EQ(!turns, angular_velocity(frames[0], i).isZero(0));
+  }
+  for (const char* spec : {"still:n=50,frames=3,shape=box", "brownian:n=50,speed=0,shape=capsule",
+                           "brownian:n=50,spin=0,shape=box"}) {
+    const auto resting = all_frames(spec);
+    EXPECT_EQ(resting.front().orientation, resting.back().orientation) << spec;
+    EXPECT_EQ(resting.back().angular_velocity, std::vector<float>(150, 0)) << spec;
+  }
+}
+
+// Without speed, turning alone changes who touches whom, from frame to frame.
+TEST_F(GenerateTest, RunsTurnTheBodies) {
+  for (const std::string shape : {"box", "capsule"}) {
+    const std::string spec = "brownian:n=200,frames=3,density=0.5,shape=" + shape;
+    const auto run = [](const std::string& scene) {
+      const CommandResult result = run_command({"run", scene, "--json", "-"});
+      EXPECT_EQ(result.code, 0) << result.err;
+      return result.json();
+    };
+    ASSERT_EQ(run_command({"generate", spec, "-o", path("scene.npz")}).code, 0);
+    EXPECT_EQ(run(spec)["state_hash"], run(path("scene.npz"))["state_hash"]);
+    const auto contacts = [&](const std::string& keys) {
+      return run(spec + ",speed=0,dt=1," + keys)["contacts_per_frame"];
+    };
+    EXPECT_EQ(contacts("spin=0")[0], contacts("spin=0")[2]);
+    EXPECT_EQ(contacts("spin=0")[0], contacts("spin=2")[0]);
+    EXPECT_NE(contacts("spin=0")[2], contacts("spin=2")[2]);
+  }
 }
 
 TEST_F(GenerateTest, CubeRoot) {
