@@ -34,6 +34,7 @@ Options take_options(std::vector<char*>& arguments) {
 
 void register_all(const Options& options) {
   register_bounds();
+  register_dop_bounds();
   register_find_pairs(options);
   register_narrowphase(options);
   register_world(options);

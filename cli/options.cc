@@ -85,6 +85,17 @@ Result<void> check_margin(double margin) {
   return Error{"--margin " + std::string(text) + ": not a number of metres from 0 to 3.4e38"};
 }
 
+Result<std::optional<DopKind>> parse_dop_bounds(int directions) {
+  std::optional<DopKind> kind;
+  if (directions == 0) return kind;
+  for (const DopKind known : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
+    if (directions == static_cast<int>(known)) kind = known;
+  }
+  if (kind) return kind;
+  return Error{"--dop-bounds " + std::to_string(directions) +
+               ": there are k-DOPs of 6, 14, 18 and 26 directions, and 0 for none"};
+}
+
 Result<BroadphaseMethod> parse_broadphase(const std::string& text) {
   std::string names;
   for (auto method : {BroadphaseMethod::automatic, BroadphaseMethod::brute, BroadphaseMethod::sweep,

@@ -9,6 +9,7 @@
 
 #include "carom/broadphase/find_pairs.h"
 #include "carom/kernel/contact.h"
+#include "carom/kernel/dop.h"
 #include "carom/kernel/result.h"
 #include "carom/simd/isa.h"
 
@@ -36,6 +37,8 @@ Result<void> check_threads(int threads);
 Result<void> check_tier(const std::string& tier);
 // Metres, finite and not negative.
 Result<void> check_margin(double margin);
+// Directions of k-DOPs; 0: none.
+Result<std::optional<DopKind>> parse_dop_bounds(int directions);
 Result<BroadphaseMethod> parse_broadphase(const std::string& text);
 
 struct NamedDetail {

@@ -17,6 +17,7 @@ class Recorder {
     record_.pairs.push_back(report.pairs);
     record_.tested.push_back(report.tested);
     record_.kept.push_back(report.kept);
+    record_.dropped.push_back(report.dropped);
     record_.quarantined.push_back(report.quarantined);
     Detail detail = world_.settings().detail;
     if (detail >= Detail::contact) record_.contacts.push_back(report.contacts);

@@ -23,6 +23,7 @@ struct RunRecord {
   std::vector<uint64_t> contacts;  // at detail overlap: overlapping pairs; at pairs: empty
   std::vector<uint64_t> tested;
   std::vector<uint64_t> kept;
+  std::vector<uint64_t> dropped;
   std::vector<uint64_t> quarantined;
   std::array<std::vector<uint64_t>, 3> events;  // by EventKind
   std::vector<uint32_t> quarantined_bodies;     // in any frame, ascending

@@ -25,6 +25,7 @@ struct RunOptions {
   EngineOptions engine;
   std::string broadphase = "auto";
   double margin = 0;
+  int dop_bounds = 0;  // directions; 0: none
   bool no_cache = false;
   std::string json;
   std::string pairs_out;
@@ -40,10 +41,13 @@ Result<WorldSettings> world_settings(const RunOptions& options) {
   Result<BroadphaseMethod> broadphase = parse_broadphase(options.broadphase);
   if (!broadphase) return broadphase.error();
   if (Result<void> margin = check_margin(options.margin); !margin) return margin.error();
+  Result<std::optional<DopKind>> dop_bounds = parse_dop_bounds(options.dop_bounds);
+  if (!dop_bounds) return dop_bounds.error();
   WorldSettings settings;
   settings.detail = *detail;
   settings.broadphase = *broadphase;
   settings.margin = static_cast<float>(options.margin);
+  settings.dop_bounds = *dop_bounds;
   settings.carry_results = !options.no_cache;
   return settings;
 }
@@ -80,6 +84,7 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
                    .detail = options.engine.detail,
                    .pair_kinds = pair_kinds(player->bodies_of_kind()),
                    .margin = settings.margin,
+                   .dop_bounds = options.dop_bounds,
                    .memory = {},
                    .record = {}};
   Progress progress(console, "frame", report.frames);
@@ -149,6 +154,10 @@ void add_run_command(CLI::App& program, Action& action) {
       ->capture_default_str();
   command
       .add_option("--margin", options->margin, "Metres to fatten bounds by; pairs are kept longer")
+      ->capture_default_str();
+  command
+      .add_option("--dop-bounds", options->dop_bounds,
+                  "Drop pairs whose k-DOPs of 6, 14, 18 or 26 directions are apart; 0: none")
       ->capture_default_str();
   command.add_flag("--no-cache", options->no_cache,
                    "Test every pair anew and drop the sort order between frames");

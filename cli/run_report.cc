@@ -91,6 +91,7 @@ Json to_json(const RunReport& report) {
   json["broadphase"] = name(record.search.method);
   json["broadphase_reason"] = record.search.reason;
   json["margin"] = report.margin;
+  json["dop_bounds"] = report.dop_bounds;
   json["pipeline"] = Json::array();
   for (Stage stage : stages_run(record)) json["pipeline"].push_back(name(stage));
   json["pair_kinds"] = report.pair_kinds;
@@ -103,6 +104,7 @@ Json to_json(const RunReport& report) {
   json["contacts_per_frame"] = record.contacts;
   json["tested_pairs_per_frame"] = record.tested;
   json["kept_pairs_per_frame"] = record.kept;
+  json["dropped_pairs_per_frame"] = record.dropped;
   json["searched_bodies_per_frame"] = record.searched;
   json["events_per_frame"] = events_json(record);
   json["quarantined_per_frame"] = record.quarantined;
@@ -139,6 +141,7 @@ void print(const RunReport& report, std::ostream& out) {
   table.add({"pairs", extent(record.pairs)});
   table.add({report.detail == "overlap" ? "overlaps" : "contacts", extent(record.contacts)});
   table.add({"kept pairs", extent(record.kept)});
+  if (report.dop_bounds > 0) table.add({"dropped pairs", extent(record.dropped)});
   table.add({"state hash", record.hash.text()});
   table.add({"memory", number("%.1f bytes a body, ", bytes_per_body(report)) +
                            number("%.1f bytes a pair, ", bytes_per_pair(report)) +

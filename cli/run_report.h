@@ -20,6 +20,7 @@ struct RunReport {
   std::string detail;
   std::vector<std::string> pair_kinds;  // that the bodies of the scene can make
   float margin = 0;                     // metres
+  int dop_bounds = 0;                   // directions; 0: none
   WorldMemory memory;                   // at the end
   uint64_t peak_rss_bytes = 0;
   RunRecord record;

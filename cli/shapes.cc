@@ -1,6 +1,7 @@
 #include "cli/shapes.h"
 
 #include <array>
+#include <cstdio>
 
 #include "io/file.h"
 
@@ -40,6 +41,25 @@ Result<Shape> convert_mesh(const io::SceneShapes& shapes, size_t index, const st
                          " triangles; this version has kernels for meshes of one triangle only");
 }
 
+// Of the shape's own vertices.
+Result<Shape> convert_dop(const io::SceneShapes& shapes, size_t index, const std::string& source) {
+  const float k = shapes.params[index][0];
+  const auto [first, count] = shapes.vertex_range[index];
+  if (count == 0) return shape_error(source, index, "a dop without vertices");
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(count);
+  for (size_t i = first; i < size_t{first} + count; ++i) {
+    points.push_back(vector(shapes.vertices[i].data()));
+  }
+  for (const DopKind kind : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
+    if (k == static_cast<float>(kind)) return Shape(Dop::of_points(points, kind));
+  }
+  char number[32];
+  std::snprintf(number, sizeof number, "%g", double{k});
+  return shape_error(source, index,
+                     std::string("a dop of k = ") + number + " (6, 14, 18 or 26 was expected)");
+}
+
 Result<Shape> convert_shape(const io::SceneShapes& shapes, size_t index,
                             const std::string& source) {
   const std::array<float, 8>& params = shapes.params[index];
@@ -53,6 +73,8 @@ Result<Shape> convert_shape(const io::SceneShapes& shapes, size_t index,
       return Shape(Aabb::from_half_extents(vector(&params[0])));
     case ShapeKind::box:
       return Shape(Box{vector(&params[0])});
+    case ShapeKind::dop:
+      return convert_dop(shapes, index, source);
     case ShapeKind::mesh:
       return convert_mesh(shapes, index, source);
     case ShapeKind::halfspace:

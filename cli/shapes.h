@@ -11,8 +11,8 @@
 namespace carom::cli {
 
 // Refuses kinds that have no kernel yet; `source` names the file in the message. A mesh of one
-// triangle becomes a Triangle. Sizes are passed on as they are: what is invalid is for the kernels
-// to say.
+// triangle becomes a Triangle, a dop the slabs of its vertices. Sizes are passed on as they are:
+// what is invalid is for the kernels to say.
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes, const std::string& source);
 
 }  // namespace carom::cli

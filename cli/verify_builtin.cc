@@ -42,25 +42,41 @@ void make_triangle(io::SceneShapes& shapes, size_t index, const std::array<float
   shapes.triangles.push_back({0, 1, 2});
 }
 
-// Spheres, capsules, aabbs, boxes and triangles in turn, and a few half-spaces, all from the half
-// extents that `shapes` holds.
+// A k-DOP within these half extents.
+void make_dop(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
+  constexpr std::array kPlanes = {6.0f, 14.0f, 18.0f, 26.0f};
+  const auto [x, y, z] = half;
+  shapes.params[index] = {kPlanes[index / 7 % kPlanes.size()]};
+  shapes.vertex_range[index] = {static_cast<uint32_t>(shapes.vertices.size()), 6};
+  shapes.vertices.insert(
+      shapes.vertices.end(),
+      {{x, 0, z / 2}, {-x, y / 2, 0}, {0, y, -z / 2}, {x / 2, -y, 0}, {0, 0, z}, {-x / 2, 0, -z}});
+}
+
+// Spheres, capsules, aabbs, boxes and triangles in turn, a few k-DOPs and fewer half-spaces, all
+// from the half extents that `shapes` holds.
 void make_all_kinds(io::SceneShapes& shapes) {
   constexpr std::array kKinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
                                  ShapeKind::box, ShapeKind::mesh};
+  constexpr size_t kDopStride = 21;
   shapes.vertex_range.resize(shapes.kind.size());
   shapes.triangle_range.resize(shapes.kind.size());
   for (size_t i = 0; i < shapes.kind.size(); ++i) {
     const bool halfspace = i % kHalfspaceStride == 0;
-    const ShapeKind kind = halfspace ? ShapeKind::halfspace : kKinds[i % kKinds.size()];
+    const ShapeKind kind = halfspace             ? ShapeKind::halfspace
+                           : i % kDopStride == 1 ? ShapeKind::dop
+                                                 : kKinds[i % kKinds.size()];
     shapes.kind[i] = static_cast<uint8_t>(kind);
     std::array<float, 8>& params = shapes.params[i];
     const std::array half = {params[0], params[1], params[2]};
     if (kind == ShapeKind::capsule) params = {-half[0], 0, half[2], half[0], 0, 0, half[1] / 2};
     if (kind == ShapeKind::halfspace) params = {half[0], -half[1], half[2], -1};
     if (kind == ShapeKind::mesh) make_triangle(shapes, i, half);
+    if (kind == ShapeKind::dop) make_dop(shapes, i, half);
   }
-  shapes.params[16][6] = -1;  // the radius of a capsule
-  shapes.vertices[5][1] = kNan;
+  shapes.params[16][6] = -1;     // the radius of a capsule
+  shapes.vertices[5][1] = kNan;  // of a k-DOP
+  shapes.vertices[8][1] = kNan;  // of a triangle
 }
 
 // A generated scene of boxes of which some become other kinds, with layers, masks, owners, sensors

@@ -13,12 +13,22 @@
 namespace carom::cli {
 namespace {
 
-constexpr std::array kKinds = {ShapeKind::sphere, ShapeKind::capsule,  ShapeKind::aabb,
-                               ShapeKind::box,    ShapeKind::triangle, ShapeKind::halfspace};
+constexpr std::array kKinds = {ShapeKind::sphere,   ShapeKind::capsule, ShapeKind::aabb,
+                               ShapeKind::box,      ShapeKind::dop,     ShapeKind::triangle,
+                               ShapeKind::halfspace};
+constexpr std::array kDopKinds = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
+
+// A cube of which the corners are cut off.
+Dop even_dop(float size) {
+  Dop dop{.kind = DopKind::k14};
+  dop.lower.fill(-size);
+  dop.upper.fill(size);
+  return dop;
+}
 
 // A shape whose numbers are all 0 or plus or minus `size`.
 Shape even_shape(ShapeKind kind, float size) {
@@ -35,6 +45,8 @@ Shape even_shape(ShapeKind kind, float size) {
       return Triangle{{x, y - x, -y - x}, size < 0 ? size : 0, false, 0};
     case ShapeKind::halfspace:
       return Halfspace{Eigen::Vector3f::Constant(size), size};
+    case ShapeKind::dop:
+      return even_dop(size);
     default:
       return Sphere{size};
   }
@@ -164,6 +176,8 @@ class RandomPairs {
         return triangle(size);
       case ShapeKind::halfspace:
         return halfspace(size);
+      case ShapeKind::dop:
+        return dop(size);
       default:
         return Sphere{static_cast<float>(size)};
     }
@@ -175,6 +189,13 @@ class RandomPairs {
     capsule.b = one_of(8) ? capsule.a : point(size);
     capsule.radius = one_of(8) ? 0 : up_to(0.5 * size);
     return capsule;
+  }
+
+  // Of a point and more.
+  Dop dop(double size) {
+    std::vector<Eigen::Vector3f> points(1 + random_.below(12));
+    for (Eigen::Vector3f& p : points) p = point(size);
+    return Dop::of_points(points, kDopKinds[random_.below(kDopKinds.size())]);
   }
 
   Triangle triangle(double size) {
@@ -202,10 +223,13 @@ class RandomPairs {
 };
 
 constexpr size_t kPairs = 2003;
+// Tested one at a time.
+constexpr size_t kDopPairs = 211;
 
 BuiltinPairs pairs_of(ShapeKind a, ShapeKind b, PositionType positions, uint64_t seed) {
   RandomPairs pairs(positions, seed);
-  for (size_t i = 0; i < kPairs; ++i) pairs.add(a, b);
+  const bool has_dop = a == ShapeKind::dop || b == ShapeKind::dop;
+  for (size_t i = 0; i < (has_dop ? kDopPairs : kPairs); ++i) pairs.add(a, b);
   pairs.add_special(a, b);
   return {std::string(name(a)) + "-" + name(b) + " pairs", pairs.take()};
 }

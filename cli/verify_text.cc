@@ -1,5 +1,6 @@
 #include "cli/verify_text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <variant>
 
@@ -36,6 +37,14 @@ std::string parameters(const Triangle& triangle) {
 
 std::string parameters(const Halfspace& halfspace) {
   return "normal " + list(halfspace.normal) + " offset " + text_of(halfspace.offset);
+}
+
+std::string parameters(const Dop& dop) {
+  std::string text = "k " + std::to_string(static_cast<int>(dop.kind));
+  for (size_t i = 0; i < std::min(slab_count(dop.kind), kMostSlabs); ++i) {
+    text += " [" + text_of(dop.lower[i]) + ", " + text_of(dop.upper[i]) + "]";
+  }
+  return text;
 }
 
 std::string list(const Eigen::Quaternionf& q) {

@@ -44,8 +44,12 @@ inline bool is_finite(const Row& row) {
 
 inline bool is_direction(float x, float y, float z) { return x != 0 || y != 0 || z != 0; }
 
-// Capsules, boxes, half-spaces, triangles: their parameters.
+// Its number of planes, and slabs that are finite, in order, and have a point in common.
+bool is_valid_dop(const Dop& dop);
+
+// Capsules, boxes, dops, half-spaces, triangles: their parameters.
 inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
+  if (kind == ShapeKind::dop) return is_valid_dop(std::get<Dop>(shape_from_rows(kind, rows)));
   for (uint32_t i = 0; i < row_count(kind); ++i) {
     if (!is_finite(rows[i])) return false;
   }

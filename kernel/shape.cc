@@ -15,8 +15,8 @@ const char* name(ShapeKind kind) {
 ShapeKind kind_of(const Shape& shape) {
   // In the order of the variant.
   static constexpr std::array<ShapeKind, std::variant_size_v<Shape>> kKinds = {
-      ShapeKind::sphere, ShapeKind::aabb,     ShapeKind::capsule,
-      ShapeKind::box,    ShapeKind::triangle, ShapeKind::halfspace};
+      ShapeKind::sphere,   ShapeKind::aabb,      ShapeKind::capsule, ShapeKind::box,
+      ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop};
   return kKinds[shape.index()];
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "carom/kernel/views.h"
 
 namespace carom {
@@ -20,6 +22,35 @@ Rows rows_of(const Triangle& t) {
           row(t.corners[2], t.inner_edges)};
 }
 
+// The rows of a k-DOP as one list: lower ends, upper ends, k.
+constexpr size_t kUpperEnds = kMostSlabs, kNumberOfPlanes = 2 * kMostSlabs;
+static_assert(kNumberOfPlanes < 4 * row_count(ShapeKind::dop));
+
+Rows rows_of(const Dop& dop) {
+  Rows rows{};
+  const auto number = [&](size_t i) -> float& { return rows[i / 4][i % 4]; };
+  for (size_t i = 0; i < std::min(slab_count(dop.kind), kMostSlabs); ++i) {
+    number(i) = dop.lower[i];
+    number(kUpperEnds + i) = dop.upper[i];
+  }
+  number(kNumberOfPlanes) = static_cast<float>(dop.kind);
+  return rows;
+}
+
+// A number of planes that no k-DOP has becomes zero.
+Dop dop_from(const Row* rows) {
+  const auto number = [&](size_t i) { return rows[i / 4][i % 4]; };
+  Dop dop{.kind = DopKind{}};
+  for (const DopKind kind : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
+    if (number(kNumberOfPlanes) == static_cast<float>(kind)) dop.kind = kind;
+  }
+  for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+    dop.lower[i] = number(i);
+    dop.upper[i] = number(kUpperEnds + i);
+  }
+  return dop;
+}
+
 }  // namespace
 
 Rows shape_rows(const Shape& shape) {
@@ -34,6 +65,8 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
       return Box{vector(rows[0])};
     case ShapeKind::halfspace:
       return Halfspace{vector(rows[0]), rows[0][3]};
+    case ShapeKind::dop:
+      return dop_from(rows);
     default:
       return Triangle{{vector(rows[0]), vector(rows[1]), vector(rows[2])},
                       rows[0][3],

@@ -1,4 +1,5 @@
-// Every tolerance of the project, with its reason. All are relative.
+// Every tolerance of the project, with its reason. All are relative, or in scaled units (see Units
+// in narrowphase/kernel_policy.h).
 #pragma once
 
 namespace carom {
@@ -10,6 +11,10 @@ inline constexpr float kNearTouch = 0x1p-20f;
 // The same for shapes that are turned, in scaled units (coordinates up to two): rotations and the
 // products that follow round to at most 30 units of 2^-24, a quarter of this.
 inline constexpr float kNearTouchScaled = 0x1p-17f;
+
+// Shapes further apart than this along some direction, in scaled units, are found to be apart by
+// every test: the best separating axis shows a good part of it, eight times what a test may err.
+inline constexpr float kClearlyApart = 0x1p-14f;
 
 // Points nearer than this in scaled units are taken for one: the square of their distance is about
 // to vanish in float32.
@@ -26,5 +31,124 @@ inline constexpr double kNearSegment<double> = 0x1p-44;
 // a power of two first, which changes no bit of their rotation.
 inline constexpr float kLeastSquaredNorm = 0x1p-60f;
 inline constexpr float kGreatestSquaredNorm = 0x1p60f;
+
+// --- Cores (segments, triangles): when they count as parallel, flat or touching; in scaled units
+// or relative, by the precision of the test ---
+
+template <class Real>
+struct CoreTolerance;
+
+template <>
+struct CoreTolerance<float> {
+  // sin^2 of the angle of two edges below which their cross product has lost half of its digits.
+  static constexpr float kParallel = 0x1p-24f;
+  // The same where it says nothing at all, even after it was made perpendicular to one of the two.
+  static constexpr float kSameDirection = 0x1p-40f;
+  // (height / longest edge)^2 of a triangle that is taken for its longest edge: the height is below
+  // four roundings.
+  static constexpr float kFlat = 0x1p-44f;
+  // Cross products whose squares are below this are about to vanish, and features so small with
+  // them.
+  static constexpr float kVanishing = 0x1p-100f;
+  // How much less than the distance the gap along a normal may be: several times what rounding of a
+  // good normal makes of it, less than the least that is asked for, which is 5e-6.
+  static constexpr float kTilt = 0x1p-18f;
+  // Edges nearer than this may have passed each other for all that rounding tells.
+  static constexpr float kNearEdges = 0x1p-10f;
+  // Squared distances that differ by this factor only may be equal.
+  static constexpr float kTie = 1 + 0x1p-21f;
+  // Overlap of cores that is none: it may be rounding.
+  static constexpr float kShallow = 0x1p-20f;
+};
+
+template <>
+struct CoreTolerance<double> {
+  static constexpr double kParallel = 0x1p-50;
+  static constexpr double kSameDirection = 0x1p-96;
+  static constexpr double kFlat = 0x1p-96;
+  static constexpr double kVanishing = 0x1p-800;
+  static constexpr double kTilt = 0x1p-44;
+  static constexpr double kNearEdges = 0x1p-40;
+  static constexpr double kTie = 1 + 0x1p-50;
+  static constexpr double kShallow = 0x1p-46;
+};
+
+// --- Boxes against segments and triangles, in scaled units ---
+
+// Two edges, or an edge and a face, whose sine is below the root of this have no axis across both:
+// the faces' axes differ from it by no more than rounding.
+inline constexpr float kParallelSquared = 0x1p-48f;
+
+// A separating axis that leads from one nearest point to the other up to this is the normal:
+// rounding of coordinates below two is a quarter of it.
+inline constexpr float kSameWay = 0x1p-21f;
+
+// The direction between the nearest points is the normal if it parts the cores by their distance up
+// to this; a fifth of what the normal's error may be.
+inline constexpr float kCertain = 0x1p-19f;
+
+// The same in double precision.
+inline constexpr double kSameWayDouble = 0x1p-40;
+inline constexpr double kCertainDouble = 0x1p-30;
+
+// --- Boxes against boxes, in scaled units ---
+
+// Squared length of a cross product of edges that are parallel to rounding: faces do for them.
+template <class Real>
+inline constexpr Real kLeastCross = Real(0x1p-46);
+template <>
+inline constexpr double kLeastCross<double> = 0x1p-100;
+
+// Axes across a normal, to rounding: the feature that faces the other box runs along them.
+template <class Real>
+inline constexpr Real kAcross = Real(0x1p-19);
+template <>
+inline constexpr double kAcross<double> = 0x1p-26;
+
+// Points that should face each other are further from that than this, squared.
+inline constexpr float kOffAxisSquared = 0x1p-36f;
+
+// --- Half-spaces, in scaled units ---
+
+// Faces, edges and capsules whose ends differ in height by less than this share of the shape's size
+// lie flat: rotations round to at most 8 units of 2^-24. Their middle is a point that stays put.
+inline constexpr float kLyingFlat = 0x1p-21f;
+
+// How many times greater than a shape the numbers may be that place the plane, before their
+// rounding in float32 (4 units of 2^-24 at the most that was found) is more than 2e-6 of the shape:
+// bodies far from the position of a turned half-space, and half-spaces with a great offset.
+inline constexpr float kFarPlane = 8.0f;
+
+// --- Manifolds, in scaled units ---
+
+// Points of a manifold may be as far apart as this, which is what rounding does to them.
+inline constexpr float kTouchingPoint = 0x1p-18f;
+
+// Sides of faces count as so much farther out: edges that lie on one another stay in sight.
+inline constexpr float kClipSlack = 0x1p-20f;
+
+// Slower than this an edge does not cross a line: the quotient would lose its meaning.
+inline constexpr float kLeastCrossing = 0x1p-60f;
+
+// Points whose squared distance is less are one; so are lines and points so near to them.
+inline constexpr float kSamePoint = 0x1p-32f;
+
+// A face whose normal is at a greater angle to the view (the cosine is less) is seen from the edge.
+inline constexpr float kEdgeOn = 0.05f;
+
+// Special triangles show their front if its normal is at a smaller angle to the contact's.
+inline constexpr float kFront = 0.99f;
+
+// Triangles whose longest edge has a smaller squared sine with another are segments.
+inline constexpr float kSliver = 0x1p-40f;
+
+// Capsules that the contact's normal meets at a smaller squared sine touch with an end.
+inline constexpr float kEndOn = 0x1p-10f;
+
+// Capsules touch along a line if the squared sine of their angle is less.
+inline constexpr float kSameDirection = 0x1p-12f;
+
+// So much of the radius beyond its end a capsule is still a cylinder: off by half the square.
+inline constexpr float kOverhang = 0x1p-9f;
 
 }  // namespace carom

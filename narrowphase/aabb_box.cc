@@ -7,6 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/boxes_contact-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -49,6 +50,8 @@ struct AabbBoxDistance : AabbBoxBase {
 
 void aabb_box(const Batch& batch) {
   switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<AabbLanes, BoxLanes>(batch);
     case Pass::test:
       return run_batch<AabbBox>(batch);
     case Pass::distance:

@@ -7,6 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/box_triangle-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -55,6 +56,7 @@ struct AabbTriangleDecision : AabbTriangleBase {
 };
 
 void aabb_triangle(const Batch& batch) {
+  if (batch.pass == Pass::direction) return run_direction<AabbLanes, TriangleLanes>(batch);
   if (batch.pass == Pass::manifold) return run_manifold<AabbLanes, TriangleLanes>(batch);
   if (batch.detail == Detail::overlap) return run_batch<AabbTriangleDecision>(batch);
   run_batch<AabbTriangle>(batch);

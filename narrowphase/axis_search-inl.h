@@ -7,7 +7,7 @@
 #define CAROM_NARROWPHASE_AXIS_SEARCH_INL_H_
 #endif
 
-#include "narrowphase/box_tolerances.h"
+#include "kernel/tolerances.h"
 #include "simd/axis-inl.h"
 #include "simd/rotation-inl.h"
 

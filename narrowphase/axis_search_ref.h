@@ -6,7 +6,7 @@
 // axis that rounding has turned still gives a bound.
 #pragma once
 
-#include "narrowphase/box_tolerances.h"
+#include "kernel/tolerances.h"
 #include "narrowphase/vector_ref.h"
 
 namespace carom::reference {

@@ -53,6 +53,21 @@ HWY_INLINE void clear_unless(Mask valid, Quaternion& q) {
   q.w = hn::IfThenElse(valid, hn::Mul(q.w, down), splat(1));
 }
 
+HWY_INLINE Mask is_plain(const Quaternion& q) {
+  const F norm = squared_norm(q);
+  return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
+}
+
+// One comparison for everything that must be finite: NaN and infinity survive the sum.
+template <class A, class B>
+HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) {
+  const F sum = hn::Add(sum_of_sizes(pose.d), hn::Add(a.size(), b.size()));
+  Mask valid = hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
+  if constexpr (A::kIsOriented) valid = hn::And(valid, is_plain(pose.a));
+  if constexpr (B::kIsOriented) valid = hn::And(valid, is_plain(pose.b));
+  return valid;
+}
+
 template <class Kernel, class Records, Detail kDetail>
 struct BatchLoop {
   using A = typename Kernel::A;
@@ -138,21 +153,6 @@ struct BatchLoop {
     tail.out = results.columns();
     run(tail);
     results.copy_to(batch.out, first_row, count, kDetail);
-  }
-
-  // One comparison for everything that must be finite: NaN and infinity survive the sum.
-  static HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) {
-    const F sum = hn::Add(sum_of_sizes(pose.d), hn::Add(a.size(), b.size()));
-    Mask valid = hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
-    if constexpr (A::kIsOriented) valid = hn::And(valid, is_plain(pose.a));
-    if constexpr (B::kIsOriented) valid = hn::And(valid, is_plain(pose.b));
-    return valid;
-  }
-
-  static HWY_INLINE Mask is_plain(const Quaternion& q) {
-    const F norm = squared_norm(q);
-    return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)),
-                   hn::Le(norm, splat(kGreatestSquaredNorm)));
   }
 
   static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {

@@ -30,13 +30,18 @@ struct BatchSide {
 
 // What a run of a batch does. All pairs are tested; some kinds leave work for rows that need it.
 enum class Pass : uint8_t {
+  direction,  // whether pairs are apart along a direction, and need no test
   test,      // decision, and the contact of overlapping pairs; where there is no distance pass, all
   distance,  // the contact columns of separate pairs
   manifold,  // points of overlapping pairs, whose results are in `tested`
 };
 
-// The passes of a kind beside the test.
-enum class MorePasses : uint8_t { none, manifold, distance_and_manifold };
+// The passes of a kind beside the test. A direction pass pays where the test tries many axes.
+enum class MorePasses : uint8_t { none, manifold, direction_and_manifold, all };
+
+// Lists of pairs, and what else is read by row, may be read up to a multiple of this. (The test
+// pass reads no further than `count`.)
+inline constexpr size_t kMostLanes = 16;
 
 // Row i tests a[pairs[i].a] against b[pairs[i].b]; the result goes to row i of `out`, which has
 // every column that the detail fills.
@@ -50,8 +55,11 @@ struct Batch {
   Detail detail = Detail::contact;
   WitnessFrame frame = WitnessFrame::world;
   Pass pass = Pass::test;
-  ResultColumns tested;  // for Pass::manifold: separation, normal and point_a, relative to A
   ResultColumns out;
+  const uint32_t* direction = nullptr;  // Pass::direction alone: packed_direction.h
+  // Pass::manifold alone.
+  ResultColumns tested;                    // separation, normal and point_a, relative to A
+  const uint16_t* manifold_row = nullptr;  // the row of `out` that row i goes to
 };
 
 // run_NAME(batch) for every pair kind, on the ISA in use.

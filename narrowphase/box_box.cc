@@ -7,6 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/boxes_contact-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,6 +45,8 @@ struct BoxBoxDistance : BoxBoxBase {
 
 void box_box(const Batch& batch) {
   switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<BoxLanes, BoxLanes>(batch);
     case Pass::test:
       return run_batch<BoxBox>(batch);
     case Pass::distance:

@@ -7,6 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/box_triangle-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -52,6 +53,7 @@ struct BoxTriangleDecision : BoxTriangleBase {
 };
 
 void box_triangle(const Batch& batch) {
+  if (batch.pass == Pass::direction) return run_direction<BoxLanes, TriangleLanes>(batch);
   if (batch.pass == Pass::manifold) return run_manifold<BoxLanes, TriangleLanes>(batch);
   if (batch.detail == Detail::overlap) return run_batch<BoxTriangleDecision>(batch);
   run_batch<BoxTriangle>(batch);

@@ -12,15 +12,6 @@ struct BoxWitness {
   bool is_unsure = false;  // axes tie, and Real cannot tell along which of them the boxes meet
 };
 
-// Points that should face each other are further from that than this, squared.
-inline constexpr float kOffAxisSquared = 0x1p-36f;
-
-// Axes across a normal, to rounding: the feature that faces the other box runs along them.
-template <class Real>
-inline constexpr Real kAcross = Real(0x1p-19);
-template <>
-inline constexpr double kAcross<double> = 0x1p-26;
-
 // Of the face, edge or corner of a box that lies furthest along `direction`, the point nearest to
 // `target`; all in the frame of the box.
 template <class Real>

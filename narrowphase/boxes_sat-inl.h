@@ -124,9 +124,6 @@ struct AxisCrosses {
   F3 xy, zx, yz;
 };
 
-// Shorter cross products are of edges that are parallel to rounding: faces do for them.
-inline constexpr float kLeastCross = 0x1p-46f;
-
 template <int kA, int kB>
 HWY_INLINE void offer_edges(const BoxPairLanes& p, const AxisCrosses& crosses, BestEdges& best) {
   constexpr int k = (kA + 1) % 3;
@@ -151,7 +148,7 @@ HWY_INLINE void offer_edges(const BoxPairLanes& p, const AxisCrosses& crosses, B
 
   const F square = hn::Mul(gap, hn::Abs(gap));
   const Mask better =
-      hn::And(hn::Ge(squared, splat(kLeastCross)),
+      hn::And(hn::Ge(squared, splat(kLeastCross<float>)),
               hn::Gt(hn::Mul(square, best.squared), hn::Mul(best.signed_square, squared)));
   best.signed_square = hn::IfThenElse(better, square, best.signed_square);
   best.squared = hn::IfThenElse(better, squared, best.squared);

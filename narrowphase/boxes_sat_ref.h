@@ -6,6 +6,7 @@
 // bound of the separation for any rounding of the rotation, however nearly parallel the edges are.
 #pragma once
 
+#include "kernel/tolerances.h"
 #include "narrowphase/vector_ref.h"
 
 namespace carom::reference {
@@ -38,12 +39,6 @@ Vector3<Real> axis_cross(int i, const Vector3<Real>& v) {
   if (i == 1) return {v.z(), 0, -v.x()};
   return {-v.y(), v.x(), 0};
 }
-
-// Shorter cross products are of edges that are parallel to rounding: faces do for them.
-template <class Real>
-inline constexpr Real kLeastCross = Real(0x1p-46);
-template <>
-inline constexpr double kLeastCross<double> = 0x1p-100;
 
 template <class Real>
 Real signed_square(Real x) {

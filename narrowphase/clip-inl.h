@@ -106,7 +106,10 @@ HWY_INLINE F slack_of_edge(F dx, F dy) {
 
 template <size_t kSeen>
 HWY_INLINE void clip_edge(const TriangleFace& face, const Seen<kSeen>& seen, size_t from, size_t to,
-                          const SeenWay&, F& near, F& far) {
+                          const SeenWay& way, F& near, F& far) {
+  // What the slack of two sides adds to the sharp corner between them is long: it ends where the
+  // corners end.
+  clip_between(seen.x[from], way.x, splat(0), face.x[1], near, far);
   for (size_t k = 0; k < 3; ++k) {
     const F a_x = face.x[k];
     const F a_y = face.y[k];
@@ -232,10 +235,16 @@ HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, co
   const F all_slack = hn::Add(hn::Add(slack[0], slack[1]), slack[2]);
   const Mask has_area = hn::And(hn::Gt(hn::Mul(area, side), all_slack),
                                 hn::And(is_open, hn::Gt(hn::Abs(facing), splat(kEdgeOn))));
+  const F lower_x = hn::Sub(min(min(seen.x[0], seen.x[1]), seen.x[2]), splat(kClipSlack));
+  const F lower_y = hn::Sub(min(min(seen.y[0], seen.y[1]), seen.y[2]), splat(kClipSlack));
+  const F upper_x = hn::Add(max(max(seen.x[0], seen.x[1]), seen.x[2]), splat(kClipSlack));
+  const F upper_y = hn::Add(max(max(seen.y[0], seen.y[1]), seen.y[2]), splat(kClipSlack));
   for (size_t k = 0; k < Face::kCorners; ++k) {
     const F x = face.corner_x(k);
     const F y = face.corner_y(k);
-    Mask covered = has_area;
+    const Mask in_x = hn::And(hn::Ge(x, lower_x), hn::Le(x, upper_x));
+    const Mask in_y = hn::And(hn::Ge(y, lower_y), hn::Le(y, upper_y));
+    Mask covered = hn::And(has_area, hn::And(in_x, in_y));
     for (size_t i = 0; i < 3; ++i) {
       const F left = area_left(ways[i].x, ways[i].y, hn::Sub(x, seen.x[i]), hn::Sub(y, seen.y[i]));
       covered = hn::And(covered, hn::Ge(hn::Add(hn::Mul(left, side), slack[i]), zero));

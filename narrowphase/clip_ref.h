@@ -4,8 +4,6 @@
 // Clipping", ACM TOG 3(1), 1984.
 #pragma once
 
-#include <vector>
-
 #include "narrowphase/polygon_ref.h"
 
 namespace carom::reference {
@@ -15,7 +13,11 @@ struct ClipPoint {
   float x, y, s;
 };
 
-using ClipPoints = std::vector<ClipPoint>;
+// Two for every edge of one polygon, one for every corner of the other.
+using ClipPoints = FewOf<ClipPoint, 3 * DopFace::kMostCorners>;
+
+// Seen along the view: the corners of a polygon.
+using SeenPolygon = FewOf<ClipPoint, DopFace::kMostCorners>;
 
 inline Point2 xy(const ClipPoint& c) { return {c.x, c.y}; }
 
@@ -56,6 +58,25 @@ inline SeenEdge edge_between(const ClipPoint& from, const ClipPoint& to) {
   return {from, to, {to.x - from.x, to.y - from.y, to.s - from.s}};
 }
 
+struct Extent2 {
+  Point2 lower, upper;
+
+  bool holds(Point2 p) const {
+    return p.x >= lower.x - kClipSlack && p.x <= upper.x + kClipSlack &&
+           p.y >= lower.y - kClipSlack && p.y <= upper.y + kClipSlack;
+  }
+};
+
+template <class Points>
+Extent2 extent_of(const Points& points) {
+  Extent2 extent{{points[0].x, points[0].y}, {points[0].x, points[0].y}};
+  for (size_t i = 1; i < points.size(); ++i) {
+    extent.lower = {min(extent.lower.x, points[i].x), min(extent.lower.y, points[i].y)};
+    extent.upper = {max(extent.upper.x, points[i].x), max(extent.upper.y, points[i].y)};
+  }
+  return extent;
+}
+
 // The part of an edge that is in sight, from 0 to 1.
 struct Span {
   float near = 0;
@@ -92,10 +113,24 @@ inline float slack_of_edge(Point2 a, Point2 b) {
   return kClipSlack * (std::fabs(b.x - a.x) + std::fabs(b.y - a.y));
 }
 
-inline Span clip_edge(const TriangleFace& face, const SeenEdge& edge) {
+// What the slack of two sides adds to the sharp corner between them is long: it ends where the
+// corners end.
+inline void clip_to_extent(const TriangleFace& face, const SeenEdge& edge, Span& span) {
+  clip_between(edge.from.x, edge.way.x, 0, face.points[1].x, span);
+}
+inline void clip_to_extent(const PolygonFace& face, const SeenEdge& edge, Span& span) {
+  const Extent2 extent = extent_of(face.points);
+  clip_between(edge.from.x, edge.way.x, extent.lower.x, extent.upper.x, span);
+  clip_between(edge.from.y, edge.way.y, extent.lower.y, extent.upper.y, span);
+}
+
+template <AnyPolygon Face>
+Span clip_edge(const Face& face, const SeenEdge& edge) {
   Span span;
-  for (size_t k = 0; k < 3; ++k) {
-    const Point2 a = face.points[k], b = face.points[(k + 1) % 3];
+  clip_to_extent(face, edge, span);
+  const size_t count = face.points.size();
+  for (size_t k = 0; k < count; ++k) {
+    const Point2 a = face.points[k], b = face.points[(k + 1) % count];
     const float start = area_left(a, b, edge.from.x, edge.from.y) + slack_of_edge(a, b);
     const float rate =
         crossing((area_left(a, b, edge.to.x, edge.to.y) + slack_of_edge(a, b)) - start);
@@ -114,7 +149,8 @@ inline void confine(const Rectangle& face, ClipPoint& c) {
   c.x = clamp(c.x, face.lower.x, face.upper.x);
   c.y = clamp(c.y, face.lower.y, face.upper.y);
 }
-inline void confine(const TriangleFace&, ClipPoint&) {}
+template <AnyPolygon Face>
+void confine(const Face&, ClipPoint&) {}
 
 inline void keep(const ClipPoint& c, float touching, ClipPoints& out) {
   if (c.s <= touching) out.push_back(c);
@@ -192,27 +228,33 @@ inline void add_corners(const Rectangle& face, const SeenRectangle& seen, ClipPo
   }
 }
 
-// Corners of the face that a triangle with this normal covers.
+// Corners of the face that a polygon with this normal covers.
 template <class Face>
 void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
-                 const std::array<ClipPoint, 3>& seen, ClipPoints& out) {
+                 const SeenPolygon& seen, ClipPoints& out) {
   const float facing = dot(normal, m);
   if (!(std::fabs(facing) > kEdgeOn)) return;
-  const float area = area_left(xy(seen[0]), xy(seen[1]), seen[2].x, seen[2].y);
+  const size_t count = seen.size();
+  const auto next = [count](size_t i) { return i + 1 < count ? i + 1 : 0; };
+  float area = area_left(xy(seen[0]), xy(seen[1]), seen[2].x, seen[2].y);
+  for (size_t i = 3; i < count; ++i) {
+    area += area_left(xy(seen[0]), xy(seen[i - 1]), seen[i].x, seen[i].y);
+  }
   const float side = area < 0 ? -1.0f : 1.0f;
-  float slack[3];
+  std::array<float, SeenPolygon::kCapacity> slack;
   float all_slack = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    slack[i] = slack_of_edge(xy(seen[i]), xy(seen[(i + 1) % 3]));
+  for (size_t i = 0; i < count; ++i) {
+    slack[i] = slack_of_edge(xy(seen[i]), xy(seen[next(i)]));
     all_slack = all_slack + slack[i];
   }
   if (!(area * side > all_slack)) return;
   const float slope_x = dot(face.frame.u, normal) / facing;
   const float slope_y = dot(face.frame.v, normal) / facing;
+  const Extent2 extent = extent_of(seen);
   for (const Point2& corner : face.corners()) {
-    bool covered = true;
-    for (size_t i = 0; i < 3; ++i) {
-      const float left = area_left(xy(seen[i]), xy(seen[(i + 1) % 3]), corner.x, corner.y) * side;
+    bool covered = extent.holds(corner);
+    for (size_t i = 0; i < count; ++i) {
+      const float left = area_left(xy(seen[i]), xy(seen[next(i)]), corner.x, corner.y) * side;
       covered = covered && left + slack[i] >= 0;
     }
     const float s =
@@ -233,16 +275,18 @@ inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vect
   return out;
 }
 
-// The same of a triangle with this normal, or zero if it has no area.
-template <class Face>
-ClipPoints clip(const Face& face, const std::array<Vector3f, 3>& corners, const Vector3f& normal,
+// The same of a polygon with this normal, or zero if it has no area.
+template <class Face, class Corners>
+ClipPoints clip(const Face& face, const Corners& corners, const Vector3f& normal,
                 const Vector3f& m) {
   ClipPoints out;
   const FaceView view(face.frame, m);
   if (view.is_edge_on()) return out;
-  std::array<ClipPoint, 3> seen;
-  for (size_t i = 0; i < 3; ++i) seen[i] = view.project(corners[i]);
-  for (size_t i = 0; i < 3; ++i) add_edge(face, edge_between(seen[i], seen[(i + 1) % 3]), out);
+  SeenPolygon seen;
+  for (const Vector3f& corner : corners) seen.push_back(view.project(corner));
+  for (size_t i = 0; i < seen.size(); ++i) {
+    add_edge(face, edge_between(seen[i], seen[(i + 1) % seen.size()]), out);
+  }
   add_corners(face, normal, m, seen, out);
   return out;
 }

@@ -56,7 +56,7 @@ Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t coun
 
 void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pairs, size_t count,
                     Detail detail, const ResultColumns& out, WitnessFrame frame,
-                    bool wants_distances, Parallelism parallelism) {
+                    SeparatePairs separate, uint32_t* direction, Parallelism parallelism) {
   if (detail == Detail::pairs) return;
   for_each_block(count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     run_pair_block({.a = a,
@@ -66,7 +66,8 @@ void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pair
                     .count = end - begin,
                     .detail = detail,
                     .frame = frame,
-                    .wants_distances = wants_distances,
+                    .separate = separate,
+                    .direction = direction ? direction + begin : nullptr,
                     .out = from_row(out, begin)});
   });
 }
@@ -77,28 +78,35 @@ bool supports(ShapeKind a, ShapeKind b) { return find_pair_kind(a, b).exists(); 
 
 Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
                      Detail detail, const ResultColumns& out, WitnessFrame frame,
-                     Parallelism parallelism) {
+                     Parallelism parallelism, SeparatePairs separate) {
   const auto pair_at = [&](size_t i) { return pairs[i]; };
   if (Result<void> checked = check_kinds(a, b, pairs.size(), pair_at); !checked) return checked;
-  collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, true, parallelism);
+  collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, separate, nullptr,
+                 parallelism);
   return {};
 }
 
 Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
-                          const ResultColumns& out, WitnessFrame frame, Parallelism parallelism) {
+                          const ResultColumns& out, WitnessFrame frame, Parallelism parallelism,
+                          SeparatePairs separate) {
   assert(a.count == b.count);
   const auto pair_at = [](size_t i) -> Pair {
     return {static_cast<uint32_t>(i), static_cast<uint32_t>(i)};
   };
   if (Result<void> checked = check_kinds(a, b, a.count, pair_at); !checked) return checked;
-  collide_blocks(a, b, nullptr, a.count, detail, out, frame, true, parallelism);
+  collide_blocks(a, b, nullptr, a.count, detail, out, frame, separate, nullptr, parallelism);
   return {};
 }
 
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
-                   const ResultColumns& out, Parallelism parallelism) {
-  collide_blocks(bodies, bodies, pairs.data(), pairs.size(), detail, out, WitnessFrame::body, false,
-                 parallelism);
+                   const ResultColumns& out, uint32_t* direction, Parallelism parallelism) {
+  collide_blocks(bodies, bodies, pairs.data(), pairs.size(), detail, out, WitnessFrame::body,
+                 SeparatePairs::decided, direction, parallelism);
+}
+
+bool uses_directions(ShapeKind a, ShapeKind b) {
+  const PairKindRef kind = find_pair_kind(a, b);
+  return kind.exists() && kPairKinds[kind.index].has_direction_pass();
 }
 
 }  // namespace carom

@@ -7,7 +7,6 @@
 #endif
 
 #include "kernel/tolerances.h"
-#include "narrowphase/halfspace_tolerances.h"
 #include "narrowphase/load-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,7 +7,6 @@
 #include <cstddef>
 
 #include "kernel/tolerances.h"
-#include "narrowphase/halfspace_tolerances.h"
 #include "narrowphase/separation_ref.h"
 #include "narrowphase/shapes_ref.h"
 

@@ -17,7 +17,7 @@ struct ContactPoint {
   float s;         // from there to B along the normal
 };
 
-using ContactPoints = std::vector<ContactPoint>;
+using ContactPoints = FewOf<ContactPoint, 4>;
 
 // On the surface of a capsule, along its axis.
 struct SurfaceLine {

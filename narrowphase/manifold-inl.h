@@ -20,10 +20,10 @@ struct ManifoldRows {
   uint8_t count[kLanes];
   HWY_ALIGN float records[4][kLanes][4];  // quarters of ManifoldPoints
 
-  void copy_to(const ResultColumns& out, size_t row, size_t rows) const {
-    std::memcpy(out.manifold_count + row, count, rows);
-    for (size_t i = 0; i < rows; ++i) {
-      char* to = reinterpret_cast<char*>(out.manifold + row + i);
+  void copy_to(const ResultColumns& out, const uint16_t* rows, size_t row_count) const {
+    for (size_t i = 0; i < row_count; ++i) {
+      out.manifold_count[rows[i]] = count[i];
+      char* to = reinterpret_cast<char*>(out.manifold + rows[i]);
       for (size_t k = 0; k < 4; ++k) {
         std::memcpy(to + k * sizeof(records[k][i]), records[k][i], sizeof(records[k][i]));
       }
@@ -36,38 +36,13 @@ class ManifoldLoop {
  public:
   static void run(const Batch& batch) {
     const Batch local = batch;  // see BatchLoop
-    size_t row = 0;
-    for (; row + kLanes <= local.count; row += kLanes) {
-      run_rows(local, local.pairs + row, local.tested, row, row, kLanes);
-    }
-    if constexpr (kLanes > 1) {
-      if (row < local.count) run_tail(local, row);
-    }
+    for (size_t row = 0; row < local.count; row += kLanes) run_rows(local, row);
   }
 
  private:
-  // A whole vector, filled up by repeating the last row.
-  static HWY_NOINLINE void run_tail(const Batch& batch, size_t first_row) {
-    Pair pairs[kLanes];
-    TailColumns contacts;
-    const ResultColumns tested = contacts.columns();
-    for (size_t i = 0; i < kLanes; ++i) {
-      const size_t row = std::min(first_row + i, batch.count - 1);
-      pairs[i] = batch.pairs[row];
-      tested.separation[i] = batch.tested.separation[row];
-      for (size_t axis = 0; axis < 3; ++axis) {
-        tested.normal[axis][i] = batch.tested.normal[axis][row];
-        tested.point_a[axis][i] = batch.tested.point_a[axis][row];
-      }
-    }
-    run_rows(batch, pairs, tested, 0, first_row, batch.count - first_row);
-  }
-
-  // Contacts from row `from` of `tested` on; results to row `to` on, the first `count`.
-  static HWY_INLINE void run_rows(const Batch& batch, const Pair* pairs,
-                                  const ResultColumns& tested, size_t from, size_t to,
-                                  size_t count) {
-    const Listed bodies{pairs};
+  static HWY_INLINE void run_rows(const Batch& batch, size_t row) {
+    const ResultColumns& tested = batch.tested;
+    const Listed bodies{batch.pairs + row};
     PositionLanes positions;
     Records::load(batch, bodies, positions);
     A a = A::template load<Role::a>(batch.a, bodies, positions);
@@ -82,7 +57,7 @@ class ManifoldLoop {
     place<B, Role::b>(batch.b, bodies, pose.d + splat3(0), placed.b);
 
     const FloatTag tag;
-    const auto column = [&](const float* values) HWY_ATTR { return hn::LoadU(tag, values + from); };
+    const auto column = [&](const float* values) HWY_ATTR { return hn::LoadU(tag, values + row); };
     const ContactLanes contact = {
         hn::Mul(column(tested.separation), down),
         {column(tested.normal[0]), column(tested.normal[1]), column(tested.normal[2])},
@@ -92,7 +67,7 @@ class ManifoldLoop {
     contact_points(a, b, placed, contact, points);
     ManifoldRows rows;
     put_records(points, contact, up, rows);
-    rows.copy_to(batch.out, to, count);
+    rows.copy_to(batch.out, batch.manifold_row + row, std::min(kLanes, batch.count - row));
   }
 
   template <class Shape, Role kRole>

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "carom/kernel/contact.h"
+#include "narrowphase/dop_face_ref.h"
 #include "narrowphase/line_contact_ref.h"
 #include "narrowphase/reduce_ref.h"
 #include "narrowphase/scaled_ref.h"
@@ -59,7 +60,23 @@ ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPa
   return or_witness(on_frame(face.frame, points), contact);
 }
 
-// The face is that of the triangle which the normal meets more squarely; of equals that of A.
+// Points on A where two polygons cover one another. The face is that which the normal meets more
+// squarely; of equals that of A.
+template <class FaceA, class CornersA, class FaceB, class CornersB>
+ContactPoints touch_faces(const FaceA& face_a, const CornersA& corners_a, const FaceB& face_b,
+                          const CornersB& corners_b, const ScaledContact& contact) {
+  const Vector3f& n = contact.normal;
+  if (std::fabs(dot(face_b.frame.n, n)) > std::fabs(dot(face_a.frame.n, n))) {
+    const Vector3f m = -n;
+    const ClipPoints few = reduce(clip(face_b, corners_a, face_a.frame.n, m), kSamePoint);
+    ContactPoints points = on_frame(face_b.frame, few);
+    for (ContactPoint& p : points) p.point += m * p.s;
+    return or_witness(points, contact);
+  }
+  const ClipPoints few = reduce(clip(face_a, corners_b, face_b.frame.n, n), kSamePoint);
+  return or_witness(on_frame(face_a.frame, few), contact);
+}
+
 inline ContactPoints manifold(const TriangleShape<float>& a, const TriangleShape<float>& b,
                               const PlacedPair& placed, const ScaledContact& contact) {
   const std::array<Vector3f, 3> corners_a = corners_of(a, placed.a);
@@ -70,15 +87,39 @@ inline ContactPoints manifold(const TriangleShape<float>& a, const TriangleShape
   if (!shows_face(a, face_a.frame.n, n) || !shows_face(b, face_b.frame.n, -n)) {
     return witness_only(contact);
   }
-  if (std::fabs(dot(face_b.frame.n, n)) > std::fabs(dot(face_a.frame.n, n))) {
-    const Vector3f m = -n;
-    const ClipPoints few = reduce(clip(face_b, corners_a, face_a.frame.n, m), kSamePoint);
-    ContactPoints points = on_frame(face_b.frame, few);
-    for (ContactPoint& p : points) p.point += m * p.s;
-    return or_witness(points, contact);
-  }
-  const ClipPoints few = reduce(clip(face_a, corners_b, face_b.frame.n, n), kSamePoint);
-  return or_witness(on_frame(face_a.frame, few), contact);
+  return touch_faces(face_a, corners_a, face_b, corners_b, contact);
+}
+
+inline ContactPoints manifold(const DopShape<float>& a, const DopShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  const DopSide side_a = side_towards(contact.normal, a, placed.a);
+  const DopSide side_b = side_towards(-contact.normal, b, placed.b);
+  return touch_faces(side_a.face, side_a.corners, side_b.face, side_b.corners, contact);
+}
+
+inline ContactPoints manifold(const DopShape<float>& a, const TriangleShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  const std::array<Vector3f, 3> corners_b = corners_of(b, placed.b);
+  const TriangleFace face_b = triangle_face(corners_b);
+  if (!shows_face(b, face_b.frame.n, -contact.normal)) return witness_only(contact);
+  const DopSide side_a = side_towards(contact.normal, a, placed.a);
+  return touch_faces(side_a.face, side_a.corners, face_b, corners_b, contact);
+}
+
+template <AnyBox A>
+ContactPoints manifold(const A& a, const DopShape<float>& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const Rectangle face = face_towards(contact.normal, a, placed.a);
+  const DopSide side = side_towards(-contact.normal, b, placed.b);
+  const ClipPoints points =
+      reduce(clip(face, side.corners, side.face.frame.n, contact.normal), kSamePoint);
+  return or_witness(on_frame(face.frame, points), contact);
+}
+
+inline ContactPoints manifold(const CapsuleShape<float>& a, const DopShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  const DopSide side = side_towards(-contact.normal, b, placed.b);
+  return touch_face(line_towards(contact.normal, a, placed.a), side.face, contact);
 }
 
 template <AnyBox B>
@@ -156,6 +197,24 @@ inline ContactPoints manifold(const HalfspaceShape<float>&, const TriangleShape<
          kTouchingPoint * size, all);
   }
   return or_witness(on_frame(frame, reduce(all, kSamePoint * (size * size))), contact);
+}
+
+// Corners of a face over the plane, as with boxes. The contact is at the lowest.
+inline ContactPoints manifold(const DopShape<float>& a, const HalfspaceShape<float>&,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  const Vector3f& m = contact.normal;
+  const DopSide side = side_towards(m, a, placed.a);
+  const FaceFrame frame = plane_frame(contact.arm_a, m);
+  const float size = a.size();
+  ClipPoints all;
+  for (const Vector3f& p : side.corners) {
+    const Vector3f r = p - frame.origin;
+    keep({dot(frame.u, r), dot(frame.v, r), contact.separation - dot(m, r)}, kTouchingPoint * size,
+         all);
+  }
+  ContactPoints points = on_frame(frame, reduce(all, kSamePoint * (size * size)));
+  for (ContactPoint& p : points) p.point -= m * (p.s - contact.separation);
+  return or_witness(points, contact);
 }
 
 template <class A, class B>

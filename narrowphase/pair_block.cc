@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "kernel/body_reader.h"
 #include "narrowphase/pair_kinds.h"
+#include "narrowphase/world_point.h"
 
 namespace carom {
 namespace {
@@ -113,8 +115,9 @@ class BlockRunner {
   void run() {
     if (!block_.a.kind && !block_.b.kind) {
       const PairKindRef kind = find_pair_kind(block_.a.uniform_kind, block_.b.uniform_kind);
-      if (layout_ && !kind.flipped && !moves_points() && is_complete(block_.out, block_.detail)) {
-        return run_in_place(kind);
+      if (layout_ && !kind.flipped && is_complete(block_.out, block_.detail)) {
+        run_in_place(kind);
+        return move_points(block_.out, block_.count, [this](size_t row) { return pair(row); });
       }
     }
     sort_by_kind();
@@ -163,7 +166,7 @@ class BlockRunner {
     }
     whole.count = block_.count;
     whole.out = block_.out;
-    run_passes(kPairKinds[kind.index], whole, block_.wants_distances);
+    run_passes(kPairKinds[kind.index], whole, block_.separate, block_.direction);
   }
 
   void sort_by_kind() {
@@ -188,17 +191,18 @@ class BlockRunner {
     Batch part = batch(kind);
     part.pairs = pairs_.data();
     part.count = count;
-    part.out = scratch_.columns();
-    part.out.manifold_count = manifold_count_.data();
-    part.out.manifold = manifold_.data();
+    part.out = scratch();
+    uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
+    for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
     if (layout_) {
-      run_passes(kPairKinds[kind.index], part, block_.wants_distances);
+      run_passes(kPairKinds[kind.index], part, block_.separate, direction);
     } else if (BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64()) {
       run_packed<double>(kind, part, PositionLayout::records64);
     } else {
       run_packed<float>(kind, part, PositionLayout::records32);
     }
     scatter(kind, count);
+    if (direction) copy(direction, block_.direction, count);
   }
 
   template <class T>
@@ -214,51 +218,52 @@ class BlockRunner {
     part.b = packed_b.side(b);
     part.layout = layout;
     part.pairs = kRowPairs.data();
-    run_passes(kPairKinds[kind.index], part, block_.wants_distances);
+    run_passes(kPairKinds[kind.index], part, block_.separate);
+  }
+
+  ResultColumns scratch() {
+    ResultColumns columns = scratch_.columns();
+    columns.manifold_count = manifold_count_.data();
+    columns.manifold = manifold_.data();
+    return columns;
   }
 
   // Back to the rows of the block; what was flipped is turned round.
   void scatter(PairKindRef kind, size_t count) {
-    const ResultColumns from = scratch_.columns();
+    ResultColumns from = scratch();
     const ResultColumns& to = block_.out;
     copy(from.overlap, to.overlap, count);
     copy(from.status, to.status, count);
     if (!has_contacts(block_.detail)) return;
-    if (block_.detail == Detail::manifold) scatter_manifolds(kind, count);
-    if (moves_points()) move_witnesses(kind, count);
+    if (kind.flipped) flip(from, count);
+    move_points(from, count, [this](size_t i) { return pair(rows_[i]); });
     copy(from.separation, to.separation, count);
     for (size_t axis = 0; axis < 3; ++axis) {
-      if (kind.flipped) negate(from.normal[axis], count);
       copy(from.normal[axis], to.normal[axis], count);
-      copy(from.point_a[axis], (kind.flipped ? to.point_b : to.point_a)[axis], count);
-      copy(from.point_b[axis], (kind.flipped ? to.point_a : to.point_b)[axis], count);
+      copy(from.point_a[axis], to.point_a[axis], count);
+      copy(from.point_b[axis], to.point_b[axis], count);
     }
+    if (block_.detail != Detail::manifold) return;
+    copy(from.manifold_count, to.manifold_count, count);
+    copy(from.manifold, to.manifold, count);
   }
 
-  // Points are on the side that is the kernel's A, relative to it.
-  void scatter_manifolds(PairKindRef kind, size_t count) {
-    for (size_t i = 0; i < count; ++i) {
-      for (size_t k = 0; k < manifold_count_[i]; ++k) {
-        std::array<float, 3>& point = manifold_[i].point[k];
-        if (kind.flipped) point = on_kernel_b(point, manifold_[i].separation[k], i);
-        if (moves_points()) point = in_world(block_.a, pair(rows_[i]).a, point);
-      }
+  void flip(ResultColumns& columns, size_t count) const {
+    for (size_t i = 0; block_.detail == Detail::manifold && i < count; ++i) {
+      for (size_t k = 0; k < columns.manifold_count[i]; ++k) move_to_other_side(columns, i, k);
     }
-    copy(manifold_count_.data(), block_.out.manifold_count, count);
-    copy(manifold_.data(), block_.out.manifold, count);
+    for (float* column : columns.normal) negate(column, count);
+    std::swap(columns.point_a, columns.point_b);
   }
 
-  // The point of the kernel's B that faces one of its A, relative to B.
-  std::array<float, 3> on_kernel_b(const std::array<float, 3>& on_a, float separation,
-                                   size_t i) const {
-    const Pair p = pair(rows_[i]);
-    const std::array<float, 3> d = relative_position(p);  // of the kernel's A, seen from its B
-    const ResultColumns from = const_cast<ScratchColumns&>(scratch_).columns();
-    std::array<float, 3> on_b;
+  // From the kernel's A to the point of its B that faces it, relative to B.
+  void move_to_other_side(const ResultColumns& columns, size_t i, size_t k) const {
+    const std::array<float, 3> d = relative_position(pair(rows_[i]));  // of A, seen from B
+    std::array<float, 3>& point = columns.manifold[i].point[k];
+    const float separation = columns.manifold[i].separation[k];
     for (size_t axis = 0; axis < 3; ++axis) {
-      on_b[axis] = (on_a[axis] + from.normal[axis][i] * separation) + d[axis];
+      point[axis] = (point[axis] + columns.normal[axis][i] * separation) + d[axis];
     }
-    return on_b;
   }
 
   // The position of B less that of A, in float32.
@@ -276,32 +281,33 @@ class BlockRunner {
     return {finite(b.x - a.x), finite(b.y - a.y), finite(b.z - a.z)};
   }
 
-  void move_witnesses(PairKindRef kind, size_t count) {
-    const ResultColumns from = scratch_.columns();
+  // From the bodies' frames to the world, if points are wanted there and are not there yet.
+  template <class PairAt>
+  void move_points(const ResultColumns& columns, size_t count, const PairAt& pair_at) const {
+    if (!moves_points()) return;
+    const bool is_float64 = BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64();
     for (size_t i = 0; i < count; ++i) {
-      const Pair p = pair(rows_[i]);
-      move(kind.flipped ? from.point_b : from.point_a, i, block_.a, p.a);
-      move(kind.flipped ? from.point_a : from.point_b, i, block_.b, p.b);
+      is_float64 ? move_points_of<double>(pair_at(i), columns, i)
+                 : move_points_of<float>(pair_at(i), columns, i);
     }
   }
 
-  static void move(const std::array<float*, 3>& columns, size_t i, const Collidables& bodies,
-                   uint32_t body) {
-    const auto moved = in_world(bodies, body, {columns[0][i], columns[1][i], columns[2][i]});
-    for (size_t axis = 0; axis < 3; ++axis) columns[axis][i] = moved[axis];
+  template <class T>
+  void move_points_of(Pair p, const ResultColumns& columns, size_t i) const {
+    const Position<T> a = BodyReader{block_.a}.template position<T>(p.a);
+    const Position<T> b = BodyReader{block_.b}.template position<T>(p.b);
+    move(a, columns.point_a, i);
+    move(b, columns.point_b, i);
+    for (size_t k = 0; k < columns.manifold_count[i]; ++k) {
+      std::array<float, 3>& point = columns.manifold[i].point[k];
+      point = world_point(a, point);
+    }
   }
 
-  // As the kernels do it: a float64 position is a float32 and what that leaves.
-  static std::array<float, 3> in_world(const Collidables& bodies, uint32_t body,
-                                       const std::array<float, 3>& arm) {
-    const BodyReader reader{bodies};
-    const Position<double> p = reader.position<double>(body);
-    const auto sum = [&reader](double position, float x) {
-      if (x != x) return x;
-      const auto high = static_cast<float>(position);
-      return reader.is_float64() ? high + (static_cast<float>(position - high) + x) : high + x;
-    };
-    return {sum(p.x, arm[0]), sum(p.y, arm[1]), sum(p.z, arm[2])};
+  template <class T>
+  static void move(const Position<T>& position, const std::array<float*, 3>& columns, size_t i) {
+    const auto moved = world_point(position, {columns[0][i], columns[1][i], columns[2][i]});
+    for (size_t axis = 0; axis < 3; ++axis) columns[axis][i] = moved[axis];
   }
 
   template <class T>
@@ -326,6 +332,7 @@ class BlockRunner {
   ScratchColumns scratch_;
   std::array<uint8_t, kPairsPerBlock> manifold_count_;
   std::array<ManifoldPoints, kPairsPerBlock> manifold_;
+  std::array<uint32_t, kPairsPerBlock> directions_;
 };
 
 }  // namespace

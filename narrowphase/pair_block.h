@@ -18,9 +18,9 @@ struct PairBlock {
   size_t count;  // <= kPairsPerBlock
   Detail detail;
   WitnessFrame frame;
-  // False: of separate pairs the decision is enough; their other columns may hold anything.
-  bool wants_distances = true;
-  ResultColumns out;  // of the block
+  SeparatePairs separate = SeparatePairs::measured;
+  uint32_t* direction = nullptr;  // of the block's rows; see run_passes()
+  ResultColumns out;              // of the block
 };
 
 // All pairs of kinds in the block must have a kernel.

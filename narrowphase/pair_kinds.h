@@ -15,7 +15,10 @@ struct PairKind {
   void (*run)(const Batch& batch);
   MorePasses more;
 
-  bool has_distance_pass() const { return more == MorePasses::distance_and_manifold; }
+  bool has_direction_pass() const {
+    return more == MorePasses::direction_and_manifold || more == MorePasses::all;
+  }
+  bool has_distance_pass() const { return more == MorePasses::all; }
   bool has_manifold_pass() const { return more != MorePasses::none; }
 };
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "narrowphase/packed_direction.h"
+
 namespace carom {
 namespace {
 
-// Some rows of a batch, as a batch of their own.
+// Some rows of a batch, as a batch of their own, which kernels may read in whole vectors.
 class RowSelection {
  public:
   explicit RowSelection(const Batch& batch) : batch_(batch) {}
@@ -18,10 +20,13 @@ class RowSelection {
       pairs_[count_] = batch_.pairs[row];
       count_ += wanted(row);
     }
+    for (size_t i = count_; i < padded_count(); ++i) {
+      rows_[i] = rows_[count_ - 1];
+      pairs_[i] = pairs_[count_ - 1];
+    }
   }
 
   size_t count() const { return count_; }
-  size_t row(size_t i) const { return rows_[i]; }
 
   Batch batch(Pass pass) const {
     Batch selected = batch_;
@@ -32,21 +37,38 @@ class RowSelection {
     return selected;
   }
 
+  const uint16_t* rows() const { return rows_.data(); }
+
   template <class T>
   void gather(const T* from, T* to) const {
-    for (size_t i = 0; i < count_; ++i) to[i] = from[rows_[i]];
+    for (size_t i = 0; i < padded_count(); ++i) to[i] = from[rows_[i]];
   }
   template <class T>
   void scatter(const T* from, T* to) const {
     for (size_t i = 0; i < count_; ++i) to[rows_[i]] = from[i];
   }
+  // The results at this detail.
+  void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail) const {
+    scatter(from.overlap, to.overlap);
+    scatter(from.status, to.status);
+    if (!has_contacts(detail)) return;
+    scatter(from.separation, to.separation);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      scatter(from.normal[axis], to.normal[axis]);
+      scatter(from.point_a[axis], to.point_a[axis]);
+      scatter(from.point_b[axis], to.point_b[axis]);
+    }
+  }
 
  private:
+  size_t padded_count() const { return (count_ + kMostLanes - 1) / kMostLanes * kMostLanes; }
+
   const Batch& batch_;
   size_t count_ = 0;
   std::array<uint16_t, kPairsPerBlock + 1> rows_;
   std::array<Pair, kPairsPerBlock + 1> pairs_;
 };
+static_assert(kPairsPerBlock % kMostLanes == 0);
 
 bool is_separate(const Batch& batch, size_t row) {
   return !batch.out.overlap[row] && batch.out.status[row] != static_cast<uint8_t>(Status::invalid);
@@ -60,48 +82,90 @@ void run_distances(const PairKind& kind, const Batch& batch) {
   Batch distances = separate.batch(Pass::distance);
   distances.out = scratch.columns();
   kind.run(distances);
-  separate.scatter(distances.out.status, batch.out.status);
-  separate.scatter(distances.out.separation, batch.out.separation);
-  for (size_t axis = 0; axis < 3; ++axis) {
-    separate.scatter(distances.out.normal[axis], batch.out.normal[axis]);
-    separate.scatter(distances.out.point_a[axis], batch.out.point_a[axis]);
-    separate.scatter(distances.out.point_b[axis], batch.out.point_b[axis]);
+  separate.scatter(distances.out, batch.out, batch.detail);
+}
+
+// Writes to `open` which rows need a test.
+void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* direction,
+                    std::array<uint8_t, kPairsPerBlock>& open) {
+  open.fill(1);
+  RowSelection known(batch);
+  known.select([&](size_t row) { return direction[row] != kNoDirection; });
+  if (known.count() == 0) return;
+  std::array<uint32_t, kPairsPerBlock> known_direction;
+  std::array<uint8_t, kPairsPerBlock> known_open;
+  known.gather(direction, known_direction.data());
+  Batch directions = known.batch(Pass::direction);
+  directions.direction = known_direction.data();
+  directions.out.overlap = known_open.data();
+  kind.run(directions);
+  known.scatter(known_open.data(), open.data());
+}
+
+// Of the pairs that were tested; without branches, which would be taken at random.
+void remember_directions(const Batch& batch, const std::array<uint8_t, kPairsPerBlock>& tested,
+                         uint32_t* direction) {
+  const ResultColumns& out = batch.out;
+  for (size_t row = 0; row < batch.count; ++row) {
+    const uint32_t found =
+        pack_direction({out.normal[0][row], out.normal[1][row], out.normal[2][row]});
+    const uint32_t apart = out.overlap[row] ? kNoDirection : found;
+    direction[row] = tested[row] ? apart : direction[row];
   }
 }
 
-// One point: the witness.
+// The test, but for pairs that are still apart in a direction that is known.
+void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
+  std::array<uint8_t, kPairsPerBlock> open;
+  run_directions(kind, batch, direction, open);
+  RowSelection tested(batch);
+  tested.select([&](size_t row) { return open[row] != 0; });
+  if (tested.count() == batch.count) {
+    kind.run(batch);
+  } else {
+    ScratchColumns scratch;
+    Batch test = tested.batch(Pass::test);
+    test.out = scratch.columns();
+    kind.run(test);
+    std::fill_n(batch.out.overlap, batch.count, uint8_t{0});
+    std::fill_n(batch.out.status, batch.count, static_cast<uint8_t>(Status::ok));
+    tested.scatter(test.out, batch.out, batch.detail);
+  }
+  remember_directions(batch, open, direction);
+}
+
+// One point: the witness. Without branches, since half of the pairs may overlap.
 void copy_witnesses(const Batch& batch) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
-    out.manifold[row] = {};
+    const bool overlap = out.overlap[row];
+    const auto if_overlap = [=](float x) { return overlap ? x : 0; };
+    ManifoldPoints points{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      points.point[0][axis] = if_overlap(out.point_a[axis][row]);
+    }
+    points.separation[0] = if_overlap(out.separation[row]);
+    out.manifold[row] = points;
     out.manifold_count[row] = out.overlap[row];
-    if (!out.overlap[row]) continue;
-    out.manifold[row].point[0] = {out.point_a[0][row], out.point_a[1][row], out.point_a[2][row]};
-    out.manifold[row].separation[0] = out.separation[row];
   }
 }
 
-void run_manifolds(const PairKind& kind, const Batch& batch) {
+void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pairs) {
   std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
-  std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
+  if (of_separate_pairs) std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
   RowSelection overlapping(batch);
   overlapping.select([&](size_t row) { return batch.out.overlap[row]; });
   if (overlapping.count() == 0) return;
   ScratchColumns contacts;
-  std::array<uint8_t, kPairsPerBlock> count;
-  std::array<ManifoldPoints, kPairsPerBlock> points;
   Batch manifolds = overlapping.batch(Pass::manifold);
   manifolds.tested = contacts.columns();
-  manifolds.out.manifold_count = count.data();
-  manifolds.out.manifold = points.data();
+  manifolds.manifold_row = overlapping.rows();
   overlapping.gather(batch.out.separation, manifolds.tested.separation);
   for (size_t axis = 0; axis < 3; ++axis) {
     overlapping.gather(batch.out.normal[axis], manifolds.tested.normal[axis]);
     overlapping.gather(batch.out.point_a[axis], manifolds.tested.point_a[axis]);
   }
   kind.run(manifolds);
-  overlapping.scatter(count.data(), batch.out.manifold_count);
-  overlapping.scatter(points.data(), batch.out.manifold);
 }
 
 }  // namespace
@@ -113,13 +177,19 @@ ResultColumns ScratchColumns::columns() {
   return {overlap.data(), status.data(), floats[0].data(), column3(1), column3(4), column3(7)};
 }
 
-void run_passes(const PairKind& kind, const Batch& batch, bool wants_distances) {
-  kind.run(batch);
+void run_passes(const PairKind& kind, const Batch& batch, SeparatePairs separate,
+                uint32_t* direction) {
+  const bool measures = separate == SeparatePairs::measured;
+  if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
+    run_test(kind, batch, direction);
+  } else {
+    kind.run(batch);
+  }
   if (batch.detail == Detail::overlap) return;
-  if (wants_distances && kind.has_distance_pass()) run_distances(kind, batch);
+  if (measures && kind.has_distance_pass()) run_distances(kind, batch);
   if (batch.detail != Detail::manifold) return;
   if (kind.has_manifold_pass()) {
-    run_manifolds(kind, batch);
+    run_manifolds(kind, batch, measures);
   } else {
     copy_witnesses(batch);
   }

@@ -18,7 +18,10 @@ struct ScratchColumns {
 };
 
 // Runs `batch`, of at most kPairsPerBlock pairs, whose `out` has every column that the detail
-// fills. Without distances, columns of separate pairs but `overlap` and `status` may hold anything.
-void run_passes(const PairKind& kind, const Batch& batch, bool wants_distances);
+// fills. `direction`: none, or of every row a direction in which the pair may be apart, as packed
+// by packed_direction.h. At details with contacts it is tried first, and what was found is
+// remembered; separate pairs must not be measured then.
+void run_passes(const PairKind& kind, const Batch& batch, SeparatePairs separate,
+                uint32_t* direction = nullptr);
 
 }  // namespace carom

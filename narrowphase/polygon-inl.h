@@ -8,8 +8,8 @@
 
 #include <type_traits>
 
+#include "kernel/tolerances.h"
 #include "narrowphase/load-inl.h"
-#include "narrowphase/manifold_limits.h"
 #include "simd/axis-inl.h"
 #include "simd/rotation-inl.h"
 

@@ -3,7 +3,8 @@
 
 #include <array>
 
-#include "narrowphase/manifold_limits.h"
+#include "kernel/few_of.h"
+#include "kernel/tolerances.h"
 #include "narrowphase/shapes_ref.h"
 
 namespace carom::reference {
@@ -42,6 +43,19 @@ struct TriangleFace {
   std::array<Point2, 3> points;  // counter-clockwise
 
   const std::array<Point2, 3>& corners() const { return points; }
+};
+
+// The face of a k-DOP. Without area it has no points, and its normal is zero.
+struct PolygonFace {
+  FaceFrame frame;
+  FewOf<Point2, DopFace::kMostCorners> points;  // counter-clockwise
+
+  const FewOf<Point2, DopFace::kMostCorners>& corners() const { return points; }
+};
+
+template <class Face>
+concept AnyPolygon = requires(Face face) {
+  face.points;
 };
 
 inline Vector3f lower_corner(const AabbShape<float>& box) { return box.lower; }

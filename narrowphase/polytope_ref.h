@@ -5,28 +5,12 @@
 #include <array>
 #include <cstddef>
 
+#include "kernel/dop_polytope.h"
+#include "kernel/few_of.h"
+#include "narrowphase/front_rules_ref.h"
 #include "narrowphase/shapes_ref.h"
 
 namespace carom::reference {
-
-// At most kMost elements, without the heap.
-template <class T, size_t kMost>
-class FewOf {
- public:
-  void push_back(const T& value) { values_[size_++] = value; }
-  size_t size() const { return size_; }
-  const T& operator[](size_t i) const { return values_[i]; }
-  const T* begin() const { return values_.data(); }
-  const T* end() const { return values_.data() + size_; }
-  T* begin() { return values_.data(); }
-  T* end() { return values_.data() + size_; }
-
- private:
-  std::array<T, kMost> values_;
-  size_t size_ = 0;
-};
-
-using Eigen::Vector3d;
 
 // Zero for a vector of zero.
 inline Vector3d unit_or_zero(const Vector3d& v) {
@@ -41,24 +25,16 @@ struct PolytopeEdge {
   Vector3d direction;  // unit, or zero
 };
 
-// Of a triangle: what its front and its inner edges exclude.
-struct FrontRules {
-  Vector3d front = Vector3d::Zero();   // unit; zero: there is no front, and no rule
-  Vector3d corner = Vector3d::Zero();  // the first
-  std::array<Vector3d, 2> sides;       // from there to the others
-  double thickness = 0;
-  bool one_sided = false;
-  uint8_t inner_edges = 0;
-};
-
 // World axes. The points' hull grown by `radius` is the shape.
 struct Polytope {
-  FewOf<Vector3d, 8> points;
-  FewOf<PolytopeEdge, 12> edges;
-  FewOf<Vector3d, 4> directions;  // of the edges, each once
-  FewOf<Vector3d, 4> normals;     // of the faces, each once
+  // As many as a k-DOP may have.
+  FewOf<Vector3d, DopPolytope::kMostPoints> points;
+  FewOf<PolytopeEdge, DopPolytope::kMostEdges> edges;
+  FewOf<Vector3d, 25> directions;       // of the edges, each once
+  FewOf<Vector3d, kMostSlabs> normals;  // of the faces, each once
   double radius = 0;
   Vector3d middle = Vector3d::Zero();  // where one-sided triangles take the shape to be
+  double inner_radius = 0;             // of a ball about the middle that the hull contains
   FrontRules rules;
 
   void add_edge(size_t i, size_t j) {
@@ -110,6 +86,8 @@ inline Polytope polytope_of_box(const Vector3d& lower, const Vector3d& upper,
     }
   }
   p.middle = rotate(turn, Vector3d((lower + upper) / 2));
+  const Vector3d half = (upper - lower) / 2;
+  p.inner_radius = min(min(half.x(), half.y()), half.z());
   return p;
 }
 
@@ -168,6 +146,73 @@ inline Polytope polytope_of(const TriangleShape<double>& triangle, const Quatern
     p.edges.push_back({p.points[i], front});
   }
   p.directions.push_back(front);
+  return p;
+}
+
+// The directions of edges are cross products of two directions of slabs: few, however many edges
+// there are.
+class DopAxes {
+ public:
+  DopAxes(DopKind kind, const Rotation<double>& turn) : slabs_(slab_directions(kind)), turn_(turn) {
+    known_.fill(-1);
+  }
+
+  // Unit, out of the polytope.
+  Vector3d normal(size_t plane) const {
+    return rotate(turn_, unit_or_zero(slab(plane))) * sign_of_plane(plane);
+  }
+
+  // Unit, along the edge of two planes.
+  Vector3d edge(const std::array<uint8_t, 2>& planes, Polytope& p) {
+    Vector3d way = cross(slab(planes[0]), slab(planes[1]));
+    if (way.x() < 0 || (way.x() == 0 && (way.y() < 0 || (way.y() == 0 && way.z() < 0)))) way = -way;
+    way /= largest_component(way);
+    const Vector3d doubled = way * 2;  // integers from -2 to 2
+    const auto place = static_cast<size_t>(62 + (doubled.x() * 25 + doubled.y() * 5) + doubled.z());
+    if (known_[place] < 0) {
+      known_[place] = static_cast<int8_t>(p.directions.size());
+      p.directions.push_back(rotate(turn_, unit_or_zero(way)));
+    }
+    return p.directions[static_cast<size_t>(known_[place])];
+  }
+
+ private:
+  Vector3d slab(size_t plane) const {
+    const auto& d = slabs_[slab_of_plane(plane)];
+    return Vector3d(d[0], d[1], d[2]);
+  }
+
+  const std::span<const std::array<int8_t, 3>> slabs_;
+  const Rotation<double> turn_;
+  std::array<int8_t, 125> known_;
+};
+
+inline Polytope polytope_of(const DopShape<double>& dop, const Quaternion<double>& q) {
+  const Rotation<double> turn = rotation_of(q);
+  const auto placed = [&](const Double3& x) { return rotate(turn, Vector3d(x[0], x[1], x[2])); };
+  const DopPolytope shape(dop.slabs);
+  DopAxes directions(dop.slabs.kind, turn);
+  Polytope p;
+  Vector3d sum = Vector3d::Zero();
+  for (const Double3& point : shape.points()) {
+    p.points.push_back(placed(point));
+    sum += p.points[p.points.size() - 1];
+  }
+  for (const DopEdge& edge : shape.edges()) {
+    p.edges.push_back({placed(edge.start), directions.edge(edge.planes, p)});
+  }
+  p.middle = sum / static_cast<double>(p.points.size());
+  p.inner_radius = HUGE_VAL;
+  unsigned known_slabs = 0;
+  for (const DopFace& face : shape.faces()) {
+    const Vector3d normal = directions.normal(face.plane);
+    const double depth = dot(normal, Vector3d(placed(face.corners[0].point) - p.middle));
+    p.inner_radius = min(p.inner_radius, max(depth, 0.0));
+    const unsigned slab = 1u << slab_of_plane(face.plane);
+    if (face.corners.size() < 3 || (known_slabs & slab)) continue;
+    p.normals.push_back(normal);
+    known_slabs |= slab;
+  }
   return p;
 }
 

@@ -27,6 +27,8 @@ template <class Kernel, bool kHasLow, Detail kDetail>
 struct LaneReport {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
+  // Whether more is stored than the decision.
+  static constexpr bool kHasContact = kDetail == Detail::contact;
 
   const Batch& batch;   // a private copy
   const Batch& source;  // of this one
@@ -84,7 +86,7 @@ struct LaneReport {
 
   HWY_INLINE void store_answer(Mask overlap, const AnswerLanes& answer) const {
     store_bytes(bytes_where(overlap, 1), batch.out.overlap, row);
-    if constexpr (kDetail == Detail::contact) {
+    if constexpr (kHasContact) {
       store(answer.separation, batch.out.separation, row);
       store(answer.normal, batch.out.normal, row);
       store(witness(positions.a, positions.a_low, answer.arm_a), batch.out.point_a, row);

@@ -6,7 +6,7 @@
 #define CAROM_NARROWPHASE_SEGMENT_INL_H_
 #endif
 
-#include "narrowphase/core_tolerances.h"
+#include "kernel/tolerances.h"
 #include "simd/axis-inl.h"
 #include "simd/rotation-inl.h"
 

@@ -3,7 +3,7 @@
 // Source: C. Ericson, Real-Time Collision Detection, 2005, sections 5.1.2 and 5.1.9.
 #pragma once
 
-#include "narrowphase/core_tolerances.h"
+#include "kernel/tolerances.h"
 #include "narrowphase/vector_ref.h"
 
 namespace carom::reference {

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "carom/kernel/shape.h"
+#include "kernel/dop_polytope.h"
 #include "narrowphase/vector_ref.h"
 
 namespace carom::reference {
@@ -43,6 +44,22 @@ struct BoxShape {
 
   Real size() const { return largest_component(half); }
   BoxShape scaled(Real s) const { return {half * s}; }
+};
+
+// Slabs in double in any case: corners are not found in less.
+template <class Real>
+struct DopShape {
+  DopSlabs slabs;
+  double greatest;  // of all coordinates
+
+  Real size() const { return static_cast<Real>(greatest); }
+  DopShape scaled(Real s) const {
+    DopShape result = *this;
+    for (double& end : result.slabs.lower) end *= s;
+    for (double& end : result.slabs.upper) end *= s;
+    result.greatest *= s;
+    return result;
+  }
 };
 
 template <class Real>
@@ -95,6 +112,11 @@ AabbShape<Real> shape_as(const Aabb& box) {
 template <class Real>
 BoxShape<Real> shape_as(const carom::Box& box) {
   return {box.half.cast<Real>()};
+}
+template <class Real>
+DopShape<Real> shape_as(const Dop& dop) {
+  const DopSlabs slabs(dop);
+  return {slabs, slabs.with_tight_axes().size()};
 }
 template <class Real>
 TriangleShape<Real> shape_as(const Triangle& t) {

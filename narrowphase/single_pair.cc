@@ -6,23 +6,10 @@
 
 #include "kernel/body_reader.h"
 #include "narrowphase/any_pair_ref.h"
+#include "narrowphase/manifold_ref.h"
 
 namespace carom {
 namespace {
-
-Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind) {
-  Collidables view;
-  view.position.data = side.records;
-  view.position.stride = side.record_stride;
-  view.position.type =
-      layout == PositionLayout::records64 ? PositionType::float64 : PositionType::float32;
-  view.uniform_kind = kind;
-  view.boxes = side.boxes;
-  view.box_slot = side.box_slot;
-  view.orientation = side.orientation;
-  view.rows = side.rows;
-  return view;
-}
 
 Position<double> difference(const Position<double>& a, const Position<double>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -102,7 +89,34 @@ reference::SeparationAs<double> exact_separation(const Batch& batch, ShapeKind k
       {{d.x, d.y, d.z}, orientation_of(a, pair.a), orientation_of(b, pair.b)});
 }
 
+// As the kernels see it: from one subtraction in the type of the positions.
+template <class T>
+reference::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair) {
+  const Position<T> at_a = a.position<T>(pair.a), at_b = b.position<T>(pair.b);
+  const Eigen::Matrix<T, 3, 1> position_a(at_a.x, at_a.y, at_a.z);
+  const Eigen::Matrix<T, 3, 1> position_b(at_b.x, at_b.y, at_b.z);
+  const Row qa = a.orientation(pair.a), qb = b.orientation(pair.b);
+  return {reference::relative_position(position_a, position_b),
+          reference::quaternion_as<float>({qa[0], qa[1], qa[2], qa[3]}),
+          reference::quaternion_as<float>({qb[0], qb[1], qb[2], qb[3]}),
+          reference::relative_position(position_b, position_a)};
+}
+
 }  // namespace
+
+Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind) {
+  Collidables view;
+  view.position.data = side.records;
+  view.position.stride = side.record_stride;
+  view.position.type =
+      layout == PositionLayout::records64 ? PositionType::float64 : PositionType::float32;
+  view.uniform_kind = kind;
+  view.boxes = side.boxes;
+  view.box_slot = side.box_slot;
+  view.orientation = side.orientation;
+  view.rows = side.rows;
+  return view;
+}
 
 bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
   const Pair pair = batch.pairs[row];
@@ -132,6 +146,28 @@ std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKi
           s.arm_b.y(),
           s.arm_b.z(),
           s.status == Status::degenerate ? 1.0f : 0.0f};
+}
+
+uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
+                        ManifoldPoints& points) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_a = view_of(batch.a, batch.layout, kind_a);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  const auto vector = [row](const std::array<float*, 3>& columns) -> Eigen::Vector3f {
+    return {columns[0][row], columns[1][row], columns[2][row]};
+  };
+  const ResultColumns& tested = batch.tested;
+  reference::Separation contact;
+  contact.separation = tested.separation[row];
+  contact.normal = vector(tested.normal);
+  contact.arm_a = vector(tested.point_a);
+  const reference::Manifold manifold = reference::manifold_of(
+      shape_of(a, pair.a), shape_of(b, pair.b),
+      a.is_float64() ? rounded_pose<double>(a, b, pair) : rounded_pose<float>(a, b, pair), contact);
+  points = manifold.points;
+  return manifold.count;
 }
 
 }  // namespace carom

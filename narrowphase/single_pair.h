@@ -9,6 +9,9 @@
 
 namespace carom {
 
+// One side as a set of bodies.
+Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind);
+
 // Whether both bodies of row `row` are valid.
 bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);
 
@@ -20,5 +23,10 @@ float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind
 // arm_b, and 1 if the status is degenerate. Both bodies are valid.
 std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
                                    size_t row);
+
+// How many points the manifold of row `row` has, and the points, relative to A; `batch.tested` has
+// the contact. Both bodies are valid and overlap.
+uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
+                        ManifoldPoints& points);
 
 }  // namespace carom

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/manifold-inl.h"
 #include "narrowphase/rounded-inl.h"
 #include "narrowphase/triangle-inl.h"
@@ -213,6 +214,7 @@ struct TriangleTriangle {
 };
 
 void triangle_triangle(const Batch& batch) {
+  if (batch.pass == Pass::direction) return run_direction<TriangleLanes, TriangleLanes>(batch);
   if (batch.pass == Pass::manifold) return run_manifold<TriangleLanes, TriangleLanes>(batch);
   run_batch<TriangleTriangle>(batch);
 }

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "carom/reference/reference.h"
+#include "kernel/dop_polytope.h"
 #include "kernel/float_environment.h"
 #include "reference/turned_extent.h"
 
@@ -99,6 +100,14 @@ bool is_valid_shape(const Triangle& t) {
 }
 bool is_valid_shape(const Halfspace& h) {
   return h.normal.allFinite() && std::isfinite(h.offset) && !h.normal.isZero(0);
+}
+bool is_valid_shape(const Dop& dop) {
+  if (!is_dop_kind(dop.kind)) return false;
+  for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+    const bool is_finite = std::isfinite(dop.lower[i]) && std::isfinite(dop.upper[i]);
+    if (!is_finite || dop.lower[i] > dop.upper[i]) return false;
+  }
+  return has_points(dop);
 }
 
 template <class Turned>

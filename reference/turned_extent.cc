@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "kernel/dop_polytope.h"
+
 namespace carom::reference {
 namespace {
 
@@ -123,6 +125,21 @@ Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientati
       front.upper += std::fmax(shift, 0.0) + reach;
     }
     set_axis(extent, axis, front.lower, front.upper, slack);
+  }
+  return extent;
+}
+
+Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  const DopSlabs slabs(dop);
+  const DopPolytope polytope(slabs);
+  std::vector<Vector3d> points;
+  for (const Double3& p : polytope.points()) points.emplace_back(p[0], p[1], p[2]);
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval of_points(turn.row(axis), points);
+    set_axis(extent, axis, of_points.lower, of_points.upper,
+             kDopRounding * slabs.with_tight_axes().size());
   }
   return extent;
 }

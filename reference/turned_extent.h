@@ -11,6 +11,7 @@ namespace carom::reference {
 Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation);
 // Nothing: half-spaces have no extent.
 Aabb turned_extent(const Halfspace& plane, const Eigen::Quaternionf& orientation);
 

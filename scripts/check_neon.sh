@@ -12,8 +12,12 @@ ln -sfn /usr/include/eigen3/Eigen $out/include/Eigen
 ln -sfn /usr/include/tbb $out/include/tbb
 ln -sfn /usr/include/oneapi $out/include/oneapi
 
+# The list of pair kinds as headers, which CMake writes.
+generated=build/release/generated
+[ -d $generated ] || cmake --preset release >/dev/null
+
 find simd kernel broadphase narrowphase world -name '*.cc' | sort |
   xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O1 -c {} -o /dev/null \
-    -march=armv8-a+crypto -I . -I include -isystem $out/include \
+    -march=armv8-a+crypto -I . -I include -I $generated -isystem $out/include \
     -ffp-contract=off -fno-tree-slp-vectorize -DHWY_COMPILE_ALL_ATTAINABLE -Wall -Wextra
 echo "neon: the library compiles for AArch64"

@@ -65,6 +65,7 @@ class BodyStore {
   bool has_velocities() const { return has_velocities_; }
 
   // What the stages read.
+  bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
   Collidables view() const;
   PairFilter filter() const;
   const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "carom/kernel/parallelism.h"
@@ -22,6 +23,7 @@ class ChangeTracker {
 
   // Pose, shape or properties of the body at this index differ, or it is another body.
   bool changed(uint32_t index) const { return changed_[index]; }
+  std::span<const uint8_t> changed() const { return changed_; }  // one byte an index
 
   // How many indices there are of which that is true; bodies that went may be among them.
   size_t changed_count() const { return changed_count_; }

@@ -30,7 +30,8 @@ bool bounds_may_overlap(const BoundsView& bounds, Pair pair) {
 
 ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail) {
   rows_ = pairs;
-  overlap_.resize(pairs);
+  overlap_.resize(pairs + 1);
+  overlap_.back() = 0;
   status_.resize(pairs);
   if (detail == Detail::overlap) return {.overlap = overlap_.data(), .status = status_.data()};
   floats_.resize(pairs * kFloatColumns);

@@ -14,7 +14,8 @@ namespace carom {
 // Columns for the narrow phase to write to.
 class ResultBuffer {
  public:
-  // Room for `pairs` results, in the columns that the detail fills.
+  // Room for `pairs` results, in the columns that the detail fills. Behind them is a row that does
+  // not overlap, for pairs that need no test.
   ResultColumns prepare(size_t pairs, Detail detail);
 
   // Bounds are exact, tests are not: pairs whose bounds lie apart do not overlap, even where the

@@ -22,7 +22,8 @@ struct PairHistory {
 
   std::vector<Pair> pairs;
   std::vector<uint8_t> overlaps;
-  std::vector<uint32_t> contact;  // index into `contacts`
+  std::vector<uint32_t> contact;    // index into `contacts`
+  std::vector<uint32_t> direction;  // DirectionMemory's; empty where nothing uses it
   std::vector<Contact> contacts;
   std::vector<ManifoldPoints> manifolds;  // at Detail::manifold one a contact, else none
 
@@ -80,21 +81,27 @@ class CarryPlan {
   void test_all(size_t pairs);
 
   // Nothing is: the step repeats the last one.
-  void carry_all() { tested_ = 0; }
+  void carry_all() { tested_ = dropped_ = 0; }
 
   // Carries the pairs that `last` holds, too, and of which neither body changed.
   void match(const PairHistory& last, const std::vector<Pair>& now, const ChangeTracker& changes,
              Parallelism parallelism);
 
+  // Of the pairs to test leaves those whose byte is not zero; the others do not overlap.
+  void drop(const std::vector<uint8_t>& overlap, const std::vector<Pair>& now,
+            Parallelism parallelism);
+
   size_t tested() const { return tested_; }
+  size_t dropped() const { return dropped_; }
 
   // The pairs to test: all of `now`, or a list of its own.
   const std::vector<Pair>& pairs_to_test(const std::vector<Pair>& now) const {
     return tests_all_ ? now : to_test_;
   }
 
-  // Row of pair i among those, or kCarried.
+  // Row of pair i among those, or kCarried; of a dropped one the row behind the last.
   uint32_t test_row(size_t i) const { return tests_all_ ? static_cast<uint32_t>(i) : row_[i]; }
+  bool tests(size_t i) const { return test_row(i) < tested_; }
 
   // Index of a carried pair in the last step.
   uint32_t last_index(size_t i) const { return last_[i]; }
@@ -105,9 +112,11 @@ class CarryPlan {
  private:
   bool tests_all_ = true;
   size_t tested_ = 0;
+  size_t dropped_ = 0;
   std::vector<uint32_t> row_;
   std::vector<uint32_t> last_;
   std::vector<Pair> to_test_;
+  std::vector<Pair> left_;  // of those, while others are dropped
   std::vector<size_t> block_first_;
 };
 

@@ -1,5 +1,5 @@
-// Hands out blocks of one to three neighbouring rows of one array, the lowest free block of that
-// size first; rows at the end are dropped once free.
+// Hands out blocks of a few neighbouring rows of one array, the lowest free block of that size
+// first; rows at the end are dropped once free.
 #pragma once
 
 #include <array>

@@ -68,6 +68,7 @@ void World::State::find_all() {
   run(Stage::broadphase, [&] { find_pairs(); });
   if (settings.pair_changes || has_narrowphase()) run(Stage::pairs, [&] { compare_pairs(); });
   if (!has_narrowphase()) return;
+  if (has_dops()) run(Stage::dops, [&] { drop_pairs(); });
   run(Stage::narrowphase, [&] { test_pairs(); });
   run(Stage::results, [&] {
     contact_stage.run(plan, last, results, bodies, settings.detail, settings.parallelism, now);
@@ -92,6 +93,8 @@ void World::State::give_back_memory(size_t last_pairs) {
   last.give_back_beyond(pairs);
   pair_changes.give_back_beyond(pairs);
   plan.give_back_beyond(pairs);
+  dops.give_back_beyond(pairs);
+  directions.give_back_beyond(pairs);
   results.give_back_beyond(pairs);
   halfspaces.give_back_beyond(pairs);
   event_stage.give_back_beyond(pairs);
@@ -103,7 +106,8 @@ void World::State::fill_report() {
   report.quarantined = quarantined.size();
   report.pairs = now.pairs.size();
   report.tested = has_narrowphase() ? plan.tested() : 0;
-  report.kept = has_narrowphase() ? report.pairs - report.tested : 0;
+  report.dropped = has_narrowphase() ? plan.dropped() : 0;
+  report.kept = has_narrowphase() ? report.pairs - report.tested - report.dropped : 0;
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
   report.contacts = now.contacts.size();
   report.search = search;
@@ -164,9 +168,41 @@ void World::State::compare_pairs() {
   }
 }
 
+// Pairs whose k-DOPs are apart need no test.
+void World::State::drop_pairs() {
+  const std::span<const uint8_t> changed =
+      carries() ? changes.changed() : std::span<const uint8_t>();
+  dops.update(bodies.view(), *settings.dop_bounds, changed, settings.parallelism);
+  const std::vector<Pair>& pairs = plan.pairs_to_test(now.pairs);
+  if (pairs.empty()) return;
+  plan.drop(dops.test(pairs, settings.parallelism), now.pairs, settings.parallelism);
+}
+
+// Whether two kinds that are there remember in which direction they are apart.
+bool World::State::uses_directions() const {
+  if (!carries() || !has_contacts(settings.detail)) return false;
+  const auto is_there = [this](int kind) { return bodies.has_kind(static_cast<ShapeKind>(kind)); };
+  for (int a = 0; a < kShapeKindCount; ++a) {
+    for (int b = 0; b < kShapeKindCount; ++b) {
+      const bool use_them =
+          carom::uses_directions(static_cast<ShapeKind>(a), static_cast<ShapeKind>(b));
+      if (use_them && is_there(a) && is_there(b)) return true;
+    }
+  }
+  return false;
+}
+
 void World::State::test_pairs() {
+  const bool remembers = uses_directions();
+  uint32_t* const direction =
+      remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
   collide_pairs(bodies.view(), plan.pairs_to_test(now.pairs), settings.detail,
-                results.prepare(plan.tested(), settings.detail), settings.parallelism);
+                results.prepare(plan.tested(), settings.detail), direction, settings.parallelism);
+  if (remembers) {
+    directions.keep(plan, last, settings.parallelism, now);
+  } else {
+    now.direction.clear();
+  }
   if (has_margin()) {
     results.reject_apart(plan.pairs_to_test(now.pairs), bounds_view(), settings.parallelism);
   }
@@ -175,12 +211,12 @@ void World::State::test_pairs() {
 WorldMemory World::State::memory() const {
   WorldMemory memory;
   memory.bodies = bodies.bytes() + changes.bytes() + bytes_of(quarantined);
-  memory.bounds = fat_bounds.bytes();
+  memory.bounds = fat_bounds.bytes() + dops.record_bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
   memory.broadphase = finder.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
-                             results.bytes() + contact_stage.bytes() + event_stage.bytes() +
-                             bytes_of(events);
+                             dops.pair_bytes() + directions.bytes() + results.bytes() +
+                             contact_stage.bytes() + event_stage.bytes() + bytes_of(events);
   return memory;
 }
 

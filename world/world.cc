@@ -11,8 +11,8 @@ namespace carom {
 
 const char* name(Stage stage) {
   static constexpr std::array<const char*, kStageCount> kNames = {
-      "changes",     "bounds",  "margins",    "broadphase", "pairs",
-      "narrowphase", "results", "velocities", "events"};
+      "changes", "bounds",      "margins", "broadphase", "pairs",
+      "dops",    "narrowphase", "results", "velocities", "events"};
   return kNames[static_cast<size_t>(stage)];
 }
 

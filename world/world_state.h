@@ -8,6 +8,8 @@
 #include "world/body_store.h"
 #include "world/change_tracker.h"
 #include "world/contact_stage.h"
+#include "world/direction_memory.h"
+#include "world/dop_stage.h"
 #include "world/event_stage.h"
 #include "world/fat_bounds.h"
 #include "world/halfspace_stage.h"
@@ -38,9 +40,11 @@ struct World::State {
   bool has_narrowphase() const { return settings.detail != Detail::pairs; }
   bool has_events() const { return settings.events && has_narrowphase(); }
   bool has_margin() const { return settings.margin > 0; }
+  bool has_dops() const { return settings.dop_bounds && *settings.dop_bounds != DopKind::k6; }
   bool carries() const { return settings.carry_results && has_narrowphase(); }
   // Without results to carry, comparing all bodies pays only where none of them moves.
   bool watches_rest() const { return settings.carry_results && !has_narrowphase(); }
+  bool uses_directions() const;
   bool needs_last() const { return carries() || has_events() || settings.pair_changes; }
 
   template <class Work>
@@ -54,6 +58,7 @@ struct World::State {
   void find_quarantined();
   void find_pairs();
   void compare_pairs();
+  void drop_pairs();
   void test_pairs();
 
   bool was_still = false;  // the last step repeated the one before
@@ -66,6 +71,8 @@ struct World::State {
   PairSearch search;
   PairHistory last;
   CarryPlan plan;
+  DopStage dops;
+  DirectionMemory directions;
   ResultBuffer results;
   ContactStage contact_stage;
   EventStage event_stage;

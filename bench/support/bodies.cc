@@ -36,6 +36,12 @@ Triangle draw_triangle(test::Random& random) {
   return triangle;
 }
 
+Dop draw_dop(test::Random& random) {
+  std::vector<Eigen::Vector3f> points(24);
+  for (Eigen::Vector3f& p : points) p = draw_size(random) * random.direction().cast<float>();
+  return Dop::of_points(points, DopKind::k26);
+}
+
 Shape draw_shape(ShapeKind kind, test::Random& random) {
   switch (kind) {
     case ShapeKind::sphere:
@@ -46,6 +52,8 @@ Shape draw_shape(ShapeKind kind, test::Random& random) {
       return Box{draw_half(random)};
     case ShapeKind::triangle:
       return draw_triangle(random);
+    case ShapeKind::dop:
+      return draw_dop(random);
     case ShapeKind::halfspace:
       return Halfspace{random.direction().cast<float>(), draw_size(random)};
     default:

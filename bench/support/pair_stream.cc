@@ -140,9 +140,14 @@ double PairStream::hit_percent() const {
   return 100.0 * static_cast<double>(hits) / static_cast<double>(spec_.count);
 }
 
-Result<void> PairStream::run(Detail detail, const ResultColumns& out) const {
-  if (spec_.access == Access::rows) return collide_rows(a_->view(), b_->view(), detail, out);
-  return collide(a_->view(), b_->view(), pairs_, detail, out);
+Result<void> PairStream::run(Detail detail, const ResultColumns& out,
+                             SeparatePairs separate) const {
+  const auto frame = WitnessFrame::world;
+  const auto parallelism = Parallelism::none;
+  if (spec_.access == Access::rows) {
+    return collide_rows(a_->view(), b_->view(), detail, out, frame, parallelism, separate);
+  }
+  return collide(a_->view(), b_->view(), pairs_, detail, out, frame, parallelism, separate);
 }
 
 void PairStream::run_reference(std::vector<reference::PairResult>& out) const {

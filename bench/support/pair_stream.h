@@ -65,7 +65,8 @@ class PairStream {
   double reference_seconds() const { return reference_seconds_; }
 
   // One pass.
-  Result<void> run(Detail detail, const ResultColumns& out) const;
+  Result<void> run(Detail detail, const ResultColumns& out,
+                   SeparatePairs separate = SeparatePairs::measured) const;
   void run_reference(std::vector<reference::PairResult>& out) const;
 
   // The first row of `out` that does not have the bits of the reference, as a message.

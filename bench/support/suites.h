@@ -11,6 +11,7 @@ struct Options {
 };
 
 void register_bounds();
+void register_dop_bounds();
 void register_find_pairs(const Options& options);
 void register_narrowphase(const Options& options);
 void register_world(const Options& options);

@@ -5,6 +5,8 @@
 #include "carom/kernel/body.h"
 #include "carom/kernel/bounds.h"
 #include "carom/kernel/contact.h"
+#include "carom/kernel/dop.h"
+#include "carom/kernel/dop_bounds.h"
 #include "carom/kernel/event.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"

@@ -67,6 +67,12 @@ TEST_F(RunTest, PipelineHoldsOnlyWhatTheDetailNeeds) {
   EXPECT_FALSE(stages("pairs").count("narrowphase"));
 }
 
+uint64_t sum_of(const json& list) {
+  uint64_t sum = 0;
+  for (const json& item : list) sum += item.get<uint64_t>();
+  return sum;
+}
+
 // Writes what `carom verify` calls by that name.
 void write_builtin(const std::string& name, const std::string& path) {
   for (BuiltinScene& builtin : builtin_scenes()) {
@@ -100,6 +106,28 @@ TEST_F(RunTest, ScenesOfAllKindsDoNotDependOnHowTheyAreRun) {
     EXPECT_EQ(hash_with({"--no-cache"}), hash);
     EXPECT_EQ(hash_with({"--broadphase", "brute"}), hash);
     EXPECT_EQ(hash_with({"--broadphase", "sweep"}), hash);
+  }
+}
+
+TEST_F(RunTest, DopBoundsDropTestsAlone) {
+  write_builtin("all kinds, float32", path("scene.npz"));
+  const json plain = run_json({path("scene.npz"), "--detail", "manifold"});
+  EXPECT_EQ(plain["dop_bounds"], 0);
+  EXPECT_FALSE(plain["stage_ms"].contains("dops"));
+  uint64_t last = 0;
+  for (const char* directions : {"6", "14", "26"}) {
+    const json tight =
+        run_json({path("scene.npz"), "--detail", "manifold", "--dop-bounds", directions});
+    EXPECT_EQ(std::to_string(tight["dop_bounds"].get<int>()), directions);
+    EXPECT_EQ(tight["stage_ms"].contains("dops"), std::string(directions) != "6");
+    EXPECT_EQ(tight["state_hash"], plain["state_hash"]);
+    EXPECT_EQ(tight["pairs_per_frame"], plain["pairs_per_frame"]);
+    const auto dropped = sum_of(tight["dropped_pairs_per_frame"]);
+    EXPECT_EQ(sum_of(tight["tested_pairs_per_frame"]) + dropped,
+              sum_of(plain["tested_pairs_per_frame"]));
+    EXPECT_EQ(dropped == 0, std::string(directions) == "6");
+    EXPECT_GE(dropped, last);
+    last = dropped;
   }
 }
 
@@ -179,12 +207,6 @@ TEST_F(RunTest, HashDoesNotDependOnHowTheSceneIsRun) {
 }
 
 // Candidates are more with a margin, and fewer bodies are searched; what touches is the same.
-uint64_t sum_of(const json& list) {
-  uint64_t sum = 0;
-  for (const json& item : list) sum += item.get<uint64_t>();
-  return sum;
-}
-
 TEST_F(RunTest, MarginsChangeTheCandidatesAlone) {
   const std::string scene = "brownian:n=1500,frames=30,density=0.2,shape=sphere,speed=0.3";
   const json exact = run_json({scene});

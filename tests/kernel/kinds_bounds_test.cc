@@ -1,4 +1,4 @@
-// World bounds of capsules, oriented boxes, triangles and half-spaces: the bits of the reference on
+// World bounds of capsules, boxes, k-DOPs, triangles and half-spaces: the bits of the reference on
 // every ISA, alone and mixed with spheres and aabbs. What the reference's are worth is tested in
 // tests/reference.
 #include <gtest/gtest.h>
@@ -20,19 +20,19 @@ namespace {
 using Bodies = std::vector<PlacedShape>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule, ShapeKind::box, ShapeKind::triangle,
-                                       ShapeKind::halfspace};
+constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule, ShapeKind::box, ShapeKind::dop,
+                                       ShapeKind::triangle, ShapeKind::halfspace};
 
 // Some from the family, as many of any bits.
 Bodies make_bodies(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,
                    uint64_t seed = 1) {
   const KindPair kinds{ShapeKind::sphere, kind};
+  const size_t few = fewer_dops(kinds, count / 2 + 1);
+  const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, few, seed);
+  const std::vector<TestPair> nonsense = make_kind_nonsense(kinds, few, seed);
   Bodies bodies;
-  for (const TestPair& pair : make_kind_pairs(family, kinds, positions, count / 2, seed)) {
-    bodies.push_back(pair.b);
-  }
-  for (const TestPair& pair : make_kind_nonsense(kinds, count - count / 2, seed)) {
-    bodies.push_back(pair.b);
+  for (size_t i = 0; i < count; ++i) {
+    bodies.push_back((i < count / 2 ? pairs : nonsense)[i % few].b);
   }
   return bodies;
 }

@@ -39,13 +39,13 @@ TEST(KindsCoverage, HitsAndMissesAreBalanced) {
     if (std::string(family.name) == "at 1e9") continue;  // float32 steps there are of 64 m
     for (const KindPair& kinds : supported_kind_pairs()) {
       int hits = 0;
-      constexpr int kCount = 400;
-      for (const TestPair& pair : make_kind_pairs(family, kinds, PositionType::float32, kCount)) {
+      const int count = has_dop(kinds) ? 100 : 400;
+      for (const TestPair& pair : make_kind_pairs(family, kinds, PositionType::float32, count)) {
         hits += reference_result(pair, PositionType::float32).overlap;
       }
       SCOPED_TRACE(std::string(family.name) + ", " + name(kinds));
-      EXPECT_GT(hits, kCount * (touch ? 0.2 : 0.3));
-      EXPECT_LT(hits, kCount * (touch ? 0.8 : 0.7));
+      EXPECT_GT(hits, count * (touch ? 0.2 : 0.3));
+      EXPECT_LT(hits, count * (touch ? 0.8 : 0.7));
     }
   }
 }
@@ -94,6 +94,7 @@ std::map<size_t, Features> features_of_a(const KindPair& kinds) {
 TEST(KindsCoverage, ContactsOccurAtEveryFeature) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     if (has_halfspace(kinds)) continue;  // those meet corners
+    if (has_dop(kinds)) continue;        // features of many numbers, and slow
     SCOPED_TRACE(name(kinds));
     for (const auto& [corners, features] : features_of_a(kinds)) {
       ConvexShape<long double> shape{Vec3<long double>{}};

@@ -100,6 +100,27 @@ class SpoiltBodies {
     for (const float bad : kBad) add_shape(halfspace, [&](Halfspace& h) { h.offset = bad; });
   }
 
+  void add_shapes(const Dop& dop) {
+    const size_t last = slab_count(dop.kind) - 1;
+    for (const size_t slab : {size_t{0}, last}) {
+      for (const float bad : kBad) {
+        add_shape(dop, [&](Dop& d) { d.lower[slab] = bad; });
+        add_shape(dop, [&](Dop& d) { d.upper[slab] = bad; });
+      }
+      add_shape(dop, [&](Dop& d) { std::swap(d.lower[slab], d.upper[slab]); });
+    }
+    for (const int kind : {0, 7, 8, 16, 200}) {
+      add_shape(dop, [&](Dop& d) { d.kind = static_cast<DopKind>(kind); });
+    }
+    if (last < 3) return;
+    add_shape(dop, [&](Dop& d) {  // in order, and nothing in common
+      d.lower[last] =
+          8 * (std::fabs(d.upper[1]) + std::fabs(d.lower[1]) + 1 + std::fabs(d.upper[0]) +
+               std::fabs(d.lower[0]) + std::fabs(d.upper[2]) + std::fabs(d.lower[2]));
+      d.upper[last] = 2 * d.lower[last];
+    });
+  }
+
   PlacedShape body_;
   std::vector<PlacedShape> all_;
 };

@@ -1,4 +1,4 @@
-// Bounds of the reference for capsules, oriented boxes, triangles and half-spaces, against exact
+// Bounds of the reference for capsules, boxes, k-DOPs, triangles and half-spaces, against exact
 // corners: they contain the shape and are tight.
 #include <gtest/gtest.h>
 
@@ -45,10 +45,12 @@ void expect_tight(const PlacedShape& body, PositionType positions) {
 class KindsReferenceBounds : public testing::TestWithParam<ConvexFamily> {};
 
 TEST_P(KindsReferenceBounds, ContainTheShapeAndAreTight) {
-  for (const ShapeKind kind : {ShapeKind::capsule, ShapeKind::box, ShapeKind::triangle}) {
+  for (const ShapeKind kind :
+       {ShapeKind::capsule, ShapeKind::box, ShapeKind::dop, ShapeKind::triangle}) {
+    const KindPair kinds{ShapeKind::sphere, kind};
     for (const PositionType positions : kPositionTypes) {
       for (const ConvexPair& pair :
-           make_convex_pairs(GetParam(), {ShapeKind::sphere, kind}, positions, 60)) {
+           make_convex_pairs(GetParam(), kinds, positions, fewer_dops(kinds, 60))) {
         expect_tight({pair.shape_b, pair.pose_b.position, pair.pose_b.orientation}, positions);
         if (HasFailure()) return;
       }

@@ -2,6 +2,7 @@
 // that have a direct solution.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -18,9 +19,9 @@ struct KindPair {
   ShapeKind b;
 };
 
-inline constexpr ShapeKind kConvexKinds[] = {ShapeKind::sphere,   ShapeKind::capsule,
-                                             ShapeKind::aabb,     ShapeKind::box,
-                                             ShapeKind::triangle, ShapeKind::halfspace};
+inline constexpr ShapeKind kConvexKinds[] = {
+    ShapeKind::sphere, ShapeKind::capsule,  ShapeKind::aabb,     ShapeKind::box,
+    ShapeKind::dop,    ShapeKind::triangle, ShapeKind::halfspace};
 
 // All ordered pairs of them, but for two half-spaces.
 inline std::vector<KindPair> convex_kind_pairs() {
@@ -35,6 +36,14 @@ inline std::vector<KindPair> convex_kind_pairs() {
 
 inline std::string name(const KindPair& kinds) {
   return std::string(carom::name(kinds.a)) + "_" + carom::name(kinds.b);
+}
+
+// K-DOPs are slow, in the library as in the oracle: a few of those pairs have to do.
+inline bool has_dop(const KindPair& kinds) {
+  return kinds.a == ShapeKind::dop || kinds.b == ShapeKind::dop;
+}
+inline size_t fewer_dops(const KindPair& kinds, size_t count) {
+  return has_dop(kinds) ? std::max<size_t>(count / 8, 1) : count;
 }
 
 struct ConvexPair {
@@ -149,9 +158,14 @@ class ConvexPairMaker {
     pair.pose_a.position = stored(random_.direction() * distance);
     pair.pose_b.position = pair.pose_a.position;
     if (family_.placement == ConvexPlacement::free) {
-      place<double>(pair, size, random_.uniform(0, 2), 10);
+      place<double>(pair, size, random_.uniform(0, 2), has_dop(kinds_) ? 8 : 10);
     } else if (family_.placement == ConvexPlacement::near_touch) {
-      place<long double>(pair, size, 1 + 0x1p-23 * shapes_.integer(-8, 8), 100);
+      const double factor = 1 + 0x1p-23 * shapes_.integer(-8, 8);
+      if (has_dop(kinds_)) {
+        place<double>(pair, size, factor, 16);
+      } else {
+        place<long double>(pair, size, factor, 100);
+      }
       nudge(pair.pose_b.position);
     } else if (kinds_.a == kinds_.b && random_.chance(0.3)) {
       pair.shape_b = pair.shape_a;
@@ -350,6 +364,12 @@ class Spoiler {
   void operator()(Halfspace& halfspace) {
     spoil(halfspace.normal);
     spoil(halfspace.offset);
+  }
+  void operator()(Dop& dop) {
+    for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+      spoil(dop.lower[i]);
+      spoil(dop.upper[i]);
+    }
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "carom/kernel/body.h"
 #include "tests/support/random.h"
@@ -37,6 +38,8 @@ class ConvexRandom {
         return Box{half(size)};
       case ShapeKind::triangle:
         return triangle(size);
+      case ShapeKind::dop:
+        return dop(size);
       default:
         return halfspace(size);
     }
@@ -165,6 +168,43 @@ class ConvexRandom {
       c = (on_edge + random_.direction() * width).cast<float>();
     }
     std::swap(triangle.corners[0], triangle.corners[static_cast<size_t>(integer(0, 2))]);
+  }
+
+  // Of a few points, or of the corners of a box; some of its slabs narrower than it takes.
+  Dop dop(double size) {
+    // The more planes, the slower the oracle.
+    constexpr DopKind kKinds[] = {DopKind::k6,  DopKind::k6,  DopKind::k6,  DopKind::k14,
+                                  DopKind::k14, DopKind::k14, DopKind::k18, DopKind::k26};
+    const Eigen::Vector3d middle = shift(size);
+    const Eigen::Vector3d scale = extents(size);
+    const bool is_box = style_.aligned || random_.chance(0.2);
+    const int count = is_box ? 8 : style_.degenerate ? integer(1, 4) : integer(4, 12);
+    std::vector<Eigen::Vector3f> points;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (int i = 0; i < count; ++i) {
+      Eigen::Vector3d p = style_.lattice ? lattice_point(size, 2) : vector(1).cwiseProduct(scale);
+      if (is_box)
+        p = Eigen::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(scale);
+      points.push_back((middle + p).cast<float>());
+      mean += points.back().cast<double>() / count;
+    }
+    Dop dop = Dop::of_points(points, kKinds[integer(0, 7)]);
+    if (!style_.lattice && !style_.degenerate && random_.chance(0.3)) narrow(dop, mean);
+    return dop;
+  }
+
+  // All slabs still hold the point.
+  void narrow(Dop& dop, const Eigen::Vector3d& point) {
+    const auto directions = slab_directions(dop.kind);
+    for (size_t i = 0; i < directions.size(); ++i) {
+      const auto& d = directions[i];
+      const double height = Eigen::Vector3d(d[0], d[1], d[2]).dot(point);
+      for (float* end : {&dop.lower[i], &dop.upper[i]}) {
+        if (random_.chance(0.3))
+          *end = static_cast<float>(*end + (height - *end) * random_.uniform(0, 0.9));
+      }
+      if (dop.lower[i] > dop.upper[i]) std::swap(dop.lower[i], dop.upper[i]);
+    }
   }
 
   Halfspace halfspace(double size) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "carom/narrowphase/collide.h"
@@ -61,7 +62,8 @@ inline std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family,
   Random random(seed);
   std::vector<TestPair> pairs;
   for (size_t i = 0; i < count; ++i) {
-    const KindPair& some = kinds[random.below(kinds.size())];
+    KindPair some = kinds[random.below(kinds.size())];
+    while (fewer_dops(some, 2) < 2 && random.chance(0.9)) some = kinds[random.below(kinds.size())];
     pairs.push_back(make_kind_pairs(family, some, positions, 1, random.bits())[0]);
   }
   return pairs;
@@ -135,6 +137,17 @@ class Spoiler {
     spoil(halfspace.normal);
     spoil(halfspace.offset);
     if (random_.chance(0.02)) halfspace.normal.setZero();
+  }
+  void spoil_shape(Dop& dop) {
+    if (random_.chance(0.7)) return;
+    for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+      if (random_.chance(0.9)) continue;
+      spoil(dop.lower[i]);
+      spoil(dop.upper[i]);
+      if (random_.chance(0.9))
+        std::tie(dop.lower[i], dop.upper[i]) = std::minmax({dop.lower[i], dop.upper[i]});
+    }
+    if (random_.chance(0.05)) dop.kind = static_cast<DopKind>(random_.below(256));
   }
 
   Random random_;

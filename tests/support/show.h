@@ -1,6 +1,7 @@
 // Failing inputs and results as text: hexadecimal floats, which can be pasted back.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
@@ -33,6 +34,14 @@ inline std::string show(const Triangle& triangle) {
 }
 inline std::string show(const Halfspace& halfspace) {
   return "(" + hex3(halfspace.normal) + ") <= " + hex(halfspace.offset);
+}
+
+inline std::string show(const Dop& dop) {
+  std::string text = "k = " + std::to_string(static_cast<int>(dop.kind));
+  for (size_t i = 0; i < std::min(slab_count(dop.kind), kMostSlabs); ++i) {
+    text += (i ? ", " : " ") + hex(dop.lower[i]) + " .. " + hex(dop.upper[i]);
+  }
+  return text;
 }
 
 inline std::string show(const PlacedShape& body) {

@@ -49,6 +49,12 @@ inline double bounding_radius(const Triangle& triangle) {
   }
   return radius + triangle.thickness;
 }
+inline double bounding_radius(const Dop& dop) {
+  const auto reach = [&](size_t i) {
+    return std::max(std::fabs(double{dop.lower[i]}), std::fabs(double{dop.upper[i]}));
+  };
+  return Eigen::Vector3d(reach(0), reach(1), reach(2)).stableNorm();
+}
 inline double bounding_radius(const Halfspace&) { return 0; }
 inline double bounding_radius(const Shape& shape) {
   return std::visit([](const auto& s) { return bounding_radius(s); }, shape);

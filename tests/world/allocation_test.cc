@@ -165,6 +165,7 @@ TEST(Allocations, NoneWithOtherSettings) {
   for (const Detail detail : {Detail::pairs, Detail::contact}) {
     const WorldSettings all{.detail = detail, .margin = 0.2f, .pair_changes = true};
     for (const size_t movers : {0, 1, 400}) expect_no_allocations(all, spec, movers, true);
+    expect_no_allocations({.detail = detail, .dop_bounds = DopKind::k18}, spec, 100);
     // Boxes with margins join those at rest every now and then.
     expect_no_allocations(all, {.count = 3000, .side = 14}, 100, true, 40);
   }

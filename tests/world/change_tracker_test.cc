@@ -20,7 +20,7 @@ struct Snapshot {
   uint32_t generation;
   std::array<double, 3> position;
   std::array<float, 4> orientation;
-  std::array<float, 12> shape;
+  std::array<float, 4 * kMostRows> shape;
 
   bool operator==(const Snapshot& other) const {
     return generation == other.generation &&
@@ -119,8 +119,10 @@ class Tracked {
         state.shape[3 + i] = box->upper[i];
       }
     } else {
-      const auto rows = shape_rows(shape);
-      std::memcpy(state.shape.data(), rows.data(), sizeof rows);
+      // As they are stored: k-DOPs have numbers that do not count.
+      const std::span<const BodyStore::Row> rows =
+          store.shape_rows().subspan(store.first_row(id.index), row_count(kind_of(shape)));
+      std::memcpy(state.shape.data(), rows.data(), rows.size_bytes());
     }
     return state;
   }

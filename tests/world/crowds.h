@@ -60,6 +60,12 @@ inline Shape random_shape(ShapeKind kind, Random& random) {
       triangle.inner_edges = static_cast<uint8_t>(random.chance(0.5) ? random.below(8) : 0);
       return triangle;
     }
+    case ShapeKind::dop: {
+      constexpr DopKind kKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
+      std::vector<Eigen::Vector3f> points(6);
+      for (Eigen::Vector3f& p : points) p = random_corner(random);
+      return Dop::of_points(points, kKinds[random.below(4)]);
+    }
     case ShapeKind::halfspace:
       return Halfspace{random.direction().cast<float>() * size(), size() - 0.5f};
     default:
@@ -68,10 +74,10 @@ inline Shape random_shape(ShapeKind kind, Random& random) {
 }
 
 inline constexpr ShapeKind kOrientedKinds[] = {ShapeKind::capsule, ShapeKind::box,
-                                               ShapeKind::triangle};
-inline constexpr ShapeKind kAllKinds[] = {ShapeKind::sphere,   ShapeKind::aabb,
-                                          ShapeKind::capsule,  ShapeKind::box,
-                                          ShapeKind::triangle, ShapeKind::halfspace};
+                                               ShapeKind::triangle, ShapeKind::dop};
+inline constexpr ShapeKind kAllKinds[] = {
+    ShapeKind::sphere,   ShapeKind::aabb,      ShapeKind::capsule, ShapeKind::box,
+    ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop};
 
 inline std::vector<BodyDesc> make_crowd(const CrowdSpec& spec) {
   Random random(spec.seed);
@@ -82,7 +88,7 @@ inline std::vector<BodyDesc> make_crowd(const CrowdSpec& spec) {
     body.shape = random_shape(ShapeKind::sphere, random);
     if (spec.boxes && random.chance(0.4)) body.shape = random_shape(ShapeKind::aabb, random);
     if (spec.oriented && random.chance(0.6)) {
-      body.shape = random_shape(kOrientedKinds[random.below(3)], random);
+      body.shape = random_shape(kOrientedKinds[random.below(std::size(kOrientedKinds))], random);
       body.orientation = random_orientation(random);
     }
     if (i < spec.halfspaces) {

@@ -32,7 +32,8 @@ template <class T>
 
 // What happened in all histories of a test: a guard against tests of nothing.
 struct Coverage {
-  size_t tested = 0, kept = 0, overlapping = 0, pairs = 0, quarantined = 0, sensors = 0;
+  size_t tested = 0, kept = 0, dropped = 0, overlapping = 0, pairs = 0, quarantined = 0,
+         sensors = 0;
   size_t events[3] = {};
   size_t with_halfspaces = 0, halfspace_overlaps = 0;  // pairs
   size_t manifolds[5] = {};                            // by number of points
@@ -184,10 +185,11 @@ class History {
     EXPECT_TRUE(same_bytes<BodyId>(world_.quarantined(), frame.quarantined)) << "quarantined";
     EXPECT_EQ(report.bodies, bodies_.size());
     if (settings.detail != Detail::pairs) {
-      EXPECT_EQ(report.tested + report.kept, report.pairs);
+      EXPECT_EQ(report.tested + report.kept + report.dropped, report.pairs);
     }
     coverage.tested += report.tested;
     coverage.kept += report.kept;
+    coverage.dropped += report.dropped;
     coverage.pairs += report.pairs;
     coverage.overlapping += report.overlaps;
     coverage.quarantined += report.quarantined;
@@ -210,7 +212,7 @@ class History {
   }
 
   void make_oriented(BodyDesc& body, bool spoil) {
-    body.shape = random_shape(kOrientedKinds[shapes_.below(3)], shapes_);
+    body.shape = random_shape(kOrientedKinds[shapes_.below(std::size(kOrientedKinds))], shapes_);
     if (chance(0.03)) body.shape = random_shape(ShapeKind::halfspace, shapes_);
     body.orientation = random_orientation(shapes_);
     if (!spoil) return;

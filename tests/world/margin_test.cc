@@ -155,7 +155,8 @@ class Twins {
         break;
       case 7:
         both([&](World& world) {
-          world.set_shape(id, random_shape(kAllKinds[random_.below(6)], random_));
+          world.set_shape(id,
+                          random_shape(kAllKinds[random_.below(std::size(kAllKinds))], random_));
         });
         break;
       case 8:

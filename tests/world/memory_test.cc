@@ -25,7 +25,8 @@ const WorldSettings kSettings[] = {{},
                                    {.pair_changes = true},
                                    {.detail = Detail::pairs},
                                    {.detail = Detail::overlap, .carry_results = false},
-                                   {.events = false, .margin = 0.1f}};
+                                   {.events = false, .margin = 0.1f},
+                                   {.dop_bounds = DopKind::k26}};
 
 const WorldSettings kManifold{.detail = Detail::manifold};
 constexpr CrowdSpec kDenseOriented{.count = 8000, .side = 13, .oriented = true, .halfspaces = 2};

@@ -48,6 +48,29 @@ TEST(PayForUse, StagesThatRun) {
             "changes bounds broadphase pairs narrowphase results velocities events");
 }
 
+TEST(PayForUse, DopsAreThereIfAskedForAndOfUse) {
+  const CrowdSpec spec{.oriented = true};
+  const auto bytes = [&](const WorldSettings& settings) {
+    World world(settings);
+    add_crowd(world, spec);
+    world.step();
+    return world.bytes();
+  };
+  const std::string with = "changes bounds broadphase pairs dops narrowphase results events";
+  const std::string without = "changes bounds broadphase pairs narrowphase results events";
+  EXPECT_EQ(first_step({}, spec), without);
+  EXPECT_EQ(first_step({.dop_bounds = DopKind::k6}, spec), without);
+  EXPECT_EQ(first_step({.detail = Detail::pairs, .dop_bounds = DopKind::k14}, spec),
+            "bounds broadphase");
+  EXPECT_EQ(bytes({.dop_bounds = DopKind::k6}), bytes({}));
+  size_t last = bytes({});
+  for (const DopKind kind : {DopKind::k14, DopKind::k18, DopKind::k26}) {
+    EXPECT_EQ(first_step({.dop_bounds = kind}, spec), with);
+    EXPECT_GE(bytes({.dop_bounds = kind}), last + 400 * 8 * sizeof(float) / 2);
+    last = bytes({.dop_bounds = kind});
+  }
+}
+
 TEST(PayForUse, DetailDecidesWhatThereIs) {
   for (const bool filters : {false, true}) {
     World worlds[] = {World({.detail = Detail::pairs}), World({.detail = Detail::overlap}),

@@ -53,9 +53,10 @@ static_assert(sizeof(Contact) == 64);
 // The points of one overlap, 64 bytes: up to four, on the surface of A, spread as wide as the area
 // in which A and B overlap along the contact's normal. Point i is to B's surface
 // separation[i] * normal away; none is deeper than the contact's separation. Unused ones are zero.
+// Without initialisers: arrays of them are scratch memory.
 struct ManifoldPoints {
-  std::array<std::array<float, 3>, 4> point{};
-  std::array<float, 4> separation{};
+  std::array<std::array<float, 3>, 4> point;
+  std::array<float, 4> separation;
 };
 static_assert(sizeof(ManifoldPoints) == 64);
 
@@ -70,6 +71,14 @@ struct ResultColumns {
   std::array<float*, 3> point_b{};
   uint8_t* manifold_count = nullptr;   // 0 for separate pairs, else 1 to 4
   ManifoldPoints* manifold = nullptr;  // in the frame of point_a
+};
+
+// What is found out about pairs that are apart, at details with contacts.
+enum class SeparatePairs : uint8_t {
+  measured,  // how far, along which normal, between which points
+  decided,   // that they are apart: columns but overlap, status and manifold_count may hold
+             // anything. Boxes against boxes take half of the time then; for most kinds nothing is
+             // saved
 };
 
 // The frame of the witness points in ResultColumns.

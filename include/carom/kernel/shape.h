@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "carom/export.h"
+#include "carom/kernel/dop.h"
 
 namespace carom {
 
@@ -76,7 +77,9 @@ struct Halfspace {
   float offset = 0;
 };
 
-using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace>;
+// A Dop (carom/kernel/dop.h) turns with its body, as a box does; its slabs must have a point in
+// common.
+using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop>;
 
 CAROM_EXPORT ShapeKind kind_of(const Shape& shape);
 

@@ -45,10 +45,12 @@ struct OrientationView {
   size_t stride = 4 * sizeof(float);
 };
 
-// Parameters of capsules, boxes, half-spaces and triangles: rows of four floats, as many in a row
-// as the kind has.
+// Parameters of capsules, boxes, dops, half-spaces and triangles: rows of four floats, as many in a
+// row as the kind has.
 //   capsule    ax ay az radius | bx by bz 0
 //   box        hx hy hz 0
+//   dop        13 lower ends of slabs, 13 upper ones (any finite numbers behind the last slab),
+//              k (6, 14, 18 or 26), 0
 //   halfspace  nx ny nz offset
 //   triangle   three corners, each with a fourth number: thickness, one_sided (0 or 1), inner_edges
 //              (0 to 7)
@@ -57,7 +59,7 @@ struct ShapeRows {
   const uint32_t* first = nullptr;  // one a body: its first row; nullptr: body i's is i * row_count
 };
 
-inline constexpr size_t kMostRows = 3;
+inline constexpr size_t kMostRows = 7;
 
 // How many rows a body of this kind has; 0: it has none.
 constexpr uint32_t row_count(ShapeKind kind) {
@@ -69,6 +71,8 @@ constexpr uint32_t row_count(ShapeKind kind) {
       return 2;
     case ShapeKind::triangle:
       return 3;
+    case ShapeKind::dop:
+      return 7;
     default:
       return 0;
   }
@@ -84,7 +88,7 @@ CAROM_EXPORT Shape shape_from_rows(ShapeKind kind, const std::array<float, 4>* r
 //             world coordinates
 //   kind      one per body; nullptr: all are `uniform_kind`
 //   box_slot  the row of `boxes` of an aabb body; nullptr: the body's own index
-//   orientation, rows  of capsules, boxes, half-spaces and triangles; of mixed kinds with
+//   orientation, rows  of capsules, boxes, dops, half-spaces and triangles; of mixed kinds with
 //   rows.first
 struct Collidables {
   size_t count = 0;

@@ -18,7 +18,8 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 // Tests pair i = (a[pairs[i].a], b[pairs[i].b]) and writes row i of `out`; `a` and `b` may be the
 // same set. Columns of `out` hold pairs.size() entries. At Detail::overlap only overlap and status
 // are written, at Detail::contact all but the manifolds; Detail::pairs writes nothing. Indices must
-// lie inside their sets.
+// lie inside their sets. What comes from behind a one-sided triangle is separate by +infinity, with
+// a normal and points that are not a number; so are all of these of invalid pairs.
 //
 // float32 throughout, after one subtraction of the positions in their own type: the error does not
 // depend on the distance from the origin. Bits are the same on every instruction set and for any
@@ -28,12 +29,14 @@ CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
                                   const ResultColumns& out,
                                   WitnessFrame frame = WitnessFrame::world,
-                                  Parallelism parallelism = Parallelism::none);
+                                  Parallelism parallelism = Parallelism::none,
+                                  SeparatePairs separate = SeparatePairs::measured);
 
 // The same for pair i = (a[i], b[i]), i < a.count == b.count: no list of pairs is read.
 CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                                        const ResultColumns& out,
                                        WitnessFrame frame = WitnessFrame::world,
-                                       Parallelism parallelism = Parallelism::none);
+                                       Parallelism parallelism = Parallelism::none,
+                                       SeparatePairs separate = SeparatePairs::measured);
 
 }  // namespace carom

@@ -29,8 +29,8 @@ struct PairResult {
   Eigen::Vector3f normal;
   Eigen::Vector3f arm_a;
   Eigen::Vector3f arm_b;
-  uint8_t manifold_count;   // 0 for separate pairs
-  ManifoldPoints manifold;  // relative to the position of A
+  uint8_t manifold_count;     // 0 for separate pairs
+  ManifoldPoints manifold{};  // relative to the position of A
 };
 
 // A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the

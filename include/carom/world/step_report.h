@@ -15,13 +15,14 @@ enum class Stage : uint8_t {
   margins,      // bounds fattened, of bodies that left those they had
   broadphase,   // pairs of overlapping bounds
   pairs,        // merge with the last step's pairs: what is carried, what is to be tested
+  dops,         // k-DOPs of bodies, and which pairs of theirs are apart
   narrowphase,  // tests, batch by batch
   results,      // overlaps and contacts in order, carried ones included
   velocities,   // relative velocity along the normals
   events,       // begin, persist, end
 };
 
-inline constexpr int kStageCount = 9;
+inline constexpr int kStageCount = 10;
 
 // "changes", "bounds", ...
 CAROM_EXPORT const char* name(Stage stage);
@@ -33,6 +34,7 @@ struct StepReport {
   size_t pairs = 0;     // candidates
   size_t tested = 0;    // pairs the narrow phase ran
   size_t kept = 0;      // pairs whose last result was carried over
+  size_t dropped = 0;   // pairs that were not tested because their k-DOPs are apart
   size_t overlaps = 0;  // overlapping pairs, sensors included
   size_t contacts = 0;
   PairSearch search;  // of the last broadphase that ran; incomplete: too many pairs, none given

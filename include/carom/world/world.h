@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "carom/export.h"
 #include "carom/kernel/body.h"
 #include "carom/kernel/contact.h"
+#include "carom/kernel/dop.h"
 #include "carom/kernel/event.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
@@ -31,6 +33,11 @@ struct WorldSettings {
   // Pairs are candidates then, and which ones depends on the way the bodies took; overlaps,
   // contacts and events are those of a world without margin.
   float margin = 0;
+
+  // Pairs whose k-DOPs are apart are not tested: tighter bounds, for shapes whose boxes are mostly
+  // empty and whose tests cost more than that (docs/dop_bounds.md). Pairs and all results are the
+  // same with and without. A 6-DOP is the bounds, and drops nothing.
+  std::optional<DopKind> dop_bounds = std::nullopt;
 
   bool pair_changes = false;  // World::added_pairs() and removed_pairs()
 
@@ -78,7 +85,7 @@ struct PointHit {
 // Memory of a world, in bytes.
 struct WorldMemory {
   size_t bodies = 0;             // bodies, and the copies that say what changed
-  size_t bounds = 0;             // fat ones included
+  size_t bounds = 0;             // fat ones and k-DOPs included
   size_t broadphase = 0;         // search structures and what they keep
   size_t pairs_and_results = 0;  // of this step and the last one; contacts and events, too
 

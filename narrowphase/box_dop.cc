@@ -1,0 +1,8 @@
+// Box against k-DOP: one pair at a time.
+#include "narrowphase/scalar_batch.h"
+
+namespace carom {
+
+void run_box_dop(const Batch& batch) { run_scalar_batch(batch, ShapeKind::box, ShapeKind::dop); }
+
+}  // namespace carom

@@ -1,0 +1,10 @@
+// Capsule against k-DOP: one pair at a time.
+#include "narrowphase/scalar_batch.h"
+
+namespace carom {
+
+void run_capsule_dop(const Batch& batch) {
+  run_scalar_batch(batch, ShapeKind::capsule, ShapeKind::dop);
+}
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+// Capsule (A) against k-DOP (B), as polytopes.
+#pragma once
+
+#include "narrowphase/convex_ref.h"
+
+namespace carom::reference {
+
+template <class Real>
+SeparationAs<Real> separation(const CapsuleShape<Real>& a, const DopShape<Real>& b,
+                              const PairPose<Real>& pose) {
+  return convex_separation(a, b, pose);
+}
+
+}  // namespace carom::reference

@@ -1,0 +1,124 @@
+// The face that a k-DOP turns towards another shape, scalar.
+#pragma once
+
+#include <algorithm>
+
+#include "kernel/dop_polytope.h"
+#include "narrowphase/polygon_ref.h"
+#include "narrowphase/segment_ref.h"
+
+namespace carom::reference {
+
+using FaceCorners = FewOf<Vector3f, DopFace::kMostCorners>;
+
+// Of a k-DOP without faces an edge; of a point that.
+struct DopSide {
+  PolygonFace face;
+  FaceCorners corners;  // seen from the position of A
+};
+
+class DopSideFinder {
+ public:
+  DopSideFinder(const DopShape<float>& dop, const Placed& placed)
+      : slabs_(slab_directions(dop.slabs.kind)),
+        polytope_(dop.slabs),
+        placed_(placed),
+        same_point_(double{kSameCorner} * dop.greatest) {}
+
+  // Of the faces that reach as far along m as any point does, that whose normal is nearest to m; of
+  // equals the first. If there are only edges and points, one of those.
+  DopSide towards(const Vector3f& m) const {
+    const Vector3f along = rotate_back(placed_.turn, m);
+    double most = -HUGE_VAL;
+    for (const Double3& point : polytope_.points()) most = std::max(most, height(along, point));
+    Corners best;
+    size_t plane = 0;
+    float nearest = 0;
+    for (const DopFace& face : polytope_.faces()) {
+      const auto reaches = [&](const DopCorner& corner) {
+        return height(along, corner.point) >= most - same_point_;
+      };
+      if (std::none_of(face.corners.begin(), face.corners.end(), reaches)) continue;
+      const Corners corners = distinct_corners(face);
+      const size_t rank = std::min<size_t>(corners.size(), 3);
+      const size_t best_rank = std::min<size_t>(best.size(), 3);
+      const float cosine = dot(normal_of(face.plane), along);
+      if (rank < best_rank || (rank == best_rank && !(cosine > nearest))) continue;
+      best = corners;
+      plane = face.plane;
+      nearest = cosine;
+    }
+    return side_of(plane, best);
+  }
+
+ private:
+  using Corners = FewOf<Double3, DopFace::kMostCorners>;
+
+  // Corners that are nearer to each other, as a share of the size, are one: between them there is
+  // no direction in float.
+  static constexpr float kSameCorner = 0x1p-20f;
+
+  static double height(const Vector3f& way, const Double3& x) {
+    return (way.x() * x[0] + way.y() * x[1]) + way.z() * x[2];
+  }
+
+  Corners distinct_corners(const DopFace& face) const {
+    Corners distinct;
+    const auto is_far = [&](const Double3& a, const Double3& b) {
+      return greatest(minus(a, b)) > same_point_;
+    };
+    for (const DopCorner& corner : face.corners) {
+      if (distinct.empty() || is_far(corner.point, distinct[distinct.size() - 1])) {
+        distinct.push_back(corner.point);
+      }
+    }
+    const bool closes = distinct.size() > 1 && !is_far(distinct[0], distinct[distinct.size() - 1]);
+    return closes ? without_last(distinct) : distinct;
+  }
+  static Corners without_last(const Corners& corners) {
+    Corners rest;
+    for (size_t i = 0; i + 1 < corners.size(); ++i) rest.push_back(corners[i]);
+    return rest;
+  }
+
+  Vector3f normal_of(size_t plane) const {
+    const auto& d = slabs_[slab_of_plane(plane)];
+    const Vector3f normal = Vector3f(d[0], d[1], d[2]) * static_cast<float>(sign_of_plane(plane));
+    return normal * (1 / std::sqrt(dot(normal, normal)));
+  }
+
+  Vector3f placed(const Double3& x) const {
+    return rotate(placed_.turn, rounded(x)) + placed_.origin;
+  }
+  static Vector3f rounded(const Double3& x) {
+    return {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
+  }
+
+  DopSide side_of(size_t plane, const Corners& corners) const {
+    DopSide side;
+    for (const Double3& corner : corners) side.corners.push_back(placed(corner));
+    FaceFrame& frame = side.face.frame;
+    frame = {side.corners[0], Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero(), 0};
+    if (corners.size() < 3) return side;
+    const Vector3f n = normal_of(plane), u = any_perpendicular(n), v = cross(n, u);
+    frame.n = rotate(placed_.turn, n);
+    frame.u = rotate(placed_.turn, u);
+    frame.v = rotate(placed_.turn, v);
+    for (const Double3& corner : corners) {
+      const Vector3f r = rounded(minus(corner, corners[0]));
+      side.face.points.push_back({dot(u, r), dot(v, r)});
+    }
+    return side;
+  }
+
+  const std::span<const std::array<int8_t, 3>> slabs_;
+  const DopPolytope polytope_;
+  const Placed& placed_;
+  const double same_point_;
+};
+
+inline DopSide side_towards(const Vector3f& m, const DopShape<float>& dop, const Placed& placed) {
+  return DopSideFinder(dop, placed).towards(m);
+}
+
+}  // namespace carom::reference

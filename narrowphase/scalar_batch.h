@@ -1,0 +1,11 @@
+// Batches of kinds that have no kernel in lanes: one pair at a time, in double precision, by the
+// scalar tests. The bits are those of the reference on every ISA.
+#pragma once
+
+#include "narrowphase/batch.h"
+
+namespace carom {
+
+void run_scalar_batch(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
+
+}  // namespace carom

@@ -1,0 +1,10 @@
+// Sphere against k-DOP: one pair at a time.
+#include "narrowphase/scalar_batch.h"
+
+namespace carom {
+
+void run_sphere_dop(const Batch& batch) {
+  run_scalar_batch(batch, ShapeKind::sphere, ShapeKind::dop);
+}
+
+}  // namespace carom

@@ -1,0 +1,144 @@
+// Directions that are remembered from test to test: they save work and change no result.
+#include <gtest/gtest.h>
+
+#include "narrowphase/collide_pairs.h"
+#include "tests/support/isas.h"
+#include "tests/support/kind_pairs.h"
+#include "tests/support/run.h"
+
+namespace carom::test {
+namespace {
+
+std::vector<KindPair> kinds_with_directions() {
+  std::vector<KindPair> all;
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    if (uses_directions(kinds.a, kinds.b)) all.push_back(kinds);
+  }
+  return all;
+}
+
+// First sides, then second ones: pair i is (i, count + i).
+std::vector<PlacedShape> all_bodies(std::span<const TestPair> pairs) {
+  std::vector<PlacedShape> bodies = side_a(pairs);
+  const std::vector<PlacedShape> seconds = side_b(pairs);
+  bodies.insert(bodies.end(), seconds.begin(), seconds.end());
+  return bodies;
+}
+
+std::vector<Row> run(std::span<const TestPair> pairs, Detail detail, PositionType positions,
+                     uint32_t* direction) {
+  const auto count = static_cast<uint32_t>(pairs.size());
+  std::vector<Pair> list(count);
+  for (uint32_t i = 0; i < count; ++i) list[i] = {i, count + i};
+  const LaidOut bodies(all_bodies(pairs), call_with(positions).layout_a);
+  Columns columns(count, 0);
+  collide_pairs(bodies.view(), list, detail, columns.out(), direction, Parallelism::none);
+  return columns.rows();
+}
+
+// Of separate pairs the decision counts alone.
+void expect_same(const std::vector<Row>& expected, const std::vector<Row>& rows) {
+  ASSERT_EQ(expected.size(), rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    ASSERT_EQ(expected[i].overlap, rows[i].overlap) << "pair " << i;
+    ASSERT_EQ(expected[i].status, rows[i].status) << "pair " << i;
+    ASSERT_TRUE(!rows[i].overlap || same_bits(expected[i], rows[i])) << "pair " << i;
+  }
+}
+
+// Every body a little further and turned.
+std::vector<TestPair> moved(std::vector<TestPair> pairs, Random& random) {
+  for (TestPair& pair : pairs) {
+    const double size = 1e-3 * (pair.a.position - pair.b.position).norm();
+    for (int axis = 0; axis < 3; ++axis) pair.a.position[axis] += random.uniform(-size, size);
+    for (int i = 0; i < 4; ++i) {
+      pair.a.orientation.coeffs()[i] += static_cast<float>(random.uniform(-1e-3, 1e-3));
+    }
+  }
+  return pairs;
+}
+
+class Direction : public testing::TestWithParam<ConvexFamily> {};
+
+TEST_P(Direction, ChangesNoResult) {
+  for (const KindPair& kinds : kinds_with_directions()) {
+    for (const PositionType positions : kPositionTypes) {
+      SCOPED_TRACE(name(kinds) + ", " + name(positions));
+      std::vector<TestPair> pairs = make_kind_pairs(GetParam(), kinds, positions, 70);
+      vary_triangles(pairs);
+      Random random(7);
+      const std::vector<TestPair> next = moved(pairs, random);
+      for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+        for_each_isa([&] {
+          std::vector<uint32_t> direction(pairs.size(), kNoDirection);
+          expect_same(run(pairs, detail, positions, nullptr),
+                      run(pairs, detail, positions, direction.data()));
+          const std::vector<Row> cold = run(next, detail, positions, nullptr);
+          expect_same(cold, run(next, detail, positions, direction.data()));
+          for (uint32_t& any : direction) any = static_cast<uint32_t>(random.bits());
+          expect_same(cold, run(next, detail, positions, direction.data()));
+        });
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Direction, testing::ValuesIn(convex_families()), family_name);
+
+TEST(Direction, OfAnyInputChangesNoResult) {
+  Random random(3);
+  for (const KindPair& kinds : kinds_with_directions()) {
+    SCOPED_TRACE(name(kinds));
+    const std::vector<TestPair> pairs = make_kind_nonsense(kinds, 1500);
+    std::vector<uint32_t> direction(pairs.size());
+    for (uint32_t& any : direction) any = static_cast<uint32_t>(random.bits());
+    expect_same(run(pairs, Detail::contact, PositionType::float32, nullptr),
+                run(pairs, Detail::contact, PositionType::float32, direction.data()));
+  }
+}
+
+// Separate pairs that move a little keep their direction: it was enough.
+TEST(Direction, IsKeptWhilePairsAreApart) {
+  const ConvexFamily family = convex_families()[0];
+  for (const KindPair& kinds : kinds_with_directions()) {
+    SCOPED_TRACE(name(kinds));
+    const PositionType positions = PositionType::float32;
+    const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, 500);
+    std::vector<uint32_t> direction(pairs.size(), kNoDirection);
+    const std::vector<Row> rows = run(pairs, Detail::contact, positions, direction.data());
+    const std::vector<uint32_t> first = direction;
+    Random random(1);
+    run(moved(pairs, random), Detail::contact, positions, direction.data());
+    size_t separate = 0, known = 0, kept = 0;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_TRUE(!rows[i].overlap || first[i] == kNoDirection);
+      separate += !rows[i].overlap;
+      known += first[i] != kNoDirection;
+      kept += first[i] != kNoDirection && first[i] == direction[i];
+    }
+    EXPECT_EQ(known, separate);
+    EXPECT_GT(kept, separate * 6 / 10);
+  }
+}
+
+TEST(Direction, IsPackedToATenthOfADegree) {
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    Eigen::Vector3f n;
+    for (int axis = 0; axis < 3; ++axis) n[axis] = static_cast<float>(random.uniform(-1, 1));
+    n.normalize();
+    const uint32_t packed = pack_direction({n.x(), n.y(), n.z()});
+    ASSERT_NE(packed, kNoDirection);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto steps = static_cast<float>(packed >> 10 * axis & 0x3ff);
+      EXPECT_NEAR((steps - kDirectionZero) / kDirectionSteps, n[axis], 0.0011f);
+    }
+  }
+  EXPECT_EQ(pack_direction({0, 0, 0}), kNoDirection);
+  EXPECT_EQ(pack_direction({NAN, 0, 1}), kNoDirection);
+  EXPECT_EQ(pack_direction({INFINITY, 0, 0}), kNoDirection);
+  EXPECT_EQ(pack_direction({1e30f, 0, 0}), kNoDirection);
+}
+
+}  // namespace
+}  // namespace carom::test

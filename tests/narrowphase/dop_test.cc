@@ -1,0 +1,191 @@
+// K-DOPs as shapes: answers that are known, and those of the boxes that some of them are.
+#include <gtest/gtest.h>
+
+#include <cfloat>
+
+#include "tests/support/isas.h"
+#include "tests/support/kind_checks.h"
+#include "tests/support/kind_pairs.h"
+#include "tests/support/run.h"
+
+namespace carom::test {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3f;
+using Result = reference::PairResult;
+
+constexpr auto kFloat32 = PositionType::float32;
+constexpr DopKind kDopKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
+
+// On every ISA, both ways round, against the exact answer.
+Result checked(const TestPair& pair) {
+  for (const TestPair& each : {pair, swapped(pair)}) {
+    checked_result(each, kFloat32);
+    Call call;
+    call.detail = Detail::manifold;
+    for_each_isa([&] {
+      EXPECT_TRUE(same_rows(expected_rows({&each, 1}, kFloat32, Detail::manifold),
+                            run_rows({&each, 1}, call), {&each, 1}));
+    });
+  }
+  return reference_result(pair, kFloat32);
+}
+
+PlacedShape placed(const Dop& dop, const Eigen::Vector3d& position,
+                   const Quaternionf& orientation = Quaternionf::Identity()) {
+  return {dop, position, orientation};
+}
+
+// All |x| + |y| + |z| <= reach, the axes left open.
+Dop octahedron(float reach) {
+  Dop dop{.kind = DopKind::k14};
+  for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+    dop.upper[i] = i < 3 ? FLT_MAX : reach;
+    dop.lower[i] = -dop.upper[i];
+  }
+  return dop;
+}
+
+Dop dop_of_box(const Vector3f& lower, const Vector3f& upper, DopKind kind) {
+  std::vector<Vector3f> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
+                         (i & 4 ? upper : lower).z());
+  }
+  return Dop::of_points(corners, kind);
+}
+
+TEST(Dops, SphereAgainstFaceEdgeAndCorner) {
+  const float third = std::sqrt(1.0f / 3);
+  const auto corner = checked({sphere(0, 0, 3, 0.5), placed(octahedron(2), {0, 0, 0})});
+  EXPECT_NEAR(corner.separation, 0.5, 1e-6);
+  EXPECT_EQ(corner.normal, Vector3f(0, 0, -1));
+  EXPECT_EQ(corner.arm_b, Vector3f(0, 0, 2));
+  const auto edge = checked({sphere(2, 2, 0, 0.5), placed(octahedron(2), {0, 0, 0})});
+  EXPECT_NEAR(edge.separation, std::sqrt(2.0) - 0.5, 1e-6);
+  EXPECT_NEAR(edge.normal.x(), -std::sqrt(0.5), 1e-6);
+  EXPECT_EQ(edge.normal.z(), 0);
+  const auto face = checked({sphere(1, 1, 1, 0.5), placed(octahedron(2), {0, 0, 0})});
+  EXPECT_NEAR(face.separation, third - 0.5, 1e-6);
+  EXPECT_NEAR(face.normal.x(), -third, 1e-6);
+  const auto inside = checked({sphere(0, 0, 0, 0.5), placed(octahedron(2), {0, 0, 0})});
+  EXPECT_NEAR(inside.separation, -2 * third - 0.5, 1e-6);
+  EXPECT_EQ(inside.status, Status::ok);
+}
+
+TEST(Dops, CornersEdgesAndFacesOfTwo) {
+  const Dop dop = octahedron(1);
+  EXPECT_NEAR(checked({placed(dop, {0, 0, 0}), placed(dop, {0, 0, 2.25})}).separation, 0.25, 1e-6);
+  const auto edges = checked({placed(dop, {0, 0, 0}), placed(dop, {1.25, 1.25, 0})});
+  EXPECT_NEAR(edges.separation, 0.25 * std::sqrt(2.0), 1e-6);
+  const auto faces = checked({placed(dop, {0, 0, 0}), placed(dop, {0.5, 0.5, 0.5})});
+  EXPECT_NEAR(faces.separation, (1.5 - 2) / std::sqrt(3.0), 1e-6);
+  EXPECT_GE(faces.manifold_count, 3);
+}
+
+// Two edges that cross, of shapes turned against each other.
+TEST(Dops, CrossedEdges) {
+  const Dop dop = dop_of_box({-1, -1, -1}, {1, 1, 1}, DopKind::k18);
+  const float s = std::sin(0.39269908f), c = std::cos(0.39269908f);  // an eighth of a turn
+  const Quaternionf a(c, s, 0, 0), b(c, 0, s, 0);
+  const double reach = std::sqrt(2.0);
+  for (const double gap : {0.5, 1e-3, -1e-3, -0.1}) {
+    const auto result =
+        checked({placed(dop, {0, 0, 0}, a), placed(dop, {0, 0, 2 * reach + gap}, b)});
+    EXPECT_NEAR(result.separation, gap, 2e-6);
+    EXPECT_NEAR(result.normal.z(), 1, 1e-6);
+  }
+}
+
+TEST(Dops, OnAHalfspace) {
+  const PlacedShape ground = halfspace({0, 0, 0}, {0, 0, 1}, 0);
+  const Dop cube = dop_of_box({-1, -1, -1}, {1, 1, 1}, DopKind::k26);
+  const auto lying = checked({placed(cube, {5, 6, 0.75}), ground});
+  EXPECT_NEAR(lying.separation, -0.25, 1e-6);
+  EXPECT_EQ(lying.normal, Vector3f(0, 0, -1));
+  EXPECT_EQ(lying.manifold_count, 4);
+  const auto standing = checked({placed(octahedron(1), {5, 6, 1.5}), ground});
+  EXPECT_NEAR(standing.separation, 0.5, 1e-6);
+}
+
+// A stack: the contact area is an octagon, of which four points stay.
+TEST(Dops, FaceOnFace) {
+  Dop dop{.kind = DopKind::k26};
+  for (size_t i = 0; i < 13; ++i) {
+    dop.upper[i] = i < 3 ? 1.0f : i < 7 ? 2.2f : 1.5f;
+    dop.lower[i] = -dop.upper[i];
+  }
+  for (const float angle : {0.0f, 0.1f, 0.5f}) {
+    const Quaternionf turned(Eigen::AngleAxisf(angle, Vector3f::UnitZ()));
+    const auto result = checked({placed(dop, {0, 0, 0}), placed(dop, {0.1, 0, 1.99}, turned)});
+    EXPECT_NEAR(result.separation, -0.01, 2e-6);
+    EXPECT_EQ(result.normal, Vector3f(0, 0, 1));
+    ASSERT_EQ(result.manifold_count, 4);
+    for (size_t i = 0; i < 4; ++i) {
+      const auto& p = result.manifold.point[i];
+      EXPECT_GE(std::hypot(p[0] - 0.05f, p[1]), 0.4f) << "spread";
+    }
+  }
+}
+
+TEST(Dops, CapsuleAlongAFace) {
+  const Dop dop = dop_of_box({-2, -2, -1}, {2, 2, 1}, DopKind::k26);
+  const auto result =
+      checked({capsule({0, 0, 1.4}, {-1, 0.25f, 0}, {1, 0.25f, 0}, 0.5f), placed(dop, {0, 0, 0})});
+  EXPECT_NEAR(result.separation, -0.1, 1e-6);
+  EXPECT_EQ(result.manifold_count, 2);
+}
+
+// Flat, thin and without any size, touching what is like them.
+TEST(Dops, WithoutVolume) {
+  const std::vector<Dop> flat = {dop_of_box({0, 0, 0}, {0, 0, 0}, DopKind::k26),
+                                 dop_of_box({-1, 0, 0}, {1, 0, 0}, DopKind::k14),
+                                 dop_of_box({-1, -1, 0}, {1, 1, 0}, DopKind::k18),
+                                 dop_of_box({-1, 0, -1}, {1, 0, 1}, DopKind::k6)};
+  for (const Dop& a : flat) {
+    for (const Dop& b : flat) {
+      for (const Eigen::Vector3d& at : {Eigen::Vector3d(0, 0, 0), {1, 0, 0}, {2.5, 0, 0.25}}) {
+        checked({placed(a, {0, 0, 0}), placed(b, at)});
+        checked({placed(a, {0, 0, 0}), placed(b, at, Quaternionf(1, 0, 0, 1))});
+      }
+    }
+  }
+}
+
+TEST(Dops, InOnePlaceAndPose) {
+  for (const DopKind kind : kDopKinds) {
+    const Dop dop = dop_of_box({-1, -2, -3}, {1, 2, 3}, kind);
+    const auto result = checked({placed(dop, {0, 0, 0}), placed(dop, {0, 0, 0})});
+    EXPECT_NEAR(result.separation, -2, 1e-6);
+    EXPECT_NEAR(std::fabs(result.normal.x()), 1, 1e-6);
+  }
+}
+
+// A k-DOP around the corners of a box is that box.
+TEST(Dops, AroundBoxesAreBoxes) {
+  for (const ShapeKind kind : kConvexKinds) {
+    const KindPair kinds{ShapeKind::box, kind};
+    for (const ConvexFamily& family : convex_families()) {
+      std::vector<TestPair> pairs = make_kind_pairs(family, kinds, kFloat32, 3);
+      vary_triangles(pairs);
+      for (TestPair& pair : pairs) {
+        SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
+        const Result expected = reference_result(pair, kFloat32);
+        const Vector3f half = std::get<Box>(pair.a.shape).half;
+        const double size = bounding_radius(pair.a.shape) + bounding_radius(pair.b.shape);
+        for (const DopKind k : kDopKinds) {
+          pair.a.shape = dop_of_box(-half, half, k);
+          const Result result = reference_result(pair, kFloat32);
+          if (result.separation == expected.separation) continue;  // infinite ones, too
+          EXPECT_NEAR(result.separation, expected.separation,
+                      4e-6 * (size + std::fabs(expected.separation)) + 0x1p-140);
+        }
+      }
+      if (HasFailure()) return;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::test

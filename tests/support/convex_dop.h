@@ -1,0 +1,163 @@
+// The corners, edges and faces of k-DOPs for the oracle, by solving for every three planes. In any
+// real type; nothing of it is shared with the library but the directions of the slabs.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "carom/kernel/dop.h"
+#include "tests/support/vec3.h"
+
+namespace carom::test {
+
+// Which planes meet where is found in long double; the points themselves in the type R.
+template <class R>
+class ConvexDop {
+ public:
+  using Vec = Vec3<R>;
+
+  struct Edge {
+    Vec from, to;
+  };
+
+  explicit ConvexDop(const Dop& dop) : ConvexDop(dop, false) {
+    // Rounding of the slabs may have left no point: then they are half a unit wider.
+    if (points_.empty()) *this = ConvexDop(dop, true);
+  }
+
+  const std::vector<Vec>& points() const { return points_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  // Each a convex polygon.
+  const std::vector<std::vector<Vec>>& faces() const { return faces_; }
+  const std::vector<Vec>& normals() const { return normals_; }
+
+ private:
+  using Wide = long double;
+  using WideVec = Vec3<Wide>;
+
+  struct Corner {
+    WideVec at;
+    std::vector<size_t> planes;
+    Vec exact;
+  };
+
+  ConvexDop(const Dop& dop, bool widened) {
+    for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+      const auto& d = slab_directions(dop.kind)[i];
+      const Wide wider = widened ? 0x1p-24L : 0;
+      const Wide upper = dop.upper[i] + wider * std::fabs(Wide{dop.upper[i]});
+      const Wide lower = dop.lower[i] - wider * std::fabs(Wide{dop.lower[i]});
+      normal_.push_back({Wide(d[0]), Wide(d[1]), Wide(d[2])});
+      limit_.push_back(upper);
+      normal_.push_back(-normal_.back());
+      limit_.push_back(-lower);
+      normals_.push_back(normalized(Vec{R(d[0]), R(d[1]), R(d[2])}));
+    }
+    find_corners();
+    if (corners_.empty()) return;
+    for (const Corner& corner : corners_) points_.push_back(corner.exact);
+    for (size_t p = 0; p < normal_.size(); ++p) {
+      find_face(p);
+      for (size_t q = 0; q < p; ++q) find_edge(p, q);
+    }
+  }
+
+  void find_corners() {
+    for (size_t i = 0; i < normal_.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        for (size_t k = 0; k < j; ++k) {
+          const Wide det = dot(normal_[i], cross(normal_[j], normal_[k]));
+          if (det == 0) continue;
+          const WideVec at = meeting<Wide>(i, j, k);
+          const Wide size = length(at) + length_of_limits(i, j, k);
+          if (is_inside(at, size)) add_corner(at, size, meeting<R>(i, j, k));
+        }
+      }
+    }
+  }
+
+  Wide length_of_limits(size_t i, size_t j, size_t k) const {
+    return std::fabs(limit_[i]) + std::fabs(limit_[j]) + std::fabs(limit_[k]);
+  }
+
+  template <class T>
+  Vec3<T> meeting(size_t i, size_t j, size_t k) const {
+    const auto n = [&](size_t p) {
+      return Vec3<T>{T(normal_[p].x), T(normal_[p].y), T(normal_[p].z)};
+    };
+    const T share = 1 / dot(n(i), cross(n(j), n(k)));
+    return (cross(n(j), n(k)) * T(limit_[i]) + cross(n(k), n(i)) * T(limit_[j]) +
+            cross(n(i), n(j)) * T(limit_[k])) *
+           share;
+  }
+
+  bool is_inside(const WideVec& at, Wide size) const {
+    for (size_t p = 0; p < normal_.size(); ++p) {
+      if (dot(normal_[p], at) > limit_[p] + size * 0x1p-55L) return false;
+    }
+    return true;
+  }
+
+  void add_corner(const WideVec& at, Wide size, const Vec& exact) {
+    for (const Corner& known : corners_) {
+      if (length(known.at - at) <= size * 0x1p-50L) return;
+    }
+    Corner corner{at, {}, exact};
+    for (size_t p = 0; p < normal_.size(); ++p) {
+      if (dot(normal_[p], at) >= limit_[p] - size * 0x1p-50L) corner.planes.push_back(p);
+    }
+    corners_.push_back(corner);
+  }
+
+  std::vector<const Corner*> corners_on(std::initializer_list<size_t> planes) const {
+    std::vector<const Corner*> found;
+    for (const Corner& corner : corners_) {
+      const bool is_on = std::all_of(planes.begin(), planes.end(), [&](size_t p) {
+        return std::find(corner.planes.begin(), corner.planes.end(), p) != corner.planes.end();
+      });
+      if (is_on) found.push_back(&corner);
+    }
+    return found;
+  }
+
+  void find_edge(size_t p, size_t q) {
+    const WideVec way = cross(normal_[p], normal_[q]);
+    if (dot(way, way) == 0) return;
+    const auto on = corners_on({p, q});
+    if (on.size() < 2) return;
+    const auto [first, last] = std::minmax_element(
+        on.begin(), on.end(),
+        [&](const Corner* a, const Corner* b) { return dot(a->at, way) < dot(b->at, way); });
+    edges_.push_back({(*first)->exact, (*last)->exact});
+  }
+
+  void find_face(size_t p) {
+    auto on = corners_on({p});
+    if (on.size() < 3) return;
+    WideVec middle;
+    for (const Corner* corner : on) middle = middle + corner->at * (1 / Wide(on.size()));
+    const WideVec u = normalized(on[0]->at - middle);
+    const WideVec v = cross(normalized(normal_[p]), u);
+    const auto angle = [&](const Corner* corner) {
+      const WideVec r = corner->at - middle;
+      return std::atan2(dot(r, v), dot(r, u));
+    };
+    std::sort(on.begin(), on.end(),
+              [&](const Corner* a, const Corner* b) { return angle(a) < angle(b); });
+    std::vector<Vec> face;
+    for (const Corner* corner : on) face.push_back(corner->exact);
+    faces_.push_back(face);
+  }
+
+  std::vector<WideVec> normal_;
+  std::vector<Wide> limit_;
+  std::vector<Corner> corners_;
+  std::vector<Vec> points_;
+  std::vector<Edge> edges_;
+  std::vector<std::vector<Vec>> faces_;
+  std::vector<Vec> normals_;
+};
+
+}  // namespace carom::test
