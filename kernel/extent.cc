@@ -55,17 +55,18 @@ Intervals triangle_intervals(const std::array<Double3, 3>& turn, const Row* rows
   return result;
 }
 
-float down(double x) {
-  const auto rounded = static_cast<float>(std::max(x, -double{FLT_MAX}));
-  return rounded > x ? next_down(rounded) : rounded;
+// Inside the range of float32.
+float downwards(double x) {
+  return round_downwards(std::clamp(x, -double{FLT_MAX}, double{FLT_MAX}));
 }
-float up(double x) { return -down(-x); }
 
 Extent outward(const Intervals& intervals, double radius, double slack) {
   Extent extent;
   for (size_t axis = 0; axis < 3; ++axis) {
-    extent.lower[axis] = std::max(down(intervals[axis].lower - radius - slack), -FLT_MAX);
-    extent.upper[axis] = std::min(up(intervals[axis].upper + radius + slack), FLT_MAX);
+    const double lower = intervals[axis].lower - radius - slack;
+    const double upper = intervals[axis].upper + radius + slack;
+    extent.lower[axis] = downwards(lower);
+    extent.upper[axis] = -downwards(-upper);
   }
   return extent;
 }
@@ -81,7 +82,7 @@ Extent turned_extent(const BodyReader& reader, size_t i) {
   const ShapeKind kind = reader.kind(i);
   const std::array<Row, kMostRows> rows = reader.rows(i);
   const auto turn = rotation_of(reader.orientation(i));
-  const double slack = kTurnRounding * greatest_of(rows);
+  const double slack = kTurnRounding * greatest_of({rows.data(), row_count(kind)});
   switch (kind) {
     case ShapeKind::capsule:
       return outward(point_intervals(turn, std::array{vector_of(rows[0]), vector_of(rows[1])}),

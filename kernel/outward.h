@@ -1,8 +1,11 @@
 // Sums rounded outwards: the float32 nearest to the exact sum from below, or from above.
 #pragma once
 
+#include <bit>
 #include <cfloat>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace carom {
 
@@ -18,8 +21,24 @@ struct TwoSum {
   }
 };
 
-inline float next_down(float v) { return std::nextafter(v, -INFINITY); }
-inline float next_up(float v) { return std::nextafter(v, INFINITY); }
+// std::nextafter without the call.
+inline float next_down(float v) {
+  if (!(v > -INFINITY)) return v;  // NaN, too
+  if (v == 0) return -std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<int32_t>(v);
+  return std::bit_cast<float>(bits + (bits < 0 ? 1 : -1));
+}
+inline float next_up(float v) { return -next_down(-v); }
+
+// The largest float32 <= x; x is not beyond the range of float32. Without a branch that depends on
+// how x rounds, which it does at random.
+inline float round_downwards(double x) {
+  const auto rounded = static_cast<float>(x);
+  if (rounded == 0) return x < 0 ? next_down(0) : rounded;
+  const auto bits = std::bit_cast<int32_t>(rounded);
+  const int32_t step = rounded > x ? 1 : 0;
+  return std::bit_cast<float>(bits + (bits < 0 ? step : -step));
+}
 
 // The largest float32 <= a + b. In float64, first the exact sum, then its rounding.
 template <class T>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "kernel/body_reader.h"
 
@@ -51,7 +52,7 @@ inline Double3 way_back(const Double3& a, const Double3& b, const Double3& c, do
 }
 
 // Radius and thickness are the fourth number of the first row.
-inline double greatest_of(const std::array<Row, kMostRows>& rows) {
+inline double greatest_of(std::span<const Row> rows) {
   double size = rows[0][3];
   for (const Row& row : rows) size = std::max(size, greatest(vector_of(row)));
   return size;
