@@ -19,5 +19,5 @@ generated=build/release/generated
 find simd kernel broadphase narrowphase world -name '*.cc' | sort |
   xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O1 -c {} -o /dev/null \
     -march=armv8-a+crypto -I . -I include -I $generated -isystem $out/include \
-    -ffp-contract=off -fno-tree-slp-vectorize -DHWY_COMPILE_ALL_ATTAINABLE -Wall -Wextra
+    -ffp-contract=off -fno-tree-slp-vectorize -Wall -Wextra
 echo "neon: the library compiles for AArch64"
