@@ -29,7 +29,9 @@ std::array<float, 9> peer_size(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
 }
-std::array<float, 9> peer_size(const Halfspace& /*halfspace*/) { return {}; }  // no such stream
+// No such streams.
+std::array<float, 9> peer_size(const Halfspace& /*halfspace*/) { return {}; }
+std::array<float, 9> peer_size(const Dop& /*dop*/) { return {}; }
 
 PeerShape peer_shape(ShapeKind kind) {
   switch (kind) {
