@@ -38,10 +38,12 @@ std::optional<std::string> problem(const PairStream& stream, Detail detail, Resu
   return stream.difference(detail, results.columns());
 }
 
-// So many passes make an iteration that reading the clock does not count.
+// So many passes make an iteration that reading the clock does not count; fewer of slow kinds.
 size_t passes(const PairStream& stream) {
   constexpr size_t kPairs = 50'000;
-  return std::max<size_t>(1, kPairs / stream.spec().count);
+  constexpr double kReferenceSeconds = 0.02;
+  const auto enough = static_cast<size_t>(kReferenceSeconds / stream.reference_seconds());
+  return std::max<size_t>(1, std::min(kPairs / stream.spec().count, enough));
 }
 
 template <class Pass>
