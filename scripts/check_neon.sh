@@ -17,7 +17,7 @@ generated=build/release/generated
 [ -d $generated ] || cmake --preset release >/dev/null
 
 find simd kernel broadphase narrowphase world -name '*.cc' | sort |
-  xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O1 -c {} -o /dev/null \
+  xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O0 -c {} -o /dev/null \
     -march=armv8-a+crypto -I . -I include -I $generated -isystem $out/include \
     -ffp-contract=off -fno-tree-slp-vectorize -Wall -Wextra
 echo "neon: the library compiles for AArch64"
