@@ -51,7 +51,8 @@ TEST(SharedTest, SpheresBetweenHalfspaces) {
   const CommandResult run = run_command({"run", scene, "--detail", "manifold", "--json", "-"});
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err, "");  // no body is left out
-  for (const auto& contacts : run.json()["contacts_per_frame"]) EXPECT_GT(contacts, 0);
+  const auto report = run.json();
+  for (const auto& contacts : report["contacts_per_frame"]) EXPECT_GT(contacts, 0);
   const CommandResult verified = run_command({"verify", scene, "--frames", "2", "--threads", "1"});
   EXPECT_EQ(verified.code, 0) << verified.out << verified.err;
 }
