@@ -1,9 +1,13 @@
 // Writes the seed corpus: make_corpus FOLDER. The seeds in fuzz/corpus came from here.
+#include <array>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "fuzz/kinds_input.h"
 #include "io/pairs_file.h"
 #include "io/recording.h"
 #include "io/scene.h"
@@ -81,6 +85,55 @@ bool write_seed_pairs(const std::string& path, bool full) {
   return bool(write_pairs(path, pairs));
 }
 
+// About one metre in size.
+carom::fuzz::Body ordinary_body(carom::ShapeKind kind) {
+  using namespace carom;
+  carom::fuzz::Body body{.rows = {}, .orientation = {0.1f, -0.2f, 0.3f, 0.9f}, .position = {}};
+  const std::vector<Eigen::Vector3f> points = {{1, 0, 0}, {-1, 0, 0.5f}, {0, 1, 0}, {0, 0, -1}};
+  const auto write = [&](const carom::Shape& shape) { body.rows = shape_rows(shape); };
+  switch (kind) {
+    case ShapeKind::sphere:
+      body.rows[0] = {1};
+      break;
+    case ShapeKind::aabb:
+      body.rows[0] = {-1, -1, -1};
+      body.rows[1] = {1, 1, 1};
+      break;
+    case ShapeKind::capsule:
+      write(Capsule{{-1, 0, 0}, {1, 0.5f, 0}, 0.5f});
+      break;
+    case ShapeKind::box:
+      write(Box{{1, 0.7f, 0.4f}});
+      break;
+    case ShapeKind::dop:
+      write(Dop::of_points(points, DopKind::k14));
+      break;
+    case ShapeKind::halfspace:
+      write(Halfspace{{0, 0.6f, 0.8f}, 0});
+      break;
+    default:
+      write(Triangle{{points[0], points[1], points[2]}, 0.1f, true, 5});
+  }
+  return body;
+}
+
+bool write_kinds(const std::string& path, uint8_t pair) {
+  const auto& kinds = carom::fuzz::kPairs[pair];
+  std::array<carom::fuzz::Body, 2> bodies = {ordinary_body(kinds.a), ordinary_body(kinds.b)};
+  bodies[1].position = {0.7, 0.9, -0.4};
+  std::ofstream file(path, std::ios::binary);
+  file.put(static_cast<char>(pair)).put(pair % 4);
+  file.write(reinterpret_cast<const char*>(bodies.data()), sizeof bodies);
+  return bool(file.flush());
+}
+
+bool write_all_kinds(const std::string& folder) {
+  for (uint8_t pair = 0; pair < std::size(carom::fuzz::kPairs); ++pair) {
+    if (!write_kinds(folder + carom::fuzz::kPairs[pair].name, pair)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -89,7 +142,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string folder = std::string(argv[1]) + "/";
-  for (const char* kind : {"recording_fuzz", "scene_fuzz", "pairs_fuzz"}) {
+  for (const char* kind : {"recording_fuzz", "scene_fuzz", "pairs_fuzz", "kinds_fuzz"}) {
     std::filesystem::create_directories(folder + kind);
   }
   const bool done = write_scene(folder + "scene_fuzz/small.npz", false, Compression::kStored) &&
@@ -98,7 +151,8 @@ int main(int argc, char** argv) {
                     write_recording(folder + "recording_fuzz/one.aabb", 1) &&
                     write_recording(folder + "recording_fuzz/three.aabb", 3) &&
                     write_seed_pairs(folder + "pairs_fuzz/small.npz", false) &&
-                    write_seed_pairs(folder + "pairs_fuzz/full.npz", true);
+                    write_seed_pairs(folder + "pairs_fuzz/full.npz", true) &&
+                    write_all_kinds(folder + "kinds_fuzz/");
   if (!done) std::fprintf(stderr, "the corpus could not be written\n");
   return done ? 0 : 1;
 }

@@ -37,6 +37,11 @@ Rows rows_of(const Dop& dop) {
   return rows;
 }
 
+// A number that no triangle has becomes another such.
+uint8_t inner_edges_from(float number) {
+  return number >= 0 && number < 256 ? static_cast<uint8_t>(number) : 255;
+}
+
 // A number of planes that no k-DOP has becomes zero.
 Dop dop_from(const Row* rows) {
   const auto number = [&](size_t i) { return rows[i / 4][i % 4]; };
@@ -71,7 +76,7 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
       return Triangle{{vector(rows[0]), vector(rows[1]), vector(rows[2])},
                       rows[0][3],
                       rows[1][3] != 0,
-                      static_cast<uint8_t>(rows[2][3])};
+                      inner_edges_from(rows[2][3])};
   }
 }
 

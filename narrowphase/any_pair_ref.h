@@ -39,7 +39,7 @@ SeparationAs<Real> separation_of(const Shape& a, const Shape& b, const PairPose<
                     a, b);
 }
 
-// Squares of what is used neither vanish nor overflow; the rotation is the same to the bit.
+// Squares of what is used neither vanish nor overflow.
 template <class Real>
 Quaternion<Real> quaternion_as(const Eigen::Vector4f& q) {
   const float norm = dot(q.head<3>().eval(), q.head<3>().eval()) + q.w() * q.w();

@@ -39,23 +39,25 @@ HWY_INLINE F to_units(PoseLanes& pose, A& a, B& b) {
   return up;
 }
 
-template <class A, class B, class Bodies>
-HWY_INLINE void load_orientations(const Batch& batch, const Bodies& bodies, PoseLanes& pose) {
-  if constexpr (A::kIsOriented) load_orientation<Role::a>(batch.a, bodies, pose.a);
-  if constexpr (B::kIsOriented) load_orientation<Role::b>(batch.b, bodies, pose.b);
+HWY_INLINE Mask is_plain(const Quaternion& q) {
+  const F norm = squared_norm(q);
+  return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
+}
+
+// Scales those that are not plain, and no others: subnormal components would lose bits.
+HWY_INLINE void make_plain(Quaternion& q) {
+  F up, down;
+  power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
+  const F scale = hn::IfThenElse(is_plain(q), splat(1), down);
+  q.v = q.v * scale;
+  q.w = hn::Mul(q.w, scale);
 }
 
 // The identity in lanes that are not valid; elsewhere squares neither vanish nor overflow.
 HWY_INLINE void clear_unless(Mask valid, Quaternion& q) {
-  F up, down;
-  power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
-  q.v = zero_unless(valid, q.v * down);
-  q.w = hn::IfThenElse(valid, hn::Mul(q.w, down), splat(1));
-}
-
-HWY_INLINE Mask is_plain(const Quaternion& q) {
-  const F norm = squared_norm(q);
-  return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
+  make_plain(q);
+  q.v = zero_unless(valid, q.v);
+  q.w = hn::IfThenElse(valid, q.w, splat(1));
 }
 
 // One comparison for everything that must be finite: NaN and infinity survive the sum.
@@ -66,6 +68,18 @@ HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) 
   if constexpr (A::kIsOriented) valid = hn::And(valid, is_plain(pose.a));
   if constexpr (B::kIsOriented) valid = hn::And(valid, is_plain(pose.b));
   return valid;
+}
+
+// Everything of a vector of pairs, in metres.
+template <class Records, class A, class B, class Bodies>
+HWY_INLINE void load_pairs(const Batch& batch, const Bodies& bodies, PositionLanes& positions,
+                           PoseLanes& pose, A& a, B& b) {
+  Records::load(batch, bodies, positions);
+  a = A::template load<Role::a>(batch.a, bodies, positions);
+  b = B::template load<Role::b>(batch.b, bodies, positions);
+  if constexpr (A::kIsOriented) load_orientation<Role::a>(batch.a, bodies, pose.a);
+  if constexpr (B::kIsOriented) load_orientation<Role::b>(batch.b, bodies, pose.b);
+  pose.d = positions.relative;
 }
 
 template <class Kernel, class Records, Detail kDetail>
@@ -105,12 +119,10 @@ struct BatchLoop {
   static HWY_INLINE void run_vector(const Batch& batch, const Batch& source, size_t row,
                                     const Bodies& bodies) {
     PositionLanes positions;
-    Records::load(batch, bodies, positions);
-    A a = A::template load<Role::a>(batch.a, bodies, positions);
-    B b = B::template load<Role::b>(batch.b, bodies, positions);
     PoseLanes pose;
-    load_orientations<A, B>(batch, bodies, pose);
-    pose.d = positions.relative;
+    A a;
+    B b;
+    load_pairs<Records>(batch, bodies, positions, pose, a, b);
     Mask valid = is_plainly_valid(pose, a, b);
     // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
     const bool is_odd = !hn::AllTrue(FloatTag(), valid);

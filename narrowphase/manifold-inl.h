@@ -77,25 +77,13 @@ class ManifoldLoop {
     if constexpr (Shape::kIsOriented) {
       Quaternion q;
       load_orientation<kRole>(side, bodies, q);
-      make_plain(q);
+      if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), is_plain(q)))) make_plain(q);
       placed.turn = rotation_of(q);
     } else {
       const F zero = splat(0);
       const F one = splat(1);
       placed.turn = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
     }
-  }
-
-  // Extreme ones are scaled, as everywhere.
-  static HWY_INLINE void make_plain(Quaternion& q) {
-    const F norm = squared_norm(q);
-    const Mask plain =
-        hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
-    if (HWY_LIKELY(hn::AllTrue(FloatTag(), plain))) return;
-    Quaternion scaled = q;
-    clear_unless(hn::Not(no_lanes()), scaled);
-    q.v = select(plain, q.v, scaled.v);
-    q.w = hn::IfThenElse(plain, q.w, scaled.w);
   }
 
   // Back in metres; none deeper than the contact, none apart. One point alone is the witness.

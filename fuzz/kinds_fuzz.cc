@@ -1,0 +1,168 @@
+// Any bytes as two bodies of any two kinds that have a kernel: every instruction set says what the
+// scalar reference says, bit for bit.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "carom/narrowphase/collide.h"
+#include "carom/reference/reference.h"
+#include "carom/simd/isa.h"
+#include "fuzz/kinds_input.h"
+
+namespace {
+
+using namespace carom;
+using namespace carom::fuzz;
+
+Shape shape_of(ShapeKind kind, const Body& body) {
+  const auto& rows = body.rows;
+  switch (kind) {
+    case ShapeKind::sphere:
+      return Sphere{rows[0][0]};
+    case ShapeKind::aabb:
+      return Aabb{{rows[0][0], rows[0][1], rows[0][2]}, {rows[1][0], rows[1][1], rows[1][2]}};
+    default:
+      return shape_from_rows(kind, rows.data());
+  }
+}
+
+Pose pose_of(const Body& body) {
+  const auto& q = body.orientation;
+  const auto& p = body.position;
+  return {{p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]}};
+}
+
+// One body as a set; the position in the type that is asked for.
+class View {
+ public:
+  View(ShapeKind kind, const Body& body, PositionType type) : body_(body) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      position32_[axis] = static_cast<float>(body.position[axis]);
+    }
+    const bool is_float64 = type == PositionType::float64;
+    view_.count = 1;
+    view_.uniform_kind = kind;
+    view_.position = {
+        .data = is_float64 ? static_cast<const void*>(body_.position.data()) : position32_.data(),
+        .type = type,
+        .radius_layout = RadiusLayout::column,
+        .radius = body_.rows[0].data()};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      view_.boxes.lower[axis] = &body_.rows[0][axis];
+      view_.boxes.upper[axis] = &body_.rows[1][axis];
+    }
+    view_.orientation.data = body_.orientation.data();
+    view_.rows.data = body_.rows[0].data();
+  }
+  View(const View&) = delete;
+  View& operator=(const View&) = delete;
+
+  const Collidables& operator*() const { return view_; }
+
+ private:
+  const Body body_;
+  std::array<float, 3> position32_;
+  Collidables view_;
+};
+
+struct Row {
+  uint8_t overlap = 0, status = 0, manifold_count = 0, unused = 0;
+  std::array<float, 10> contact{};  // separation, normal, both points
+  ManifoldPoints manifold{};
+};
+
+Row reference_row(const reference::PairResult& result, Detail detail) {
+  Row row;
+  row.overlap = result.overlap;
+  row.status = static_cast<uint8_t>(result.status);
+  if (detail == Detail::overlap) return row;
+  const bool has_answer = result.status != Status::invalid;
+  row.contact[0] = result.separation;
+  for (int axis = 0; axis < 3; ++axis) {
+    row.contact[1 + axis] = result.normal[axis];
+    row.contact[4 + axis] = has_answer ? result.arm_a[axis] : result.normal[axis];
+    row.contact[7 + axis] = has_answer ? result.arm_b[axis] : result.normal[axis];
+  }
+  if (detail == Detail::contact) return row;
+  row.manifold_count = result.manifold_count;
+  row.manifold = result.manifold;
+  return row;
+}
+
+Row kernel_row(const Collidables& a, const Collidables& b, Detail detail) {
+  Row row;
+  ResultColumns out;
+  out.overlap = &row.overlap;
+  out.status = &row.status;
+  out.separation = &row.contact[0];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    out.normal[axis] = &row.contact[1 + axis];
+    out.point_a[axis] = &row.contact[4 + axis];
+    out.point_b[axis] = &row.contact[7 + axis];
+  }
+  out.manifold_count = &row.manifold_count;
+  out.manifold = &row.manifold;
+  if (!collide_rows(a, b, detail, out, WitnessFrame::body)) std::abort();
+  return row;
+}
+
+// Without numbers that no shape has, a flag of 0.3 say.
+Body without_excess(ShapeKind kind, Body body) {
+  if (row_count(kind) > 0) body.rows = shape_rows(shape_of(kind, body));
+  return body;
+}
+
+bool same_bits(const Row& x, const Row& y) { return std::memcmp(&x, &y, sizeof x) == 0; }
+
+void print(const char* who, const Row& row) {
+  std::fprintf(stderr, "%s: overlap %d status %d contact", who, row.overlap, row.status);
+  for (const float x : row.contact) std::fprintf(stderr, " %a", x);
+  std::fprintf(stderr, " points %d:", row.manifold_count);
+  for (size_t i = 0; i < row.manifold.point.size(); ++i) {
+    const auto& [x, y, z] = row.manifold.point[i];
+    std::fprintf(stderr, " (%a %a %a: %a)", x, y, z, row.manifold.separation[i]);
+  }
+  std::fputc('\n', stderr);
+}
+
+[[noreturn]] void fail(const KindPair& kinds, Isa isa, const Row& row, const Row& wanted) {
+  std::fprintf(stderr, "%s against %s\n", name(kinds.a), name(kinds.b));
+  print("reference", wanted);
+  print(name(isa), row);
+  std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size < 2) return 0;
+  KindPair kinds = kPairs[data[0] % std::size(kPairs)];
+  const uint8_t flags = data[1];
+  if (flags & kExchanged) std::swap(kinds.a, kinds.b);
+  const PositionType type = flags & kFloat64 ? PositionType::float64 : PositionType::float32;
+  std::array<Body, 2> bodies{};
+  std::memcpy(bodies.data(), data + 2, std::min(size - 2, sizeof bodies));
+  const Body body_a = without_excess(kinds.a, bodies[0]);
+  const Body body_b = without_excess(kinds.b, bodies[1]);
+
+  const View any_a(kinds.a, bodies[0], type), any_b(kinds.b, bodies[1], type);
+  const View a(kinds.a, body_a, type), b(kinds.b, body_b, type);
+  const reference::PairResult expected = reference::collide(
+      shape_of(kinds.a, body_a), pose_of(body_a), shape_of(kinds.b, body_b), pose_of(body_b), type);
+  for (const Isa isa : usable_isas()) {
+    force_isa(isa);
+    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+      kernel_row(*any_a, *any_b, detail);
+      const Row row = kernel_row(*a, *b, detail);
+      const Row wanted = reference_row(expected, detail);
+      if (!same_bits(row, wanted)) fail(kinds, isa, row, wanted);
+    }
+  }
+  return 0;
+}
