@@ -44,6 +44,11 @@ function(carom_add_test name)
   target_compile_definitions(${name} PRIVATE
     CAROM_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data"
     CAROM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")
+  set(timeout 300)
+  if(CAROM_SANITIZE)
+    target_compile_definitions(${name} PRIVATE CAROM_TEST_SANITIZED)
+    set(timeout 1200)
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300)
+                       PROPERTIES TIMEOUT ${timeout})
 endfunction()

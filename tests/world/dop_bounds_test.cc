@@ -3,6 +3,7 @@
 
 #include "carom/kernel/thread_arena.h"
 #include "tests/support/isas.h"
+#include "tests/support/rounds.h"
 #include "tests/world/histories.h"
 
 namespace carom::test {
@@ -35,7 +36,7 @@ void run_history(const WorldSettings& settings, uint32_t seed, Coverage* coverag
 TEST(DopWorlds, HistoriesMatchTheReference) {
   constexpr Detail kDetails[] = {Detail::manifold, Detail::contact, Detail::overlap};
   Coverage coverage;
-  for (uint32_t seed = 0; seed < 150; ++seed) {
+  for (uint32_t seed = 0; seed < rounds(150); ++seed) {
     WorldSettings settings;
     settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
     settings.detail = kDetails[seed / 2 % 3];
@@ -47,8 +48,8 @@ TEST(DopWorlds, HistoriesMatchTheReference) {
   EXPECT_GT(coverage.dropped, coverage.pairs / 20);
   EXPECT_GT(coverage.kept, coverage.pairs / 20);
   EXPECT_GT(coverage.tested, coverage.pairs / 10);
-  EXPECT_GT(coverage.quarantined, 100u);
-  EXPECT_GT(coverage.halfspace_overlaps, 500u);
+  EXPECT_GT(coverage.quarantined, rounds(100));
+  EXPECT_GT(coverage.halfspace_overlaps, rounds(500));
 }
 
 TEST(DopWorlds, HistoriesMatchTheReferenceOnEveryIsaAndOnThreads) {

@@ -2,6 +2,7 @@
 
 #include "carom/kernel/thread_arena.h"
 #include "carom/simd/isa.h"
+#include "tests/support/rounds.h"
 
 namespace carom {
 namespace {
@@ -42,7 +43,7 @@ void run_history(const WorldSettings& settings, uint32_t seed, int steps,
 
 TEST(History, MatchesReference) {
   test::Coverage coverage;
-  for (uint32_t seed = 0; seed < 2000; ++seed) {
+  for (uint32_t seed = 0; seed < test::rounds(2000); ++seed) {
     WorldSettings settings;
     settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
     settings.broadphase = seed % 5 == 0   ? BroadphaseMethod::automatic
@@ -57,15 +58,15 @@ TEST(History, MatchesReference) {
   EXPECT_LT(coverage.overlapping, coverage.pairs * 7 / 10);
   EXPECT_GT(coverage.kept, coverage.pairs / 10);
   EXPECT_GT(coverage.tested, coverage.pairs / 10);
-  EXPECT_GT(coverage.quarantined, 1000u);
-  EXPECT_GT(coverage.sensors, 1000u);
-  for (const size_t count : coverage.events) EXPECT_GT(count, 1000u);
+  EXPECT_GT(coverage.quarantined, test::rounds(1000));
+  EXPECT_GT(coverage.sensors, test::rounds(1000));
+  for (const size_t count : coverage.events) EXPECT_GT(count, test::rounds(1000));
 }
 
 TEST(History, OfAllKindsMatchesReference) {
   constexpr Detail kDetails[] = {Detail::manifold, Detail::contact, Detail::overlap, Detail::pairs};
   test::Coverage coverage;
-  for (uint32_t seed = 0; seed < 800; ++seed) {
+  for (uint32_t seed = 0; seed < test::rounds(800); ++seed) {
     WorldSettings settings;
     settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
     settings.broadphase = seed % 3 ? BroadphaseMethod::automatic : BroadphaseMethod::grid;
@@ -78,13 +79,13 @@ TEST(History, OfAllKindsMatchesReference) {
   EXPECT_LT(coverage.overlapping, coverage.pairs * 8 / 10);
   EXPECT_GT(coverage.kept, coverage.pairs / 20);
   EXPECT_GT(coverage.tested, coverage.pairs / 10);
-  EXPECT_GT(coverage.quarantined, 1000u);
-  EXPECT_GT(coverage.sensors, 1000u);
-  EXPECT_GT(coverage.with_halfspaces, 10000u);
-  EXPECT_GT(coverage.halfspace_overlaps, 5000u);
+  EXPECT_GT(coverage.quarantined, test::rounds(1000));
+  EXPECT_GT(coverage.sensors, test::rounds(1000));
+  EXPECT_GT(coverage.with_halfspaces, test::rounds(10000));
+  EXPECT_GT(coverage.halfspace_overlaps, test::rounds(5000));
   EXPECT_LT(coverage.halfspace_overlaps, coverage.with_halfspaces);
-  for (const size_t count : coverage.events) EXPECT_GT(count, 1000u);
-  for (const size_t count : coverage.manifolds) EXPECT_GT(count, 1000u);
+  for (const size_t count : coverage.events) EXPECT_GT(count, test::rounds(1000));
+  for (const size_t count : coverage.manifolds) EXPECT_GT(count, test::rounds(1000));
 }
 
 TEST(History, MatchesReferenceOnEveryIsa) {

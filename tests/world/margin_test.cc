@@ -8,6 +8,7 @@
 #include "carom/kernel/bounds.h"
 #include "carom/kernel/thread_arena.h"
 #include "tests/support/pairs.h"
+#include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 #include "world/fat_bounds.h"
 
@@ -238,7 +239,7 @@ void run_history(const WorldSettings& settings, float margin, uint64_t seed, siz
 
 TEST(Margin, RandomHistoriesGiveTheSameResults) {
   constexpr float kMargins[] = {0.05f, 0.3f, 1e-6f, 5, 1e30f};
-  for (uint64_t seed = 0; seed < 400; ++seed) {
+  for (uint64_t seed = 0; seed < test::rounds(400); ++seed) {
     WorldSettings settings;
     settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
     settings.broadphase = seed % 5 < 3 ? BroadphaseMethod::grid : BroadphaseMethod::sweep;
