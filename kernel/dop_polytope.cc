@@ -14,9 +14,6 @@ namespace {
 using Direction = std::array<int8_t, 3>;
 using Corners = FewOf<DopCorner, DopFace::kMostCorners>;
 
-// Of the size: points within this of a plane are in it.
-constexpr double kInPlane = 0x1p-44;
-
 double along(const Double3& d, const Double3& x) {
   return (d[0] * x[0] + d[1] * x[1]) + d[2] * x[2];
 }
@@ -73,7 +70,7 @@ class PlaneClipper {
       : slabs_(slabs),
         directions_(tables_of(slabs.kind).directions),
         plane_(plane),
-        tolerance_(kInPlane * slabs.size()) {
+        tolerance_(kInDopPlane * slabs.size()) {
     start();
     for (size_t slab = 0; slab < directions_.size() && !corners_.empty(); ++slab) {
       if (slab != slab_of_plane(plane)) clip(slab);
@@ -183,7 +180,7 @@ DopSlabs widened(DopSlabs slabs) {
 
 // None with its ends exchanged, but for rounding.
 bool are_ordered(const DopSlabs& slabs) {
-  const double tolerance = kInPlane * slabs.size();
+  const double tolerance = kInDopPlane * slabs.size();
   for (size_t i = 0; i < slab_count(slabs.kind); ++i) {
     if (slabs.lower[i] > slabs.upper[i] + tolerance) return false;
   }
@@ -238,22 +235,18 @@ void DopPolytope::build(const DopSlabs& slabs) {
     const PlaneClipper clipper(slabs, plane);
     if (!clipper.corners().empty()) faces_.push_back({plane, clipper.corners()});
   }
-  add_points();
+  add_points(kInDopPlane * slabs.size());
   add_edges();
 }
 
-// A point is known by three of its planes.
-void DopPolytope::add_points() {
-  FewOf<uint32_t, kMostPoints> known;
+// The corners of all faces, each once: as many planes as touch the polytope there make one.
+void DopPolytope::add_points(double tolerance) {
   for (const DopFace& face : faces_) {
-    const size_t count = face.corners.size();
-    for (size_t i = 0; i < count && !points_.is_full(); ++i) {
-      const DopCorner& corner = face.corners[i];
-      const uint8_t last_edge = face.corners[i > 0 ? i - 1 : count - 1].edge;
-      const uint32_t planes = 1u << face.plane | 1u << corner.edge | 1u << last_edge;
-      if (std::find(known.begin(), known.end(), planes) != known.end()) continue;
-      known.push_back(planes);
-      points_.push_back(corner.point);
+    for (const DopCorner& corner : face.corners) {
+      const bool is_known = std::any_of(points_.begin(), points_.end(), [&](const Double3& point) {
+        return greatest(minus(point, corner.point)) <= tolerance;
+      });
+      if (!is_known && !points_.is_full()) points_.push_back(corner.point);
     }
   }
 }

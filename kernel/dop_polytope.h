@@ -6,12 +6,10 @@
 
 #include "carom/kernel/dop.h"
 #include "kernel/few_of.h"
+#include "kernel/tolerances.h"
 #include "kernel/turn.h"
 
 namespace carom {
-
-// How far the points of a k-DOP may be off, as a share of DopSlabs::size(); generously.
-inline constexpr double kDopRounding = 0x1p-42;
 
 // In any unit of length.
 struct DopSlabs {
@@ -71,7 +69,7 @@ class DopPolytope {
 
  private:
   void build(const DopSlabs& slabs);
-  void add_points();
+  void add_points(double tolerance);
   void add_edges();
 
   FewOf<DopFace, 2 * kMostSlabs> faces_;

@@ -1,5 +1,5 @@
-// Every tolerance of the project, with its reason. All are relative, or in scaled units (see Units
-// in narrowphase/kernel_policy.h).
+// Every tolerance of a decision, with its reason. All are relative, or in scaled units (see Units
+// in narrowphase/kernel_policy.h). What arithmetic rounds at most stands beside that arithmetic.
 #pragma once
 
 namespace carom {
@@ -28,7 +28,7 @@ template <>
 inline constexpr double kNearSegment<double> = 0x1p-44;
 
 // Quaternions whose squares neither vanish nor overflow are used as they are; others are scaled by
-// a power of two first, which changes no bit of their rotation.
+// a power of two first.
 inline constexpr float kLeastSquaredNorm = 0x1p-60f;
 inline constexpr float kGreatestSquaredNorm = 0x1p60f;
 
@@ -118,6 +118,48 @@ inline constexpr float kLyingFlat = 0x1p-21f;
 // rounding in float32 (4 units of 2^-24 at the most that was found) is more than 2e-6 of the shape:
 // bodies far from the position of a turned half-space, and half-spaces with a great offset.
 inline constexpr float kFarPlane = 8.0f;
+
+// --- Polytopes in double precision, in scaled units (coordinates up to two, so that rounding is
+// 2^-52 an operation) ---
+
+// Points within this of a plane are in it: some thousand roundings.
+inline constexpr double kInPlane = 0x1p-40;
+
+// Cores that are nearer touch: there is no way from one to the other to go by.
+inline constexpr double kTouchingCores = 0x1p-40;
+
+// Gaps closer than this are equal, so that the simplest direction is kept.
+inline constexpr double kTieOfGaps = 0x1p-48;
+
+// How much less than the length of the nearest way a gap may be to be the distance.
+inline constexpr double kSameDistance = 0x1p-34;
+
+// Points of a Minkowski difference that are nearer to zero than this factor says are no nearer.
+inline constexpr double kNoNearer = 1 - 0x1p-44;
+
+// Squared distance of what touches, for the search of the nearest points.
+inline constexpr double kTouchingSquared = 0x1p-80;
+
+// The nearest way may be off by this angle, and by the rounding of its ends over its length.
+inline constexpr double kWayTilt = 0x1p-20;
+inline constexpr double kWayRounding = 0x1p-50;
+
+// Squared sine of edges that are parallel: their faces' normals do for them.
+inline constexpr double kParallelEdges = 0x1p-50;
+
+// Of the product of two sides: a cross product that may be rounding, of a triangle without area.
+inline constexpr double kWithoutArea = 0x1p-48;
+
+// --- k-DOPs, as shares of their size ---
+
+// Points within this of a plane are in it.
+inline constexpr double kInDopPlane = 0x1p-44;
+
+// How far the points of a k-DOP may be off; generously.
+inline constexpr double kDopRounding = 0x1p-42;
+
+// Corners that are nearer to each other are one: between them there is no direction in float.
+inline constexpr float kSameCorner = 0x1p-20f;
 
 // --- Manifolds, in scaled units ---
 

@@ -17,11 +17,6 @@
 namespace carom::reference {
 namespace convex {
 
-// In scaled units: nearer cores touch.
-inline constexpr double kTouching = 0x1p-40;
-// In scaled units: how much less than the length of the nearest way a gap may be.
-inline constexpr double kSameDistance = 0x1p-34;
-
 // What of a shape is furthest along n, whose angle may be off by a little.
 inline Polytope part_towards(const Polytope& shape, const Vector3d& n, double angle) {
   double most = -HUGE_VAL, size = 0;
@@ -29,7 +24,7 @@ inline Polytope part_towards(const Polytope& shape, const Vector3d& n, double an
     most = max(most, dot(n, p));
     size = max(size, largest_component(Vector3d(p - shape.middle)));
   }
-  const double least = most - (4 * size * angle + kTouching);
+  const double least = most - (4 * size * angle + kTouchingCores);
   Polytope part;
   part.normals = shape.normals;
   for (const Vector3d& p : shape.points) {
@@ -49,9 +44,9 @@ inline Polytope part_towards(const Polytope& shape, const Vector3d& n, double an
 inline bool find_nearest(const Polytope& a, const Polytope& b, GapSearch& search) {
   const Vector3d way = nearest_way(a, b);
   const double distance = std::sqrt(dot(way, way));
-  if (!(distance > kTouching)) return false;
+  if (!(distance > kTouchingCores)) return false;
   const Vector3d n = way / distance;
-  const double angle = 0x1p-20 + 0x1p-50 / distance;
+  const double angle = kWayTilt + kWayRounding / distance;
   const Polytope part_a = part_towards(a, n, angle), part_b = part_towards(b, -n, angle);
   search.try_faces_and_edges(part_a, part_b);
   search.try_ways(part_a, part_b);
@@ -60,21 +55,21 @@ inline bool find_nearest(const Polytope& a, const Polytope& b, GapSearch& search
   return distance - search.greatest().size <= kSameDistance;
 }
 
-inline void find_everything(const Polytope& a, const Polytope& b, GapSearch& search) {
+// Cores that are further apart than `least` may have any way between them.
+inline void find_everything(const Polytope& a, const Polytope& b, double least, GapSearch& search) {
   search.try_faces_and_edges(a, b);
-  if (search.greatest().size > kTouching || !search.greatest().is_found()) search.try_ways(a, b);
+  if (search.greatest().size > least || !search.greatest().is_found()) search.try_ways(a, b);
 }
 
 inline Gap greatest_gap(const Polytope& a, const Polytope& b) {
   GapSearch search(a, b);
-  if (!find_nearest(a, b, search)) find_everything(a, b, search);
+  if (!find_nearest(a, b, search)) find_everything(a, b, kTouchingCores, search);
   return search.greatest();
 }
 
 inline Gap greatest_allowed_gap(const Polytope& a, const Polytope& b) {
   GapSearch search(a, b);
-  search.try_faces_and_edges(a, b);
-  if (search.greatest().size > -kInPlane || !search.greatest().is_found()) search.try_ways(a, b);
+  find_everything(a, b, -kInPlane, search);
   return search.greatest_allowed();
 }
 

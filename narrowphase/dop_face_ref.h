@@ -54,10 +54,6 @@ class DopSideFinder {
  private:
   using Corners = FewOf<Double3, DopFace::kMostCorners>;
 
-  // Corners that are nearer to each other, as a share of the size, are one: between them there is
-  // no direction in float.
-  static constexpr float kSameCorner = 0x1p-20f;
-
   static double height(const Vector3f& way, const Double3& x) {
     return (way.x() * x[0] + way.y() * x[1]) + way.z() * x[2];
   }

@@ -4,14 +4,12 @@
 #include <array>
 #include <cstdint>
 
+#include "kernel/tolerances.h"
 #include "narrowphase/vector_ref.h"
 
 namespace carom::reference {
 
 using Eigen::Vector3d;
-
-// In scaled units: points within this of a plane are in it.
-inline constexpr double kInPlane = 0x1p-40;
 
 // Of a triangle: what its front and its inner edges exclude.
 struct FrontRules {

@@ -10,13 +10,11 @@
 // Polyhedra, ICRA 1986 (which directions suffice).
 #pragma once
 
+#include "kernel/tolerances.h"
 #include "narrowphase/polytope_ref.h"
 #include "narrowphase/segment_ref.h"
 
 namespace carom::reference {
-
-// In scaled units: gaps closer than this are equal, so that the simplest direction is kept.
-inline constexpr double kTieOfGaps = 0x1p-48;
 
 // A direction from A to B, and the gap between the projections of the two cores.
 struct Gap {
@@ -49,7 +47,7 @@ class GapSearch {
     for (const Vector3d& u : a.directions) {
       for (const Vector3d& v : b.directions) {
         const Vector3d n = cross(u, v);
-        if (dot(n, n) > 0x1p-50) try_both_ways(unit_or_zero(n));
+        if (dot(n, n) > kParallelEdges) try_both_ways(unit_or_zero(n));
       }
     }
   }

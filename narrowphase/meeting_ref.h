@@ -1,6 +1,9 @@
 // The point that stands for where two convex shapes meet.
 #pragma once
 
+#include <algorithm>
+
+#include "kernel/tolerances.h"
 #include "narrowphase/polytope_ref.h"
 #include "narrowphase/segment_ref.h"
 
@@ -14,7 +17,11 @@ class Meeting {
   using Points = FewOf<Vector3d, DopPolytope::kMostPoints>;
 
   Meeting(const Points& a, const Points& b, const Vector3d& n)
-      : normal_(n), height_(dot(n, a[0])), a_(seen_along(a)), b_(seen_along(b)) {
+      : normal_(n), height_(dot(n, a[0])), a_(outline_of(a)), b_(outline_of(b)) {
+    if (a_.points.size() == 1) {
+      keep(a_.points[0], a_.points[0]);
+      return;
+    }
     points_and_edges();
     points_and_areas();
     crossing_edges();
@@ -23,68 +30,85 @@ class Meeting {
   Vector3d point() const { return sum_ / count_ + normal_ * height_; }
 
  private:
-  Points seen_along(const Points& points) const {
-    Points seen;
-    for (const Vector3d& p : points) seen.push_back(p - normal_ * dot(normal_, p));
-    return seen;
+  // Seen along n, without height.
+  struct Edge {
+    Vector3d from, to;
+  };
+  struct Outline {
+    Points points;
+    FewOf<Edge, 4 * Points::kCapacity> edges;  // counter-clockwise; both ways if there is no area
+  };
+
+  Outline outline_of(const Points& points) const {
+    Outline outline;
+    for (const Vector3d& point : points) {
+      const Vector3d p = point - normal_ * dot(normal_, point);
+      if (!holds(outline.points, p)) outline.points.push_back(p);
+    }
+    for (const Vector3d& from : outline.points) {
+      for (const Vector3d& to : outline.points) {
+        const bool is_edge =
+            &from != &to && !outline.edges.is_full() && are_to_the_left(outline.points, from, to);
+        if (is_edge) outline.edges.push_back({from, to});
+      }
+    }
+    return outline;
   }
 
-  // Diagonals count as edges.
-  template <class Visit>
-  static void for_each_edge(const Points& points, const Visit& visit) {
-    for (size_t i = 0; i < points.size(); ++i) {
-      for (size_t j = 0; j <= i; ++j) visit(points[i], points[j]);
+  static bool holds(const Points& points, const Vector3d& p) {
+    return std::any_of(points.begin(), points.end(), [&](const Vector3d& known) {
+      return largest_component(Vector3d(known - p)) <= kInPlane;
+    });
+  }
+
+  // But for rounding.
+  bool are_to_the_left(const Points& points, const Vector3d& from, const Vector3d& to) const {
+    const Vector3d along = to - from;
+    const double least = -kInPlane * largest_component(along);
+    for (const Vector3d& p : points) {
+      if (turn(along, p - from) < least) return false;
     }
+    return true;
   }
 
   void points_and_edges() {
-    for (const Vector3d& p : a_) {
-      for_each_edge(b_, [&](const Vector3d& u, const Vector3d& v) {
-        keep(p, nearest_on_segment(p, u, v).point);
-      });
+    for (const Vector3d& p : a_.points) {
+      if (b_.points.size() == 1) keep(p, b_.points[0]);
+      for (const Edge& edge : b_.edges) keep(p, nearest_on_segment(p, edge.from, edge.to).point);
     }
-    for (const Vector3d& p : b_) {
-      for_each_edge(a_, [&](const Vector3d& u, const Vector3d& v) {
-        keep(nearest_on_segment(p, u, v).point, p);
-      });
+    for (const Vector3d& p : b_.points) {
+      for (const Edge& edge : a_.edges) keep(nearest_on_segment(p, edge.from, edge.to).point, p);
     }
   }
 
   void points_and_areas() {
-    for (const Vector3d& p : a_) {
+    for (const Vector3d& p : a_.points) {
       if (is_inside(p, b_)) keep(p, p);
     }
-    for (const Vector3d& p : b_) {
+    for (const Vector3d& p : b_.points) {
       if (is_inside(p, a_)) keep(p, p);
     }
   }
 
-  bool is_inside(const Vector3d& p, const Points& points) const {
-    for (size_t i = 0; i < points.size(); ++i) {
-      for (size_t j = 0; j < i; ++j) {
-        for (size_t k = 0; k < j; ++k) {
-          if (is_inside(p, points[i], points[j], points[k])) return true;
-        }
-      }
+  bool is_inside(const Vector3d& p, const Outline& outline) const {
+    for (const Edge& edge : outline.edges) {
+      if (!(turn(edge.to - edge.from, p - edge.from) > 0)) return false;
     }
-    return false;
-  }
-
-  bool is_inside(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c) const {
-    const double x = turn(b - a, p - a), y = turn(c - b, p - b), z = turn(a - c, p - c);
-    return (x > 0 && y > 0 && z > 0) || (x < 0 && y < 0 && z < 0);
+    return !outline.edges.empty();
   }
 
   void crossing_edges() {
-    for_each_edge(a_, [&](const Vector3d& p, const Vector3d& q) {
-      for_each_edge(b_, [&](const Vector3d& u, const Vector3d& v) {
-        const double slope = turn(q - p, v - u);
-        const double t = turn(u - p, v - u) / slope, s = turn(u - p, q - p) / slope;
-        if (!(t > 0 && t < 1 && s > 0 && s < 1)) return;  // nor if they are parallel
-        const Vector3d crossing = p + (q - p) * t;
+    for (const Edge& on_a : a_.edges) {
+      for (const Edge& on_b : b_.edges) {
+        const Vector3d u = on_a.to - on_a.from, v = on_b.to - on_b.from;
+        const Vector3d between = on_b.from - on_a.from;
+        const double slope = turn(u, v);
+        const double t = turn(between, v) / slope, s = turn(between, u) / slope;
+        if (!(t > 0 && t < 1 && s > 0 && s < 1)) continue;  // nor if they are parallel
+        const Vector3d crossing = on_a.from + u * t;
         keep(crossing, crossing);
-      });
-    });
+      }
+    }
   }
 
   double turn(const Vector3d& u, const Vector3d& v) const { return dot(normal_, cross(u, v)); }
@@ -104,9 +128,9 @@ class Meeting {
 
   Vector3d normal_;
   double height_;
-  Points a_, b_;
+  Outline a_, b_;
   double least_ = HUGE_VAL;
-  Vector3d sum_;
+  Vector3d sum_ = Vector3d::Zero();
   double count_ = 0;
 };
 

@@ -5,6 +5,7 @@
 // 4(2), 1988; C. Ericson, Real-Time Collision Detection, 2005, section 9.5.
 #pragma once
 
+#include "kernel/tolerances.h"
 #include "narrowphase/polytope_ref.h"
 
 namespace carom::reference {
@@ -73,8 +74,6 @@ class NearestOfSimplex {
 // touch or overlap.
 inline Vector3d nearest_way(const Polytope& a, const Polytope& b) {
   constexpr int kMostSteps = 64;  // a dozen will do
-  constexpr double kMeeting = 0x1p-80;
-  constexpr double kGoodEnough = 1 - 0x1p-44;
   const auto furthest = [](const Polytope& shape, const Vector3d& n) {
     const Vector3d* best = shape.points.begin();
     double most = -HUGE_VAL;
@@ -90,9 +89,9 @@ inline Vector3d nearest_way(const Polytope& a, const Polytope& b) {
   NearestOfSimplex nearest({b.points[0] - a.points[0]});
   for (int step = 0; step < kMostSteps; ++step) {
     const Vector3d& way = nearest.point();
-    if (nearest.squared() <= kMeeting || nearest.points().size() == 4) break;
+    if (nearest.squared() <= kTouchingSquared || nearest.points().size() == 4) break;
     const Vector3d next = furthest(b, -way) - furthest(a, way);
-    if (dot(way, next) >= nearest.squared() * kGoodEnough) break;
+    if (dot(way, next) >= nearest.squared() * kNoNearer) break;
     NearestOfSimplex::Points points = nearest.points();
     points.push_back(next);
     const NearestOfSimplex nearer(points);

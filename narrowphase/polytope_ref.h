@@ -7,6 +7,7 @@
 
 #include "kernel/dop_polytope.h"
 #include "kernel/few_of.h"
+#include "kernel/tolerances.h"
 #include "narrowphase/front_rules_ref.h"
 #include "narrowphase/shapes_ref.h"
 
@@ -112,7 +113,7 @@ inline Vector3d front_of(const std::array<Vector3d, 3>& corners) {
     const Vector3d normal = cross(next, last);
     if (product < least) {
       least = product;
-      best = largest_component(normal) > 0x1p-48 * product ? normal : Vector3d::Zero();
+      best = largest_component(normal) > kWithoutArea * product ? normal : Vector3d::Zero();
     }
   }
   return unit_or_zero(best);
