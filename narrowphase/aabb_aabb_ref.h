@@ -1,4 +1,4 @@
-// Box along the world axes against another.
+// Box along the world axes (A) against another (B): the gap along each axis.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, section 4.2.1 (overlap of intervals in
 // every axis). The signed gap per axis also gives the rest: the distance of separate boxes is the

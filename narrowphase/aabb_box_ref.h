@@ -1,4 +1,4 @@
-// Box along the world axes (A) against an oriented box (B).
+// Box along the world axes (A) against an oriented box (B): fifteen separating axes.
 #pragma once
 
 #include "narrowphase/boxes_ref.h"

@@ -1,4 +1,4 @@
-// Oriented box against oriented box.
+// Oriented box (A) against oriented box (B): fifteen separating axes.
 #pragma once
 
 #include "narrowphase/boxes_ref.h"

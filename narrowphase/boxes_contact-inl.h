@@ -28,8 +28,6 @@ HWY_INLINE Mask3 are_across(const F3& direction) {
           hn::Le(hn::Abs(direction.z), splat(kAcross<float>))};
 }
 
-HWY_INLINE Mask any_of(const Mask3& mask) { return hn::Or(hn::Or(mask.x, mask.y), mask.z); }
-
 // `half` with the signs of a direction; minus where that is zero.
 HWY_INLINE F3 corner_towards(const F3& half, const F3& direction) {
   const F zero = splat(0);
@@ -48,15 +46,11 @@ HWY_INLINE void facing_features(const BoxPairLanes& p, const F3& normal, F3& on_
   const Mask3 across_b = are_across(out_of_b);
   const F3 corner_a = corner_towards(p.half_a, normal);
   const F3 corner_b = corner_towards(p.half_b, out_of_b);
-  const auto project = [&]() HWY_ATTR {
+  on_a = on_feature(p.half_a, corner_a, across_a, p.centre);
+  for (int i = 0; i < 2; ++i) {
     on_b = from_b(p, on_feature(p.half_b, corner_b, across_b, to_b(p, on_a)));
     on_a = on_feature(p.half_a, corner_a, across_a, on_b);
-  };
-  on_a = on_feature(p.half_a, corner_a, across_a, p.centre);
-  project();
-  // Once more changes nothing where a feature is a corner: for random boxes, nearly always.
-  const Mask no_corner = hn::And(any_of(across_a), any_of(across_b));
-  if (HWY_UNLIKELY(!hn::AllFalse(FloatTag(), no_corner))) project();
+  }
 }
 
 HWY_INLINE F3 zero_if(const Mask3& mask, const F3& v) {

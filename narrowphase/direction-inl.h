@@ -62,12 +62,10 @@ void run_direction(const Batch& batch) {
   for (size_t row = 0; row < batch.count; row += kLanes) {
     const Listed bodies{batch.pairs + row};
     PositionLanes positions;
-    AnyRecords::load(batch, bodies, positions);
-    A a = A::template load<Role::a>(batch.a, bodies, positions);
-    B b = B::template load<Role::b>(batch.b, bodies, positions);
     PoseLanes pose;
-    load_orientations<A, B>(batch, bodies, pose);
-    pose.d = positions.relative;
+    A a;
+    B b;
+    load_pairs<AnyRecords>(batch, bodies, positions, pose, a, b);
     const Mask valid = is_plainly_valid(pose, a, b);
     to_units<Units::scaled>(pose, a, b);
     const F3 n = load_directions(batch.direction + row);

@@ -1,4 +1,4 @@
-// Sphere (A) against a box along the world axes (B).
+// Sphere (A) against a box along the world axes (B): the nearest point of the box to the centre.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, sections 5.1.3 (the point of a box that
 // is closest to a point) and 5.2.5 (sphere against box). For a centre inside the box, where that

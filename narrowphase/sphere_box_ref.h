@@ -1,4 +1,4 @@
-// Sphere (A) against box (B), in the frame of the box.
+// Sphere (A) against box (B): the nearest point of the box to the centre, in its frame.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, sections 5.1.4 and 5.2.5. A centre
 // inside the box leaves through the nearest face.

@@ -1,4 +1,4 @@
-// Sphere against sphere. A point is a sphere of radius zero.
+// Sphere (A) against sphere (B): the distance of the centres. A point is a sphere of radius zero.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, section 4.3.1; the separation is the
 // distance of the centres less both radii.
