@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Writes docs/pair_kinds.md from narrowphase/pair_list.inc and the files that it names; --check:
+fails if that would change it."""
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+DOCUMENT = ROOT / "docs" / "pair_kinds.md"
+
+HEAD = """# Pair kinds
+
+Every pair of kinds that has a kernel. Written by `scripts/pair_table.py` from
+`narrowphase/pair_list.inc` and the files that it names; a test says if it is out of date.
+
+- **in lanes**: a vector of pairs at a time; otherwise one pair at a time, in double precision.
+- **direction**: of pairs that are apart the direction is kept and tried first in the next frame.
+- **manifold**: up to four points where faces or edges meet; otherwise there is one, the contact's.
+
+| A | B | in lanes | direction | manifold | method |
+|---|---|---|---|---|---|
+"""
+
+
+def first_sentence(path):
+    """Of the comment at the head of a file."""
+    lines = []
+    for line in path.read_text().splitlines():
+        if not line.startswith("// "):
+            break
+        lines.append(line[3:])
+    return re.split(r"\.(?: |$)", " ".join(lines))[0].rstrip(".")
+
+
+def row(name, a, b, passes):
+    kernel = (ROOT / "narrowphase" / f"{name}.cc").read_text()
+    marks = [
+        "run_scalar_batch" not in kernel,
+        passes in ("direction_and_manifold", "all"),
+        passes != "none",
+    ]
+    cells = [a, b] + ["yes" if mark else "" for mark in marks]
+    cells.append(first_sentence(ROOT / "narrowphase" / f"{name}_ref.h"))
+    return "| " + " | ".join(cells) + " |\n"
+
+
+def main():
+    pairs = re.findall(
+        r"^CAROM_PAIR\((\w+), (\w+), (\w+), (\w+)\)",
+        (ROOT / "narrowphase" / "pair_list.inc").read_text(),
+        re.MULTILINE,
+    )
+    text = HEAD + "".join(row(*pair) for pair in pairs)
+    if sys.argv[1:] != ["--check"]:
+        DOCUMENT.write_text(text)
+    elif DOCUMENT.read_text() != text:
+        sys.exit("docs/pair_kinds.md is out of date: run scripts/pair_table.py")
+
+
+main()
