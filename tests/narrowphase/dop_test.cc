@@ -3,10 +3,8 @@
 
 #include <cfloat>
 
-#include "tests/support/isas.h"
-#include "tests/support/kind_checks.h"
+#include "tests/support/checked_everywhere.h"
 #include "tests/support/kind_pairs.h"
-#include "tests/support/run.h"
 
 namespace carom::test {
 namespace {
@@ -17,20 +15,6 @@ using Result = reference::PairResult;
 
 constexpr auto kFloat32 = PositionType::float32;
 constexpr DopKind kDopKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
-
-// On every ISA, both ways round, against the exact answer.
-Result checked(const TestPair& pair) {
-  for (const TestPair& each : {pair, swapped(pair)}) {
-    checked_result(each, kFloat32);
-    Call call;
-    call.detail = Detail::manifold;
-    for_each_isa([&] {
-      EXPECT_TRUE(same_rows(expected_rows({&each, 1}, kFloat32, Detail::manifold),
-                            run_rows({&each, 1}, call), {&each, 1}));
-    });
-  }
-  return reference_result(pair, kFloat32);
-}
 
 PlacedShape placed(const Dop& dop, const Eigen::Vector3d& position,
                    const Quaternionf& orientation = Quaternionf::Identity()) {
@@ -58,28 +42,29 @@ Dop dop_of_box(const Vector3f& lower, const Vector3f& upper, DopKind kind) {
 
 TEST(Dops, SphereAgainstFaceEdgeAndCorner) {
   const float third = std::sqrt(1.0f / 3);
-  const auto corner = checked({sphere(0, 0, 3, 0.5), placed(octahedron(2), {0, 0, 0})});
+  const auto corner = checked_everywhere({sphere(0, 0, 3, 0.5), placed(octahedron(2), {0, 0, 0})});
   EXPECT_NEAR(corner.separation, 0.5, 1e-6);
   EXPECT_EQ(corner.normal, Vector3f(0, 0, -1));
   EXPECT_EQ(corner.arm_b, Vector3f(0, 0, 2));
-  const auto edge = checked({sphere(2, 2, 0, 0.5), placed(octahedron(2), {0, 0, 0})});
+  const auto edge = checked_everywhere({sphere(2, 2, 0, 0.5), placed(octahedron(2), {0, 0, 0})});
   EXPECT_NEAR(edge.separation, std::sqrt(2.0) - 0.5, 1e-6);
   EXPECT_NEAR(edge.normal.x(), -std::sqrt(0.5), 1e-6);
   EXPECT_EQ(edge.normal.z(), 0);
-  const auto face = checked({sphere(1, 1, 1, 0.5), placed(octahedron(2), {0, 0, 0})});
+  const auto face = checked_everywhere({sphere(1, 1, 1, 0.5), placed(octahedron(2), {0, 0, 0})});
   EXPECT_NEAR(face.separation, third - 0.5, 1e-6);
   EXPECT_NEAR(face.normal.x(), -third, 1e-6);
-  const auto inside = checked({sphere(0, 0, 0, 0.5), placed(octahedron(2), {0, 0, 0})});
+  const auto inside = checked_everywhere({sphere(0, 0, 0, 0.5), placed(octahedron(2), {0, 0, 0})});
   EXPECT_NEAR(inside.separation, -2 * third - 0.5, 1e-6);
   EXPECT_EQ(inside.status, Status::ok);
 }
 
 TEST(Dops, CornersEdgesAndFacesOfTwo) {
   const Dop dop = octahedron(1);
-  EXPECT_NEAR(checked({placed(dop, {0, 0, 0}), placed(dop, {0, 0, 2.25})}).separation, 0.25, 1e-6);
-  const auto edges = checked({placed(dop, {0, 0, 0}), placed(dop, {1.25, 1.25, 0})});
+  EXPECT_NEAR(checked_everywhere({placed(dop, {0, 0, 0}), placed(dop, {0, 0, 2.25})}).separation,
+              0.25, 1e-6);
+  const auto edges = checked_everywhere({placed(dop, {0, 0, 0}), placed(dop, {1.25, 1.25, 0})});
   EXPECT_NEAR(edges.separation, 0.25 * std::sqrt(2.0), 1e-6);
-  const auto faces = checked({placed(dop, {0, 0, 0}), placed(dop, {0.5, 0.5, 0.5})});
+  const auto faces = checked_everywhere({placed(dop, {0, 0, 0}), placed(dop, {0.5, 0.5, 0.5})});
   EXPECT_NEAR(faces.separation, (1.5 - 2) / std::sqrt(3.0), 1e-6);
   EXPECT_GE(faces.manifold_count, 3);
 }
@@ -92,7 +77,7 @@ TEST(Dops, CrossedEdges) {
   const double reach = std::sqrt(2.0);
   for (const double gap : {0.5, 1e-3, -1e-3, -0.1}) {
     const auto result =
-        checked({placed(dop, {0, 0, 0}, a), placed(dop, {0, 0, 2 * reach + gap}, b)});
+        checked_everywhere({placed(dop, {0, 0, 0}, a), placed(dop, {0, 0, 2 * reach + gap}, b)});
     EXPECT_NEAR(result.separation, gap, 2e-6);
     EXPECT_NEAR(result.normal.z(), 1, 1e-6);
   }
@@ -101,11 +86,11 @@ TEST(Dops, CrossedEdges) {
 TEST(Dops, OnAHalfspace) {
   const PlacedShape ground = halfspace({0, 0, 0}, {0, 0, 1}, 0);
   const Dop cube = dop_of_box({-1, -1, -1}, {1, 1, 1}, DopKind::k26);
-  const auto lying = checked({placed(cube, {5, 6, 0.75}), ground});
+  const auto lying = checked_everywhere({placed(cube, {5, 6, 0.75}), ground});
   EXPECT_NEAR(lying.separation, -0.25, 1e-6);
   EXPECT_EQ(lying.normal, Vector3f(0, 0, -1));
   EXPECT_EQ(lying.manifold_count, 4);
-  const auto standing = checked({placed(octahedron(1), {5, 6, 1.5}), ground});
+  const auto standing = checked_everywhere({placed(octahedron(1), {5, 6, 1.5}), ground});
   EXPECT_NEAR(standing.separation, 0.5, 1e-6);
 }
 
@@ -118,7 +103,8 @@ TEST(Dops, FaceOnFace) {
   }
   for (const float angle : {0.0f, 0.1f, 0.5f}) {
     const Quaternionf turned(Eigen::AngleAxisf(angle, Vector3f::UnitZ()));
-    const auto result = checked({placed(dop, {0, 0, 0}), placed(dop, {0.1, 0, 1.99}, turned)});
+    const auto result =
+        checked_everywhere({placed(dop, {0, 0, 0}), placed(dop, {0.1, 0, 1.99}, turned)});
     EXPECT_NEAR(result.separation, -0.01, 2e-6);
     EXPECT_EQ(result.normal, Vector3f(0, 0, 1));
     ASSERT_EQ(result.manifold_count, 4);
@@ -131,8 +117,8 @@ TEST(Dops, FaceOnFace) {
 
 TEST(Dops, CapsuleAlongAFace) {
   const Dop dop = dop_of_box({-2, -2, -1}, {2, 2, 1}, DopKind::k26);
-  const auto result =
-      checked({capsule({0, 0, 1.4}, {-1, 0.25f, 0}, {1, 0.25f, 0}, 0.5f), placed(dop, {0, 0, 0})});
+  const auto result = checked_everywhere(
+      {capsule({0, 0, 1.4}, {-1, 0.25f, 0}, {1, 0.25f, 0}, 0.5f), placed(dop, {0, 0, 0})});
   EXPECT_NEAR(result.separation, -0.1, 1e-6);
   EXPECT_EQ(result.manifold_count, 2);
 }
@@ -146,8 +132,8 @@ TEST(Dops, WithoutVolume) {
   for (const Dop& a : flat) {
     for (const Dop& b : flat) {
       for (const Eigen::Vector3d& at : {Eigen::Vector3d(0, 0, 0), {1, 0, 0}, {2.5, 0, 0.25}}) {
-        checked({placed(a, {0, 0, 0}), placed(b, at)});
-        checked({placed(a, {0, 0, 0}), placed(b, at, Quaternionf(1, 0, 0, 1))});
+        checked_everywhere({placed(a, {0, 0, 0}), placed(b, at)});
+        checked_everywhere({placed(a, {0, 0, 0}), placed(b, at, Quaternionf(1, 0, 0, 1))});
       }
     }
   }
@@ -156,7 +142,7 @@ TEST(Dops, WithoutVolume) {
 TEST(Dops, InOnePlaceAndPose) {
   for (const DopKind kind : kDopKinds) {
     const Dop dop = dop_of_box({-1, -2, -3}, {1, 2, 3}, kind);
-    const auto result = checked({placed(dop, {0, 0, 0}), placed(dop, {0, 0, 0})});
+    const auto result = checked_everywhere({placed(dop, {0, 0, 0}), placed(dop, {0, 0, 0})});
     EXPECT_NEAR(result.separation, -2, 1e-6);
     EXPECT_NEAR(std::fabs(result.normal.x()), 1, 1e-6);
   }

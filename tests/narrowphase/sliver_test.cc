@@ -2,9 +2,7 @@
 // corners. Inputs as random tests found them.
 #include <gtest/gtest.h>
 
-#include "tests/support/isas.h"
-#include "tests/support/kind_checks.h"
-#include "tests/support/run.h"
+#include "tests/support/checked_everywhere.h"
 
 namespace carom::test {
 namespace {
@@ -17,18 +15,6 @@ Triangle triangle(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
   return {.corners = {a, b, c}};
 }
 
-void check(const TestPair& pair, PositionType positions) {
-  for (const TestPair& each : {pair, swapped(pair)}) {
-    checked_result(each, positions);
-    Call call = call_with(positions);
-    call.detail = Detail::manifold;
-    for_each_isa([&] {
-      EXPECT_TRUE(same_rows(expected_rows({&each, 1}, positions, Detail::manifold),
-                            run_rows({&each, 1}, call), {&each, 1}));
-    });
-  }
-}
-
 TEST(Sliver, UnderACapsuleOfTheSamePose) {
   const Eigen::Vector3d position(-0x1.4f5cbdb73dffap+1, 0x1.34047a1edeea2p+3,
                                  -0x1.6454f8a7017fcp-1);
@@ -37,7 +23,7 @@ TEST(Sliver, UnderACapsuleOfTheSamePose) {
                                    {-0x1.6648fap-22f, 0x1.0fa056p-20f, -0x1.a15bbcp-3f});
   const Vector3f end(0x1.630726p-3f, 0x1.d99ed2p-7f, -0x1.89a7cp-3f);
   for (const Vector3f& a : {end, Vector3f(-end)}) {
-    check(
+    checked_everywhere(
         {{Capsule{a, -a, 0x1.a24122p-3f}, position, orientation}, {sliver, position, orientation}},
         PositionType::float64);
   }
@@ -49,8 +35,9 @@ TEST(Sliver, UnderALongCapsuleOfTheSamePose) {
   const Vector3f a(0x1.63bd56p-3f, -0x1.24417p-2f, -0x1.8e986ep-2f);
   const Triangle sliver = triangle({-0x1.6ca696p-2f, 0, 0}, {-0x1.16d73cp-3f, 0, 0},
                                    {-0x1.825f06p-2f, -0x1.6c3f48p-15f, 0x1.4dea46p-15f});
-  check({{Capsule{a, -a, 0x1.263f78p-1f}, position, orientation}, {sliver, position, orientation}},
-        PositionType::float64);
+  checked_everywhere(
+      {{Capsule{a, -a, 0x1.263f78p-1f}, position, orientation}, {sliver, position, orientation}},
+      PositionType::float64);
 }
 
 TEST(Sliver, TouchesATriangle) {
@@ -61,9 +48,9 @@ TEST(Sliver, TouchesATriangle) {
                                   {-0x1.bed64cp-5f, 0x1.46f9b2p-1f, -0x1.194d34p-1f},
                                   {-0x1.bed64cp-5f, 0x1.05d9d4p-1f, -0x1.8a653ap-10f});
   const Eigen::Vector3d position(-0x1.8ecf2c574dfp-5, 0x1.90c505db4de0bp-3, -0x1.febdc9a55b9dbp-3);
-  check({{sliver, {-0.0, -0.0, 0}, turned(0, 0, 1, 0)},
-         {other, position, turned(-0x1.4ed2b2p-8f, 0x1.94f4acp-5f, 1, 0x1.68905p-8f)}},
-        PositionType::float64);
+  checked_everywhere({{sliver, {-0.0, -0.0, 0}, turned(0, 0, 1, 0)},
+                      {other, position, turned(-0x1.4ed2b2p-8f, 0x1.94f4acp-5f, 1, 0x1.68905p-8f)}},
+                     PositionType::float64);
 }
 
 }  // namespace

@@ -158,7 +158,12 @@ class ConvexPairMaker {
     pair.pose_a.position = stored(random_.direction() * distance);
     pair.pose_b.position = pair.pose_a.position;
     if (family_.placement == ConvexPlacement::free) {
-      place<double>(pair, size, random_.uniform(0, 2), has_dop(kinds_) ? 8 : 10);
+      const double factor = random_.uniform(0, 2);
+      if (has_dop(kinds_) && family_.largest > 1e30) {
+        place<long double>(pair, size, factor, 8);  // of k-DOPs doubles would overflow
+      } else {
+        place<double>(pair, size, factor, has_dop(kinds_) ? 8 : 10);
+      }
     } else if (family_.placement == ConvexPlacement::near_touch) {
       const double factor = 1 + 0x1p-23 * shapes_.integer(-8, 8);
       if (has_dop(kinds_)) {

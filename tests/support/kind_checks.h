@@ -70,7 +70,7 @@ inline void check_separation(const ExactKinds& exact, const reference::PairResul
 
 inline void check_normal(const ExactKinds& exact, const reference::PairResult& result) {
   const auto normal = vec3_as<long double>(result.normal);
-  EXPECT_NEAR(static_cast<double>(length(normal)), 1, 6 * 0x1p-23);  // twice turned
+  EXPECT_NEAR(static_cast<double>(length(normal)), 1, 4 * 0x1p-23);
   EXPECT_GE(exact.oracle.gap_along(normal), exact.answer.value - exact.tolerance_with_gap(1e-5L))
       << "separation " << exact.answer.value << " along " << hex3(result.normal);
 }
