@@ -22,10 +22,8 @@ struct AabbAabb {
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    const F3 b_lower = b.lower + pose.d;  // in the frame of A
-    const F3 b_upper = b.upper + pose.d;
-    const F3 gap_if_above = b_lower - a.upper;
-    const F3 gap_if_below = a.lower - b_upper;
+    const F3 gap_if_above = (b.lower - a.upper) + pose.d;
+    const F3 gap_if_below = (a.lower - b.upper) - pose.d;
     const Mask3 above = {hn::Ge(gap_if_above.x, gap_if_below.x),
                          hn::Ge(gap_if_above.y, gap_if_below.y),
                          hn::Ge(gap_if_above.z, gap_if_below.z)};
@@ -42,8 +40,9 @@ struct AabbAabb {
 
     const Mask3 at_face = {faces(gap.x, axis.x, overlapping), faces(gap.y, axis.y, overlapping),
                            faces(gap.z, axis.z, overlapping)};
-    // On axes where the boxes overlap, the middle of the overlap.
-    const F3 middle = max(a.lower, b_lower) * splat(0.5f) + min(a.upper, b_upper) * splat(0.5f);
+    // On axes where the boxes overlap, the middle of the overlap, in the frame of A.
+    const F3 middle =
+        max(a.lower, b.lower + pose.d) * splat(0.5f) + min(a.upper, b.upper + pose.d) * splat(0.5f);
     report(overlapping, no_lanes(), no_lanes(),
            hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
            select(overlapping, signed_axis(axis, below), away),

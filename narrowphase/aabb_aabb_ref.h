@@ -10,15 +10,16 @@
 
 namespace carom::reference {
 
-// One axis of two boxes, both relative to the position of A.
+// One axis of two boxes, each relative to its position; B's is at `d` from A's.
 struct AxisGap {
   float gap;      // of the two intervals; negative: they overlap by that much
   bool is_right;  // B goes to the right to separate (or lies there), otherwise to the left
 };
 
-inline AxisGap axis_gap(float lower_a, float upper_a, float lower_b, float upper_b) {
-  const float right = lower_b - upper_a;
-  const float left = lower_a - upper_b;
+// The same for (B, A) but for the side: either way `d` is added to the same difference.
+inline AxisGap axis_gap(float lower_a, float upper_a, float lower_b, float upper_b, float d) {
+  const float right = (lower_b - upper_a) + d;
+  const float left = (lower_a - upper_b) - d;
   const bool is_right = right >= left;
   return {is_right ? right : left, is_right};
 }
@@ -31,7 +32,7 @@ inline Separation aabb_aabb(const Vector3f& lower_a, const Vector3f& upper_a,
   AxisGap axes[3];
   Vector3f delta;
   for (int i = 0; i < 3; ++i) {
-    axes[i] = axis_gap(lower_a[i], upper_a[i], moved_lower_b[i], moved_upper_b[i]);
+    axes[i] = axis_gap(lower_a[i], upper_a[i], lower_b[i], upper_b[i], d[i]);
     delta[i] = min(max(axes[i].gap, 0.0f), kLargest);
   }
   const Length distance = length_of(delta);

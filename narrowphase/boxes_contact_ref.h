@@ -1,7 +1,10 @@
 // Nearest points of two oriented boxes: along a separating axis, and of boxes apart.
 #pragma once
 
+#include <algorithm>
+
 #include "narrowphase/boxes_sat_ref.h"
+#include "narrowphase/meeting_ref.h"
 
 namespace carom::reference {
 
@@ -68,6 +71,30 @@ BoxWitness<Real> facing_features(const BoxPair<Real>& p, const Vector3<Real>& no
   return facing_features_near(p, normal, p.centre);
 }
 
+// Of the face, edge or corner of a box that lies furthest along `direction`, the corners.
+inline Meeting::Points feature_corners(const Vector3d& half, const Vector3d& direction) {
+  Meeting::Points corners;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d target(i & 1 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(),
+                          i & 4 ? half.z() : -half.z());
+    const Vector3d corner = on_feature(half, direction, target);
+    const auto is_same = [&](const Vector3d& known) { return known == corner; };
+    if (std::none_of(corners.begin(), corners.end(), is_same)) corners.push_back(corner);
+  }
+  return corners;
+}
+
+// Wherever they do: faces that cross like two strips meet far from their corners.
+inline BoxWitness<double> middle_of_features(const BoxPair<double>& p, const Vector3d& normal) {
+  const Vector3d from_b_out = -rotate_back(p.turn, normal);
+  Meeting::Points b = feature_corners(p.half_b, from_b_out);
+  for (Vector3d& corner : b) corner = from_b(p, corner);
+  BoxWitness<double> w;
+  w.on_a = Meeting(feature_corners(p.half_a, normal), b, normal).point();
+  w.on_b = from_b(p, on_feature(p.half_b, from_b_out, to_b(p, w.on_a)));
+  return w;
+}
+
 // Faces that lie on each other almost edge to edge, slightly turned, meet near a corner of one of
 // them; two steps from anywhere else do not lead there.
 template <>
@@ -84,7 +111,8 @@ inline BoxWitness<double> facing_features(const BoxPair<double>& p, const Vector
       if (off_axis_squared(next, normal) < off_axis_squared(best, normal)) best = next;
     }
   }
-  return best;
+  if (off_axis_squared(best, normal) <= kOffAxisSquared) return best;
+  return middle_of_features(p, normal);
 }
 
 // The nearest points of the two edges that face each other along a cross product of edges.

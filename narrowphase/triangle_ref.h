@@ -5,6 +5,7 @@
 // triangle, too, the direction is that of a feature on whose far side the whole triangle lies.
 #pragma once
 
+#include <type_traits>
 #include <utility>
 
 #include "kernel/tolerances.h"
@@ -87,12 +88,14 @@ struct EdgeView {
   }
 };
 
-// The face if p is over no edge and no corner, and where those are too near to have a direction.
+// The face if p is over no edge and no corner, and in double precision also where those are too
+// near to have a direction; float leaves these to double.
 template <class Real>
 ToTriangle<Real> nearest_on_triangle(const Vector3<Real>& p, const TriangleCore<Real>& triangle) {
   using Vector = Vector3<Real>;
   const auto has_way = [&](const Vector& way) {
-    return !triangle.has_face || std::sqrt(dot(way, way)) > Real(kCoincident);
+    return std::is_same_v<Real, float> || !triangle.has_face ||
+           std::sqrt(dot(way, way)) > Real(kCoincident);
   };
   const EdgeView<Real> views[3] = {{p, triangle, 0}, {p, triangle, 1}, {p, triangle, 2}};
   for (size_t i = 0; i < 3; ++i) {

@@ -13,6 +13,7 @@ namespace carom::test {
 namespace {
 
 using Eigen::Quaternionf;
+using Eigen::Vector3f;
 
 constexpr Detail kDetails[] = {Detail::overlap, Detail::contact, Detail::manifold};
 
@@ -74,6 +75,23 @@ TEST(KindsBits, OrientationsAreScaledEachByItself) {
     expect_reference_bits({&pair, 1}, call_with(positions));
     const TestPair other = swapped(pair);
     expect_reference_bits({&other, 1}, call_with(positions));
+  }
+}
+
+// The centre is nearer to a corner than has a direction in float32: double precision decides.
+TEST(KindsBits, SphereAtACornerOfATriangle) {
+  const Triangle triangles[] = {
+      {.corners = {Vector3f(0, 0, 1), Vector3f(0x1p-60f, 0, 0), Vector3f(1, 0x1.333334p-2f, 0)}},
+      {.corners = {Vector3f(-0x1.b71092p-1f, -0x1.b8b906p-1f, 0x1.cf7afcp-2f),
+                   Vector3f(-0x1.5b22aap-79f, -0x1.bfcf24p-80f, 0x1.0e49a6p-82f),
+                   Vector3f(-0x1.63a6ecp-4f, -0x1.a4405ep-1f, 0x1.b80c16p-3f)}}};
+  for (const Triangle& triangle : triangles) {
+    for (const PositionType positions : kPositionTypes) {
+      const TestPair pair{sphere(0, 0, 0, 1), {triangle, {0, 0, 0}}};
+      expect_reference_bits({&pair, 1}, call_with(positions));
+      const TestPair other = swapped(pair);
+      expect_reference_bits({&other, 1}, call_with(positions));
+    }
   }
 }
 

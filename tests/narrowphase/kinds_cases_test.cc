@@ -199,6 +199,31 @@ TEST(KindsCases, C34_BoxThatTurnsOverASlab) {
   }
 }
 
+// Faces that cross like two strips, far from all of their corners.
+TEST(KindsCases, CrossingFacesOfThinBoxes) {
+  const Quaternionf turned(1, 0.5f, 0, 0);
+  const PlacedShape plate = oriented_box({0, 0, 0}, {1, 1, 0x1p-7f}, turned);
+  checked_everywhere({box({-0x1.fp+0, -0x1.4p-2, -0x1.4p-2}, {1, 0x1p-4f, 0x1.8p-1f}), plate});
+  checked_everywhere(
+      {oriented_box({-0x1.08p+1, -0x1.4p-2, -0x1p-3}, {1, 0x1p-4f, 0x1.cp-1f}), plate});
+  for (double y = -1; y <= 1; y += 0x1p-3) {
+    for (double z = -1; z <= 1; z += 0x1p-3) {
+      checked_everywhere({oriented_box({-0x1.fp+0, y, z}, {1, 0x1p-4f, 0x1.8p-1f}), plate});
+    }
+  }
+}
+
+// Boxes along the axes decide the same both ways round, also within rounding.
+TEST(KindsCases, AabbsTouchBothWaysRoundOrNeither) {
+  const PlacedShape cube{Aabb{{-1, -1, -1}, {1, 1, 0x1.fffffep-1f}}, {0, 0, 0}};
+  for (double z = 3 - 0x1p-20; z <= 3 + 0x1p-20; z += 0x1p-23) {
+    const TestPair pair{cube, {Aabb{{-2, -2, -2}, {2, 2, 2}}, {0, 0, z}}};
+    const Result one = checked_everywhere(pair), other = checked_everywhere(swapped(pair));
+    EXPECT_EQ(one.overlap, other.overlap) << z;
+    EXPECT_EQ(one.separation, other.separation) << z;
+  }
+}
+
 // The cosine between the normal and the triangle's own.
 double cosine_with_face(const TestPair& pair) {
   const auto result = checked_everywhere(pair);

@@ -63,10 +63,13 @@ struct Box {
 struct Triangle {
   std::array<Eigen::Vector3f, 3> corners = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(),
                                             Eigen::Vector3f::Zero()};
-  float thickness = 0;     // >= 0: a prism that reaches so far behind the front
-  bool one_sided = false;  // meets only what comes from the front
+  float thickness = 0;  // >= 0: a prism that reaches so far behind the front
+  // Meets only what comes from the front. Shapes that overlap it leave by the front, too: where
+  // another way would be shorter, the points that are furthest along this one need not face each
+  // other, and the point on the triangle's side may lie beside it.
+  bool one_sided = false;
   // Bit i: the edge from corner i to the next is inside a mesh, and contacts there keep the normal
-  // of the face.
+  // of the face, as above.
   uint8_t inner_edges = 0;
 };
 

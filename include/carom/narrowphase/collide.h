@@ -23,7 +23,9 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 //
 // float32 throughout, after one subtraction of the positions in their own type: the error does not
 // depend on the distance from the origin. Bits are the same on every instruction set and for any
-// number of threads, and do not depend on a pair's place in the list.
+// number of threads, and do not depend on a pair's place in the list. Distances between positions
+// count as the largest float at most: shapes of about that size may be found to overlap from
+// further away.
 // Fails if a pair is of kinds that no kernel exists for; nothing is written then.
 CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
