@@ -9,6 +9,7 @@
 #include "carom/kernel/thread_arena.h"
 #include "tests/broadphase/boxes.h"
 #include "tests/support/isas.h"
+#include "tests/support/rounds.h"
 
 namespace carom::test {
 namespace {
@@ -299,10 +300,10 @@ void expect_covered(const Coverage& coverage, size_t least) {
 
 TEST(RestingBoxes, ThroughThousandsOfHistories) {
   Coverage coverage;
-  for (uint64_t seed = 0; seed < 4000; ++seed) {
+  for (uint64_t seed = 0; seed < rounds(4000); ++seed) {
     ASSERT_TRUE(run_history(seed, seed % 10 == 0 ? 200 : 50, 30, Parallelism::none, coverage));
   }
-  expect_covered(coverage, 2000);
+  expect_covered(coverage, rounds(2000));
 }
 
 TEST(RestingBoxes, OnEveryInstructionSet) {
