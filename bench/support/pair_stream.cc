@@ -125,8 +125,11 @@ void PairStream::draw() {
   std::iota(places.begin(), places.end(), 0);
   if (spec_.access == Access::pairs) places = shuffled(spec_.count, random);
   bodies_b_.resize(spec_.count);
+  // Exactly so many overlap, at random places.
+  const size_t hits = spec_.count * static_cast<size_t>(spec_.hit_percent) / 100;
+  const std::vector<uint32_t> ranks = shuffled(spec_.count, random);
   for (uint32_t row = 0; row < spec_.count; ++row) {
-    const test::TestPair pair = draw_pair(spec_, random.chance(spec_.hit_percent / 100.0), random);
+    const test::TestPair pair = draw_pair(spec_, ranks[row] < hits, random);
     bodies_a_.push_back(pair.a);
     bodies_b_[places[row]] = pair.b;
     pairs_.push_back({row, places[row]});
