@@ -1,5 +1,5 @@
 // Any bytes as two bodies of any two kinds that have a kernel: every instruction set says what the
-// scalar reference says, bit for bit.
+// scalar reference says, bit for bit, whatever is beside them.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "carom/narrowphase/collide.h"
@@ -38,27 +39,38 @@ Pose pose_of(const Body& body) {
   return {{p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]}};
 }
 
-// One body as a set; the position in the type that is asked for.
+// A set of one kind: the body, and another beside it in the same vector. Positions are of the type
+// that is asked for.
 class View {
  public:
-  View(ShapeKind kind, const Body& body, PositionType type) : body_(body) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      position32_[axis] = static_cast<float>(body.position[axis]);
+  static constexpr size_t kBodies = 2;
+
+  View(ShapeKind kind, const Body& body, const Body& neighbour, PositionType type)
+      : rows_{body.rows, neighbour.rows},
+        orientations_{body.orientation, neighbour.orientation},
+        positions_{body.position, neighbour.position} {
+    for (size_t i = 0; i < kBodies; ++i) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        positions32_[i][axis] = static_cast<float>(positions_[i][axis]);
+      }
     }
     const bool is_float64 = type == PositionType::float64;
-    view_.count = 1;
+    view_.count = kBodies;
     view_.uniform_kind = kind;
-    view_.position = {
-        .data = is_float64 ? static_cast<const void*>(body_.position.data()) : position32_.data(),
-        .type = type,
-        .radius_layout = RadiusLayout::column,
-        .radius = body_.rows[0].data()};
+    view_.position = {.data = is_float64 ? static_cast<const void*>(positions_[0].data())
+                                         : positions32_[0].data(),
+                      .stride = is_float64 ? sizeof positions_[0] : sizeof positions32_[0],
+                      .type = type,
+                      .radius_layout = RadiusLayout::column,
+                      .radius = rows_[0][0].data(),
+                      .radius_stride = sizeof rows_[0]};
     for (size_t axis = 0; axis < 3; ++axis) {
-      view_.boxes.lower[axis] = &body_.rows[0][axis];
-      view_.boxes.upper[axis] = &body_.rows[1][axis];
+      view_.boxes.lower[axis] = &rows_[0][0][axis];
+      view_.boxes.upper[axis] = &rows_[0][1][axis];
     }
-    view_.orientation.data = body_.orientation.data();
-    view_.rows.data = body_.rows[0].data();
+    view_.boxes.stride = sizeof rows_[0];
+    view_.orientation.data = orientations_[0].data();
+    view_.rows = {rows_[0][0].data(), kFirstRows.data()};
   }
   View(const View&) = delete;
   View& operator=(const View&) = delete;
@@ -66,8 +78,12 @@ class View {
   const Collidables& operator*() const { return view_; }
 
  private:
-  const Body body_;
-  std::array<float, 3> position32_;
+  static constexpr std::array<uint32_t, kBodies> kFirstRows = {0, kMostRows};
+
+  const std::array<decltype(Body::rows), kBodies> rows_;
+  const std::array<decltype(Body::orientation), kBodies> orientations_;
+  const std::array<decltype(Body::position), kBodies> positions_;
+  std::array<std::array<float, 3>, kBodies> positions32_;
   Collidables view_;
 };
 
@@ -95,20 +111,30 @@ Row reference_row(const reference::PairResult& result, Detail detail) {
   return row;
 }
 
+// Of the first bodies of the two sets.
 Row kernel_row(const Collidables& a, const Collidables& b, Detail detail) {
-  Row row;
+  using Column = std::array<float, View::kBodies>;
+  std::array<uint8_t, View::kBodies> overlap{}, status{}, manifold_count{};
+  std::array<Column, std::tuple_size_v<decltype(Row::contact)>> contact{};
+  std::array<ManifoldPoints, View::kBodies> manifold{};
   ResultColumns out;
-  out.overlap = &row.overlap;
-  out.status = &row.status;
-  out.separation = &row.contact[0];
+  out.overlap = overlap.data();
+  out.status = status.data();
+  out.separation = contact[0].data();
   for (size_t axis = 0; axis < 3; ++axis) {
-    out.normal[axis] = &row.contact[1 + axis];
-    out.point_a[axis] = &row.contact[4 + axis];
-    out.point_b[axis] = &row.contact[7 + axis];
+    out.normal[axis] = contact[1 + axis].data();
+    out.point_a[axis] = contact[4 + axis].data();
+    out.point_b[axis] = contact[7 + axis].data();
   }
-  out.manifold_count = &row.manifold_count;
-  out.manifold = &row.manifold;
+  out.manifold_count = manifold_count.data();
+  out.manifold = manifold.data();
   if (!collide_rows(a, b, detail, out, WitnessFrame::body)) std::abort();
+  Row row;
+  row.overlap = overlap[0];
+  row.status = status[0];
+  row.manifold_count = manifold_count[0];
+  for (size_t i = 0; i < contact.size(); ++i) row.contact[i] = contact[i][0];
+  row.manifold = manifold[0];
   return row;
 }
 
@@ -151,14 +177,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const Body body_a = without_excess(kinds.a, bodies[0]);
   const Body body_b = without_excess(kinds.b, bodies[1]);
 
-  const View any_a(kinds.a, bodies[0], type), any_b(kinds.b, bodies[1], type);
-  const View a(kinds.a, body_a, type), b(kinds.b, body_b, type);
+  const View a(kinds.a, body_a, bodies[0], type), b(kinds.b, body_b, bodies[1], type);
   const reference::PairResult expected = reference::collide(
       shape_of(kinds.a, body_a), pose_of(body_a), shape_of(kinds.b, body_b), pose_of(body_b), type);
   for (const Isa isa : usable_isas()) {
     force_isa(isa);
     for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
-      kernel_row(*any_a, *any_b, detail);
       const Row row = kernel_row(*a, *b, detail);
       const Row wanted = reference_row(expected, detail);
       if (!same_bits(row, wanted)) fail(kinds, isa, row, wanted);
