@@ -137,7 +137,7 @@ inline constexpr double kSameDistance = 0x1p-34;
 // Points of a Minkowski difference that are nearer to zero than this factor says are no nearer.
 inline constexpr double kNoNearer = 1 - 0x1p-44;
 
-// Squared distance of what touches, for the search of the nearest points.
+// Squared distance of points that are one.
 inline constexpr double kTouchingSquared = 0x1p-80;
 
 // The nearest way may be off by this angle, and by the rounding of its ends over its length.

@@ -45,13 +45,12 @@ Vector3<Real> clamp_to_box(const Vector3<Real>& x, const Vector3<Real>& half) {
 }
 
 // Points of both features that face each other along the normal: alternating projections, which end
-// after one step where one of the features is a corner (von Neumann). `target` is where they begin.
+// after one step where one of the features is a corner (von Neumann).
 template <class Real>
-BoxWitness<Real> facing_features_near(const BoxPair<Real>& p, const Vector3<Real>& normal,
-                                      const Vector3<Real>& target) {
+BoxWitness<Real> project_features(const BoxPair<Real>& p, const Vector3<Real>& normal) {
   const Vector3<Real> from_b_out = -rotate_back(p.turn, normal);
   BoxWitness<Real> w;
-  w.on_a = on_feature(p.half_a, normal, target);
+  w.on_a = on_feature(p.half_a, normal, p.centre);
   for (int round = 0; round < 2; ++round) {
     w.on_b = from_b(p, on_feature(p.half_b, from_b_out, to_b(p, w.on_a)));
     w.on_a = on_feature(p.half_a, normal, w.on_b);
@@ -68,7 +67,7 @@ Real off_axis_squared(const BoxWitness<Real>& w, const Vector3<Real>& normal) {
 
 template <class Real>
 BoxWitness<Real> facing_features(const BoxPair<Real>& p, const Vector3<Real>& normal) {
-  return facing_features_near(p, normal, p.centre);
+  return project_features(p, normal);
 }
 
 // Of the face, edge or corner of a box that lies furthest along `direction`, the corners.
@@ -84,7 +83,7 @@ inline Meeting::Points feature_corners(const Vector3d& half, const Vector3d& dir
   return corners;
 }
 
-// Wherever they do: faces that cross like two strips meet far from their corners.
+// The middle of where both features meet.
 inline BoxWitness<double> middle_of_features(const BoxPair<double>& p, const Vector3d& normal) {
   const Vector3d from_b_out = -rotate_back(p.turn, normal);
   Meeting::Points b = feature_corners(p.half_b, from_b_out);
@@ -95,24 +94,13 @@ inline BoxWitness<double> middle_of_features(const BoxPair<double>& p, const Vec
   return w;
 }
 
-// Faces that lie on each other almost edge to edge, slightly turned, meet near a corner of one of
-// them; two steps from anywhere else do not lead there.
+// Two steps do not lead to where faces meet that cross like strips, or lie on each other almost
+// edge to edge, slightly turned.
 template <>
-inline BoxWitness<double> facing_features(const BoxPair<double>& p, const Vector3<double>& normal) {
-  BoxWitness<double> best = facing_features_near(p, normal, p.centre);
-  for (int corner = 0; corner < 8; ++corner) {
-    const auto signs = [corner](const Vector3<double>& half) -> Vector3<double> {
-      return {corner & 1 ? half.x() : -half.x(), corner & 2 ? half.y() : -half.y(),
-              corner & 4 ? half.z() : -half.z()};
-    };
-    for (const Vector3<double>& target :
-         {signs(p.half_a), Vector3<double>(from_b(p, signs(p.half_b)))}) {
-      const BoxWitness<double> next = facing_features_near(p, normal, target);
-      if (off_axis_squared(next, normal) < off_axis_squared(best, normal)) best = next;
-    }
-  }
-  if (off_axis_squared(best, normal) <= kOffAxisSquared) return best;
-  return middle_of_features(p, normal);
+inline BoxWitness<double> facing_features(const BoxPair<double>& p, const Vector3d& normal) {
+  const BoxWitness<double> projected = project_features(p, normal);
+  const bool do_face = off_axis_squared(projected, normal) <= kTouchingSquared;
+  return do_face ? projected : middle_of_features(p, normal);
 }
 
 // The nearest points of the two edges that face each other along a cross product of edges.
