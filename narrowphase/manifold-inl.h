@@ -44,17 +44,17 @@ class ManifoldLoop {
     const ResultColumns& tested = batch.tested;
     const Listed bodies{batch.pairs + row};
     PositionLanes positions;
-    Records::load(batch, bodies, positions);
-    A a = A::template load<Role::a>(batch.a, bodies, positions);
-    B b = B::template load<Role::b>(batch.b, bodies, positions);
     PoseLanes pose;
-    pose.d = clamp_to_finite(positions.relative);
+    A a;
+    B b;
+    load_pairs<Records>(batch, bodies, positions, pose, a, b);
+    pose.d = clamp_to_finite(pose.d);
     const F up = to_units<Units::scaled>(pose, a, b);
     const F down = hn::Div(splat(1), up);
     PlacedPair placed;
-    place<A, Role::a>(batch.a, bodies, splat3(0), placed.a);
+    place<A>(pose.a, splat3(0), placed.a);
     // The sum turns -0, which depends on who is A, into 0.
-    place<B, Role::b>(batch.b, bodies, pose.d + splat3(0), placed.b);
+    place<B>(pose.b, pose.d + splat3(0), placed.b);
 
     const FloatTag tag;
     const auto column = [&](const float* values) HWY_ATTR { return hn::LoadU(tag, values + row); };
@@ -70,13 +70,10 @@ class ManifoldLoop {
     rows.copy_to(batch.out, batch.manifold_row + row, std::min(kLanes, batch.count - row));
   }
 
-  template <class Shape, Role kRole>
-  static HWY_INLINE void place(const BatchSide& side, const Listed& bodies, const F3& origin,
-                               Placed& placed) {
+  template <class Shape>
+  static HWY_INLINE void place(Quaternion& q, const F3& origin, Placed& placed) {
     placed.origin = origin;
     if constexpr (Shape::kIsOriented) {
-      Quaternion q;
-      load_orientation<kRole>(side, bodies, q);
       if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), is_plain(q)))) make_plain(q);
       placed.turn = rotation_of(q);
     } else {
