@@ -55,9 +55,9 @@ struct DopEdge {
 // rounded to floats: where that alone has left no point, they count as half a unit wider.
 class DopPolytope {
  public:
-  // 26 faces have 72 edges and 48 corners at most (Euler); twice that where planes coincide, and
-  // again as much room.
-  static constexpr size_t kMostPoints = 192;
+  // 26 faces have 72 edges and 48 corners at most (Euler); edges more where planes coincide. With
+  // room to spare.
+  static constexpr size_t kMostPoints = 96;
   static constexpr size_t kMostEdges = 288;
 
   explicit DopPolytope(const DopSlabs& slabs);
