@@ -3,7 +3,7 @@ SHELL := /bin/bash
 .NOTPARALLEL:
 JOBS ?= $(shell nproc)
 
-.PHONY: run test bench peers lint format asan tsan fuzz clean help
+.PHONY: run test bench peers grid lint format asan tsan fuzz clean help
 
 help: ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-7s %s\n", $$1, $$2}' Makefile
@@ -22,6 +22,9 @@ bench: setup-build ## run the benchmarks; JSON goes to build/bench
 peers: setup-peers ## compare with other libraries; ARGS="--large FILE.aabb"; writes docs/peers.md
 	@scripts/build.sh peers carom_peers
 	@scripts/peers.sh build/peers/bench/peers/carom_peers $(ARGS)
+
+grid: setup-build ## compare the bits of six builds on all instruction sets (half an hour)
+	@scripts/grid.sh
 
 lint: setup-dev ## check format, clang-tidy and include directions
 	@scripts/lint.sh

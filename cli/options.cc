@@ -33,6 +33,78 @@ Error unknown(const std::string& what, const std::string& text, const std::strin
   return {"unknown " + what + " '" + text + "' (there are: " + available + ")"};
 }
 
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+Result<void> check_metres(const std::string& option, double metres) {
+  if (metres >= 0 && metres <= std::numeric_limits<float>::max()) return {};
+  return Error{option + ' ' + short_number(metres) + ": not a number of metres from 0 to 3.4e38"};
+}
+
+struct NamedTier {
+  std::string_view name;
+  Tier tier;
+};
+constexpr NamedTier kTiers[] = {{"fast", Tier::fast},
+                                {"standard", Tier::standard},
+                                {"certified", Tier::certified},
+                                {"exact", Tier::exact}};
+
+std::string_view name_of(Tier tier) { return kTiers[static_cast<size_t>(tier)].name; }
+
+Result<Tier> parse_tier(const std::string& text) {
+  std::string names;
+  for (const NamedTier& entry : kTiers) {
+    if (text == entry.name) return entry.tier;
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return unknown("tier", text, names);
+}
+
+struct NamedKnob {
+  std::string_view name;
+  bool FastKnobs::*knob;
+  KnobsOf of;
+};
+constexpr NamedKnob kKnobs[] = {{"single-precision", &FastKnobs::single_precision, KnobsOf::pairs},
+                                {"faces-only", &FastKnobs::faces_only, KnobsOf::pairs},
+                                {"proxy-spheres", &FastKnobs::proxy_spheres, KnobsOf::worlds}};
+
+Result<void> set_knob(const std::string& name, KnobsOf served, FastKnobs& knobs) {
+  std::string names;
+  for (const NamedKnob& entry : kKnobs) {
+    const bool is_served = entry.of == KnobsOf::pairs || served == KnobsOf::worlds;
+    if (name == entry.name && !is_served) {
+      return Error{"knob '" + name + "' is for scenes only (carom run)"};
+    }
+    if (name == entry.name) {
+      knobs.*entry.knob = true;
+      return {};
+    }
+    if (is_served) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return unknown("knob", name, names);
+}
+
+// An empty list sets none.
+Result<void> parse_knobs(const std::string& list, KnobsOf served, FastKnobs& knobs) {
+  if (list.empty()) return {};
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    Result<void> set = set_knob(list.substr(begin, end - begin), served, knobs);
+    if (!set) return set;
+    begin = end + 1;
+  }
+  return {};
+}
+
+Error needs_fast(const std::string& option, const std::string& tier) {
+  return {option + " needs --tier fast, not " + tier};
+}
+
 // None for "auto".
 Result<std::optional<Isa>> parse_isa(const std::string& name) {
   std::optional<Isa> isa;
@@ -53,7 +125,10 @@ void add_engine_options(CLI::App& command, EngineOptions& options) {
   add_threads_option(command, options.threads);
   command.add_option("--isa", options.isa, "auto, scalar, sse4, avx2, avx512 or neon")
       ->capture_default_str();
-  command.add_option("--tier", options.tier, "standard")->capture_default_str();
+  command.add_option("--tier", options.tier, "fast, standard, certified or exact")
+      ->capture_default_str();
+  command.add_option("--knobs", options.knobs,
+                     "What the fast tier loosens, separated by commas; none if not given");
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
@@ -71,19 +146,41 @@ Result<void> check_threads(int threads) {
                std::to_string(kMaxThreads)};
 }
 
-Result<void> check_tier(const std::string& tier) {
-  constexpr std::array kPlanned = {"fast"sv, "certified"sv, "exact"sv};
-  if (tier == "standard") return {};
-  return contains(kPlanned, tier) ? not_yet("tier", tier, "standard")
-                                  : unknown("tier", tier, "standard");
+Result<Accuracy> parse_accuracy(const EngineOptions& options, KnobsOf served) {
+  Result<Tier> tier = parse_tier(options.tier);
+  if (!tier) return tier.error();
+  Accuracy accuracy{.tier = *tier, .knobs = {}};
+  Result<void> parsed = parse_knobs(options.knobs, served, accuracy.knobs);
+  if (!parsed) return parsed.error();
+  parsed = check_metres("--motion-tolerance", options.motion_tolerance);
+  if (!parsed) return parsed.error();
+  accuracy.knobs.motion_tolerance = static_cast<float>(options.motion_tolerance);
+  if (*tier == Tier::fast) return accuracy;
+  if (!options.knobs.empty()) return needs_fast("--knobs", options.tier);
+  if (options.motion_tolerance > 0) return needs_fast("--motion-tolerance", options.tier);
+  return accuracy;
 }
 
-Result<void> check_margin(double margin) {
-  if (margin >= 0 && margin <= std::numeric_limits<float>::max()) return {};
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", margin);
-  return Error{"--margin " + std::string(text) + ": not a number of metres from 0 to 3.4e38"};
+std::vector<std::string> names_of(const FastKnobs& knobs) {
+  std::vector<std::string> names;
+  for (const NamedKnob& entry : kKnobs) {
+    if (knobs.*entry.knob) names.emplace_back(entry.name);
+  }
+  return names;
 }
+
+std::string describe(const Accuracy& accuracy) {
+  std::string text(name_of(accuracy.tier));
+  if (accuracy.tier != Tier::fast) return text;
+  std::vector<std::string> parts = names_of(accuracy.knobs);
+  if (accuracy.knobs.motion_tolerance > 0) {
+    parts.push_back("motion tolerance " + short_number(accuracy.knobs.motion_tolerance) + " m");
+  }
+  for (size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? ": " : ", ") + parts[i];
+  return text;
+}
+
+Result<void> check_margin(double margin) { return check_metres("--margin", margin); }
 
 Result<std::optional<DopKind>> parse_dop_bounds(int directions) {
   std::optional<DopKind> kind;

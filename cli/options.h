@@ -6,11 +6,13 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "carom/broadphase/find_pairs.h"
 #include "carom/kernel/contact.h"
 #include "carom/kernel/dop.h"
 #include "carom/kernel/result.h"
+#include "carom/kernel/tier.h"
 #include "carom/simd/isa.h"
 
 namespace CLI {
@@ -23,6 +25,8 @@ namespace carom::cli {
 struct EngineOptions {
   std::string isa = "auto";
   std::string tier = "standard";
+  std::string knobs;            // names, separated by commas
+  double motion_tolerance = 0;  // metres
   std::string detail = "contact";
   int threads = 1;
 };
@@ -33,8 +37,16 @@ void add_json_option(CLI::App& command, std::string& json);
 
 inline constexpr int kMaxThreads = 1024;
 Result<void> check_threads(int threads);
-// Only the standard tier exists yet.
-Result<void> check_tier(const std::string& tier);
+
+// What a command serves of the knobs of the fast tier: those of collide(), or those of worlds, too.
+enum class KnobsOf { pairs, worlds };
+// Tier, knobs and tolerance; knobs go with the fast tier alone.
+Result<Accuracy> parse_accuracy(const EngineOptions& options, KnobsOf served);
+// Those that are set, as --knobs calls them; the tolerance is none of them.
+std::vector<std::string> names_of(const FastKnobs& knobs);
+// "fast: faces-only, motion tolerance 0.01 m", for people.
+std::string describe(const Accuracy& accuracy);
+
 // Metres, finite and not negative.
 Result<void> check_margin(double margin);
 // Directions of k-DOPs; 0: none.

@@ -35,8 +35,8 @@ struct PairsOptions {
 
 // Tests all pairs `repeat` times; returns the nanoseconds a pair that each run took.
 Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions& options,
-                                       Detail detail, PairColumns& results,
-                                       const Console& console) {
+                                       Detail detail, const Accuracy& accuracy,
+                                       PairColumns& results, const Console& console) {
   using Clock = std::chrono::steady_clock;
   ThreadArena arena(options.engine.threads);
   Collidables a = pairs.a.view();
@@ -50,7 +50,8 @@ Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions&
     Clock::time_point begin, end;
     arena.run([&] {
       begin = Clock::now();
-      tested = collide_rows(a, b, detail, columns, WitnessFrame::world, arena.parallelism());
+      tested = collide_rows(a, b, detail, columns, WitnessFrame::world, arena.parallelism(),
+                            SeparatePairs::measured, accuracy);
       end = Clock::now();
     });
     if (!tested) return io::file_error(options.input, tested.error().message);
@@ -62,14 +63,20 @@ Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions&
 
 struct PairsReport {
   uint64_t pairs;
+  Accuracy accuracy;
   uint64_t overlaps;
+  uint64_t undecided;
   uint64_t invalid;
   double ns_per_pair;
 };
 
-PairsReport summarize(const io::PairResults& results, std::vector<double> ns_per_pair) {
-  PairsReport report{results.pairs, 0, 0, median(std::move(ns_per_pair))};
-  for (uint8_t overlap : results.overlap) report.overlaps += overlap == 1;
+PairsReport summarize(const io::PairResults& results, const Accuracy& accuracy,
+                      std::vector<double> ns_per_pair) {
+  PairsReport report{results.pairs, accuracy, 0, 0, 0, median(std::move(ns_per_pair))};
+  for (uint8_t overlap : results.overlap) {
+    report.overlaps += overlap == 1;
+    report.undecided += overlap == kUndecided;
+  }
   for (uint8_t status : results.status) {
     report.invalid += status == static_cast<uint8_t>(Status::invalid);
   }
@@ -77,13 +84,24 @@ PairsReport summarize(const io::PairResults& results, std::vector<double> ns_per
 }
 
 nlohmann::ordered_json to_json(const PairsReport& report, const PairsOptions& options) {
-  return {{"pairs", report.pairs},           {"ns_per_pair", report.ns_per_pair},
-          {"isa", name(active_isa())},       {"tier", options.engine.tier},
-          {"detail", options.engine.detail}, {"threads", options.engine.threads},
-          {"repeat", options.repeat},        {"overlaps", report.overlaps},
-          {"invalid", report.invalid},       {"version", build_info::kVersion},
-          {"commit", build_info::kCommit},   {"compiler", build_info::kCompiler},
-          {"flags", build_info::kFlags}};
+  nlohmann::ordered_json json;
+  json["pairs"] = report.pairs;
+  json["ns_per_pair"] = report.ns_per_pair;
+  json["isa"] = name(active_isa());
+  json["tier"] = options.engine.tier;
+  const std::vector<std::string> knobs = names_of(report.accuracy.knobs);
+  if (!knobs.empty()) json["knobs"] = knobs;
+  json["detail"] = options.engine.detail;
+  json["threads"] = options.engine.threads;
+  json["repeat"] = options.repeat;
+  json["overlaps"] = report.overlaps;
+  json["undecided"] = report.undecided;
+  json["invalid"] = report.invalid;
+  json["version"] = build_info::kVersion;
+  json["commit"] = build_info::kCommit;
+  json["compiler"] = build_info::kCompiler;
+  json["flags"] = build_info::kFlags;
+  return json;
 }
 
 void print(const PairsReport& report, const PairsOptions& options, std::ostream& out) {
@@ -92,8 +110,12 @@ void print(const PairsReport& report, const PairsOptions& options, std::ostream&
                 options.repeat);
   Table table({"pairs", std::to_string(report.pairs)});
   table.add({"overlapping", std::to_string(report.overlaps)});
+  if (report.accuracy.tier == Tier::certified) {
+    table.add({"undecided", std::to_string(report.undecided)});
+  }
   table.add({"invalid", std::to_string(report.invalid)});
   table.add({"threads, ISA", std::to_string(options.engine.threads) + ", " + name(active_isa())});
+  if (report.accuracy.tier != Tier::standard) table.add({"tier", describe(report.accuracy)});
   table.add({"detail", options.engine.detail});
   table.add({"time", time});
   table.print(out);
@@ -103,7 +125,8 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   if (Result<void> threads = check_threads(options.engine.threads); !threads) {
     return threads.error();
   }
-  if (Result<void> tier = check_tier(options.engine.tier); !tier) return tier.error();
+  Result<Accuracy> accuracy = parse_accuracy(options.engine, KnobsOf::pairs);
+  if (!accuracy) return accuracy.error();
   Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
   if (!detail) return detail.error();
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
@@ -116,13 +139,14 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   Result<PairSet> set = read_pair_set(options.input);
   if (!set) return set.error();
   PairColumns columns(set->size(), *detail);
-  Result<std::vector<double>> times = test_pairs(*set, options, *detail, columns, console);
+  Result<std::vector<double>> times =
+      test_pairs(*set, options, *detail, *accuracy, columns, console);
   if (!times) return times.error();
   io::PairResults results = columns.results();
   Result<void> written = io::write_pair_results(options.output, results);
   if (!written) return written.error();
 
-  PairsReport report = summarize(results, std::move(*times));
+  PairsReport report = summarize(results, *accuracy, std::move(*times));
   if (!json->wanted()) {
     print(report, options, console.out);
     return 0;

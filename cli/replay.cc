@@ -15,6 +15,7 @@ class Recorder {
       record_.stage_ms[stage].push_back(static_cast<double>(report.stage_ns[stage]) * 1e-6);
     }
     record_.pairs.push_back(report.pairs);
+    record_.undecided.push_back(report.undecided);
     record_.tested.push_back(report.tested);
     record_.kept.push_back(report.kept);
     record_.dropped.push_back(report.dropped);

@@ -21,6 +21,7 @@ struct RunRecord {
   std::array<std::vector<double>, kStageCount> stage_ms;
   std::vector<uint64_t> pairs;
   std::vector<uint64_t> contacts;  // at detail overlap: overlapping pairs; at pairs: empty
+  std::vector<uint64_t> undecided;
   std::vector<uint64_t> tested;
   std::vector<uint64_t> kept;
   std::vector<uint64_t> dropped;

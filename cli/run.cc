@@ -35,7 +35,8 @@ Result<WorldSettings> world_settings(const RunOptions& options) {
   if (Result<void> threads = check_threads(options.engine.threads); !threads) {
     return threads.error();
   }
-  if (Result<void> tier = check_tier(options.engine.tier); !tier) return tier.error();
+  Result<Accuracy> accuracy = parse_accuracy(options.engine, KnobsOf::worlds);
+  if (!accuracy) return accuracy.error();
   Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
   if (!detail) return detail.error();
   Result<BroadphaseMethod> broadphase = parse_broadphase(options.broadphase);
@@ -48,6 +49,7 @@ Result<WorldSettings> world_settings(const RunOptions& options) {
   settings.broadphase = *broadphase;
   settings.margin = static_cast<float>(options.margin);
   settings.dop_bounds = *dop_bounds;
+  settings.accuracy = *accuracy;
   settings.carry_results = !options.no_cache;
   return settings;
 }
@@ -81,6 +83,8 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
                    .frames = options.frames ? options.frames : info.frames,
                    .threads = options.engine.threads,
                    .isa = name(active_isa()),
+                   .tier = options.engine.tier,
+                   .accuracy = settings.accuracy,
                    .detail = options.engine.detail,
                    .pair_kinds = pair_kinds(player->bodies_of_kind()),
                    .margin = settings.margin,
@@ -149,6 +153,10 @@ void add_run_command(CLI::App& program, Action& action) {
       ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
   add_engine_options(command, options->engine);
   command.add_option("--detail", options->engine.detail, "pairs, overlap, contact or manifold")
+      ->capture_default_str();
+  command
+      .add_option("--motion-tolerance", options->engine.motion_tolerance,
+                  "Metres that bodies may move before they are tested again; fast tier only")
       ->capture_default_str();
   command.add_option("--broadphase", options->broadphase, "auto, grid, sweep or brute")
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "carom_build_info.h"
+#include "cli/options.h"
 #include "cli/statistics.h"
 #include "cli/table.h"
 #include "io/file.h"
@@ -55,6 +56,15 @@ Json events_json(const RunRecord& record) {
   return events;
 }
 
+// What is not set is left out.
+void add_knobs(const FastKnobs& knobs, Json& json) {
+  const std::vector<std::string> names = names_of(knobs);
+  if (!names.empty()) json["knobs"] = names;
+  if (knobs.motion_tolerance > 0) json["motion_tolerance"] = knobs.motion_tolerance;
+}
+
+bool is_certified(const RunReport& report) { return report.accuracy.tier == Tier::certified; }
+
 std::string number(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
@@ -86,7 +96,8 @@ Json to_json(const RunReport& report) {
   json["frames"] = report.frames;
   json["threads"] = report.threads;
   json["isa"] = report.isa;
-  json["tier"] = "standard";
+  json["tier"] = report.tier;
+  add_knobs(report.accuracy.knobs, json);
   json["detail"] = report.detail;
   json["broadphase"] = name(record.search.method);
   json["broadphase_reason"] = record.search.reason;
@@ -102,6 +113,7 @@ Json to_json(const RunReport& report) {
     json["stage_ms"][name(stage)] = stage_median(record, stage);
   json["pairs_per_frame"] = record.pairs;
   json["contacts_per_frame"] = record.contacts;
+  if (is_certified(report)) json["undecided_per_frame"] = record.undecided;
   json["tested_pairs_per_frame"] = record.tested;
   json["kept_pairs_per_frame"] = record.kept;
   json["dropped_pairs_per_frame"] = record.dropped;
@@ -131,6 +143,7 @@ void print(const RunReport& report, std::ostream& out) {
   table.add({"bodies", std::to_string(report.bodies)});
   table.add({"frames", std::to_string(report.frames)});
   table.add({"threads, ISA", std::to_string(report.threads) + ", " + report.isa});
+  if (report.accuracy.tier != Tier::standard) table.add({"tier", describe(report.accuracy)});
   table.add({"detail, broadphase", report.detail + ", " + name(record.search.method) + " (" +
                                        record.search.reason + ")"});
   table.add({"frame", number("%.3f ms median", frame.median) + number(", %.3f min", frame.min) +
@@ -140,6 +153,7 @@ void print(const RunReport& report, std::ostream& out) {
   }
   table.add({"pairs", extent(record.pairs)});
   table.add({report.detail == "overlap" ? "overlaps" : "contacts", extent(record.contacts)});
+  if (is_certified(report)) table.add({"undecided", extent(record.undecided)});
   table.add({"kept pairs", extent(record.kept)});
   if (report.dop_bounds > 0) table.add({"dropped pairs", extent(record.dropped)});
   table.add({"state hash", record.hash.text()});

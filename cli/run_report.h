@@ -17,6 +17,8 @@ struct RunReport {
   uint64_t frames = 0;
   int threads = 1;
   std::string isa;
+  std::string tier;
+  Accuracy accuracy;
   std::string detail;
   std::vector<std::string> pair_kinds;  // that the bodies of the scene can make
   float margin = 0;                     // metres

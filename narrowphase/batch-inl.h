@@ -158,13 +158,16 @@ struct BatchLoop {
       pairs[i] = batch.pairs[first_row + (i < count ? i : count - 1)];
     }
     TailColumns results;
+    uint8_t unsure[kLanes] = {};
     Batch tail = batch;
+    tail.unsure = batch.unsure ? unsure : nullptr;
     tail.pairs = pairs;
     tail.pairs_are_rows = false;
     tail.count = kLanes;
     tail.out = results.columns();
     run(tail);
     results.copy_to(batch.out, first_row, count, kDetail);
+    for (size_t i = 0; batch.unsure && i < count; ++i) batch.unsure[first_row + i] = unsure[i];
   }
 
   static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {

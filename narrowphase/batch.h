@@ -56,6 +56,11 @@ struct Batch {
   WitnessFrame frame = WitnessFrame::world;
   Pass pass = Pass::test;
   ResultColumns out;
+  // Pass::test alone: one a row, zero before; set where the decision was not beyond the doubt of
+  // float32, whatever was made of it then. nullptr: nobody asks.
+  uint8_t* unsure = nullptr;
+  bool single_precision = false;        // FastKnobs
+  bool faces_only = false;              // FastKnobs
   const uint32_t* direction = nullptr;  // Pass::direction alone: packed_direction.h
   // Pass::manifold alone.
   ResultColumns tested;                    // separation, normal and point_a, relative to A

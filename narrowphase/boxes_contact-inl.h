@@ -227,11 +227,15 @@ HWY_INLINE void report_boxes(const BoxPairLanes& p, const Rotation& turn_a, cons
          rotate(turn_a, on_b - p.centre));
 }
 
+// Which axes are tried for one that parts the boxes.
+enum class TriedAxes { all, of_faces };
+
 // Decision and, of overlapping boxes, all.
-template <class Report>
+template <TriedAxes kTried, class Report>
 HWY_INLINE void test_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
                            Report& report) {
-  const SeparatingAxisLanes axis = best_axis(p, best_edges(p));
+  const BestEdges edges = kTried == TriedAxes::all ? best_edges(p) : no_edges();
+  const SeparatingAxisLanes axis = best_axis(p, edges);
   F3 on_a = p.centre, on_b = p.centre;
   Mask unsure = no_lanes();
   if constexpr (Report::kHasContact) witness_along(p, axis, on_a, on_b, unsure);

@@ -155,10 +155,12 @@ HWY_INLINE void offer_edges(const BoxPairLanes& p, const AxisCrosses& crosses, B
   best.number = hn::IfThenElse(better, splat(3 * kA + kB), best.number);
 }
 
+HWY_INLINE BestEdges no_edges() { return {splat(-1), splat(0), splat(0)}; }
+
 HWY_INLINE BestEdges best_edges(const BoxPairLanes& p) {
   const AxisCrosses crosses = {cross(p.turn.x, p.turn.y), cross(p.turn.z, p.turn.x),
                                cross(p.turn.y, p.turn.z)};
-  BestEdges best{splat(-1), splat(0), splat(0)};
+  BestEdges best = no_edges();
   offer_edges<0, 0>(p, crosses, best);
   offer_edges<0, 1>(p, crosses, best);
   offer_edges<0, 2>(p, crosses, best);

@@ -56,7 +56,8 @@ Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t coun
 
 void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pairs, size_t count,
                     Detail detail, const ResultColumns& out, WitnessFrame frame,
-                    SeparatePairs separate, uint32_t* direction, Parallelism parallelism) {
+                    SeparatePairs separate, uint32_t* direction, Parallelism parallelism,
+                    const Accuracy& accuracy) {
   if (detail == Detail::pairs) return;
   for_each_block(count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     run_pair_block({.a = a,
@@ -68,6 +69,7 @@ void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pair
                     .frame = frame,
                     .separate = separate,
                     .direction = direction ? direction + begin : nullptr,
+                    .accuracy = accuracy,
                     .out = from_row(out, begin)});
   });
 }
@@ -78,30 +80,32 @@ bool supports(ShapeKind a, ShapeKind b) { return find_pair_kind(a, b).exists(); 
 
 Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
                      Detail detail, const ResultColumns& out, WitnessFrame frame,
-                     Parallelism parallelism, SeparatePairs separate) {
+                     Parallelism parallelism, SeparatePairs separate, const Accuracy& accuracy) {
   const auto pair_at = [&](size_t i) { return pairs[i]; };
   if (Result<void> checked = check_kinds(a, b, pairs.size(), pair_at); !checked) return checked;
   collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, separate, nullptr,
-                 parallelism);
+                 parallelism, accuracy);
   return {};
 }
 
 Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                           const ResultColumns& out, WitnessFrame frame, Parallelism parallelism,
-                          SeparatePairs separate) {
+                          SeparatePairs separate, const Accuracy& accuracy) {
   assert(a.count == b.count);
   const auto pair_at = [](size_t i) -> Pair {
     return {static_cast<uint32_t>(i), static_cast<uint32_t>(i)};
   };
   if (Result<void> checked = check_kinds(a, b, a.count, pair_at); !checked) return checked;
-  collide_blocks(a, b, nullptr, a.count, detail, out, frame, separate, nullptr, parallelism);
+  collide_blocks(a, b, nullptr, a.count, detail, out, frame, separate, nullptr, parallelism,
+                 accuracy);
   return {};
 }
 
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
-                   const ResultColumns& out, uint32_t* direction, Parallelism parallelism) {
+                   const ResultColumns& out, uint32_t* direction, Parallelism parallelism,
+                   const Accuracy& accuracy) {
   collide_blocks(bodies, bodies, pairs.data(), pairs.size(), detail, out, WitnessFrame::body,
-                 SeparatePairs::decided, direction, parallelism);
+                 SeparatePairs::decided, direction, parallelism, accuracy);
 }
 
 bool uses_directions(ShapeKind a, ShapeKind b) {

@@ -6,6 +6,7 @@
 #include "carom/kernel/contact.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
+#include "carom/kernel/tier.h"
 #include "carom/kernel/views.h"
 #include "narrowphase/packed_direction.h"
 
@@ -16,7 +17,8 @@ namespace carom {
 // nullptr, or one a pair, kNoDirection at first, to be handed in again with the pair's next test:
 // pairs that are still apart in that direction take a short cut. Results are the same.
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
-                   const ResultColumns& out, uint32_t* direction, Parallelism parallelism);
+                   const ResultColumns& out, uint32_t* direction, Parallelism parallelism,
+                   const Accuracy& accuracy);
 
 // Whether tests of these kinds make use of directions.
 bool uses_directions(ShapeKind a, ShapeKind b);

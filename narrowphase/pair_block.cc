@@ -166,7 +166,7 @@ class BlockRunner {
     }
     whole.count = block_.count;
     whole.out = block_.out;
-    run_passes(kPairKinds[kind.index], whole, block_.separate, block_.direction);
+    run_passes(kPairKinds[kind.index], whole, block_.separate, block_.direction, block_.accuracy);
   }
 
   void sort_by_kind() {
@@ -195,7 +195,7 @@ class BlockRunner {
     uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
     for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
     if (layout_) {
-      run_passes(kPairKinds[kind.index], part, block_.separate, direction);
+      run_passes(kPairKinds[kind.index], part, block_.separate, direction, block_.accuracy);
     } else if (BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64()) {
       run_packed<double>(kind, part, PositionLayout::records64);
     } else {
@@ -218,13 +218,14 @@ class BlockRunner {
     part.b = packed_b.side(b);
     part.layout = layout;
     part.pairs = kRowPairs.data();
-    run_passes(kPairKinds[kind.index], part, block_.separate);
+    run_passes(kPairKinds[kind.index], part, block_.separate, nullptr, block_.accuracy);
   }
 
   ResultColumns scratch() {
     ResultColumns columns = scratch_.columns();
     columns.manifold_count = manifold_count_.data();
     columns.manifold = manifold_.data();
+    if (block_.out.separation_bound) columns.separation_bound = separation_bound_.data();
     return columns;
   }
 
@@ -234,6 +235,7 @@ class BlockRunner {
     const ResultColumns& to = block_.out;
     copy(from.overlap, to.overlap, count);
     copy(from.status, to.status, count);
+    copy(from.separation_bound, to.separation_bound, count);
     if (!has_contacts(block_.detail)) return;
     if (kind.flipped) flip(from, count);
     move_points(from, count, [this](size_t i) { return pair(rows_[i]); });
@@ -332,6 +334,7 @@ class BlockRunner {
   ScratchColumns scratch_;
   std::array<uint8_t, kPairsPerBlock> manifold_count_;
   std::array<ManifoldPoints, kPairsPerBlock> manifold_;
+  std::array<float, kPairsPerBlock> separation_bound_;
   std::array<uint32_t, kPairsPerBlock> directions_;
 };
 
@@ -346,7 +349,7 @@ ResultColumns from_row(const ResultColumns& columns, size_t row) {
   };
   return {shift(columns.overlap),        shift(columns.status),   shift(columns.separation),
           shift3(columns.normal),        shift3(columns.point_a), shift3(columns.point_b),
-          shift(columns.manifold_count), shift(columns.manifold)};
+          shift(columns.manifold_count), shift(columns.manifold), shift(columns.separation_bound)};
 }
 
 }  // namespace carom

@@ -20,7 +20,8 @@ struct PairBlock {
   WitnessFrame frame;
   SeparatePairs separate = SeparatePairs::measured;
   uint32_t* direction = nullptr;  // of the block's rows; see run_passes()
-  ResultColumns out;              // of the block
+  Accuracy accuracy;
+  ResultColumns out;  // of the block
 };
 
 // All pairs of kinds in the block must have a kernel.

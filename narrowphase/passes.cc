@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "narrowphase/decide_unsure.h"
 #include "narrowphase/packed_direction.h"
+#include "narrowphase/separation_bound.h"
 
 namespace carom {
 namespace {
@@ -31,6 +33,7 @@ class RowSelection {
   Batch batch(Pass pass) const {
     Batch selected = batch_;
     selected.pass = pass;
+    selected.unsure = nullptr;
     selected.pairs = pairs_.data();
     selected.pairs_are_rows = false;
     selected.count = count_;
@@ -69,6 +72,8 @@ class RowSelection {
   std::array<Pair, kPairsPerBlock + 1> pairs_;
 };
 static_assert(kPairsPerBlock % kMostLanes == 0);
+
+bool overlaps(const Batch& batch, size_t row) { return batch.out.overlap[row] == 1; }
 
 bool is_separate(const Batch& batch, size_t row) {
   return !batch.out.overlap[row] && batch.out.status[row] != static_cast<uint8_t>(Status::invalid);
@@ -124,9 +129,12 @@ void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
     kind.run(batch);
   } else {
     ScratchColumns scratch;
+    std::array<uint8_t, kPairsPerBlock> unsure{};
     Batch test = tested.batch(Pass::test);
     test.out = scratch.columns();
+    if (batch.unsure) test.unsure = unsure.data();
     kind.run(test);
+    if (batch.unsure) tested.scatter(unsure.data(), batch.unsure);
     std::fill_n(batch.out.overlap, batch.count, uint8_t{0});
     std::fill_n(batch.out.status, batch.count, static_cast<uint8_t>(Status::ok));
     tested.scatter(test.out, batch.out, batch.detail);
@@ -138,7 +146,7 @@ void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
 void copy_witnesses(const Batch& batch) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
-    const bool overlap = out.overlap[row];
+    const bool overlap = overlaps(batch, row);
     const auto if_overlap = [=](float x) { return overlap ? x : 0; };
     ManifoldPoints points{};
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -146,7 +154,7 @@ void copy_witnesses(const Batch& batch) {
     }
     points.separation[0] = if_overlap(out.separation[row]);
     out.manifold[row] = points;
-    out.manifold_count[row] = out.overlap[row];
+    out.manifold_count[row] = overlap;
   }
 }
 
@@ -154,7 +162,7 @@ void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pa
   std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
   if (of_separate_pairs) std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
   RowSelection overlapping(batch);
-  overlapping.select([&](size_t row) { return batch.out.overlap[row]; });
+  overlapping.select([&](size_t row) { return overlaps(batch, row); });
   if (overlapping.count() == 0) return;
   ScratchColumns contacts;
   Batch manifolds = overlapping.batch(Pass::manifold);
@@ -177,16 +185,29 @@ ResultColumns ScratchColumns::columns() {
   return {overlap.data(), status.data(), floats[0].data(), column3(1), column3(4), column3(7)};
 }
 
-void run_passes(const PairKind& kind, const Batch& batch, SeparatePairs separate,
-                uint32_t* direction) {
+void run_passes(const PairKind& kind, const Batch& asked, SeparatePairs separate,
+                uint32_t* direction, const Accuracy& accuracy) {
   const bool measures = separate == SeparatePairs::measured;
+  std::array<uint8_t, kPairsPerBlock> unsure;
+  Batch batch = asked;
+  if (accuracy.tier == Tier::fast) {
+    batch.single_precision = accuracy.knobs.single_precision;
+    batch.faces_only = accuracy.knobs.faces_only;
+  }
+  if (has_proofs(accuracy.tier)) {
+    std::fill_n(unsure.begin(), batch.count, uint8_t{0});
+    batch.unsure = unsure.data();
+  }
   if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
     run_test(kind, batch, direction);
   } else {
     kind.run(batch);
   }
-  if (batch.detail == Detail::overlap) return;
-  if (measures && kind.has_distance_pass()) run_distances(kind, batch);
+  if (measures && has_contacts(batch.detail) && kind.has_distance_pass()) {
+    run_distances(kind, batch);
+  }
+  if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
+  if (batch.out.separation_bound) bound_separations(kind, batch);
   if (batch.detail != Detail::manifold) return;
   if (kind.has_manifold_pass()) {
     run_manifolds(kind, batch, measures);

@@ -1,6 +1,7 @@
 // All that a detail asks for of one batch: the test, and what it leaves to rows that need more.
 #pragma once
 
+#include "carom/kernel/tier.h"
 #include "narrowphase/batch.h"
 #include "narrowphase/pair_kinds.h"
 
@@ -22,6 +23,6 @@ struct ScratchColumns {
 // by packed_direction.h. At details with contacts it is tried first, and what was found is
 // remembered; separate pairs must not be measured then.
 void run_passes(const PairKind& kind, const Batch& batch, SeparatePairs separate,
-                uint32_t* direction = nullptr);
+                uint32_t* direction, const Accuracy& accuracy);
 
 }  // namespace carom

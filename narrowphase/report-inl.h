@@ -43,7 +43,9 @@ struct LaneReport {
     AnswerLanes answer = in_metres(separation, normal, arm_a, arm_b);
     // What is a gap in other units may be none in metres.
     if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
-    refine(hn::And(unsure, valid), answer, overlap, degenerate);
+    unsure = hn::And(unsure, valid);
+    if (HWY_UNLIKELY(batch.unsure != nullptr)) mark_unsure(unsure, answer.separation);
+    if constexpr (Kernel::kUnsure != Unsure::nothing) refine(unsure, answer, overlap, degenerate);
     I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
     if (HWY_UNLIKELY(is_odd)) blot_out_invalid(answer, overlap, status);
     store_bytes(status, batch.out.status, row);
@@ -59,9 +61,16 @@ struct LaneReport {
     return {scaled(separation, up), normal, arm_a * up, arm_b * up};
   }
 
+  // Gaps that vanished in metres, and numbers so large that they were clamped, are unsure, too.
+  HWY_INLINE void mark_unsure(Mask unsure, F separation) const {
+    unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
+    if (is_odd) unsure = valid;
+    store_bytes(bytes_where(unsure, 1), batch.unsure, row);
+  }
+
   HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
-    if constexpr (Kernel::kUnsure == Unsure::nothing) return;
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
+    if (batch.single_precision) unsure = hn::AndNot(has_normal(answer), unsure);
     if constexpr (Kernel::kUnsure == Unsure::separation) {
       answer.separation = refined(unsure, answer.separation);
     } else {
@@ -92,6 +101,13 @@ struct LaneReport {
       store(witness(positions.a, positions.a_low, answer.arm_a), batch.out.point_a, row);
       store(witness(positions.b, positions.b_low, answer.arm_b), batch.out.point_b, row);
     }
+  }
+
+  // Whether float32 has found one, if it is stored at all.
+  static HWY_INLINE Mask has_normal(const AnswerLanes& answer) {
+    if constexpr (!kHasContact) return hn::Not(no_lanes());
+    const F squared = dot(answer.normal, answer.normal);
+    return hn::And(hn::Ge(squared, splat(0.9f)), hn::Le(squared, splat(1.1f)));
   }
 
   HWY_NOINLINE F refined(Mask unsure, F separation) const {

@@ -30,6 +30,7 @@ class TestRows {
         const std::array<float, 11> answer = exact_answer(batch_, kind_a_, kind_b_, row);
         const Status status = answer[10] != 0 ? Status::degenerate : Status::ok;
         store_row(row, answer[0] <= 0, status, answer);
+        if (batch_.unsure) batch_.unsure[row] = 1;  // there is no proof beside it
       } else {
         std::array<float, 11> nothing;
         nothing.fill(std::numeric_limits<float>::quiet_NaN());

@@ -7,6 +7,7 @@
 #include "kernel/body_reader.h"
 #include "narrowphase/any_pair_ref.h"
 #include "narrowphase/manifold_ref.h"
+#include "narrowphase/stated_body.h"
 
 namespace carom {
 namespace {
@@ -57,18 +58,6 @@ float sphere_separation(const Batch& batch, ShapeKind kind_b, size_t row) {
     return sphere_box_separation(b, pair.b, centre, a.radius(pair.a));
   }
   return gap(square(centre), double{a.radius(pair.a)} + double{b.radius(pair.b)});
-}
-
-Shape shape_of(const BodyReader& body, size_t index) {
-  switch (body.kind(index)) {
-    case ShapeKind::sphere:
-      return Sphere{body.radius(index)};
-    case ShapeKind::aabb:
-      return Aabb{{body.lower(0, index), body.lower(1, index), body.lower(2, index)},
-                  {body.upper(0, index), body.upper(1, index), body.upper(2, index)}};
-    default:
-      return shape_from_rows(body.kind(index), body.rows(index).data());
-  }
 }
 
 reference::Quaternion<double> orientation_of(const BodyReader& body, size_t index) {

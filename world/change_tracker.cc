@@ -60,6 +60,16 @@ bool ChangeTracker::SlotChanges::at(size_t slot) const {
 }
 
 void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
+  update_shapes(bodies, parallelism);
+  update_bodies(bodies, parallelism);
+}
+
+void ChangeTracker::update_shapes(const BodyStore& bodies, Parallelism parallelism) {
+  any_reshaped_ = compare_boxes(bodies, parallelism);
+  any_reshaped_ |= compare_rows(bodies, parallelism);
+}
+
+void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
   all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
   resize_and_give_back(changed_, rows);
@@ -68,10 +78,8 @@ void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
   bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
   moved |= compare_records(bodies.records64(), last_records64_, parallelism);
   moved |= compare_orientations(bodies, parallelism);
-  bool reshaped = compare_boxes(bodies, parallelism);
-  reshaped |= compare_rows(bodies, parallelism);
-  if (reshaped) mark_changed_shapes(bodies, parallelism);
-  if (moved || reshaped) all_unchanged_ = false;
+  if (any_reshaped_) mark_changed_shapes(bodies, parallelism);
+  if (moved || any_reshaped_) all_unchanged_ = false;
   if (knows_last_) {
     mark_touched(bodies);
   } else {
@@ -170,7 +178,8 @@ bool ChangeTracker::compare_rows(const BodyStore& bodies, Parallelism parallelis
   return any;
 }
 
-bool ChangeTracker::shape_changed(const Collidables& view, size_t index) const {
+bool ChangeTracker::reshaped(const Collidables& view, size_t index) const {
+  if (!any_reshaped_) return false;
   const ShapeKind kind = view.kind ? view.kind[index] : view.uniform_kind;
   if (kind == ShapeKind::aabb) return box_changes_.at(view.box_slot[index]);
   for (uint32_t k = 0; k < row_count(kind); ++k) {
@@ -183,7 +192,7 @@ void ChangeTracker::mark_changed_shapes(const BodyStore& bodies, Parallelism par
   const Collidables view = bodies.view();
   for_each_block(changed_.size(), kRowsPerBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
-                   for (size_t i = begin; i < end; ++i) changed_[i] |= shape_changed(view, i);
+                   for (size_t i = begin; i < end; ++i) changed_[i] |= reshaped(view, i);
                    block_changes_[block] = count_set(&changed_[begin], end - begin);
                  });
 }

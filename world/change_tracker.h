@@ -15,8 +15,12 @@ namespace carom {
 
 class ChangeTracker {
  public:
-  // Compares with the last call and remembers the bodies as they are now.
+  // Compares with the last call and remembers the bodies as they are now. In two halves, for
+  // callers that write to the records what depends on shapes: first boxes and rows of shapes, then
+  // all the rest.
   void update(BodyStore& bodies, Parallelism parallelism);
+  void update_shapes(const BodyStore& bodies, Parallelism parallelism);
+  void update_bodies(BodyStore& bodies, Parallelism parallelism);
 
   // For callers that leave out steps: the next update finds everything changed.
   void forget() { knows_last_ = false; }
@@ -24,6 +28,10 @@ class ChangeTracker {
   // Pose, shape or properties of the body at this index differ, or it is another body.
   bool changed(uint32_t index) const { return changed_[index]; }
   std::span<const uint8_t> changed() const { return changed_; }  // one byte an index
+
+  // The box or the rows of the body at this index differ, as the last update_shapes() has it. What
+  // is known without comparing, BodyStore::touched(), is not in it, nor are radii of spheres.
+  bool reshaped(const Collidables& view, size_t index) const;
 
   // How many indices there are of which that is true; bodies that went may be among them.
   size_t changed_count() const { return changed_count_; }
@@ -49,7 +57,6 @@ class ChangeTracker {
   bool compare_orientations(const BodyStore& bodies, Parallelism parallelism);
   bool compare_boxes(const BodyStore& bodies, Parallelism parallelism);
   bool compare_rows(const BodyStore& bodies, Parallelism parallelism);
-  bool shape_changed(const Collidables& view, size_t index) const;
   void mark_changed_shapes(const BodyStore& bodies, Parallelism parallelism);
   void mark_touched(const BodyStore& bodies);
   void mark_all();
@@ -60,6 +67,7 @@ class ChangeTracker {
   std::vector<uint32_t> block_changes_;
   size_t changed_count_ = 0;
   bool all_unchanged_ = false;
+  bool any_reshaped_ = false;
   bool knows_last_ = false;
   std::vector<float> last_records32_;
   std::vector<double> last_records64_;

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <utility>
 
+#include "carom/kernel/tier.h"
 #include "kernel/parallel.h"
 #include "world/columns.h"
 
@@ -53,7 +54,7 @@ void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const BoundsView
                                 Parallelism parallelism) {
   for_each_block(rows_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      if (overlap_[i]) overlap_[i] = bounds_may_overlap(bounds, pairs[i]);
+      if (overlap_[i] && !bounds_may_overlap(bounds, pairs[i])) overlap_[i] = 0;
     }
   });
 }
@@ -109,7 +110,7 @@ void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const Res
                  [&](size_t block, size_t begin, size_t end) {
                    size_t next = block_first_[block];
                    for (size_t i = begin; i < end; ++i) {
-                     if (!now.overlaps[i] || now.contact[i] == PairHistory::kSensor) continue;
+                     if (now.overlaps[i] != 1 || now.contact[i] == PairHistory::kSensor) continue;
                      const uint32_t row = plan.test_row(i);
                      const bool carried = row == CarryPlan::kCarried;
                      const size_t old = carried ? last.contact[plan.last_index(i)] : 0;
@@ -130,24 +131,28 @@ void ContactStage::find_overlaps(const CarryPlan& plan, const PairHistory& last,
   now.overlaps.resize(pairs);
   now.contact.resize(pairs);
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
-  std::atomic<size_t> overlaps{0};
+  std::atomic<size_t> overlaps{0}, undecided{0};
   for_each_block(
       pairs, kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
-        size_t overlapping = 0;
+        size_t overlapping = 0, unknown = 0;
         for (size_t i = begin; i < end; ++i) {
           const uint32_t row = plan.test_row(i);
-          const bool overlap =
+          const uint8_t decision =
               row == CarryPlan::kCarried ? last.overlaps[plan.last_index(i)] : results.overlap(row);
+          const bool overlap = decision == 1;
           const Pair pair = now.pairs[i];
           const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
-          now.overlaps[i] = overlap;
+          now.overlaps[i] = decision;
           now.contact[i] = overlap && sensor ? PairHistory::kSensor : PairHistory::kNone;
           overlapping += overlap;
+          unknown += decision == kUndecided;
           block_first_[block] += overlap && !sensor;
         }
         overlaps += overlapping;
+        undecided += unknown;
       });
   overlaps_ = overlaps;
+  undecided_ = undecided;
 }
 
 void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,

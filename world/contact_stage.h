@@ -23,7 +23,7 @@ class ResultBuffer {
   void reject_apart(const std::vector<Pair>& pairs, const BoundsView& bounds,
                     Parallelism parallelism);
 
-  bool overlap(size_t row) const { return overlap_[row]; }
+  uint8_t overlap(size_t row) const { return overlap_[row]; }
   Contact contact(size_t row, Pair pair) const;
   const ManifoldPoints& manifold(size_t row) const { return manifold_[row]; }
 
@@ -48,6 +48,7 @@ class ContactStage {
            const BodyStore& bodies, Detail detail, Parallelism parallelism, PairHistory& now);
 
   size_t overlaps() const { return overlaps_; }
+  size_t undecided() const { return undecided_; }
   size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
 
  private:
@@ -55,6 +56,7 @@ class ContactStage {
                      const BodyStore& bodies, Parallelism parallelism, PairHistory& now);
 
   size_t overlaps_ = 0;
+  size_t undecided_ = 0;
   std::vector<size_t> block_first_;  // how many contacts each block has, then the first of them
 };
 

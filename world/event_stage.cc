@@ -13,6 +13,9 @@ Event make_event(EventKind kind, BodyId a, BodyId b, uint32_t contact) {
           .sensor = sensor};
 }
 
+// Undecided pairs have no events.
+bool overlaps(const PairHistory& history, size_t i) { return history.overlaps[i] == 1; }
+
 }  // namespace
 
 void EventStage::run(const PairHistory& last, const PairHistory& now, const BodyStore& bodies,
@@ -33,14 +36,14 @@ void EventStage::run(const PairHistory& last, const PairHistory& now, const Body
   const auto merge = [&](size_t block, size_t begin, size_t stop) {
     std::vector<Event>& out = lists_[block];
     const auto gone = [&](size_t before) {
-      if (last.overlaps[before]) end(out, before);
+      if (overlaps(last, before)) end(out, before);
     };
     const auto there = [&](size_t i, size_t before) {
       const Pair pair = now.pairs[i];
-      const bool overlapped = before != kNotThere && last.overlaps[before];
+      const bool overlapped = before != kNotThere && overlaps(last, before);
       const bool same = is_same_body(pair.a) && is_same_body(pair.b);
-      if (overlapped && !(now.overlaps[i] && same)) end(out, before);
-      if (now.overlaps[i]) {
+      if (overlapped && !(overlaps(now, i) && same)) end(out, before);
+      if (overlaps(now, i)) {
         overlap(out, overlapped && same ? EventKind::persist : EventKind::begin, i);
       }
     };

@@ -44,24 +44,24 @@ void CarryPlan::test_all(size_t pairs) {
 }
 
 void CarryPlan::match(const PairHistory& last, const std::vector<Pair>& now,
-                      const ChangeTracker& changes, Parallelism parallelism) {
+                      std::span<const uint8_t> changed, Parallelism parallelism) {
   row_.resize(now.size());
   last_.resize(now.size());
   block_first_.assign(block_count(now.size(), kPairsPerMergeBlock), 0);
-  for_each_block(
-      now.size(), kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
-        const MergeRange range = matching_range(last.pairs, now, begin, end);
-        size_t candidate = range.begin;
-        for (size_t i = begin; i < end; ++i) {
-          const Pair pair = now[i];
-          while (candidate < range.end && last.pairs[candidate] < pair) ++candidate;
-          const bool known = candidate < range.end && last.pairs[candidate] == pair;
-          const bool carried = known && !changes.changed(pair.a) && !changes.changed(pair.b);
-          row_[i] = carried ? kCarried : 0;
-          last_[i] = static_cast<uint32_t>(candidate);
-          block_first_[block] += !carried;
-        }
-      });
+  for_each_block(now.size(), kPairsPerMergeBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const MergeRange range = matching_range(last.pairs, now, begin, end);
+                   size_t candidate = range.begin;
+                   for (size_t i = begin; i < end; ++i) {
+                     const Pair pair = now[i];
+                     while (candidate < range.end && last.pairs[candidate] < pair) ++candidate;
+                     const bool known = candidate < range.end && last.pairs[candidate] == pair;
+                     const bool carried = known && !changed[pair.a] && !changed[pair.b];
+                     row_[i] = carried ? kCarried : 0;
+                     last_[i] = static_cast<uint32_t>(candidate);
+                     block_first_[block] += !carried;
+                   }
+                 });
   tested_ = dropped_ = 0;
   for (size_t& first : block_first_) tested_ += std::exchange(first, tested_);
   tests_all_ = tested_ == now.size();

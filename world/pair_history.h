@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "carom/kernel/contact.h"
 #include "carom/kernel/pair.h"
 #include "kernel/parallel.h"
-#include "world/change_tracker.h"
 
 namespace carom {
 
@@ -83,9 +83,9 @@ class CarryPlan {
   // Nothing is: the step repeats the last one.
   void carry_all() { tested_ = dropped_ = 0; }
 
-  // Carries the pairs that `last` holds, too, and of which neither body changed.
-  void match(const PairHistory& last, const std::vector<Pair>& now, const ChangeTracker& changes,
-             Parallelism parallelism);
+  // Carries the pairs that `last` holds, too, and of which neither body changed: one byte an index.
+  void match(const PairHistory& last, const std::vector<Pair>& now,
+             std::span<const uint8_t> changed, Parallelism parallelism);
 
   // Of the pairs to test leaves those whose byte is not zero; the others do not overlap.
   void drop(const std::vector<uint8_t>& overlap, const std::vector<Pair>& now,

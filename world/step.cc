@@ -55,12 +55,28 @@ const StepReport& World::State::step() {
 // Whether the step repeats the last one.
 bool World::State::is_still() {
   if (!carries() && !(watches_rest() && rest_watch.is_on())) return false;
-  run(Stage::changes, [&] { changes.update(bodies, settings.parallelism); });
+  run(Stage::changes, [&] { find_changes(); });
   return changes.all_unchanged();
 }
 
+void World::State::find_changes() {
+  changes.update_shapes(bodies, settings.parallelism);
+  update_radii(&changes);
+  changes.update_bodies(bodies, settings.parallelism);
+}
+
+// Those that the knobs of the fast tier need; of all bodies if none is known to be as it was.
+void World::State::update_radii(const ChangeTracker* reshaped) {
+  if (!has_proxies() && !has_motion_tolerance()) return;
+  bounding_radii.update(bodies, reshaped, settings.parallelism);
+  if (has_proxies()) proxies.update(bodies, bounding_radii.radii(), settings.parallelism);
+}
+
 void World::State::find_all() {
-  run(Stage::bounds, [&] { find_bounds(); });
+  run(Stage::bounds, [&] {
+    find_bounds();
+    if (!carries()) update_radii(nullptr);
+  });
   if (has_margin()) {
     run(Stage::margins,
         [&] { fat_bounds.update(bounds_view(), settings.margin, settings.parallelism); });
@@ -110,6 +126,7 @@ void World::State::fill_report() {
   report.kept = has_narrowphase() ? report.pairs - report.tested - report.dropped : 0;
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
   report.contacts = now.contacts.size();
+  report.undecided = has_narrowphase() ? contact_stage.undecided() : 0;
   report.search = search;
 }
 
@@ -155,6 +172,13 @@ void World::State::find_pairs() {
                        now.pairs, search);
 }
 
+// The bodies whose pairs are to be tested again: one byte an index.
+std::span<const uint8_t> World::State::changed_for_tests() {
+  if (!has_motion_tolerance()) return changes.changed();
+  return motion_tolerance.update(bodies, changes, bounding_radii.radii(),
+                                 settings.accuracy.knobs.motion_tolerance, settings.parallelism);
+}
+
 // What came and went, and what is to be tested.
 void World::State::compare_pairs() {
   if (settings.pair_changes) {
@@ -162,7 +186,7 @@ void World::State::compare_pairs() {
   }
   if (!has_narrowphase()) return;
   if (carries()) {
-    plan.match(last, now.pairs, changes, settings.parallelism);
+    plan.match(last, now.pairs, changed_for_tests(), settings.parallelism);
   } else {
     plan.test_all(now.pairs.size());
   }
@@ -180,7 +204,7 @@ void World::State::drop_pairs() {
 
 // Whether two kinds that are there remember in which direction they are apart.
 bool World::State::uses_directions() const {
-  if (!carries() || !has_contacts(settings.detail)) return false;
+  if (!carries() || !has_contacts(settings.detail) || has_proxies()) return false;
   const auto is_there = [this](int kind) { return bodies.has_kind(static_cast<ShapeKind>(kind)); };
   for (int a = 0; a < kShapeKindCount; ++a) {
     for (int b = 0; b < kShapeKindCount; ++b) {
@@ -196,8 +220,10 @@ void World::State::test_pairs() {
   const bool remembers = uses_directions();
   uint32_t* const direction =
       remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
-  collide_pairs(bodies.view(), plan.pairs_to_test(now.pairs), settings.detail,
-                results.prepare(plan.tested(), settings.detail), direction, settings.parallelism);
+  const Collidables view = has_proxies() ? proxies.view(bodies) : bodies.view();
+  collide_pairs(view, plan.pairs_to_test(now.pairs), settings.detail,
+                results.prepare(plan.tested(), settings.detail), direction, settings.parallelism,
+                settings.accuracy);
   if (remembers) {
     directions.keep(plan, last, settings.parallelism, now);
   } else {
@@ -210,8 +236,9 @@ void World::State::test_pairs() {
 
 WorldMemory World::State::memory() const {
   WorldMemory memory;
-  memory.bodies = bodies.bytes() + changes.bytes() + bytes_of(quarantined);
-  memory.bounds = fat_bounds.bytes() + dops.record_bytes();
+  memory.bodies = bodies.bytes() + changes.bytes() + proxies.bytes() + motion_tolerance.bytes() +
+                  bytes_of(quarantined);
+  memory.bounds = fat_bounds.bytes() + dops.record_bytes() + bounding_radii.bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
   memory.broadphase = finder.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +

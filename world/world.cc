@@ -18,6 +18,8 @@ const char* name(Stage stage) {
 
 World::World(const WorldSettings& settings) : state_(std::make_unique<State>(settings)) {
   assert(std::isfinite(settings.margin) && settings.margin >= 0);
+  [[maybe_unused]] const float tolerance = settings.accuracy.knobs.motion_tolerance;
+  assert(std::isfinite(tolerance) && tolerance >= 0);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;

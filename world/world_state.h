@@ -1,11 +1,14 @@
 // What a world consists of; its step reads like the flow of data.
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "broadphase/box_memory.h"
 #include "carom/world/world.h"
 #include "world/body_store.h"
+#include "world/bounding_radii.h"
 #include "world/change_tracker.h"
 #include "world/contact_stage.h"
 #include "world/direction_memory.h"
@@ -13,8 +16,10 @@
 #include "world/event_stage.h"
 #include "world/fat_bounds.h"
 #include "world/halfspace_stage.h"
+#include "world/motion_tolerance.h"
 #include "world/pair_changes.h"
 #include "world/pair_history.h"
+#include "world/proxy_spheres.h"
 #include "world/rest_watch.h"
 
 namespace carom {
@@ -40,7 +45,16 @@ struct World::State {
   bool has_narrowphase() const { return settings.detail != Detail::pairs; }
   bool has_events() const { return settings.events && has_narrowphase(); }
   bool has_margin() const { return settings.margin > 0; }
-  bool has_dops() const { return settings.dop_bounds && *settings.dop_bounds != DopKind::k6; }
+  bool is_fast() const { return settings.accuracy.tier == Tier::fast && has_narrowphase(); }
+  bool has_proxies() const { return is_fast() && settings.accuracy.knobs.proxy_spheres; }
+  // Without results to carry there is none that may stay.
+  bool has_motion_tolerance() const {
+    return is_fast() && carries() && settings.accuracy.knobs.motion_tolerance > 0;
+  }
+  // Balls are tested faster than their k-DOPs would be.
+  bool has_dops() const {
+    return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_proxies();
+  }
   bool carries() const { return settings.carry_results && has_narrowphase(); }
   // Without results to carry, comparing all bodies pays only where none of them moves.
   bool watches_rest() const { return settings.carry_results && !has_narrowphase(); }
@@ -50,6 +64,8 @@ struct World::State {
   template <class Work>
   void run(Stage stage, const Work& work);
   bool is_still();
+  void find_changes();
+  void update_radii(const ChangeTracker* reshaped);
   void find_all();
   void watch_rest(bool still);
   void give_back_memory(size_t last_pairs);
@@ -57,6 +73,7 @@ struct World::State {
   void find_bounds();
   void find_quarantined();
   void find_pairs();
+  std::span<const uint8_t> changed_for_tests();
   void compare_pairs();
   void drop_pairs();
   void test_pairs();
@@ -65,6 +82,9 @@ struct World::State {
   ChangeTracker changes;
   RestWatch rest_watch;
   BoxSample sample;
+  BoundingRadii bounding_radii;
+  ProxySpheres proxies;
+  MotionTolerance motion_tolerance;
   std::array<std::vector<float>, 6> bounds;
   FatBounds fat_bounds;
   PairFinder finder;

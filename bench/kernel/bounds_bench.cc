@@ -24,7 +24,7 @@ struct SetSpec {
 };
 
 std::vector<PlacedShape> draw_bodies(const SetSpec& spec) {
-  test::Random random(1);
+  oracle::Random random(1);
   std::vector<PlacedShape> bodies;
   for (size_t i = 0; i < kBodies; ++i) {
     bodies.push_back(as_stored(draw_body(spec.kind, random), spec.storage));

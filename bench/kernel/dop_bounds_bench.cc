@@ -44,7 +44,7 @@ struct Setting {
   Setup setup;
 };
 
-PlacedShape draw_turned(const Form& form, test::Random& random) {
+PlacedShape draw_turned(const Form& form, oracle::Random& random) {
   const float half = 0.5f / std::cbrt(form.x * form.y * form.z);
   PlacedShape body = draw_body(ShapeKind::box, random);
   body.shape = Box{{form.x * half, form.y * half, form.z * half}};
@@ -54,7 +54,7 @@ PlacedShape draw_turned(const Form& form, test::Random& random) {
 }
 
 std::vector<PlacedShape> draw_bodies(const Form& form) {
-  test::Random random(1);
+  oracle::Random random(1);
   std::vector<PlacedShape> bodies;
   for (size_t i = 0; i < kBodies; ++i) bodies.push_back(draw_turned(form, random));
   return bodies;

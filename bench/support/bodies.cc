@@ -13,19 +13,19 @@ float radius_of(const Shape& shape) {
   return sphere ? sphere->radius : 0;
 }
 
-float draw_size(test::Random& random) { return static_cast<float>(random.uniform(0.5, 2)); }
+float draw_size(oracle::Random& random) { return static_cast<float>(random.uniform(0.5, 2)); }
 
-Eigen::Vector3f draw_half(test::Random& random) {
+Eigen::Vector3f draw_half(oracle::Random& random) {
   const float x = draw_size(random), y = draw_size(random);
   return {x, y, draw_size(random)};
 }
 
-Capsule draw_capsule(test::Random& random) {
+Capsule draw_capsule(oracle::Random& random) {
   const Eigen::Vector3f end(0, draw_size(random), 0);
   return {-end, end, draw_size(random) / 2};
 }
 
-Triangle draw_triangle(test::Random& random) {
+Triangle draw_triangle(oracle::Random& random) {
   Triangle triangle;
   Eigen::Vector3f middle = Eigen::Vector3f::Zero();
   for (Eigen::Vector3f& corner : triangle.corners) {
@@ -36,13 +36,13 @@ Triangle draw_triangle(test::Random& random) {
   return triangle;
 }
 
-Dop draw_dop(test::Random& random) {
+Dop draw_dop(oracle::Random& random) {
   std::vector<Eigen::Vector3f> points(24);
   for (Eigen::Vector3f& p : points) p = draw_size(random) * random.direction().cast<float>();
   return Dop::of_points(points, DopKind::k26);
 }
 
-Shape draw_shape(ShapeKind kind, test::Random& random) {
+Shape draw_shape(ShapeKind kind, oracle::Random& random) {
   switch (kind) {
     case ShapeKind::sphere:
       return Sphere{draw_size(random)};
@@ -61,12 +61,12 @@ Shape draw_shape(ShapeKind kind, test::Random& random) {
   }
 }
 
-Eigen::Vector3d draw_position(test::Random& random) {
+Eigen::Vector3d draw_position(oracle::Random& random) {
   const double x = random.uniform(-100, 100), y = random.uniform(-100, 100);
   return {x, y, random.uniform(-100, 100)};
 }
 
-Eigen::Quaternionf draw_orientation(test::Random& random) {
+Eigen::Quaternionf draw_orientation(oracle::Random& random) {
   const double angle = random.uniform(0, 2 * std::numbers::pi);
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, random.direction())).cast<float>();
 }
@@ -82,7 +82,7 @@ PositionType position_type(Storage storage) {
   return storage == Storage::f64 ? PositionType::float64 : PositionType::float32;
 }
 
-PlacedShape draw_body(ShapeKind kind, test::Random& random) {
+PlacedShape draw_body(ShapeKind kind, oracle::Random& random) {
   PlacedShape body = {draw_shape(kind, random), draw_position(random)};
   if (row_count(kind) > 0) body.orientation = draw_orientation(random);
   return body;

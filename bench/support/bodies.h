@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "carom/kernel/views.h"
+#include "oracle/random.h"
 #include "tests/support/pairs.h"
-#include "tests/support/random.h"
 
 namespace carom::bench {
 
@@ -26,7 +26,7 @@ PositionType position_type(Storage storage);
 
 // Sizes from 0.25 to 2 metres, about the body's origin; anywhere within 100 m of the world's,
 // turned any way. Capsules are along their y axis.
-PlacedShape draw_body(ShapeKind kind, test::Random& random);
+PlacedShape draw_body(ShapeKind kind, oracle::Random& random);
 
 // Bounds relative to the body's position.
 Eigen::AlignedBox3d local_bounds(const PlacedShape& body);

@@ -25,7 +25,7 @@ reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& 
 constexpr double kReach = 1.3;
 
 // From A's position to that of B, so that their bounds are near each other.
-Eigen::Vector3d draw_way(const PlacedShape& a, const PlacedShape& b, test::Random& random) {
+Eigen::Vector3d draw_way(const PlacedShape& a, const PlacedShape& b, oracle::Random& random) {
   const Eigen::AlignedBox3d bounds_a = local_bounds(a), bounds_b = local_bounds(b);
   const Eigen::Vector3d reach = kReach / 2 * (bounds_a.sizes() + bounds_b.sizes());
   Eigen::Vector3d way = bounds_a.center() - bounds_b.center();
@@ -35,7 +35,7 @@ Eigen::Vector3d draw_way(const PlacedShape& a, const PlacedShape& b, test::Rando
 
 // From the position of a half-space to that of a body near its plane.
 Eigen::Vector3d draw_way_from_plane(const PlacedShape& plane, const PlacedShape& body,
-                                    test::Random& random) {
+                                    oracle::Random& random) {
   const auto& halfspace = std::get<Halfspace>(plane.shape);
   const Eigen::Vector3d normal = (plane.orientation * halfspace.normal).cast<double>();
   const Eigen::AlignedBox3d bounds = local_bounds(body);
@@ -45,14 +45,14 @@ Eigen::Vector3d draw_way_from_plane(const PlacedShape& plane, const PlacedShape&
 }
 
 Eigen::Vector3d draw_way(const StreamSpec& spec, const PlacedShape& a, const PlacedShape& b,
-                         test::Random& random) {
+                         oracle::Random& random) {
   if (spec.kind_a == ShapeKind::halfspace) return draw_way_from_plane(a, b, random);
   if (spec.kind_b == ShapeKind::halfspace) return -draw_way_from_plane(b, a, random);
   return draw_way(a, b, random);
 }
 
 // B near A, so that the two overlap or do not, as asked for.
-test::TestPair draw_pair(const StreamSpec& spec, bool overlap, test::Random& random) {
+test::TestPair draw_pair(const StreamSpec& spec, bool overlap, oracle::Random& random) {
   const PlacedShape a = draw_body(spec.kind_a, random);
   PlacedShape b = draw_body(spec.kind_b, random);
   const PlacedShape stored_a = as_stored(a, spec.storage);
@@ -65,7 +65,7 @@ test::TestPair draw_pair(const StreamSpec& spec, bool overlap, test::Random& ran
   }
 }
 
-std::vector<uint32_t> shuffled(size_t count, test::Random& random) {
+std::vector<uint32_t> shuffled(size_t count, oracle::Random& random) {
   std::vector<uint32_t> places(count);
   std::iota(places.begin(), places.end(), 0);
   for (size_t i = count; i > 1; --i) std::swap(places[i - 1], places[random.below(i)]);
@@ -120,7 +120,7 @@ PairStream::PairStream(const StreamSpec& spec) : spec_(spec) {
 }
 
 void PairStream::draw() {
-  test::Random random(1);
+  oracle::Random random(1);
   std::vector<uint32_t> places(spec_.count);
   std::iota(places.begin(), places.end(), 0);
   if (spec_.access == Access::pairs) places = shuffled(spec_.count, random);

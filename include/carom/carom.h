@@ -13,6 +13,7 @@
 #include "carom/kernel/result.h"
 #include "carom/kernel/shape.h"
 #include "carom/kernel/thread_arena.h"
+#include "carom/kernel/tier.h"
 #include "carom/kernel/views.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/simd/isa.h"

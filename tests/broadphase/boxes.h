@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "carom/broadphase/find_pairs.h"
+#include "oracle/random.h"
 #include "tests/support/guarded.h"
-#include "tests/support/random.h"
 #include "tests/support/show.h"
 
 namespace carom::test {
+
+using namespace oracle;
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();

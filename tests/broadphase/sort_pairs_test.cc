@@ -9,10 +9,12 @@
 
 #include "broadphase/merge_pairs.h"
 #include "carom/kernel/thread_arena.h"
+#include "oracle/random.h"
 #include "tests/support/isas.h"
-#include "tests/support/random.h"
 
 namespace carom::test {
+
+using namespace oracle;
 namespace {
 
 using Pairs = std::vector<Pair>;

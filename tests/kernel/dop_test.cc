@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "carom/kernel/dop_bounds.h"
-#include "tests/support/random.h"
+#include "oracle/random.h"
 
 namespace carom::test {
+
+using namespace oracle;
 namespace {
 
 using Points = std::vector<Eigen::Vector3f>;

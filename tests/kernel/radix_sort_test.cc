@@ -5,9 +5,11 @@
 #include <algorithm>
 
 #include "carom/kernel/thread_arena.h"
-#include "tests/support/random.h"
+#include "oracle/random.h"
 
 namespace carom::test {
+
+using namespace oracle;
 namespace {
 
 using Items = std::vector<uint64_t>;

@@ -1,14 +1,16 @@
 // The oracle itself: closed forms, itself with 50 digits, and what duality says of any answer.
-#include "tests/support/convex_oracle.h"
+#include "oracle/convex_oracle.h"
 
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <numbers>
 
-#include "tests/support/convex_families.h"
+#include "oracle/convex_families.h"
 
 namespace carom::test {
+
+using namespace oracle;
 namespace {
 
 using Real50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,

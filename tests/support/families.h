@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/random.h"
+#include "oracle/random.h"
 #include "tests/support/textbook.h"
 
 namespace carom::test {
+
+using namespace oracle;
 
 // Kinds of the two sides. A point is a sphere of radius zero.
 enum class Sides { sphere_sphere, point_sphere, sphere_aabb, aabb_sphere, point_aabb, aabb_aabb };

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/convex_oracle.h"
+#include "oracle/convex_oracle.h"
 #include "tests/support/pairs.h"
 #include "tests/support/show.h"
 #include "tests/support/textbook.h"
 
 namespace carom::test {
+
+using namespace oracle;
 
 // The exact answer of one pair as it is stored, and the sizes that errors are measured in.
 struct ExactKinds {

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "carom/narrowphase/collide.h"
-#include "tests/support/convex_families.h"
+#include "oracle/convex_families.h"
 #include "tests/support/pairs.h"
 
 namespace carom::test {
+
+using namespace oracle;
 
 // In both orders.
 inline std::vector<KindPair> supported_kind_pairs() {

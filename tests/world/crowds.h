@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "carom/world/world.h"
-#include "tests/support/random.h"
+#include "oracle/random.h"
 
 namespace carom::test {
+
+using namespace oracle;
 
 struct CrowdSpec {
   size_t count = 400;

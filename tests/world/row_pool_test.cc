@@ -6,9 +6,11 @@
 #include <map>
 #include <set>
 
-#include "tests/support/random.h"
+#include "oracle/random.h"
 
 namespace carom::test {
+
+using namespace oracle;
 namespace {
 
 // Rows as a map of blocks: free ones stay where they are until the end of the array goes.

@@ -63,7 +63,7 @@ static_assert(sizeof(ManifoldPoints) == 64);
 // Where stateless calls write; one entry a pair in every column that is not nullptr. Columns are
 // dense. A pair that has no answer gets overlap 0, status 3 and NaN elsewhere.
 struct ResultColumns {
-  uint8_t* overlap = nullptr;  // 1 overlap, 0 separate
+  uint8_t* overlap = nullptr;  // 1 overlap, 0 separate; kUndecided at Tier::certified
   uint8_t* status = nullptr;   // Status
   float* separation = nullptr;
   std::array<float*, 3> normal{};
@@ -71,6 +71,9 @@ struct ResultColumns {
   std::array<float*, 3> point_b{};
   uint8_t* manifold_count = nullptr;   // 0 for separate pairs, else 1 to 4
   ManifoldPoints* manifold = nullptr;  // in the frame of point_a
+  // Metres by which the separation may be off at most, at any detail but pairs: a forward bound of
+  // the kernel (docs/accuracy.md). Optional; NaN for invalid pairs.
+  float* separation_bound = nullptr;
 };
 
 // What is found out about pairs that are apart, at details with contacts.

@@ -8,6 +8,7 @@
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
 #include "carom/kernel/result.h"
+#include "carom/kernel/tier.h"
 #include "carom/kernel/views.h"
 
 namespace carom {
@@ -26,19 +27,25 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 // number of threads, and do not depend on a pair's place in the list. Distances between positions
 // count as the largest float at most: shapes of about that size may be found to overlap from
 // further away.
+// At Tier::certified and Tier::exact `overlap` is right for the shapes as they are stored
+// (carom/kernel/tier.h), and the sign of the separation goes with it: 0 or less of overlapping
+// pairs, more than 0 of separate ones. Of undecided pairs the separation is the standard one, and
+// there are no manifold points.
 // Fails if a pair is of kinds that no kernel exists for; nothing is written then.
 CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
                                   const ResultColumns& out,
                                   WitnessFrame frame = WitnessFrame::world,
                                   Parallelism parallelism = Parallelism::none,
-                                  SeparatePairs separate = SeparatePairs::measured);
+                                  SeparatePairs separate = SeparatePairs::measured,
+                                  const Accuracy& accuracy = {});
 
 // The same for pair i = (a[i], b[i]), i < a.count == b.count: no list of pairs is read.
 CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                                        const ResultColumns& out,
                                        WitnessFrame frame = WitnessFrame::world,
                                        Parallelism parallelism = Parallelism::none,
-                                       SeparatePairs separate = SeparatePairs::measured);
+                                       SeparatePairs separate = SeparatePairs::measured,
+                                       const Accuracy& accuracy = {});
 
 }  // namespace carom

@@ -37,7 +37,8 @@ struct StepReport {
   size_t dropped = 0;   // pairs that were not tested because their k-DOPs are apart
   size_t overlaps = 0;  // overlapping pairs, sensors included
   size_t contacts = 0;
-  PairSearch search;  // of the last broadphase that ran; incomplete: too many pairs, none given
+  size_t undecided = 0;  // pairs that Tier::certified could not decide
+  PairSearch search;     // of the last broadphase that ran; incomplete: too many pairs, none given
   uint32_t stages_run = 0;              // bit s: Stage(s) ran
   uint64_t stage_ns[kStageCount] = {};  // 0 where it did not
 

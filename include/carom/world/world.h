@@ -16,6 +16,7 @@
 #include "carom/kernel/event.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
+#include "carom/kernel/tier.h"
 #include "carom/world/step_report.h"
 
 namespace carom {
@@ -39,6 +40,20 @@ struct WorldSettings {
   // same with and without. A 6-DOP is the bounds, and drops nothing.
   std::optional<DopKind> dop_bounds = std::nullopt;
 
+  // Undecided pairs (Tier::certified) are kUndecided in overlaps(), and make neither contacts nor
+  // events.
+  // What FastKnobs mean for a world; candidate pairs are those of the true bounds, always:
+  // proxy_spheres     of these pairs the balls are tested, and contacts are those of the balls. So
+  //                   every overlap is found, and of balls whose bounds lie apart none.
+  //                   find_points() and bounds know the shapes themselves. dop_bounds are not used
+  // motion_tolerance  carried contacts stay as they were tested, arms and points included. Results
+  //                   depend on the way that the bodies took, and so on the margin. A change of the
+  //                   shape, or a call of set_motion(), set_filter() or set_sensor(), has the pairs
+  //                   tested again. Separations are off by twice the tolerance at most, except of
+  //                   one-sided triangles and inner edges, which see from which side a body comes.
+  //                   Nothing without carry_results
+  Accuracy accuracy = {};
+
   bool pair_changes = false;  // World::added_pairs() and removed_pairs()
 
   // A step that finds more is incomplete (StepReport::search): it has no pairs, like a step in
@@ -51,7 +66,7 @@ struct WorldSettings {
 struct BodyArrays {
   size_t count = 0;  // highest living index + 1
   // Records of x, y, z, w, in the world's position type (the other pointer is nullptr). w is the
-  // radius of a sphere; leave it alone for other kinds.
+  // radius of a sphere; leave it alone for other kinds, where FastKnobs::proxy_spheres may use it.
   float* record32 = nullptr;
   double* record64 = nullptr;
   // Quaternions x, y, z, w, which need not be unit ones; nullptr until there is a body of a kind
@@ -151,7 +166,7 @@ class CAROM_EXPORT World {
   // Bodies whose bounds (fat ones, if any) overlap; half-spaces with those whose bounds (never fat
   // ones) reach into them. Two half-spaces are no pair.
   std::span<const Pair> pairs() const;
-  std::span<const uint8_t> overlaps() const;  // one a pair: 1 overlap, 0 separate
+  std::span<const uint8_t> overlaps() const;  // one a pair: 1 overlap, 0 separate, or kUndecided
   std::span<const Contact> contacts() const;  // overlapping pairs without sensors
   // At Detail::manifold one a contact, else none; points are relative to the position of body A.
   std::span<const ManifoldPoints> manifolds() const;

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/convex_shape.h"
+#include "oracle/convex_shape.h"
 
-namespace carom::test {
+namespace carom::oracle {
 
 template <class R = long double>
 struct ConvexSeparation {
@@ -258,4 +258,4 @@ struct ConvexOracle {
   R gap_along(const Vec3<R>& n) const { return test::gap_along(a, b, n); }
 };
 
-}  // namespace carom::test
+}  // namespace carom::oracle

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace carom::test {
+namespace carom::oracle {
 
 class Random {
  public:
@@ -39,4 +39,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace carom::test
+}  // namespace carom::oracle

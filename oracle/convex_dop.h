@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "carom/kernel/dop.h"
-#include "tests/support/vec3.h"
+#include "oracle/vec3.h"
 
-namespace carom::test {
+namespace carom::oracle {
 
 // Which planes meet where is found in long double; the points themselves in the type R.
 template <class R>
@@ -160,4 +160,4 @@ class ConvexDop {
   std::vector<Vec> normals_;
 };
 
-}  // namespace carom::test
+}  // namespace carom::oracle

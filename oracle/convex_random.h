@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "carom/kernel/body.h"
-#include "tests/support/random.h"
+#include "oracle/random.h"
 
-namespace carom::test {
+namespace carom::oracle {
 
 // How the shapes of a family are drawn.
 struct ConvexStyle {
@@ -221,4 +221,4 @@ class ConvexRandom {
   Random& random_;
 };
 
-}  // namespace carom::test
+}  // namespace carom::oracle

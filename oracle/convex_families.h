@@ -9,10 +9,10 @@
 #include <variant>
 #include <vector>
 
-#include "tests/support/convex_oracle.h"
-#include "tests/support/convex_random.h"
+#include "oracle/convex_oracle.h"
+#include "oracle/convex_random.h"
 
-namespace carom::test {
+namespace carom::oracle {
 
 struct KindPair {
   ShapeKind a;
@@ -408,4 +408,4 @@ inline std::vector<ConvexPair> make_convex_nonsense(KindPair kinds, size_t count
   return pairs;
 }
 
-}  // namespace carom::test
+}  // namespace carom::oracle

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace carom::test {
+namespace carom::oracle {
 
 template <class R>
 struct Vec3 {
@@ -57,4 +57,4 @@ Vec3<R> common_normal(const Vec3<R>& u, const Vec3<R>& v) {
   return normalized(across(normalized(across(normalized(cross(u, v)), u)), u));
 }
 
-}  // namespace carom::test
+}  // namespace carom::oracle

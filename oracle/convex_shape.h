@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "carom/kernel/body.h"
-#include "tests/support/convex_dop.h"
-#include "tests/support/vec3.h"
+#include "oracle/convex_dop.h"
+#include "oracle/vec3.h"
 
-namespace carom::test {
+namespace carom::oracle {
 
 template <class R>
 struct Rotation {
@@ -238,4 +238,4 @@ struct ConvexShape {
   }
 };
 
-}  // namespace carom::test
+}  // namespace carom::oracle

@@ -1,0 +1,50 @@
+// The true answer of a pair as it is stored, and what an answer is off by.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "accuracy/oracle_pairs.h"
+
+namespace carom::accuracy {
+
+enum class Truth { apart, overlap, unknown };
+
+// Computed in long double, whose rounding is far below any margin that matters but that of the
+// decision: where that is within the margin, 100 digits decide. Two shapes that those see within
+// 1e-90 of touching touch.
+class ExactPair {
+ public:
+  explicit ExactPair(const ConvexPair& pair);
+
+  // Unknown where which planes of a k-DOP meet in a point, which the oracle finds in long double,
+  // may make the difference.
+  Truth truth() const { return truth_; }
+  // Signed distance.
+  long double gap() const { return gap_; }
+
+  // Errors are shares of this: L, the mean of the bounding radii, or the gap if that is larger.
+  // Half-spaces count for the rounding of their distance, as floats have it. What a few of the
+  // smallest floats make is no error.
+  double share(long double length) const;
+  double gap_share() const { return share(gap_ < 0 ? -gap_ : gap_); }
+  double error_share(float separation) const;
+  // The separation, less what the shapes are apart along this normal.
+  double regret_share(const Eigen::Vector3f& normal) const;
+
+  // The mean of the bounding radii alone.
+  long double scale() const { return scale_; }
+
+ private:
+  void decide(const ConvexPair& pair);
+
+  ConvexOracle<long double> oracle_;
+  long double extent_;  // of everything that is computed with
+  long double scale_;
+  long double gap_;
+  Truth truth_ = Truth::unknown;
+};
+
+// The same gap in 100 digits, as a double: for the claim about the margin.
+double gap_in_100_digits(const ConvexPair& pair);
+
+}  // namespace carom::accuracy

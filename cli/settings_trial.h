@@ -1,0 +1,63 @@
+// Runs a scene with candidates of settings and chooses the cheapest that keep errors small.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/trials.h"
+#include "cli/scene_survey.h"
+
+namespace carom::cli {
+
+// What a candidate is about; of each but `told` one may be chosen.
+enum class SettingGroup : uint8_t {
+  standard,
+  cache,
+  broadphase,
+  margin,
+  dops,
+  threads,
+  knob,
+  told
+};
+
+struct TriedSettings {
+  SettingGroup group;
+  std::string name;
+  accuracy::Trial trial;
+  std::optional<accuracy::TrialResult> result;  // none: there was no time for it
+  double frame_ms_beside = 0;  // of what it was to better, measured in the same turns
+  bool meets = false;          // the tolerance
+
+  double ratio() const { return result->frame_ms / frame_ms_beside; }
+};
+
+struct SettingsChoice {
+  std::vector<TriedSettings> tried;  // in order; the first is what a world does by default
+  accuracy::Trial chosen;
+  double frame_ms = 0;  // of the choice and of the default, measured in the same turns
+  double frame_ms_standard = 0;
+  accuracy::Deviation deviation;  // of the choice
+  accuracy::StandardRun standard;
+};
+
+struct TrialLimits {
+  double tolerance = 0;  // metres
+  int threads = 1;       // to use at most
+  accuracy::TrialPlan plan;
+};
+
+// What saves less than this part of a frame is not chosen: timing is no better.
+inline constexpr double kWorthwhile = 0.05;
+
+// Frames that `budget` has time for, of all the runs that choose_settings() makes; `scene` holds
+// some, and there is no use in more than `most`.
+Result<size_t> affordable_frames(const LoadedScene& scene, std::chrono::duration<double> budget,
+                                 size_t most);
+
+Result<SettingsChoice> choose_settings(const LoadedScene& scene, const SceneSurvey& survey,
+                                       const TrialLimits& limits);
+
+}  // namespace carom::cli

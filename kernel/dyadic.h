@@ -1,0 +1,58 @@
+// Exact arithmetic: integers times powers of two, of any size. Every float and every double is one,
+// and sums and products of them are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+// sign * (limb[0] + limb[1] 2^64 + ...) * 2^(64 low). No limb at either end is zero; zero has none.
+// Up to kInline limbs lie in the object itself: enough for what is decided about shapes of usual
+// sizes.
+class Dyadic {
+ public:
+  Dyadic() = default;
+  Dyadic(double value);  // NOLINT(google-explicit-constructor): numbers are meant to mix
+
+  int sign() const { return sign_; }
+  bool is_zero() const { return sign_ == 0; }
+
+  // To about 2^-50 of the value; infinite or zero beyond the range of double.
+  double approximate() const;
+
+  friend Dyadic operator-(Dyadic a) {
+    a.sign_ = -a.sign_;
+    return a;
+  }
+  friend Dyadic operator+(const Dyadic& a, const Dyadic& b) { return sum(a, b, b.sign_); }
+  friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return sum(a, b, -b.sign_); }
+  friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
+
+ private:
+  static constexpr size_t kInline = 12;
+  using Limbs = std::span<const uint64_t>;
+
+  Limbs limbs() const { return {more_.empty() ? few_.data() : more_.data(), size_}; }
+  uint64_t* make_room(size_t limbs);
+  void set(std::span<uint64_t> limbs, int low, int sign);
+  int64_t top() const { return int64_t{low_} + static_cast<int64_t>(size_); }
+  uint64_t limb_at(int64_t place) const;
+
+  static Dyadic sum(const Dyadic& a, const Dyadic& b, int sign_of_b);
+  static int compare_magnitudes(const Dyadic& a, const Dyadic& b);
+
+  int sign_ = 0;
+  int32_t low_ = 0;
+  size_t size_ = 0;
+  std::array<uint64_t, kInline> few_;
+  std::vector<uint64_t> more_;  // in place of few_ where that is too small
+};
+
+inline int sign_of(const Dyadic& x) { return x.sign(); }
+inline double approximately(const Dyadic& x) { return x.approximate(); }
+
+}  // namespace carom

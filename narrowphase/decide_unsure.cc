@@ -1,0 +1,44 @@
+#include "narrowphase/decide_unsure.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "narrowphase/exact_overlap.h"
+#include "narrowphase/proof.h"
+#include "narrowphase/single_pair.h"
+
+namespace carom {
+namespace {
+
+uint8_t decide(const StatedBody& a, const StatedBody& b, Tier tier) {
+  const uint8_t proven = prove_overlap(a, b);
+  if (proven != kUndecided || tier != Tier::exact) return proven;
+  return exact_overlap(a, b);
+}
+
+// A separation that rounding put on the wrong side is as good as none.
+float with_sign_of(uint8_t overlap, float separation) {
+  if (overlap == 1) return std::min(separation, 0.0f);
+  if (overlap == 0) return std::max(separation, std::numeric_limits<float>::denorm_min());
+  return separation;
+}
+
+}  // namespace
+
+void decide_unsure(const PairKind& kind, const Batch& batch, Tier tier) {
+  const Collidables view_a = view_of(batch.a, batch.layout, kind.a);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind.b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  for (size_t row = 0; row < batch.count; ++row) {
+    if (!batch.unsure[row]) continue;
+    const Pair pair = batch.pairs[row];
+    const uint8_t overlap = decide(stated_body(a, pair.a), stated_body(b, pair.b), tier);
+    batch.out.overlap[row] = overlap;
+    if (!has_contacts(batch.detail)) continue;
+    float& separation = batch.out.separation[row];
+    separation = with_sign_of(overlap, separation);
+  }
+}
+
+}  // namespace carom

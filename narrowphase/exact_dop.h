@@ -1,0 +1,20 @@
+// The corners of a k-DOP in exact numbers.
+#pragma once
+
+#include <vector>
+
+#include "carom/kernel/dop.h"
+#include "kernel/dyadic.h"
+#include "narrowphase/vector_of.h"
+
+namespace carom {
+
+// Every corner is a quotient by this or a divisor of it: three of the slabs' directions span a
+// volume of 1, 2, 3 or 4.
+inline constexpr int kDopUnit = 12;
+
+// Each corner once, times kDopUnit. Slabs that have no point in common count as half a unit in the
+// last place wider at both ends, as everywhere.
+std::vector<VectorOf<Dyadic>> exact_corners(const Dop& dop);
+
+}  // namespace carom

@@ -1,0 +1,224 @@
+// GJK says what the answer probably is, and why: a direction along which the shapes are apart, or
+// points of their difference around the origin. Whichever it is gets checked:
+//   separate  The projections on the direction lie apart by more than rounding.
+//   overlap   The simplex has a point, a convex combination of its corners with weights that are
+//             positive beyond rounding, that is nearer to the origin than the radii reach; or, of
+//             shapes without radii, it holds the origin by more than rounding. Each corner is a
+//             point of B less a point of A, up to rounding, so that the shapes have a point in
+//             common.
+#include "narrowphase/proof.h"
+
+#include <cmath>
+#include <variant>
+
+#include "carom/kernel/tier.h"
+#include "narrowphase/any_pair_ref.h"
+#include "narrowphase/overlap_search.h"
+
+namespace carom {
+namespace {
+
+using Eigen::Vector3d;
+using Vector = VectorOf<double>;
+using Hull = GrownHull<double>;
+using reference::Polytope;
+
+// In units in which the greatest coordinate lies between one and two, points are off by less than
+// this, rotation and all: some dozen roundings of 2^-52 each.
+constexpr double kRounding = 0x1p-44;
+// Corners of k-DOPs are found to within kDopRounding, the normals of triangles by which they are
+// thick to within 2^-52 over the sine of their angle.
+constexpr double kRoundingOfDops = 4 * kDopRounding;
+constexpr double kRoundingOfFronts = 0x1p-30;
+constexpr double kLeastSine = 0x1p-16;
+
+// Volumes of three differences of points, each below 2^5, round to less than this.
+constexpr double kRoundingOfVolumes = 0x1p-34;
+
+// GJK in doubles is over after some ten rounds, or goes round in circles.
+constexpr int kMostRounds = 32;
+
+// --- The shapes in scaled units ---
+
+struct ProofBody {
+  Polytope polytope;
+  double rounding = kRounding;
+  bool is_known = true;  // how far off it may be
+};
+
+struct BodyMaker {
+  double scale;
+  const reference::Quaternion<double>& turn;
+
+  template <class T>
+  ProofBody operator()(const T& shape) const {
+    return {reference::polytope_of(reference::shape_as<double>(shape).scaled(scale), turn)};
+  }
+  ProofBody operator()(const Dop& dop) const {
+    return {reference::polytope_of(reference::shape_as<double>(dop).scaled(scale), turn),
+            kRoundingOfDops};
+  }
+  ProofBody operator()(const Triangle& triangle) const {
+    const auto shape = reference::shape_as<double>(triangle).scaled(scale);
+    ProofBody body{reference::polytope_of(shape, turn)};
+    if (!(triangle.thickness > 0 || triangle.one_sided)) return body;
+    body.rounding = kRoundingOfFronts;
+    body.is_known = has_sure_front(shape.corners);
+    return body;
+  }
+  ProofBody operator()(const Halfspace&) const { return {}; }
+
+  static bool has_sure_front(const std::array<Vector3d, 3>& c) {
+    const Vector3d u = c[1] - c[0], v = c[2] - c[0];
+    const Vector3d n = reference::cross(u, v);
+    const double sizes = reference::largest_component(u) * reference::largest_component(v);
+    return reference::largest_component(n) > kLeastSine * sizes && sizes > 0;
+  }
+};
+
+reference::Quaternion<double> turn_of(const StatedBody& body) {
+  return reference::quaternion_as<double>(Eigen::Vector4f(
+      body.orientation[0], body.orientation[1], body.orientation[2], body.orientation[3]));
+}
+
+double size_of(const Shape& shape) {
+  return std::visit([](const auto& s) { return reference::shape_as<double>(s).size(); }, shape);
+}
+
+Vector3d way_between(const StatedBody& a, const StatedBody& b) {
+  return {b.position.x - a.position.x, b.position.y - a.position.y, b.position.z - a.position.z};
+}
+
+// --- What comes from behind a one-sided triangle ---
+
+enum class Side { front, behind, unknown };
+
+Side side_of(const Polytope& triangle, const Vector3d& middle, double rounding) {
+  const reference::FrontRules& rules = triangle.rules;
+  if (!rules.one_sided) return Side::front;
+  const double height =
+      reference::dot(rules.front, Vector3d(middle - rules.corner)) + rules.thickness;
+  if (std::fabs(height) <= rounding) return Side::unknown;
+  return height < 0 ? Side::behind : Side::front;
+}
+
+// --- Two hulls ---
+
+Vector vector_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Hull hull_of(const Polytope& polytope) {
+  Hull hull;
+  for (const Vector3d& p : polytope.points) hull.points.push_back(vector_of(p));
+  hull.radius = polytope.radius;
+  return hull;
+}
+
+double length(const Vector& v) { return std::sqrt(dot(v, v)); }
+
+bool is_apart_along(const Hull& a, const Hull& b, const Vector& way, double rounding) {
+  const double scale = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
+  if (!(scale > 0)) return false;
+  const Vector n = {way.x / scale, way.y / scale, way.z / scale};
+  double top = -HUGE_VAL, bottom = HUGE_VAL;
+  for (const Vector& p : a.points) top = std::max(top, dot(n, p));
+  for (const Vector& p : b.points) bottom = std::min(bottom, dot(n, p));
+  return bottom - top > length(n) * ((a.radius + b.radius) + rounding);
+}
+
+// The nearest point to the origin as a combination of the corners. Whatever the weights are, as
+// long as none is negative and they sum to one, it is a point of the simplex.
+Vector nearest_by_weights(const FewOf<Vector, 4>& y) {
+  std::array<double, 4> weight{};
+  if (y.size() == 2) {
+    const Vector along = y[1] - y[0];
+    weight = {dot(along, y[1]), -dot(along, y[0])};
+  } else if (y.size() == 3) {
+    const Vector n = cross(y[1] - y[0], y[2] - y[0]);
+    for (size_t i = 0; i < 3; ++i) weight[i] = dot(n, cross(y[(i + 1) % 3], y[(i + 2) % 3]));
+  } else {
+    weight[0] = 1;
+  }
+  double sum = 0;
+  for (double& w : weight) {
+    w = std::max(w, 0.0);
+    sum += w;
+  }
+  Vector v{0, 0, 0};
+  for (size_t i = 0; i < y.size(); ++i) v = v + y[i] * (weight[i] / sum);
+  return v;
+}
+
+// Whether the origin lies further inside of all four faces than the corners may be off.
+bool holds_origin(const FewOf<Vector, 4>& y, double rounding) {
+  if (y.size() < 4) return false;
+  for (size_t i = 0; i < 4; ++i) {
+    const Vector &apex = y[i], &a = y[(i + 1) % 4], &b = y[(i + 2) % 4], &c = y[(i + 3) % 4];
+    const Vector n = cross(b - a, c - a);
+    const double to_apex = dot(n, apex - a);
+    const double to_origin = to_apex < 0 ? dot(n, a) : -dot(n, a);
+    if (!(to_origin > length(n) * (4 * rounding) + kRoundingOfVolumes)) return false;
+  }
+  return true;
+}
+
+uint8_t prove_hulls(const Hull& a, const Hull& b, double rounding) {
+  const auto evidence = OverlapSearch<double>(a, b, kMostRounds).run();
+  if (!evidence.overlap) {
+    return is_apart_along(a, b, evidence.way, 4 * rounding) ? uint8_t{0} : kUndecided;
+  }
+  if (holds_origin(evidence.simplex, rounding)) return 1;
+  if (evidence.simplex.size() == 4) return kUndecided;
+  const double nearest = length(nearest_by_weights(evidence.simplex));
+  return nearest + 4 * rounding < a.radius + b.radius ? uint8_t{1} : kUndecided;
+}
+
+uint8_t prove_bodies(const ProofBody& a, ProofBody b, const Vector3d& way) {
+  if (!a.is_known || !b.is_known) return kUndecided;
+  b.polytope.move(way);
+  const double rounding = std::max(a.rounding, b.rounding);
+  for (const Side side : {side_of(a.polytope, b.polytope.middle, rounding),
+                          side_of(b.polytope, a.polytope.middle, rounding)}) {
+    if (side == Side::unknown) return kUndecided;
+    if (side == Side::behind) return 0;
+  }
+  return prove_hulls(hull_of(a.polytope), hull_of(b.polytope), rounding);
+}
+
+// --- A half-space (A) ---
+
+uint8_t prove_over_plane(const StatedBody& a, const ProofBody& b, const Vector3d& way,
+                         double scale) {
+  if (!b.is_known) return kUndecided;
+  const auto halfspace = reference::shape_as<double>(std::get<Halfspace>(a.shape)).scaled(scale);
+  const auto plane = reference::plane_of<double>(halfspace, turn_of(a), -way);
+  if (b.polytope.rules.one_sided) {
+    const double towards = reference::dot(b.polytope.rules.front, plane.normal);
+    if (std::fabs(towards) <= b.rounding) return kUndecided;
+    if (towards > 0) return 0;
+  }
+  double lowest = HUGE_VAL;
+  for (const Vector3d& p : b.polytope.points) {
+    lowest = std::min(lowest, reference::dot(plane.normal, p));
+  }
+  const double height = (lowest - plane.height) - b.polytope.radius;
+  if (!(std::fabs(height) > 4 * b.rounding)) return kUndecided;
+  return height < 0;
+}
+
+}  // namespace
+
+uint8_t prove_overlap(const StatedBody& a, const StatedBody& b) {
+  const Vector3d metres = way_between(a, b);
+  const double size =
+      std::max({reference::largest_component(metres), size_of(a.shape), size_of(b.shape)});
+  const double scale = reference::scale_of(size).down;
+  const Vector3d way = metres * scale;
+  const auto made = [&](const StatedBody& body) {
+    return std::visit(BodyMaker{scale, turn_of(body)}, body.shape);
+  };
+  if (std::holds_alternative<Halfspace>(a.shape)) return prove_over_plane(a, made(b), way, scale);
+  if (std::holds_alternative<Halfspace>(b.shape)) return prove_over_plane(b, made(a), -way, scale);
+  return prove_bodies(made(a), made(b), way);
+}
+
+}  // namespace carom

@@ -1,0 +1,18 @@
+// One body as it is stored, for what is computed of it alone.
+#pragma once
+
+#include "carom/kernel/body.h"
+#include "kernel/body_reader.h"
+
+namespace carom {
+
+struct StatedBody {
+  Shape shape;
+  Position<double> position;
+  Row orientation;  // x, y, z, w; any length but zero
+};
+
+Shape shape_of(const BodyReader& body, size_t index);
+StatedBody stated_body(const BodyReader& body, size_t index);
+
+}  // namespace carom

@@ -1,0 +1,129 @@
+// Several worlds with the same bodies, which all go the same way.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/world/crowds.h"
+
+namespace carom::test {
+
+inline WorldSettings with_knobs(const FastKnobs& knobs, WorldSettings settings = {}) {
+  settings.accuracy = {.tier = Tier::fast, .knobs = knobs};
+  return settings;
+}
+
+// Triangles seen from either side, without neighbours: convex sets.
+inline Shape plain(Shape shape) {
+  if (auto* triangle = std::get_if<Triangle>(&shape)) {
+    triangle->one_sided = false;
+    triangle->inner_edges = 0;
+  }
+  return shape;
+}
+
+class SideBySide {
+ public:
+  SideBySide(std::span<const WorldSettings> settings, const CrowdSpec& spec)
+      : random_(spec.seed), spec_(spec), crowd_(make_crowd(spec)) {
+    for (const WorldSettings& each : settings) worlds_.emplace_back(each);
+    for (BodyDesc& body : crowd_) {
+      body.shape = plain(body.shape);
+      add(body);
+    }
+  }
+
+  World& operator[](size_t i) { return worlds_[i]; }
+
+  // Most bodies creep and turn a little, by up to `distance` metres and half as many radians.
+  void creep(double distance) {
+    for (const BodyId id : ids_) {
+      if (random_.chance(0.3)) continue;
+      const Eigen::Vector3d way = random_.uniform(0, distance) * random_.direction();
+      const Eigen::Quaternionf q = turned(worlds_[0].orientation(id), distance / 2);
+      each([&](World& world) {
+        world.set_position(id, world.position(id) + way);
+        world.set_orientation(id, q);
+      });
+    }
+  }
+
+  // What makes results of before worthless: bodies come, go, jump and change, some of them in the
+  // arrays.
+  void disturb() {
+    for (size_t i = random_.below(3); i > 0; --i) remove();
+    for (size_t i = random_.below(3); i > 0; --i) add(crowd_[random_.below(crowd_.size())]);
+    const BodyId id = pick();
+    const Eigen::Vector3d place = random_position(random_, spec_.side);
+    const Shape shape = plain(random_shape(kAllKinds[random_.below(std::size(kAllKinds))], random_));
+    const Eigen::Quaternionf q = random_orientation(random_);
+    const float factor = static_cast<float>(random_.uniform(0.5, 1.5));
+    const uint64_t what = random_.below(6);
+    each([&](World& world) {
+      if (what == 0) world.set_position(id, place);
+      if (what == 1) world.set_shape(id, shape);
+      if (what == 2) world.set_sensor(id, factor > 1);
+      if (what == 3) world.set_orientation(id, q);
+      if (what == 4) scale_in_arrays(world, id, factor);
+      if (what == 5) world.set_filter(id, 7, 7, static_cast<uint32_t>(4 * factor));
+    });
+  }
+
+  void step() {
+    each([](World& world) { world.step(); });
+  }
+
+ private:
+  template <class Change>
+  void each(const Change& change) {
+    for (World& world : worlds_) change(world);
+  }
+
+  BodyId pick() { return ids_[random_.below(ids_.size())]; }
+
+  void add(const BodyDesc& body) {
+    const BodyId id = worlds_[0].add(body);
+    for (size_t i = 1; i < worlds_.size(); ++i) EXPECT_EQ(worlds_[i].add(body), id);
+    ids_.push_back(id);
+  }
+
+  void remove() {
+    std::swap(ids_[random_.below(ids_.size())], ids_.back());
+    each([&](World& world) { EXPECT_TRUE(world.remove(ids_.back())); });
+    ids_.pop_back();
+  }
+
+  // Not a unit quaternion, and of either sign.
+  Eigen::Quaternionf turned(const Eigen::Quaternionf& q, double most) {
+    const Eigen::AngleAxisd turn(random_.uniform(0, most), random_.direction());
+    Eigen::Quaternionf result = (Eigen::Quaterniond(turn) * q.cast<double>()).cast<float>();
+    const double length = random_.log_uniform(0.5, 2) * (random_.chance(0.5) ? 1 : -1);
+    result.coeffs() *= static_cast<float>(length) / result.norm();
+    return result;
+  }
+
+  static void scale_in_arrays(World& world, BodyId id, float factor) {
+    const ShapeKind kind = kind_of(world.shape(id));
+    if (kind == ShapeKind::aabb) {
+      world.boxes().upper[1][world.box_slot(id)] *= factor;
+    } else if (kind == ShapeKind::sphere) {
+      const BodyArrays arrays = world.arrays();
+      if (arrays.record32) arrays.record32[4 * id.index + 3] *= factor;
+      if (arrays.record64) arrays.record64[4 * id.index + 3] *= factor;
+    } else if (kind != ShapeKind::dop) {
+      world.shape_rows().rows[4 * world.first_row(id)] *= factor;
+    }
+  }
+
+  Random random_;
+  CrowdSpec spec_;
+  std::vector<BodyDesc> crowd_;
+  std::vector<World> worlds_;
+  std::vector<BodyId> ids_;
+};
+
+}  // namespace carom::test

@@ -1,0 +1,30 @@
+// The ball about each body's position that holds its shape.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "carom/kernel/parallelism.h"
+#include "world/body_store.h"
+#include "world/change_tracker.h"
+#include "world/columns.h"
+
+namespace carom {
+
+class BoundingRadii {
+ public:
+  // Brings the radii up to date: of the bodies whose shape `changes` saw change, or of all if it is
+  // nullptr.
+  void update(const BodyStore& bodies, const ChangeTracker* changes, Parallelism parallelism);
+
+  // One a body index, at least as large as it must be, whatever the orientation. Of spheres their
+  // own; infinite for half-spaces; zero for shapes that are not valid.
+  std::span<const float> radii() const { return radii_; }
+
+  size_t bytes() const { return bytes_of(radii_); }
+
+ private:
+  std::vector<float> radii_;
+};
+
+}  // namespace carom
