@@ -95,9 +95,9 @@ std::vector<Tally> judge_families(const NamedKinds& kinds, const Effort& effort,
   std::vector<Tally> sums(contenders.size());
   for (const Chapter& chapter : all_chapters()) {
     for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
-      const PairSet pairs(oracle::make_convex_pairs(chapter.family, kinds.kinds, positions,
-                                                    effort.family, seed),
-                          positions);
+      const PairSet pairs(
+          oracle::make_convex_pairs(chapter.family, kinds.kinds, positions, effort.family, seed),
+          positions);
       const std::vector<Attempt> list = attempts.list(chapter.flush_to_zero);
       const std::vector<Tally> tallies = judge(pairs, list);
       for (size_t i = 0; i < list.size(); ++i) {

@@ -36,9 +36,9 @@ std::unique_ptr<btConvexShape> make_shape(const Shape& shape) {
     return with_margin(std::make_unique<btBoxShape>(vector(box->half)), box->half.minCoeff());
   }
   const auto& corners = std::get<Triangle>(shape).corners;
-  return with_margin(std::make_unique<btTriangleShape>(vector(corners[0]), vector(corners[1]),
-                                                       vector(corners[2])),
-                     (corners[1] - corners[0]).norm());
+  return with_margin(
+      std::make_unique<btTriangleShape>(vector(corners[0]), vector(corners[1]), vector(corners[2])),
+      (corners[1] - corners[0]).norm());
 }
 
 // One side of the pairs.
@@ -125,11 +125,11 @@ class Bullet final : public Contender {
   }
 
   // The deepest point; the normal is from B to A there.
-  void read(size_t row, Answers& out) const {
+  void read(size_t row, Answers& out) {
     float deepest = std::numeric_limits<float>::max();
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-      const btPersistentManifold& manifold = *dispatcher_.getInternalManifoldPointer()[i];
+      const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
       for (int k = 0; k < manifold.getNumContacts(); ++k) {
         const btManifoldPoint& point = manifold.getContactPoint(k);
         if (!(point.getDistance() < deepest)) continue;
@@ -157,7 +157,7 @@ class Bullet final : public Contender {
   btCollisionObject object_a_;
   btCollisionObject object_b_;
   btDefaultCollisionConfiguration configuration_;
-  mutable btCollisionDispatcher dispatcher_{&configuration_};
+  btCollisionDispatcher dispatcher_{&configuration_};
   btDispatcherInfo info_;
   btCollisionAlgorithm* algorithm_ = nullptr;
 };

@@ -1,5 +1,6 @@
 #include "accuracy/exact_pair.h"
 
+#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
@@ -7,16 +8,17 @@
 namespace carom::accuracy {
 namespace {
 
-using Digits100 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
-                                                boost::multiprecision::et_off>;
+template <unsigned kDigits>
+using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<kDigits>,
+                                             boost::multiprecision::et_off>;
 
 // What long double errs by, as a share of the extent; tests/accuracy/exact_pair_test.cc holds it
 // against 100 digits.
 constexpr long double kMargin = 1e-17L;
 // Corners of k-DOPs that are closer than 2^-50 are one to the oracle.
 constexpr long double kDopMargin = 1e-13L;
-// Of 100 digits: closer is touching.
-constexpr double kNothing = 1e-90;
+// Positions that differ by less take so many digits more that they are left out otherwise.
+constexpr double kTiny = 1e-25;
 // Spacing of floats near zero, rounded several times.
 constexpr long double kLeast = 32 * 0x1p-149L;
 
@@ -39,11 +41,29 @@ long double scale_of(const ConvexPair& pair, const ConvexOracle<long double>& or
 
 // The sign is that of the gap. Of shapes without radius an axis that parts them is enough, at a
 // tenth of the time.
-Digits100 signed_gap(const ConvexPair& pair) {
-  const auto oracle = pair.oracle<Digits100>();
+template <class R>
+R signed_gap(const ConvexPair& pair) {
+  const auto oracle = pair.oracle<R>();
   const bool has_plane = oracle.a.is_halfspace || oracle.b.is_halfspace;
   if (has_plane || oracle.a.radius + oracle.b.radius > 0) return oracle.separation().value;
-  return oracle::convex::AxisSearch<Digits100>(oracle.a, oracle.b).gap();
+  return oracle::convex::AxisSearch<R>(oracle.a, oracle.b).gap();
+}
+
+// Numbers of such different sizes meet that 100 digits do not hold both, or the squares of both.
+bool needs_more_digits(const ConvexPair& pair, long double extent) {
+  const Eigen::Vector3d way = pair.pose_b.position - pair.pose_a.position;
+  return std::any_of(way.begin(), way.end(),
+                     [&](double x) { return x != 0 && std::fabs(x) < kTiny * extent; });
+}
+
+// Closer than all digits but ten is touching; closer than `unsure` is unknown otherwise.
+template <unsigned kDigits>
+Truth decide_in_digits(const ConvexPair& pair, long double extent, long double unsure) {
+  using R = Digits<kDigits>;
+  const R gap = signed_gap<R>(pair);
+  if (abs(gap) <= R(extent) * pow(R(10), 10 - static_cast<int>(kDigits))) return Truth::overlap;
+  if (abs(gap) <= R(unsure)) return Truth::unknown;
+  return gap > 0 ? Truth::apart : Truth::overlap;
 }
 
 }  // namespace
@@ -62,12 +82,9 @@ void ExactPair::decide(const ConvexPair& pair) {
     truth_ = gap_ > 0 ? Truth::apart : Truth::overlap;
     return;
   }
-  const Digits100 gap = signed_gap(pair);
-  if (abs(gap) <= Digits100(extent_) * kNothing) {
-    truth_ = Truth::overlap;
-  } else if (!accuracy::has_dop(pair) || abs(gap) > Digits100(margin)) {
-    truth_ = gap > 0 ? Truth::apart : Truth::overlap;
-  }
+  const long double unsure = accuracy::has_dop(pair) ? margin : 0;
+  truth_ = needs_more_digits(pair, extent_) ? decide_in_digits<1500>(pair, extent_, unsure)
+                                            : decide_in_digits<100>(pair, extent_, unsure);
 }
 
 double ExactPair::share(long double length) const {
@@ -85,8 +102,11 @@ double ExactPair::regret_share(const Eigen::Vector3f& normal) const {
                oracle::gap_along(oracle_.a, oracle_.b, oracle::vec3_as<long double>(normal)));
 }
 
-double gap_in_100_digits(const ConvexPair& pair) {
-  return static_cast<double>(pair.oracle<Digits100>().separation().value);
+double rounding_share(const ConvexPair& pair) {
+  const auto oracle = pair.oracle<long double>();
+  const Digits<100> exact = pair.oracle<Digits<100>>().separation().value;
+  const Digits<100> error = abs(exact - Digits<100>(oracle.separation().value));
+  return error == 0 ? 0 : static_cast<double>(error / Digits<100>(extent_of(pair, oracle)));
 }
 
 }  // namespace carom::accuracy

@@ -10,8 +10,8 @@ namespace carom::accuracy {
 enum class Truth { apart, overlap, unknown };
 
 // Computed in long double, whose rounding is far below any margin that matters but that of the
-// decision: where that is within the margin, 100 digits decide. Two shapes that those see within
-// 1e-90 of touching touch.
+// decision: where that is within the margin, 100 digits decide, or 1500 where positions all but
+// coincide. Two shapes that those see touching but for the last ten digits touch.
 class ExactPair {
  public:
   explicit ExactPair(const ConvexPair& pair);
@@ -44,7 +44,7 @@ class ExactPair {
   Truth truth_ = Truth::unknown;
 };
 
-// The same gap in 100 digits, as a double: for the claim about the margin.
-double gap_in_100_digits(const ConvexPair& pair);
+// What long double errs by for this pair, as a share of the extent that the margin is a share of.
+double rounding_share(const ConvexPair& pair);
 
 }  // namespace carom::accuracy

@@ -10,8 +10,8 @@
 
 namespace carom::accuracy {
 
-// One scene with one knob against the standard tier, sums over all frames. Times are medians of a
-// step's milliseconds, measured in turns; lengths are metres.
+// One scene with one knob against the standard tier, sums over all frames. Times are those of
+// TrialResult, measured in turns; lengths are metres.
 struct FidelityEntry {
   std::string scene;
   std::string setting;  // "single precision", "faces only", "proxy spheres"

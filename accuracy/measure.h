@@ -20,8 +20,9 @@ struct MeasureOptions {
 // How many steps of all are done.
 using MeasureProgress = std::function<void(size_t done, size_t all)>;
 
-// The document of the page (accuracy/page.html); `failures` lists what broke a promise. "reuse" and
-// "fidelity" are empty: they take scenes (fidelity.h).
+// The document of the page (accuracy/page.html); `failures` lists what broke a promise. "undecided"
+// is empty unless all kinds are measured, "reuse" and "fidelity" in any case: those take scenes
+// (fidelity_json.h).
 nlohmann::ordered_json measure(const MeasureOptions& options, const MeasureProgress& progress);
 
 }  // namespace carom::accuracy

@@ -68,8 +68,8 @@ void measure_tradeoff(const NamedKinds& kinds, const Effort& effort, uint64_t se
     const std::string setting = contenders[i]->setting();
     failures.note(std::string(kinds.name) + ", random pairs, " + setting, tallies[i]);
   }
-  const std::vector<Tally> hard = judge_families(kinds, effort, seed, contenders, rows.atlas,
-                                                 failures);
+  const std::vector<Tally> hard =
+      judge_families(kinds, effort, seed, contenders, rows.atlas, failures);
   for (size_t i = 0; i < contenders.size(); ++i) {
     tallies[i].add(hard[i]);
     rows.tradeoff.push_back(

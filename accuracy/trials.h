@@ -35,7 +35,9 @@ struct Trial {
 };
 
 struct TrialResult {
-  double frame_ms = 0;  // median, first frames left out where there are others
+  // Median over the frames, the first one left out where there are others, of the least time that a
+  // frame took in any round.
+  double frame_ms = 0;
   uint64_t candidates = 0;
   Deviation deviation;
 };

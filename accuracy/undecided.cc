@@ -95,12 +95,24 @@ Json row_of(const Scene& scene, int rounds) {
 
 void measure_undecided(size_t pairs, int rounds, uint64_t seed, Json& rows) {
   const std::function<Scene()> scenes[] = {
-      [&]() -> Scene { return {"random spheres", of_kind(ShapeKind::sphere, pairs, seed)}; },
-      [&]() -> Scene { return {"random capsules", of_kind(ShapeKind::capsule, pairs, seed)}; },
-      [&]() -> Scene { return {"random boxes", of_kind(ShapeKind::box, pairs, seed)}; },
-      [&]() -> Scene { return {"random mixed", mixed_pairs(pairs, seed)}; },
-      [&]() -> Scene { return {"boxes stacked on a lattice", stacked_boxes(pairs, seed)}; },
-      [&]() -> Scene { return {"near-parallel boxes", near_parallel_boxes(pairs / 10, seed)}; },
+      [&]() -> Scene {
+        return {"random spheres", of_kind(ShapeKind::sphere, pairs, seed)};
+      },
+      [&]() -> Scene {
+        return {"random capsules", of_kind(ShapeKind::capsule, pairs, seed)};
+      },
+      [&]() -> Scene {
+        return {"random boxes", of_kind(ShapeKind::box, pairs, seed)};
+      },
+      [&]() -> Scene {
+        return {"random mixed", mixed_pairs(pairs, seed)};
+      },
+      [&]() -> Scene {
+        return {"boxes stacked on a lattice", stacked_boxes(pairs, seed)};
+      },
+      [&]() -> Scene {
+        return {"near-parallel boxes", near_parallel_boxes(pairs / 10, seed)};
+      },
   };
   for (const auto& scene : scenes) rows.push_back(row_of(scene(), rounds));
 }

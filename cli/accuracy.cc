@@ -4,15 +4,16 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <system_error>
 
+#include "accuracy/fidelity_json.h"
 #include "accuracy/measure.h"
 #include "accuracy/page.h"
 #include "cli/commands.h"
 #include "cli/json_output.h"
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/scene_fidelity.h"
 #include "cli/table.h"
 #include "io/atomic_file.h"
 
@@ -42,6 +43,31 @@ Result<std::vector<accuracy::NamedKinds>> chosen_kinds(const std::vector<std::st
     if (!is_known) return Error{"--pairs " + name + ": no pair of kinds, as sphere_box is one"};
   }
   return chosen;
+}
+
+// Progress over as many steps as the work says that it has.
+class ProgressLine {
+ public:
+  ProgressLine(const Console& console, const char* what) : console_(console), what_(what) {}
+
+  void operator()(size_t done, size_t all) {
+    if (!line_) line_ = std::make_shared<Progress>(console_, what_, all);
+    line_->update(done);
+  }
+
+ private:
+  const Console& console_;
+  const char* what_;
+  std::shared_ptr<Progress> line_;  // of all copies that a std::function makes
+};
+
+// What the knobs do to whole scenes.
+Result<void> add_scenes(const AccuracyOptions& options, const Console& console, Json& json) {
+  const Result<accuracy::FidelityReport> report =
+      measure_scene_fidelity({}, options.mode == "short", ProgressLine(console, "scenes"));
+  if (!report) return report.error();
+  json.update(accuracy::to_json(*report));
+  return {};
 }
 
 Result<void> make_folder(const std::string& path) {
@@ -76,7 +102,8 @@ void print(const Json& json, std::ostream& out) {
   }
   table.print(out);
   for (const Json& failure : json["failures"]) out << failure.get<std::string>() << '\n';
-  out << '\n' << (json["failures"].empty() ? "No" : number("%.0f", json["failures"].size()))
+  out << '\n'
+      << (json["failures"].empty() ? "No" : number("%.0f", json["failures"].size()))
       << " failures, " << number("%.0f", json["seconds"]) << " s. L is the mean of the bounding "
       << "radii of a pair, or the gap if that is larger.\n";
 }
@@ -89,15 +116,11 @@ Result<int> measure_accuracy(const AccuracyOptions& options, const Console& cons
   if (!options.out.empty()) {
     if (Result<void> made = make_folder(options.out); !made) return made.error();
   }
-  Json json;
-  {
-    std::unique_ptr<Progress> line;
-    const auto progress = [&](size_t done, size_t all) {
-      if (!line) line = std::make_unique<Progress>(console, "measured", all);
-      line->update(done);
-    };
-    json = accuracy::measure(
-        {.kinds = *kinds, .is_long = options.mode == "long", .seed = options.seed}, progress);
+  Json json =
+      accuracy::measure({.kinds = *kinds, .is_long = options.mode == "long", .seed = options.seed},
+                        ProgressLine(console, "pairs of kinds"));
+  if (options.pairs.empty()) {
+    if (Result<void> added = add_scenes(options, console, json); !added) return added.error();
   }
   if (!options.out.empty()) {
     if (Result<void> written = write_files(json, options.out); !written) return written.error();
@@ -116,12 +139,14 @@ void add_accuracy_command(CLI::App& program, Action& action) {
   CLI::App& command =
       *program.add_subcommand("accuracy", "Measure speed and accuracy of every tier");
   command
-      .add_option("--out", options->out, "Write accuracy.json and the page index.html to this folder")
+      .add_option("--out", options->out,
+                  "Write accuracy.json and the page index.html to this folder")
       ->check(file_name());
   command.add_option("--mode", options->mode, "short (minutes) or long (half an hour)")
       ->check(CLI::IsMember({"short", "long"}))
       ->capture_default_str();
-  command.add_option("--pairs", options->pairs, "These pairs of kinds alone, as sphere_box,box_box")
+  command
+      .add_option("--pairs", options->pairs, "These pairs of kinds alone, as sphere_box,box_box")
       ->delimiter(',');
   command.add_option("--seed", options->seed, "Of the random pairs")->capture_default_str();
   add_json_option(command, options->json);

@@ -70,7 +70,7 @@ double float32_error(const SceneSurvey& survey) { return std::sqrt(3.0) * survey
 
 AdviceRow tier_row(const Advice& advice) {
   const Accuracy& chosen = advice.choice.chosen.settings.accuracy;
-  std::string reason = outcomes(advice.choice, SettingGroup::told);
+  std::string reason = outcomes(advice.choice, SettingGroup::tier);
   if (advice.survey.pairs.pairs == 0) reason = "no pairs in the frames looked at";
   if (chosen.tier == Tier::fast) {
     reason = counts_of(advice.choice.deviation) + " in these frames; " + reason;

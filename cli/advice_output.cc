@@ -1,4 +1,4 @@
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -118,11 +118,18 @@ std::string kinds_text(const BodiesOfKind& kinds) {
   return list.empty() ? "none" : list;
 }
 
+// The most frequent ones.
 std::string pair_kinds_text(const PairSurvey& pairs) {
+  constexpr size_t kNamed = 5;
+  std::vector<PairSurvey::Kinds> kinds = pairs.kinds;
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [](const auto& a, const auto& b) { return a.pairs > b.pairs; });
   std::string list;
-  for (const PairSurvey::Kinds& kind : pairs.kinds) {
-    list += (list.empty() ? "" : ", ") + kind.name + ' ' + percent(share(kind.pairs, pairs.pairs));
+  for (size_t i = 0; i < std::min(kNamed, kinds.size()); ++i) {
+    list += (list.empty() ? "" : ", ") + kinds[i].name + ' ' +
+            percent(share(kinds[i].pairs, pairs.pairs));
   }
+  if (kinds.size() > kNamed) list += ", " + std::to_string(kinds.size() - kNamed) + " others";
   return list.empty() ? "none" : list;
 }
 
@@ -134,6 +141,10 @@ void print_survey(const Advice& advice, std::ostream& out) {
                            std::to_string(survey.frames_of_scene) + " looked at"});
   table.add({"bodies", kinds_text(survey.kinds) +
                            (survey.fixed ? ", " + std::to_string(survey.fixed) + " static" : "")});
+  if (advice.choice.standard.quarantined > 0) {
+    table.add({"left out", std::to_string(advice.choice.standard.quarantined) +
+                               " in all frames together (NaN, infinite or negative size)"});
+  }
   table.add({"radius", four(survey.radius) + " m"});
   table.add({"aspect", four(survey.aspect)});
   table.add({"positions", std::string(survey.float64 ? "float64" : "float32") +
@@ -188,6 +199,7 @@ Json to_json(const Advice& advice) {
   json["tolerance"] = advice.tolerance;
   json["isa"] = advice.isa;
   json["survey"] = to_json(advice.survey);
+  json["survey"]["quarantined"] = choice.standard.quarantined;
   json["trials"] = Json::array();
   for (const TriedSettings& tried : choice.tried) json["trials"].push_back(to_json(tried));
   json["settings"] = to_json(advice.settings);

@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 // Of all trials together.
 constexpr std::chrono::seconds kBudget(20);
 constexpr size_t kFirstFrames = 3;
+constexpr int kMostRounds = 8;
 
 struct AdviseOptions {
   std::string scene;
@@ -60,6 +61,7 @@ Result<Advice> advise_scene(const AdviseOptions& options, const Console& console
   Result<SceneSurvey> surveyed = survey(loaded);
   if (!surveyed) return surveyed.error();
   TrialLimits limits{.tolerance = options.tolerance, .threads = threads_of(options), .plan = {}};
+  limits.plan.rounds = kMostRounds;
   limits.plan.deadline = Clock::now() + kBudget;
   limits.plan.before_run = [&] {
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - begin);

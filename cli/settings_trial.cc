@@ -108,7 +108,7 @@ Candidate knob(const std::string& name, const std::function<void(FastKnobs&)>& s
 }
 
 Candidate tier(const std::string& name, Tier tier) {
-  return {SettingGroup::told, name, [=](Trial& trial) { trial.settings.accuracy.tier = tier; }};
+  return {SettingGroup::tier, name, [=](Trial& trial) { trial.settings.accuracy.tier = tier; }};
 }
 
 std::vector<Candidate> tier_candidates(const SceneSurvey& survey, double tolerance) {
@@ -148,9 +148,9 @@ class SettingsSearch {
 
     const auto lossless =
         lossless_candidates(survey_, choice_.standard.search.method, limits_.threads);
-    if (Result<void> done = improve(lossless, 0.5); !done) return done.error();
+    if (Result<void> done = improve(lossless, 0.4); !done) return done.error();
     const auto tiers = tier_candidates(survey_, limits_.tolerance);
-    if (Result<void> done = improve(tiers, 0.9); !done) return done.error();
+    if (Result<void> done = improve(tiers, 0.8); !done) return done.error();
     if (Result<void> done = settle(); !done) return done.error();
     return std::move(choice_);
   }
@@ -196,8 +196,9 @@ class SettingsSearch {
   }
 
   static bool pays(const TriedSettings& tried) {
-    return tried.group != SettingGroup::told && tried.result && tried.meets &&
-           tried.ratio() < 1 - kWorthwhile;
+    if (tried.group == SettingGroup::tier || !tried.result || !tried.meets) return false;
+    const double saved = tried.frame_ms_beside - tried.result->frame_ms;
+    return saved > kWorthwhile * tried.frame_ms_beside && saved > kWorthwhileMs;
   }
 
   // Knobs go together; of other groups one excludes the others.
@@ -236,13 +237,13 @@ class SettingsSearch {
     auto results = run(trials, 1);
     if (!results) return results.error();
     if (!(*results)[0]) return {};
-    note({SettingGroup::told, names, {}}, together, (*results)[1], (*results)[0]->frame_ms);
+    note({SettingGroup::together, names, {}}, together, (*results)[1], (*results)[0]->frame_ms);
     const TriedSettings& both = choice_.tried.back();
     if (both.result && both.meets && both.ratio() < 1) choice_.chosen = together;
     return {};
   }
 
-  // The choice beside the default, whatever time it takes.
+  // The choice beside the default, whatever time it takes; it has to be faster.
   Result<void> settle() {
     const std::vector<Trial> trials = {choice_.tried.front().trial, choice_.chosen};
     accuracy::TrialPlan plan = limits_.plan;
@@ -250,10 +251,14 @@ class SettingsSearch {
     plan.deadline = Clock::time_point::max();
     auto results = accuracy::run_trials(scene_, choice_.standard, trials, plan);
     if (!results) return results.error();
-    choice_.frame_ms_standard = (*results)[0]->frame_ms;
-    choice_.frame_ms = (*results)[1]->frame_ms;
-    choice_.deviation = (*results)[1]->deviation;
-    if (!choice_.tried.front().result) choice_.tried.front().result = (*results)[0];
+    const TrialResult& standard = *(*results)[0];
+    const TrialResult& chosen = *(*results)[1];
+    const bool pays = chosen.frame_ms < standard.frame_ms;
+    if (!pays) choice_.chosen = trials.front();
+    choice_.frame_ms_standard = standard.frame_ms;
+    choice_.frame_ms = pays ? chosen.frame_ms : standard.frame_ms;
+    choice_.deviation = pays ? chosen.deviation : standard.deviation;
+    if (!choice_.tried.front().result) choice_.tried.front().result = standard;
     return {};
   }
 

@@ -11,7 +11,7 @@
 
 namespace carom::cli {
 
-// What a candidate is about; of each but `told` one may be chosen.
+// What a candidate is about. Of knobs several may be chosen, of tiers none: they are for comparing.
 enum class SettingGroup : uint8_t {
   standard,
   cache,
@@ -20,7 +20,8 @@ enum class SettingGroup : uint8_t {
   dops,
   threads,
   knob,
-  told
+  tier,
+  together,  // several of the others
 };
 
 struct TriedSettings {
@@ -49,8 +50,10 @@ struct TrialLimits {
   accuracy::TrialPlan plan;
 };
 
-// What saves less than this part of a frame is not chosen: timing is no better.
+// What saves less is not chosen: this part of a frame, and as many milliseconds. Timing is no
+// better.
 inline constexpr double kWorthwhile = 0.05;
+inline constexpr double kWorthwhileMs = 0.01;
 
 // Frames that `budget` has time for, of all the runs that choose_settings() makes; `scene` holds
 // some, and there is no use in more than `most`.

@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-using Wide = unsigned __int128;
+__extension__ using Wide = unsigned __int128;
 
 // Space for the result of one operation.
 class Workspace {

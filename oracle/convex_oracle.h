@@ -255,7 +255,7 @@ struct ConvexOracle {
   ConvexSeparation<R> separation() const { return separation_with_normal(a, b); }
   // Mean of the bounding radii.
   R scale() const { return (a.bounding_radius + b.bounding_radius) / 2; }
-  R gap_along(const Vec3<R>& n) const { return test::gap_along(a, b, n); }
+  R gap_along(const Vec3<R>& n) const { return oracle::gap_along(a, b, n); }
 };
 
 }  // namespace carom::oracle

@@ -33,8 +33,7 @@ class MotionTolerance {
     BodyStore::Row orientation;
     float radius;
   };
-  static Pose pose_of(const BodyStore& bodies, std::span<const float> radii, uint32_t index);
-  static double most_motion(const Pose& from, const Pose& to);
+  static bool stays_within(double distance, const Pose& from, const Pose& to);
 
   std::vector<Pose> references_;
   std::vector<uint8_t> exceeded_;

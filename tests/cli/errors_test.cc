@@ -86,8 +86,8 @@ TEST_F(ErrorsTest, OptionsOfRun) {
   expect_error({"run", scene, "--frames", "0"}, {"--frames"});
   expect_error({"run", scene, "--isa", "mmx"}, {"unknown ISA 'mmx'", "avx2"});
   expect_error({"run", scene, "--isa", "neon"}, {"'neon' cannot be used here", "scalar"});
-  expect_error({"run", scene, "--tier", "exact"}, {"tier 'exact' does not exist in this version"});
-  expect_error({"run", scene, "--tier", "best"}, {"unknown tier 'best'"});
+  expect_error({"run", scene, "--tier", "best"},
+               {"unknown tier 'best'", "fast, standard, certified, exact"});
   expect_error({"run", scene, "--detail", "toi"}, {"detail 'toi' does not exist"});
   expect_error({"run", scene, "--detail", "some"}, {"unknown detail 'some'"});
   expect_error({"run", scene, "--broadphase", "octree"}, {"unknown broadphase 'octree'", "sweep"});
@@ -113,12 +113,45 @@ TEST_F(ErrorsTest, OptionsOfPairs) {
   fails("--detail", "toi", "detail 'toi' does not exist");
   fails("--detail", "toi", "(there are: overlap, contact, manifold, distance)");
   fails("--detail", "pairs", "unknown detail 'pairs'");
-  fails("--tier", "certified", "tier 'certified'");
+  fails("--tier", "best", "unknown tier 'best'");
   fails("--isa", "mmx", "unknown ISA");
   fails("--threads", "0", "--threads 0");
   fails("--repeat", "0", "--repeat");
   fails("--json", path("out.npz"), "the same file");
   fails("--json", path("none/../out.npz"), "the same file");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ErrorsTest, KnobsNeedTheFastTier) {
+  const std::string scene = "still:n=5,frames=2";
+  const std::string served = "single-precision, faces-only, proxy-spheres";
+  const auto fails = [&](const std::string& tier, const std::string& option,
+                         const std::string& value, std::initializer_list<std::string> parts) {
+    expect_error({"run", scene, "--tier", tier, option, value}, parts);
+  };
+  expect_error({"run", scene, "--knobs", "faces-only"},
+               {"--knobs needs --tier fast, not standard"});
+  fails("exact", "--knobs", "proxy-spheres", {"--knobs needs --tier fast, not exact"});
+  fails("certified", "--motion-tolerance", "0.1", {"--motion-tolerance needs --tier fast"});
+  fails("fast", "--knobs", "magic", {"unknown knob 'magic'", served});
+  fails("fast", "--knobs", "faces-only,magic", {"unknown knob 'magic'", served});
+  fails("fast", "--knobs", "faces-only,", {"unknown knob ''", served});
+  fails("fast", "--knobs", "faces-only, proxy-spheres", {"unknown knob ' proxy-spheres'"});
+  for (const char* metres : {"-1", "nan", "inf", "1e39", "-1e-9"}) {
+    fails("fast", "--motion-tolerance", metres, {"--motion-tolerance", "metres"});
+  }
+  fails("fast", "--motion-tolerance", "wide", {"--motion-tolerance", "wide"});
+
+  write_pairs(path("in.npz"), 2);
+  const auto pairs_fail = [&](const std::string& tier, const std::string& option,
+                              const std::string& value, const std::string& part) {
+    expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), "--tier", tier, option, value},
+                 {part});
+  };
+  pairs_fail("standard", "--knobs", "faces-only", "--knobs needs --tier fast");
+  pairs_fail("fast", "--knobs", "proxy-spheres", "knob 'proxy-spheres' is for scenes only");
+  pairs_fail("fast", "--knobs", "magic", "(there are: single-precision, faces-only)");
+  pairs_fail("fast", "--motion-tolerance", "1", "--motion-tolerance");
   EXPECT_EQ(files(), 1u);
 }
 

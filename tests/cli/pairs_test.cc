@@ -118,6 +118,8 @@ TEST_F(PairsTest, ResultsAreThoseOfTheReference) {
     EXPECT_GT(json["ns_per_pair"], 0);
     EXPECT_EQ(json["isa"], name(active_isa()));
     EXPECT_EQ(json["tier"], "standard");
+    EXPECT_EQ(json["undecided"], 0);
+    EXPECT_FALSE(json.contains("knobs"));
     EXPECT_EQ(json["detail"], "contact");
     const PairResultsFile results = read_pair_results(path("out.npz"), kPairs);
     const std::vector<reference::PairResult> expected = reference_results(file);
@@ -186,6 +188,25 @@ TEST_F(PairsTest, DetailsAgree) {
     EXPECT_EQ(other.normal, contact.normal);
     EXPECT_EQ(other.point_a, contact.point_a);
     EXPECT_EQ(other.point_b, contact.point_b);
+  }
+}
+
+TEST_F(PairsTest, TiersAndKnobs) {
+  const io::PairsFile file = random_pairs(false);
+  const auto standard = test(file, {});
+  const auto fast = test(file, {"--tier", "fast", "--knobs", "faces-only"});
+  EXPECT_EQ(fast["tier"], "fast");
+  EXPECT_EQ(fast["knobs"].get<std::vector<std::string>>(), std::vector<std::string>{"faces-only"});
+  EXPECT_GE(fast["overlaps"], standard["overlaps"]);
+
+  for (const char* tier : {"certified", "exact"}) {
+    const auto json = test(file, {"--tier", tier, "--detail", "manifold"});
+    EXPECT_EQ(json["tier"], tier);
+    const PairResultsFile results = read_pair_results(path("out.npz"), kPairs);
+    std::array<uint64_t, 3> of{};
+    for (const uint8_t overlap : results.overlap) ++of.at(overlap);
+    EXPECT_EQ(json["overlaps"], of[1]);
+    EXPECT_EQ(json["undecided"], of[2]);
   }
 }
 

@@ -109,6 +109,47 @@ TEST_F(RunTest, ScenesOfAllKindsDoNotDependOnHowTheyAreRun) {
   }
 }
 
+TEST_F(RunTest, TiersAndKnobs) {
+  const std::string scene = "brownian:n=300,frames=6,density=0.5,shape=box,speed=0.01,spin=0.2";
+  const json standard = run_json({scene});
+  for (const char* key : {"knobs", "motion_tolerance", "undecided_per_frame"}) {
+    EXPECT_FALSE(standard.contains(key)) << key;
+  }
+  const json fast = run_json({scene, "--tier", "fast", "--motion-tolerance", "0"});
+  EXPECT_EQ(fast["tier"], "fast");
+  EXPECT_FALSE(fast.contains("knobs") || fast.contains("motion_tolerance"));
+  EXPECT_EQ(fast["state_hash"], standard["state_hash"]);
+
+  const json balls =
+      run_json({scene, "--tier", "fast", "--knobs", "proxy-spheres,single-precision"});
+  EXPECT_EQ(balls["knobs"].get<std::vector<std::string>>(),
+            (std::vector<std::string>{"single-precision", "proxy-spheres"}));
+  EXPECT_EQ(balls["pairs_per_frame"], standard["pairs_per_frame"]);
+  EXPECT_GT(sum_of(balls["contacts_per_frame"]), sum_of(standard["contacts_per_frame"]));
+
+  const json lazy = run_json({scene, "--tier", "fast", "--motion-tolerance", "0.125"});
+  EXPECT_EQ(lazy["motion_tolerance"], 0.125);
+  EXPECT_EQ(lazy["pairs_per_frame"], standard["pairs_per_frame"]);
+  EXPECT_EQ(sum_of(standard["kept_pairs_per_frame"]), 0u);
+  EXPECT_GT(sum_of(lazy["kept_pairs_per_frame"]), sum_of(lazy["tested_pairs_per_frame"]));
+
+  const json certified = run_json({scene, "--tier", "certified"});
+  EXPECT_EQ(certified["undecided_per_frame"].size(), 6u);
+  const json exact = run_json({scene, "--tier", "exact"});
+  EXPECT_EQ(exact["tier"], "exact");
+  EXPECT_FALSE(exact.contains("undecided_per_frame"));
+}
+
+TEST_F(RunTest, TheTableNamesTierAndKnobs) {
+  const std::string scene = "brownian:n=50,frames=2";
+  EXPECT_EQ(run_command({"run", scene}).out.find("tier"), std::string::npos);
+  const CommandResult fast = run_command(
+      {"run", scene, "--tier", "fast", "--knobs", "faces-only", "--motion-tolerance", "0.01"});
+  EXPECT_NE(fast.out.find("fast: faces-only, motion tolerance 0.01 m"), std::string::npos);
+  const CommandResult certified = run_command({"run", scene, "--tier", "certified"});
+  EXPECT_NE(certified.out.find("undecided"), std::string::npos);
+}
+
 TEST_F(RunTest, DopBoundsDropTestsAlone) {
   write_builtin("all kinds, float32", path("scene.npz"));
   const json plain = run_json({path("scene.npz"), "--detail", "manifold"});

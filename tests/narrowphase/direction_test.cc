@@ -32,7 +32,8 @@ std::vector<Row> run(std::span<const TestPair> pairs, Detail detail, PositionTyp
   for (uint32_t i = 0; i < count; ++i) list[i] = {i, count + i};
   const LaidOut bodies(all_bodies(pairs), call_with(positions).layout_a);
   Columns columns(count, 0);
-  collide_pairs(bodies.view(), list, detail, columns.out(), direction, Parallelism::none, Accuracy{});
+  collide_pairs(bodies.view(), list, detail, columns.out(), direction, Parallelism::none,
+                Accuracy{});
   return columns.rows();
 }
 

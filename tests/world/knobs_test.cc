@@ -174,11 +174,11 @@ TEST(ProxySpheres, AreAboutThePosition) {
   World world(with_knobs(kProxies));
   const BodyId a = world.add({.shape = Box{{1, 2, 2}}});
   world.add({.shape = Sphere{1}, .position = {2, 2, 2}});
-  world.add({.shape = Halfspace{{0, 0, 1}, -2.5f}});
+  world.add({.shape = Halfspace{{0, 0, 1}, -1.5f}});
   world.step();
   ASSERT_EQ(world.contacts().size(), 2u);
   EXPECT_NEAR(world.contacts()[0].separation, std::sqrt(12.0) - 4, 1e-6);
-  EXPECT_NEAR(world.contacts()[1].separation, -0.5, 1e-6);
+  EXPECT_NEAR(world.contacts()[1].separation, -1.5, 1e-6);
   EXPECT_EQ(world.contacts()[1].normal, Eigen::Vector3f(0, 0, -1));
   EXPECT_EQ(world.shape(a).index(), Shape(Box{}).index());
   EXPECT_EQ(world.step().kept, 2u) << "radii that are written are no change";

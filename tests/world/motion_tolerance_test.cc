@@ -246,16 +246,16 @@ TEST(MotionTolerance, AStepInWhichBodiesCreepIsNoStillOne) {
 TEST(MotionTolerance, HoldsForBodiesThatWereTestedAtDifferentTimes) {
   World world(with_knobs(tolerance(1)));
   const BodyId a = world.add({.shape = Sphere{1}});
-  const BodyId b = world.add({.shape = Sphere{1}, .position = {1, 0, 0}});
+  const BodyId b = world.add({.shape = Sphere{1}, .position = {0.5, 0, 0}});
   world.step();
-  world.set_position(a, {0.5, 0, 0});
+  world.set_position(a, {0.375, 0, 0});
   EXPECT_EQ(world.step().kept, 1u);
-  world.set_position(b, {1.75, 0, 0});
-  EXPECT_EQ(world.step().tested, 1u);  // 1.25 m apart
-  EXPECT_EQ(world.contacts()[0].separation, -0.75f);
-  world.set_position(a, {-0.5, 0, 0});
-  EXPECT_EQ(world.step().kept, 1u);  // a metre away from where it was tested
-  EXPECT_EQ(world.contacts()[0].separation, -0.75f);
+  world.set_position(b, {1.375, 0, 0});
+  EXPECT_EQ(world.step().tested, 1u);  // a metre apart
+  EXPECT_EQ(world.contacts()[0].separation, -1);
+  world.set_position(a, {-0.375, 0, 0});
+  EXPECT_EQ(world.step().kept, 1u);  // 75 cm away from where it was tested
+  EXPECT_EQ(world.contacts()[0].separation, -1);
 }
 
 TEST(MotionTolerance, TakesNoMemoryAtDetailPairs) {

@@ -59,7 +59,8 @@ class SideBySide {
     for (size_t i = random_.below(3); i > 0; --i) add(crowd_[random_.below(crowd_.size())]);
     const BodyId id = pick();
     const Eigen::Vector3d place = random_position(random_, spec_.side);
-    const Shape shape = plain(random_shape(kAllKinds[random_.below(std::size(kAllKinds))], random_));
+    const Shape shape =
+        plain(random_shape(kAllKinds[random_.below(std::size(kAllKinds))], random_));
     const Eigen::Quaternionf q = random_orientation(random_);
     const float factor = static_cast<float>(random_.uniform(0.5, 1.5));
     const uint64_t what = random_.below(6);
