@@ -1,6 +1,8 @@
 #include "accuracy/atlas.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "accuracy/judge.h"
 
@@ -54,36 +56,36 @@ Json atlas_row(const NamedKinds& kinds, const Chapter& chapter, PositionType pos
   return row;
 }
 
-// The standard tier at every detail, then the others that promise something at those where their
-// decisions come from other code, then all contenders at contact.
+// All contenders at contact, and the tiers at the other details.
 class Attempts {
  public:
-  explicit Attempts(std::span<const std::unique_ptr<Contender>> contenders)
-      : contenders_(contenders) {}
+  Attempts(std::span<const std::unique_ptr<Contender>> contenders, bool flush_to_zero) {
+    for (const auto& contender : contenders) {
+      list_.push_back({contender.get(), Detail::contact, flush_to_zero});
+    }
+    for (LibrarySetting* setting : {&standard_, &certified_, &exact_}) {
+      list_.push_back({setting, Detail::overlap, flush_to_zero});
+      list_.push_back({setting, Detail::manifold, flush_to_zero});
+    }
+  }
+  Attempts(const Attempts&) = delete;
+  Attempts& operator=(const Attempts&) = delete;
 
-  std::vector<Attempt> list(bool flush_to_zero) {
-    std::vector<Attempt> all;
-    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
-      all.push_back({&standard_, detail, flush_to_zero});
-    }
-    for (LibrarySetting* setting : {&certified_, &exact_}) {
-      all.push_back({setting, Detail::overlap, flush_to_zero});
-      all.push_back({setting, Detail::manifold, flush_to_zero});
-    }
-    for (const auto& contender : contenders_) {
-      all.push_back({contender.get(), Detail::contact, flush_to_zero});
-    }
-    return all;
+  const std::vector<Attempt>& list() const { return list_; }
+
+  // Where the standard tier is tried at that detail.
+  size_t standard_at(Detail detail) const {
+    const auto found = std::find_if(list_.begin(), list_.end(), [&](const Attempt& attempt) {
+      return attempt.detail == detail && attempt.contender->setting() == std::string("standard");
+    });
+    return static_cast<size_t>(found - list_.begin());
   }
 
-  static constexpr size_t kDetails = 3;
-  size_t first_contender() const { return kDetails + 4; }
-
  private:
-  std::span<const std::unique_ptr<Contender>> contenders_;
   LibrarySetting standard_ = standard_setting();
   LibrarySetting certified_ = certified_setting();
   LibrarySetting exact_ = exact_setting();
+  std::vector<Attempt> list_;
 };
 
 }  // namespace
@@ -91,26 +93,25 @@ class Attempts {
 std::vector<Tally> judge_families(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
                                   std::span<const std::unique_ptr<Contender>> contenders,
                                   Json& rows, Failures& failures) {
-  Attempts attempts(contenders);
   std::vector<Tally> sums(contenders.size());
   for (const Chapter& chapter : all_chapters()) {
+    const Attempts attempts(contenders, chapter.flush_to_zero);
+    const std::vector<Attempt>& list = attempts.list();
     for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
       const PairSet pairs(
           oracle::make_convex_pairs(chapter.family, kinds.kinds, positions, effort.family, seed),
           positions);
-      const std::vector<Attempt> list = attempts.list(chapter.flush_to_zero);
       const std::vector<Tally> tallies = judge(pairs, list);
       for (size_t i = 0; i < list.size(); ++i) {
         failures.note(std::string(kinds.name) + ", " + chapter.title + ", " + name_of(positions) +
                           ", " + list[i].contender->setting() + ", " + name_of(list[i].detail),
                       tallies[i]);
-        if (i < Attempts::kDetails) {
-          rows.push_back(atlas_row(kinds, chapter, positions, list[i].detail, tallies[i]));
-        }
       }
-      for (size_t i = 0; i < sums.size(); ++i) {
-        sums[i].add(tallies[attempts.first_contender() + i]);
+      for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+        rows.push_back(
+            atlas_row(kinds, chapter, positions, detail, tallies[attempts.standard_at(detail)]));
       }
+      for (size_t i = 0; i < sums.size(); ++i) sums[i].add(tallies[i]);
     }
   }
   return sums;

@@ -67,7 +67,7 @@ LibrarySetting certified_setting() {
   return {"certified", "certified", Promise::proven, {.tier = Tier::certified, .knobs = {}}};
 }
 LibrarySetting exact_setting() {
-  return {"exact", "exact", Promise::proven, {.tier = Tier::exact, .knobs = {}}};
+  return {"exact", "exact", Promise::exact, {.tier = Tier::exact, .knobs = {}}};
 }
 LibrarySetting single_precision_setting() {
   return {"single precision",

@@ -17,6 +17,7 @@ enum class Promise {
   finite,    // numbers, right or wrong
   standard,  // decisions right but for rounding, separations within the bound
   proven,    // and decisions that are given are right
+  exact,     // and all are given
 };
 
 class Contender {

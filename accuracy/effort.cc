@@ -11,11 +11,11 @@ Effort effort_for(const KindPair& kinds, bool is_long) {
                              .scene = 50'000,
                              .rounds = 7};
   constexpr Effort kLong = {.stream = 100'000,
-                            .family = 3'000,
+                            .family = 4'500,
                             .gap = 1'000,
                             .distance = 2'000,
                             .angle = 2'000,
-                            .scene = 1'000'000,
+                            .scene = 200'000,
                             .rounds = 15};
   constexpr Effort kShortDops = {.stream = 2'000,
                                  .family = 16,

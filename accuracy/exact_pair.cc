@@ -15,7 +15,7 @@ using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_floa
 // What long double errs by, as a share of the extent; tests/accuracy/exact_pair_test.cc holds it
 // against 100 digits.
 constexpr long double kMargin = 1e-17L;
-// Corners of k-DOPs that are closer than 2^-50 are one to the oracle.
+// Of k-DOPs, whose corners are found as meetings of planes.
 constexpr long double kDopMargin = 1e-13L;
 // Positions that differ by less take so many digits more that they are left out otherwise.
 constexpr double kTiny = 1e-25;
@@ -26,6 +26,33 @@ bool is_halfspace(const Shape& shape) { return std::holds_alternative<Halfspace>
 bool is_dop(const Shape& shape) { return std::holds_alternative<Dop>(shape); }
 
 bool has_dop(const ConvexPair& pair) { return is_dop(pair.shape_a) || is_dop(pair.shape_b); }
+
+// Whether every plane of the k-DOP either holds a corner exactly or is clearly off it. Otherwise
+// the oracle, which finds in long double which planes meet where, may take two corners for one.
+bool has_sure_corners(const Dop& dop) {
+  using R = Digits<100>;
+  const oracle::ConvexDop<R> polytope(dop);
+  for (const oracle::Vec3<R>& corner : polytope.points()) {
+    for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+      const auto direction = oracle::vec3_as<R>(slab_directions(dop.kind)[i]);
+      const R height = oracle::dot(direction, corner);
+      for (const float limit : {dop.lower[i], dop.upper[i]}) {
+        const R size = oracle::length(corner) + std::fabs(limit);
+        const R off = abs(height - limit);
+        if (off > size * 1e-90 && off < size * 1e-13) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool has_sure_corners(const ConvexPair& pair) {
+  const auto is_sure = [](const Shape& shape) {
+    const auto* dop = std::get_if<Dop>(&shape);
+    return !dop || has_sure_corners(*dop);
+  };
+  return is_sure(pair.shape_a) && is_sure(pair.shape_b);
+}
 
 long double extent_of(const ConvexPair& pair, const ConvexOracle<long double>& oracle) {
   const Eigen::Vector3d way = pair.pose_b.position - pair.pose_a.position;
@@ -82,7 +109,7 @@ void ExactPair::decide(const ConvexPair& pair) {
     truth_ = gap_ > 0 ? Truth::apart : Truth::overlap;
     return;
   }
-  const long double unsure = accuracy::has_dop(pair) ? margin : 0;
+  const long double unsure = has_sure_corners(pair) ? 0 : margin;
   truth_ = needs_more_digits(pair, extent_) ? decide_in_digits<1500>(pair, extent_, unsure)
                                             : decide_in_digits<100>(pair, extent_, unsure);
 }
@@ -90,7 +117,12 @@ void ExactPair::decide(const ConvexPair& pair) {
 double ExactPair::share(long double length) const {
   const long double rest = length - kLeast;
   if (!(rest > 0)) return std::isnan(length) ? std::numeric_limits<double>::quiet_NaN() : 0;
-  return static_cast<double>(rest / std::max(scale_, gap_));
+  return static_cast<double>(rest / std::max(scale_, std::fabs(gap_)));
+}
+
+double ExactPair::allowance() const {
+  const long double gap = std::fabs(gap_);
+  return gap > 0 ? static_cast<double>((scale_ + gap) / std::max(scale_, gap)) : 1;
 }
 
 double ExactPair::error_share(float separation) const {

@@ -16,23 +16,21 @@ class ExactPair {
  public:
   explicit ExactPair(const ConvexPair& pair);
 
-  // Unknown where which planes of a k-DOP meet in a point, which the oracle finds in long double,
-  // may make the difference.
+  // Unknown where planes of a k-DOP all but meet in a point: the oracle cannot tell.
   Truth truth() const { return truth_; }
   // Signed distance.
   long double gap() const { return gap_; }
 
-  // Errors are shares of this: L, the mean of the bounding radii, or the gap if that is larger.
-  // Half-spaces count for the rounding of their distance, as floats have it. What a few of the
-  // smallest floats make is no error.
+  // Errors are shares of this: L, the mean of the bounding radii, or the gap or depth if that is
+  // larger. Half-spaces count for the rounding of their distance, as floats have it. What a few of
+  // the smallest floats make is no error.
   double share(long double length) const;
   double gap_share() const { return share(gap_ < 0 ? -gap_ : gap_); }
   double error_share(float separation) const;
   // The separation, less what the shapes are apart along this normal.
   double regret_share(const Eigen::Vector3f& normal) const;
-
-  // The mean of the bounding radii alone.
-  long double scale() const { return scale_; }
+  // Bounds are of L + gap: what they are to be multiplied by, 1 to 2, as shares.
+  double allowance() const;
 
  private:
   void decide(const ConvexPair& pair);

@@ -78,7 +78,7 @@ ReuseEntry reuse_entry(const Playback& scene, const Trial& trial, const TrialRes
 
 std::vector<std::string> fidelity_scenes(bool is_short) {
   const std::string size = is_short ? "n=2000,frames=12,seed=1" : "n=20000,frames=40,seed=1";
-  return {"brownian:" + size + ",shape=box,speed=0.05,spin=0.05",
+  return {"brownian:" + size + ",shape=box,speed=0.005,spin=0.005",
           "brownian:" + size + ",shape=box,speed=3,spin=1",
           "brownian:" + size + ",shape=sphere,speed=3", "static:" + size + ",shape=box"};
 }

@@ -74,6 +74,7 @@ class Judgement {
     const uint8_t overlap = answers_.overlap[row_];
     if (overlap == kUndecided) {
       ++tally_.undecided;
+      if (attempt_.contender->promise() != Promise::proven) note_broken("undecided");
       return;
     }
     if (exact.truth() == Truth::unknown) {
@@ -85,8 +86,8 @@ class Judgement {
     ++(is_overlap ? tally_.missed : tally_.false_overlaps);
     const double gap = exact.gap_share();
     tally_.worst_wrong_gap = std::max(tally_.worst_wrong_gap, gap);
-    const bool is_broken =
-        promises(Promise::proven) || (promises(Promise::standard) && gap > kDecisionBound);
+    const bool is_broken = promises(Promise::proven) || (promises(Promise::standard) &&
+                                                         gap > kDecisionBound * exact.allowance());
     if (is_broken) {
       note_broken(is_overlap ? text("missed, depth %.3g L", gap)
                              : text("overlap of shapes %.3g L apart", gap));
@@ -103,12 +104,12 @@ class Judgement {
     }
     const double error = exact.error_share(answers_.separation[row_]);
     tally_.add_error(error);
-    if (promises(Promise::standard) && !(error <= kSeparationBound)) {
+    if (promises(Promise::standard) && !(error <= kSeparationBound * exact.allowance())) {
       note_broken(text("separation wrong by %.3g L", error));
     }
     const double regret = exact.regret_share(Answers::row(answers_.normal, row_));
     tally_.regret_worst = std::max(tally_.regret_worst, regret);
-    if (promises(Promise::standard) && !(regret <= kNormalBound)) {
+    if (promises(Promise::standard) && !(regret <= kNormalBound * exact.allowance())) {
       note_broken(text("normal wrong by %.3g L", regret));
     }
   }
@@ -116,15 +117,15 @@ class Judgement {
   // No point may be deeper than the shapes.
   void add_manifold(const ExactPair& exact) {
     const size_t count = answers_.manifold_count[row_];
-    if ((count > 0) != (answers_.overlap[row_] == 1) || count > 4)
-      note_broken("points are missing");
+    const bool is_overlap = answers_.overlap[row_] == 1;
+    if ((count > 0) != is_overlap || count > 4) note_broken("not 1 to 4 points an overlap");
     float deepest = 0;
     for (size_t k = 0; k < std::min<size_t>(count, 4); ++k) {
       deepest = std::min(deepest, answers_.manifold[row_].separation[k]);
     }
     const double error = exact.share(std::min(exact.gap(), 0.0L) - deepest);
     tally_.add_error(error);
-    if (promises(Promise::standard) && !(error <= kSeparationBound)) {
+    if (promises(Promise::standard) && !(error <= kSeparationBound * exact.allowance())) {
       note_broken(text("a manifold point too deep by %.3g L", error));
     }
   }

@@ -15,7 +15,8 @@ struct Attempt {
   bool flush_to_zero = false;  // the mode that the caller has set
 };
 
-// TARGETS.md, in shares of L: separations, and penetration along the normal against the least.
+// What is promised, in shares of L + gap: of separations, and of the penetration along the normal
+// against the least.
 inline constexpr double kSeparationBound = 2e-6;
 inline constexpr double kNormalBound = 1e-5;
 // Decisions of the standard tier are right unless the gap is smaller.

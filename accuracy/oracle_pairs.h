@@ -1,12 +1,6 @@
 // The pairs of the oracle under the names that this folder uses.
 #pragma once
 
-// oracle/convex_oracle.h names this namespace.
-namespace carom::oracle {}
-namespace carom::test {
-using namespace oracle;
-}
-
 #include "oracle/convex_families.h"
 
 namespace carom::accuracy {

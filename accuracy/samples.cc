@@ -89,7 +89,7 @@ class PairDrawer {
         (plane_pose.orientation * halfspace.normal).cast<double>() / length;
     const Eigen::AlignedBox3d box = bounds(shape, pose);
     const double reach = kReach / 2 * box.sizes().dot(normal.cwiseAbs());
-    const Eigen::Vector3d along = normal.cross(random_.direction()) * 10;
+    const Eigen::Vector3d along = normal.cross(random_.direction()) * box.sizes().norm();
     return normal * (halfspace.offset / length + random_.uniform(-reach, reach)) + along -
            box.center();
   }

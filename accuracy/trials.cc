@@ -53,7 +53,8 @@ Result<TrialResult> compare(const Playback& scene, const StandardRun& standard,
   TrialResult result;
   DeviationMeter meter(standard.frames);
   const auto frame_ms = play(scene, trial, [&](size_t frame, const World& world) {
-    result.candidates += world.pairs().size();
+    result.candidates += world.report().pairs;
+    result.tested += world.report().tested;
     meter.add(frame, world);
   });
   if (!frame_ms) return frame_ms.error();

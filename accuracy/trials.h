@@ -38,7 +38,8 @@ struct TrialResult {
   // Median over the frames, the first one left out where there are others, of the least time that a
   // frame took in any round.
   double frame_ms = 0;
-  uint64_t candidates = 0;
+  uint64_t candidates = 0;  // sums over all frames
+  uint64_t tested = 0;
   Deviation deviation;
 };
 

@@ -19,10 +19,12 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-// The shortest that reads back as this float.
+// The shortest that reads back as this float; without an exponent where that is readable.
 std::string shortest(float value) {
   char buffer[32];
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+  const auto format =
+      value >= 1e-5f && value < 1e7f ? std::chars_format::fixed : std::chars_format::general;
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format).ptr};
 }
 
 std::string metres(double value) { return text("%.3g m", value); }
@@ -85,6 +87,8 @@ AdviceRow knobs_row(const Advice& advice) {
     names.push_back("motion-tolerance " + shortest(knobs.motion_tolerance) + " m");
   }
   std::string reason = outcomes(advice.choice, SettingGroup::knob);
+  const std::string motion = outcomes(advice.choice, SettingGroup::motion);
+  reason += (reason.empty() || motion.empty() ? "" : "; ") + motion;
   return {"knobs", names.empty() ? "none" : joined(names, ", "),
           reason.empty() ? "nothing to loosen" : reason};
 }

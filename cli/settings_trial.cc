@@ -126,8 +126,12 @@ std::vector<Candidate> tier_candidates(const SceneSurvey& survey, double toleran
   // Separations are off by up to twice the tolerance of motion.
   const auto motion = static_cast<float>(tolerance / 2);
   if (moves(survey) && motion > 0 && std::isfinite(motion)) {
-    candidates.push_back(knob(text("motion tolerance %.3g", motion),
-                              [=](FastKnobs& knobs) { knobs.motion_tolerance = motion; }));
+    candidates.push_back(
+        {SettingGroup::motion, text("motion tolerance %.3g", motion), [=](Trial& trial) {
+           trial.settings.carry_results = true;  // or there is nothing to keep
+           trial.settings.accuracy.tier = Tier::fast;
+           trial.settings.accuracy.knobs.motion_tolerance = motion;
+         }});
   }
   candidates.push_back(tier("certified", Tier::certified));
   candidates.push_back(tier("exact", Tier::exact));
@@ -144,7 +148,7 @@ class SettingsSearch {
     if (!standard) return standard.error();
     choice_.standard = std::move(*standard);
     choice_.chosen = {.name = "standard", .settings = {}};
-    choice_.tried.push_back({SettingGroup::standard, "standard", choice_.chosen, {}, 0, true});
+    choice_.tried.push_back({SettingGroup::standard, "standard", choice_.chosen, {}, 0, 0, true});
 
     const auto lossless =
         lossless_candidates(survey_, choice_.standard.search.method, limits_.threads);
@@ -180,23 +184,24 @@ class SettingsSearch {
     auto results = run(trials, until);
     if (!results) return results.error();
     const std::optional<TrialResult>& present = results->front();
-    if (!present) return {};
     if (!choice_.tried.front().result) choice_.tried.front().result = present;
     for (size_t i = 0; i < candidates.size(); ++i) {
-      note(candidates[i], trials[i + 1], (*results)[i + 1], present->frame_ms);
+      note(candidates[i], trials[i + 1], (*results)[i + 1], present.value_or(TrialResult{}));
     }
-    return combine(candidates);
+    return combine(candidates, until + 0.1);
   }
 
   void note(const Candidate& candidate, const Trial& trial,
-            const std::optional<TrialResult>& result, double frame_ms_beside) {
+            const std::optional<TrialResult>& result, const TrialResult& beside) {
     const bool meets = result && result->deviation.worst() <= limits_.tolerance;
     choice_.tried.push_back(
-        {candidate.group, candidate.name, trial, result, frame_ms_beside, meets});
+        {candidate.group, candidate.name, trial, result, beside.frame_ms, beside.tested, meets});
   }
 
   static bool pays(const TriedSettings& tried) {
     if (tried.group == SettingGroup::tier || !tried.result || !tried.meets) return false;
+    const bool keeps_nothing = tried.result->tested >= tried.tested_beside;
+    if (tried.group == SettingGroup::motion && keeps_nothing) return false;
     const double saved = tried.frame_ms_beside - tried.result->frame_ms;
     return saved > kWorthwhile * tried.frame_ms_beside && saved > kWorthwhileMs;
   }
@@ -215,7 +220,7 @@ class SettingsSearch {
 
   // The last candidates.size() of what was tried: all that pay together, if that meets the
   // tolerance and is faster than the fastest of them alone, which is the choice otherwise.
-  Result<void> combine(const std::vector<Candidate>& candidates) {
+  Result<void> combine(const std::vector<Candidate>& candidates, double until) {
     const size_t first = choice_.tried.size() - candidates.size();
     const TriedSettings* fastest = nullptr;
     Trial together = choice_.chosen;
@@ -234,10 +239,10 @@ class SettingsSearch {
     if (count == 1) return {};
     together.name = names;
     const std::vector<Trial> trials = {best, together};
-    auto results = run(trials, 1);
+    auto results = run(trials, until);
     if (!results) return results.error();
     if (!(*results)[0]) return {};
-    note({SettingGroup::together, names, {}}, together, (*results)[1], (*results)[0]->frame_ms);
+    note({SettingGroup::together, names, {}}, together, (*results)[1], *(*results)[0]);
     const TriedSettings& both = choice_.tried.back();
     if (both.result && both.meets && both.ratio() < 1) choice_.chosen = together;
     return {};

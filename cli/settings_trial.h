@@ -11,7 +11,8 @@
 
 namespace carom::cli {
 
-// What a candidate is about. Of knobs several may be chosen, of tiers none: they are for comparing.
+// What a candidate is about. Of knobs several may be chosen, of tiers none: those are for
+// comparing.
 enum class SettingGroup : uint8_t {
   standard,
   cache,
@@ -20,6 +21,7 @@ enum class SettingGroup : uint8_t {
   dops,
   threads,
   knob,
+  motion,  // the knob that has a number
   tier,
   together,  // several of the others
 };
@@ -29,7 +31,9 @@ struct TriedSettings {
   std::string name;
   accuracy::Trial trial;
   std::optional<accuracy::TrialResult> result;  // none: there was no time for it
-  double frame_ms_beside = 0;  // of what it was to better, measured in the same turns
+  // Of what it was to better, measured in the same turns.
+  double frame_ms_beside = 0;
+  uint64_t tested_beside = 0;  // pairs
   bool meets = false;          // the tolerance
 
   double ratio() const { return result->frame_ms / frame_ms_beside; }

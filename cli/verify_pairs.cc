@@ -8,6 +8,8 @@
 #include "carom/reference/reference.h"
 #include "cli/progress.h"
 #include "cli/verify_text.h"
+#include "narrowphase/exact_overlap.h"
+#include "narrowphase/proof.h"
 
 namespace carom::cli {
 namespace {
@@ -19,6 +21,7 @@ struct Variant {
   bool shuffled;  // collide() with a list in another order; otherwise collide_rows()
   Detail detail;
   WitnessFrame frame;
+  Tier tier = Tier::standard;
 };
 
 constexpr std::array kVariants = {
@@ -28,6 +31,8 @@ constexpr std::array kVariants = {
     Variant{"detail overlap", false, Detail::overlap, WitnessFrame::body},
     Variant{"detail manifold", false, Detail::manifold, WitnessFrame::body},
     Variant{"manifold shuffled in the world", true, Detail::manifold, WitnessFrame::world},
+    Variant{"certified", false, Detail::overlap, WitnessFrame::body, Tier::certified},
+    Variant{"exact", false, Detail::overlap, WitnessFrame::body, Tier::exact},
 };
 
 // The reference takes only pairs that have a kernel.
@@ -108,6 +113,7 @@ class PairVerifier {
     for (size_t i = 0; i < pairs.size(); ++i) {
       progress.update(i);
       expected_.push_back(reference_row(i));
+      exact_.push_back(exact_decision(i));
     }
     // Neighbours of the file end up far apart, in other lanes and other batches.
     uint64_t stride = pairs.size() / 3 + 1;
@@ -148,9 +154,30 @@ class PairVerifier {
             result.manifold};
   }
 
+  // In exact arithmetic where double precision proves nothing; 0 for invalid pairs.
+  uint8_t exact_decision(size_t index) const {
+    if (expected_[index].status == static_cast<uint8_t>(Status::invalid)) return 0;
+    const StatedBody a = stated_body(pairs_.a.view(), index);
+    const StatedBody b = stated_body(pairs_.b.view(), index);
+    const uint8_t proven = prove_overlap(a, b);
+    return proven == kUndecided ? exact_overlap(a, b) : proven;
+  }
+
+  static StatedBody stated_body(const Collidables& bodies, size_t index) {
+    return carom::stated_body(BodyReader{bodies}, index);
+  }
+
+  // What a tier may say of a pair is what the exact decision is, or nothing.
+  bool is_as_promised(const Row& want, const Row& got, Tier tier) const {
+    const bool abstains = tier == Tier::certified && got.overlap == kUndecided &&
+                          got.status != static_cast<uint8_t>(Status::invalid);
+    return same_bits(want, got) || (abstains && want.status == got.status);
+  }
+
   // The reference's result of a pair, as a variant gives it.
   Row expected(size_t index, const Variant& variant) const {
     Row row = expected_[index];
+    if (has_proofs(variant.tier)) row.overlap = exact_[index];
     if (variant.detail == Detail::overlap) return {row.overlap, row.status, 0, 0, {}, {}, {}, {}};
     if (variant.detail == Detail::contact) {
       row.manifold_count = 0;
@@ -178,9 +205,10 @@ class PairVerifier {
     Parallelism parallelism = engine.arena->parallelism();
     Result<void> done;
     engine.arena->run([&] {
-      done = variant.shuffled
-                 ? system_.collide(a, b, order_, variant.detail, out, variant.frame, parallelism)
-                 : system_.collide_rows(a, b, variant.detail, out, variant.frame, parallelism);
+      done = variant.shuffled ? system_.collide(a, b, order_, variant.detail, out, variant.frame,
+                                                parallelism, variant.tier)
+                              : system_.collide_rows(a, b, variant.detail, out, variant.frame,
+                                                     parallelism, variant.tier);
     });
     return done;
   }
@@ -190,7 +218,7 @@ class PairVerifier {
       size_t index = variant.shuffled ? order_[i].a : i;
       Row want = expected(index, variant);
       Row got = columns(variant).row(i);
-      if (same_bits(want, got)) continue;
+      if (is_as_promised(want, got, variant.tier)) continue;
       row.differs = true;
       difference_ = describe(row.engine, variant, index, want, got);
       return false;
@@ -217,6 +245,7 @@ class PairVerifier {
   PairColumns contact_;
   PairColumns manifold_;
   std::vector<Row> expected_;
+  std::vector<uint8_t> exact_;
   std::vector<Pair> order_;
   uint64_t runs_ = 0;
   std::optional<Difference> difference_;

@@ -35,10 +35,10 @@ class System {
                                                 const WorldSettings& settings);
   virtual Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                                     const ResultColumns& out, WitnessFrame frame,
-                                    Parallelism parallelism);
+                                    Parallelism parallelism, Tier tier);
   virtual Result<void> collide(const Collidables& a, const Collidables& b,
                                std::span<const Pair> pairs, Detail detail, const ResultColumns& out,
-                               WitnessFrame frame, Parallelism parallelism);
+                               WitnessFrame frame, Parallelism parallelism, Tier tier);
 };
 
 }  // namespace carom::cli

@@ -43,7 +43,9 @@ struct AabbAabb {
     // On axes where the boxes overlap, the middle of the overlap, in the frame of A.
     const F3 middle =
         max(a.lower, b.lower + pose.d) * splat(0.5f) + min(a.upper, b.upper + pose.d) * splat(0.5f);
-    report(overlapping, no_lanes(), no_lanes(),
+    Mask unsure = no_lanes();
+    if (HWY_UNLIKELY(report.marks_unsure())) unsure = is_near_touch(pose.d, a, b, gap);
+    report(overlapping, unsure, no_lanes(),
            hn::IfThenElse(overlapping, pick(axis, gap), apart.length),
            select(overlapping, signed_axis(axis, below), away),
            select(at_face, select(above, a.upper, a.lower), middle),
@@ -51,6 +53,13 @@ struct AabbAabb {
   }
 
  private:
+  // Three roundings of numbers of that size decided.
+  static HWY_INLINE Mask is_near_touch(const F3& d, const A& a, const B& b, const F3& gap) {
+    const F size = hn::Add(largest_component(d), max(a.extent(), b.extent()));
+    const F greatest = max(max(gap.x, gap.y), gap.z);
+    return hn::Le(hn::Abs(greatest), hn::Mul(size, splat(kNearTouch)));
+  }
+
   // Whether the witness points lie on the two facing faces of this axis.
   static HWY_INLINE Mask faces(F gap, Mask is_axis, Mask overlapping) {
     return hn::Or(hn::Gt(gap, splat(0)), hn::And(overlapping, is_axis));

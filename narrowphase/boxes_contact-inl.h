@@ -239,6 +239,8 @@ HWY_INLINE void test_boxes(const BoxPairLanes& p, const Rotation& turn_a, const 
   F3 on_a = p.centre, on_b = p.centre;
   Mask unsure = no_lanes();
   if constexpr (Report::kHasContact) witness_along(p, axis, on_a, on_b, unsure);
+  // Boxes that edges part have no features that face each other: nobody asked.
+  if constexpr (kTried == TriedAxes::of_faces) unsure = no_lanes();
   const Mask overlap = hn::Le(axis.gap, splat(0));
   report_boxes(p, turn_a, centre_a, axis.gap, axis.gap, axis.normal, on_a, on_b,
                hn::And(unsure, overlap), report);

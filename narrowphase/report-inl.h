@@ -38,13 +38,16 @@ struct LaneReport {
   Mask valid;
   bool is_odd;  // not all lanes may be valid
 
+  // Whether somebody asks which lanes are unsure; those of kernels that are refined always count.
+  HWY_INLINE bool marks_unsure() const { return batch.unsure != nullptr; }
+
   HWY_INLINE void operator()(Mask overlap, Mask unsure, Mask degenerate, F separation,
                              const F3& normal, const F3& arm_a, const F3& arm_b) const {
     AnswerLanes answer = in_metres(separation, normal, arm_a, arm_b);
     // What is a gap in other units may be none in metres.
     if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
     unsure = hn::And(unsure, valid);
-    if (HWY_UNLIKELY(batch.unsure != nullptr)) mark_unsure(unsure, answer.separation);
+    if (HWY_UNLIKELY(marks_unsure())) mark_unsure(unsure, answer.separation);
     if constexpr (Kernel::kUnsure != Unsure::nothing) refine(unsure, answer, overlap, degenerate);
     I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
     if (HWY_UNLIKELY(is_odd)) blot_out_invalid(answer, overlap, status);
@@ -70,7 +73,7 @@ struct LaneReport {
 
   HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
-    if (batch.single_precision) unsure = hn::AndNot(has_normal(answer), unsure);
+    if (batch.single_precision) unsure = hn::AndNot(is_good_enough(answer), unsure);
     if constexpr (Kernel::kUnsure == Unsure::separation) {
       answer.separation = refined(unsure, answer.separation);
     } else {
@@ -103,8 +106,12 @@ struct LaneReport {
     }
   }
 
-  // Whether float32 has found one, if it is stored at all.
-  static HWY_INLINE Mask has_normal(const AnswerLanes& answer) {
+  // Of what float32 has found: not of triangles, which are unsure where the kernel does not know
+  // them, and not without a normal, where one is stored.
+  static HWY_INLINE Mask is_good_enough(const AnswerLanes& answer) {
+    constexpr bool kHasTriangle =
+        A::kKind == ShapeKind::triangle || B::kKind == ShapeKind::triangle;
+    if constexpr (kHasTriangle) return no_lanes();
     if constexpr (!kHasContact) return hn::Not(no_lanes());
     const F squared = dot(answer.normal, answer.normal);
     return hn::And(hn::Ge(squared, splat(0.9f)), hn::Le(squared, splat(1.1f)));

@@ -159,17 +159,19 @@ TEST_F(VerifyTest, AWrongEvent) {
 // Kernels that are wrong in one lane, on one instruction set, at one detail, or by position.
 class BrokenKernel : public System {
  public:
-  enum class Flaw { last_bit, overlap_only, list_only, threads, manifold };
+  enum class Flaw { last_bit, overlap_only, list_only, threads, manifold, certified, exact };
   explicit BrokenKernel(Flaw flaw) : flaw_(flaw) {}
 
   Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
-                            const ResultColumns& out, WitnessFrame frame,
-                            Parallelism parallelism) override {
-    Result<void> done = System::collide_rows(a, b, detail, out, frame, parallelism);
+                            const ResultColumns& out, WitnessFrame frame, Parallelism parallelism,
+                            Tier tier) override {
+    Result<void> done = System::collide_rows(a, b, detail, out, frame, parallelism, tier);
     if (flaw_ == Flaw::last_bit && detail == Detail::contact) {
       out.normal[1][17] = std::nextafter(out.normal[1][17], 2.0f);
     }
     if (flaw_ == Flaw::overlap_only && detail == Detail::overlap) out.overlap[17] ^= 1;
+    if (flaw_ == Flaw::certified && tier == Tier::certified) out.overlap[17] ^= 1;
+    if (flaw_ == Flaw::exact && tier == Tier::exact) out.overlap[17] = kUndecided;
     if (flaw_ == Flaw::threads && parallelism == Parallelism::arena) out.overlap[17] ^= 1;
     if (flaw_ == Flaw::manifold && out.manifold) out.manifold[17].separation[3] += 1;
     return done;
@@ -177,8 +179,8 @@ class BrokenKernel : public System {
 
   Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
                        Detail detail, const ResultColumns& out, WitnessFrame frame,
-                       Parallelism parallelism) override {
-    Result<void> done = System::collide(a, b, pairs, detail, out, frame, parallelism);
+                       Parallelism parallelism, Tier tier) override {
+    Result<void> done = System::collide(a, b, pairs, detail, out, frame, parallelism, tier);
     if (flaw_ == Flaw::list_only) out.point_a[2][17] += 1;
     return done;
   }
@@ -193,7 +195,9 @@ TEST_F(VerifyTest, BrokenKernels) {
                                                  {Flaw::overlap_only, "detail overlap: pair 17"},
                                                  {Flaw::list_only, "shuffled: pair "},
                                                  {Flaw::threads, "threads 2, rows: pair 17"},
-                                                 {Flaw::manifold, "detail manifold: pair 17"}};
+                                                 {Flaw::manifold, "detail manifold: pair 17"},
+                                                 {Flaw::certified, "certified: pair 17"},
+                                                 {Flaw::exact, "exact: pair 17"}};
   for (const auto& [flaw, text] : kCases) {
     BrokenKernel system(flaw);
     expect_found(verify_with(system, {test_data("pairs_sample.npz")}),
@@ -229,11 +233,11 @@ TEST_F(VerifyTest, DifferencesShowOrientedShapes) {
 class SlowKernel : public System {
  public:
   Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
-                            const ResultColumns& out, WitnessFrame frame,
-                            Parallelism parallelism) override {
+                            const ResultColumns& out, WitnessFrame frame, Parallelism parallelism,
+                            Tier tier) override {
     if (!slept_) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
     slept_ = true;
-    return System::collide_rows(a, b, detail, out, frame, parallelism);
+    return System::collide_rows(a, b, detail, out, frame, parallelism, tier);
   }
 
  private:

@@ -24,11 +24,12 @@ inline constexpr uint8_t kUndecided = 2;
 // each.
 struct FastKnobs {
   // Nothing is computed again in float64: decisions within 2^-17 of the shapes' size may be wrong.
-  // Kinds that have no kernel in float32 are computed as ever.
+  // Triangles and kinds that have no kernel in float32 are computed as ever.
   bool single_precision = false;
 
   // Boxes against boxes by the six normals of their faces alone: boxes that only edges part count
-  // as overlapping, never the other way round.
+  // as overlapping, never the other way round. Witness points of such pairs may not face each
+  // other.
   bool faces_only = false;
 
   // Worlds: every body but half-spaces is the ball about its position that holds its shape. Finds
@@ -42,7 +43,7 @@ struct FastKnobs {
 
 struct Accuracy {
   Tier tier = Tier::standard;
-  FastKnobs knobs;  // Tier::fast alone
+  FastKnobs knobs = {};  // Tier::fast alone
 };
 
 }  // namespace carom
