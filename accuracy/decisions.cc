@@ -31,7 +31,8 @@ class Pairs {
     for (size_t i = 0; i < kBatch; ++i) {
       const double size_b = random.log_uniform(1 / ratio, ratio);
       const Eigen::Quaternionf turn_a = shapes.orientation();
-      const Eigen::Quaternionf turn_b = near_parallel ? turned_a_little(turn_a) : shapes.orientation();
+      const Eigen::Quaternionf turn_b =
+          near_parallel ? turned_a_little(turn_a) : shapes.orientation();
       const Eigen::Vector3d at = random.direction() * random.uniform(0, 10);
       const Eigen::Vector3d way = random.direction() * ((1 + size_b) * random.uniform(0, 2));
       a_.push_back({shapes.shape(kinds.a, 1), {as_float(at), turn_a}});

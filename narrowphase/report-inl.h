@@ -68,6 +68,7 @@ struct LaneReport {
   HWY_INLINE void mark_unsure(Mask unsure, F separation) const {
     unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
     if (is_odd) unsure = valid;
+    if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
     store_bytes(bytes_where(unsure, 1), batch.unsure, row);
   }
 
