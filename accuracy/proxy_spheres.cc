@@ -10,15 +10,14 @@
 namespace carom::accuracy {
 namespace {
 
-// The radius is rounded upwards.
+// Larger than it need be by a float, as those of worlds are: tests round, too.
 Shape ball_around(const Shape& shape) {
   if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Halfspace>(shape)) {
     return shape;
   }
   const double radius = bounding_radius(shape);
-  const auto rounded = static_cast<float>(radius);
-  if (rounded >= radius) return Sphere{rounded};
-  return Sphere{std::nextafter(rounded, std::numeric_limits<float>::infinity())};
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  return Sphere{std::nextafter(std::nextafter(static_cast<float>(radius), kInfinity), kInfinity)};
 }
 
 class ProxySpheres final : public Contender {

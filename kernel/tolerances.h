@@ -115,9 +115,9 @@ inline constexpr float kOffAxisSquared = 0x1p-36f;
 inline constexpr float kLyingFlat = 0x1p-21f;
 
 // How many times greater than a shape the numbers may be that place the plane, before their
-// rounding in float32 (4 units of 2^-24 at the most that was found) is more than 2e-6 of the shape:
+// rounding in float32 (6 units of 2^-24 at the most that was found) is more than 2e-6 of the shape:
 // bodies far from the position of a turned half-space, and half-spaces with a great offset.
-inline constexpr float kFarPlane = 8.0f;
+inline constexpr float kFarPlane = 5.0f;
 
 // --- Polytopes in double precision, in scaled units (coordinates up to two, so that rounding is
 // 2^-52 an operation) ---

@@ -203,8 +203,10 @@ HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
   const F length = hn::Sqrt(dot(way, way));
   const F3 direction = way * hn::Div(splat(1), length);
 
-  // The better normal is the one that keeps the boxes further apart.
-  const Mask by_points = hn::Gt(gap_along(p, direction), axis.gap);
+  // The better normal is the one that keeps the boxes further apart; rounding tilts short ways.
+  const F gap = gap_along(p, direction);
+  const Mask by_points = hn::Gt(gap, axis.gap);
+  const Mask tilted = hn::Lt(gap, hn::Sub(length, splat(CoreTolerance<float>::kTilt)));
   F3 axis_on_a, axis_on_b;
   Mask axis_unsure;
   witness_along(p, axis, axis_on_a, axis_on_b, axis_unsure);
@@ -212,7 +214,7 @@ HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
   normal = select(by_points, direction, axis.normal);
   on_a = select(by_points, y - direction * length, axis_on_a);
   on_b = select(by_points, y, axis_on_b);
-  unsure = hn::AndNot(by_points, axis_unsure);
+  unsure = hn::Or(hn::And(by_points, tilted), hn::AndNot(by_points, axis_unsure));
 }
 
 // --- Reports ---

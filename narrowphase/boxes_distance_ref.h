@@ -117,9 +117,11 @@ BoxDistance<Real> distance_of(const BoxPair<Real>& p, const SeparatingAxis<Real>
   const Real distance = std::sqrt(dot(way, way));
   const Vector3<Real> normal = way * (1 / distance);
   // The better normal is the one that keeps the boxes further apart, whichever has the nearer
-  // points.
-  if (!(gap_along(p, normal) > axis.gap)) return {axis.gap, axis.normal, witness_along(p, axis)};
-  return {distance, normal, {y - normal * distance, y}};
+  // points. Rounding tilts short ways.
+  const Real gap = gap_along(p, normal);
+  if (!(gap > axis.gap)) return {axis.gap, axis.normal, witness_along(p, axis)};
+  const bool is_tilted = gap < distance - CoreTolerance<Real>::kTilt;
+  return {distance, normal, {y - normal * distance, y, is_tilted}};
 }
 
 }  // namespace carom::reference

@@ -108,11 +108,12 @@ struct LaneReport {
   }
 
   // Of what float32 has found: not of triangles, which are unsure where the kernel does not know
-  // them, and not without a normal, where one is stored.
+  // them, not of half-spaces, which may be far away, and not without a normal, where one is stored.
   static HWY_INLINE Mask is_good_enough(const AnswerLanes& answer) {
-    constexpr bool kHasTriangle =
-        A::kKind == ShapeKind::triangle || B::kKind == ShapeKind::triangle;
-    if constexpr (kHasTriangle) return no_lanes();
+    constexpr auto kNeedsMore = [](ShapeKind kind) {
+      return kind == ShapeKind::triangle || kind == ShapeKind::halfspace;
+    };
+    if constexpr (kNeedsMore(A::kKind) || kNeedsMore(B::kKind)) return no_lanes();
     if constexpr (!kHasContact) return hn::Not(no_lanes());
     const F squared = dot(answer.normal, answer.normal);
     return hn::And(hn::Ge(squared, splat(0.9f)), hn::Le(squared, splat(1.1f)));

@@ -24,7 +24,7 @@ inline constexpr uint8_t kUndecided = 2;
 // each.
 struct FastKnobs {
   // Nothing is computed again in float64: decisions within 2^-17 of the shapes' size may be wrong.
-  // Triangles and kinds that have no kernel in float32 are computed as ever.
+  // Triangles, half-spaces and kinds that have no kernel in float32 are computed as ever.
   bool single_precision = false;
 
   // Boxes against boxes by the six normals of their faces alone: boxes that only edges part count
