@@ -37,6 +37,11 @@ class ScalarReference final : public Contender {
   }
 };
 
+// Kinds that single precision changes.
+bool has_knob(ShapeKind kind) {
+  return kind != ShapeKind::dop && kind != ShapeKind::triangle && kind != ShapeKind::halfspace;
+}
+
 LibrarySetting faces_only_setting() {
   return {
       "faces only", "fast", Promise::finite, {.tier = Tier::fast, .knobs = {.faces_only = true}}};
@@ -45,7 +50,7 @@ LibrarySetting faces_only_setting() {
 }  // namespace
 
 bool LibrarySetting::serves(const KindPair& kinds) const {
-  if (accuracy_.knobs.single_precision) return !oracle::has_dop(kinds);
+  if (accuracy_.knobs.single_precision) return has_knob(kinds.a) && has_knob(kinds.b);
   if (accuracy_.knobs.faces_only) {
     const bool has_box = kinds.a == ShapeKind::box || kinds.b == ShapeKind::box;
     return has_box && is_boxlike(kinds.a) && is_boxlike(kinds.b);

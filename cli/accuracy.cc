@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "accuracy/decisions.h"
 #include "accuracy/fidelity_json.h"
 #include "accuracy/measure.h"
 #include "accuracy/page.h"
@@ -27,6 +28,8 @@ struct AccuracyOptions {
   std::string mode = "short";
   std::vector<std::string> pairs;
   uint64_t seed = 1;
+  std::vector<std::string> scenes;
+  size_t decisions = 0;
   std::string json;
 };
 
@@ -63,8 +66,8 @@ class ProgressLine {
 
 // What the knobs do to whole scenes.
 Result<void> add_scenes(const AccuracyOptions& options, const Console& console, Json& json) {
-  const Result<accuracy::FidelityReport> report =
-      measure_scene_fidelity({}, options.mode == "short", ProgressLine(console, "scenes"));
+  const Result<accuracy::FidelityReport> report = measure_scene_fidelity(
+      options.scenes, options.mode == "short", ProgressLine(console, "scenes"));
   if (!report) return report.error();
   json.update(accuracy::to_json(*report));
   return {};
@@ -108,9 +111,50 @@ void print(const Json& json, std::ostream& out) {
       << "radii of a pair, or the gap if that is larger.\n";
 }
 
+std::string share(size_t part, size_t whole) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%",
+                100 * static_cast<double>(part) / static_cast<double>(whole));
+  return text;
+}
+
+// Certified and exact decisions alone, by the million.
+Result<int> count_decisions(const AccuracyOptions& options,
+                            const std::vector<accuracy::NamedKinds>& kinds,
+                            const Console& console) {
+  Result<JsonOutput> output = JsonOutput::open(options.json);
+  if (!output) return output.error();
+  Table table({"pair", "pairs", "overlapping", "undecided", "wrong certified", "wrong exact"});
+  Json rows = Json::array();
+  std::string failures;
+  for (const accuracy::NamedKinds& each : kinds) {
+    Progress progress(console, each.name, options.decisions);
+    const accuracy::DecisionCount count = accuracy::count_decisions(
+        each.kinds, options.decisions, options.seed, [&](size_t done) { progress.update(done); });
+    table.add({each.name, std::to_string(count.pairs), share(count.overlapping, count.pairs),
+               share(count.undecided, count.pairs), std::to_string(count.wrong_certified),
+               std::to_string(count.wrong_exact)});
+    rows.push_back({{"pair", each.name},
+                    {"pairs", count.pairs},
+                    {"overlapping", count.overlapping},
+                    {"undecided", count.undecided},
+                    {"wrong_certified", count.wrong_certified},
+                    {"wrong_exact", count.wrong_exact},
+                    {"failure", count.failure}});
+    if (!count.is_sound()) failures += std::string(each.name) + ": " + count.failure + '\n';
+  }
+  if (output->wanted()) {
+    if (Result<void> written = output->write(rows, console); !written) return written.error();
+  }
+  if (options.json != "-") table.print(console.out);
+  if (options.json != "-") console.out << failures;
+  return failures.empty() ? 0 : 1;
+}
+
 Result<int> measure_accuracy(const AccuracyOptions& options, const Console& console) {
   const auto kinds = chosen_kinds(options.pairs);
   if (!kinds) return kinds.error();
+  if (options.decisions > 0) return count_decisions(options, *kinds, console);
   Result<JsonOutput> output = JsonOutput::open(options.json);
   if (!output) return output.error();
   if (!options.out.empty()) {
@@ -148,6 +192,13 @@ void add_accuracy_command(CLI::App& program, Action& action) {
   command
       .add_option("--pairs", options->pairs, "These pairs of kinds alone, as sphere_box,box_box")
       ->delimiter(',');
+  command
+      .add_option("--scene", options->scenes,
+                  "Measure what the knobs change in this scene, too (a file or a generator)")
+      ->take_all();
+  command.add_option("--decisions", options->decisions,
+                     "Only count wrong and undecided decisions of the certified and exact tiers, "
+                     "of so many pairs of each two kinds");
   command.add_option("--seed", options->seed, "Of the random pairs")->capture_default_str();
   add_json_option(command, options->json);
   command.callback([options, &action] {
