@@ -348,5 +348,29 @@ TEST(KindsCases, OneSidedTrianglesMeetWhatIsInFront) {
   }
 }
 
+// Boxes that are close and turned by 1e-4: rounding of the short way between them tilted the normal
+// by more than 1e-5 of their size.
+TEST(KindsCases, NormalsOfCloseNearlyParallelBoxes) {
+  const PlacedShape a{Aabb{{-0x1.0d3d08p+0f, -0x1.10faa4p-1f, -0x1.840c9ep+0f},
+                           {0x1.0e516cp+0f, 0x1.20fe48p-1f, 0x1.af58bep-1f}}};
+  const PlacedShape b = oriented_box(
+      {-0x1.a85036d13d624p+0, 0x1.c2449bbaf2815p+0, 0x1.4fbcf1aced9b2p+0},
+      {0x1.3115bcp+0f, 0x1.354af6p-1f, 0x1.a06abcp-1f},
+      Eigen::Quaternionf(-0x1.1ce424p-16f, 0x1.fff9fp-1f, 0x1.000308p+0f, -0x1.5c3d14p-16f));
+  EXPECT_NEAR(checked_everywhere({a, b}, PositionType::float64).separation, 0.0031597854, 1e-6);
+}
+
+// Ten metres along a plane from its position: rounding made 2.9e-6 of the sphere's size of it.
+TEST(KindsCases, SpheresFarAlongAPlane) {
+  const PlacedShape ball = sphere(-0x1.12c1e8p+5, 0x1.8162b6p+5, -0x1.9029dep+5, 0x1.543f36p-1);
+  PlacedShape plane = halfspace({-0x1.16e1bcp+5, 0x1.3b7728p+5, -0x1.6a967ep+5},
+                                {0x1.a4fc3cp+1f, 0x1.33a7ecp+2f, 0x1.b81aeep-1f}, -0x1.016c8ep-1f);
+  plane.orientation =
+      Eigen::Quaternionf(-0x1.c7cc4ap-2f, 0x1.83df8p-1f, -0x1.c121e4p-2f, 0x1.82611ep-3f);
+  const Result result = checked_everywhere({ball, plane});
+  const ExactKinds exact({ball, plane}, kFloat32);
+  EXPECT_LE(std::fabs(result.separation - exact.answer.value), 2e-6 * 0x1.543f36p-1);
+}
+
 }  // namespace
 }  // namespace carom::test
