@@ -196,9 +196,13 @@ void add_accuracy_command(CLI::App& program, Action& action) {
       .add_option("--scene", options->scenes,
                   "Measure what the knobs change in this scene, too (a file or a generator)")
       ->take_all();
-  command.add_option("--decisions", options->decisions,
-                     "Only count wrong and undecided decisions of the certified and exact tiers, "
-                     "of so many pairs of each two kinds");
+  command
+      .add_option("--decisions", options->decisions,
+                  "Only count wrong and undecided decisions of the certified and exact tiers, of "
+                  "so many pairs of each two kinds")
+      ->check(CLI::Range(1.0, 1e12))
+      ->excludes("--out")
+      ->excludes("--scene");
   command.add_option("--seed", options->seed, "Of the random pairs")->capture_default_str();
   add_json_option(command, options->json);
   command.callback([options, &action] {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -54,5 +55,7 @@ class Dyadic {
 
 inline int sign_of(const Dyadic& x) { return x.sign(); }
 inline double approximately(const Dyadic& x) { return x.approximate(); }
+// What approximately() errs in proportion to.
+inline double magnitude(const Dyadic& x) { return std::fabs(x.approximate()); }
 
 }  // namespace carom

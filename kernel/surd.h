@@ -39,12 +39,17 @@ class Surd {
   }
 
   friend double approximately(const Surd& x) {
-    const double root = x.radicand_ ? std::sqrt(approximately(*x.radicand_)) : 0;
-    return approximately(x.a_) + approximately(x.b_) * root;
+    return approximately(x.a_) + approximately(x.b_) * x.approximate_root();
+  }
+  // The two parts may cancel.
+  friend double magnitude(const Surd& x) {
+    return magnitude(x.a_) + magnitude(x.b_) * x.approximate_root();
   }
 
  private:
   Surd(const Base& a, const Base& b, const Dyadic* radicand) : a_(a), b_(b), radicand_(radicand) {}
+
+  double approximate_root() const { return radicand_ ? std::sqrt(approximately(*radicand_)) : 0; }
 
   static const Dyadic* radicand(const Surd& x, const Surd& y) {
     return x.radicand_ ? x.radicand_ : y.radicand_;

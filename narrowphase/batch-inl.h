@@ -123,15 +123,16 @@ struct BatchLoop {
     A a;
     B b;
     load_pairs<Records>(batch, bodies, positions, pose, a, b);
-    Mask valid = is_plainly_valid(pose, a, b);
+    const Mask plain = is_plainly_valid(pose, a, b);
+    Mask valid = plain;
     // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
-    const bool is_odd = !hn::AllTrue(FloatTag(), valid);
+    const bool is_odd = !hn::AllTrue(FloatTag(), plain);
     if (HWY_UNLIKELY(is_odd)) {
       valid = valid_lanes(source, row);
       clear_unless(valid, positions, pose, a, b);
     }
     const F up = to_units<Kernel::kUnits>(pose, a, b);
-    Report report{batch, source, row, positions, up, valid, is_odd};
+    Report report{batch, source, row, positions, up, plain, valid, is_odd};
     Kernel::test(pose, a, b, report);
   }
 

@@ -29,10 +29,10 @@ size_t next_marked(const uint8_t* marks, size_t row, size_t count) {
   return std::min(row, count);
 }
 
-// A separation that rounding put on the wrong side is as good as none.
+// A separation that rounding put on the wrong side is as good as none; so is what overflowed.
 float with_sign_of(uint8_t overlap, float separation) {
-  if (overlap == 1) return std::min(separation, 0.0f);
-  if (overlap == 0) return std::max(separation, std::numeric_limits<float>::denorm_min());
+  if (overlap == 1 && !(separation <= 0)) return 0;
+  if (overlap == 0 && !(separation > 0)) return std::numeric_limits<float>::denorm_min();
   return separation;
 }
 

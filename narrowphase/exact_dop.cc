@@ -20,13 +20,26 @@ Number along(const VectorOf<int>& n, const VectorOf<Number>& x) {
   return (x.x * Number(n.x) + x.y * Number(n.y)) + x.z * Number(n.z);
 }
 
-std::vector<Plane> planes_of(const Dop& dop, double wider) {
+// How far both ends of a slab move outwards: shares of the end itself, and of the greatest number
+// of the three slabs along the axes.
+struct Widening {
+  double of_end = 0;
+  double of_size = 0;
+};
+
+std::vector<Plane> planes_of(const Dop& dop, const Widening& wider) {
+  double size = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    size = std::max({size, double{std::fabs(dop.lower[i])}, double{std::fabs(dop.upper[i])}});
+  }
+  const auto widened = [&](double end) {
+    return end + (wider.of_end * std::fabs(end) + wider.of_size * size);
+  };
   std::vector<Plane> planes;
   for (size_t i = 0; i < slab_count(dop.kind); ++i) {
     const auto& [x, y, z] = slab_directions(dop.kind)[i];
-    const double upper = dop.upper[i], lower = dop.lower[i];
-    planes.push_back({{x, y, z}, upper + wider * std::fabs(upper)});
-    planes.push_back({{-x, -y, -z}, -lower + wider * std::fabs(lower)});
+    planes.push_back({{x, y, z}, widened(dop.upper[i])});
+    planes.push_back({{-x, -y, -z}, widened(-dop.lower[i])});
   }
   return planes;
 }
@@ -105,8 +118,14 @@ class CornerSearch {
 }  // namespace
 
 std::vector<VectorOf<Dyadic>> exact_corners(const Dop& dop) {
-  std::vector<Exact> corners = CornerSearch(planes_of(dop, 0)).corners();
-  return corners.empty() ? CornerSearch(planes_of(dop, 0x1p-24)).corners() : corners;
+  constexpr double kHalfUnit = 0x1p-24;
+  std::vector<Exact> corners;
+  for (const Widening wider :
+       {Widening{}, Widening{.of_end = kHalfUnit}, Widening{.of_size = kHalfUnit}}) {
+    corners = CornerSearch(planes_of(dop, wider)).corners();
+    if (!corners.empty()) break;
+  }
+  return corners;
 }
 
 }  // namespace carom

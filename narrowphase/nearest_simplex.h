@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -16,6 +17,7 @@ namespace carom {
 
 inline int sign_of(double x) { return (x > 0) - (x < 0); }
 inline double approximately(double x) { return x; }
+inline double magnitude(double x) { return std::fabs(x); }
 
 template <class Number>
 struct NearestOfSimplex {

@@ -65,13 +65,12 @@ class OverlapSearch {
   struct Points {
     const std::vector<Vector>& exact;
     std::vector<VectorOf<double>> rough;
-    double greatest = 0;
+    double greatest = 0;  // magnitude of a coordinate
 
     explicit Points(const std::vector<Vector>& points) : exact(points) {
       for (const Vector& p : points) {
         rough.push_back({approximately(p.x), approximately(p.y), approximately(p.z)});
-        const auto& [x, y, z] = rough.back();
-        greatest = std::max({greatest, std::fabs(x), std::fabs(y), std::fabs(z)});
+        greatest = std::max({greatest, magnitude(p.x), magnitude(p.y), magnitude(p.z)});
       }
     }
   };
@@ -91,8 +90,7 @@ class OverlapSearch {
 
   // Doubles tell most points away; what they cannot tell apart is compared as it is.
   size_t furthest(const Points& points, const Vector& way, const VectorOf<double>& rough) const {
-    const double length = std::fabs(rough.x) + std::fabs(rough.y) + std::fabs(rough.z);
-    const double reach = length * greatest_;
+    const double reach = (magnitude(way.x) + magnitude(way.y) + magnitude(way.z)) * greatest_;
     const bool rough_is_good = reach > 1e-250 && reach < 1e250;
     double most = -HUGE_VAL;
     for (const VectorOf<double>& p : points.rough) most = std::max(most, dot(rough, p));

@@ -29,11 +29,16 @@ constexpr double kRounding = 0x1p-44;
 // Corners of k-DOPs are found to within kDopRounding, the normals of triangles by which they are
 // thick to within 2^-52 over the sine of their angle.
 constexpr double kRoundingOfDops = 4 * kDopRounding;
+constexpr double kLeastDop = 0x1p-20;
 constexpr double kRoundingOfFronts = 0x1p-30;
 constexpr double kLeastSine = 0x1p-16;
 
 // Volumes of three differences of points, each below 2^5, round to less than this.
 constexpr double kRoundingOfVolumes = 0x1p-34;
+
+// Sizes that can be scaled: those of all floats, and of distances that are squared.
+constexpr double kLeastSize = 0x1p-400;
+constexpr double kGreatestSize = 0x1p400;
 
 // GJK in doubles is over after some ten rounds, or goes round in circles.
 constexpr int kMostRounds = 32;
@@ -54,9 +59,12 @@ struct BodyMaker {
   ProofBody operator()(const T& shape) const {
     return {reference::polytope_of(reference::shape_as<double>(shape).scaled(scale), turn)};
   }
+  // Only what is solid: of slabs that hardly have a point in common the corners say nothing.
   ProofBody operator()(const Dop& dop) const {
-    return {reference::polytope_of(reference::shape_as<double>(dop).scaled(scale), turn),
-            kRoundingOfDops};
+    ProofBody body{reference::polytope_of(reference::shape_as<double>(dop).scaled(scale), turn),
+                   kRoundingOfDops};
+    body.is_known = !body.polytope.points.empty() && body.polytope.inner_radius > kLeastDop;
+    return body;
   }
   ProofBody operator()(const Triangle& triangle) const {
     const auto shape = reference::shape_as<double>(triangle).scaled(scale);
@@ -211,6 +219,7 @@ uint8_t prove_overlap(const StatedBody& a, const StatedBody& b) {
   const Vector3d metres = way_between(a, b);
   const double size =
       std::max({reference::largest_component(metres), size_of(a.shape), size_of(b.shape)});
+  if (!(size > kLeastSize && size < kGreatestSize)) return kUndecided;
   const double scale = reference::scale_of(size).down;
   const Vector3d way = metres * scale;
   const auto made = [&](const StatedBody& body) {

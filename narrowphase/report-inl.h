@@ -34,9 +34,10 @@ struct LaneReport {
   const Batch& source;  // of this one
   size_t row;
   const PositionLanes& positions;
-  F up;  // metres a unit
+  F up;        // metres a unit
+  Mask plain;  // finite and of usual size
   Mask valid;
-  bool is_odd;  // not all lanes may be valid
+  bool is_odd;  // not all lanes are plain
 
   // Whether somebody asks which lanes are unsure; those of kernels that are refined always count.
   HWY_INLINE bool marks_unsure() const { return batch.unsure != nullptr; }
@@ -67,7 +68,7 @@ struct LaneReport {
   // Gaps that vanished in metres, and numbers so large that they were clamped, are unsure, too.
   HWY_INLINE void mark_unsure(Mask unsure, F separation) const {
     unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
-    if (is_odd) unsure = valid;
+    unsure = hn::Or(unsure, hn::AndNot(plain, valid));
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
     store_bytes(bytes_where(unsure, 1), batch.unsure, row);
   }

@@ -177,5 +177,69 @@ TEST(ExactOverlap, DopsOfOnePoint) {
   }
 }
 
+// The two parts of a + b sqrt(s) cancelled, and what was left of them in doubles chose a wrong
+// corner.
+TEST(ExactOverlap, PointJustInsideTheBackOfAThickTriangle) {
+  Triangle triangle;
+  triangle.corners = {Eigen::Vector3f(-0x1.00b9eap-2f, -0x1.d2cdfep-2f, -0x1.cef342p-4f),
+                      Eigen::Vector3f(0x1.0e2882p-2f, -0x1.e8ea1cp-6f, 0x1.a1d174p-1f),
+                      Eigen::Vector3f(0x1.1bdacp-2f, 0x1.4a79d2p-3f, -0x1.471022p-6f)};
+  triangle.thickness = 0x1.5d2464p-1f;
+  EXPECT_TRUE(overlap(at(triangle, 0, 0, 0), at(Sphere{0}, 0x1.917c4214c183bp-1,
+                                                -0x1.d8519d23a60d1p-2, 0x1.738ff43c593cbp-1)));
+}
+
+// Slabs of x, y and z, of (1, 1, 1), and the others so wide that they do not matter.
+Dop cut_box(const Eigen::Vector3f& lower, const Eigen::Vector3f& upper, float cut_lower,
+            float cut_upper) {
+  Dop dop{.kind = DopKind::k14};
+  const float wide = 3 * cut_upper;
+  for (size_t i = 0; i < slab_count(dop.kind); ++i) {
+    const auto& d = slab_directions(dop.kind)[i];
+    const bool is_axis = i < 3, is_cut = d[0] == 1 && d[1] == 1 && d[2] == 1;
+    dop.lower[i] = is_axis ? lower[static_cast<int>(i)] : is_cut ? cut_lower : -wide;
+    dop.upper[i] = is_axis ? upper[static_cast<int>(i)] : is_cut ? cut_upper : wide;
+  }
+  return dop;
+}
+
+// Empty by less than rounding tells; the ends that leave no point are zero, and widen to nothing.
+TEST(ExactOverlap, DopsThatAreAllButEmpty) {
+  const StatedBody dop = at(cut_box({-1, -1, -1}, {0, 0, 0}, 1e-20f, 3), 0, 0, 0);
+  EXPECT_TRUE(overlap(dop, at(Sphere{0}, 0, 0, 0)));
+  EXPECT_FALSE(overlap(dop, at(Sphere{0}, 0, 0, 0x1p-20)));
+  EXPECT_EQ(prove_overlap(dop, at(Sphere{0}, 0, 0, 0)), kUndecided);
+}
+
+TEST(ExactOverlap, ProofsLeaveAllButEmptyDopsAlone) {
+  const StatedBody dop = at(cut_box({-8, -8, -8}, {1, 1, -2}, 1e-20f, 24), 0, 0, 0);
+  for (const double above : {1e-8, 1e-7, 1.1e-7, 1.3e-7}) {
+    const StatedBody point = at(Sphere{0}, 1, 1, -2 + above);
+    EXPECT_EQ(overlap(dop, point), above < 1.2e-7);
+    EXPECT_EQ(prove_overlap(dop, point), kUndecided);
+  }
+}
+
+TEST(ExactOverlap, SmallDopsFarAway) {
+  const Eigen::Vector3f point(-0x1.ed111cp-73f, 0, 0x1.adbf76p-71f);
+  const StatedBody dop = at(Dop::of_points({&point, 1}, DopKind::k26), 0, 0, 0);
+  const StatedBody ball = at(Sphere{1}, 0, 0, 1.7e308);
+  EXPECT_FALSE(overlap(dop, ball));
+  EXPECT_NE(prove_overlap(dop, ball), 1);
+}
+
+// Too far apart for scaled units.
+TEST(ExactOverlap, HalfspacesAtTheEndOfTheRange) {
+  const Halfspace halfspace{{0x1.ff933cp+127f, 0x1.4484cp-100f, 0x1.b7cdfep-34f}, 0x1.93e594p+99f};
+  const Aabb box{{0x1.b38fb8p-127f, -0x1p+0f, -0x1.c363ccp+127f},
+                 {0x1.99999ap-4f, -0x1.99999ap-4f, -0x1.79ca1p-67f}};
+  const StatedBody a =
+      at(halfspace, -0x1.e42d130773b76p+1023, 0x1.7e43c8800759cp+996, -0x1.99999ap-4,
+         Eigen::Quaternionf(0x1.ff933cp+127f, 0x1.93e594p+99f, -0x1.ff933cp+127f, 0x1.b7cdfep-34f));
+  const StatedBody b = at(box, 0x1.ff933cp+127, -0x1.b7cdfep-34, -0x1.99999ap-4);
+  EXPECT_FALSE(overlap(a, b));
+  EXPECT_NE(prove_overlap(a, b), 1);
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -179,6 +179,45 @@ TEST(Tiers, BoundsAndOverlapsDoNotNeedTheOtherColumns) {
   }
 }
 
+// What is odd about one pair must not make others of its vector unsure.
+TEST(Tiers, NeighboursOfInvalidPairsGetWhatTheyAlwaysGet) {
+  const float e = 0x1p-13f;
+  const PlacedShape a{Aabb{Eigen::Vector3f::Constant(1), Eigen::Vector3f::Constant(1 + 2 * e)}};
+  const PlacedShape b{Aabb{Eigen::Vector3f::Constant(1 + e), Eigen::Vector3f::Constant(1 + 4 * e)}};
+  std::vector<TestPair> pairs(16, {a, b});
+  const Call call = call_of(Tier::certified, PositionType::float32, Detail::contact);
+  const std::vector<Row> alone = run_rows(pairs, call);
+  std::get<Aabb>(pairs[3].a.shape).lower[0] = std::numeric_limits<float>::quiet_NaN();
+  for_each_isa([&] {
+    const std::vector<Row> rows = run_rows(pairs, call);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      if (i == 3) {
+        EXPECT_EQ(rows[i].status, static_cast<uint8_t>(Status::invalid));
+      } else {
+        EXPECT_TRUE(same_bits(rows[i], alone[i])) << show(rows[i]);
+      }
+    }
+  });
+}
+
+// The separation overflowed on its way to not a number.
+TEST(Tiers, SignsHoldWhereDistancesOverflow) {
+  const double far = 0x1.e42d130773b76p+1023;
+  const PlacedShape plane = halfspace({-1, -far, far}, {0, -0x1p-148f, 0}, 0);
+  PlacedShape speck =
+      triangle({0x1p-149, 0x1p-148, -far},
+               {Eigen::Vector3f(-0x1p-148f, -0x1p-149f, 0),
+                Eigen::Vector3f(-0x1p-149f, -0x1p-149f, 0), Eigen::Vector3f(0x1p-149f, 0, 0)});
+  std::get<Triangle>(speck.shape).thickness = 0x1p-149f;
+  const std::vector<TestPair> pairs = {{plane, speck}, {speck, plane}};
+  for (const TestPair& pair : pairs) {
+    const Row row =
+        run_rows({&pair, 1}, call_of(Tier::exact, PositionType::float64, Detail::contact))[0];
+    EXPECT_EQ(row.overlap, exact(pair, PositionType::float64));
+    EXPECT_EQ(row.separation <= 0, row.overlap == 1);
+  }
+}
+
 // --- The knobs of the fast tier ---
 
 Accuracy knobs(const FastKnobs& knobs) { return {Tier::fast, knobs}; }
