@@ -89,10 +89,6 @@ reference::Quaternion<double> turn_of(const StatedBody& body) {
       body.orientation[0], body.orientation[1], body.orientation[2], body.orientation[3]));
 }
 
-double size_of(const Shape& shape) {
-  return std::visit([](const auto& s) { return reference::shape_as<double>(s).size(); }, shape);
-}
-
 Vector3d way_between(const StatedBody& a, const StatedBody& b) {
   return {b.position.x - a.position.x, b.position.y - a.position.y, b.position.z - a.position.z};
 }

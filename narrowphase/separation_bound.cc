@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "carom/narrowphase/collide.h"
-#include "narrowphase/shapes_ref.h"
 #include "narrowphase/single_pair.h"
 #include "narrowphase/stated_body.h"
 
@@ -13,10 +12,6 @@ namespace carom {
 namespace {
 
 bool is_upright(ShapeKind kind) { return kind == ShapeKind::sphere || kind == ShapeKind::aabb; }
-
-double size_of(const Shape& shape) {
-  return std::visit([](const auto& s) { return reference::shape_as<double>(s).size(); }, shape);
-}
 
 double size_of(const StatedBody& a, const StatedBody& b) {
   const auto way = [](double from, double to) { return std::fabs(to - from); };

@@ -1,6 +1,14 @@
 #include "narrowphase/stated_body.h"
 
+#include <variant>
+
+#include "narrowphase/shapes_ref.h"
+
 namespace carom {
+
+double size_of(const Shape& shape) {
+  return std::visit([](const auto& s) { return reference::shape_as<double>(s).size(); }, shape);
+}
 
 Shape shape_of(const BodyReader& body, size_t index) {
   switch (body.kind(index)) {

@@ -12,6 +12,9 @@ struct StatedBody {
   Row orientation;  // x, y, z, w; any length but zero
 };
 
+// The greatest number of a shape, in metres, within a factor of two.
+double size_of(const Shape& shape);
+
 Shape shape_of(const BodyReader& body, size_t index);
 StatedBody stated_body(const BodyReader& body, size_t index);
 

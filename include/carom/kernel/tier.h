@@ -33,7 +33,7 @@ struct FastKnobs {
   bool faces_only = false;
 
   // Worlds: every body but half-spaces is the ball about its position that holds its shape. Finds
-  // overlaps that are none, misses none.
+  // overlaps that are none, misses none but by rounding.
   bool proxy_spheres = false;
 
   // Worlds: a body's results stay as they are until a point of it may have moved by more than this,
