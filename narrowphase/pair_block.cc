@@ -51,8 +51,9 @@ BatchSide from_body(BatchSide side, ShapeKind kind, size_t first) {
   }
   for (auto* corner : {&side.boxes.lower, &side.boxes.upper}) {
     for (const float*& column : *corner) {
+      if (!column) continue;
       const char* shifted = reinterpret_cast<const char*>(column) + first * side.boxes.stride;
-      if (column) column = reinterpret_cast<const float*>(shifted);
+      column = reinterpret_cast<const float*>(shifted);
     }
   }
   return side;
