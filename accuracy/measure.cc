@@ -1,7 +1,6 @@
 #include "accuracy/measure.h"
 
 #include <chrono>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,6 +12,7 @@
 #include "accuracy/undecided.h"
 #include "carom/simd/isa.h"
 #include "carom_build_info.h"
+#include "io/cpu_name.h"
 
 namespace carom::accuracy {
 namespace {
@@ -20,28 +20,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-// As Linux calls it; "unknown" elsewhere.
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(file, line)) {
-    const size_t value = line.find(": ");
-    if (line.starts_with("model name") && value != std::string::npos) return line.substr(value + 2);
-  }
-  return "unknown";
-}
-
 Json document(const MeasureOptions& options) {
-  Json json = {{"carom_accuracy", 1},
-               {"version", build_info::kVersion},
-               {"commit", build_info::kCommit},
-               {"compiler", build_info::kCompiler},
-               {"flags", build_info::kFlags},
-               {"isa", name(active_isa())},
-               {"cpu", cpu_name()},
-               {"mode", options.is_long ? "long" : "short"},
-               {"seed", options.seed},
-               {"seconds", 0.0}};
+  Json json = {{"carom_accuracy", 1},           {"version", build_info::kVersion},
+               {"commit", build_info::kCommit}, {"compiler", build_info::kCompiler},
+               {"flags", build_info::kFlags},   {"isa", name(active_isa())},
+               {"cpu", io::cpu_name()},         {"mode", options.is_long ? "long" : "short"},
+               {"seed", options.seed},          {"seconds", 0.0}};
   for (const char* section : {"tradeoff", "by_gap", "by_distance", "by_angle", "undecided", "reuse",
                               "fidelity", "matrix", "atlas", "failures"}) {
     json[section] = Json::array();

@@ -2,24 +2,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include <fstream>
-
 #include "carom/simd/isa.h"
 #include "carom_build_info.h"
+#include "io/cpu_name.h"
 
 namespace carom::bench {
 namespace {
-
-// As Linux calls it; "unknown" elsewhere.
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  std::string line;
-  while (std::getline(file, line)) {
-    const size_t value = line.find(": ");
-    if (line.starts_with("model name") && value != std::string::npos) return line.substr(value + 2);
-  }
-  return "unknown";
-}
 
 std::string isa_names() {
   std::string names;
@@ -37,7 +25,7 @@ std::vector<std::pair<std::string, std::string>> context() {
           {"build_type", build_info::kBuildType},
           {"highway", build_info::kHighwayVersion},
           {"onetbb", build_info::kTbbVersion},
-          {"cpu", cpu_name()},
+          {"cpu", io::cpu_name()},
           {"isas", isa_names()}};
 }
 
