@@ -240,14 +240,5 @@ std::string family_name(const testing::TestParamInfo<ConvexFamily>& info) {
 INSTANTIATE_TEST_SUITE_P(All, ConvexOracleFamilies, testing::ValuesIn(convex_families()),
                          family_name);
 
-TEST(ConvexFamilies, NonsenseIsMade) {
-  for (const KindPair& kinds : convex_kind_pairs()) {
-    for (const ConvexPair& pair : make_convex_nonsense(kinds, 50)) {
-      EXPECT_EQ(kind_of(pair.shape_a), kinds.a);
-      EXPECT_EQ(kind_of(pair.shape_b), kinds.b);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace carom::test
