@@ -2,7 +2,6 @@
 #include "kernel/dyadic.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace carom {

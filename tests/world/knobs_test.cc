@@ -14,27 +14,14 @@ namespace {
 constexpr FastKnobs kProxies{.proxy_spheres = true};
 
 CrowdSpec crowd(uint64_t seed, size_t count = 200) {
-  return {.count = count,
-          .side = 1.2 * std::cbrt(static_cast<double>(count)),
-          .oriented = seed % 4 != 3,
-          .halfspaces = seed % 4 == 1 ? size_t{3} : size_t{0},
-          .filters = seed % 3 == 0,
-          .velocities = seed % 2 == 0,
-          .seed = seed + 1};
-}
-
-WorldSettings settings_for(uint64_t seed) {
-  WorldSettings settings;
-  settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
-  settings.detail = seed % 5 == 0   ? Detail::overlap
-                    : seed % 5 == 1 ? Detail::manifold
-                                    : Detail::contact;
-  return settings;
+  CrowdSpec spec = varied_crowd(seed, count);
+  spec.velocities = seed % 2 == 0;
+  return spec;
 }
 
 TEST(Knobs, ThatAreOffChangeNothing) {
   for (uint64_t seed = 0; seed < rounds(20); ++seed) {
-    const WorldSettings standard = settings_for(seed);
+    const WorldSettings standard = varied_settings(seed);
     WorldSettings ignored = standard;  // knobs of another tier
     ignored.accuracy.knobs = {.single_precision = true,
                               .faces_only = true,
@@ -118,7 +105,7 @@ void check_balls(const World& balls, const World& standard, size_t& more) {
 TEST(ProxySpheres, MissNoOverlap) {
   size_t more = 0;
   for (uint64_t seed = 0; seed < rounds(60); ++seed) {
-    const WorldSettings standard = settings_for(seed);
+    const WorldSettings standard = varied_settings(seed);
     SideBySide worlds(std::vector{standard, with_knobs(kProxies, standard)}, crowd(seed));
     for (int i = 0; i < 8; ++i) {
       worlds.step();
@@ -134,7 +121,7 @@ TEST(ProxySpheres, MissNoOverlap) {
 // Carried or not, with a margin and k-DOPs or without.
 TEST(ProxySpheres, DoNotDependOnWhatSavesTests) {
   for (uint64_t seed = 0; seed < rounds(30); ++seed) {
-    const WorldSettings plain = with_knobs(kProxies, settings_for(seed));
+    const WorldSettings plain = with_knobs(kProxies, varied_settings(seed));
     WorldSettings anew = plain, margin = plain, dops = plain;
     anew.carry_results = false;
     margin.margin = 0.2f;

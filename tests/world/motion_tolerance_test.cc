@@ -13,21 +13,8 @@ namespace {
 
 FastKnobs tolerance(float metres) { return {.motion_tolerance = metres}; }
 
-CrowdSpec crowd(uint64_t seed, size_t count = 200) {
-  return {.count = count,
-          .side = 1.2 * std::cbrt(static_cast<double>(count)),
-          .oriented = seed % 4 != 3,
-          .halfspaces = seed % 4 == 1 ? size_t{3} : size_t{0},
-          .filters = seed % 3 == 0,
-          .seed = seed + 1};
-}
-
 WorldSettings settings_for(uint64_t seed) {
-  WorldSettings settings;
-  settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
-  settings.detail = seed % 5 == 0   ? Detail::overlap
-                    : seed % 5 == 1 ? Detail::manifold
-                                    : Detail::contact;
+  WorldSettings settings = varied_settings(seed);
   if (seed % 7 == 0) settings.margin = 0.1f;
   if (seed % 7 == 1) settings.dop_bounds = DopKind::k14;
   return settings;
@@ -60,7 +47,8 @@ TEST(MotionTolerance, SeparationsAreOffByTwiceTheToleranceAtMost) {
   for (uint64_t seed = 0; seed < rounds(40); ++seed) {
     const WorldSettings standard = settings_for(seed);
     const float metres = seed % 3 == 0 ? 0.2f : 0.03f;
-    SideBySide worlds(std::vector{standard, with_knobs(tolerance(metres), standard)}, crowd(seed));
+    SideBySide worlds(std::vector{standard, with_knobs(tolerance(metres), standard)},
+                      varied_crowd(seed));
     for (int i = 0; i < 20; ++i) {
       worlds.step();
       ASSERT_EQ(as_bytes(worlds[1].pairs()), as_bytes(worlds[0].pairs()));
@@ -84,7 +72,7 @@ TEST(MotionTolerance, OfZeroChangesNoBit) {
     anew.carry_results = false;
     SideBySide worlds(std::vector{standard, with_knobs(tolerance(0), standard),
                                   with_knobs(tolerance(1e-30f), standard), anew},
-                      crowd(seed));
+                      varied_crowd(seed));
     for (int i = 0; i < 10; ++i) {
       worlds.step();
       for (const size_t other : {1, 2, 3}) {
@@ -104,7 +92,7 @@ TEST(MotionTolerance, TheSameOnThreads) {
   threaded.parallelism = arena.parallelism();
   plain.parallelism = Parallelism::none;
   arena.run([&] {
-    SideBySide worlds(std::vector{plain, threaded}, crowd(1, 5000));
+    SideBySide worlds(std::vector{plain, threaded}, varied_crowd(1, 5000));
     for (int i = 0; i < 6; ++i) {
       worlds.step();
       ASSERT_TRUE(results(worlds[1]) == results(worlds[0]));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +15,25 @@ namespace carom::test {
 
 inline WorldSettings with_knobs(const FastKnobs& knobs, WorldSettings settings = {}) {
   settings.accuracy = {.tier = Tier::fast, .knobs = knobs};
+  return settings;
+}
+
+// Crowds and settings of many sorts, by the seed.
+inline CrowdSpec varied_crowd(uint64_t seed, size_t count = 200) {
+  return {.count = count,
+          .side = 1.2 * std::cbrt(static_cast<double>(count)),
+          .oriented = seed % 4 != 3,
+          .halfspaces = seed % 4 == 1 ? size_t{3} : size_t{0},
+          .filters = seed % 3 == 0,
+          .seed = seed + 1};
+}
+
+inline WorldSettings varied_settings(uint64_t seed) {
+  WorldSettings settings;
+  settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
+  settings.detail = seed % 5 == 0   ? Detail::overlap
+                    : seed % 5 == 1 ? Detail::manifold
+                                    : Detail::contact;
   return settings;
 }
 
