@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
+
 namespace carom::accuracy {
 namespace {
 
@@ -44,6 +47,21 @@ struct Radius {
   double operator()(const Dop& dop) const {
     return farthest_corner(lower_corner(dop), upper_corner(dop));
   }
+  double operator()(const Hull& hull) const {
+    double farthest = 0;
+    for (const Eigen::Vector3f& point : hull.geometry->points()) {
+      farthest = std::max(farthest, point.cast<double>().norm());
+    }
+    return farthest;
+  }
+  double operator()(const Mesh& mesh) const { return of_box(*mesh.geometry); }
+  double operator()(const Compound& compound) const { return of_box(*compound.geometry); }
+
+  template <class Geometry>
+  static double of_box(const Geometry& geometry) {
+    return farthest_corner(geometry.lower().template cast<double>(),
+                           geometry.upper().template cast<double>());
+  }
 };
 
 struct Aspect {
@@ -56,6 +74,20 @@ struct Aspect {
   double operator()(const Dop& dop) const {
     return edge_ratio(upper_corner(dop) - lower_corner(dop));
   }
+  // Of the box that holds it.
+  double operator()(const Hull& hull) const {
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& point : hull.geometry->points()) box.extend(point);
+    return edge_ratio(box.sizes().cast<double>());
+  }
+  double operator()(const Mesh& mesh) const { return of_box(*mesh.geometry); }
+  double operator()(const Compound& compound) const { return of_box(*compound.geometry); }
+
+  template <class Geometry>
+  static double of_box(const Geometry& geometry) {
+    return edge_ratio((geometry.upper() - geometry.lower()).template cast<double>());
+  }
+
   double operator()(const Capsule& capsule) const {
     const double width = 2 * double{capsule.radius};
     const double length = (capsule.b - capsule.a).cast<double>().norm();

@@ -9,6 +9,7 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 
@@ -18,7 +19,7 @@ namespace carom::accuracy {
 namespace {
 
 // Bullet rounds the corners of boxes by margins and makes triangles thicker; this share of the
-// shape's size is little enough to compare.
+// shape's size is little enough to compare. Hulls do without.
 constexpr float kMarginShare = 1e-3f;
 
 btVector3 vector(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
@@ -34,6 +35,15 @@ std::unique_ptr<btConvexShape> make_shape(const Shape& shape) {
   }
   if (const auto* box = std::get_if<Box>(&shape)) {
     return with_margin(std::make_unique<btBoxShape>(vector(box->half)), box->half.minCoeff());
+  }
+  if (const auto* hull = std::get_if<Hull>(&shape)) {
+    auto bullet = std::make_unique<btConvexHullShape>();
+    for (const Eigen::Vector3f& point : hull->geometry->points()) {
+      bullet->addPoint(vector(point), false);
+    }
+    bullet->recalcLocalAabb();
+    bullet->setMargin(0);
+    return bullet;
   }
   const auto& corners = std::get<Triangle>(shape).corners;
   return with_margin(
@@ -81,7 +91,8 @@ class Bullet final : public Contender {
   // Shapes that both describe alike.
   bool serves(const KindPair& kinds) const override {
     const auto is_known = [](ShapeKind kind) {
-      return kind == ShapeKind::sphere || kind == ShapeKind::box || kind == ShapeKind::triangle;
+      return kind == ShapeKind::sphere || kind == ShapeKind::box || kind == ShapeKind::triangle ||
+             kind == ShapeKind::hull;
     };
     return is_known(kinds.a) && is_known(kinds.b);
   }

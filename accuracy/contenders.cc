@@ -39,7 +39,7 @@ class ScalarReference final : public Contender {
 
 // Kinds that single precision changes.
 bool has_knob(ShapeKind kind) {
-  return kind != ShapeKind::dop && kind != ShapeKind::triangle && kind != ShapeKind::halfspace;
+  return kind == ShapeKind::sphere || kind == ShapeKind::capsule || is_boxlike(kind);
 }
 
 LibrarySetting faces_only_setting() {

@@ -2,6 +2,9 @@
 
 #include <cstdio>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
+
 namespace carom::accuracy {
 namespace {
 
@@ -29,6 +32,18 @@ std::string numbers(const Dop& dop) {
   const Eigen::Map<const Eigen::VectorXf> lower(dop.lower.data(), count);
   const Eigen::Map<const Eigen::VectorXf> upper(dop.upper.data(), count);
   return std::to_string(static_cast<int>(dop.kind)) + list(lower) + list(upper);
+}
+
+std::string numbers(const Hull& hull) {
+  std::string all;
+  for (const Eigen::Vector3f& point : hull.geometry->points()) all += list(point);
+  return all;
+}
+std::string numbers(const Mesh& mesh) {
+  return std::to_string(mesh.geometry->triangles().size()) + " triangles";
+}
+std::string numbers(const Compound& compound) {
+  return std::to_string(compound.geometry->children().size()) + " children";
 }
 
 std::string describe(const Shape& shape, const Pose& pose) {

@@ -17,21 +17,21 @@ Effort effort_for(const KindPair& kinds, bool is_long) {
                             .angle = 2'000,
                             .scene = 200'000,
                             .rounds = 15};
-  constexpr Effort kShortDops = {.stream = 2'000,
-                                 .family = 16,
-                                 .gap = 8,
-                                 .distance = 20,
-                                 .angle = 16,
-                                 .scene = 2'000,
-                                 .rounds = 5};
-  constexpr Effort kLongDops = {.stream = 10'000,
-                                .family = 250,
-                                .gap = 60,
-                                .distance = 100,
-                                .angle = 100,
-                                .scene = 20'000,
-                                .rounds = 7};
-  if (oracle::has_dop(kinds)) return is_long ? kLongDops : kShortDops;
+  constexpr Effort kShortPolytopes = {.stream = 2'000,
+                                      .family = 16,
+                                      .gap = 8,
+                                      .distance = 20,
+                                      .angle = 16,
+                                      .scene = 2'000,
+                                      .rounds = 5};
+  constexpr Effort kLongPolytopes = {.stream = 10'000,
+                                     .family = 250,
+                                     .gap = 60,
+                                     .distance = 100,
+                                     .angle = 100,
+                                     .scene = 20'000,
+                                     .rounds = 7};
+  if (oracle::has_polytope(kinds)) return is_long ? kLongPolytopes : kShortPolytopes;
   return is_long ? kLong : kShort;
 }
 

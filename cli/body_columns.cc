@@ -3,6 +3,17 @@
 #include <algorithm>
 
 namespace carom::cli {
+namespace {
+
+// nullptr of shapes that have none.
+std::shared_ptr<const void> geometry_of(const Shape& shape) {
+  if (const Hull* hull = std::get_if<Hull>(&shape)) return hull->geometry;
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->geometry;
+  if (const Compound* compound = std::get_if<Compound>(&shape)) return compound->geometry;
+  return nullptr;
+}
+
+}  // namespace
 
 void BodyColumns::reserve(size_t count) {
   if (positions_ == PositionType::float64) {
@@ -23,6 +34,7 @@ void BodyColumns::push(const Shape& shape, const Pose& pose) {
   push_box(box ? *box : Aabb{});
   push_rows(shape, pose.orientation);
   kind_.push_back(kind_of(shape));
+  if (auto geometry = geometry_of(shape)) geometries_.insert(std::move(geometry));
 }
 
 void BodyColumns::push_position(const Eigen::Vector3d& position, float radius) {

@@ -3,12 +3,15 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
+#include <set>
 #include <vector>
 
 #include "carom/kernel/views.h"
 
 namespace carom::cli {
 
+// Keeps the geometries of its bodies.
 class BodyColumns {
  public:
   explicit BodyColumns(PositionType positions) : positions_(positions) {}
@@ -43,6 +46,7 @@ class BodyColumns {
   std::vector<Row> rows_;
   std::vector<uint32_t> first_row_;  // 0 where the kind has none
   std::vector<Row> orientation_;     // empty as long as no kind has rows
+  std::set<std::shared_ptr<const void>> geometries_;
 };
 
 }  // namespace carom::cli

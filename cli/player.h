@@ -12,8 +12,8 @@ namespace carom::cli {
 
 class Player {
  public:
-  // Refuses shapes that have no kernel yet. `info` has to live as long as the player; `source`
-  // names it in errors.
+  // Fails as convert_shapes() does. `info` has to live as long as the player; `source` names it in
+  // errors.
   static Result<Player> create(const io::SceneInfo& info, const std::string& source);
 
   const io::SceneInfo& info() const { return *info_; }

@@ -51,7 +51,8 @@ bool has_other_than_spheres(const SceneSurvey& survey) {
 // Shapes that fill little of their boxes.
 bool has_slanted_shapes(const SceneSurvey& survey) {
   const auto is_there = [&](ShapeKind kind) { return survey.kinds[static_cast<size_t>(kind)] > 0; };
-  return is_there(ShapeKind::box) || is_there(ShapeKind::capsule) || is_there(ShapeKind::triangle);
+  return is_there(ShapeKind::box) || is_there(ShapeKind::capsule) ||
+         is_there(ShapeKind::triangle) || is_there(ShapeKind::hull);
 }
 
 bool moves(const SceneSurvey& survey) { return survey.frames > 1 && survey.moving_share > 0; }

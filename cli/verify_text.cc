@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <span>
 #include <variant>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
 #include "carom/kernel/views.h"
 
 namespace carom::cli {
@@ -47,9 +50,55 @@ std::string parameters(const Dop& dop) {
   return text;
 }
 
+// The first ones, and how many there are.
+std::string list(std::span<const Eigen::Vector3f> points) {
+  constexpr size_t kMost = 64;
+  std::string text = std::to_string(points.size()) + " points";
+  for (size_t i = 0; i < std::min(points.size(), kMost); ++i) text += ' ' + list(points[i]);
+  return points.size() > kMost ? text + " ..." : text;
+}
+
+std::string parameters(const Hull& hull) {
+  return hull.geometry ? "of " + list(hull.geometry->points()) : "that is invalid";
+}
+
+std::string parameters(const Mesh& mesh) {
+  constexpr size_t kMost = 32;
+  if (!mesh.geometry) return "that is invalid";
+  const auto triangles = mesh.geometry->triangles();
+  const MeshRules& rules = mesh.geometry->rules();
+  std::string text = "of " + list(mesh.geometry->vertices()) + " and " +
+                     std::to_string(triangles.size()) + " triangles";
+  for (size_t i = 0; i < std::min(triangles.size(), kMost); ++i) {
+    const auto& [a, b, c] = triangles[i];
+    text += ' ' + std::to_string(a) + '-' + std::to_string(b) + '-' + std::to_string(c);
+  }
+  return text + (triangles.size() > kMost ? " ..." : "") + " thickness " +
+         text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "");
+}
+
 std::string list(const Eigen::Quaternionf& q) {
   return "(" + text_of(q.x()) + ", " + text_of(q.y()) + ", " + text_of(q.z()) + ", " +
          text_of(q.w()) + ")";
+}
+
+std::string parameters(const Compound& compound);
+
+std::string shape_text(const Shape& shape) {
+  return name(kind_of(shape)) +
+         (' ' + std::visit([](const auto& s) { return parameters(s); }, shape));
+}
+
+std::string parameters(const Compound& compound) {
+  constexpr size_t kMost = 16;
+  if (!compound.geometry) return "that is invalid";
+  const auto children = compound.geometry->children();
+  std::string text = "of " + std::to_string(children.size()) + " children";
+  for (size_t i = 0; i < std::min(children.size(), kMost); ++i) {
+    text += " [" + shape_text(children[i].shape) + " at " + list(children[i].position) +
+            " orientation " + list(children[i].orientation) + "]";
+  }
+  return children.size() > kMost ? text + " ..." : text;
 }
 
 }  // namespace
@@ -65,9 +114,7 @@ std::string text_of(const Eigen::Vector3d& v) { return list(v); }
 
 std::string text_of(const Shape& shape, const Pose& pose, PositionType positions) {
   const ShapeKind kind = kind_of(shape);
-  std::string text =
-      name(kind) + (' ' + std::visit([](const auto& s) { return parameters(s); }, shape));
-  text += " at " + text_of(pose.position);
+  std::string text = shape_text(shape) + " at " + text_of(pose.position);
   if (row_count(kind) > 0) text += " orientation " + list(pose.orientation);
   return text + (positions == PositionType::float64 ? " float64" : " float32");
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -138,10 +139,20 @@ Row kernel_row(const Collidables& a, const Collidables& b, Detail detail) {
   return row;
 }
 
+// Rows of bytes are no address of a hull.
+Body with_hull(ShapeKind kind, Body body, const Hull& hull) {
+  if (kind == ShapeKind::hull) body.rows = shape_rows(hull);
+  return body;
+}
+
 // Without numbers that no shape has, a flag of 0.3 say.
 Body without_excess(ShapeKind kind, Body body) {
   if (row_count(kind) > 0) body.rows = shape_rows(shape_of(kind, body));
   return body;
+}
+
+Hull take_hull_of(ShapeKind kind, std::span<const uint8_t>& data) {
+  return kind == ShapeKind::hull ? take_hull(data) : Hull{};
 }
 
 bool same_bits(const Row& x, const Row& y) { return std::memcmp(&x, &y, sizeof x) == 0; }
@@ -168,16 +179,19 @@ void print(const char* who, const Row& row) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2) return 0;
-  KindPair kinds = kPairs[data[0] % std::size(kPairs)];
-  const uint8_t flags = data[1];
+  std::span<const uint8_t> rest(data, size);
+  KindPair kinds = kPairs[take<uint8_t>(rest) % std::size(kPairs)];
+  const auto flags = take<uint8_t>(rest);
   if (flags & kExchanged) std::swap(kinds.a, kinds.b);
   const PositionType type = flags & kFloat64 ? PositionType::float64 : PositionType::float32;
-  std::array<Body, 2> bodies{};
-  std::memcpy(bodies.data(), data + 2, std::min(size - 2, sizeof bodies));
-  const Body body_a = without_excess(kinds.a, bodies[0]);
-  const Body body_b = without_excess(kinds.b, bodies[1]);
+  const auto bodies = take<std::array<Body, 2>>(rest);
+  const Hull hull_a = take_hull_of(kinds.a, rest), hull_b = take_hull_of(kinds.b, rest);
+  const Body beside_a = with_hull(kinds.a, bodies[0], hull_a);
+  const Body beside_b = with_hull(kinds.b, bodies[0], hull_b);
+  const Body body_a = without_excess(kinds.a, beside_a);
+  const Body body_b = without_excess(kinds.b, with_hull(kinds.b, bodies[1], hull_b));
 
-  const View a(kinds.a, body_a, bodies[0], type), b(kinds.b, body_b, bodies[1], type);
+  const View a(kinds.a, body_a, beside_a, type), b(kinds.b, body_b, beside_b, type);
   const reference::PairResult expected = reference::collide(
       shape_of(kinds.a, body_a), pose_of(body_a), shape_of(kinds.b, body_b), pose_of(body_b), type);
   for (const Isa isa : usable_isas()) {

@@ -111,10 +111,21 @@ carom::fuzz::Body ordinary_body(carom::ShapeKind kind) {
     case ShapeKind::halfspace:
       write(Halfspace{{0, 0.6f, 0.8f}, 0});
       break;
+    case ShapeKind::hull:
+      break;
     default:
       write(Triangle{{points[0], points[1], points[2]}, 0.1f, true, 5});
   }
   return body;
+}
+
+// A tetrahedron, and one of many corners.
+void write_hulls(std::ofstream& file) {
+  const std::array<float, 12> corners = {1, 0, 0, -1, 0, 0.5f, 0, 1, 0, 0, 0, -1};
+  file.put(corners.size() / 3 - 1);
+  file.write(reinterpret_cast<const char*>(corners.data()), sizeof corners);
+  constexpr uint8_t kOneMetre = 45;
+  file.put(static_cast<char>(carom::fuzz::kRandomHull)).put(kOneMetre);
 }
 
 bool write_kinds(const std::string& path, uint8_t pair) {
@@ -124,6 +135,8 @@ bool write_kinds(const std::string& path, uint8_t pair) {
   std::ofstream file(path, std::ios::binary);
   file.put(static_cast<char>(pair)).put(pair % 4);
   file.write(reinterpret_cast<const char*>(bodies.data()), sizeof bodies);
+  const bool has_hull = kinds.a == carom::ShapeKind::hull || kinds.b == carom::ShapeKind::hull;
+  if (has_hull) write_hulls(file);
   return bool(file.flush());
 }
 

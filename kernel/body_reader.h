@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "carom/kernel/views.h"
+#include "kernel/geometry_row.h"
 
 namespace carom {
 
@@ -47,8 +48,9 @@ inline bool is_direction(float x, float y, float z) { return x != 0 || y != 0 ||
 // Its number of planes, and slabs that are finite, in order, and have a point in common.
 bool is_valid_dop(const Dop& dop);
 
-// Capsules, boxes, dops, half-spaces, triangles: their parameters.
+// Of all kinds but spheres and aabbs: their parameters. A geometry is valid if it is there.
 inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
+  if (has_geometry(kind)) return geometry_at<void>(rows[0]) != nullptr;
   if (kind == ShapeKind::dop) return is_valid_dop(std::get<Dop>(shape_from_rows(kind, rows)));
   for (uint32_t i = 0; i < row_count(kind); ++i) {
     if (!is_finite(rows[i])) return false;

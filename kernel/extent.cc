@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
 #include "kernel/dop_polytope.h"
 #include "kernel/outward.h"
 #include "kernel/turn.h"
@@ -78,10 +80,50 @@ Extent dop_extent(const std::array<Double3, 3>& turn, const Dop& dop) {
   return outward(point_intervals(turn, DopPolytope(slabs).points()), 0, slack);
 }
 
+// Of the hull's own points.
+Extent hull_extent(const std::array<Double3, 3>& turn, const HullGeometry& hull) {
+  Intervals result;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    result[axis] = {std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
+  }
+  for (const Eigen::Vector3f& point : hull.points()) {
+    const Double3 p = {point.x(), point.y(), point.z()};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double x = dot(turn[axis], p);
+      result[axis] = {std::min(result[axis].lower, x), std::max(result[axis].upper, x)};
+    }
+  }
+  return outward(result, 0, kTurnRounding * hull.size());
+}
+
+// Of the box in the body's frame that holds all parts.
+template <class Geometry>
+Extent parts_extent(const std::array<Double3, 3>& turn, const Geometry& parts) {
+  std::array<Double3, 8> corners;
+  for (size_t i = 0; i < corners.size(); ++i) {  // bit k of i: at the upper end of axis k
+    for (int axis = 0; axis < 3; ++axis) {
+      corners[i][axis] = (i >> axis & 1 ? parts.upper() : parts.lower())[axis];
+    }
+  }
+  const double size = std::max(greatest(corners[0]), greatest(corners[7]));
+  return outward(point_intervals(turn, corners), 0, kTurnRounding * size);
+}
+
 Extent turned_extent(const BodyReader& reader, size_t i) {
   const ShapeKind kind = reader.kind(i);
   const std::array<Row, kMostRows> rows = reader.rows(i);
   const auto turn = rotation_of(reader.orientation(i));
+  switch (kind) {
+    case ShapeKind::hull:
+      return hull_extent(turn, *geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::mesh:
+      return parts_extent(turn, *geometry_at<MeshGeometry>(rows[0]));
+    case ShapeKind::compound:
+      return parts_extent(turn, *geometry_at<CompoundGeometry>(rows[0]));
+    default:
+      break;
+  }
   const double slack = kTurnRounding * greatest_of({rows.data(), row_count(kind)});
   switch (kind) {
     case ShapeKind::capsule:

@@ -16,7 +16,8 @@ ShapeKind kind_of(const Shape& shape) {
   // In the order of the variant.
   static constexpr std::array<ShapeKind, std::variant_size_v<Shape>> kKinds = {
       ShapeKind::sphere,   ShapeKind::aabb,      ShapeKind::capsule, ShapeKind::box,
-      ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop};
+      ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop,     ShapeKind::hull,
+      ShapeKind::mesh,     ShapeKind::compound};
   return kKinds[shape.index()];
 }
 

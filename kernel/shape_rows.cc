@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <memory>
 
 #include "carom/kernel/views.h"
+#include "kernel/geometry_row.h"
 
 namespace carom {
 namespace {
@@ -35,6 +37,15 @@ Rows rows_of(const Dop& dop) {
   }
   number(kNumberOfPlanes) = static_cast<float>(dop.kind);
   return rows;
+}
+
+Rows rows_of(const Hull& hull) { return {geometry_row(hull.geometry.get())}; }
+Rows rows_of(const Mesh& mesh) { return {geometry_row(mesh.geometry.get())}; }
+Rows rows_of(const Compound& compound) { return {geometry_row(compound.geometry.get())}; }
+
+template <class Geometry>
+std::shared_ptr<const Geometry> not_owned(const Row& row) {
+  return {std::shared_ptr<const void>(), geometry_at<Geometry>(row)};
 }
 
 // A number that no triangle has becomes another such.
@@ -72,6 +83,12 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
       return Halfspace{vector(rows[0]), rows[0][3]};
     case ShapeKind::dop:
       return dop_from(rows);
+    case ShapeKind::hull:
+      return Hull{not_owned<HullGeometry>(rows[0])};
+    case ShapeKind::mesh:
+      return Mesh{not_owned<MeshGeometry>(rows[0])};
+    case ShapeKind::compound:
+      return Compound{not_owned<CompoundGeometry>(rows[0])};
     default:
       return Triangle{{vector(rows[0]), vector(rows[1]), vector(rows[2])},
                       rows[0][3],

@@ -2,6 +2,8 @@
 // in narrowphase/kernel_policy.h). What arithmetic rounds at most stands beside that arithmetic.
 #pragma once
 
+#include <cstddef>
+
 namespace carom {
 
 // Separations below this share of the pair's size are computed again in double precision: float32
@@ -149,6 +151,46 @@ inline constexpr double kParallelEdges = 0x1p-50;
 
 // Of the product of two sides: a cross product that may be rounding, of a triangle without area.
 inline constexpr double kWithoutArea = 0x1p-48;
+
+// --- Cores (GJK, and the polytope that finds ways out), in scaled units ---
+
+// Cores nearer than this may as well touch: the direction from one to the other is off by up to
+// 2^-52 over it, and the nearest face of their difference does better.
+inline constexpr double kTouchingWay = 0x1p-24;
+
+// A way out that is longer than the shortest by no more than this is the shortest.
+inline constexpr double kSameWayOut = 0x1p-42;
+
+// Points of a difference that are no further from a plane, line or point lie in it.
+inline constexpr double kFlatDifference = 0x1p-36;
+
+// A face is seen from points that are further than this in front of it: some dozen roundings.
+inline constexpr double kInFace = 0x1p-47;
+
+// Of gaps between cores, and depths, this is more than all rounding: such decisions are proven.
+inline constexpr double kProvenGap = 0x1p-36;
+
+// --- Meshes and compounds ---
+
+// Faces that meet at a smaller angle (its tangent) bend neither way: a twentieth of a degree.
+inline constexpr double kFlatEdge = 0x1p-10;
+
+// What rounding of corners to float32 may make of their height over a plane, as a share of their
+// coordinates.
+inline constexpr double kRoundedCorner = 0x1p-22;
+
+// Beyond such lengths positions count as the largest float, and every part as near.
+inline constexpr double kBeyondSearch = 0x1p120;
+
+// A manifold of several parts is made of the points of so many at most, the deepest.
+inline constexpr size_t kMostPartsOfManifold = 4096;
+
+// So much further than its bounds reach a part is looked for, as a share of all lengths that go in:
+// four times what the tests may err by.
+inline constexpr double kSearchSlack = 0x1p-17;
+
+// Parts whose normals are within this cosine of the contact's (18 degrees) share its manifold.
+inline constexpr double kSameManifold = 0.95;
 
 // --- k-DOPs, as shares of their size ---
 

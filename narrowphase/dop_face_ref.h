@@ -12,7 +12,7 @@ namespace carom::reference {
 using FaceCorners = FewOf<Vector3f, DopFace::kMostCorners>;
 
 // Of a k-DOP without faces an edge; of a point that.
-struct DopSide {
+struct FacingSide {
   PolygonFace face;
   FaceCorners corners;  // seen from the position of A
 };
@@ -27,7 +27,7 @@ class DopSideFinder {
 
   // Of the faces that reach as far along m as any point does, that whose normal is nearest to m; of
   // equals the first. If there are only edges and points, one of those.
-  DopSide towards(const Vector3f& m) const {
+  FacingSide towards(const Vector3f& m) const {
     const Vector3f along = rotate_back(placed_.turn, m);
     double most = -HUGE_VAL;
     for (const Double3& point : polytope_.points()) most = std::max(most, height(along, point));
@@ -90,8 +90,8 @@ class DopSideFinder {
     return {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
   }
 
-  DopSide side_of(size_t plane, const Corners& corners) const {
-    DopSide side;
+  FacingSide side_of(size_t plane, const Corners& corners) const {
+    FacingSide side;
     for (const Double3& corner : corners) side.corners.push_back(placed(corner));
     FaceFrame& frame = side.face.frame;
     frame = {side.corners[0], Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero(), 0};
@@ -113,7 +113,7 @@ class DopSideFinder {
   const double same_point_;
 };
 
-inline DopSide side_towards(const Vector3f& m, const DopShape<float>& dop, const Placed& placed) {
+inline FacingSide side_towards(const Vector3f& m, const DopShape<float>& dop, const Placed& placed) {
   return DopSideFinder(dop, placed).towards(m);
 }
 

@@ -64,6 +64,13 @@ struct CoreMaker {
     body.unit = kDopUnit;
   }
 
+  void operator()(const Hull& hull) const {
+    for (const Eigen::Vector3f& p : hull.geometry->points()) body.points.push_back(exact(p));
+  }
+  // Their parts are decided one by one.
+  void operator()(const Mesh&) const {}
+  void operator()(const Compound&) const {}
+
   void add_box(const Eigen::Vector3f& lower, const Eigen::Vector3f& upper) const {
     for (int i = 0; i < 8; ++i) {
       const auto end = [&](int axis) { return i >> axis & 1 ? upper[axis] : lower[axis]; };

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "carom/kernel/contact.h"
-#include "narrowphase/dop_face_ref.h"
+#include "narrowphase/hull_face_ref.h"
 #include "narrowphase/line_contact_ref.h"
 #include "narrowphase/reduce_ref.h"
 #include "narrowphase/scaled_ref.h"
@@ -90,35 +90,43 @@ inline ContactPoints manifold(const TriangleShape<float>& a, const TriangleShape
   return touch_faces(face_a, corners_a, face_b, corners_b, contact);
 }
 
-inline ContactPoints manifold(const DopShape<float>& a, const DopShape<float>& b,
-                              const PlacedPair& placed, const ScaledContact& contact) {
-  const DopSide side_a = side_towards(contact.normal, a, placed.a);
-  const DopSide side_b = side_towards(-contact.normal, b, placed.b);
+// Shapes with faces of any outline.
+template <class Shape>
+concept AnyFaced =
+    std::is_same_v<Shape, DopShape<float>> || std::is_same_v<Shape, HullShape<float>>;
+
+template <AnyFaced A, AnyFaced B>
+ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const FacingSide side_a = side_towards(contact.normal, a, placed.a);
+  const FacingSide side_b = side_towards(-contact.normal, b, placed.b);
   return touch_faces(side_a.face, side_a.corners, side_b.face, side_b.corners, contact);
 }
 
-inline ContactPoints manifold(const DopShape<float>& a, const TriangleShape<float>& b,
-                              const PlacedPair& placed, const ScaledContact& contact) {
+template <AnyFaced A>
+ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
   const std::array<Vector3f, 3> corners_b = corners_of(b, placed.b);
   const TriangleFace face_b = triangle_face(corners_b);
   if (!shows_face(b, face_b.frame.n, -contact.normal)) return witness_only(contact);
-  const DopSide side_a = side_towards(contact.normal, a, placed.a);
+  const FacingSide side_a = side_towards(contact.normal, a, placed.a);
   return touch_faces(side_a.face, side_a.corners, face_b, corners_b, contact);
 }
 
-template <AnyBox A>
-ContactPoints manifold(const A& a, const DopShape<float>& b, const PlacedPair& placed,
+template <AnyBox A, AnyFaced B>
+ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
                        const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
-  const DopSide side = side_towards(-contact.normal, b, placed.b);
+  const FacingSide side = side_towards(-contact.normal, b, placed.b);
   const ClipPoints points =
       reduce(clip(face, side.corners, side.face.frame.n, contact.normal), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
 }
 
-inline ContactPoints manifold(const CapsuleShape<float>& a, const DopShape<float>& b,
-                              const PlacedPair& placed, const ScaledContact& contact) {
-  const DopSide side = side_towards(-contact.normal, b, placed.b);
+template <AnyFaced B>
+ContactPoints manifold(const CapsuleShape<float>& a, const B& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const FacingSide side = side_towards(-contact.normal, b, placed.b);
   return touch_face(line_towards(contact.normal, a, placed.a), side.face, contact);
 }
 
@@ -200,10 +208,11 @@ inline ContactPoints manifold(const HalfspaceShape<float>&, const TriangleShape<
 }
 
 // Corners of a face over the plane, as with boxes. The contact is at the lowest.
-inline ContactPoints manifold(const DopShape<float>& a, const HalfspaceShape<float>&,
-                              const PlacedPair& placed, const ScaledContact& contact) {
+template <AnyFaced A>
+ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
+                       const ScaledContact& contact) {
   const Vector3f& m = contact.normal;
-  const DopSide side = side_towards(m, a, placed.a);
+  const FacingSide side = side_towards(m, a, placed.a);
   const FaceFrame frame = plane_frame(contact.arm_a, m);
   const float size = a.size();
   ClipPoints all;

@@ -350,7 +350,8 @@ ResultColumns from_row(const ResultColumns& columns, size_t row) {
   };
   return {shift(columns.overlap),        shift(columns.status),   shift(columns.separation),
           shift3(columns.normal),        shift3(columns.point_a), shift3(columns.point_b),
-          shift(columns.manifold_count), shift(columns.manifold), shift(columns.separation_bound)};
+          shift(columns.manifold_count), shift(columns.manifold), shift(columns.separation_bound),
+          shift(columns.sub_a),          shift(columns.sub_b)};
 }
 
 }  // namespace carom

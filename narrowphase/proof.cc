@@ -13,6 +13,7 @@
 
 #include "carom/kernel/tier.h"
 #include "narrowphase/any_pair_ref.h"
+#include "narrowphase/core_ref.h"
 #include "narrowphase/overlap_search.h"
 
 namespace carom {
@@ -20,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 using Vector = VectorOf<double>;
-using Hull = GrownHull<double>;
+using PointHull = GrownHull<double>;
 using reference::Polytope;
 
 // In units in which the greatest coordinate lies between one and two, points are off by less than
@@ -45,10 +46,26 @@ constexpr int kMostRounds = 32;
 
 // --- The shapes in scaled units ---
 
+Vector vector_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 struct ProofBody {
-  Polytope polytope;
+  PointHull hull;
+  Vector3d middle = Vector3d::Zero();
+  reference::FrontRules rules;
   double rounding = kRounding;
   bool is_known = true;  // how far off it may be
+
+  ProofBody() = default;
+  explicit ProofBody(const Polytope& polytope) : middle(polytope.middle), rules(polytope.rules) {
+    for (const Vector3d& p : polytope.points) hull.points.push_back(vector_of(p));
+    hull.radius = polytope.radius;
+  }
+
+  void move(const Vector3d& by) {
+    for (Vector& p : hull.points) p = p + vector_of(by);
+    middle += by;
+    rules.corner += by;
+  }
 };
 
 struct BodyMaker {
@@ -57,24 +74,45 @@ struct BodyMaker {
 
   template <class T>
   ProofBody operator()(const T& shape) const {
-    return {reference::polytope_of(reference::shape_as<double>(shape).scaled(scale), turn)};
+    return ProofBody(
+        reference::polytope_of(reference::shape_as<double>(shape).scaled(scale), turn));
+  }
+  ProofBody operator()(const Hull& shape) const {
+    Core core;
+    reference::make_core(reference::shape_as<double>(shape).scaled(scale), turn, Vector3d::Zero(),
+                         core);
+    ProofBody body;
+    for (size_t i = 0; i < core.size(); ++i) body.hull.points.push_back(core.point(i));
+    body.middle = reference::eigen_vector(core.middle);
+    return body;
   }
   // Only what is solid: of slabs that hardly have a point in common the corners say nothing.
   ProofBody operator()(const Dop& dop) const {
-    ProofBody body{reference::polytope_of(reference::shape_as<double>(dop).scaled(scale), turn),
-                   kRoundingOfDops};
-    body.is_known = !body.polytope.points.empty() && body.polytope.inner_radius > kLeastDop;
+    const Polytope polytope =
+        reference::polytope_of(reference::shape_as<double>(dop).scaled(scale), turn);
+    ProofBody body(polytope);
+    body.rounding = kRoundingOfDops;
+    body.is_known = !polytope.points.empty() && polytope.inner_radius > kLeastDop;
     return body;
   }
   ProofBody operator()(const Triangle& triangle) const {
     const auto shape = reference::shape_as<double>(triangle).scaled(scale);
-    ProofBody body{reference::polytope_of(shape, turn)};
+    ProofBody body(reference::polytope_of(shape, turn));
     if (!(triangle.thickness > 0 || triangle.one_sided)) return body;
     body.rounding = kRoundingOfFronts;
     body.is_known = has_sure_front(shape.corners);
     return body;
   }
   ProofBody operator()(const Halfspace&) const { return {}; }
+  ProofBody operator()(const Mesh&) const { return nothing(); }
+  ProofBody operator()(const Compound&) const { return nothing(); }
+
+  // Their parts are proven one by one.
+  static ProofBody nothing() {
+    ProofBody body;
+    body.is_known = false;
+    return body;
+  }
 
   static bool has_sure_front(const std::array<Vector3d, 3>& c) {
     const Vector3d u = c[1] - c[0], v = c[2] - c[0];
@@ -97,8 +135,7 @@ Vector3d way_between(const StatedBody& a, const StatedBody& b) {
 
 enum class Side { front, behind, unknown };
 
-Side side_of(const Polytope& triangle, const Vector3d& middle, double rounding) {
-  const reference::FrontRules& rules = triangle.rules;
+Side side_of(const reference::FrontRules& rules, const Vector3d& middle, double rounding) {
   if (!rules.one_sided) return Side::front;
   const double height =
       reference::dot(rules.front, Vector3d(middle - rules.corner)) + rules.thickness;
@@ -108,18 +145,9 @@ Side side_of(const Polytope& triangle, const Vector3d& middle, double rounding) 
 
 // --- Two hulls ---
 
-Vector vector_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Hull hull_of(const Polytope& polytope) {
-  Hull hull;
-  for (const Vector3d& p : polytope.points) hull.points.push_back(vector_of(p));
-  hull.radius = polytope.radius;
-  return hull;
-}
-
 double length(const Vector& v) { return std::sqrt(dot(v, v)); }
 
-bool is_apart_along(const Hull& a, const Hull& b, const Vector& way, double rounding) {
+bool is_apart_along(const PointHull& a, const PointHull& b, const Vector& way, double rounding) {
   const double scale = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
   if (!(scale > 0)) return false;
   const Vector n = {way.x / scale, way.y / scale, way.z / scale};
@@ -165,7 +193,7 @@ bool holds_origin(const FewOf<Vector, 4>& y, double rounding) {
   return true;
 }
 
-uint8_t prove_hulls(const Hull& a, const Hull& b, double rounding) {
+uint8_t prove_hulls(const PointHull& a, const PointHull& b, double rounding) {
   const auto evidence = OverlapSearch<double>(a, b, kMostRounds).run();
   if (!evidence.overlap) {
     return is_apart_along(a, b, evidence.way, 4 * rounding) ? uint8_t{0} : kUndecided;
@@ -178,14 +206,14 @@ uint8_t prove_hulls(const Hull& a, const Hull& b, double rounding) {
 
 uint8_t prove_bodies(const ProofBody& a, ProofBody b, const Vector3d& way) {
   if (!a.is_known || !b.is_known) return kUndecided;
-  b.polytope.move(way);
+  b.move(way);
   const double rounding = std::max(a.rounding, b.rounding);
-  for (const Side side : {side_of(a.polytope, b.polytope.middle, rounding),
-                          side_of(b.polytope, a.polytope.middle, rounding)}) {
+  for (const Side side :
+       {side_of(a.rules, b.middle, rounding), side_of(b.rules, a.middle, rounding)}) {
     if (side == Side::unknown) return kUndecided;
     if (side == Side::behind) return 0;
   }
-  return prove_hulls(hull_of(a.polytope), hull_of(b.polytope), rounding);
+  return prove_hulls(a.hull, b.hull, rounding);
 }
 
 // --- A half-space (A) ---
@@ -195,16 +223,16 @@ uint8_t prove_over_plane(const StatedBody& a, const ProofBody& b, const Vector3d
   if (!b.is_known) return kUndecided;
   const auto halfspace = reference::shape_as<double>(std::get<Halfspace>(a.shape)).scaled(scale);
   const auto plane = reference::plane_of<double>(halfspace, turn_of(a), -way);
-  if (b.polytope.rules.one_sided) {
-    const double towards = reference::dot(b.polytope.rules.front, plane.normal);
+  if (b.rules.one_sided) {
+    const double towards = reference::dot(b.rules.front, plane.normal);
     if (std::fabs(towards) <= b.rounding) return kUndecided;
     if (towards > 0) return 0;
   }
   double lowest = HUGE_VAL;
-  for (const Vector3d& p : b.polytope.points) {
-    lowest = std::min(lowest, reference::dot(plane.normal, p));
+  for (const Vector& p : b.hull.points) {
+    lowest = std::min(lowest, dot(vector_of(plane.normal), p));
   }
-  const double height = (lowest - plane.height) - b.polytope.radius;
+  const double height = (lowest - plane.height) - b.hull.radius;
   if (!(std::fabs(height) > 4 * b.rounding)) return kUndecided;
   return height < 0;
 }

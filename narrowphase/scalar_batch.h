@@ -8,4 +8,7 @@ namespace carom {
 
 void run_scalar_batch(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
 
+// The manifold pass of such a batch, or of any other.
+void run_scalar_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
+
 }  // namespace carom

@@ -62,6 +62,23 @@ struct DopShape {
   }
 };
 
+// Points as they are stored; they are turned in double in any case.
+template <class Real>
+struct HullShape {
+  const HullGeometry* geometry;
+  double scale;
+
+  Real size() const { return static_cast<Real>(geometry->size() * scale); }
+  HullShape scaled(Real s) const { return {geometry, scale * s}; }
+};
+
+// Meshes and compounds, which are tested part by part: there is no test of the whole.
+template <class Real>
+struct CompositeShape {
+  Real size() const { return 0; }
+  CompositeShape scaled(Real) const { return {}; }
+};
+
 template <class Real>
 struct TriangleShape {
   std::array<Vector3<Real>, 3> corners;
@@ -117,6 +134,18 @@ template <class Real>
 DopShape<Real> shape_as(const Dop& dop) {
   const DopSlabs slabs(dop);
   return {slabs, slabs.with_tight_axes().size()};
+}
+template <class Real>
+HullShape<Real> shape_as(const Hull& hull) {
+  return {hull.geometry.get(), 1};
+}
+template <class Real>
+CompositeShape<Real> shape_as(const Mesh&) {
+  return {};
+}
+template <class Real>
+CompositeShape<Real> shape_as(const Compound&) {
+  return {};
 }
 template <class Real>
 TriangleShape<Real> shape_as(const Triangle& t) {

@@ -20,8 +20,8 @@ struct KindPair {
 };
 
 inline constexpr ShapeKind kConvexKinds[] = {
-    ShapeKind::sphere, ShapeKind::capsule,  ShapeKind::aabb,     ShapeKind::box,
-    ShapeKind::dop,    ShapeKind::triangle, ShapeKind::halfspace};
+    ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,     ShapeKind::box,
+    ShapeKind::dop,    ShapeKind::hull,    ShapeKind::triangle, ShapeKind::halfspace};
 
 // All ordered pairs of them, but for two half-spaces.
 inline std::vector<KindPair> convex_kind_pairs() {
@@ -38,12 +38,16 @@ inline std::string name(const KindPair& kinds) {
   return std::string(carom::name(kinds.a)) + "_" + carom::name(kinds.b);
 }
 
-// K-DOPs are slow, in the library as in the oracle: a few of those pairs have to do.
-inline bool has_dop(const KindPair& kinds) {
-  return kinds.a == ShapeKind::dop || kinds.b == ShapeKind::dop;
+// Polytopes of many faces are slow, in the library as in the oracle: a few of those pairs have to
+// do.
+inline bool has_polytope(const KindPair& kinds) {
+  const auto is_polytope = [](ShapeKind kind) {
+    return kind == ShapeKind::dop || kind == ShapeKind::hull;
+  };
+  return is_polytope(kinds.a) || is_polytope(kinds.b);
 }
-inline size_t fewer_dops(const KindPair& kinds, size_t count) {
-  return has_dop(kinds) ? std::max<size_t>(count / 8, 1) : count;
+inline size_t fewer_polytopes(const KindPair& kinds, size_t count) {
+  return has_polytope(kinds) ? std::max<size_t>(count / 8, 1) : count;
 }
 
 struct ConvexPair {
@@ -159,14 +163,14 @@ class ConvexPairMaker {
     pair.pose_b.position = pair.pose_a.position;
     if (family_.placement == ConvexPlacement::free) {
       const double factor = random_.uniform(0, 2);
-      if (has_dop(kinds_) && family_.largest > 1e30) {
-        place<long double>(pair, size, factor, 8);  // of k-DOPs doubles would overflow
+      if (has_polytope(kinds_) && family_.largest > 1e30) {
+        place<long double>(pair, size, factor, 8);  // doubles would overflow
       } else {
-        place<double>(pair, size, factor, has_dop(kinds_) ? 8 : 10);
+        place<double>(pair, size, factor, has_polytope(kinds_) ? 8 : 10);
       }
     } else if (family_.placement == ConvexPlacement::near_touch) {
       const double factor = 1 + 0x1p-23 * shapes_.integer(-8, 8);
-      if (has_dop(kinds_)) {
+      if (has_polytope(kinds_)) {
         place<double>(pair, size, factor, 16);
       } else {
         place<long double>(pair, size, factor, 100);

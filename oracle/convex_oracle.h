@@ -57,8 +57,8 @@ class AxisSearch {
     axis_ = n;
   }
 
-  // No axis is one too many: each bounds the separation from below. The first three kinds suffice
-  // for solid differences of the cores, the rest serve flat ones.
+  // No axis is one too many: each bounds the separation from below. Normals and cross products
+  // suffice for solid differences of the cores, the rest serve flat ones.
   void try_all() {
     for (const Vec& n : a_.normals) try_axis(n);
     for (const Vec& n : b_.normals) try_axis(n);
@@ -80,6 +80,7 @@ class AxisSearch {
   void try_cross(const Vec& u, const Vec& v) {
     const Vec n = common_normal(u, v);
     try_axis(n);
+    if (a_.is_solid || b_.is_solid) return;
     try_axis(cross(n, u));
     try_axis(common_normal(v, n));
   }

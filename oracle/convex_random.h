@@ -1,13 +1,16 @@
 // Random shapes and orientations of the kinds that have a direct solution.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "carom/kernel/body.h"
+#include "oracle/hull_faces.h"
 #include "oracle/random.h"
 
 namespace carom::oracle {
@@ -40,6 +43,8 @@ class ConvexRandom {
         return triangle(size);
       case ShapeKind::dop:
         return dop(size);
+      case ShapeKind::hull:
+        return hull(size);
       default:
         return halfspace(size);
     }
@@ -205,6 +210,46 @@ class ConvexRandom {
       }
       if (dop.lower[i] > dop.upper[i]) std::swap(dop.lower[i], dop.upper[i]);
     }
+  }
+
+  // Coordinates stay within the range of floats.
+  Hull hull(double size) {
+    size = std::min(size, FLT_MAX / 4.0);
+    const Eigen::Vector3d middle = shift(size);
+    std::vector<Eigen::Vector3f> points;
+    for (const Eigen::Vector3d& p : corners(size)) points.push_back((middle + p).cast<float>());
+    if (random_.chance(0.2)) points.push_back(points[random_.below(points.size())]);
+    return hull_of(points);
+  }
+
+  // Of a box, on an ellipsoid, anywhere in a box, or in one plane or on one line but for rounding.
+  std::vector<Eigen::Vector3d> corners(double size) {
+    const Eigen::Vector3d scale = extents(size);
+    const bool is_box = style_.aligned ? random_.chance(0.7) : random_.chance(0.1);
+    const bool is_round = random_.chance(0.5);
+    const bool is_thin = style_.degenerate && random_.chance(0.3);
+    const Eigen::Vector3d along = direction() * size;
+    const Eigen::Vector3d aside = random_.chance(0.5) ? vector(size) : Eigen::Vector3d::Zero();
+    std::vector<Eigen::Vector3d> all(is_box ? 8 : corner_count());
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (is_box) {
+        all[i] = Eigen::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+        all[i] = all[i].cwiseProduct(scale);
+      } else if (style_.lattice) {
+        all[i] = lattice_point(size, 2);
+      } else if (is_thin) {
+        all[i] = along * random_.uniform(-0.5, 0.5) + aside * random_.uniform(-0.5, 0.5);
+      } else {
+        all[i] = (is_round ? random_.direction() : vector(1)).cwiseProduct(scale);
+      }
+    }
+    return all;
+  }
+
+  size_t corner_count() {
+    const int least = style_.degenerate ? 1 : 4;
+    const bool is_large = !style_.degenerate && !style_.lattice && random_.chance(0.03);
+    return static_cast<size_t>(is_large ? integer(12, 64) : integer(least, 10));
   }
 
   Halfspace halfspace(double size) {

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "carom/kernel/body.h"
 #include "oracle/convex_dop.h"
+#include "oracle/hull_faces.h"
 #include "oracle/vec3.h"
 
 namespace carom::oracle {
@@ -72,7 +74,8 @@ struct ConvexFace {
 };
 
 // Coordinates are relative to a point in space that the caller chooses. One-sided triangles are
-// taken as two-sided ones, and thick triangles without area as having no thickness.
+// taken as two-sided ones, and thick triangles without area as having no thickness. Meshes and
+// compounds are not convex: there is no such shape of them.
 template <class R = long double>
 struct ConvexShape {
   using Vec = Vec3<R>;
@@ -81,8 +84,9 @@ struct ConvexShape {
   R radius{0};              // around the core
   R bounding_radius{0};     // about the body's own origin; of a half-space: to its plane
   bool is_halfspace = false;
-  Vec normal;   // of a half-space: all x with normal . x <= offset; unit
-  R offset{0};  // of a half-space
+  bool is_solid = false;  // known not to be flat
+  Vec normal;             // of a half-space: all x with normal . x <= offset; unit
+  R offset{0};            // of a half-space
   std::vector<ConvexEdge<R>> edges;
   std::vector<ConvexFace<R>> faces;
   std::vector<Vec> directions;  // of edges, unit
@@ -205,6 +209,64 @@ struct ConvexShape {
     }
   }
 
+  // Of the corners and faces that the points have, whatever the geometry says.
+  void build(const Hull& hull) {
+    const auto all = hull.geometry->points();
+    const HullFaces found(all);
+    std::vector<size_t> place(all.size());
+    for (const uint32_t corner : found.corners()) {
+      place[corner] = points.size();
+      points.push_back(vec3_as<R>(all[corner]));
+    }
+    is_solid = found.dimension() == 3;
+    if (found.dimension() == 1) add_outline({0, 1});
+    for (const HullFaces::Outline& outline : found.faces()) {
+      std::vector<size_t> corners;
+      for (const uint32_t corner : outline) corners.push_back(place[corner]);
+      add_outline(corners);
+      if (is_solid || faces.empty()) add_polygon(corners);
+    }
+    if (found.dimension() != 2) return;
+    for (const auto& edge : edges) normals.push_back(cross(normals[0], edge.direction));
+  }
+
+  // Every edge is in two outlines, once each way.
+  void add_outline(const std::vector<size_t>& corners) {
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const size_t from = corners[i], to = corners[(i + 1) % corners.size()];
+      if (from >= to) continue;
+      add_edge(from, to);
+      add_direction(points[to] - points[from]);
+    }
+  }
+
+  // Products of differences of floats lose next to nothing.
+  void add_direction(const Vec& way) {
+    const bool is_known = std::any_of(ways_.begin(), ways_.end(), [&](const Vec& known) {
+      const Vec n = cross(known, way);
+      return dot(n, n) == 0;
+    });
+    if (is_known) return;
+    ways_.push_back(way);
+    directions.push_back(normalized(way));
+  }
+
+  void add_polygon(const std::vector<size_t>& corners) {
+    const Vec& origin = points[corners[0]];
+    Vec widest;
+    for (size_t i = 2; i < corners.size(); ++i) {
+      add_face(corners[0], corners[i - 1], corners[i]);
+      for (size_t j = 1; j < i; ++j) {
+        const Vec n = cross(points[corners[j]] - origin, points[corners[i]] - origin);
+        if (dot(n, n) > dot(widest, widest)) widest = n;
+      }
+    }
+    normals.push_back(normalized(widest));
+  }
+
+  void build(const Mesh& /*not convex*/) { std::abort(); }
+  void build(const Compound& /*not convex*/) { std::abort(); }
+
   void build(const Halfspace& halfspace) {
     is_halfspace = true;
     const Vec n = vec3_as<R>(halfspace.normal);
@@ -236,6 +298,8 @@ struct ConvexShape {
     }
     turn(normal);
   }
+
+  std::vector<Vec> ways_;  // of a hull: its directions as differences of points
 };
 
 }  // namespace carom::oracle

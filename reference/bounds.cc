@@ -110,6 +110,10 @@ bool is_valid_shape(const Dop& dop) {
   return has_points(dop);
 }
 
+bool is_valid_shape(const Hull& hull) { return hull.geometry != nullptr; }
+bool is_valid_shape(const Mesh& mesh) { return mesh.geometry != nullptr; }
+bool is_valid_shape(const Compound& compound) { return compound.geometry != nullptr; }
+
 template <class Turned>
 bool is_valid(const Turned& shape, const Eigen::Quaternionf& orientation) {
   const Eigen::Vector4f& q = orientation.coeffs();

@@ -7,6 +7,7 @@
 #include "kernel/float_environment.h"
 #include "narrowphase/any_pair_ref.h"
 #include "narrowphase/manifold_ref.h"
+#include "reference/composite.h"
 
 namespace carom::reference {
 namespace {
@@ -57,7 +58,7 @@ Separation test(const A& a, const B& b, const Poses& poses) {
 PairResult no_answer() {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   const Vector3f nan = Vector3f::Constant(kNan);
-  return {false, Status::invalid, kNan, nan, nan, nan, 0, {}};
+  return {false, Status::invalid, kNan, nan, nan, nan, 0, {}, 0, 0};
 }
 
 }  // namespace
@@ -68,14 +69,17 @@ PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_
   if (!is_valid(shape_a, pose_a, positions) || !is_valid(shape_b, pose_b, positions)) {
     return no_answer();
   }
+  if (is_composite(kind_of(shape_a)) || is_composite(kind_of(shape_b))) {
+    return collide_parts(shape_a, pose_a, shape_b, pose_b, positions);
+  }
   const Poses poses = positions == PositionType::float32 ? poses_of<float>(pose_a, pose_b)
                                                          : poses_of<double>(pose_a, pose_b);
   const Separation s =
       std::visit([&](const auto& a, const auto& b) { return test(a, b, poses); }, shape_a, shape_b);
   const bool overlap = s.separation <= 0;
   const Manifold manifold = overlap ? manifold_of(shape_a, shape_b, poses.rounded, s) : Manifold{};
-  return {overlap, s.status, s.separation,   s.normal,
-          s.arm_a, s.arm_b,  manifold.count, manifold.points};
+  return {overlap, s.status,       s.separation,    s.normal, s.arm_a,
+          s.arm_b, manifold.count, manifold.points, 0,        0};
 }
 
 }  // namespace carom::reference

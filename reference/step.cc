@@ -77,6 +77,8 @@ Contact contact_between(const Body& a, const Body& b, const PairResult& result, 
   Contact contact{};
   contact.a = a.id.index;
   contact.b = b.id.index;
+  contact.sub_a = result.sub_a;
+  contact.sub_b = result.sub_b;
   contact.normal = result.normal;
   contact.separation = result.separation;
   contact.arm_a = result.arm_a;

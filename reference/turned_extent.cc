@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
 #include "kernel/dop_polytope.h"
 
 namespace carom::reference {
@@ -82,6 +84,25 @@ Vector3d way_back(const std::vector<Vector3d>& corners, double thickness) {
   return {-n.x() / length * thickness, -n.y() / length * thickness, -n.z() / length * thickness};
 }
 
+Aabb extent_of_points(const std::vector<Vector3d>& points, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval of_points(turn.row(axis), points);
+    set_axis(extent, axis, of_points.lower, of_points.upper, kRounding * greatest(points, 0));
+  }
+  return extent;
+}
+
+std::vector<Vector3d> corners_of(const Eigen::Vector3f& lower, const Eigen::Vector3f& upper) {
+  std::vector<Vector3d> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
+                         (i & 4 ? upper : lower).z());
+  }
+  return corners;
+}
+
 }  // namespace
 
 Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation) {
@@ -142,6 +163,21 @@ Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation) {
              kDopRounding * slabs.with_tight_axes().size());
   }
   return extent;
+}
+
+Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation) {
+  std::vector<Vector3d> points;
+  for (const Eigen::Vector3f& p : hull.geometry->points()) points.push_back(p.cast<double>());
+  return extent_of_points(points, orientation);
+}
+
+Aabb turned_extent(const Mesh& mesh, const Eigen::Quaternionf& orientation) {
+  return extent_of_points(corners_of(mesh.geometry->lower(), mesh.geometry->upper()), orientation);
+}
+
+Aabb turned_extent(const Compound& compound, const Eigen::Quaternionf& orientation) {
+  return extent_of_points(corners_of(compound.geometry->lower(), compound.geometry->upper()),
+                          orientation);
 }
 
 Aabb turned_extent(const Halfspace&, const Eigen::Quaternionf&) { return {}; }

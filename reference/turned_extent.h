@@ -12,6 +12,10 @@ Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation
 Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation);
+// Of the box in the body's frame that holds all parts.
+Aabb turned_extent(const Mesh& mesh, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const Compound& compound, const Eigen::Quaternionf& orientation);
 // Nothing: half-spaces have no extent.
 Aabb turned_extent(const Halfspace& plane, const Eigen::Quaternionf& orientation);
 

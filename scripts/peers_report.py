@@ -51,6 +51,16 @@ STREAM_TARGETS = {
     ("sphere_triangle", "contact"): (109 / 17, 109 / 5),
     ("capsule_triangle", "contact"): (981 / 40, 981 / 12),
     ("box_triangle", "contact"): (1643 / 60, 1643 / 20),
+    ("hull_hull_8", "distance"): (1937 / 95, 1937 / 60),
+    ("hull_hull_16", "distance"): (2523 / 125, 2523 / 80),
+    ("hull_hull_32", "distance"): (3298 / 180, 3298 / 105),
+    ("hull_hull_64", "distance"): (4946 / 300, 4946 / 160),
+    ("hull_hull_8", "contact"): (2055 / 300, 2055 / 150),
+    ("hull_hull_16", "contact"): (2729 / 400, 2729 / 200),
+    ("hull_hull_32", "contact"): (3607 / 550, 3607 / 300),
+    ("hull_hull_8", "manifold"): (2055 / 300, 2055 / 150),
+    ("hull_hull_16", "manifold"): (2729 / 400, 2729 / 200),
+    ("hull_hull_32", "manifold"): (3607 / 550, 3607 / 300),
 }
 
 # Names for readers, and colour and dashes of the lines.

@@ -18,6 +18,29 @@ void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T def
   column[index] = value;
 }
 
+std::shared_ptr<const void> geometry_of(const Shape& shape) {
+  if (const Hull* hull = std::get_if<Hull>(&shape)) return hull->geometry;
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->geometry;
+  if (const Compound* compound = std::get_if<Compound>(&shape)) return compound->geometry;
+  return {};
+}
+
+template <class Geometry>
+std::shared_ptr<const Geometry> geometry_as(const std::shared_ptr<const void>& geometry) {
+  return std::static_pointer_cast<const Geometry>(geometry);
+}
+
+Shape owning_shape(ShapeKind kind, const std::shared_ptr<const void>& geometry) {
+  switch (kind) {
+    case ShapeKind::hull:
+      return Hull{geometry_as<HullGeometry>(geometry)};
+    case ShapeKind::mesh:
+      return Mesh{geometry_as<MeshGeometry>(geometry)};
+    default:
+      return Compound{geometry_as<CompoundGeometry>(geometry)};
+  }
+}
+
 }  // namespace
 
 // visit(column, whether it exists, values a row, value of a new row)
@@ -39,6 +62,7 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   optional(self.owner_, 0u);
   optional(self.sensor_, uint8_t{0});
   optional(self.user_, uint64_t{0});
+  optional(self.geometry_, std::shared_ptr<const void>());
 }
 
 void BodyStore::add_row() {
@@ -81,6 +105,7 @@ void BodyStore::remove(BodyId id) {
   touch(index, kReplaced);
   count_kind(index, -1);
   change_kind(index, ShapeKind::sphere);
+  if (!geometry_.empty()) geometry_[index].reset();
   ++generation_[index];
   alive_.release(index);
   if (rows() < generation_.size()) drop_rows();
@@ -144,6 +169,7 @@ void BodyStore::set_radius(uint32_t index, float radius) {
 Shape BodyStore::shape(uint32_t index) const {
   const ShapeKind kind = kind_[index];
   if (kind == ShapeKind::sphere) return Sphere{radius(index)};
+  if (has_geometry(kind)) return owning_shape(kind, geometry_[index]);
   if (kind != ShapeKind::aabb) return shape_from_rows(kind, &rows_[first_row_[index]]);
   const uint32_t slot = box_slot_[index];
   return Aabb{{boxes_[0][slot], boxes_[1][slot], boxes_[2][slot]},
@@ -171,6 +197,16 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
     const auto rows = carom::shape_rows(shape);
     std::copy_n(rows.begin(), row_count(kind), rows_.begin() + first_row_[index]);
   }
+  store_geometry(index, shape);
+}
+
+// What the last shape had is let go.
+void BodyStore::store_geometry(uint32_t index, const Shape& shape) {
+  if (geometry_.empty()) {
+    if (!has_geometry(kind_of(shape))) return;
+    geometry_.resize(rows());
+  }
+  geometry_[index] = geometry_of(shape);
 }
 
 // Gives back what the last kind needed and takes what this one needs.

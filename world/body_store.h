@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -94,6 +95,7 @@ class BodyStore {
   void change_rows(uint32_t index, uint32_t last_count, uint32_t count);
   void store_shape(uint32_t index, const Shape& shape);
   void store_box(uint32_t index, const Aabb& box);
+  void store_geometry(uint32_t index, const Shape& shape);
   void take_box(uint32_t index);
   void release_box(uint32_t index);
   void add_halfspace(uint32_t index);
@@ -127,6 +129,9 @@ class BodyStore {
   std::vector<Row> orientation_;     // likewise; the identity for other kinds
 
   std::vector<uint32_t> halfspaces_;
+
+  // What keeps the geometries alive whose addresses are in the rows; empty until there is one.
+  std::vector<std::shared_ptr<const void>> geometry_;
 
   // Empty while every body has the default.
   std::vector<Motion> motion_;

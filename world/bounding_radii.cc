@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
 #include "kernel/body_reader.h"
 #include "kernel/dop_polytope.h"
 #include "kernel/outward.h"
@@ -35,6 +37,24 @@ double dop_reach(const Dop& dop) {
   return reach + kDopRounding * slabs.with_tight_axes().size();
 }
 
+double hull_reach(const HullGeometry& hull) {
+  double reach = 0;
+  for (const Eigen::Vector3f& p : hull.points()) {
+    reach = std::max(reach, length({p.x(), p.y(), p.z()}));
+  }
+  return reach;
+}
+
+// Of the furthest corner of the box that holds all parts.
+template <class Geometry>
+double parts_reach(const Geometry& parts) {
+  Double3 furthest;
+  for (int axis = 0; axis < 3; ++axis) {
+    furthest[axis] = std::max(std::fabs(parts.lower()[axis]), std::fabs(parts.upper()[axis]));
+  }
+  return length(furthest);
+}
+
 double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
   const auto corner = [&](size_t k) { return length(vector_of(rows[k])); };
   switch (kind) {
@@ -46,6 +66,12 @@ double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
       return std::max({corner(0), corner(1), corner(2)}) + rows[0][3];
     case ShapeKind::dop:
       return dop_reach(std::get<Dop>(shape_from_rows(kind, rows.data())));
+    case ShapeKind::hull:
+      return hull_reach(*geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::mesh:
+      return parts_reach(*geometry_at<MeshGeometry>(rows[0]));
+    case ShapeKind::compound:
+      return parts_reach(*geometry_at<CompoundGeometry>(rows[0]));
     default:
       return std::numeric_limits<double>::infinity();
   }

@@ -29,7 +29,7 @@ bool bounds_may_overlap(const BoundsView& bounds, Pair pair) {
 
 }  // namespace
 
-ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail) {
+ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail, bool sub_shapes) {
   rows_ = pairs;
   overlap_.resize(pairs + 1);
   overlap_.back() = 0;
@@ -42,6 +42,11 @@ ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail) {
                            .normal = {column(1), column(2), column(3)},
                            .point_a = {column(4), column(5), column(6)},
                            .point_b = {column(7), column(8), column(9)}};
+  sub_shape_.resize(sub_shapes ? 2 * pairs : 0);
+  if (sub_shapes) {
+    columns.sub_a = sub_shape_.data();
+    columns.sub_b = sub_shape_.data() + pairs;
+  }
   if (detail != Detail::manifold) return columns;
   manifold_count_.resize(pairs);
   manifold_.resize(pairs);
@@ -67,8 +72,8 @@ Eigen::Vector3f ResultBuffer::vector(size_t column, size_t row) const {
 Contact ResultBuffer::contact(size_t row, Pair pair) const {
   return {.a = pair.a,
           .b = pair.b,
-          .sub_a = 0,
-          .sub_b = 0,
+          .sub_a = sub_shape_.empty() ? 0 : sub_shape_[row],
+          .sub_b = sub_shape_.empty() ? 0 : sub_shape_[rows_ + row],
           .normal = vector(1, row),
           .separation = floats_[row],
           .arm_a = vector(4, row),
@@ -82,13 +87,14 @@ void ResultBuffer::give_back_beyond(size_t pairs) {
   give_back_scratch(overlap_, pairs);
   give_back_scratch(status_, pairs);
   give_back_scratch(floats_, kFloatColumns * pairs);
+  give_back_scratch(sub_shape_, sub_shape_.empty() ? 0 : 2 * pairs);
   give_back_scratch(manifold_count_, pairs);
   give_back_scratch(manifold_, pairs);
 }
 
 size_t ResultBuffer::bytes() const {
-  return bytes_of(overlap_) + bytes_of(status_) + bytes_of(floats_) + bytes_of(manifold_count_) +
-         bytes_of(manifold_);
+  return bytes_of(overlap_) + bytes_of(status_) + bytes_of(floats_) + bytes_of(sub_shape_) +
+         bytes_of(manifold_count_) + bytes_of(manifold_);
 }
 
 void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,

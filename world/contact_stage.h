@@ -14,9 +14,9 @@ namespace carom {
 // Columns for the narrow phase to write to.
 class ResultBuffer {
  public:
-  // Room for `pairs` results, in the columns that the detail fills. Behind them is a row that does
-  // not overlap, for pairs that need no test.
-  ResultColumns prepare(size_t pairs, Detail detail);
+  // Room for `pairs` results, in the columns that the detail fills, those of sub-shapes where there
+  // are any. Behind them is a row that does not overlap, for pairs that need no test.
+  ResultColumns prepare(size_t pairs, Detail detail, bool sub_shapes);
 
   // Bounds are exact, tests are not: pairs whose bounds lie apart do not overlap, even where the
   // rounded result of the test touches. Pairs of half-spaces, whose boxes are empty, stay.
@@ -36,7 +36,8 @@ class ResultBuffer {
 
   size_t rows_ = 0;
   std::vector<uint8_t> overlap_, status_;
-  std::vector<float> floats_;  // ten columns: separation, normal, arm_a, arm_b
+  std::vector<float> floats_;        // ten columns: separation, normal, arm_a, arm_b
+  std::vector<uint32_t> sub_shape_;  // two columns: of A, of B; none without sub-shapes
   std::vector<uint8_t> manifold_count_;
   std::vector<ManifoldPoints> manifold_;
 };

@@ -4,7 +4,7 @@
 
 #include "carom/kernel/bounds.h"
 #include "kernel/float_environment.h"
-#include "narrowphase/collide_pairs.h"
+#include "midphase/collide_pairs.h"
 #include "world/world_state.h"
 
 namespace carom {
@@ -221,9 +221,12 @@ void World::State::test_pairs() {
   uint32_t* const direction =
       remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
   const Collidables view = has_proxies() ? proxies.view(bodies) : bodies.view();
+  const bool sub_shapes =
+      !has_proxies() &&
+      (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
   collide_pairs(view, plan.pairs_to_test(now.pairs), settings.detail,
-                results.prepare(plan.tested(), settings.detail), direction, settings.parallelism,
-                settings.accuracy);
+                results.prepare(plan.tested(), settings.detail, sub_shapes), direction,
+                settings.parallelism, settings.accuracy);
   if (remembers) {
     directions.keep(plan, last, settings.parallelism, now);
   } else {

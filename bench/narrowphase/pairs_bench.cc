@@ -113,10 +113,23 @@ void register_streams(const KindPair& kinds, Storage storage, int hit_percent, s
   }
 }
 
-// Pairs that are tested one at a time would take minutes.
+// Pairs that are tested one at a time would take minutes, and hulls take a while to draw.
 size_t pair_count(const KindPair& kinds, const Options& options) {
-  const bool has_dop = kinds.a == ShapeKind::dop || kinds.b == ShapeKind::dop;
-  return has_dop ? options.pairs / 32 : options.pairs;
+  const auto has = [&](ShapeKind kind) { return kinds.a == kind || kinds.b == kind; };
+  if (has(ShapeKind::dop)) return options.pairs / 32;
+  return has(ShapeKind::hull) ? options.pairs / 4 : options.pairs;
+}
+
+// Hulls of so many vertices; as rows alone.
+void register_hulls(const KindPair& kinds, size_t count) {
+  for (const size_t vertices : {8, 16, 32, 64}) {
+    const std::string title = kinds.name + ("_" + std::to_string(vertices));
+    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+      register_stream({title.c_str(), kinds.a, kinds.b},
+                      {.kind_a = kinds.a, .kind_b = kinds.b, .count = count, .vertices = vertices},
+                      detail, "rows");
+    }
+  }
 }
 
 void register_in_depth(const KindPair& kinds, size_t count) {
@@ -148,6 +161,8 @@ void register_narrowphase(const Options& options) {
   for (const KindPair& kinds : kKindPairs) {
     if (std::count(std::begin(kInDepth), std::end(kInDepth), std::string(kinds.name)) > 0) {
       register_in_depth(kinds, options.pairs);
+    } else if (kinds.a == ShapeKind::hull && kinds.b == ShapeKind::hull) {
+      register_hulls(kinds, options.pairs);
     } else {
       register_streams(kinds, Storage::f32, 50, pair_count(kinds, options));
     }

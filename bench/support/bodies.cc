@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "carom/reference/reference.h"
+#include "oracle/hull_faces.h"
 
 namespace carom::bench {
 namespace {
@@ -42,7 +43,14 @@ Dop draw_dop(oracle::Random& random) {
   return Dop::of_points(points, DopKind::k26);
 }
 
-Shape draw_shape(ShapeKind kind, oracle::Random& random) {
+Hull draw_hull(size_t vertices, oracle::Random& random) {
+  const Eigen::Vector3f half = draw_half(random);
+  std::vector<Eigen::Vector3f> points(vertices);
+  for (Eigen::Vector3f& p : points) p = half.cwiseProduct(random.direction().cast<float>());
+  return oracle::hull_of(points);
+}
+
+Shape draw_shape(ShapeKind kind, oracle::Random& random, std::span<const Hull> hulls) {
   switch (kind) {
     case ShapeKind::sphere:
       return Sphere{draw_size(random)};
@@ -54,6 +62,8 @@ Shape draw_shape(ShapeKind kind, oracle::Random& random) {
       return draw_triangle(random);
     case ShapeKind::dop:
       return draw_dop(random);
+    case ShapeKind::hull:
+      return hulls[random.below(hulls.size())];
     case ShapeKind::halfspace:
       return Halfspace{random.direction().cast<float>(), draw_size(random)};
     default:
@@ -82,10 +92,16 @@ PositionType position_type(Storage storage) {
   return storage == Storage::f64 ? PositionType::float64 : PositionType::float32;
 }
 
-PlacedShape draw_body(ShapeKind kind, oracle::Random& random) {
-  PlacedShape body = {draw_shape(kind, random), draw_position(random)};
+PlacedShape draw_body(ShapeKind kind, oracle::Random& random, std::span<const Hull> hulls) {
+  PlacedShape body = {draw_shape(kind, random, hulls), draw_position(random)};
   if (row_count(kind) > 0) body.orientation = draw_orientation(random);
   return body;
+}
+
+std::vector<Hull> draw_hulls(size_t count, size_t vertices, oracle::Random& random) {
+  std::vector<Hull> hulls;
+  for (size_t i = 0; i < count; ++i) hulls.push_back(draw_hull(vertices, random));
+  return hulls;
 }
 
 Eigen::AlignedBox3d local_bounds(const PlacedShape& body) {

@@ -25,8 +25,12 @@ const char* name(Storage storage);
 PositionType position_type(Storage storage);
 
 // Sizes from 0.25 to 2 metres, about the body's origin; anywhere within 100 m of the world's,
-// turned any way. Capsules are along their y axis.
-PlacedShape draw_body(ShapeKind kind, oracle::Random& random);
+// turned any way. Capsules are along their y axis. Hulls are one of those given, of which there has
+// to be one then.
+PlacedShape draw_body(ShapeKind kind, oracle::Random& random, std::span<const Hull> hulls = {});
+
+// As many hulls, each of so many points on an ellipsoid.
+std::vector<Hull> draw_hulls(size_t count, size_t vertices, oracle::Random& random);
 
 // Bounds relative to the body's position.
 Eigen::AlignedBox3d local_bounds(const PlacedShape& body);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr size_t kByteColumns = 3;
 constexpr size_t kFloatColumns = 10;
+constexpr size_t kHulls = 64;
 
 reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& b,
                                        Storage storage) {
@@ -52,9 +53,10 @@ Eigen::Vector3d draw_way(const StreamSpec& spec, const PlacedShape& a, const Pla
 }
 
 // B near A, so that the two overlap or do not, as asked for.
-test::TestPair draw_pair(const StreamSpec& spec, bool overlap, oracle::Random& random) {
-  const PlacedShape a = draw_body(spec.kind_a, random);
-  PlacedShape b = draw_body(spec.kind_b, random);
+test::TestPair draw_pair(const StreamSpec& spec, std::span<const Hull> hulls, bool overlap,
+                         oracle::Random& random) {
+  const PlacedShape a = draw_body(spec.kind_a, random, hulls);
+  PlacedShape b = draw_body(spec.kind_b, random, hulls);
   const PlacedShape stored_a = as_stored(a, spec.storage);
   for (;;) {
     b.position = a.position + draw_way(spec, a, b, random);
@@ -125,11 +127,13 @@ void PairStream::draw() {
   std::iota(places.begin(), places.end(), 0);
   if (spec_.access == Access::pairs) places = shuffled(spec_.count, random);
   bodies_b_.resize(spec_.count);
+  const bool has_hull = spec_.kind_a == ShapeKind::hull || spec_.kind_b == ShapeKind::hull;
+  const std::vector<Hull> hulls = draw_hulls(has_hull ? kHulls : 0, spec_.vertices, random);
   // Exactly so many overlap, at random places.
   const size_t hits = spec_.count * static_cast<size_t>(spec_.hit_percent) / 100;
   const std::vector<uint32_t> ranks = shuffled(spec_.count, random);
   for (uint32_t row = 0; row < spec_.count; ++row) {
-    const test::TestPair pair = draw_pair(spec_, ranks[row] < hits, random);
+    const test::TestPair pair = draw_pair(spec_, hulls, ranks[row] < hits, random);
     bodies_a_.push_back(pair.a);
     bodies_b_[places[row]] = pair.b;
     pairs_.push_back({row, places[row]});

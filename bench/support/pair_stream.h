@@ -30,6 +30,7 @@ struct StreamSpec {
   int hit_percent = 50;
   Access access = Access::rows;
   size_t count = 0;
+  size_t vertices = 16;  // of hulls, which are few: bodies share them
 
   friend bool operator==(const StreamSpec&, const StreamSpec&) = default;
 };

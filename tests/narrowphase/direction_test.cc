@@ -1,7 +1,7 @@
 // Directions that are remembered from test to test: they save work and change no result.
 #include <gtest/gtest.h>
 
-#include "narrowphase/collide_pairs.h"
+#include "midphase/collide_pairs.h"
 #include "tests/support/isas.h"
 #include "tests/support/kind_pairs.h"
 #include "tests/support/run.h"

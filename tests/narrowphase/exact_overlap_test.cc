@@ -41,7 +41,7 @@ TEST_P(ExactOverlap, IsWhatTheOracleSays) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       ConvexPairMaker maker(GetParam(), kinds, positions, ++seed);
-      for (size_t i = 0; i < fewer_dops(kinds, rounds(32)); ++i) {
+      for (size_t i = 0; i < fewer_polytopes(kinds, rounds(32)); ++i) {
         const ConvexPair pair = as_stored(maker.next(), positions);
         SCOPED_TRACE(std::string(name(kinds)) + "\n" + show(as_test_pair(pair)));
         const StatedBody a = stated_body(pair.shape_a, pair.pose_a);

@@ -45,7 +45,7 @@ void for_each_pair(size_t count_each, const Check& check) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       std::vector<TestPair> pairs =
-          make_pairs_of_families(kinds, positions, fewer_dops(kinds, count_each));
+          make_pairs_of_families(kinds, positions, fewer_polytopes(kinds, count_each));
       vary_triangles(pairs);
       for (const TestPair& pair : pairs) {
         SCOPED_TRACE(show(pair) + "\n" + name(positions));
@@ -101,7 +101,7 @@ TEST(KindsProperties, TheOtherOrderIsTheOtherSide) {
 TEST(KindsProperties, OverlapIsTheDecisionOfContactAndManifold) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     const std::vector<TestPair> pairs =
-        make_pairs_of_families(kinds, PositionType::float32, fewer_dops(kinds, 25));
+        make_pairs_of_families(kinds, PositionType::float32, fewer_polytopes(kinds, 25));
     for_each_isa([&] {
       const auto rows_at = [&](Detail detail) {
         Call call;
@@ -188,6 +188,11 @@ struct Scaled {
     for (float& end : dop.lower) end *= factor;
     for (float& end : dop.upper) end *= factor;
   }
+  void operator()(Hull& hull) const {
+    hull = with_points(hull, [this](Eigen::Vector3f& point) { point *= factor; });
+  }
+  void operator()(Mesh& /*tested by its parts*/) const {}
+  void operator()(Compound& /*tested by its parts*/) const {}
 
   void operator()(PlacedShape& body) const {
     body.position *= factor;
@@ -222,7 +227,7 @@ TEST(KindsProperties, ScalingByAPowerOfTwoScalesTheResult) {
     for (const ConvexFamily& family : convex_families()) {
       if (family.smallest < 0.1 || family.largest > 10) continue;
       std::vector<TestPair> pairs =
-          make_kind_pairs(family, kinds, PositionType::float32, fewer_dops(kinds, 15));
+          make_kind_pairs(family, kinds, PositionType::float32, fewer_polytopes(kinds, 15));
       vary_triangles(pairs);
       for (const TestPair& pair : pairs) {
         if (!is_ordinary(pair.a) || !is_ordinary(pair.b)) continue;
@@ -262,7 +267,7 @@ TEST(KindsProperties, AQuarterTurnOfBothTurnsTheResult) {
       if (std::string(family.name) != which) continue;
       for (const KindPair& kinds : supported_kind_pairs()) {
         for (const TestPair& pair :
-             make_kind_pairs(family, kinds, PositionType::float64, fewer_dops(kinds, 60))) {
+             make_kind_pairs(family, kinds, PositionType::float64, fewer_polytopes(kinds, 60))) {
           SCOPED_TRACE(show(pair));
           const TestPair turned{quarter_turned(pair.a), quarter_turned(pair.b)};
           expect_close(pair, reference_result(pair, PositionType::float64),
@@ -307,7 +312,7 @@ TEST(KindsProperties, ACapsuleWithoutLengthIsASphere) {
     if (!supports(ShapeKind::capsule, kind) || !supports(ShapeKind::sphere, kind)) continue;
     const KindPair kinds{ShapeKind::sphere, kind};
     for (TestPair pair :
-         make_pairs_of_families(kinds, PositionType::float32, fewer_dops(kinds, 10))) {
+         make_pairs_of_families(kinds, PositionType::float32, fewer_polytopes(kinds, 10))) {
       SCOPED_TRACE(show(pair));
       const Result result = reference_result(pair, PositionType::float32);
       const float radius = std::get<Sphere>(pair.a.shape).radius;

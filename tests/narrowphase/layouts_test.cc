@@ -209,16 +209,16 @@ TEST(Layouts, KindsWithoutKernelAreRefusedAndNothingIsWritten) {
   EXPECT_TRUE(supports(ShapeKind::aabb, ShapeKind::sphere));
   EXPECT_TRUE(supports(ShapeKind::sphere, ShapeKind::aabb));
   EXPECT_TRUE(supports(ShapeKind::aabb, ShapeKind::aabb));
-  EXPECT_FALSE(supports(ShapeKind::sphere, ShapeKind::hull));
+  EXPECT_FALSE(supports(ShapeKind::halfspace, ShapeKind::halfspace));
 
   const std::vector<TestPair> pairs = plain_pairs(Sides::sphere_sphere, 20);
   const LaidOut a(side_a(pairs), {});
-  Collidables b = a.view();
-  b.uniform_kind = ShapeKind::hull;
+  Collidables planes = a.view();
+  planes.uniform_kind = ShapeKind::halfspace;
   Columns columns(pairs.size());
-  const Result<void> result = collide_rows(a.view(), b, Detail::contact, columns.out());
+  const Result<void> result = collide_rows(planes, planes, Detail::contact, columns.out());
   ASSERT_FALSE(result);
-  EXPECT_NE(result.error().message.find("hull"), std::string::npos);
+  EXPECT_NE(result.error().message.find("halfspace"), std::string::npos);
   const Row untouched = expected_row(pairs[0], PositionType::float32, Detail::pairs, {});
   EXPECT_TRUE(same_rows(std::vector<Row>(pairs.size(), untouched), columns.rows(), pairs));
 }

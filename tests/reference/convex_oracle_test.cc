@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "oracle/convex_families.h"
+#include "oracle/hull_faces.h"
+#include "tests/support/hulls.h"
 
 namespace carom::test {
 
@@ -123,6 +125,107 @@ TEST(ConvexOracle, Halfspaces) {
   EXPECT_TRUE(std::isinf(crossed.oracle().separation().value));
 }
 
+
+// Outlines as sets of points, which may begin anywhere.
+std::vector<std::vector<uint32_t>> from_least(const HullFaces& found) {
+  std::vector<std::vector<uint32_t>> faces = found.faces();
+  for (auto& face : faces) {
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+TEST(HullFaces, OfKnownHulls) {
+  const Hull box = hull_of(box_corners({1, 2, 3}));
+  using Faces = std::vector<std::vector<uint32_t>>;
+  EXPECT_EQ(
+      from_least(HullFaces(box.geometry->points())),
+      (Faces{{0, 1, 5, 4}, {0, 2, 3, 1}, {0, 4, 6, 2}, {1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}}));
+  const std::vector<Eigen::Vector3f> tetrahedron = {
+      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}, {.1f, .1f, .1f}, {.5f, .5f, 0}};
+  EXPECT_EQ(from_least(HullFaces(tetrahedron)),
+            (Faces{{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}}));
+  const std::vector<Eigen::Vector3f> square = {{0, 0, 1}, {1, 0, 1},   {1, 1, 1},
+                                               {0, 1, 1}, {.5f, 0, 1}, {.5f, .5f, 1}};
+  EXPECT_EQ(HullFaces(square).dimension(), 2);
+  EXPECT_EQ(from_least(HullFaces(square)), (Faces{{0, 1, 2, 3}, {0, 3, 2, 1}}));
+  const std::vector<Eigen::Vector3f> line = {{1, 1, 1}, {3, 3, 3}, {2, 2, 2}, {1, 1, 1}};
+  EXPECT_EQ(HullFaces(line).dimension(), 1);
+  EXPECT_EQ(HullFaces(line).corners().size(), 2u);
+  EXPECT_TRUE(HullFaces(line).faces().empty());
+  const std::vector<Eigen::Vector3f> point = {{1, 1, 1}, {1, 1, 1}};
+  EXPECT_EQ(HullFaces(point).dimension(), 0);
+  EXPECT_EQ(HullFaces(point).corners().size(), 1u);
+}
+
+// Euler's formula, every edge once each way, and no point in front of a face.
+void expect_closed(const HullFaces& found, std::span<const Eigen::Vector3f> points) {
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
+  for (const auto& face : found.faces()) {
+    ASSERT_GE(face.size(), 3u);
+    for (size_t i = 0; i < face.size(); ++i)
+      edges.push_back({face[i], face[(i + 1) % face.size()]});
+    const auto at = [&](uint32_t i) { return vec3_as<Real50>(points[i]); };
+    const auto normal = cross(at(face[1]) - at(face[0]), at(face[2]) - at(face[0]));
+    EXPECT_GT(dot(normal, normal), 0);
+    for (uint32_t i = 0; i < points.size(); ++i) EXPECT_LE(dot(normal, at(i) - at(face[0])), 0);
+  }
+  std::sort(edges.begin(), edges.end());
+  EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end()), edges.end());
+  for (const auto& [from, to] : edges) {
+    EXPECT_TRUE(std::binary_search(edges.begin(), edges.end(), std::make_pair(to, from)));
+  }
+  EXPECT_EQ(found.corners().size() + found.faces().size(), edges.size() / 2 + 2);
+}
+
+TEST(HullFaces, AreClosedAndConvex) {
+  size_t solids = 0;
+  for (const ConvexFamily& family : convex_families()) {
+    SCOPED_TRACE(family.name);
+    if (family.smallest != 0.5 || family.aspect > 10) continue;  // 50 digits hold those
+    for (const ConvexPair& pair :
+         make_convex_pairs(family, {ShapeKind::hull, ShapeKind::hull}, PositionType::float32, 40)) {
+      const auto points = std::get<Hull>(pair.shape_a).geometry->points();
+      const HullFaces found(points);
+      if (found.dimension() < 2) continue;
+      expect_closed(found, points);
+      solids += found.dimension() == 3;
+      if (HasFailure()) return;
+    }
+  }
+  EXPECT_GT(solids, 400u);
+}
+
+TEST(ConvexOracle, HullsOfBoxesAreBoxes) {
+  for (const ShapeKind kind : kConvexKinds) {
+    for (const ConvexFamily& family : convex_families()) {
+      for (ConvexPair pair :
+           make_convex_pairs(family, {ShapeKind::box, kind}, PositionType::float32, 2)) {
+        const ConvexOracle<> oracle = pair.oracle();
+        pair.shape_a = hull_of(box_corners(std::get<Box>(pair.shape_a).half));
+        expect_near(pair.oracle().separation().value, oracle.separation().value,
+                    kTight * (oracle.scale() + std::fabs(oracle.separation().value)));
+      }
+    }
+  }
+}
+
+TEST(ConvexOracle, Hulls) {
+  const Shape tip = hull_of({{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}});
+  expect_separation({tip, at(0, 0, .5), box(1, 1, 1), at(0, 0, -1)}, .5L, 0);
+  expect_separation({tip, at(0, 0, -.5), box(4, 4, 4), at(0, 0, -4)}, -.5L, 1e-18L);
+  const Shape point = hull_of({{1, 2, 3}}), line = hull_of({{0, 0, -1}, {0, 0, 0}, {0, 0, 1}});
+  expect_separation({point, at(-1, -2, -3), Sphere{1}, at(0, 3, 4)}, 4, 1e-18L);
+  expect_separation({line, at(0, 0, 0), Sphere{1}, at(0, 3, 1)}, 2, 1e-18L);
+  expect_separation({line, at(0, 0, 0), line, at(3, 4, 1)}, 5, 1e-18L);
+  const Shape flat = hull_of({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 0}});
+  expect_separation({flat, at(0, 0, 0), flat, at(0, 0, .25)}, .25L, 0);
+  expect_separation({flat, at(0, 0, 0), flat, at(3, 0, 0)}, 1, 0);
+  expect_separation({flat, at(0, 0, 0), flat, at(.5, .25, 0)}, 0, 0);
+  expect_separation({flat, at(0, 0, 0), box(2, 2, 2), at(0, 0, 1)}, -1, 0);
+}
+
 // Two edges that cross at a small angle, one above the other: the gap is that of the two planes.
 TEST(ConvexOracle, NearParallelEdges) {
   for (double angle : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2}) {
@@ -152,7 +255,7 @@ class ConvexOracleFamilies : public testing::TestWithParam<ConvexFamily> {
     for (const KindPair& kinds : convex_kind_pairs()) {
       SCOPED_TRACE(name(kinds));
       for (const ConvexPair& pair :
-           make_convex_pairs(GetParam(), kinds, positions, fewer_dops(kinds, count))) {
+           make_convex_pairs(GetParam(), kinds, positions, fewer_polytopes(kinds, count))) {
         check(pair);
         if (HasFailure()) return;
       }

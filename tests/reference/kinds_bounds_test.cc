@@ -50,7 +50,7 @@ TEST_P(KindsReferenceBounds, ContainTheShapeAndAreTight) {
     const KindPair kinds{ShapeKind::sphere, kind};
     for (const PositionType positions : kPositionTypes) {
       for (const ConvexPair& pair :
-           make_convex_pairs(GetParam(), kinds, positions, fewer_dops(kinds, 60))) {
+           make_convex_pairs(GetParam(), kinds, positions, fewer_polytopes(kinds, 60))) {
         expect_tight({pair.shape_b, pair.pose_b.position, pair.pose_b.orientation}, positions);
         if (HasFailure()) return;
       }

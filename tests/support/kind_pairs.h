@@ -65,7 +65,8 @@ inline std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family,
   std::vector<TestPair> pairs;
   for (size_t i = 0; i < count; ++i) {
     KindPair some = kinds[random.below(kinds.size())];
-    while (fewer_dops(some, 2) < 2 && random.chance(0.9)) some = kinds[random.below(kinds.size())];
+    while (fewer_polytopes(some, 2) < 2 && random.chance(0.9))
+      some = kinds[random.below(kinds.size())];
     pairs.push_back(make_kind_pairs(family, some, positions, 1, random.bits())[0]);
   }
   return pairs;
@@ -81,6 +82,20 @@ inline std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, Posit
     }
   }
   return pairs;
+}
+
+// The hull with its points changed, each by itself, and the same faces.
+template <class Change>
+Hull with_points(const Hull& hull, const Change& change) {
+  std::vector<Eigen::Vector3f> points(hull.geometry->points().begin(),
+                                      hull.geometry->points().end());
+  for (Eigen::Vector3f& point : points) change(point);
+  std::vector<std::vector<uint32_t>> faces;
+  for (const HullGeometry::Face& face : hull.geometry->faces()) {
+    const auto corners = hull.geometry->corners(face);
+    faces.emplace_back(corners.begin(), corners.end());
+  }
+  return {*make_hull(points, faces)};
 }
 
 // Turns numbers of a body into floats of any bits at all; most bodies stay valid.
@@ -151,6 +166,20 @@ class Spoiler {
     }
     if (random_.chance(0.05)) dop.kind = static_cast<DopKind>(random_.below(256));
   }
+
+  // Points that nobody could make a hull of stay as they are. The faces are those of before: what
+  // they then are not good for must do no harm.
+  void spoil_shape(Hull& hull) {
+    if (random_.chance(0.02)) hull.geometry = nullptr;
+    if (!hull.geometry || random_.chance(0.5)) return;
+    hull = with_points(hull, [this](Eigen::Vector3f& point) {
+      const Eigen::Vector3f before = point;
+      spoil(point);
+      if (!point.allFinite()) point = before;
+    });
+  }
+  void spoil_shape(Mesh& /*tested by its parts*/) {}
+  void spoil_shape(Compound& /*tested by its parts*/) {}
 
   Random random_;
 };

@@ -200,6 +200,7 @@ class LaidOutRows {
         rows_(rows_in(bodies, places_), kRowSize, kRowSize),
         first_(is_first_given_ ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
     for (size_t i = 0; i < bodies.size(); ++i) {
+      if (has_geometry(kind_of(bodies[i].shape))) alive_.push_back(bodies[i].shape);
       if (is_first_given_) first_.set(i, places_[i]);
       const auto rows = shape_rows(bodies[i].shape);
       for (uint32_t k = 0; k < row_count(kind_of(bodies[i].shape)); ++k) {
@@ -253,6 +254,7 @@ class LaidOutRows {
   std::vector<uint32_t> places_;
   GuardedArray rows_;
   GuardedArray first_;
+  std::vector<Shape> alive_;  // geometries that rows hold the address of
 };
 
 class LaidOut {

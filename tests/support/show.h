@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <string>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
 #include "tests/support/pairs.h"
 
 namespace carom::test {
@@ -42,6 +44,23 @@ inline std::string show(const Dop& dop) {
     text += (i ? ", " : " ") + hex(dop.lower[i]) + " .. " + hex(dop.upper[i]);
   }
   return text;
+}
+
+inline std::string show(const Hull& hull) {
+  if (!hull.geometry) return "without geometry";
+  std::string text = std::to_string(hull.geometry->faces().size()) + " faces";
+  for (const Eigen::Vector3f& point : hull.geometry->points()) text += " (" + hex3(point) + ")";
+  return text;
+}
+
+// Tests that fail with composites say themselves how they were made.
+inline std::string show(const Mesh& mesh) {
+  if (!mesh.geometry) return "without geometry";
+  return std::to_string(mesh.geometry->triangles().size()) + " triangles";
+}
+inline std::string show(const Compound& compound) {
+  if (!compound.geometry) return "without geometry";
+  return std::to_string(compound.geometry->children().size()) + " children";
 }
 
 inline std::string show(const PlacedShape& body) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
 #include "tests/support/pairs.h"
 
 namespace carom::test {
@@ -33,7 +35,8 @@ inline double textbook_separation(const Shape& shape_a, const Shape& shape_b,
   return core - a.radius - b.radius;
 }
 
-// Radius of the ball about the body's origin that contains it; 0 of half-spaces.
+// Radius of the ball about the body's origin that contains it, or its bounds; 0 of
+// half-spaces.
 inline double bounding_radius(const Sphere& sphere) { return sphere.radius; }
 inline double bounding_radius(const Aabb& box) {
   return box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).cast<double>().stableNorm();
@@ -55,7 +58,20 @@ inline double bounding_radius(const Dop& dop) {
   };
   return Eigen::Vector3d(reach(0), reach(1), reach(2)).stableNorm();
 }
+inline double bounding_radius(const Hull& hull) {
+  double radius = 0;
+  for (const Eigen::Vector3f& point : hull.geometry->points()) {
+    radius = std::max(radius, point.cast<double>().stableNorm());
+  }
+  return radius;
+}
 inline double bounding_radius(const Halfspace&) { return 0; }
+inline double bounding_radius(const Mesh& mesh) {
+  return bounding_radius(Aabb{mesh.geometry->lower(), mesh.geometry->upper()});
+}
+inline double bounding_radius(const Compound& compound) {
+  return bounding_radius(Aabb{compound.geometry->lower(), compound.geometry->upper()});
+}
 inline double bounding_radius(const Shape& shape) {
   return std::visit([](const auto& s) { return bounding_radius(s); }, shape);
 }

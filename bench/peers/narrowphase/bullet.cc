@@ -1,5 +1,5 @@
-// Bullet: the algorithm that its dispatcher picks for two kinds, and for the decision of boxes the
-// detector inside that algorithm.
+// Bullet: the algorithm that its dispatcher picks for two kinds, and the detectors inside those
+// algorithms: for the decision of boxes, and for distances.
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -9,8 +9,12 @@
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "bench/peers/narrowphase/pair_peer.h"
 
@@ -23,29 +27,46 @@ constexpr btScalar kMargin = 2.5e-4f;
 
 btVector3 vector(const float* v) { return {v[0], v[1], v[2]}; }
 
-std::unique_ptr<btConvexShape> make_shape(PeerShape shape, const std::array<float, 9>& size) {
+std::shared_ptr<btConvexShape> with_margin(std::shared_ptr<btConvexShape> shape, btScalar margin) {
+  shape->setMargin(margin);
+  return shape;
+}
+
+// Of spheres and capsules the margin is the radius. Bullet adds it to hulls: those have none.
+std::shared_ptr<btConvexShape> make_shape(PeerShape shape, const std::array<float, 9>& size) {
   switch (shape) {
     case PeerShape::sphere:
-      return std::make_unique<btSphereShape>(size[0]);
+      return std::make_shared<btSphereShape>(size[0]);
     case PeerShape::capsule:
-      return std::make_unique<btCapsuleShape>(size[0], 2 * size[1]);
+      return std::make_shared<btCapsuleShape>(size[0], 2 * size[1]);
     case PeerShape::box:
-      return std::make_unique<btBoxShape>(vector(&size[0]));
+      return with_margin(std::make_shared<btBoxShape>(vector(&size[0])), kMargin);
     case PeerShape::triangle:
-      return std::make_unique<btTriangleShape>(vector(&size[0]), vector(&size[3]),
-                                               vector(&size[6]));
+      return with_margin(
+          std::make_shared<btTriangleShape>(vector(&size[0]), vector(&size[3]), vector(&size[6])),
+          kMargin);
+    case PeerShape::hull:
+      break;
   }
   return nullptr;
+}
+
+std::shared_ptr<btConvexShape> make_hull(const std::vector<std::array<float, 3>>& points) {
+  auto hull = std::make_shared<btConvexHullShape>();
+  for (const auto& point : points) hull->addPoint(vector(point.data()), false);
+  hull->recalcLocalAabb();
+  return with_margin(hull, 0);
 }
 
 // One side of the pairs.
 class Bodies {
  public:
   explicit Bodies(const PeerBodies& source) {
+    std::vector<std::shared_ptr<btConvexShape>> hulls;
+    for (const auto& points : source.hulls) hulls.push_back(make_hull(points));
     for (const PeerBody& body : source.bodies) {
-      shapes_.push_back(make_shape(source.shape, body.size));
-      // Of spheres and capsules the margin is the radius.
-      if (source.shape >= PeerShape::box) shapes_.back()->setMargin(kMargin);
+      const bool is_hull = source.shape == PeerShape::hull;
+      shapes_.push_back(is_hull ? hulls[body.hull] : make_shape(source.shape, body.size));
       const auto& q = body.orientation;
       transforms_.emplace_back(btQuaternion(q[0], q[1], q[2], q[3]), vector(body.position.data()));
     }
@@ -62,7 +83,7 @@ class Bodies {
   }
 
  private:
-  std::vector<std::unique_ptr<btConvexShape>> shapes_;
+  std::vector<std::shared_ptr<btConvexShape>> shapes_;
   std::vector<btTransform> transforms_;
 };
 
@@ -142,7 +163,43 @@ class AlgorithmPairs final : public PairPeer {
   btCollisionAlgorithm* algorithm_ = nullptr;
 };
 
-// The detector, without a manifold to put points into.
+using Detector = btDiscreteCollisionDetectorInterface;
+
+struct Decision final : Detector::Result {
+  void setShapeIdentifiersA(int /*part*/, int /*index*/) override {}
+  void setShapeIdentifiersB(int /*part*/, int /*index*/) override {}
+  void addContactPoint(const btVector3& /*normal*/, const btVector3& /*point*/,
+                       btScalar distance) override {
+    touches = touches || distance <= 0;
+  }
+  bool touches = false;
+};
+
+// The detector of boxes, without a manifold to put points into.
+class BoxBoxTest {
+ public:
+  void operator()(const btConvexShape* a, const btConvexShape* b,
+                  const Detector::ClosestPointInput& input, Decision& decision) {
+    btBoxBoxDetector detector(static_cast<const btBoxShape*>(a), static_cast<const btBoxShape*>(b));
+    detector.getClosestPoints(input, decision, nullptr);
+  }
+};
+
+// GJK, and EPA for pairs that overlap.
+class GjkTest {
+ public:
+  void operator()(const btConvexShape* a, const btConvexShape* b,
+                  const Detector::ClosestPointInput& input, Decision& decision) {
+    btGjkPairDetector detector(a, b, &simplex_, &depth_);
+    detector.getClosestPoints(input, decision, nullptr);
+  }
+
+ private:
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver depth_;
+};
+
+template <class Test>
 class DetectorPairs final : public PairPeer {
  public:
   DetectorPairs(const PeerBodies& a, const PeerBodies& b) : a_(a), b_(b) {}
@@ -150,13 +207,11 @@ class DetectorPairs final : public PairPeer {
   size_t run(std::span<uint8_t> overlaps) override {
     size_t touching = 0;
     for (size_t i = 0; i < a_.count(); ++i) {
-      btDiscreteCollisionDetectorInterface::ClosestPointInput input;
+      Detector::ClosestPointInput input;
       input.m_transformA = a_.transform(i);
       input.m_transformB = b_.transform(i);
-      btBoxBoxDetector detector(static_cast<const btBoxShape*>(a_.shape(i)),
-                                static_cast<const btBoxShape*>(b_.shape(i)));
       Decision decision;
-      detector.getClosestPoints(input, decision, nullptr);
+      test_(a_.shape(i), b_.shape(i), input, decision);
       overlaps[i] = decision.touches ? 1 : 0;
       touching += overlaps[i];
     }
@@ -164,25 +219,17 @@ class DetectorPairs final : public PairPeer {
   }
 
  private:
-  struct Decision final : btDiscreteCollisionDetectorInterface::Result {
-    void setShapeIdentifiersA(int /*part*/, int /*index*/) override {}
-    void setShapeIdentifiersB(int /*part*/, int /*index*/) override {}
-    void addContactPoint(const btVector3& /*normal*/, const btVector3& /*point*/,
-                         btScalar distance) override {
-      touches = touches || distance <= 0;
-    }
-    bool touches = false;
-  };
-
   Bodies a_;
   Bodies b_;
+  Test test_;
 };
 
 }  // namespace
 
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
                                             PeerDetail detail) {
-  if (detail == PeerDetail::overlap) return std::make_unique<DetectorPairs>(a, b);
+  if (detail == PeerDetail::overlap) return std::make_unique<DetectorPairs<BoxBoxTest>>(a, b);
+  if (detail == PeerDetail::distance) return std::make_unique<DetectorPairs<GjkTest>>(a, b);
   return std::make_unique<AlgorithmPairs>(a, b);
 }
 

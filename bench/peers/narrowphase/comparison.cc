@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "bench/peers/narrowphase/pair_peer.h"
@@ -29,9 +30,11 @@ std::array<float, 9> peer_size(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
 }
-// No such streams.
-std::array<float, 9> peer_size(const Halfspace& /*halfspace*/) { return {}; }
-std::array<float, 9> peer_size(const Dop& /*dop*/) { return {}; }
+// Hulls have points in place of sizes; of the others there are no streams.
+template <class Other>
+std::array<float, 9> peer_size(const Other& /*shape*/) {
+  return {};
+}
 
 PeerShape peer_shape(ShapeKind kind) {
   switch (kind) {
@@ -41,21 +44,49 @@ PeerShape peer_shape(ShapeKind kind) {
       return PeerShape::capsule;
     case ShapeKind::triangle:
       return PeerShape::triangle;
+    case ShapeKind::hull:
+      return PeerShape::hull;
     default:
       return PeerShape::box;
   }
 }
 
+// Each geometry once.
+class PeerHulls {
+ public:
+  explicit PeerHulls(std::vector<std::vector<std::array<float, 3>>>& all) : all_(all) {}
+
+  // 0 of what is no hull.
+  size_t place_of(const Shape& shape) {
+    const auto* hull = std::get_if<Hull>(&shape);
+    if (!hull) return 0;
+    const auto [found, is_new] = places_.emplace(hull->geometry.get(), all_.size());
+    if (is_new) {
+      all_.emplace_back();
+      for (const Eigen::Vector3f& p : hull->geometry->points()) {
+        all_.back().push_back({p.x(), p.y(), p.z()});
+      }
+    }
+    return found->second;
+  }
+
+ private:
+  std::vector<std::vector<std::array<float, 3>>>& all_;
+  std::map<const HullGeometry*, size_t> places_;
+};
+
 // Boxes along the axes are boxes that are not turned.
 PeerBodies peer_bodies(ShapeKind kind, const std::vector<PlacedShape>& bodies) {
-  PeerBodies all = {peer_shape(kind), {}};
+  PeerBodies all = {peer_shape(kind), {}, {}};
+  PeerHulls hulls(all.hulls);
   for (const PlacedShape& body : bodies) {
     const Eigen::Vector3f p = body.position.cast<float>();
     const Eigen::Vector4f q = body.orientation.coeffs();
     all.bodies.push_back(
         {{p.x(), p.y(), p.z()},
          {q.x(), q.y(), q.z(), q.w()},
-         std::visit([](const auto& shape) { return peer_size(shape); }, body.shape)});
+         std::visit([](const auto& shape) { return peer_size(shape); }, body.shape),
+         hulls.place_of(body.shape)});
   }
   return all;
 }
@@ -93,6 +124,11 @@ std::string difference(const PairStream& stream, Detail detail) {
   return "";
 }
 
+PeerDetail peer_detail(const PeerStreamSpec& spec) {
+  if (spec.distance) return PeerDetail::distance;
+  return spec.detail == Detail::overlap ? PeerDetail::overlap : PeerDetail::contact;
+}
+
 // Of this process, so that other programs on the machine do not count.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -126,8 +162,8 @@ class TimedRunner {
 };
 
 // So that the drift of a machine's clock meets all alike.
-std::vector<RunnerResult> time_in_turns(const PairStream& stream, Detail detail, PairPeer& bullet,
-                                        double budget) {
+std::vector<RunnerResult> time_in_turns(const PairStream& stream, const PeerStreamSpec& spec,
+                                        PairPeer& bullet, double budget) {
   ResultArrays results(stream.spec().count);
   std::vector<reference::PairResult> reference_results;
   std::vector<uint8_t> overlaps(stream.spec().count);
@@ -135,8 +171,9 @@ std::vector<RunnerResult> time_in_turns(const PairStream& stream, Detail detail,
   runners.emplace_back("bullet", [&] { bullet.run(overlaps); });
   runners.emplace_back("reference", [&] { stream.run_reference(reference_results); });
   for (const Isa isa : usable_isas()) {
-    // Bullet says nothing of pairs that are apart.
-    const auto pass = [&] { (void)stream.run(detail, results.columns(), SeparatePairs::decided); };
+    // Bullet's contacts say nothing of pairs that are apart.
+    const auto separate = spec.distance ? SeparatePairs::measured : SeparatePairs::decided;
+    const auto pass = [&, separate] { (void)stream.run(spec.detail, results.columns(), separate); };
     runners.emplace_back(name(isa), pass, isa);
   }
   for (int turn = 0; turn < kTurns; ++turn) {
@@ -163,7 +200,21 @@ std::vector<PeerStreamSpec> peer_streams() {
           {"box_box", box, box, manifold},
           {"sphere_triangle", sphere, triangle, contact},
           {"capsule_triangle", capsule, triangle, contact},
-          {"box_triangle", box, triangle, contact}};
+          {"box_triangle", box, triangle, contact},
+          {"hull_hull", hull, hull, contact, 8, true},
+          {"hull_hull", hull, hull, contact, 16, true},
+          {"hull_hull", hull, hull, contact, 32, true},
+          {"hull_hull", hull, hull, contact, 64, true},
+          {"hull_hull", hull, hull, contact, 8},
+          {"hull_hull", hull, hull, contact, 16},
+          {"hull_hull", hull, hull, contact, 32},
+          {"hull_hull", hull, hull, manifold, 8},
+          {"hull_hull", hull, hull, manifold, 16},
+          {"hull_hull", hull, hull, manifold, 32}};
+}
+
+std::string PeerStreamSpec::name() const {
+  return vertices > 0 ? pair + ("_" + std::to_string(vertices)) : pair;
 }
 
 const RunnerResult* StreamResult::timed(const std::string& runner) const {
@@ -178,13 +229,14 @@ bool StreamResult::agrees() const {
 }
 
 StreamResult compare(const PeerStreamSpec& spec, size_t pairs, double budget) {
-  const PairStream stream({.kind_a = spec.a, .kind_b = spec.b, .count = pairs});
-  const std::unique_ptr<PairPeer> bullet = make_bullet_pairs(
-      peer_bodies(spec.a, stream.bodies_a()), peer_bodies(spec.b, stream.bodies_b()),
-      spec.detail == Detail::overlap ? PeerDetail::overlap : PeerDetail::contact);
+  const PairStream stream(
+      {.kind_a = spec.a, .kind_b = spec.b, .count = pairs, .vertices = spec.vertices});
+  const std::unique_ptr<PairPeer> bullet =
+      make_bullet_pairs(peer_bodies(spec.a, stream.bodies_a()),
+                        peer_bodies(spec.b, stream.bodies_b()), peer_detail(spec));
   StreamResult result;
-  result.pair = spec.pair;
-  result.detail = spec.detail;
+  result.pair = spec.name();
+  result.output = spec.distance ? "distance" : name(spec.detail);
   result.pairs = pairs;
   result.hit_percent = stream.hit_percent();
   result.wrong = difference(stream, spec.detail);
@@ -193,7 +245,7 @@ StreamResult compare(const PeerStreamSpec& spec, size_t pairs, double budget) {
   compare_decisions(stream, overlaps, result);
   if (!result.agrees()) return result;
 
-  result.runners = time_in_turns(stream, spec.detail, *bullet, budget);
+  result.runners = time_in_turns(stream, spec, *bullet, budget);
   return result;
 }
 

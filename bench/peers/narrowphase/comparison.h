@@ -16,6 +16,12 @@ struct PeerStreamSpec {
   ShapeKind a;
   ShapeKind b;
   Detail detail;
+  size_t vertices = 0;  // of hulls
+  // Separate pairs are measured as well; otherwise their decision is enough.
+  bool distance = false;
+
+  // As TARGETS are called: "hull_hull_16".
+  std::string name() const;
 };
 
 std::vector<PeerStreamSpec> peer_streams();
@@ -29,7 +35,7 @@ struct RunnerResult {
 
 struct StreamResult {
   std::string pair;
-  Detail detail = Detail::contact;
+  std::string output;  // the detail, or "distance"
   size_t pairs = 0;
   double hit_percent = 0;
   std::string wrong;     // how Carom differs from its reference; empty: not at all

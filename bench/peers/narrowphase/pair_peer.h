@@ -11,7 +11,7 @@
 
 namespace carom::bench {
 
-enum class PeerShape { sphere, capsule, box, triangle };
+enum class PeerShape { sphere, capsule, box, triangle, hull };
 
 struct PeerBody {
   std::array<float, 3> position;
@@ -19,14 +19,16 @@ struct PeerBody {
   // sphere: radius; capsule: radius and half the length, along y; box: half extents; triangle:
   // three corners
   std::array<float, 9> size;
+  size_t hull = 0;  // which of the hulls; bodies share them
 };
 
 struct PeerBodies {
   PeerShape shape;
   std::vector<PeerBody> bodies;
+  std::vector<std::vector<std::array<float, 3>>> hulls;  // points
 };
 
-enum class PeerDetail { overlap, contact };
+enum class PeerDetail { overlap, contact, distance };
 
 // Pair i is (a[i], b[i]).
 class PairPeer {
@@ -36,7 +38,8 @@ class PairPeer {
   virtual size_t run(std::span<uint8_t> overlaps) = 0;
 };
 
-// bullet.cc. At PeerDetail::overlap boxes alone.
+// bullet.cc. At PeerDetail::overlap boxes alone; at PeerDetail::distance the points that are
+// nearest of separate pairs, and the depth of the others.
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
                                             PeerDetail detail);
 

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "bench/support/pair_stream.h"
 
 namespace carom::bench {
 namespace {
@@ -28,7 +27,7 @@ ordered_json runner_json(const StreamResult& result, const RunnerResult& runner)
 }
 
 ordered_json stream_json(const StreamResult& result) {
-  ordered_json json = {{"pair", result.pair},           {"detail", name(result.detail)},
+  ordered_json json = {{"pair", result.pair},           {"detail", result.output},
                        {"pairs", result.pairs},         {"hit_percent", result.hit_percent},
                        {"wrong", result.wrong},         {"excluded", result.excluded},
                        {"different", result.different}, {"bullet_points", result.bullet_points}};
@@ -44,8 +43,8 @@ ordered_json stream_json(const StreamResult& result) {
 void print(const StreamResult& result) {
   std::printf(
       "\n%s, %s: %zu pairs, %.1f %% overlap; Bullet: %zu decide otherwise, %zu not compared\n",
-      result.pair.c_str(), name(result.detail), result.pairs, result.hit_percent, result.different,
-      result.excluded);
+      result.pair.c_str(), result.output.c_str(), result.pairs, result.hit_percent,
+      result.different, result.excluded);
   if (!result.wrong.empty()) {
     std::printf("  Carom differs from its reference: %s\n", result.wrong.c_str());
   }

@@ -74,6 +74,11 @@ struct ResultColumns {
   // Metres by which the separation may be off at most, at any detail but pairs: a forward bound of
   // the kernel (docs/accuracy.md). Optional; NaN for invalid pairs.
   float* separation_bound = nullptr;
+  // The sub-shape of each body that the contact is with: the child of a compound, the triangle of a
+  // mesh; 0 for simple shapes, and where a pair has no contact to name. Optional, at details with
+  // contacts.
+  uint32_t* sub_a = nullptr;
+  uint32_t* sub_b = nullptr;
 };
 
 // What is found out about pairs that are apart, at details with contacts.

@@ -7,12 +7,14 @@
 #include <variant>
 
 #include "carom/export.h"
+#include "carom/kernel/compound.h"
 #include "carom/kernel/dop.h"
+#include "carom/kernel/hull.h"
+#include "carom/kernel/mesh.h"
 
 namespace carom {
 
-// The codes of the file format, and `triangle`, which is a mesh of one triangle there. Kinds that
-// have no kernel yet are refused by name.
+// The codes of the file format, and `triangle`, which is a mesh of one triangle there.
 enum class ShapeKind : uint8_t {
   sphere = 0,
   capsule = 1,
@@ -82,8 +84,17 @@ struct Halfspace {
 
 // A Dop (carom/kernel/dop.h) turns with its body, as a box does; its slabs must have a point in
 // common.
-using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop>;
+using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh,
+                           Compound>;
 
 CAROM_EXPORT ShapeKind kind_of(const Shape& shape);
+
+// Made of parts that are shapes themselves.
+constexpr bool is_composite(ShapeKind kind) {
+  return kind == ShapeKind::mesh || kind == ShapeKind::compound;
+}
+
+// Kinds whose numbers lie in a geometry that bodies share.
+constexpr bool has_geometry(ShapeKind kind) { return kind == ShapeKind::hull || is_composite(kind); }
 
 }  // namespace carom

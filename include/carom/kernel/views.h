@@ -45,8 +45,7 @@ struct OrientationView {
   size_t stride = 4 * sizeof(float);
 };
 
-// Parameters of capsules, boxes, dops, half-spaces and triangles: rows of four floats, as many in a
-// row as the kind has.
+// Parameters of all kinds but spheres and aabbs: rows of four floats, as many as the kind has.
 //   capsule    ax ay az radius | bx by bz 0
 //   box        hx hy hz 0
 //   dop        13 lower ends of slabs, 13 upper ones (any finite numbers behind the last slab),
@@ -54,6 +53,8 @@ struct OrientationView {
 //   halfspace  nx ny nz offset
 //   triangle   three corners, each with a fourth number: thickness, one_sided (0 or 1), inner_edges
 //              (0 to 7)
+//   hull, mesh, compound  the address of the geometry in the first bytes (geometry_row()), 0 behind
+//              it; the geometry must outlive the view
 struct ShapeRows {
   const float* data = nullptr;
   const uint32_t* first = nullptr;  // one a body: its first row; nullptr: body i's is i * row_count
@@ -66,6 +67,9 @@ constexpr uint32_t row_count(ShapeKind kind) {
   switch (kind) {
     case ShapeKind::box:
     case ShapeKind::halfspace:
+    case ShapeKind::hull:
+    case ShapeKind::mesh:
+    case ShapeKind::compound:
       return 1;
     case ShapeKind::capsule:
       return 2;
@@ -80,7 +84,7 @@ constexpr uint32_t row_count(ShapeKind kind) {
 
 // The rows of a shape, as many as its kind has.
 CAROM_EXPORT std::array<std::array<float, 4>, kMostRows> shape_rows(const Shape& shape);
-// The shape of a kind that has rows.
+// The shape of a kind that has rows. It does not own its geometry.
 CAROM_EXPORT Shape shape_from_rows(ShapeKind kind, const std::array<float, 4>* rows);
 
 // A set of bodies to test: what the narrow phase and the bounds stage read.
@@ -88,8 +92,7 @@ CAROM_EXPORT Shape shape_from_rows(ShapeKind kind, const std::array<float, 4>* r
 //             world coordinates
 //   kind      one per body; nullptr: all are `uniform_kind`
 //   box_slot  the row of `boxes` of an aabb body; nullptr: the body's own index
-//   orientation, rows  of capsules, boxes, dops, half-spaces and triangles; of mixed kinds with
-//   rows.first
+//   orientation, rows  of all kinds but spheres and aabbs; of mixed kinds with rows.first
 struct Collidables {
   size_t count = 0;
   PositionView position;

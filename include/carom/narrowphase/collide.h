@@ -22,6 +22,12 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 // lie inside their sets. What comes from behind a one-sided triangle is separate by +infinity, with
 // a normal and points that are not a number; so are all of these of invalid pairs.
 //
+// A mesh or a compound overlaps what one of its parts overlaps. The contact is that of the deepest
+// pair of parts (the nearest, if they are apart), of equal ones the first by their indices, which
+// sub_a and sub_b name. The manifold joins the points of all parts that are met in about the same
+// direction. Bodies without parts (all triangles of the mesh have no area) are separate by
+// +infinity. Contacts at inner edges of a mesh have the normal of the triangle.
+//
 // float32 throughout, after one subtraction of the positions in their own type: the error does not
 // depend on the distance from the origin. Bits are the same on every instruction set and for any
 // number of threads, and do not depend on a pair's place in the list. Distances between positions

@@ -31,6 +31,8 @@ struct PairResult {
   Eigen::Vector3f arm_b;
   uint8_t manifold_count;     // 0 for separate pairs
   ManifoldPoints manifold{};  // relative to the position of A
+  uint32_t sub_a = 0;         // child or triangle; 0 for simple shapes
+  uint32_t sub_b = 0;
 };
 
 // A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the

@@ -1,12 +1,14 @@
 #include "carom/narrowphase/collide.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <string>
 
 #include "kernel/body_reader.h"
 #include "kernel/parallel.h"
-#include "narrowphase/collide_pairs.h"
+#include "midphase/collide_pairs.h"
+#include "midphase/mixed_block.h"
 #include "narrowphase/pair_block.h"
 #include "narrowphase/pair_kinds.h"
 
@@ -54,29 +56,52 @@ Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t coun
   return {};
 }
 
+bool has_composites(const Collidables& bodies) {
+  if (!bodies.kind) return is_composite(bodies.uniform_kind);
+  bool found = false;  // without a branch: that reads many kinds at once
+  for (size_t i = 0; i < bodies.count; ++i) found |= is_composite(bodies.kind[i]);
+  return found;
+}
+
+void fill_sub_shapes(const ResultColumns& out, size_t begin, size_t end) {
+  for (uint32_t* column : {out.sub_a, out.sub_b}) {
+    if (column) std::fill(column + begin, column + end, 0u);
+  }
+}
+
 void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pairs, size_t count,
                     Detail detail, const ResultColumns& out, WitnessFrame frame,
                     SeparatePairs separate, uint32_t* direction, Parallelism parallelism,
                     const Accuracy& accuracy) {
-  if (detail == Detail::pairs) return;
+  if (detail == Detail::pairs || count == 0) return;
+  const bool composites = has_composites(a) || has_composites(b);
   for_each_block(count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    run_pair_block({.a = a,
-                    .b = b,
-                    .pairs = pairs ? pairs + begin : nullptr,
-                    .first = begin,
-                    .count = end - begin,
-                    .detail = detail,
-                    .frame = frame,
-                    .separate = separate,
-                    .direction = direction ? direction + begin : nullptr,
-                    .accuracy = accuracy,
-                    .out = from_row(out, begin)});
+    if (has_contacts(detail)) fill_sub_shapes(out, begin, end);
+    const auto run = composites ? run_mixed_block : run_pair_block;
+    run({.a = a,
+         .b = b,
+         .pairs = pairs ? pairs + begin : nullptr,
+         .first = begin,
+         .count = end - begin,
+         .detail = detail,
+         .frame = frame,
+         .separate = separate,
+         .direction = direction ? direction + begin : nullptr,
+         .accuracy = accuracy,
+         .out = from_row(out, begin)});
   });
 }
 
 }  // namespace
 
-bool supports(ShapeKind a, ShapeKind b) { return find_pair_kind(a, b).exists(); }
+// Parts of composites meet if there is a kernel for them, which is so for all shapes with bounds.
+bool supports(ShapeKind a, ShapeKind b) {
+  const auto is_shape = [](ShapeKind kind) {
+    return static_cast<size_t>(kind) < size_t{kShapeKindCount};
+  };
+  const bool composites = is_composite(a) || is_composite(b);
+  return composites ? is_shape(a) && is_shape(b) : find_pair_kind(a, b).exists();
+}
 
 Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
                      Detail detail, const ResultColumns& out, WitnessFrame frame,

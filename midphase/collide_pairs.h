@@ -1,4 +1,4 @@
-// The world's way into the narrow phase.
+// The world's way into the mid-phase and the narrow phase.
 #pragma once
 
 #include <span>

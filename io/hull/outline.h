@@ -1,0 +1,23 @@
+// Outlines of points that lie in a plane.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace carom::io {
+
+// The corners of the convex polygon of points[indices] in the plane of this normal, counter-
+// clockwise as seen from where the normal points. Points within 1e-12 of an edge are no corners;
+// fewer than three are left of points on a line. The points have about size one.
+// A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions, Information
+// Processing Letters 9(5), 1979.
+std::vector<uint32_t> outline(std::span<const Eigen::Vector3d> points,
+                              std::span<const uint32_t> indices, const Eigen::Vector3d& normal);
+
+// Twice the area of a polygon times its unit normal (Newell).
+Eigen::Vector3d area_vector(std::span<const Eigen::Vector3d> points,
+                            std::span<const uint32_t> corners);
+
+}  // namespace carom::io

@@ -1,0 +1,63 @@
+#include "io/hull/unit_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace carom::io {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+bool is_before(const Vector3f& p, const Vector3f& q) {
+  return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+}
+
+// The first index of every point, ascending.
+std::vector<uint32_t> distinct(std::span<const Vector3f> points) {
+  std::vector<uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t i, uint32_t j) { return is_before(points[i], points[j]); });
+  const auto is_same = [&](uint32_t i, uint32_t j) { return points[i] == points[j]; };
+  order.erase(std::unique(order.begin(), order.end(), is_same), order.end());
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+}  // namespace
+
+UnitPoints unit_points(std::span<const Vector3f> points) {
+  Vector3d lower = points.front().cast<double>();
+  Vector3d upper = lower;
+  for (const Vector3f& p : points) {
+    lower = lower.cwiseMin(p.cast<double>());
+    upper = upper.cwiseMax(p.cast<double>());
+  }
+  std::array<int, 3> exponent{};
+  UnitPoints unit;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::frexp(upper[axis] - lower[axis], &exponent[axis]);
+    const double largest = std::max(-lower[axis], upper[axis]);
+    const double half_step = std::max(largest * double{std::numeric_limits<float>::epsilon()} / 2,
+                                      double{std::numeric_limits<float>::denorm_min()});
+    unit.rounding[axis] = std::ldexp(half_step, -exponent[axis]);
+  }
+  unit.source = distinct(points);
+  unit.point.reserve(unit.source.size());
+  for (const uint32_t source : unit.source) {
+    const Vector3d above = points[source].cast<double>() - lower;
+    Vector3d p;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double half = std::ldexp(upper[axis] - lower[axis], -exponent[axis]) / 2;
+      p[axis] = std::ldexp(above[axis], -exponent[axis]) - half;
+    }
+    unit.point.push_back(p);
+  }
+  return unit;
+}
+
+}  // namespace carom::io

@@ -1,0 +1,302 @@
+#include "midphase/composite_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "kernel/body_reader.h"
+#include "midphase/contact_runs.h"
+#include "midphase/part_batch.h"
+#include "midphase/part_search.h"
+#include "narrowphase/merge_ref.h"
+#include "narrowphase/pair_kinds.h"
+#include "narrowphase/world_point.h"
+
+namespace carom {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// Two placed bodies.
+struct BodyPair {
+  Part part_a, part_b;
+  PlacedPart a, b;
+
+  // In world coordinates; with compounds as seen from A, since children are placed in double
+  // precision.
+  BodyPair(const BodyReader& reader_a, const BodyReader& reader_b, Pair pair)
+      : part_a(body_part(reader_a, pair.a)),
+        part_b(body_part(reader_b, pair.b)),
+        a(part_a, position(reader_a, pair.a)),
+        b(part_b, position(reader_b, pair.b)) {
+    if (part_a.kind != ShapeKind::compound && part_b.kind != ShapeKind::compound) return;
+    b.position = minus(b.position, a.position);
+    a.position = {};
+  }
+  BodyPair(const BodyPair&) = delete;
+  BodyPair& operator=(const BodyPair&) = delete;
+
+ private:
+  static Double3 position(const BodyReader& reader, size_t i) {
+    const Position<double> p = reader.position<double>(i);
+    return {p.x, p.y, p.z};
+  }
+};
+
+// What was found of a pair so far: that of the deepest pair of parts.
+struct Outcome {
+  uint8_t overlap = 0;
+  uint8_t status = static_cast<uint8_t>(Status::ok);
+  bool is_found = false;
+  float separation = kInfinity;
+  std::array<float, 3> normal = {kNan, kNan, kNan};
+  std::array<float, 3> arm_a = {kNan, kNan, kNan};
+  std::array<float, 3> arm_b = {kNan, kNan, kNan};
+  std::array<uint64_t, 2> parts{};
+  float bound = 0;
+  double nearest = HUGE_VAL;  // the least that a separation may be in truth
+
+  bool is_invalid() const { return status == static_cast<uint8_t>(Status::invalid); }
+
+  // Overlapping pairs before undecided ones before separate ones.
+  auto order() const {
+    const int rank = overlap == 1 ? 0 : overlap == kUndecided ? 1 : 2;
+    return std::tuple(rank, separation, parts);
+  }
+};
+
+Outcome no_answer() {
+  Outcome outcome;
+  outcome.status = static_cast<uint8_t>(Status::invalid);
+  outcome.separation = outcome.bound = kNan;
+  return outcome;
+}
+
+std::array<float, 3> at_row(const std::array<float*, 3>& columns, size_t row) {
+  return {columns[0][row], columns[1][row], columns[2][row]};
+}
+
+void set_row(const std::array<float*, 3>& columns, size_t row, const std::array<float, 3>& value) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (columns[axis]) columns[axis][row] = value[axis];
+  }
+}
+
+template <class T>
+void set_row(T* column, size_t row, const T& value) {
+  if (column) column[row] = value;
+}
+
+// From a part's position to that of its body.
+std::array<float, 3> moved(const std::array<float, 3>& point, const Double3& arm) {
+  return {static_cast<float>(point[0] + arm[0]), static_cast<float>(point[1] + arm[1]),
+          static_cast<float>(point[2] + arm[2])};
+}
+
+float rounded_up(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded < x ? std::nextafter(rounded, HUGE_VALF) : rounded;
+}
+
+// Memory of one thread.
+struct Scratch {
+  PartBatch batch;
+  std::array<Outcome, kPairsPerBlock> outcomes;
+  ContactRuns contacts;
+  std::vector<merging::SeenPoint> seen;
+  std::array<uint16_t, kPairsPerBlock> to_measure;
+};
+
+class CompositeRun {
+ public:
+  CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, Scratch& scratch)
+      : block_(block),
+        a_{block.a},
+        b_{block.b},
+        rows_(rows),
+        tests_{.manifolds = block.detail == Detail::manifold,
+               .bounds = block.out.separation_bound != nullptr,
+               .separate = block.separate,
+               .accuracy = block.accuracy},
+        batch_(scratch.batch),
+        outcomes_(scratch.outcomes),
+        contacts_(scratch.contacts),
+        seen_(scratch.seen),
+        to_measure_(scratch.to_measure) {
+    batch_.clear();
+    contacts_.clear();
+  }
+
+  void run() {
+    for (current_ = 0; current_ < rows_.size(); ++current_) {
+      outcomes_[current_] = is_valid(pair(current_)) ? Outcome{} : no_answer();
+      if (!outcomes_[current_].is_invalid()) search(current_, 0);
+    }
+    flush();
+    if (tests_.separate == SeparatePairs::measured && has_contacts(block_.detail)) measure();
+  }
+
+ private:
+  Pair pair(size_t k) const {
+    const size_t row = rows_[k];
+    if (block_.pairs) return block_.pairs[row];
+    const auto index = static_cast<uint32_t>(block_.first + row);
+    return {index, index};
+  }
+
+  bool is_valid(Pair p) const { return a_.is_valid(p.a) && b_.is_valid(p.b); }
+
+  void search(size_t k, double reach) {
+    const BodyPair bodies(a_, b_, pair(k));
+    find_part_pairs(bodies.a, bodies.b, reach,
+                    [&](const PlacedPart& a, const PlacedPart& b) { add(k, a, b); });
+  }
+
+  void add(size_t k, const PlacedPart& a, const PlacedPart& b) {
+    if (!find_pair_kind(a.kind(), b.kind()).exists()) return;
+    if (batch_.is_full()) flush();
+    batch_.add(k, a, b);
+  }
+
+  // Tests what is waiting. Pairs before the current one are complete then.
+  void flush() {
+    run_batch();
+    for (; first_open_ < current_; ++first_open_) write(first_open_);
+    contacts_.forget_before(current_);
+  }
+
+  void run_batch() {
+    batch_.run(tests_);
+    for (size_t i = 0; i < batch_.count(); ++i) merge(i);
+    batch_.clear();
+  }
+
+  void merge(size_t i) {
+    const ResultColumns out = batch_.results();
+    Outcome found;
+    found.is_found = true;
+    found.overlap = out.overlap[i];
+    found.status = out.status[i];
+    found.separation = out.separation[i];
+    found.parts = {batch_.side(0).order(i), batch_.side(1).order(i)};
+    const size_t k = batch_.owner(i);
+    Outcome& best = outcomes_[k];
+    if (tests_.bounds) {
+      found.bound = out.separation_bound[i];
+      found.nearest = double{found.separation} - found.bound;
+    }
+    const double nearest = std::min(best.nearest, found.nearest);
+    if (!best.is_found || found.order() < best.order()) {
+      found.normal = at_row(out.normal, i);
+      found.arm_a = moved(at_row(out.point_a, i), batch_.side(0).arm(i));
+      found.arm_b = moved(at_row(out.point_b, i), batch_.side(1).arm(i));
+      best = found;
+    }
+    best.nearest = nearest;
+    if (tests_.manifolds && found.overlap == 1) keep_contact(i, found);
+  }
+
+  void keep_contact(size_t i, const Outcome& found) {
+    const ResultColumns out = batch_.results();
+    PartContact contact{found.parts, at_row(out.normal, i), found.separation, out.manifold_count[i],
+                        out.manifold[i]};
+    for (size_t k = 0; k < contact.count; ++k) {
+      contact.points.point[k] = moved(contact.points.point[k], batch_.side(0).arm(i));
+    }
+    contacts_.add(batch_.owner(i), contact);
+  }
+
+  // Pairs of which no parts touch: how far they are apart. One pair of parts that is near says how
+  // far at most.
+  void measure() {
+    size_t count = 0;
+    for (size_t k = 0; k < rows_.size(); ++k) {
+      const Outcome& o = outcomes_[k];
+      if (!o.is_invalid() && o.overlap != 1) to_measure_[count++] = static_cast<uint16_t>(k);
+    }
+    const std::span<const uint16_t> to_measure = std::span(to_measure_).first(count);
+    for (const size_t k : to_measure) {
+      if (outcomes_[k].is_found) continue;
+      const BodyPair bodies(a_, b_, pair(k));
+      find_near_part_pair(bodies.a, bodies.b,
+                          [&](const PlacedPart& a, const PlacedPart& b) { add(k, a, b); });
+    }
+    run_batch();
+    for (const size_t k : to_measure) {
+      const float reach = std::max(outcomes_[k].separation, 0.0f);
+      outcomes_[k] = {};
+      search(k, reach);
+    }
+    run_batch();
+    contacts_.clear();
+    for (const size_t k : to_measure) write(k);
+  }
+
+  void write(size_t k) {
+    const size_t row = rows_[k];
+    const Pair p = pair(k);
+    const Outcome& o = outcomes_[k];
+    const ResultColumns& out = block_.out;
+    set_row(out.overlap, row, o.overlap);
+    set_row(out.status, row, o.status);
+    set_row(out.separation_bound, row, bound_of(o));
+    if (!has_contacts(block_.detail)) return;
+    set_row(out.separation, row, o.separation);
+    set_row(out.normal, row, o.normal);
+    set_row(out.point_a, row, in_frame(a_, p.a, o.arm_a));
+    set_row(out.point_b, row, in_frame(b_, p.b, o.arm_b));
+    set_row(out.sub_a, row, sub_shape(a_.kind(p.a), o.parts[0]));
+    set_row(out.sub_b, row, sub_shape(b_.kind(p.b), o.parts[1]));
+    if (block_.detail == Detail::manifold) write_manifold(k);
+  }
+
+  void write_manifold(size_t k) {
+    const size_t row = rows_[k];
+    MergedManifold manifold = merged_manifold(contacts_.of(k), seen_);
+    for (size_t i = 0; i < manifold.count; ++i) {
+      std::array<float, 3>& point = manifold.points.point[i];
+      point = in_frame(a_, pair(k).a, point);
+    }
+    set_row(block_.out.manifold_count, row, manifold.count);
+    set_row(block_.out.manifold, row, manifold.points);
+  }
+
+  std::array<float, 3> in_frame(const BodyReader& reader, size_t body,
+                                const std::array<float, 3>& arm) const {
+    return block_.frame == WitnessFrame::body ? arm : world_point(reader, body, arm);
+  }
+
+  static uint32_t sub_shape(ShapeKind kind, uint64_t part) {
+    return static_cast<uint32_t>(kind == ShapeKind::compound ? part >> 32 : part);
+  }
+
+  // The deepest pair of parts in truth may be another one, and deeper by what its test rounds.
+  static float bound_of(const Outcome& o) {
+    const double deeper = double{o.separation} - o.nearest;
+    return rounded_up(std::isfinite(deeper) ? std::max(double{o.bound}, deeper) : o.bound);
+  }
+
+  const PairBlock& block_;
+  const BodyReader a_, b_;
+  const std::span<const uint16_t> rows_;
+  const PartTests tests_;
+  PartBatch& batch_;
+  std::array<Outcome, kPairsPerBlock>& outcomes_;
+  ContactRuns& contacts_;
+  std::vector<merging::SeenPoint>& seen_;
+  std::array<uint16_t, kPairsPerBlock>& to_measure_;
+  size_t current_ = 0;
+  size_t first_open_ = 0;
+};
+
+}  // namespace
+
+void run_composite_pairs(const PairBlock& block, std::span<const uint16_t> rows) {
+  static thread_local const auto scratch = std::make_unique<Scratch>();
+  CompositeRun(block, rows, *scratch).run();
+}
+
+}  // namespace carom

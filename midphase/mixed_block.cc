@@ -1,0 +1,108 @@
+#include "midphase/mixed_block.h"
+
+#include <array>
+#include <memory>
+#include <span>
+
+#include "kernel/body_reader.h"
+#include "midphase/composite_block.h"
+
+namespace carom {
+namespace {
+
+// The rows of simple pairs, which run as a block of their own, and those of all others.
+struct Scratch {
+  size_t simple_count = 0, composite_count = 0;
+  std::array<uint16_t, kPairsPerBlock> simple, composite;
+  std::array<Pair, kPairsPerBlock> pairs;
+  std::array<uint32_t, kPairsPerBlock> direction;
+  ScratchColumns columns;
+  std::array<uint8_t, kPairsPerBlock> manifold_count;
+  std::array<ManifoldPoints, kPairsPerBlock> manifold;
+  std::array<float, kPairsPerBlock> separation_bound;
+
+  std::span<const uint16_t> simple_rows() const { return std::span(simple).first(simple_count); }
+  std::span<const uint16_t> composite_rows() const {
+    return std::span(composite).first(composite_count);
+  }
+};
+
+Pair pair_at(const PairBlock& block, size_t row) {
+  if (block.pairs) return block.pairs[row];
+  const auto index = static_cast<uint32_t>(block.first + row);
+  return {index, index};
+}
+
+void sort_out(const PairBlock& block, Scratch& scratch) {
+  const BodyReader a{block.a}, b{block.b};
+  scratch.simple_count = scratch.composite_count = 0;
+  for (size_t row = 0; row < block.count; ++row) {
+    const Pair pair = pair_at(block, row);
+    if (is_composite(a.kind(pair.a)) || is_composite(b.kind(pair.b))) {
+      scratch.composite[scratch.composite_count++] = static_cast<uint16_t>(row);
+    } else {
+      scratch.pairs[scratch.simple_count] = pair;
+      scratch.simple[scratch.simple_count++] = static_cast<uint16_t>(row);
+    }
+  }
+}
+
+template <class T>
+void scatter(const T* from, T* to, std::span<const uint16_t> rows) {
+  if (!from || !to) return;
+  for (size_t i = 0; i < rows.size(); ++i) to[rows[i]] = from[i];
+}
+
+void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail,
+             std::span<const uint16_t> rows) {
+  scatter(from.overlap, to.overlap, rows);
+  scatter(from.status, to.status, rows);
+  scatter(from.separation_bound, to.separation_bound, rows);
+  if (!has_contacts(detail)) return;
+  scatter(from.separation, to.separation, rows);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    scatter(from.normal[axis], to.normal[axis], rows);
+    scatter(from.point_a[axis], to.point_a[axis], rows);
+    scatter(from.point_b[axis], to.point_b[axis], rows);
+  }
+  if (detail != Detail::manifold) return;
+  scatter(from.manifold_count, to.manifold_count, rows);
+  scatter(from.manifold, to.manifold, rows);
+}
+
+void run_simple_pairs(const PairBlock& block, Scratch& scratch) {
+  const std::span<const uint16_t> rows = scratch.simple_rows();
+  ResultColumns out = scratch.columns.columns();
+  out.manifold_count = scratch.manifold_count.data();
+  out.manifold = scratch.manifold.data();
+  if (block.out.separation_bound) out.separation_bound = scratch.separation_bound.data();
+  PairBlock simple = {.a = block.a,
+                      .b = block.b,
+                      .pairs = scratch.pairs.data(),
+                      .first = 0,
+                      .count = rows.size(),
+                      .detail = block.detail,
+                      .frame = block.frame,
+                      .separate = block.separate,
+                      .accuracy = block.accuracy,
+                      .out = out};
+  if (block.direction) {
+    for (size_t i = 0; i < rows.size(); ++i) scratch.direction[i] = block.direction[rows[i]];
+    simple.direction = scratch.direction.data();
+  }
+  run_pair_block(simple);
+  scatter(out, block.out, block.detail, rows);
+  if (block.direction) scatter(simple.direction, block.direction, rows);
+}
+
+}  // namespace
+
+void run_mixed_block(const PairBlock& block) {
+  static thread_local const auto scratch = std::make_unique<Scratch>();
+  sort_out(block, *scratch);
+  if (scratch->composite_count == 0) return run_pair_block(block);
+  if (scratch->simple_count > 0) run_simple_pairs(block, *scratch);
+  run_composite_pairs(block, scratch->composite_rows());
+}
+
+}  // namespace carom

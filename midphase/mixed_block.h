@@ -1,0 +1,11 @@
+// A block of pairs among which there may be meshes and compounds.
+#pragma once
+
+#include "narrowphase/pair_block.h"
+
+namespace carom {
+
+// As run_pair_block().
+void run_mixed_block(const PairBlock& block);
+
+}  // namespace carom

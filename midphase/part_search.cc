@@ -1,0 +1,188 @@
+#include "midphase/part_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace carom {
+namespace {
+
+FrameChange to_frame_of(const PlacedPart& frame, const PlacedPart& part) {
+  FrameChange change;
+  for (size_t i = 0; i < 3; ++i) {
+    const Double3 axis = {part.turn[0][i], part.turn[1][i], part.turn[2][i]};
+    const Double3 seen = turned_back(frame.turn, axis);
+    for (size_t k = 0; k < 3; ++k) change.turn[k][i] = seen[k];
+  }
+  change.offset = turned_back(frame.turn, minus(part.position, frame.position));
+  return change;
+}
+
+// The greatest coordinate.
+double size_of(const PlacedPart& tree) {
+  const auto largest = [](const auto& parts) {
+    return std::max(parts.lower().cwiseAbs().maxCoeff(), parts.upper().cwiseAbs().maxCoeff());
+  };
+  return tree.kind() == ShapeKind::mesh ? largest(tree.mesh()) : largest(tree.compound());
+}
+
+double with_slack(double reach, double lengths) {
+  if (!(lengths < kBeyondSearch)) return std::numeric_limits<double>::infinity();
+  return reach + kSearchSlack * lengths;
+}
+
+// A part as seen from a tree.
+class SeenPart {
+ public:
+  SeenPart(const PlacedPart& tree, const PlacedPart& part)
+      : change_(to_frame_of(tree, part)), size_(size_of(tree)) {
+    if (part.kind() == ShapeKind::triangle) {
+      see_triangle(part);
+    } else if (part.kind() == ShapeKind::capsule) {
+      const std::array<Row, kMostRows>& rows = part.part->rows;
+      see_points(std::array{vector_of(rows[0]), vector_of(rows[1])}, rows[0][3]);
+    } else {
+      see_box(box_of(*part.part));
+    }
+  }
+
+  // Grown by `reach`.
+  TreeBox box(double reach) const {
+    const double slack = with_slack(reach, size_ + greatest(box_.middle) + greatest(box_.half));
+    return rounded_outwards(box_.middle, plus(box_.half, {slack, slack, slack}));
+  }
+
+ private:
+  Double3 seen(const Double3& point) const {
+    return plus(turned(change_.turn, point), change_.offset);
+  }
+
+  void see_triangle(const PlacedPart& part) {
+    if (part.triangle == PlacedPart::kWhole) {
+      const std::array<Row, kMostRows>& rows = part.part->rows;
+      see_points(std::array{vector_of(rows[0]), vector_of(rows[1]), vector_of(rows[2])},
+                 rows[0][3]);
+    } else {
+      const MeshGeometry& mesh = part.mesh();
+      see_points(std::array{corner(mesh, part.triangle, 0), corner(mesh, part.triangle, 1),
+                            corner(mesh, part.triangle, 2)},
+                 mesh.rules().thickness);
+    }
+  }
+
+  template <size_t kCount>
+  void see_points(const std::array<Double3, kCount>& points, double radius) {
+    Double3 lower = seen(points[0]), upper = lower;
+    for (size_t i = 1; i < kCount; ++i) {
+      const Double3 point = seen(points[i]);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        lower[axis] = std::min(lower[axis], point[axis]);
+        upper[axis] = std::max(upper[axis], point[axis]);
+      }
+    }
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box_.middle[axis] = (lower[axis] + upper[axis]) / 2;
+      box_.half[axis] = (upper[axis] - lower[axis]) / 2 + radius;
+    }
+  }
+
+  void see_box(const PartBox& box) {
+    box_.middle = seen(box.middle);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const Double3& r = change_.turn[axis];
+      box_.half[axis] = dot({std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2])}, box.half);
+    }
+  }
+
+  const FrameChange change_;
+  const double size_;
+  PartBox box_;
+};
+
+// A half-space as seen from a tree: all x with normal . x <= limit.
+struct SeenPlane {
+  Double3 normal;  // unit
+  double limit;
+  double lengths;
+
+  SeenPlane(const PlacedPart& tree, const PlacedPart& halfspace) {
+    const Row& row = halfspace.part->rows[0];
+    const double scale = 1 / std::sqrt(dot(vector_of(row), vector_of(row)));
+    const FrameChange change = to_frame_of(tree, halfspace);
+    normal = turned(change.turn, vector_of(row));
+    for (double& n : normal) n *= scale;
+    limit = dot(normal, change.offset) + row[3] * scale;
+    lengths = size_of(tree) + greatest(change.offset) + std::fabs(row[3]) * scale;
+  }
+};
+
+bool is_plane(const PlacedPart& part) { return part.kind() == ShapeKind::halfspace; }
+
+// Which of two bodies with parts is taken apart: the compound; of two of a kind both.
+bool takes_apart_first(const PlacedPart& a, const PlacedPart& b) {
+  if (!a.has_parts()) return false;
+  return !b.has_parts() || a.kind() == ShapeKind::compound;
+}
+
+class PartSearch {
+ public:
+  PartSearch(double reach, PartPairFound found) : reach_(reach), found_(found) {}
+
+  void run(const PlacedPart& a, const PlacedPart& b) const {
+    if (!a.has_parts() && !b.has_parts()) {
+      found_(a, b);
+    } else if (a.kind() == b.kind()) {
+      take_apart_both(a, b);
+    } else if (takes_apart_first(a, b)) {
+      for_each_near(a, b, [&](uint32_t item) { run(a.item(item), b); });
+    } else {
+      for_each_near(b, a, [&](uint32_t item) { run(a, b.item(item)); });
+    }
+  }
+
+ private:
+  void take_apart_both(const PlacedPart& a, const PlacedPart& b) const {
+    const FrameChange change = to_frame_of(a, b);
+    const double lengths = size_of(a) + size_of(b) + greatest(change.offset);
+    find_touching_items(a.tree(), b.tree(), change, with_slack(reach_, lengths),
+                        [&](uint32_t i, uint32_t j) { run(a.item(i), b.item(j)); });
+  }
+
+  template <class Use>
+  void for_each_near(const PlacedPart& tree, const PlacedPart& other, const Use& use) const {
+    if (is_plane(other)) {
+      const SeenPlane plane(tree, other);
+      tree.tree().find_below(plane.normal, plane.limit + with_slack(reach_, plane.lengths), use);
+    } else {
+      tree.tree().find_touching(SeenPart(tree, other).box(reach_), use);
+    }
+  }
+
+  const double reach_;
+  const PartPairFound found_;
+};
+
+uint32_t near_item(const PlacedPart& tree, const PlacedPart& other) {
+  if (is_plane(other)) return tree.tree().low_item(SeenPlane(tree, other).normal);
+  return tree.tree().near_item(SeenPart(tree, other).box(0));
+}
+
+}  // namespace
+
+void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, PartPairFound found) {
+  PartSearch(reach, found).run(a, b);
+}
+
+void find_near_part_pair(const PlacedPart& first, const PlacedPart& second, PartPairFound found) {
+  PlacedPart a = first, b = second;
+  while (a.has_parts() || b.has_parts()) {
+    const bool is_first = takes_apart_first(a, b) || (a.has_parts() && a.kind() == b.kind());
+    PlacedPart& tree = is_first ? a : b;
+    if (tree.tree().is_empty()) return;
+    tree = tree.item(near_item(tree, is_first ? b : a));
+  }
+  found(a, b);
+}
+
+}  // namespace carom

@@ -1,0 +1,134 @@
+// Contacts of many parts of two bodies -> the manifold of the bodies.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "carom/kernel/contact.h"
+#include "kernel/part.h"
+#include "kernel/tolerances.h"
+
+namespace carom {
+
+// What two parts have in common: normal, separation, and the points of their manifold, relative to
+// the position of body A.
+struct PartContact {
+  std::array<uint64_t, 2> parts;  // in the order of sub-shapes
+  std::array<float, 3> normal;
+  float separation;
+  uint8_t count;
+  ManifoldPoints points;
+
+  // The deeper one first.
+  friend bool operator<(const PartContact& x, const PartContact& y) {
+    return std::tie(x.separation, x.parts) < std::tie(y.separation, y.parts);
+  }
+};
+
+struct MergedManifold {
+  uint8_t count = 0;
+  ManifoldPoints points{};
+};
+
+// The deepest kMostPartsOfManifold of them.
+inline std::span<PartContact> deepest_of(std::span<PartContact> contacts) {
+  if (contacts.size() <= kMostPartsOfManifold) return contacts;
+  const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kMostPartsOfManifold);
+  std::nth_element(contacts.begin(), end, contacts.end());
+  return contacts.first(kMostPartsOfManifold);
+}
+
+namespace merging {
+
+// Seen along the normal.
+struct SeenPoint {
+  double u, v;
+  float separation;
+  std::array<float, 3> point;
+};
+
+inline double area_left(const SeenPoint& a, const SeenPoint& b, const SeenPoint& c) {
+  return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+}
+
+inline double squared_distance(const SeenPoint& a, const SeenPoint& b) {
+  return (b.u - a.u) * (b.u - a.u) + (b.v - a.v) * (b.v - a.v);
+}
+
+// Two directions across a unit vector, after T. Duff et al., Building an Orthonormal Basis,
+// Revisited, JCGT 6(1), 2017.
+inline std::array<Double3, 2> across(const Double3& n) {
+  const double sign = std::copysign(1.0, n[2]);
+  const double a = -1 / (sign + n[2]);
+  const double b = n[0] * n[1] * a;
+  return {
+      {{1 + sign * n[0] * n[0] * a, sign * b, -sign * n[0]}, {b, sign + n[1] * n[1] * a, -n[1]}}};
+}
+
+template <class Points, class Value>
+const SeenPoint& greatest(const Points& points, const Value& value) {
+  return *std::max_element(
+      points.begin(), points.end(),
+      [&](const SeenPoint& x, const SeenPoint& y) { return value(x) < value(y); });
+}
+
+}  // namespace merging
+
+// The deepest point, the one farthest from it, and on either side of the line through them the one
+// farthest from that, of all parts whose normals are about that of the contact, which is the
+// deepest of them. `seen` is scratch.
+inline MergedManifold merged_manifold(std::span<PartContact> all,
+                                      std::vector<merging::SeenPoint>& seen) {
+  using merging::SeenPoint;
+  if (all.empty()) return {};
+  const std::span<PartContact> contacts = deepest_of(all);
+  std::sort(contacts.begin(), contacts.end());
+  const auto begin = contacts.begin();
+  const std::array<float, 3>& n = begin->normal;
+  const Double3 normal = {n[0], n[1], n[2]};
+  const auto [u, v] = merging::across(normal);
+  seen.clear();
+  double size = 0;
+  for (auto contact = begin; contact != contacts.end(); ++contact) {
+    const std::array<float, 3>& m = contact->normal;
+    if (contact != begin && dot(normal, {m[0], m[1], m[2]}) < kSameManifold) continue;
+    for (size_t i = 0; i < contact->count; ++i) {
+      const Double3 p = {contact->points.point[i][0], contact->points.point[i][1],
+                         contact->points.point[i][2]};
+      size = std::max(size, greatest(p));
+      seen.push_back(
+          {dot(u, p), dot(v, p), contact->points.separation[i], contact->points.point[i]});
+    }
+  }
+  MergedManifold result;
+  const auto keep = [&](const SeenPoint& point) {
+    result.points.point[result.count] = point.point;
+    result.points.separation[result.count++] = std::max(point.separation, begin->separation);
+  };
+  if (seen.empty()) return result;
+  const SeenPoint deepest =
+      merging::greatest(seen, [](const SeenPoint& p) { return -p.separation; });
+  const SeenPoint farthest = merging::greatest(
+      seen, [&](const SeenPoint& p) { return merging::squared_distance(deepest, p); });
+  keep(deepest);
+  const double squared = merging::squared_distance(deepest, farthest);
+  const double limit = double{kSamePoint} * (size * size);
+  if (!(squared > limit)) return result;
+  keep(farthest);
+  for (const double side : {1.0, -1.0}) {
+    const auto height = [&](const SeenPoint& p) {
+      return side * merging::area_left(deepest, farthest, p);
+    };
+    const SeenPoint& beside = merging::greatest(seen, height);
+    const double most = height(beside);
+    if (most > 0 && most * most > limit * squared) keep(beside);
+  }
+  return result;
+}
+
+}  // namespace carom

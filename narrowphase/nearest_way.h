@@ -1,0 +1,113 @@
+// How far the hulls of two cores are apart, and which way, in double precision: GJK.
+//
+// Sources: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A Fast Procedure for Computing the
+// Distance between Complex Objects in Three-Dimensional Space", IEEE J. Robotics and Automation
+// 4(2), 1988; C. Ericson, Real-Time Collision Detection, 2005, section 9.5.
+#pragma once
+
+#include <cmath>
+
+#include "kernel/few_of.h"
+#include "kernel/tolerances.h"
+#include "narrowphase/core.h"
+
+namespace carom {
+
+// A point of the difference B - A of two cores.
+inline CoreVector difference_point(const Core& a, const Core& b, const CoreVector& way,
+                                   FurthestPoint furthest) {
+  return b.point(furthest(b, -way)) - a.point(furthest(a, way));
+}
+
+// Of a simplex of up to four points: its point nearest to zero, and the corners that span it. The
+// last corner is one of these: without it nothing would be nearer than before.
+class NearestPoint {
+ public:
+  using Corners = FewOf<CoreVector, 4>;
+
+  explicit NearestPoint(const Corners& corners) : last_(corners[corners.size() - 1]) {
+    keep(last_, dot(last_, last_), {});
+    const size_t others = corners.size() - 1;
+    for (size_t i = 0; i < others; ++i) try_segment(corners[i]);
+    for (size_t i = 1; i < others; ++i) {
+      for (size_t j = 0; j < i; ++j) try_triangle(corners[i], corners[j]);
+    }
+    if (others == 3) try_tetrahedron(corners[0], corners[1], corners[2]);
+    corners_.push_back(last_);
+  }
+
+  const CoreVector& point() const { return point_; }
+  double squared() const { return squared_; }
+  const Corners& corners() const { return corners_; }
+  bool is_around_zero() const { return corners_.size() == 4; }
+
+ private:
+  void keep(const CoreVector& point, double squared, const Corners& others) {
+    if (!(squared < squared_)) return;
+    squared_ = squared;
+    point_ = point;
+    corners_ = others;
+  }
+
+  void try_segment(const CoreVector& p) {
+    const CoreVector side = p - last_;
+    const double along = -dot(last_, side), length = dot(side, side);
+    if (!(along > 0 && along < length)) return;
+    const CoreVector point = last_ + side * (along / length);
+    keep(point, dot(point, point), {p});
+  }
+
+  void try_triangle(const CoreVector& p, const CoreVector& q) {
+    const CoreVector n = cross(p - last_, q - last_);
+    const bool is_over =
+        dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 && dot(n, cross(last_, p)) > 0;
+    if (!is_over) return;
+    const CoreVector point = n * (dot(n, last_) / dot(n, n));
+    keep(point, dot(point, point), {p, q});
+  }
+
+  // Zero is inside if it is on the side of every face on which the fourth corner is.
+  void try_tetrahedron(const CoreVector& p, const CoreVector& q, const CoreVector& r) {
+    const bool is_inside = is_beside(p, q, r, last_) && is_beside(q, r, last_, p) &&
+                           is_beside(r, last_, p, q) && is_beside(last_, p, q, r);
+    if (is_inside) keep({0, 0, 0}, 0, {p, q, r});
+  }
+  static bool is_beside(const CoreVector& a, const CoreVector& b, const CoreVector& c,
+                        const CoreVector& fourth) {
+    const CoreVector n = cross(b - a, c - a);
+    return dot(n, fourth - a) * -dot(n, a) > 0;
+  }
+
+  CoreVector last_;
+  double squared_ = HUGE_VAL;
+  CoreVector point_;
+  Corners corners_;
+};
+
+// What GJK found. `way` leads from A to B; its length is never less than their distance, and about
+// zero if they touch or overlap.
+struct NearestWay {
+  CoreVector way;
+  NearestPoint::Corners corners;  // of B - A, that span it; four: zero lies among them
+  bool has_ended = true;          // otherwise rounds ran out, and the way is too long
+};
+
+inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
+  constexpr int kMostRounds = 128;  // a dozen will do
+  NearestPoint nearest({difference_point(a, b, b.middle - a.middle, furthest)});
+  for (int round = 0; round < kMostRounds; ++round) {
+    const CoreVector& way = nearest.point();
+    const bool touches = nearest.squared() <= kTouchingSquared || nearest.is_around_zero();
+    if (touches) return {way, nearest.corners()};
+    const CoreVector next = difference_point(a, b, way, furthest);
+    if (dot(way, next) >= nearest.squared() * kNoNearer) return {way, nearest.corners()};
+    NearestPoint::Corners corners = nearest.corners();
+    corners.push_back(next);
+    const NearestPoint nearer(corners);
+    if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners()};
+    nearest = nearer;
+  }
+  return {nearest.point(), nearest.corners(), false};
+}
+
+}  // namespace carom

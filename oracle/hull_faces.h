@@ -1,0 +1,214 @@
+// The faces of the convex hull of a few points, by trying every three of them. What lies in one
+// plane, or on one line, is found exactly; nothing is shared with the library but its integers.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "carom/kernel/hull.h"
+#include "kernel/dyadic.h"
+#include "oracle/vec3.h"
+
+namespace carom::oracle {
+
+// Of finite points. O(n^4) at worst, about n^3 for points of which most are corners.
+class HullFaces {
+ public:
+  using Outline = std::vector<uint32_t>;
+
+  explicit HullFaces(std::span<const Eigen::Vector3f> points) : points_(points) {
+    const std::vector<uint32_t> all = distinct();
+    const Outline plane = find_plane(all);
+    if (plane.size() < 3) {
+      dimension_ = static_cast<int>(plane.size()) - 1;
+      corners_ = plane;
+      return;
+    }
+    dimension_ = is_flat(all, plane) ? 2 : 3;
+    if (dimension_ == 2) {
+      faces_ = {outline(all, plane)};
+      faces_.push_back({faces_[0].rbegin(), faces_[0].rend()});
+    } else {
+      find_faces(all);
+    }
+    for (const Outline& face : faces_) corners_.insert(corners_.end(), face.begin(), face.end());
+    std::sort(corners_.begin(), corners_.end());
+    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+  }
+
+  // 0: a point, 1: a segment, 2: a flat polygon, 3: a solid.
+  int dimension() const { return dimension_; }
+  // Points that are corners, ascending but for the ends of segments; of equal ones one.
+  const std::vector<uint32_t>& corners() const { return corners_; }
+  // Their outlines, counter-clockwise as seen from outside; polygons have two.
+  const std::vector<Outline>& faces() const { return faces_; }
+
+ private:
+  using Wide = Vec3<long double>;
+
+  // Indices of points, equal ones once, in the order of their coordinates.
+  std::vector<uint32_t> distinct() const {
+    std::vector<uint32_t> all;
+    for (uint32_t i = 0; i < points_.size(); ++i) all.push_back(i);
+    std::sort(all.begin(), all.end(), [&](uint32_t i, uint32_t j) {
+      const Eigen::Vector3f &p = points_[i], &q = points_[j];
+      return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    });
+    const auto same = [&](uint32_t i, uint32_t j) { return points_[i] == points_[j]; };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
+    return all;
+  }
+
+  // The first three points that are not on one line, otherwise the ends of the line.
+  Outline find_plane(const std::vector<uint32_t>& all) const {
+    if (all.size() == 1) return all;
+    for (const uint32_t i : all) {
+      if (!are_collinear(all[0], all[1], i)) return {all[0], all[1], i};
+    }
+    return {all.front(), all.back()};
+  }
+
+  bool is_flat(const std::vector<uint32_t>& all, const Outline& plane) const {
+    return std::all_of(all.begin(), all.end(),
+                       [&](uint32_t i) { return side(plane[0], plane[1], plane[2], i) == 0; });
+  }
+
+  void find_faces(const std::vector<uint32_t>& all) {
+    std::vector<std::vector<uint32_t>> known;
+    for (size_t i = 0; i < all.size(); ++i) {
+      for (size_t j = 0; j < i; ++j) {
+        for (size_t k = 0; k < j; ++k) {
+          const Outline plane = {all[i], all[j], all[k]};
+          if (are_collinear(plane[0], plane[1], plane[2])) continue;
+          const auto [on, front, back] = sides(all, plane);
+          if (front && back) continue;
+          if (std::find(known.begin(), known.end(), on) != known.end()) continue;
+          known.push_back(on);
+          faces_.push_back(outline(on, front ? Outline{all[j], all[i], all[k]} : plane));
+        }
+      }
+    }
+  }
+
+  struct Sides {
+    std::vector<uint32_t> on;
+    bool front = false, back = false;
+  };
+
+  // Ends at the first point that shows that there is no face.
+  Sides sides(const std::vector<uint32_t>& all, const Outline& plane) const {
+    Sides found;
+    for (const uint32_t i : all) {
+      const int where = side(plane[0], plane[1], plane[2], i);
+      if (where == 0) found.on.push_back(i);
+      found.front = found.front || where > 0;
+      found.back = found.back || where < 0;
+      if (found.front && found.back) break;
+    }
+    return found;
+  }
+
+  // Of points of one plane, counter-clockwise as the three of it are. A. M. Andrew, "Another
+  // efficient algorithm for convex hulls in two dimensions", Information Processing Letters 9
+  // (1979), seen along an axis.
+  Outline outline(std::vector<uint32_t> on, const Outline& plane) const {
+    int axis = 0;
+    while (turn(plane[0], plane[1], plane[2], axis) == 0) ++axis;
+    const bool looks_up = turn(plane[0], plane[1], plane[2], axis) > 0;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::sort(on.begin(), on.end(), [&](uint32_t i, uint32_t j) {
+      const Eigen::Vector3f &p = points_[i], &q = points_[j];
+      return p[u] < q[u] || (p[u] == q[u] && p[v] < q[v]);
+    });
+    Outline corners = chain(on, axis);
+    std::reverse(on.begin(), on.end());
+    const Outline other = chain(on, axis);
+    corners.insert(corners.end(), other.begin(), other.end());
+    if (!looks_up) std::reverse(corners.begin(), corners.end());
+    return corners;
+  }
+
+  // The corners of one half of the outline, without its last one.
+  Outline chain(const std::vector<uint32_t>& on, int axis) const {
+    Outline half;
+    for (const uint32_t i : on) {
+      while (half.size() > 1 && turn(half[half.size() - 2], half.back(), i, axis) <= 0) {
+        half.pop_back();
+      }
+      half.push_back(i);
+    }
+    half.pop_back();
+    return half;
+  }
+
+  bool are_collinear(uint32_t i, uint32_t j, uint32_t k) const {
+    return turn(i, j, k, 0) == 0 && turn(i, j, k, 1) == 0 && turn(i, j, k, 2) == 0;
+  }
+
+  // Which way the three turn, seen along an axis: 1 is counter-clockwise.
+  int turn(uint32_t i, uint32_t j, uint32_t k, int axis) const {
+    const size_t u = static_cast<size_t>(axis + 1) % 3, v = static_cast<size_t>(axis + 2) % 3;
+    const auto p = way<long double>(i, j), q = way<long double>(i, k);
+    const long double one = p[u] * q[v], other = p[v] * q[u];
+    const long double size = std::fabs(one) + std::fabs(other);
+    if (std::fabs(one - other) > kRounding * size) return one > other ? 1 : -1;
+    if (size == 0) return 0;
+    const auto a = way<Dyadic>(i, j), b = way<Dyadic>(i, k);
+    return sign_of(a[u] * b[v] - a[v] * b[u]);
+  }
+
+  // On which side of the plane of three points another one lies: 1 is that from which they run
+  // counter-clockwise.
+  int side(uint32_t i, uint32_t j, uint32_t k, uint32_t other) const {
+    if (other == i || other == j || other == k) return 0;
+    const auto a = way<long double>(i, j), b = way<long double>(i, k),
+               c = way<long double>(i, other);
+    long double sum = 0, size = 0;
+    for (size_t u = 0; u < 3; ++u) {
+      const size_t v = (u + 1) % 3, w = (u + 2) % 3;
+      const long double one = a[v] * b[w], two = a[w] * b[v];
+      sum += (one - two) * c[u];
+      size += (std::fabs(one) + std::fabs(two)) * std::fabs(c[u]);
+    }
+    if (std::fabs(sum) > kRounding * size) return sum > 0 ? 1 : -1;
+    if (size == 0) return 0;
+    return exact_side(way<Dyadic>(i, j), way<Dyadic>(i, k), way<Dyadic>(i, other));
+  }
+
+  template <class R>
+  using Triple = std::array<R, 3>;
+
+  static int exact_side(const Triple<Dyadic>& a, const Triple<Dyadic>& b, const Triple<Dyadic>& c) {
+    Dyadic sum;
+    for (size_t u = 0; u < 3; ++u) {
+      const size_t v = (u + 1) % 3, w = (u + 2) % 3;
+      sum = sum + (a[v] * b[w] - a[w] * b[v]) * c[u];
+    }
+    return sign_of(sum);
+  }
+
+  template <class R>
+  Triple<R> way(uint32_t from, uint32_t to) const {
+    const Eigen::Vector3f &p = points_[from], &q = points_[to];
+    return {R(q.x()) - R(p.x()), R(q.y()) - R(p.y()), R(q.z()) - R(p.z())};
+  }
+
+  static constexpr long double kRounding = 0x1p-59L;  // several times that of long double
+
+  std::span<const Eigen::Vector3f> points_;
+  int dimension_ = 0;
+  std::vector<uint32_t> corners_;
+  std::vector<Outline> faces_;
+};
+
+// The hull of finite points, which it keeps: those inside and equal ones, too.
+inline Hull hull_of(const std::vector<Eigen::Vector3f>& points) {
+  return {*make_hull(points, HullFaces(points).faces())};
+}
+
+}  // namespace carom::oracle

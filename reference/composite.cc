@@ -1,0 +1,218 @@
+#include "reference/composite.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
+#include "kernel/part.h"
+#include "narrowphase/merge_ref.h"
+
+namespace carom::reference {
+namespace {
+
+using Eigen::Quaternionf;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+// A shape that has no parts.
+struct Simple {
+  Shape shape;
+  Part placed;                         // the same, as numbers
+  Double3 arm{};                       // from the body's position
+  uint64_t order = 0;                  // the child, and the triangle of a mesh
+  uint32_t sub = 0;                    // what it is called
+  const MeshGeometry* mesh = nullptr;  // of which it is this triangle
+  size_t triangle = 0;
+
+  Pose pose() const {
+    const Row& q = placed.orientation;
+    return {Vector3d(placed.position[0], placed.position[1], placed.position[2]),
+            Quaternionf(q[3], q[0], q[1], q[2])};
+  }
+  PlacedTriangle placed_triangle() const {
+    return {*mesh, triangle, placed.position, rotation_of(placed.orientation)};
+  }
+  bool has_rules() const {
+    return mesh && (mesh->rules().one_sided || mesh->rules().thickness > 0);
+  }
+};
+
+Part part_of(const Shape& shape, const Double3& position, const Row& orientation) {
+  Part part;
+  part.kind = kind_of(shape);
+  part.position = position;
+  part.rows = shape_rows(shape);
+  part.orientation = orientation;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) part.radius = sphere->radius;
+  if (const auto* box = std::get_if<Aabb>(&shape)) {
+    std::copy_n(box->lower.data(), 3, part.lower.begin());
+    std::copy_n(box->upper.data(), 3, part.upper.begin());
+  }
+  return part;
+}
+
+Triangle triangle_of(const MeshGeometry& mesh, size_t i) {
+  Triangle triangle;
+  for (size_t k = 0; k < 3; ++k) triangle.corners[k] = mesh.vertices()[mesh.triangles()[i][k]];
+  triangle.thickness = mesh.rules().thickness;
+  triangle.one_sided = mesh.rules().one_sided;
+  return triangle;
+}
+
+// What a body, or a child of one, is made of. `whole` is the shape in its place.
+void add_parts(const Simple& whole, std::vector<Simple>& parts) {
+  if (const auto* mesh = std::get_if<Mesh>(&whole.shape)) {
+    for (size_t i = 0; i < mesh->geometry->triangles().size(); ++i) {
+      if (mesh->geometry->is_degenerate(i)) continue;
+      Simple part = whole;
+      part.shape = triangle_of(*mesh->geometry, i);
+      part.placed = part_of(part.shape, whole.placed.position, whole.placed.orientation);
+      part.order += i;
+      part.mesh = mesh->geometry.get();
+      part.triangle = i;
+      parts.push_back(part);
+    }
+  } else if (const auto* compound = std::get_if<Compound>(&whole.shape)) {
+    const Part& body = whole.placed;
+    for (uint32_t i = 0; i < compound->geometry->parts().size(); ++i) {
+      const Part& child = compound->geometry->parts()[i];
+      const PlacedChild pose =
+          placed(child, body.position, rotation_of(body.orientation), body.orientation);
+      Simple part;
+      part.shape = child.kind == ShapeKind::sphere ? Shape(Sphere{child.radius})
+                                                   : shape_from_rows(child.kind, child.rows.data());
+      part.placed = part_of(part.shape, pose.position, pose.orientation);
+      part.arm = pose.arm;
+      part.order = uint64_t{i} << 32;
+      add_parts(part, parts);
+    }
+  } else {
+    parts.push_back(whole);
+  }
+}
+
+std::vector<Simple> parts_of(const Shape& shape, const Double3& position,
+                             const Quaternionf& orientation) {
+  const Eigen::Vector4f& q = orientation.coeffs();
+  Simple whole;
+  whole.shape = shape;
+  whole.placed = part_of(shape, position, {q.x(), q.y(), q.z(), q.w()});
+  std::vector<Simple> parts;
+  add_parts(whole, parts);
+  const bool by_child = kind_of(shape) == ShapeKind::compound;
+  for (Simple& part : parts) {
+    part.sub = static_cast<uint32_t>(by_child ? part.order >> 32 : part.order);
+  }
+  return parts;
+}
+
+PairResult test(const Simple& a, const Simple& b) {
+  return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
+}
+
+// A triangle of a mesh with the inner edges that it has for the other one.
+Simple with_inner_edges(Simple triangle, const Simple& other) {
+  if (std::holds_alternative<Halfspace>(other.shape)) return triangle;
+  std::get<Triangle>(triangle.shape).inner_edges =
+      triangle.placed_triangle().inner_edges_towards(middle_of(other.placed));
+  return triangle;
+}
+
+// Triangles with rules know their inner edges; others are told if the contact may have come over
+// one. That the two overlap stays as it was.
+PairResult test_parts(Simple a, Simple b) {
+  const Simple plain_a = a, plain_b = b;
+  if (a.has_rules()) a = with_inner_edges(a, plain_b);
+  if (b.has_rules()) b = with_inner_edges(b, plain_a);
+  const PairResult result = test(a, b);
+  if (!result.overlap) return result;
+  const Vector3f& n = result.normal;
+  const auto may_be_over_edge = [&](const Simple& part) {
+    return part.mesh && !part.has_rules() &&
+           !part.placed_triangle().faces_along({n.x(), n.y(), n.z()});
+  };
+  if (may_be_over_edge(a)) a = with_inner_edges(a, plain_b);
+  if (may_be_over_edge(b)) b = with_inner_edges(b, plain_a);
+  const PairResult again = test(a, b);
+  return again.overlap ? again : result;
+}
+
+std::array<float, 3> moved(const std::array<float, 3>& point, const Double3& arm) {
+  std::array<float, 3> result;
+  for (size_t i = 0; i < 3; ++i) result[i] = static_cast<float>(point[i] + arm[i]);
+  return result;
+}
+
+Vector3f moved(const Vector3f& point, const Double3& arm) {
+  const auto result = moved(std::array{point.x(), point.y(), point.z()}, arm);
+  return {result[0], result[1], result[2]};
+}
+
+// Relative to the bodies.
+PairResult from_parts(PairResult result, const Simple& a, const Simple& b) {
+  result.arm_a = moved(result.arm_a, a.arm);
+  result.arm_b = moved(result.arm_b, b.arm);
+  for (size_t i = 0; i < result.manifold_count; ++i) {
+    result.manifold.point[i] = moved(result.manifold.point[i], a.arm);
+  }
+  result.sub_a = a.sub;
+  result.sub_b = b.sub;
+  return result;
+}
+
+PairResult nothing() {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const Vector3f nan = Vector3f::Constant(kNan);
+  return {false, Status::ok, std::numeric_limits<float>::infinity(), nan, nan, nan, 0, {}, 0, 0};
+}
+
+Double3 stored(const Vector3d& position, PositionType positions) {
+  const Vector3d p =
+      positions == PositionType::float32 ? position.cast<float>().cast<double>() : position;
+  return {p.x(), p.y(), p.z()};
+}
+
+}  // namespace
+
+PairResult collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
+                         const Pose& pose_b, PositionType positions) {
+  Double3 position_a = stored(pose_a.position, positions);
+  Double3 position_b = stored(pose_b.position, positions);
+  // Children are placed in double precision, near the pair.
+  if (kind_of(shape_a) == ShapeKind::compound || kind_of(shape_b) == ShapeKind::compound) {
+    position_b = minus(position_b, position_a);
+    position_a = {};
+  }
+  const std::vector<Simple> parts_a = parts_of(shape_a, position_a, pose_a.orientation);
+  const std::vector<Simple> parts_b = parts_of(shape_b, position_b, pose_b.orientation);
+
+  PairResult best = nothing();
+  std::tuple<float, uint64_t, uint64_t> best_rank(HUGE_VALF, UINT64_MAX, UINT64_MAX);
+  std::vector<PartContact> contacts;
+  for (const Simple& a : parts_a) {
+    for (const Simple& b : parts_b) {
+      const PairResult result = from_parts(test_parts(a, b), a, b);
+      const std::tuple rank(result.separation, a.order, b.order);
+      if (rank < best_rank) {
+        best = result;
+        best_rank = rank;
+      }
+      if (!result.overlap) continue;
+      const Vector3f& n = result.normal;
+      contacts.push_back({{a.order, b.order},
+                          {n.x(), n.y(), n.z()},
+                          result.separation,
+                          result.manifold_count,
+                          result.manifold});
+    }
+  }
+  std::vector<merging::SeenPoint> seen;
+  const MergedManifold manifold = merged_manifold(contacts, seen);
+  best.manifold_count = manifold.count;
+  best.manifold = manifold.points;
+  return best;
+}
+
+}  // namespace carom::reference

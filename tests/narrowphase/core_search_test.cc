@@ -1,0 +1,164 @@
+// The searches over cores: furthest points in lanes, distances, and ways out.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "narrowphase/core_separation_ref.h"
+#include "narrowphase/furthest.h"
+#include "oracle/random.h"
+#include "tests/support/isas.h"
+#include "tests/support/rounds.h"
+
+namespace carom::test {
+namespace {
+
+using oracle::Random;
+using reference::CoreGap;
+
+Core core_of(const std::vector<CoreVector>& points) {
+  Core core;
+  core.resize(points.size());
+  for (size_t i = 0; i < points.size(); ++i) core.set(i, points[i]);
+  core.pad();
+  core.middle = points[0];
+  return core;
+}
+
+// Integers where many points are equally far, random numbers where none are.
+CoreVector random_vector(Random& random, bool is_integer) {
+  const auto number = [&] {
+    return is_integer ? static_cast<double>(random.below(5)) - 2 : random.uniform(-1, 1);
+  };
+  return {number(), number(), number()};
+}
+
+std::vector<CoreVector> random_points(Random& random, size_t count, bool are_integers) {
+  std::vector<CoreVector> points;
+  for (size_t i = 0; i < count; ++i) points.push_back(random_vector(random, are_integers));
+  return points;
+}
+
+TEST(FurthestPoint, IsThatOfTheReferenceOnEveryIsa) {
+  for_each_isa([] {
+    const FurthestPoint in_lanes = furthest_point_in_lanes();
+    Random random(1);
+    for (size_t count = 1; count <= 35; ++count) {
+      for (uint32_t round = 0; round < rounds(64); ++round) {
+        const bool are_integers = round % 2 == 0;
+        const Core core = core_of(random_points(random, count, are_integers));
+        const CoreVector way = random_vector(random, are_integers);
+        EXPECT_EQ(in_lanes(core, way), reference::furthest_point(core, way)) << count;
+      }
+    }
+  });
+}
+
+// A core that held more points does not remember them.
+TEST(FurthestPoint, ForgetsLargerCores) {
+  Core core = core_of({{1, 0, 0}, {2, 0, 0}, {9, 0, 0}});
+  core.resize(2);
+  core.set(0, {1, 0, 0});
+  core.set(1, {2, 0, 0});
+  core.pad();
+  for_each_isa([&] { EXPECT_EQ(furthest_point_in_lanes()(core, {1, 0, 0}), 1u); });
+}
+
+// The least height over zero of all planes through three points that have no point before them.
+double least_height(const std::vector<CoreVector>& points) {
+  double least = HUGE_VAL;
+  for (size_t i = 0; i < points.size(); ++i) {
+    for (size_t j = i + 1; j < points.size(); ++j) {
+      for (size_t k = j + 1; k < points.size(); ++k) {
+        const CoreVector n = cross(points[j] - points[i], points[k] - points[i]);
+        const double length = std::sqrt(dot(n, n));
+        if (length < 1e-9) continue;
+        double most = -HUGE_VAL, lowest = HUGE_VAL;
+        for (const CoreVector& p : points) {
+          const double height = dot(n, p - points[i]) / length;
+          most = std::max(most, height);
+          lowest = std::min(lowest, height);
+        }
+        const double height = dot(n, points[i]) / length;
+        if (most < 1e-12) least = std::min(least, height);
+        if (lowest > -1e-12) least = std::min(least, -height);
+      }
+    }
+  }
+  return least;
+}
+
+std::vector<CoreVector> differences(const Core& a, const Core& b) {
+  std::vector<CoreVector> all;
+  for (size_t i = 0; i < a.size(); ++i) {
+    for (size_t j = 0; j < b.size(); ++j) all.push_back(b.point(j) - a.point(i));
+  }
+  return all;
+}
+
+TEST(WayOut, IsTheNearestFaceOfTheDifference) {
+  Random random(2);
+  uint32_t overlapping = 0;
+  const uint32_t count = rounds(160);
+  for (uint32_t round = 0; round < count; ++round) {
+    const bool are_integers = round % 4 == 0;
+    const Core a = core_of(random_points(random, 4 + random.below(2), are_integers));
+    const Core b = core_of(random_points(random, 4 + random.below(2), are_integers));
+    const CoreGap gap = reference::find_gap(a, b, {});
+    ASSERT_TRUE(gap.has_ended);
+    if (gap.size > 0 || gap.is_flat) continue;
+    ++overlapping;
+    EXPECT_NEAR(-gap.size, least_height(differences(a, b)), 1e-12) << round;
+    EXPECT_NEAR(dot(gap.normal, gap.normal), 1, 1e-12);
+  }
+  EXPECT_GT(overlapping, count * 3 / 10);
+  EXPECT_LT(overlapping, count * 9 / 10);
+}
+
+// From any corners that GJK may hand over: a face has no corner twice, and the search ends.
+TEST(WayOut, BeginsWithAnyCorners) {
+  Random random(3);
+  for (uint32_t round = 0; round < rounds(400); ++round) {
+    const Core a = core_of(random_points(random, 1 + random.below(6), true));
+    const Core b = core_of(random_points(random, 1 + random.below(6), true));
+    const std::vector<CoreVector> all = differences(a, b);
+    NearestPoint::Corners corners;
+    for (size_t i = 0; i <= random.below(4); ++i) corners.push_back(all[random.below(all.size())]);
+    const WayOut out = WayOutSearch(a, b, &reference::furthest_point).run(corners);
+    EXPECT_TRUE(out.has_ended);
+    double gap = HUGE_VAL;
+    for (const CoreVector& p : all) gap = std::min(gap, dot(out.normal, p));
+    EXPECT_NEAR(out.gap, gap, 1e-12);
+    EXPECT_NEAR(dot(out.normal, out.normal), 1, 1e-12);
+  }
+}
+
+TEST(WayOut, OfManyPoints) {
+  Random random(4);
+  const auto ball = [&](size_t count) {
+    std::vector<CoreVector> points;
+    for (size_t i = 0; i < count; ++i) {
+      const Eigen::Vector3d p = random.direction();
+      points.push_back({p.x(), p.y(), p.z()});
+    }
+    return core_of(points);
+  };
+  const Core a = ball(500), b = ball(500);
+  const CoreGap gap = reference::find_gap(a, b, {});
+  EXPECT_LT(gap.size, -1.8);
+  EXPECT_GT(gap.size, -2);
+}
+
+TEST(NearestWay, DecidesWhatDepthsDecide) {
+  Random random(5);
+  for (uint32_t round = 0; round < rounds(2000); ++round) {
+    const bool are_integers = round % 4 == 0;
+    const Core a = core_of(random_points(random, 1 + random.below(6), are_integers));
+    const Core b = core_of(random_points(random, 1 + random.below(6), are_integers));
+    const CoreGap gap = reference::find_gap(a, b, {});
+    const CoreGap decision = reference::find_gap(a, b, {.decides_only = true});
+    EXPECT_EQ(gap.size <= 0, decision.size <= 0);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
