@@ -63,6 +63,10 @@ void BodyColumns::push_rows(const Shape& shape, const Eigen::Quaternionf& orient
   orientation_.push_back({orientation.x(), orientation.y(), orientation.z(), orientation.w()});
 }
 
+bool BodyColumns::has_composites() const {
+  return std::any_of(kind_.begin(), kind_.end(), is_composite);
+}
+
 Shape BodyColumns::shape(size_t index) const {
   switch (kind_[index]) {
     case ShapeKind::sphere:

@@ -21,6 +21,8 @@ class BodyColumns {
 
   size_t size() const { return kind_.size(); }
   PositionType positions() const { return positions_; }
+  // Whether some body is made of sub-shapes.
+  bool has_composites() const;
   // As stored: float32 positions are rounded, and kinds without rows may have no orientation.
   Shape shape(size_t index) const;
   Pose pose(size_t index) const;

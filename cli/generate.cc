@@ -37,6 +37,12 @@ const char* object_type(const io::SceneInfo& info) {
       return "Capsules";
     case ShapeKind::box:
       return "Boxes";
+    case ShapeKind::hull:
+      return "Hulls";
+    case ShapeKind::mesh:
+      return "Meshes";
+    case ShapeKind::compound:
+      return "Compounds";
     default:
       return "Cubes";
   }

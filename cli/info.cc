@@ -44,6 +44,8 @@ Result<int> info(const Console& console) {
   table.add({"oneTBB", build_info::kTbbVersion});
   table.add({"Eigen", build_info::kEigenVersion});
   table.add({"libzip", build_info::kLibzipVersion});
+  table.add({"Qhull", build_info::kQhullVersion});
+  table.add({"assimp", build_info::kAssimpVersion});
   table.add({"CLI11", CLI11_VERSION});
   table.add({"nlohmann-json", json_version()});
   table.print(console.out);

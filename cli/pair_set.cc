@@ -52,16 +52,20 @@ Result<PairSet> read_pair_set(const std::string& path) {
   return PairSet{columns_of(file->a, *shapes, positions), columns_of(file->b, *shapes, positions)};
 }
 
-PairColumns::PairColumns(size_t pairs, Detail detail)
-    : detail_(detail), overlap_(pairs), status_(pairs) {
+PairColumns::PairColumns(const PairSet& pairs, Detail detail)
+    : detail_(detail), overlap_(pairs.size()), status_(pairs.size()) {
   if (detail < Detail::contact) return;
-  separation_.resize(pairs);
+  separation_.resize(pairs.size());
   for (Column3* columns : {&normal_, &point_a_, &point_b_}) {
-    for (std::vector<float>& column : *columns) column.resize(pairs);
+    for (std::vector<float>& column : *columns) column.resize(pairs.size());
+  }
+  if (pairs.has_composites()) {
+    sub_a_.resize(pairs.size());
+    sub_b_.resize(pairs.size());
   }
   if (detail < Detail::manifold) return;
-  manifold_count_.resize(pairs);
-  manifold_.resize(pairs);
+  manifold_count_.resize(pairs.size());
+  manifold_.resize(pairs.size());
 }
 
 ResultColumns PairColumns::columns() {
@@ -74,6 +78,10 @@ ResultColumns PairColumns::columns() {
     out.normal[axis] = normal_[axis].data();
     out.point_a[axis] = point_a_[axis].data();
     out.point_b[axis] = point_b_[axis].data();
+  }
+  if (!sub_a_.empty()) {
+    out.sub_a = sub_a_.data();
+    out.sub_b = sub_b_.data();
   }
   if (detail_ < Detail::manifold) return out;
   out.manifold_count = manifold_count_.data();
@@ -89,6 +97,10 @@ PairColumns::Row PairColumns::row(size_t index) const {
     row.normal[axis] = normal_[axis][index];
     row.point_a[axis] = point_a_[axis][index];
     row.point_b[axis] = point_b_[axis][index];
+  }
+  if (!sub_a_.empty()) {
+    row.sub_a = sub_a_[index];
+    row.sub_b = sub_b_[index];
   }
   if (detail_ < Detail::manifold) return row;
   row.manifold_count = manifold_count_[index];
@@ -127,6 +139,8 @@ io::PairResults PairColumns::results() const {
   results.point_a = rows_of(point_a_);
   results.point_b = rows_of(point_b_);
   results.status = status_;
+  results.sub_a = sub_a_;
+  results.sub_b = sub_b_;
   add_manifolds(results);
   return results;
 }

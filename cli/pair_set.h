@@ -18,6 +18,8 @@ struct PairSet {
   BodyColumns b;
 
   size_t size() const { return a.size(); }
+  // Whether some body is a mesh or a compound.
+  bool has_composites() const { return a.has_composites() || b.has_composites(); }
 };
 
 // Reads a file of pairs. An orientation that is no rotation (NaN, infinite or zero) makes its body
@@ -25,10 +27,10 @@ struct PairSet {
 // NaN position.
 Result<PairSet> read_pair_set(const std::string& path);
 
-// Memory for the results of pairs at a detail.
+// Memory for the results of pairs at a detail, with sub-shapes if there can be any.
 class PairColumns {
  public:
-  PairColumns(size_t pairs, Detail detail);
+  PairColumns(const PairSet& pairs, Detail detail);
 
   // To write to; columns that the detail lacks are nullptr.
   ResultColumns columns();
@@ -42,6 +44,8 @@ class PairColumns {
     std::array<float, 3> point_a;
     std::array<float, 3> point_b;
     ManifoldPoints manifold;
+    uint32_t sub_a = 0;
+    uint32_t sub_b = 0;
   };
   // Zero where the detail lacks it.
   Row row(size_t index) const;
@@ -63,6 +67,8 @@ class PairColumns {
   Column3 point_b_;
   std::vector<uint8_t> manifold_count_;
   std::vector<ManifoldPoints> manifold_;
+  std::vector<uint32_t> sub_a_;  // empty without composites
+  std::vector<uint32_t> sub_b_;
 };
 
 }  // namespace carom::cli

@@ -138,7 +138,7 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
 
   Result<PairSet> set = read_pair_set(options.input);
   if (!set) return set.error();
-  PairColumns columns(set->size(), *detail);
+  PairColumns columns(*set, *detail);
   Result<std::vector<double>> times =
       test_pairs(*set, options, *detail, *accuracy, columns, console);
   if (!times) return times.error();

@@ -24,9 +24,9 @@ SceneBounds::SceneBounds(const io::SceneInfo& info)
 void SceneBounds::add_rows() {
   const uint32_t count = row_count(kind());
   if (count == 0) return;
-  const std::vector<Shape> shapes = *convert_shapes(info_.shapes, info_.name);
+  shapes_ = *convert_shapes(info_.shapes, info_.name);
   for (uint32_t shape : info_.body_shape) {
-    const auto rows = shape_rows(shapes[shape]);
+    const auto rows = shape_rows(shapes_[shape]);
     rows_.insert(rows_.end(), rows.begin(), rows.begin() + count);
   }
 }

@@ -11,8 +11,7 @@ namespace carom::cli {
 
 class SceneBounds {
  public:
-  // Of a scene of spheres, of aabbs, of boxes or of capsules, as generators make them. `info` has
-  // to live as long.
+  // Of a scene whose bodies are of one kind, as generators make them. `info` has to live as long.
   explicit SceneBounds(const io::SceneInfo& info);
 
   // min x y z 0, max x y z 0 a body; valid until the next call.
@@ -29,7 +28,8 @@ class SceneBounds {
   Columns negative_half_;
   Columns lower_;
   Columns upper_;
-  std::vector<std::array<float, 4>> rows_;  // of boxes and capsules
+  std::vector<Shape> shapes_;  // of kinds that have rows
+  std::vector<std::array<float, 4>> rows_;
   std::vector<float> boxes_;
 };
 

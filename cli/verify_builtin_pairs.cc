@@ -5,16 +5,20 @@
 #include <limits>
 #include <utility>
 
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/reference/reference.h"
 #include "cli/verify_builtin.h"
+#include "io/build_hull.h"
 #include "io/generate/random.h"
 
 namespace carom::cli {
 namespace {
 
-constexpr std::array kKinds = {ShapeKind::sphere,   ShapeKind::capsule, ShapeKind::aabb,
-                               ShapeKind::box,      ShapeKind::dop,     ShapeKind::triangle,
+constexpr std::array kKinds = {ShapeKind::sphere,   ShapeKind::capsule,  ShapeKind::aabb,
+                               ShapeKind::box,      ShapeKind::dop,      ShapeKind::hull,
+                               ShapeKind::mesh,     ShapeKind::compound, ShapeKind::triangle,
                                ShapeKind::halfspace};
 constexpr std::array kDopKinds = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 
@@ -28,6 +32,31 @@ Dop even_dop(float size) {
   dop.lower.fill(-size);
   dop.upper.fill(size);
   return dop;
+}
+
+// What cannot be made is not valid.
+Hull hull_of(const std::vector<Eigen::Vector3f>& points) {
+  Result<io::BuiltHull> hull = io::build_hull(points);
+  return hull ? Hull{std::move(hull->geometry)} : Hull{};
+}
+
+Mesh mesh_of(const std::vector<Eigen::Vector3f>& vertices,
+             const std::vector<std::array<uint32_t, 3>>& triangles, const MeshRules& rules) {
+  auto mesh = make_mesh(vertices, triangles, rules);
+  return mesh ? Mesh{std::move(*mesh)} : Mesh{};
+}
+
+Compound compound_of(const std::vector<CompoundChild>& children) {
+  auto compound = make_compound(children);
+  return compound ? Compound{std::move(*compound)} : Compound{};
+}
+
+Hull even_hull(float size) {
+  std::vector<Eigen::Vector3f> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back(i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size);
+  }
+  return hull_of(corners);
 }
 
 // A shape whose numbers are all 0 or plus or minus `size`.
@@ -47,6 +76,14 @@ Shape even_shape(ShapeKind kind, float size) {
       return Halfspace{Eigen::Vector3f::Constant(size), size};
     case ShapeKind::dop:
       return even_dop(size);
+    case ShapeKind::hull:
+      return even_hull(size);
+    case ShapeKind::mesh:
+      return mesh_of({x, y, -x, -y}, {{0, 1, 2}, {2, 3, 0}},
+                     {.one_sided = false, .thickness = size < 0 ? size : 0});
+    case ShapeKind::compound:
+      return compound_of({{Sphere{size}, x, Eigen::Quaternionf::Identity()},
+                          {Box{Eigen::Vector3f::Constant(size)}, -x, {1, 0, 0, 1}}});
     default:
       return Sphere{size};
   }
@@ -75,7 +112,7 @@ class RandomPairs {
         break;
       default:
         separate(shape_a, pose_a, shape_b, pose_b,
-                 size_b * depth(a, b) * random_.between(-1, both_triangles(a, b) ? 0 : 0.5));
+                 size_b * depth(a, b) * random_.between(-1, both_surfaces(a, b) ? 0 : 0.5));
     }
     push(shape_a, pose_a, shape_b, pose_b);
   }
@@ -117,15 +154,17 @@ class RandomPairs {
     pairs_.b.push(shape_b, pose_b);
   }
 
-  // How deep two shapes may overlap before they are apart again; triangles have no inside.
+  static bool is_surface(ShapeKind kind) {
+    return kind == ShapeKind::triangle || kind == ShapeKind::mesh;
+  }
+
+  // How deep two shapes may overlap before they are apart again; surfaces have no inside.
   static double depth(ShapeKind a, ShapeKind b) {
-    return a == ShapeKind::triangle || b == ShapeKind::triangle ? 0.05 : 0.3;
+    return is_surface(a) || is_surface(b) ? 0.05 : 0.3;
   }
 
   // One-sided ones often do not meet at all.
-  static bool both_triangles(ShapeKind a, ShapeKind b) {
-    return a == ShapeKind::triangle && b == ShapeKind::triangle;
-  }
+  static bool both_surfaces(ShapeKind a, ShapeKind b) { return is_surface(a) && is_surface(b); }
 
   // Moves B along the normal until it is about this far from A, unless it comes from behind a
   // one-sided triangle.
@@ -178,6 +217,12 @@ class RandomPairs {
         return halfspace(size);
       case ShapeKind::dop:
         return dop(size);
+      case ShapeKind::hull:
+        return hull(size);
+      case ShapeKind::mesh:
+        return mesh(size);
+      case ShapeKind::compound:
+        return compound(size);
       default:
         return Sphere{static_cast<float>(size)};
     }
@@ -191,11 +236,50 @@ class RandomPairs {
     return capsule;
   }
 
+  std::vector<Eigen::Vector3f> some_points(size_t count, double size) {
+    std::vector<Eigen::Vector3f> points(count);
+    for (Eigen::Vector3f& p : points) p = point(size);
+    return points;
+  }
+
   // Of a point and more.
   Dop dop(double size) {
-    std::vector<Eigen::Vector3f> points(1 + random_.below(12));
-    for (Eigen::Vector3f& p : points) p = point(size);
+    const std::vector<Eigen::Vector3f> points = some_points(1 + random_.below(12), size);
     return Dop::of_points(points, kDopKinds[random_.below(kDopKinds.size())]);
+  }
+
+  // Of a point and more, flat at times.
+  Hull hull(double size) {
+    std::vector<Eigen::Vector3f> points = some_points(1 + random_.below(20), size);
+    if (one_of(8)) {
+      for (Eigen::Vector3f& p : points) p.z() = 0;
+    }
+    return hull_of(points);
+  }
+
+  // A strip of triangles that share edges.
+  Mesh mesh(double size) {
+    const std::vector<Eigen::Vector3f> vertices = some_points(4 + random_.below(4), size);
+    std::vector<std::array<uint32_t, 3>> triangles;
+    for (uint32_t i = 0; i + 2 < vertices.size(); ++i) {
+      triangles.push_back({i + i % 2, i + 1 - i % 2, i + 2});
+    }
+    if (one_of(8)) triangles[0][1] = triangles[0][0];
+    const float thickness = one_of(4) ? up_to(0.5 * size) : 0;
+    return mesh_of(vertices, triangles, {.one_sided = one_of(4), .thickness = thickness});
+  }
+
+  Compound compound(double size) {
+    constexpr std::array kParts = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
+                                   ShapeKind::box,    ShapeKind::dop,     ShapeKind::hull,
+                                   ShapeKind::mesh,   ShapeKind::triangle};
+    std::vector<CompoundChild> children(1 + random_.below(3));
+    for (CompoundChild& child : children) {
+      child.shape = shape(kParts[random_.below(kParts.size())], size / 2);
+      child.position = point(size / 2);
+      child.orientation = orientation();
+    }
+    return compound_of(children);
   }
 
   Triangle triangle(double size) {
@@ -223,13 +307,13 @@ class RandomPairs {
 };
 
 constexpr size_t kPairs = 2003;
-// Tested one at a time.
-constexpr size_t kDopPairs = 211;
+constexpr size_t kSlowPairs = 211;  // of kinds that are tested one at a time, or by their parts
+
+bool is_slow(ShapeKind kind) { return kind == ShapeKind::dop || has_geometry(kind); }
 
 BuiltinPairs pairs_of(ShapeKind a, ShapeKind b, PositionType positions, uint64_t seed) {
   RandomPairs pairs(positions, seed);
-  const bool has_dop = a == ShapeKind::dop || b == ShapeKind::dop;
-  for (size_t i = 0; i < (has_dop ? kDopPairs : kPairs); ++i) pairs.add(a, b);
+  for (size_t i = 0; i < (is_slow(a) || is_slow(b) ? kSlowPairs : kPairs); ++i) pairs.add(a, b);
   pairs.add_special(a, b);
   return {std::string(name(a)) + "-" + name(b) + " pairs", pairs.take()};
 }

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "carom/reference/reference.h"
+#include "cli/exact_decision.h"
 #include "cli/progress.h"
 #include "cli/verify_text.h"
-#include "narrowphase/exact_overlap.h"
-#include "narrowphase/proof.h"
+#include "narrowphase/stated_body.h"
 
 namespace carom::cli {
 namespace {
@@ -64,7 +64,7 @@ bool same_bits(const Row& x, const Row& y) {
   return x.overlap == y.overlap && x.status == y.status && same_bits(x.separation, y.separation) &&
          same_bits(x.normal, y.normal) && same_bits(x.point_a, y.point_a) &&
          same_bits(x.point_b, y.point_b) && x.manifold_count == y.manifold_count &&
-         same_bits(x.manifold, y.manifold);
+         same_bits(x.manifold, y.manifold) && x.sub_a == y.sub_a && x.sub_b == y.sub_b;
 }
 
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
@@ -98,7 +98,8 @@ std::string text_of(const Row& row) {
   return "overlap " + std::to_string(row.overlap) + " status " + std::to_string(row.status) +
          " separation " + cli::text_of(double{row.separation}) + " normal " + text_of(row.normal) +
          " point_a " + text_of(row.point_a) + " point_b " + text_of(row.point_b) + " manifold of " +
-         std::to_string(row.manifold_count) + ": " + cli::text_of(row.manifold);
+         std::to_string(row.manifold_count) + ": " + cli::text_of(row.manifold) + " sub-shapes " +
+         std::to_string(row.sub_a) + ", " + std::to_string(row.sub_b);
 }
 
 class PairVerifier {
@@ -107,9 +108,9 @@ class PairVerifier {
   PairVerifier(System& system, const PairSet& pairs, Progress progress)
       : system_(system),
         pairs_(pairs),
-        overlap_(pairs.size(), Detail::overlap),
-        contact_(pairs.size(), Detail::contact),
-        manifold_(pairs.size(), Detail::manifold) {
+        overlap_(pairs, Detail::overlap),
+        contact_(pairs, Detail::contact),
+        manifold_(pairs, Detail::manifold) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       progress.update(i);
       expected_.push_back(reference_row(i));
@@ -151,7 +152,9 @@ class PairVerifier {
             array_of(result.normal),
             array_of(result.arm_a),
             array_of(result.arm_b),
-            result.manifold};
+            result.manifold,
+            result.sub_a,
+            result.sub_b};
   }
 
   // In exact arithmetic where double precision proves nothing; 0 for invalid pairs.
@@ -159,8 +162,7 @@ class PairVerifier {
     if (expected_[index].status == static_cast<uint8_t>(Status::invalid)) return 0;
     const StatedBody a = stated_body(pairs_.a.view(), index);
     const StatedBody b = stated_body(pairs_.b.view(), index);
-    const uint8_t proven = prove_overlap(a, b);
-    return proven == kUndecided ? exact_overlap(a, b) : proven;
+    return cli::exact_decision(a, b);
   }
 
   static StatedBody stated_body(const Collidables& bodies, size_t index) {

@@ -21,6 +21,8 @@ add_custom_target(carom_build_info_header
     -D TBB_VERSION=${TBB_VERSION}
     -D EIGEN_VERSION=${Eigen3_VERSION}
     -D LIBZIP_VERSION=${libzip_VERSION}
+    -D QHULL_VERSION=${qhull_VERSION}
+    -D ASSIMP_VERSION=${assimp_VERSION}
     -P ${PROJECT_SOURCE_DIR}/cmake/write_build_info.cmake
   BYPRODUCTS ${build_info_dir}/carom_build_info.h
   COMMENT "Looking at the build information"

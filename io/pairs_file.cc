@@ -156,6 +156,8 @@ Result<void> write_pair_results(const std::string& path, const PairResults& resu
   if (done) done = add("manifold_separation", results.manifold_separation);
   if (done) done = add("toi", results.toi);
   if (done) done = add("status", results.status);
+  if (done) done = add("sub_a", results.sub_a);
+  if (done) done = add("sub_b", results.sub_b);
   if (done) done = writer->finish();
   return done;
 }

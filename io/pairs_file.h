@@ -46,6 +46,8 @@ struct PairResults {
   std::vector<std::array<float, 4>> manifold_separation;
   std::vector<float> toi;
   std::vector<uint8_t> status;
+  std::vector<uint32_t> sub_a;  // of pairs with meshes or compounds
+  std::vector<uint32_t> sub_b;
 };
 
 Result<void> write_pair_results(const std::string& path, const PairResults& results);

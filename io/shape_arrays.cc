@@ -57,6 +57,10 @@ Result<void> check_kinds(const SceneShapes& shapes, const std::string& path) {
   return {};
 }
 
+// How many elements all ranges may hold together, of an array of `size`: shapes may share what is
+// there, but a small file must not ask for more work than a machine can do.
+uint64_t most_uses(size_t size) { return 64 * (uint64_t{size} + (uint64_t{1} << 20)); }
+
 // Every range lies inside its array of `size` elements, and is there if a kind needs it.
 Result<void> check_ranges(const SceneShapes& shapes, const std::string& path,
                           const std::string& name, const std::vector<Range>& ranges, size_t size,
@@ -70,8 +74,10 @@ Result<void> check_ranges(const SceneShapes& shapes, const std::string& path,
     }
     return {};
   }
+  uint64_t uses = 0;
   for (size_t i = 0; i < ranges.size(); ++i) {
     const auto [first, count] = ranges[i];
+    uses += count;
     if (uint64_t{first} + count > size) {
       return member_error(path, name,
                           element(i) + "is first " + std::to_string(first) + ", count " +
@@ -79,7 +85,10 @@ Result<void> check_ranges(const SceneShapes& shapes, const std::string& path,
                               " elements was expected)");
     }
   }
-  return {};
+  if (uses <= most_uses(size)) return {};
+  return member_error(path, name,
+                      "names " + std::to_string(uses) + " elements of " + std::to_string(size) +
+                          " (at most " + std::to_string(most_uses(size)) + " were expected)");
 }
 
 Result<void> check_triangles(const SceneShapes& shapes, const std::string& path) {

@@ -76,7 +76,7 @@ inline Double3 middle_of(const Part& part) {
   return plus(part.position, turned(part.turn(), box_of(part).middle));
 }
 
-// Rows of a triangle of a mesh; without inner edges.
+// Rows of a triangle of a mesh, without inner edges.
 std::array<Row, 3> triangle_rows(const MeshGeometry& mesh, size_t triangle);
 
 inline Double3 corner(const MeshGeometry& mesh, size_t triangle, size_t i) {
@@ -104,11 +104,11 @@ struct PlacedTriangle {
     return mesh.inner_edges(triangle, dot(front_of(mesh, triangle), way) >= 0);
   }
 
-  // Whether a contact's normal is that of the face.
+  // Whether a contact's normal is that of the face, to rounding.
   bool faces_along(const std::array<float, 3>& normal) const {
     const Double3 front = turned(turn, front_of(mesh, triangle));
-    const double along = dot(front, {normal[0], normal[1], normal[2]});
-    return std::fabs(along) >= double{kFront} * std::sqrt(dot(front, front));
+    const Double3 off = cross(front, {normal[0], normal[1], normal[2]});
+    return dot(off, off) <= kAlongFace * dot(front, front);
   }
 };
 

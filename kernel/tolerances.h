@@ -158,6 +158,11 @@ inline constexpr double kWithoutArea = 0x1p-48;
 // 2^-52 over it, and the nearest face of their difference does better.
 inline constexpr double kTouchingWay = 0x1p-24;
 
+// Points of two cores that are further from facing each other than this do not stand for where they
+// meet; and how much less far than the furthest points those may be that do.
+inline constexpr double kFacing = 0x1p-26;
+inline constexpr double kMostSlack = 0x1p-16;
+
 // A way out that is longer than the shortest by no more than this is the shortest.
 inline constexpr double kSameWayOut = 0x1p-42;
 
@@ -179,10 +184,16 @@ inline constexpr double kFlatEdge = 0x1p-10;
 // coordinates.
 inline constexpr double kRoundedCorner = 0x1p-22;
 
+// Squared sine of the angle of a contact's normal with that of a face which is only rounding.
+inline constexpr double kAlongFace = 0x1p-36;
+
+// Points of a manifold that are this share of its extent deeper than others are as deep.
+inline constexpr double kSameDepth = 0x1p-18;
+
 // Beyond such lengths positions count as the largest float, and every part as near.
 inline constexpr double kBeyondSearch = 0x1p120;
 
-// A manifold of several parts is made of the points of so many at most, the deepest.
+// A manifold of several parts is made of the points of so many at most.
 inline constexpr size_t kMostPartsOfManifold = 4096;
 
 // So much further than its bounds reach a part is looked for, as a share of all lengths that go in:

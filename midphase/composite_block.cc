@@ -51,6 +51,7 @@ struct Outcome {
   uint8_t overlap = 0;
   uint8_t status = static_cast<uint8_t>(Status::ok);
   bool is_found = false;
+  bool is_over_edge = false;
   float separation = kInfinity;
   std::array<float, 3> normal = {kNan, kNan, kNan};
   std::array<float, 3> arm_a = {kNan, kNan, kNan};
@@ -61,10 +62,11 @@ struct Outcome {
 
   bool is_invalid() const { return status == static_cast<uint8_t>(Status::invalid); }
 
-  // Overlapping pairs before undecided ones before separate ones.
+  // Overlapping pairs before undecided ones before separate ones; contacts that came over an inner
+  // edge last, since what lies across that edge knows better.
   auto order() const {
     const int rank = overlap == 1 ? 0 : overlap == kUndecided ? 1 : 2;
-    return std::tuple(rank, separation, parts);
+    return std::tuple(rank, is_over_edge, separation, parts);
   }
 };
 
@@ -136,7 +138,8 @@ class CompositeRun {
       if (!outcomes_[current_].is_invalid()) search(current_, 0);
     }
     flush();
-    if (tests_.separate == SeparatePairs::measured && has_contacts(block_.detail)) measure();
+    const bool is_asked = has_contacts(block_.detail) || tests_.bounds;
+    if (tests_.separate == SeparatePairs::measured && is_asked) measure();
   }
 
  private:
@@ -180,13 +183,14 @@ class CompositeRun {
     found.is_found = true;
     found.overlap = out.overlap[i];
     found.status = out.status[i];
+    found.is_over_edge = batch_.is_over_edge(i);
     found.separation = out.separation[i];
     found.parts = {batch_.side(0).order(i), batch_.side(1).order(i)};
     const size_t k = batch_.owner(i);
     Outcome& best = outcomes_[k];
     if (tests_.bounds) {
       found.bound = out.separation_bound[i];
-      found.nearest = double{found.separation} - found.bound;
+      if (!found.is_over_edge) found.nearest = double{found.separation} - found.bound;
     }
     const double nearest = std::min(best.nearest, found.nearest);
     if (!best.is_found || found.order() < best.order()) {
@@ -201,8 +205,8 @@ class CompositeRun {
 
   void keep_contact(size_t i, const Outcome& found) {
     const ResultColumns out = batch_.results();
-    PartContact contact{found.parts, at_row(out.normal, i), found.separation, out.manifold_count[i],
-                        out.manifold[i]};
+    PartContact contact{found.is_over_edge, found.parts,           at_row(out.normal, i),
+                        found.separation,   out.manifold_count[i], out.manifold[i]};
     for (size_t k = 0; k < contact.count; ++k) {
       contact.points.point[k] = moved(contact.points.point[k], batch_.side(0).arm(i));
     }

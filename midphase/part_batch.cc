@@ -6,14 +6,6 @@
 #include "narrowphase/pair_block.h"
 
 namespace carom {
-namespace {
-
-bool has_rules(const MeshGeometry& mesh) {
-  return mesh.rules().one_sided || mesh.rules().thickness > 0;
-}
-
-}  // namespace
-
 void PartColumns::put(size_t i, const PlacedPart& part) {
   const Double3& p = part.position;
   record_[i] = {p[0], p[1], p[2], part.part->radius};
@@ -98,7 +90,7 @@ PlacedTriangle PartColumns::triangle(size_t i) const {
 
 void PartBatch::clear() {
   count_ = 0;
-  has_rules_ = has_meshes_ = false;
+  has_meshes_ = false;
   for (PartColumns& side : sides_) side.clear();
 }
 
@@ -106,11 +98,8 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b) {
   owner_[count_] = static_cast<uint32_t>(owner);
   sides_[0].put(count_, a);
   sides_[1].put(count_, b);
-  for (const PlacedPart* part : {&a, &b}) {
-    if (part->triangle == PlacedPart::kWhole) continue;
-    has_meshes_ = true;
-    has_rules_ = has_rules_ || has_rules(part->mesh());
-  }
+  const auto is_of_mesh = [](const PlacedPart& part) { return part.triangle != part.kWhole; };
+  has_meshes_ = has_meshes_ || is_of_mesh(a) || is_of_mesh(b);
   ++count_;
 }
 
@@ -147,20 +136,6 @@ void PartBatch::run_plain(const PartTests& tests) {
                   .out = asked(tests)});
 }
 
-// Triangles with rules have them, and their inner edges, from the start.
-void PartBatch::set_rules() {
-  for (size_t i = 0; i < count_; ++i) {
-    for (size_t side = 0; side < 2; ++side) {
-      PartColumns& columns = sides_[side];
-      if (!columns.is_of_mesh(i)) continue;
-      const PlacedTriangle triangle = columns.triangle(i);
-      const Part other = sides_[1 - side].part(i);
-      if (!has_rules(triangle.mesh) || other.kind == ShapeKind::halfspace) continue;
-      columns.set_inner_edges(i, triangle.inner_edges_towards(middle_of(other)));
-    }
-  }
-}
-
 // The inner edges that the contact of row i may have come over, of both sides.
 std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) {
   const ResultColumns out = results();
@@ -168,7 +143,6 @@ std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) {
   for (size_t side = 0; side < 2; ++side) {
     if (!sides_[side].is_of_mesh(i)) continue;
     const PlacedTriangle triangle = sides_[side].triangle(i);
-    if (has_rules(triangle.mesh)) continue;
     if (triangle.faces_along({out.normal[0][i], out.normal[1][i], out.normal[2][i]})) continue;
     const Part other = sides_[1 - side].part(i);
     if (other.kind == ShapeKind::halfspace) continue;
@@ -179,8 +153,8 @@ std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) {
 
 void PartBatch::run(const PartTests& tests) {
   static thread_local const auto again = std::make_unique<PartBatch>();
-  if (has_rules_) set_rules();
   run_plain(tests);
+  std::fill_n(over_edge_.begin(), count_, uint8_t{0});
   if (!has_meshes_) return;
   again->clear();
   for (size_t i = 0; i < count_; ++i) {
@@ -200,8 +174,9 @@ void PartBatch::run(const PartTests& tests) {
 void PartBatch::take(PartBatch& again, const PartTests& tests) {
   const ResultColumns from = again.results(), to = results();
   for (size_t i = 0; i < again.count_; ++i) {
-    if (from.overlap[i] != 1) continue;
     const size_t row = again.owner_[i];
+    over_edge_[row] = 1;
+    if (from.overlap[i] != 1) continue;
     to.status[row] = from.status[i];
     to.separation[row] = from.separation[i];
     for (size_t axis = 0; axis < 3; ++axis) {

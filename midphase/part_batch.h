@@ -69,12 +69,14 @@ class PartBatch {
   // The pair belongs to `owner`; it must be of kinds that have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b);
 
-  // Tests all pairs. Contacts at inner edges of triangles get the normals of faces: such pairs are
-  // tested once more.
+  // Tests all pairs. Overlaps whose contact may have come over an inner edge of a triangle are
+  // tested once more, with ways over such edges closed: that leaves the normals of faces.
   void run(const PartTests& tests);
 
   const PartColumns& side(size_t which) const { return sides_[which]; }
   size_t owner(size_t i) const { return owner_[i]; }
+  // Whether the contact came over an inner edge at first.
+  bool is_over_edge(size_t i) const { return over_edge_[i] != 0; }
   // Those of the last run, as far as they were asked for.
   ResultColumns results();
 
@@ -82,19 +84,18 @@ class PartBatch {
   ResultColumns asked(const PartTests& tests);
   void run_plain(const PartTests& tests);
   void add_copy(const PartBatch& other, size_t i);
-  void set_rules();
   std::array<uint8_t, 2> edges_to_close(size_t i);
   void take(PartBatch& again, const PartTests& tests);
 
   size_t count_ = 0;
   std::array<PartColumns, 2> sides_;
   std::array<uint32_t, kPairsPerBlock> owner_;
-  bool has_rules_ = false;  // a triangle is thick or one-sided
   bool has_meshes_ = false;
   ScratchColumns scratch_;
   std::array<uint8_t, kPairsPerBlock> manifold_count_;
   std::array<ManifoldPoints, kPairsPerBlock> manifold_;
   std::array<float, kPairsPerBlock> bound_;
+  std::array<uint8_t, kPairsPerBlock> over_edge_;
 };
 
 }  // namespace carom

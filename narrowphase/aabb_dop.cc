@@ -1,8 +1,8 @@
-// Aabb against k-DOP: one pair at a time.
-#include "narrowphase/scalar_batch.h"
+// Aabb against k-DOP: searches over any two cores.
+#include "narrowphase/core_batch.h"
 
 namespace carom {
 
-void run_aabb_dop(const Batch& batch) { run_scalar_batch(batch, ShapeKind::aabb, ShapeKind::dop); }
+void run_aabb_dop(const Batch& batch) { run_core_batch<Aabb, Dop>(batch); }
 
 }  // namespace carom

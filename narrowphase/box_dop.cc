@@ -1,8 +1,8 @@
-// Box against k-DOP: one pair at a time.
-#include "narrowphase/scalar_batch.h"
+// Box against k-DOP: searches over any two cores.
+#include "narrowphase/core_batch.h"
 
 namespace carom {
 
-void run_box_dop(const Batch& batch) { run_scalar_batch(batch, ShapeKind::box, ShapeKind::dop); }
+void run_box_dop(const Batch& batch) { run_core_batch<Box, Dop>(batch); }
 
 }  // namespace carom

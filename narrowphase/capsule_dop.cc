@@ -1,10 +1,8 @@
-// Capsule against k-DOP: one pair at a time.
-#include "narrowphase/scalar_batch.h"
+// Capsule against k-DOP: searches over any two cores.
+#include "narrowphase/core_batch.h"
 
 namespace carom {
 
-void run_capsule_dop(const Batch& batch) {
-  run_scalar_batch(batch, ShapeKind::capsule, ShapeKind::dop);
-}
+void run_capsule_dop(const Batch& batch) { run_core_batch<Capsule, Dop>(batch); }
 
 }  // namespace carom

@@ -1,14 +1,14 @@
-// Capsule (A) against k-DOP (B), as polytopes.
+// Capsule (A) against k-DOP (B), as cores.
 #pragma once
 
-#include "narrowphase/convex_ref.h"
+#include "narrowphase/core_separation_ref.h"
 
 namespace carom::reference {
 
 template <class Real>
 SeparationAs<Real> separation(const CapsuleShape<Real>& a, const DopShape<Real>& b,
                               const PairPose<Real>& pose) {
-  return convex_separation(a, b, pose);
+  return separation_of_cores(a, b, pose);
 }
 
 }  // namespace carom::reference

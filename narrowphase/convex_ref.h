@@ -1,5 +1,5 @@
-// Any two convex shapes of flat faces, grown by radii, in double precision: clear rather than fast,
-// for pairs that have no kernel of their own.
+// Any two convex shapes of a few flat faces, grown by radii, in double precision: clear rather than
+// fast, for triangles that have rules (special_triangle_ref.h).
 //
 // The nearest points of two shapes that are apart tell where to look; the answer is one of the
 // directions that their features there allow, exactly. Shapes that overlap leave along a face or
@@ -109,15 +109,6 @@ template <class Real>
 SeparationAs<Real> not_in_float() {
   const Vector3<Real> zero = Vector3<Real>::Zero();
   return {0, zero, zero, zero, Status::ok, true};
-}
-
-template <class Real, class A, class B>
-SeparationAs<Real> convex_separation(const A& a, const B& b, const PairPose<Real>& pose) {
-  if constexpr (std::is_same_v<Real, float>) {
-    return not_in_float<float>();
-  } else {
-    return convex::separation_of(a, b, pose);
-  }
 }
 
 }  // namespace carom::reference

@@ -70,6 +70,12 @@ void run_core_batch(const Batch& batch) {
   test_rows<A, B>(batch, kind_a, kind_b);
 }
 
+template void run_core_batch<Sphere, Dop>(const Batch&);
+template void run_core_batch<Capsule, Dop>(const Batch&);
+template void run_core_batch<Aabb, Dop>(const Batch&);
+template void run_core_batch<Box, Dop>(const Batch&);
+template void run_core_batch<Dop, Dop>(const Batch&);
+template void run_core_batch<Dop, Triangle>(const Batch&);
 template void run_core_batch<Sphere, Hull>(const Batch&);
 template void run_core_batch<Capsule, Hull>(const Batch&);
 template void run_core_batch<Aabb, Hull>(const Batch&);

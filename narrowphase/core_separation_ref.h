@@ -62,10 +62,10 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
           .has_ended = nearest.has_ended && out.has_ended};
 }
 
-// The points of a core that are furthest along n; some of them where there are many.
-inline Meeting::Points furthest_points(const Core& core, const CoreVector& n,
+// The points of a core that are furthest along n, up to a slack; some of them where there are many.
+inline Meeting::Points furthest_points(const Core& core, const CoreVector& n, double slack,
                                        FurthestPoint furthest) {
-  const double least = dot(n, core.point(furthest(core, n))) - kInPlane;
+  const double least = dot(n, core.point(furthest(core, n))) - slack;
   size_t count = 0;
   for (size_t i = 0; i < core.size(); ++i) count += dot(n, core.point(i)) >= least;
   const size_t step = (count + Meeting::Points::kCapacity - 1) / Meeting::Points::kCapacity;
@@ -79,15 +79,24 @@ inline Meeting::Points furthest_points(const Core& core, const CoreVector& n,
   return points;
 }
 
-// Where they meet, on A: a corner if one of them has one there.
+// Where they meet, on A. The normal is rounded, most of all between shapes that are close: points
+// that should face each other need not be the furthest by a little, so that the slack grows until
+// they are.
 inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
                               FurthestPoint furthest) {
-  const Meeting::Points on_a = furthest_points(a, gap.normal, furthest);
-  if (on_a.size() == 1) return on_a[0];
-  const Meeting::Points on_b = furthest_points(b, -gap.normal, furthest);
-  const Vector3d n = eigen_vector(gap.normal);
-  if (on_b.size() == 1) return on_b[0] - n * gap.size;
-  return Meeting(on_a, on_b, n).point();
+  Vector3d best;
+  double least = HUGE_VAL;
+  for (double slack = kInPlane; slack <= kMostSlack; slack *= 256) {
+    const Meeting::Points on_a = furthest_points(a, gap.normal, slack, furthest);
+    const Meeting::Points on_b = furthest_points(b, -gap.normal, slack, furthest);
+    const Meeting meeting(on_a, on_b, eigen_vector(gap.normal));
+    if (meeting.distance() < least) {
+      least = meeting.distance();
+      best = meeting.point();
+    }
+    if (least <= kFacing) break;
+  }
+  return best;
 }
 
 // B is placed at d.

@@ -1,8 +1,8 @@
-// K-DOP against k-DOP: one pair at a time.
-#include "narrowphase/scalar_batch.h"
+// K-DOP against k-DOP: searches over any two cores.
+#include "narrowphase/core_batch.h"
 
 namespace carom {
 
-void run_dop_dop(const Batch& batch) { run_scalar_batch(batch, ShapeKind::dop, ShapeKind::dop); }
+void run_dop_dop(const Batch& batch) { run_core_batch<Dop, Dop>(batch); }
 
 }  // namespace carom

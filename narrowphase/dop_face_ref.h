@@ -113,7 +113,8 @@ class DopSideFinder {
   const double same_point_;
 };
 
-inline FacingSide side_towards(const Vector3f& m, const DopShape<float>& dop, const Placed& placed) {
+inline FacingSide side_towards(const Vector3f& m, const DopShape<float>& dop,
+                               const Placed& placed) {
   return DopSideFinder(dop, placed).towards(m);
 }
 

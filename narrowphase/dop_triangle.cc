@@ -1,10 +1,8 @@
-// K-DOP against triangle: one pair at a time.
-#include "narrowphase/scalar_batch.h"
+// K-DOP against triangle: searches over any two cores.
+#include "narrowphase/core_batch.h"
 
 namespace carom {
 
-void run_dop_triangle(const Batch& batch) {
-  run_scalar_batch(batch, ShapeKind::dop, ShapeKind::triangle);
-}
+void run_dop_triangle(const Batch& batch) { run_core_batch<Dop, Triangle>(batch); }
 
 }  // namespace carom

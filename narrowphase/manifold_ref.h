@@ -96,8 +96,9 @@ concept AnyFaced =
     std::is_same_v<Shape, DopShape<float>> || std::is_same_v<Shape, HullShape<float>>;
 
 template <AnyFaced A, AnyFaced B>
-ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
-                       const ScaledContact& contact) {
+requires(std::is_same_v<A, DopShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
+    ContactPoints
+    manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
   const FacingSide side_a = side_towards(contact.normal, a, placed.a);
   const FacingSide side_b = side_towards(-contact.normal, b, placed.b);
   return touch_faces(side_a.face, side_a.corners, side_b.face, side_b.corners, contact);

@@ -18,14 +18,13 @@ class Meeting {
 
   Meeting(const Points& a, const Points& b, const Vector3d& n)
       : normal_(n), height_(dot(n, a[0])), a_(outline_of(a)), b_(outline_of(b)) {
-    if (a_.points.size() == 1) {
-      keep(a_.points[0], a_.points[0]);
-      return;
-    }
     points_and_edges();
     points_and_areas();
     crossing_edges();
   }
+
+  // Seen along n, of the two sets from each other: zero if they meet.
+  double distance() const { return least_; }
 
   Vector3d point() const { return sum_ / count_ + normal_ * height_; }
 

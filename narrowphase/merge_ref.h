@@ -18,15 +18,17 @@ namespace carom {
 // What two parts have in common: normal, separation, and the points of their manifold, relative to
 // the position of body A.
 struct PartContact {
+  bool is_over_edge;              // it came over an inner edge of a mesh at first
   std::array<uint64_t, 2> parts;  // in the order of sub-shapes
   std::array<float, 3> normal;
   float separation;
   uint8_t count;
   ManifoldPoints points;
 
-  // The deeper one first.
+  // The better one first: that of the bodies is the best of all.
   friend bool operator<(const PartContact& x, const PartContact& y) {
-    return std::tie(x.separation, x.parts) < std::tie(y.separation, y.parts);
+    return std::tie(x.is_over_edge, x.separation, x.parts) <
+           std::tie(y.is_over_edge, y.separation, y.parts);
   }
 };
 
@@ -35,8 +37,8 @@ struct MergedManifold {
   ManifoldPoints points{};
 };
 
-// The deepest kMostPartsOfManifold of them.
-inline std::span<PartContact> deepest_of(std::span<PartContact> contacts) {
+// The best kMostPartsOfManifold of them.
+inline std::span<PartContact> best_of(std::span<PartContact> contacts) {
   if (contacts.size() <= kMostPartsOfManifold) return contacts;
   const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kMostPartsOfManifold);
   std::nth_element(contacts.begin(), end, contacts.end());
@@ -77,52 +79,75 @@ const SeenPoint& greatest(const Points& points, const Value& value) {
       [&](const SeenPoint& x, const SeenPoint& y) { return value(x) < value(y); });
 }
 
+inline double size_of(const std::array<float, 3>& p) { return carom::greatest({p[0], p[1], p[2]}); }
+
+// Of all parts whose normals are about that of the contact, which is the best of them, and that are
+// no deeper.
+inline void see_points(std::span<const PartContact> contacts, std::vector<SeenPoint>& seen,
+                       double& size) {
+  const PartContact& best = contacts[0];
+  const Double3 normal = {best.normal[0], best.normal[1], best.normal[2]};
+  const auto [u, v] = across(normal);
+  seen.clear();
+  size = 0;
+  for (size_t i = 0; i < best.count; ++i) size = std::max(size, size_of(best.points.point[i]));
+  const double deepest = best.separation - kSameDepth * size;
+  for (const PartContact& contact : contacts) {
+    const Double3 m = {contact.normal[0], contact.normal[1], contact.normal[2]};
+    const bool takes_part = dot(normal, m) >= kSameManifold && contact.separation >= deepest;
+    if (!takes_part && &contact != &best) continue;
+    for (size_t i = 0; i < contact.count; ++i) {
+      const std::array<float, 3>& point = contact.points.point[i];
+      const Double3 p = {point[0], point[1], point[2]};
+      size = std::max(size, size_of(point));
+      seen.push_back({dot(u, p), dot(v, p), contact.points.separation[i], point});
+    }
+  }
+}
+
+// Where depths are equal to rounding, the one farthest from the middle: it is a corner.
+inline SeenPoint first_point(const std::vector<SeenPoint>& seen, double size) {
+  SeenPoint middle{0, 0, seen[0].separation, {}};
+  for (const SeenPoint& p : seen) {
+    middle.u += p.u / double(seen.size());
+    middle.v += p.v / double(seen.size());
+    middle.separation = std::min(middle.separation, p.separation);
+  }
+  const double deep = middle.separation + kSameDepth * size;
+  return greatest(seen, [&](const SeenPoint& p) {
+    return p.separation <= deep ? squared_distance(middle, p) : -1;
+  });
+}
+
 }  // namespace merging
 
-// The deepest point, the one farthest from it, and on either side of the line through them the one
-// farthest from that, of all parts whose normals are about that of the contact, which is the
-// deepest of them. `seen` is scratch.
+// Up to four points: the deepest, the one farthest from it, and on either side of the line through
+// them the one farthest from that. `seen` is scratch.
 inline MergedManifold merged_manifold(std::span<PartContact> all,
                                       std::vector<merging::SeenPoint>& seen) {
   using merging::SeenPoint;
   if (all.empty()) return {};
-  const std::span<PartContact> contacts = deepest_of(all);
+  const std::span<PartContact> contacts = best_of(all);
   std::sort(contacts.begin(), contacts.end());
-  const auto begin = contacts.begin();
-  const std::array<float, 3>& n = begin->normal;
-  const Double3 normal = {n[0], n[1], n[2]};
-  const auto [u, v] = merging::across(normal);
-  seen.clear();
-  double size = 0;
-  for (auto contact = begin; contact != contacts.end(); ++contact) {
-    const std::array<float, 3>& m = contact->normal;
-    if (contact != begin && dot(normal, {m[0], m[1], m[2]}) < kSameManifold) continue;
-    for (size_t i = 0; i < contact->count; ++i) {
-      const Double3 p = {contact->points.point[i][0], contact->points.point[i][1],
-                         contact->points.point[i][2]};
-      size = std::max(size, greatest(p));
-      seen.push_back(
-          {dot(u, p), dot(v, p), contact->points.separation[i], contact->points.point[i]});
-    }
-  }
+  double size;
+  merging::see_points(contacts, seen, size);
   MergedManifold result;
   const auto keep = [&](const SeenPoint& point) {
     result.points.point[result.count] = point.point;
-    result.points.separation[result.count++] = std::max(point.separation, begin->separation);
+    result.points.separation[result.count++] = std::max(point.separation, contacts[0].separation);
   };
   if (seen.empty()) return result;
-  const SeenPoint deepest =
-      merging::greatest(seen, [](const SeenPoint& p) { return -p.separation; });
-  const SeenPoint farthest = merging::greatest(
-      seen, [&](const SeenPoint& p) { return merging::squared_distance(deepest, p); });
-  keep(deepest);
-  const double squared = merging::squared_distance(deepest, farthest);
+  const SeenPoint first = merging::first_point(seen, size);
+  const SeenPoint second = merging::greatest(
+      seen, [&](const SeenPoint& p) { return merging::squared_distance(first, p); });
+  keep(first);
+  const double squared = merging::squared_distance(first, second);
   const double limit = double{kSamePoint} * (size * size);
   if (!(squared > limit)) return result;
-  keep(farthest);
+  keep(second);
   for (const double side : {1.0, -1.0}) {
     const auto height = [&](const SeenPoint& p) {
-      return side * merging::area_left(deepest, farthest, p);
+      return side * merging::area_left(first, second, p);
     };
     const SeenPoint& beside = merging::greatest(seen, height);
     const double most = height(beside);

@@ -5,6 +5,7 @@
 // 4(2), 1988; C. Ericson, Real-Time Collision Detection, 2005, section 9.5.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/few_of.h"
@@ -84,6 +85,12 @@ class NearestPoint {
   Corners corners_;
 };
 
+inline bool holds(const NearestPoint::Corners& corners, const CoreVector& point) {
+  return std::any_of(corners.begin(), corners.end(), [&](const CoreVector& corner) {
+    return corner.x == point.x && corner.y == point.y && corner.z == point.z;
+  });
+}
+
 // What GJK found. `way` leads from A to B; its length is never less than their distance, and about
 // zero if they touch or overlap.
 struct NearestWay {
@@ -100,7 +107,10 @@ inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthe
     const bool touches = nearest.squared() <= kTouchingSquared || nearest.is_around_zero();
     if (touches) return {way, nearest.corners()};
     const CoreVector next = difference_point(a, b, way, furthest);
-    if (dot(way, next) >= nearest.squared() * kNoNearer) return {way, nearest.corners()};
+    // To the very last point: the way is as good as the corners it ends at.
+    if (dot(way, next) >= nearest.squared() || holds(nearest.corners(), next)) {
+      return {way, nearest.corners()};
+    }
     NearestPoint::Corners corners = nearest.corners();
     corners.push_back(next);
     const NearestPoint nearer(corners);

@@ -1,10 +1,8 @@
-// Sphere against k-DOP: one pair at a time.
-#include "narrowphase/scalar_batch.h"
+// Sphere against k-DOP: searches over any two cores.
+#include "narrowphase/core_batch.h"
 
 namespace carom {
 
-void run_sphere_dop(const Batch& batch) {
-  run_scalar_batch(batch, ShapeKind::sphere, ShapeKind::dop);
-}
+void run_sphere_dop(const Batch& batch) { run_core_batch<Sphere, Dop>(batch); }
 
 }  // namespace carom

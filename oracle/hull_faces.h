@@ -12,7 +12,6 @@
 
 #include "carom/kernel/hull.h"
 #include "kernel/dyadic.h"
-#include "oracle/vec3.h"
 
 namespace carom::oracle {
 
@@ -49,8 +48,6 @@ class HullFaces {
   const std::vector<Outline>& faces() const { return faces_; }
 
  private:
-  using Wide = Vec3<long double>;
-
   // Indices of points, equal ones once, in the order of their coordinates.
   std::vector<uint32_t> distinct() const {
     std::vector<uint32_t> all;
@@ -74,8 +71,8 @@ class HullFaces {
   }
 
   bool is_flat(const std::vector<uint32_t>& all, const Outline& plane) const {
-    return std::all_of(all.begin(), all.end(),
-                       [&](uint32_t i) { return side(plane[0], plane[1], plane[2], i) == 0; });
+    const Plane through(*this, {plane[0], plane[1], plane[2]});
+    return std::all_of(all.begin(), all.end(), [&](uint32_t i) { return through.side(i) == 0; });
   }
 
   void find_faces(const std::vector<uint32_t>& all) {
@@ -83,13 +80,12 @@ class HullFaces {
     for (size_t i = 0; i < all.size(); ++i) {
       for (size_t j = 0; j < i; ++j) {
         for (size_t k = 0; k < j; ++k) {
-          const Outline plane = {all[i], all[j], all[k]};
-          if (are_collinear(plane[0], plane[1], plane[2])) continue;
-          const auto [on, front, back] = sides(all, plane);
-          if (front && back) continue;
+          const auto [on, front, back] = sides(all, {all[i], all[j], all[k]});
+          if (front == back) continue;  // three on one line have all others in their plane
           if (std::find(known.begin(), known.end(), on) != known.end()) continue;
           known.push_back(on);
-          faces_.push_back(outline(on, front ? Outline{all[j], all[i], all[k]} : plane));
+          faces_.push_back(outline(
+              on, front ? Outline{all[j], all[i], all[k]} : Outline{all[i], all[j], all[k]}));
         }
       }
     }
@@ -101,10 +97,11 @@ class HullFaces {
   };
 
   // Ends at the first point that shows that there is no face.
-  Sides sides(const std::vector<uint32_t>& all, const Outline& plane) const {
+  Sides sides(const std::vector<uint32_t>& all, const std::array<uint32_t, 3>& plane) const {
+    const Plane through(*this, plane);
     Sides found;
     for (const uint32_t i : all) {
-      const int where = side(plane[0], plane[1], plane[2], i);
+      const int where = through.side(i);
       if (where == 0) found.on.push_back(i);
       found.front = found.front || where > 0;
       found.back = found.back || where < 0;
@@ -162,35 +159,54 @@ class HullFaces {
     return sign_of(a[u] * b[v] - a[v] * b[u]);
   }
 
-  // On which side of the plane of three points another one lies: 1 is that from which they run
-  // counter-clockwise.
-  int side(uint32_t i, uint32_t j, uint32_t k, uint32_t other) const {
-    if (other == i || other == j || other == k) return 0;
-    const auto a = way<long double>(i, j), b = way<long double>(i, k),
-               c = way<long double>(i, other);
-    long double sum = 0, size = 0;
-    for (size_t u = 0; u < 3; ++u) {
-      const size_t v = (u + 1) % 3, w = (u + 2) % 3;
-      const long double one = a[v] * b[w], two = a[w] * b[v];
-      sum += (one - two) * c[u];
-      size += (std::fabs(one) + std::fabs(two)) * std::fabs(c[u]);
-    }
-    if (std::fabs(sum) > kRounding * size) return sum > 0 ? 1 : -1;
-    if (size == 0) return 0;
-    return exact_side(way<Dyadic>(i, j), way<Dyadic>(i, k), way<Dyadic>(i, other));
-  }
-
   template <class R>
   using Triple = std::array<R, 3>;
 
-  static int exact_side(const Triple<Dyadic>& a, const Triple<Dyadic>& b, const Triple<Dyadic>& c) {
-    Dyadic sum;
-    for (size_t u = 0; u < 3; ++u) {
-      const size_t v = (u + 1) % 3, w = (u + 2) % 3;
-      sum = sum + (a[v] * b[w] - a[w] * b[v]) * c[u];
+  // Through three points.
+  class Plane {
+   public:
+    Plane(const HullFaces& hull, const std::array<uint32_t, 3>& corners)
+        : hull_(hull), corners_(corners) {
+      const auto a = hull.way<long double>(corners[0], corners[1]);
+      const auto b = hull.way<long double>(corners[0], corners[2]);
+      for (size_t u = 0; u < 3; ++u) {
+        const size_t v = (u + 1) % 3, w = (u + 2) % 3;
+        const long double one = a[v] * b[w], other = a[w] * b[v];
+        normal_[u] = one - other;
+        size_[u] = std::fabs(one) + std::fabs(other);
+      }
     }
-    return sign_of(sum);
-  }
+
+    // Where a point lies: 1 is the side from which the three run counter-clockwise.
+    int side(uint32_t i) const {
+      const auto way = hull_.way<long double>(corners_[0], i);
+      long double sum = 0, size = 0;
+      for (size_t u = 0; u < 3; ++u) {
+        sum += normal_[u] * way[u];
+        size += size_[u] * std::fabs(way[u]);
+      }
+      if (std::fabs(sum) > kRounding * size) return sum > 0 ? 1 : -1;
+      if (size == 0 || i == corners_[1] || i == corners_[2]) return 0;
+      return exact_side(hull_.way<Dyadic>(corners_[0], corners_[1]),
+                        hull_.way<Dyadic>(corners_[0], corners_[2]),
+                        hull_.way<Dyadic>(corners_[0], i));
+    }
+
+   private:
+    static int exact_side(const Triple<Dyadic>& a, const Triple<Dyadic>& b,
+                          const Triple<Dyadic>& way) {
+      Dyadic sum;
+      for (size_t u = 0; u < 3; ++u) {
+        const size_t v = (u + 1) % 3, w = (u + 2) % 3;
+        sum = sum + (a[v] * b[w] - a[w] * b[v]) * way[u];
+      }
+      return sign_of(sum);
+    }
+
+    const HullFaces& hull_;
+    std::array<uint32_t, 3> corners_;
+    Triple<long double> normal_, size_;
+  };
 
   template <class R>
   Triple<R> way(uint32_t from, uint32_t to) const {

@@ -34,9 +34,6 @@ struct Simple {
   PlacedTriangle placed_triangle() const {
     return {*mesh, triangle, placed.position, rotation_of(placed.orientation)};
   }
-  bool has_rules() const {
-    return mesh && (mesh->rules().one_sided || mesh->rules().thickness > 0);
-  }
 };
 
 Part part_of(const Shape& shape, const Double3& position, const Row& orientation) {
@@ -108,6 +105,11 @@ std::vector<Simple> parts_of(const Shape& shape, const Double3& position,
   return parts;
 }
 
+// Of a triangle of a mesh.
+bool has_inner_edges(const Simple& part) {
+  return part.mesh && std::get<Triangle>(part.shape).inner_edges != 0;
+}
+
 PairResult test(const Simple& a, const Simple& b) {
   return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
 }
@@ -120,23 +122,25 @@ Simple with_inner_edges(Simple triangle, const Simple& other) {
   return triangle;
 }
 
-// Triangles with rules know their inner edges; others are told if the contact may have come over
-// one. That the two overlap stays as it was.
-PairResult test_parts(Simple a, Simple b) {
-  const Simple plain_a = a, plain_b = b;
-  if (a.has_rules()) a = with_inner_edges(a, plain_b);
-  if (b.has_rules()) b = with_inner_edges(b, plain_a);
+struct PartResult {
+  PairResult result;
+  bool is_over_edge;
+};
+
+// What may have come over an inner edge is tested again, with ways over such edges closed. That the
+// two overlap stays as it was.
+PartResult test_parts(const Simple& a, const Simple& b) {
   const PairResult result = test(a, b);
-  if (!result.overlap) return result;
+  if (!result.overlap) return {result, false};
   const Vector3f& n = result.normal;
-  const auto may_be_over_edge = [&](const Simple& part) {
-    return part.mesh && !part.has_rules() &&
-           !part.placed_triangle().faces_along({n.x(), n.y(), n.z()});
+  const auto with_closed_ways = [&](const Simple& part, const Simple& other) {
+    const bool is_along = !part.mesh || part.placed_triangle().faces_along({n.x(), n.y(), n.z()});
+    return is_along ? part : with_inner_edges(part, other);
   };
-  if (may_be_over_edge(a)) a = with_inner_edges(a, plain_b);
-  if (may_be_over_edge(b)) b = with_inner_edges(b, plain_a);
-  const PairResult again = test(a, b);
-  return again.overlap ? again : result;
+  const Simple closed_a = with_closed_ways(a, b), closed_b = with_closed_ways(b, a);
+  if (!has_inner_edges(closed_a) && !has_inner_edges(closed_b)) return {result, false};
+  const PairResult again = test(closed_a, closed_b);
+  return {again.overlap ? again : result, true};
 }
 
 std::array<float, 3> moved(const std::array<float, 3>& point, const Double3& arm) {
@@ -189,19 +193,22 @@ PairResult collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& 
   const std::vector<Simple> parts_b = parts_of(shape_b, position_b, pose_b.orientation);
 
   PairResult best = nothing();
-  std::tuple<float, uint64_t, uint64_t> best_rank(HUGE_VALF, UINT64_MAX, UINT64_MAX);
+  std::tuple best_rank(1, true, HUGE_VALF, UINT64_MAX, UINT64_MAX);
   std::vector<PartContact> contacts;
   for (const Simple& a : parts_a) {
     for (const Simple& b : parts_b) {
-      const PairResult result = from_parts(test_parts(a, b), a, b);
-      const std::tuple rank(result.separation, a.order, b.order);
+      const PartResult tested = test_parts(a, b);
+      const PairResult result = from_parts(tested.result, a, b);
+      const std::tuple rank(result.overlap ? 0 : 1, tested.is_over_edge, result.separation, a.order,
+                            b.order);
       if (rank < best_rank) {
         best = result;
         best_rank = rank;
       }
       if (!result.overlap) continue;
       const Vector3f& n = result.normal;
-      contacts.push_back({{a.order, b.order},
+      contacts.push_back({tested.is_over_edge,
+                          {a.order, b.order},
                           {n.x(), n.y(), n.z()},
                           result.separation,
                           result.manifold_count,

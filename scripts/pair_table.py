@@ -10,10 +10,11 @@ DOCUMENT = ROOT / "docs" / "pair_kinds.md"
 
 HEAD = """# Pair kinds
 
-Every pair of kinds that has a kernel. Written by `scripts/pair_table.py` from
+Every pair of kinds that has a kernel; meshes and compounds are tested part by part. Written by `scripts/pair_table.py` from
 `narrowphase/pair_list.inc` and the files that it names; a test says if it is out of date.
 
-- **in lanes**: a vector of pairs at a time; otherwise one pair at a time, in double precision.
+- **in lanes**: a vector of pairs at a time; `points`: one pair at a time in double precision, whose
+  furthest points are found in lanes; otherwise one pair at a time.
 - **direction**: of pairs that are apart the direction is kept and tried first in the next frame.
 - **manifold**: up to four points where faces or edges meet; otherwise there is one, the contact's.
 
@@ -34,12 +35,12 @@ def first_sentence(path):
 
 def row(name, a, b, passes):
     kernel = (ROOT / "narrowphase" / f"{name}.cc").read_text()
+    lanes = "points" if "run_core_batch" in kernel else "" if "run_scalar_batch" in kernel else "yes"
     marks = [
-        "run_scalar_batch" not in kernel,
         passes in ("direction_and_manifold", "all"),
         passes != "none",
     ]
-    cells = [a, b] + ["yes" if mark else "" for mark in marks]
+    cells = [a, b, lanes] + ["yes" if mark else "" for mark in marks]
     cells.append(first_sentence(ROOT / "narrowphase" / f"{name}_ref.h"))
     return "| " + " | ".join(cells) + " |\n"
 

@@ -1,9 +1,11 @@
 #include "io/generate/generator.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
 
+#include "io/generate/made_shapes.h"
 #include "io/generate/population.h"
 #include "io/generate/rotation.h"
 
@@ -11,6 +13,8 @@ namespace carom::io {
 namespace {
 
 constexpr uint64_t kSteeringStream = 16;
+constexpr uint64_t kMadeShapesStream = 17;
+constexpr uint64_t kMadeShapes = 16;  // of bodies of one size, in turn
 
 std::array<float, 8> shape_params(ShapeKind shape, const Population& population, size_t body) {
   if (shape == ShapeKind::capsule) {
@@ -26,6 +30,33 @@ std::array<float, 8> shape_params(ShapeKind shape, const Population& population,
   return params;
 }
 
+bool has_one_size(const GeneratorSpec& spec) {
+  return spec.kind == GeneratorKind::brownian || spec.kind == GeneratorKind::still;
+}
+
+// How many shapes the bodies have; body i has shape i modulo that.
+uint64_t shape_count(const GeneratorSpec& spec) {
+  if (!has_one_size(spec) || spec.shape == ShapeKind::aabb) return spec.bodies;
+  return is_made(spec.shape) ? std::min(kMadeShapes, spec.bodies) : 1;
+}
+
+void add_shapes(const GeneratorSpec& spec, const Population& population, SceneShapes& shapes) {
+  const uint64_t count = shape_count(spec);
+  if (!is_made(spec.shape)) {
+    shapes.kind.assign(count, static_cast<uint8_t>(spec.shape));
+    shapes.params.resize(count);
+    for (size_t i = 0; i < count; ++i) {
+      shapes.params[i] = shape_params(spec.shape, population, i);
+    }
+    return;
+  }
+  resize_shapes(spec.shape, count, shapes);
+  Random random(spec.seed, kMadeShapesStream);
+  for (size_t i = 0; i < count; ++i) {
+    make_shape(spec.shape, population.edges[i][0], random, i, shapes);
+  }
+}
+
 SceneInfo scene_info(const GeneratorSpec& spec, const Population& population) {
   SceneInfo info;
   info.name = spec.text;
@@ -36,18 +67,10 @@ SceneInfo scene_info(const GeneratorSpec& spec, const Population& population) {
   info.has_linear_velocity = true;
   info.has_angular_velocity = spec.has_orientation();
   info.dt = spec.dt;
-  bool one_size = spec.kind == GeneratorKind::brownian || spec.kind == GeneratorKind::still;
-  bool one_shape = one_size && spec.shape != ShapeKind::aabb;
-  size_t shapes = one_shape ? 1 : spec.bodies;
-  info.shapes.kind.assign(shapes, static_cast<uint8_t>(spec.shape));
-  info.shapes.params.resize(shapes);
-  for (size_t i = 0; i < shapes; ++i) {
-    info.shapes.params[i] = shape_params(spec.shape, population, i);
-  }
+  add_shapes(spec, population, info.shapes);
+  const uint64_t shapes = shape_count(spec);
   info.body_shape.resize(spec.bodies);
-  for (size_t i = 0; i < spec.bodies && !one_shape; ++i) {
-    info.body_shape[i] = static_cast<uint32_t>(i);
-  }
+  for (size_t i = 0; i < spec.bodies; ++i) info.body_shape[i] = static_cast<uint32_t>(i % shapes);
   if (spec.mark_static) {
     info.body_motion.resize(spec.bodies);
     for (size_t i = 0; i < spec.bodies; i += population.mover_stride) info.body_motion[i] = 2;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/generate/ground.h"
+#include "io/generate/made_shapes.h"
 #include "io/generate/rotation.h"
 
 namespace carom::io {
@@ -17,14 +18,16 @@ enum Stream : uint64_t { kShapes = 1, kPlaces = 2, kVelocities = 3, kGround = 4,
 
 double volume(const GeneratorSpec& spec, double edge) {
   double cube = edge * edge * edge;
-  if (spec.shape == ShapeKind::sphere) return cube * (kPi / 6);
+  if (spec.shape == ShapeKind::sphere || is_made(spec.shape)) return cube * (kPi / 6);
   if (spec.shape == ShapeKind::capsule) return cube * (kPi * 5 / 96);
   return cube;
 }
 
-// Capsules are as long as the edge, and half as wide.
+// Capsules are as long as the edge, and half as wide; what is made lies in the ball of that
+// diameter.
 Vec3 half_extents(ShapeKind shape, const Vec3& edges, const Quaternion& orientation) {
   if (shape == ShapeKind::box) return half_extents_turned(edges, orientation);
+  if (is_made(shape)) return {edges[0] / 2, edges[1] / 2, edges[2] / 2};
   Vec3 half = half_extents_turned({0, edges[1] / 2, 0}, orientation);
   for (int axis = 0; axis < 3; ++axis) half[axis] += edges[axis] / 4;
   return half;
@@ -105,7 +108,8 @@ void fill_cube(const GeneratorSpec& spec, Population& population) {
 void draw_boxes(const GeneratorSpec& spec, Population& population) {
   Random random(spec.seed, kShapes);
   LogUniform sizes(0.5, 4);
-  bool round = spec.shape == ShapeKind::sphere || spec.shape == ShapeKind::capsule;
+  bool round =
+      spec.shape == ShapeKind::sphere || spec.shape == ShapeKind::capsule || is_made(spec.shape);
   for (uint64_t i = 0; i < spec.bodies; ++i) {
     double x = sizes.draw(random);
     double y = round ? x : sizes.draw(random);

@@ -18,8 +18,8 @@ struct Population {
   std::vector<Vec3> half;     // half the extents along the world's axes, as the scene starts
   std::vector<Vec3> position;
   std::vector<Vec3> velocity;
-  // Of boxes and capsules; otherwise empty.
-  std::vector<Vec3> edges;  // capsules: the length, three times
+  // Of shapes that turn; otherwise empty.
+  std::vector<Vec3> edges;  // of a box; others: the length or diameter, three times
   std::vector<Quaternion> orientation;
   std::vector<Vec3> angular_velocity;
 

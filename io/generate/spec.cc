@@ -30,6 +30,9 @@ std::optional<ShapeKind> shape_from_name(std::string_view name) {
   if (name == "sphere") return ShapeKind::sphere;
   if (name == "box") return ShapeKind::box;
   if (name == "capsule") return ShapeKind::capsule;
+  if (name == "hull") return ShapeKind::hull;
+  if (name == "mesh") return ShapeKind::mesh;
+  if (name == "compound") return ShapeKind::compound;
   return std::nullopt;
 }
 
@@ -71,7 +74,8 @@ class SpecParser {
   // What depends on more than one key.
   Result<void> check() const {
     if (!spec_.spin || spec_.has_orientation()) return {};
-    return spec_error(spec_, "'spin' needs shape=box or shape=capsule");
+    return spec_error(spec_,
+                      "'spin' needs a shape that turns (box, capsule, hull, mesh, compound)");
   }
 
  private:
@@ -116,7 +120,9 @@ class SpecParser {
 
   Result<void> shape() {
     std::optional<ShapeKind> kind = shape_from_name(value_);
-    if (!kind) return spec_error(spec_, quoted() + " is none of cube, sphere, box, capsule");
+    if (!kind)
+      return spec_error(spec_,
+                        quoted() + " is none of cube, sphere, box, capsule, hull, mesh, compound");
     spec_.shape = *kind;
     return {};
   }
@@ -156,9 +162,10 @@ const char kGeneratorHelp[] =
     "  speed=S           the greatest, metres a second: brownian 0.75 world sides, varied 5 / dt,\n"
     "                    static 6\n"
     "  dt=0.0333...      seconds between frames\n"
-    "  shape=cube        bounds of cubes that keep a random orientation; or sphere; or box or\n"
-    "                    capsule, which start in random orientations and turn as they move\n"
-    "  spin=1            box and capsule: the greatest, radians a second; with speed=0: 0\n"
+    "  shape=cube        bounds of cubes that keep a random orientation; or sphere; or\n"
+    "                    box, capsule, hull, mesh or compound, which start in random\n"
+    "                    orientations and turn as they move\n"
+    "  spin=1            of what turns: the greatest, radians a second; with speed=0: 0\n"
     "  positions=float32 or float64\n"
     "  motion=dynamic    static only: motion=static marks what never moves as static\n";
 

@@ -7,6 +7,7 @@
 
 #include "carom/kernel/result.h"
 #include "carom/kernel/shape.h"
+#include "carom/kernel/views.h"
 
 namespace carom::io {
 
@@ -26,12 +27,12 @@ struct GeneratorSpec {
   std::optional<double> density;  // sum of volumes / world volume; static: bodies a square metre
   std::optional<double> speed;    // the greatest, metres a second
   double dt = 1.0 / 30.0;
-  ShapeKind shape = ShapeKind::aabb;  // or sphere, box, capsule
+  ShapeKind shape = ShapeKind::aabb;  // or sphere, box, capsule, hull, mesh, compound
   std::optional<double> spin;         // the greatest, radians a second; shapes that turn only
   bool float64_positions = false;
   bool mark_static = false;  // static: bodies that never move are static bodies
 
-  bool has_orientation() const { return shape == ShapeKind::box || shape == ShapeKind::capsule; }
+  bool has_orientation() const { return row_count(shape) > 0; }
 };
 
 // The kinds, "brownian, varied, static, still".

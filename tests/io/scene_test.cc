@@ -276,6 +276,16 @@ TEST_F(SceneTest, ChecksValuesAndIndices) {
                 i.shapes.vertex_range[1] = {UINT32_MAX, UINT32_MAX};
               }),
               HasSubstr("first 4294967295, count 4294967295"));
+  EXPECT_EQ(check_after([](SceneInfo& i) {
+              i.shapes.vertices.resize(1 << 20);
+              i.shapes.vertex_range.assign(200, {0, 1 << 20});
+              i.shapes.kind.resize(200);
+              i.shapes.params.resize(200);
+              i.shapes.triangle_range.resize(200);
+              i.shapes.child_range.resize(200);
+            }),
+            "F: member shape_vertex_range: names 209715200 elements of 1048576 (at most 134217728 "
+            "were expected)");
   EXPECT_THAT(check_after([](SceneInfo& i) {
                 i.shapes.triangle_range[2] = {1, 1};
               }),

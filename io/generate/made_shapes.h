@@ -1,0 +1,25 @@
+// Hulls, meshes and compounds of generated scenes.
+#pragma once
+
+#include <cstdint>
+
+#include "carom/kernel/shape.h"
+#include "io/generate/random.h"
+#include "io/shape_arrays.h"
+
+namespace carom::io {
+
+// Whether make_shape() knows the kind.
+constexpr bool is_made(ShapeKind kind) { return has_geometry(kind); }
+
+// Fills shape `index` of `shapes`, whose arrays of kinds, params and ranges are there, within the
+// ball of that diameter about the origin. Children of compounds are appended as further shapes.
+//   hull      8 to 24 points of the ball's surface
+//   mesh      a closed surface of 32 triangles with 18 corners, half of them drawn inwards
+//   compound  a ball, a capsule, a box and a hull, some of them turned, that overlap
+void make_shape(ShapeKind kind, double diameter, Random& random, size_t index, SceneShapes& shapes);
+
+// Room in all arrays for so many shapes of that kind.
+void resize_shapes(ShapeKind kind, size_t count, SceneShapes& shapes);
+
+}  // namespace carom::io
