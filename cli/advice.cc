@@ -184,7 +184,7 @@ std::vector<AdviceRow> not_needed(const Advice& advice) {
   };
   add(!survey.has_orientation, "orientations", "no body has a kind that turns, or none is turned");
   add(survey.all_unturned, "orientations",
-      "no box, capsule or triangle is turned: aabbs instead of boxes give the same contacts");
+      "no body is turned: aabbs instead of boxes give the same contacts");
   add(spheres_alone(survey.kinds), "manifolds",
       "a sphere touches in one point: detail contact says all");
   add(survey.frames > 1 && run.kept == 0, "cache", "no pair kept its result");

@@ -1,6 +1,7 @@
 // Parts of bodies: simple shapes and meshes with a pose, in numbers that tests take as they are.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -104,11 +105,33 @@ struct PlacedTriangle {
     return mesh.inner_edges(triangle, dot(front_of(mesh, triangle), way) >= 0);
   }
 
-  // Whether a contact's normal is that of the face, to rounding.
-  bool faces_along(const std::array<float, 3>& normal) const {
-    const Double3 front = turned(turn, front_of(mesh, triangle));
-    const Double3 off = cross(front, {normal[0], normal[1], normal[2]});
-    return dot(off, off) <= kAlongFace * dot(front, front);
+  // The corners that are furthest along a way, as bits.
+  unsigned corners_towards(const Double3& way) const {
+    const Double3 in_mesh = turned_back(turn, way);
+    const Double3 a = corner(mesh, triangle, 0);
+    const Double3 u = minus(corner(mesh, triangle, 1), a), v = minus(corner(mesh, triangle, 2), a);
+    const double height[] = {0, dot(in_mesh, u), dot(in_mesh, v)};
+    const double least =
+        std::max({height[0], height[1], height[2]}) - kSameHeight * (greatest(u) + greatest(v));
+    unsigned corners = 0;
+    for (unsigned i = 0; i < 3; ++i) corners |= (height[i] >= least ? 1u : 0u) << i;
+    return corners;
+  }
+
+  // What leaves this way, and has its middle there, does it over an inner edge, or over a corner
+  // between two of them: these are the triangle's inner edges then. Otherwise 0.
+  template <class Middle>
+  uint8_t edges_to_close(const Double3& way, const Middle& middle) const {
+    const unsigned corners = corners_towards(way);
+    if (corners == 0b111) return 0;
+    const uint8_t edges = inner_edges_towards(middle());
+    const auto is_inner = [&](unsigned edge) { return (edges >> edge % 3 & 1) != 0; };
+    for (unsigned i = 0; i < 3; ++i) {
+      const unsigned first = 1u << i, second = 1u << (i + 1) % 3;
+      if (corners == (first | second) && is_inner(i)) return edges;
+      if (corners == first && is_inner(i) && is_inner(i + 2)) return edges;
+    }
+    return 0;
   }
 };
 

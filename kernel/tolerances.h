@@ -163,6 +163,10 @@ inline constexpr double kTouchingWay = 0x1p-24;
 inline constexpr double kFacing = 0x1p-26;
 inline constexpr double kMostSlack = 0x1p-16;
 
+// How much less than its length the cores may be apart along the nearest way: more than rounding,
+// where GJK has ended at the right corners.
+inline constexpr double kSameGap = 0x1p-40;
+
 // A way out that is longer than the shortest by no more than this is the shortest.
 inline constexpr double kSameWayOut = 0x1p-42;
 
@@ -184,8 +188,9 @@ inline constexpr double kFlatEdge = 0x1p-10;
 // coordinates.
 inline constexpr double kRoundedCorner = 0x1p-22;
 
-// Squared sine of the angle of a contact's normal with that of a face which is only rounding.
-inline constexpr double kAlongFace = 0x1p-36;
+// Corners of a triangle whose heights along a normal differ by less, as a share of its size, are
+// met together: some times what the tests leave to rounding.
+inline constexpr double kSameHeight = 0x1p-15;
 
 // Points of a manifold that are this share of its extent deeper than others are as deep.
 inline constexpr double kSameDepth = 0x1p-18;
@@ -202,6 +207,9 @@ inline constexpr double kSearchSlack = 0x1p-17;
 
 // Parts whose normals are within this cosine of the contact's (18 degrees) share its manifold.
 inline constexpr double kSameManifold = 0.95;
+
+// Of the product of three sides: the volume of points in one plane may be as much.
+inline constexpr double kWithoutVolume = 0x1p-50;
 
 // --- k-DOPs, as shares of their size ---
 

@@ -51,7 +51,7 @@ struct Outcome {
   uint8_t overlap = 0;
   uint8_t status = static_cast<uint8_t>(Status::ok);
   bool is_found = false;
-  bool is_over_edge = false;
+  std::array<uint8_t, 2> edges_to_close{};  // of triangles, over which the contact came
   float separation = kInfinity;
   std::array<float, 3> normal = {kNan, kNan, kNan};
   std::array<float, 3> arm_a = {kNan, kNan, kNan};
@@ -60,13 +60,14 @@ struct Outcome {
   float bound = 0;
   double nearest = HUGE_VAL;  // the least that a separation may be in truth
 
+  bool is_over_edge() const { return edges_to_close[0] != 0 || edges_to_close[1] != 0; }
   bool is_invalid() const { return status == static_cast<uint8_t>(Status::invalid); }
 
   // Overlapping pairs before undecided ones before separate ones; contacts that came over an inner
   // edge last, since what lies across that edge knows better.
   auto order() const {
     const int rank = overlap == 1 ? 0 : overlap == kUndecided ? 1 : 2;
-    return std::tuple(rank, is_over_edge, separation, parts);
+    return std::tuple(rank, is_over_edge(), separation, parts);
   }
 };
 
@@ -105,7 +106,7 @@ float rounded_up(double x) {
 
 // Memory of one thread.
 struct Scratch {
-  PartBatch batch;
+  PartBatch batch, again;
   std::array<Outcome, kPairsPerBlock> outcomes;
   ContactRuns contacts;
   std::vector<merging::SeenPoint> seen;
@@ -124,6 +125,7 @@ class CompositeRun {
                .separate = block.separate,
                .accuracy = block.accuracy},
         batch_(scratch.batch),
+        again_(scratch.again),
         outcomes_(scratch.outcomes),
         contacts_(scratch.contacts),
         seen_(scratch.seen),
@@ -167,7 +169,11 @@ class CompositeRun {
   // Tests what is waiting. Pairs before the current one are complete then.
   void flush() {
     run_batch();
-    for (; first_open_ < current_; ++first_open_) write(first_open_);
+    for (size_t k = first_open_; k < current_; ++k) {
+      if (!outcomes_[k].is_over_edge()) write(k, contacts_.of(k));
+    }
+    write_over_edges(first_open_, current_);
+    first_open_ = current_;
     contacts_.forget_before(current_);
   }
 
@@ -182,35 +188,75 @@ class CompositeRun {
     Outcome found;
     found.is_found = true;
     found.overlap = out.overlap[i];
-    found.status = out.status[i];
-    found.is_over_edge = batch_.is_over_edge(i);
+    found.edges_to_close = batch_.edges_to_close(i);
     found.separation = out.separation[i];
     found.parts = {batch_.side(0).order(i), batch_.side(1).order(i)};
     const size_t k = batch_.owner(i);
     Outcome& best = outcomes_[k];
     if (tests_.bounds) {
       found.bound = out.separation_bound[i];
-      if (!found.is_over_edge) found.nearest = double{found.separation} - found.bound;
+      found.nearest = double{found.separation} - found.bound;
     }
     const double nearest = std::min(best.nearest, found.nearest);
     if (!best.is_found || found.order() < best.order()) {
-      found.normal = at_row(out.normal, i);
-      found.arm_a = moved(at_row(out.point_a, i), batch_.side(0).arm(i));
-      found.arm_b = moved(at_row(out.point_b, i), batch_.side(1).arm(i));
+      set_contact(batch_, i, found);
       best = found;
     }
     best.nearest = nearest;
-    if (tests_.manifolds && found.overlap == 1) keep_contact(i, found);
+    if (tests_.manifolds && found.overlap == 1 && !found.is_over_edge()) {
+      contacts_.add(k, contact_of(batch_, i, found));
+    }
   }
 
-  void keep_contact(size_t i, const Outcome& found) {
-    const ResultColumns out = batch_.results();
-    PartContact contact{found.is_over_edge, found.parts,           at_row(out.normal, i),
-                        found.separation,   out.manifold_count[i], out.manifold[i]};
+  static void set_contact(PartBatch& batch, size_t i, Outcome& outcome) {
+    const ResultColumns out = batch.results();
+    outcome.status = out.status[i];
+    outcome.separation = out.separation[i];
+    outcome.normal = at_row(out.normal, i);
+    outcome.arm_a = moved(at_row(out.point_a, i), batch.side(0).arm(i));
+    outcome.arm_b = moved(at_row(out.point_b, i), batch.side(1).arm(i));
+  }
+
+  static PartContact contact_of(PartBatch& batch, size_t i, const Outcome& found) {
+    const ResultColumns out = batch.results();
+    PartContact contact{found.parts, at_row(out.normal, i), found.separation, out.manifold_count[i],
+                        out.manifold[i]};
     for (size_t k = 0; k < contact.count; ++k) {
-      contact.points.point[k] = moved(contact.points.point[k], batch_.side(0).arm(i));
+      contact.points.point[k] = moved(contact.points.point[k], batch.side(0).arm(i));
     }
-    contacts_.add(batch_.owner(i), contact);
+    return contact;
+  }
+
+  // Those of the pairs [begin, end) that meet over inner edges alone: their contacts once more,
+  // with no way over such edges. That they overlap stays as it is.
+  void write_over_edges(size_t begin, size_t end) {
+    again_.clear();
+    for (size_t k = begin; k < end; ++k) {
+      const Outcome& o = outcomes_[k];
+      if (!o.is_over_edge()) continue;
+      const BodyPair bodies(a_, b_, pair(k));
+      again_.add(k, part_at(bodies.a, o.parts[0]), part_at(bodies.b, o.parts[1]), o.edges_to_close);
+    }
+    again_.run_again(tests_);
+    for (size_t i = 0; i < again_.count(); ++i) {
+      const size_t k = again_.owner(i);
+      Outcome& o = outcomes_[k];
+      PartContact contact{o.parts, o.normal, o.separation, 1, {}};
+      contact.points.point[0] = o.arm_a;
+      contact.points.separation[0] = o.separation;
+      if (again_.results().overlap[i] == 1) {
+        set_contact(again_, i, o);
+        if (tests_.manifolds) contact = contact_of(again_, i, o);
+      }
+      write(k, {&contact, 1});
+    }
+  }
+
+  static PlacedPart part_at(const PlacedPart& body, uint64_t part) {
+    PlacedPart result = body;
+    if (result.kind() == ShapeKind::compound) result = result.item(uint32_t(part >> 32));
+    if (result.kind() == ShapeKind::mesh) result = result.item(uint32_t(part));
+    return result;
   }
 
   // Pairs of which no parts touch: how far they are apart. One pair of parts that is near says how
@@ -236,10 +282,11 @@ class CompositeRun {
     }
     run_batch();
     contacts_.clear();
-    for (const size_t k : to_measure) write(k);
+    for (const size_t k : to_measure) write(k, {});
   }
 
-  void write(size_t k) {
+  // `contacts`: of its parts, at detail manifold.
+  void write(size_t k, std::span<PartContact> contacts) {
     const size_t row = rows_[k];
     const Pair p = pair(k);
     const Outcome& o = outcomes_[k];
@@ -254,12 +301,12 @@ class CompositeRun {
     set_row(out.point_b, row, in_frame(b_, p.b, o.arm_b));
     set_row(out.sub_a, row, sub_shape(a_.kind(p.a), o.parts[0]));
     set_row(out.sub_b, row, sub_shape(b_.kind(p.b), o.parts[1]));
-    if (block_.detail == Detail::manifold) write_manifold(k);
+    if (block_.detail == Detail::manifold) write_manifold(k, contacts);
   }
 
-  void write_manifold(size_t k) {
+  void write_manifold(size_t k, std::span<PartContact> contacts) {
     const size_t row = rows_[k];
-    MergedManifold manifold = merged_manifold(contacts_.of(k), seen_);
+    MergedManifold manifold = merged_manifold(contacts, seen_);
     for (size_t i = 0; i < manifold.count; ++i) {
       std::array<float, 3>& point = manifold.points.point[i];
       point = in_frame(a_, pair(k).a, point);
@@ -288,6 +335,7 @@ class CompositeRun {
   const std::span<const uint16_t> rows_;
   const PartTests tests_;
   PartBatch& batch_;
+  PartBatch& again_;  // contacts that came over inner edges
   std::array<Outcome, kPairsPerBlock>& outcomes_;
   ContactRuns& contacts_;
   std::vector<merging::SeenPoint>& seen_;

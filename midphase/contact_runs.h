@@ -16,13 +16,13 @@ class ContactRuns {
     runs_.clear();
   }
 
-  // Owners never descend. Of an owner that has very many the best are kept.
+  // Owners never descend. Of an owner that has very many the deepest are kept.
   void add(size_t owner, const PartContact& contact) {
     if (runs_.empty() || runs_.back().owner != owner) runs_.push_back({owner, contacts_.size()});
     contacts_.push_back(contact);
     const size_t first = runs_.back().first;
     if (contacts_.size() - first < 2 * kMostPartsOfManifold) return;
-    contacts_.resize(first + best_of(std::span(contacts_).subspan(first)).size());
+    contacts_.resize(first + deepest_of(std::span(contacts_).subspan(first)).size());
   }
 
   std::span<PartContact> of(size_t owner) {

@@ -1,7 +1,6 @@
 #include "midphase/part_batch.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "narrowphase/pair_block.h"
 
@@ -19,30 +18,14 @@ void PartColumns::put(size_t i, const PlacedPart& part) {
   mesh_[i] = is_of_mesh ? &part.mesh() : nullptr;
   if (is_of_mesh) {
     put_rows(i, triangle_rows(*mesh_[i], part.triangle).data(), 3);
-  } else if (kind_[i] == ShapeKind::aabb) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      lower_[axis][i] = part.part->lower[axis];
-      upper_[axis][i] = part.part->upper[axis];
-    }
   } else {
     put_rows(i, part.part->rows.data(), row_count(kind_[i]));
   }
-}
-
-void PartColumns::put(size_t i, const PartColumns& other, size_t from) {
-  record_[i] = other.record_[from];
-  position_[i] = other.position_[from];
-  arm_[i] = other.arm_[from];
-  orientation_[i] = other.orientation_[from];
-  kind_[i] = other.kind_[from];
-  triangle_[i] = other.triangle_[from];
-  order_[i] = other.order_[from];
-  mesh_[i] = other.mesh_[from];
+  if (kind_[i] != ShapeKind::aabb) return;
   for (size_t axis = 0; axis < 3; ++axis) {
-    lower_[axis][i] = other.lower_[axis][from];
-    upper_[axis][i] = other.upper_[axis][from];
+    lower_[axis][i] = part.part->lower[axis];
+    upper_[axis][i] = part.part->upper[axis];
   }
-  put_rows(i, &other.rows_[other.first_row_[from]], row_count(kind_[i]));
 }
 
 void PartColumns::put_rows(size_t i, const Row* rows, uint32_t count) {
@@ -74,11 +57,11 @@ Part PartColumns::part(size_t i) const {
   Part part;
   part.kind = kind_[i];
   part.radius = static_cast<float>(record_[i].radius);
-  for (size_t axis = 0; axis < 3; ++axis) {
+  for (size_t axis = 0; part.kind == ShapeKind::aabb && axis < 3; ++axis) {
     part.lower[axis] = lower_[axis][i];
     part.upper[axis] = upper_[axis][i];
   }
-  std::copy_n(&rows_[first_row_[i]], row_count(part.kind), part.rows.begin());
+  std::copy_n(rows_.data() + first_row_[i], row_count(part.kind), part.rows.begin());
   part.orientation = orientation_[i];
   part.position = position_[i];
   return part;
@@ -103,9 +86,12 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b) {
   ++count_;
 }
 
-void PartBatch::add_copy(const PartBatch& other, size_t i) {
-  for (size_t side = 0; side < 2; ++side) sides_[side].put(count_, other.sides_[side], i);
-  owner_[count_++] = static_cast<uint32_t>(i);
+void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b,
+                    const std::array<uint8_t, 2>& inner_edges) {
+  add(owner, a, b);
+  for (size_t side = 0; side < 2; ++side) {
+    if (inner_edges[side] != 0) sides_[side].set_inner_edges(count_ - 1, inner_edges[side]);
+  }
 }
 
 ResultColumns PartBatch::results() {
@@ -136,58 +122,25 @@ void PartBatch::run_plain(const PartTests& tests) {
                   .out = asked(tests)});
 }
 
-// The inner edges that the contact of row i may have come over, of both sides.
-std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) {
+// Half-spaces always push along their own normal.
+std::array<uint8_t, 2> PartBatch::find_edges_to_close(size_t i) {
   const ResultColumns out = results();
+  const Double3 normal = {out.normal[0][i], out.normal[1][i], out.normal[2][i]};
   std::array<uint8_t, 2> edges{};
   for (size_t side = 0; side < 2; ++side) {
-    if (!sides_[side].is_of_mesh(i)) continue;
-    const PlacedTriangle triangle = sides_[side].triangle(i);
-    if (triangle.faces_along({out.normal[0][i], out.normal[1][i], out.normal[2][i]})) continue;
-    const Part other = sides_[1 - side].part(i);
-    if (other.kind == ShapeKind::halfspace) continue;
-    edges[side] = triangle.inner_edges_towards(middle_of(other));
+    const PartColumns& other = sides_[1 - side];
+    if (!sides_[side].is_of_mesh(i) || other.kind(i) == ShapeKind::halfspace) continue;
+    edges[side] = sides_[side].triangle(i).edges_to_close(side == 0 ? normal : minus({}, normal),
+                                                          [&] { return middle_of(other.part(i)); });
   }
   return edges;
 }
 
 void PartBatch::run(const PartTests& tests) {
-  static thread_local const auto again = std::make_unique<PartBatch>();
   run_plain(tests);
-  std::fill_n(over_edge_.begin(), count_, uint8_t{0});
-  if (!has_meshes_) return;
-  again->clear();
   for (size_t i = 0; i < count_; ++i) {
-    if (scratch_.overlap[i] != 1) continue;
-    const std::array<uint8_t, 2> edges = edges_to_close(i);
-    if (edges[0] == 0 && edges[1] == 0) continue;
-    again->add_copy(*this, i);
-    for (size_t side = 0; side < 2; ++side) {
-      if (edges[side] != 0) again->sides_[side].set_inner_edges(again->count_ - 1, edges[side]);
-    }
-  }
-  again->run_plain(tests);
-  take(*again, tests);
-}
-
-// Decisions stay as they are.
-void PartBatch::take(PartBatch& again, const PartTests& tests) {
-  const ResultColumns from = again.results(), to = results();
-  for (size_t i = 0; i < again.count_; ++i) {
-    const size_t row = again.owner_[i];
-    over_edge_[row] = 1;
-    if (from.overlap[i] != 1) continue;
-    to.status[row] = from.status[i];
-    to.separation[row] = from.separation[i];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      to.normal[axis][row] = from.normal[axis][i];
-      to.point_a[axis][row] = from.point_a[axis][i];
-      to.point_b[axis][row] = from.point_b[axis][i];
-    }
-    if (tests.bounds) to.separation_bound[row] = from.separation_bound[i];
-    if (!tests.manifolds) continue;
-    to.manifold_count[row] = from.manifold_count[i];
-    to.manifold[row] = from.manifold[i];
+    const bool may_be_over_edge = has_meshes_ && scratch_.overlap[i] == 1;
+    edges_to_close_[i] = may_be_over_edge ? find_edges_to_close(i) : std::array<uint8_t, 2>{};
   }
 }
 

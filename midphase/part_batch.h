@@ -15,10 +15,9 @@ class PartColumns {
  public:
   void clear() { rows_used_ = 0; }
   void put(size_t i, const PlacedPart& part);
-  // A copy of row `from` of another one.
-  void put(size_t i, const PartColumns& other, size_t from);
 
   Collidables view(size_t count) const;
+  ShapeKind kind(size_t i) const { return kind_[i]; }
   Part part(size_t i) const;
   const Double3& arm(size_t i) const { return arm_[i]; }
   uint64_t order(size_t i) const { return order_[i]; }
@@ -68,24 +67,27 @@ class PartBatch {
   void clear();
   // The pair belongs to `owner`; it must be of kinds that have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b);
+  // The same, with inner edges of triangles.
+  void add(size_t owner, const PlacedPart& a, const PlacedPart& b,
+           const std::array<uint8_t, 2>& inner_edges);
 
-  // Tests all pairs. Overlaps whose contact may have come over an inner edge of a triangle are
-  // tested once more, with ways over such edges closed: that leaves the normals of faces.
+  // Tests all pairs, and finds which overlaps come over inner edges of meshes.
   void run(const PartTests& tests);
+  // Tests all pairs with inner edges as they are set.
+  void run_again(const PartTests& tests) { run_plain(tests); }
 
   const PartColumns& side(size_t which) const { return sides_[which]; }
   size_t owner(size_t i) const { return owner_[i]; }
-  // Whether the contact came over an inner edge at first.
-  bool is_over_edge(size_t i) const { return over_edge_[i] != 0; }
+  // The inner edges of the triangle on each side over one of which the contact of row i came; 0: it
+  // did not.
+  const std::array<uint8_t, 2>& edges_to_close(size_t i) const { return edges_to_close_[i]; }
   // Those of the last run, as far as they were asked for.
   ResultColumns results();
 
  private:
   ResultColumns asked(const PartTests& tests);
   void run_plain(const PartTests& tests);
-  void add_copy(const PartBatch& other, size_t i);
-  std::array<uint8_t, 2> edges_to_close(size_t i);
-  void take(PartBatch& again, const PartTests& tests);
+  std::array<uint8_t, 2> find_edges_to_close(size_t i);
 
   size_t count_ = 0;
   std::array<PartColumns, 2> sides_;
@@ -95,7 +97,7 @@ class PartBatch {
   std::array<uint8_t, kPairsPerBlock> manifold_count_;
   std::array<ManifoldPoints, kPairsPerBlock> manifold_;
   std::array<float, kPairsPerBlock> bound_;
-  std::array<uint8_t, kPairsPerBlock> over_edge_;
+  std::array<std::array<uint8_t, 2>, kPairsPerBlock> edges_to_close_;
 };
 
 }  // namespace carom

@@ -25,10 +25,9 @@ struct PartContact {
   uint8_t count;
   ManifoldPoints points;
 
-  // The better one first: that of the bodies is the best of all.
+  // The deeper one first.
   friend bool operator<(const PartContact& x, const PartContact& y) {
-    return std::tie(x.is_over_edge, x.separation, x.parts) <
-           std::tie(y.is_over_edge, y.separation, y.parts);
+    return std::tie(x.separation, x.parts) < std::tie(y.separation, y.parts);
   }
 };
 
@@ -37,8 +36,8 @@ struct MergedManifold {
   ManifoldPoints points{};
 };
 
-// The best kMostPartsOfManifold of them.
-inline std::span<PartContact> best_of(std::span<PartContact> contacts) {
+// The deepest kMostPartsOfManifold of them.
+inline std::span<PartContact> deepest_of(std::span<PartContact> contacts) {
   if (contacts.size() <= kMostPartsOfManifold) return contacts;
   const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kMostPartsOfManifold);
   std::nth_element(contacts.begin(), end, contacts.end());
@@ -79,27 +78,21 @@ const SeenPoint& greatest(const Points& points, const Value& value) {
       [&](const SeenPoint& x, const SeenPoint& y) { return value(x) < value(y); });
 }
 
-inline double size_of(const std::array<float, 3>& p) { return carom::greatest({p[0], p[1], p[2]}); }
-
-// Of all parts whose normals are about that of the contact, which is the best of them, and that are
-// no deeper.
+// Of all parts whose normals are about that of the contact, which is the first.
 inline void see_points(std::span<const PartContact> contacts, std::vector<SeenPoint>& seen,
                        double& size) {
-  const PartContact& best = contacts[0];
-  const Double3 normal = {best.normal[0], best.normal[1], best.normal[2]};
+  const PartContact& deepest = contacts[0];
+  const Double3 normal = {deepest.normal[0], deepest.normal[1], deepest.normal[2]};
   const auto [u, v] = across(normal);
   seen.clear();
   size = 0;
-  for (size_t i = 0; i < best.count; ++i) size = std::max(size, size_of(best.points.point[i]));
-  const double deepest = best.separation - kSameDepth * size;
   for (const PartContact& contact : contacts) {
     const Double3 m = {contact.normal[0], contact.normal[1], contact.normal[2]};
-    const bool takes_part = dot(normal, m) >= kSameManifold && contact.separation >= deepest;
-    if (!takes_part && &contact != &best) continue;
+    if (&contact != &deepest && dot(normal, m) < kSameManifold) continue;
     for (size_t i = 0; i < contact.count; ++i) {
       const std::array<float, 3>& point = contact.points.point[i];
       const Double3 p = {point[0], point[1], point[2]};
-      size = std::max(size, size_of(point));
+      size = std::max(size, carom::greatest(p));
       seen.push_back({dot(u, p), dot(v, p), contact.points.separation[i], point});
     }
   }
@@ -127,7 +120,7 @@ inline MergedManifold merged_manifold(std::span<PartContact> all,
                                       std::vector<merging::SeenPoint>& seen) {
   using merging::SeenPoint;
   if (all.empty()) return {};
-  const std::span<PartContact> contacts = best_of(all);
+  const std::span<PartContact> contacts = deepest_of(all);
   std::sort(contacts.begin(), contacts.end());
   double size;
   merging::see_points(contacts, seen, size);

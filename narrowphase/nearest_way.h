@@ -67,7 +67,8 @@ class NearestPoint {
     keep(point, dot(point, point), {p, q});
   }
 
-  // Zero is inside if it is on the side of every face on which the fourth corner is.
+  // Zero is inside if it is on the side of every face on which the fourth corner is. Of corners in
+  // one plane rounding would say anything.
   void try_tetrahedron(const CoreVector& p, const CoreVector& q, const CoreVector& r) {
     const bool is_inside = is_beside(p, q, r, last_) && is_beside(q, r, last_, p) &&
                            is_beside(r, last_, p, q) && is_beside(last_, p, q, r);
@@ -75,8 +76,13 @@ class NearestPoint {
   }
   static bool is_beside(const CoreVector& a, const CoreVector& b, const CoreVector& c,
                         const CoreVector& fourth) {
-    const CoreVector n = cross(b - a, c - a);
-    return dot(n, fourth - a) * -dot(n, a) > 0;
+    const CoreVector u = b - a, v = c - a, w = fourth - a, n = cross(u, v);
+    const double volume = dot(n, w);
+    if (!(std::fabs(volume) > kWithoutVolume * (size(u) * size(v) * size(w)))) return false;
+    return volume * -dot(n, a) > 0;
+  }
+  static double size(const CoreVector& v) {
+    return std::max(std::max(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z));
   }
 
   CoreVector last_;
@@ -96,28 +102,28 @@ inline bool holds(const NearestPoint::Corners& corners, const CoreVector& point)
 struct NearestWay {
   CoreVector way;
   NearestPoint::Corners corners;  // of B - A, that span it; four: zero lies among them
-  bool has_ended = true;          // otherwise rounds ran out, and the way is too long
+  double gap = 0;  // of the projections on the way, times its length; 0 if they touch
 };
 
 inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
   constexpr int kMostRounds = 128;  // a dozen will do
   NearestPoint nearest({difference_point(a, b, b.middle - a.middle, furthest)});
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0;; ++round) {
     const CoreVector& way = nearest.point();
-    const bool touches = nearest.squared() <= kTouchingSquared || nearest.is_around_zero();
-    if (touches) return {way, nearest.corners()};
-    const CoreVector next = difference_point(a, b, way, furthest);
-    // To the very last point: the way is as good as the corners it ends at.
-    if (dot(way, next) >= nearest.squared() || holds(nearest.corners(), next)) {
+    if (nearest.squared() <= kTouchingSquared || nearest.is_around_zero()) {
       return {way, nearest.corners()};
     }
+    const CoreVector next = difference_point(a, b, way, furthest);
+    const double gap = dot(way, next);
+    // To the very last point: the way is as good as the corners it ends at.
+    const bool has_ended = gap >= nearest.squared() || holds(nearest.corners(), next);
+    if (has_ended || round == kMostRounds) return {way, nearest.corners(), gap};
     NearestPoint::Corners corners = nearest.corners();
     corners.push_back(next);
     const NearestPoint nearer(corners);
-    if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners()};
+    if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners(), gap};
     nearest = nearer;
   }
-  return {nearest.point(), nearest.corners(), false};
 }
 
 }  // namespace carom

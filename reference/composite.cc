@@ -114,33 +114,19 @@ PairResult test(const Simple& a, const Simple& b) {
   return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
 }
 
-// A triangle of a mesh with the inner edges that it has for the other one.
-Simple with_inner_edges(Simple triangle, const Simple& other) {
-  if (std::holds_alternative<Halfspace>(other.shape)) return triangle;
-  std::get<Triangle>(triangle.shape).inner_edges =
-      triangle.placed_triangle().inner_edges_towards(middle_of(other.placed));
-  return triangle;
+PairResult test(const Simple& a, const Simple& b) {
+  return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
 }
 
-struct PartResult {
-  PairResult result;
-  bool is_over_edge;
-};
+// The inner edges of a triangle of a mesh, if the other one leaves over one of them.
+uint8_t edges_to_close(const Simple& part, const Simple& other, const Double3& way) {
+  if (!part.mesh || std::holds_alternative<Halfspace>(other.shape)) return 0;
+  return part.placed_triangle().edges_to_close(way, [&] { return middle_of(other.placed); });
+}
 
-// What may have come over an inner edge is tested again, with ways over such edges closed. That the
-// two overlap stays as it was.
-PartResult test_parts(const Simple& a, const Simple& b) {
-  const PairResult result = test(a, b);
-  if (!result.overlap) return {result, false};
-  const Vector3f& n = result.normal;
-  const auto with_closed_ways = [&](const Simple& part, const Simple& other) {
-    const bool is_along = !part.mesh || part.placed_triangle().faces_along({n.x(), n.y(), n.z()});
-    return is_along ? part : with_inner_edges(part, other);
-  };
-  const Simple closed_a = with_closed_ways(a, b), closed_b = with_closed_ways(b, a);
-  if (!has_inner_edges(closed_a) && !has_inner_edges(closed_b)) return {result, false};
-  const PairResult again = test(closed_a, closed_b);
-  return {again.overlap ? again : result, true};
+Simple with_inner_edges(Simple part, uint8_t edges) {
+  if (edges != 0) std::get<Triangle>(part.shape).inner_edges = edges;
+  return part;
 }
 
 std::array<float, 3> moved(const std::array<float, 3>& point, const Double3& arm) {
@@ -172,6 +158,45 @@ PairResult nothing() {
   return {false, Status::ok, std::numeric_limits<float>::infinity(), nan, nan, nan, 0, {}, 0, 0};
 }
 
+PartContact contact_of(const PairResult& result, const Simple& a, const Simple& b) {
+  const Vector3f& n = result.normal;
+  return {{a.order, b.order},
+          {n.x(), n.y(), n.z()},
+          result.separation,
+          result.manifold_count,
+          result.manifold};
+}
+
+// Overlapping pairs of parts before separate ones, those that meet over inner edges after others;
+// the deepest, and the first of those.
+using Rank = std::tuple<int, bool, float, uint64_t, uint64_t>;
+
+struct Best {
+  Rank rank{1, true, HUGE_VALF, UINT64_MAX, UINT64_MAX};
+  PairResult result = nothing();
+  const Simple* a = nullptr;
+  const Simple* b = nullptr;
+  std::array<uint8_t, 2> closed{};  // edges, of either side
+
+  bool is_over_edge() const { return closed[0] != 0 || closed[1] != 0; }
+};
+
+// Again with no way over inner edges. That the two overlap stays as it was: where this test finds
+// that they do not, the contact is the one before.
+void close_edges(Best& best) {
+  const PairResult again =
+      test(with_inner_edges(*best.a, best.closed[0]), with_inner_edges(*best.b, best.closed[1]));
+  if (again.overlap) {
+    best.result = from_parts(again, *best.a, *best.b);
+    return;
+  }
+  const Vector3f& p = best.result.arm_a;
+  best.result.manifold_count = 1;
+  best.result.manifold = {};
+  best.result.manifold.point[0] = {p.x(), p.y(), p.z()};
+  best.result.manifold.separation[0] = best.result.separation;
+}
+
 Double3 stored(const Vector3d& position, PositionType positions) {
   const Vector3d p =
       positions == PositionType::float32 ? position.cast<float>().cast<double>() : position;
@@ -192,34 +217,31 @@ PairResult collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& 
   const std::vector<Simple> parts_a = parts_of(shape_a, position_a, pose_a.orientation);
   const std::vector<Simple> parts_b = parts_of(shape_b, position_b, pose_b.orientation);
 
-  PairResult best = nothing();
-  std::tuple best_rank(1, true, HUGE_VALF, UINT64_MAX, UINT64_MAX);
+  Best best;
   std::vector<PartContact> contacts;
   for (const Simple& a : parts_a) {
     for (const Simple& b : parts_b) {
-      const PartResult tested = test_parts(a, b);
-      const PairResult result = from_parts(tested.result, a, b);
-      const std::tuple rank(result.overlap ? 0 : 1, tested.is_over_edge, result.separation, a.order,
-                            b.order);
-      if (rank < best_rank) {
-        best = result;
-        best_rank = rank;
+      const PairResult result = from_parts(test(a, b), a, b);
+      const Double3 way = {result.normal.x(), result.normal.y(), result.normal.z()};
+      std::array<uint8_t, 2> closed{};
+      if (result.overlap) {
+        closed = {edges_to_close(a, b, way), edges_to_close(b, a, minus({}, way))};
       }
-      if (!result.overlap) continue;
-      const Vector3f& n = result.normal;
-      contacts.push_back({tested.is_over_edge,
-                          {a.order, b.order},
-                          {n.x(), n.y(), n.z()},
-                          result.separation,
-                          result.manifold_count,
-                          result.manifold});
+      const bool is_over_edge = closed[0] != 0 || closed[1] != 0;
+      const Rank rank(result.overlap ? 0 : 1, is_over_edge, result.separation, a.order, b.order);
+      if (rank < best.rank) best = {rank, result, &a, &b, closed};
+      if (result.overlap && !is_over_edge) contacts.push_back(contact_of(result, a, b));
     }
+  }
+  if (best.is_over_edge()) {
+    close_edges(best);
+    contacts = {contact_of(best.result, *best.a, *best.b)};
   }
   std::vector<merging::SeenPoint> seen;
   const MergedManifold manifold = merged_manifold(contacts, seen);
-  best.manifold_count = manifold.count;
-  best.manifold = manifold.points;
-  return best;
+  best.result.manifold_count = manifold.count;
+  best.result.manifold = manifold.points;
+  return best.result;
 }
 
 }  // namespace carom::reference

@@ -85,6 +85,19 @@ float world_coordinate(double position, float arm) {
   return high + (low + arm);
 }
 
+bool has_manifold_of(const reference::PairResult& expected, const Eigen::Vector3d& position,
+                     const ResultColumns& out, size_t row) {
+  if (out.manifold_count[row] != expected.manifold_count) return false;
+  ManifoldPoints manifold = expected.manifold;
+  for (size_t i = 0; i < expected.manifold_count; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      float& x = manifold.point[i][static_cast<size_t>(axis)];
+      x = world_coordinate(position[axis], x);
+    }
+  }
+  return std::memcmp(&manifold, &out.manifold[row], sizeof manifold) == 0;
+}
+
 }  // namespace
 
 const char* name(Detail detail) {
@@ -110,6 +123,24 @@ void ResultArrays::spoil() {
   const float nan = std::numeric_limits<float>::signaling_NaN();
   std::fill(floats_.begin(), floats_.end(), nan);
   for (ManifoldPoints& manifold : manifolds_) manifold.separation.fill(nan);
+}
+
+bool has_bits_of(const reference::PairResult& expected, const PlacedShape& a, const PlacedShape& b,
+                 Detail detail, const ResultColumns& out, size_t row) {
+  if (out.overlap[row] != (expected.overlap ? 1 : 0)) return false;
+  if (out.status[row] != static_cast<uint8_t>(expected.status)) return false;
+  if (detail == Detail::overlap) return true;
+
+  bool same = same_bits(out.separation[row], expected.separation);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto column = static_cast<size_t>(axis);
+    const float point_a = world_coordinate(a.position[axis], expected.arm_a[axis]);
+    const float point_b = world_coordinate(b.position[axis], expected.arm_b[axis]);
+    same = same && same_bits(out.normal[column][row], expected.normal[axis]) &&
+           same_bits(out.point_a[column][row], point_a) &&
+           same_bits(out.point_b[column][row], point_b);
+  }
+  return same && (detail == Detail::contact || has_manifold_of(expected, a.position, out, row));
 }
 
 PairStream::PairStream(const StreamSpec& spec) : spec_(spec) {
@@ -166,45 +197,12 @@ void PairStream::run_reference(std::vector<reference::PairResult>& out) const {
 
 std::optional<std::string> PairStream::difference(Detail detail, const ResultColumns& out) const {
   for (size_t row = 0; row < pairs_.size(); ++row) {
-    if (!has_expected_bits(row, detail, out)) {
+    const Pair pair = pairs_[row];
+    if (!has_bits_of(expected_[row], bodies_a_[pair.a], bodies_b_[pair.b], detail, out, row)) {
       return "row " + std::to_string(row) + " differs from the reference";
     }
   }
   return std::nullopt;
-}
-
-bool PairStream::has_expected_bits(size_t row, Detail detail, const ResultColumns& out) const {
-  const reference::PairResult& expected = expected_[row];
-  if (out.overlap[row] != (expected.overlap ? 1 : 0)) return false;
-  if (out.status[row] != static_cast<uint8_t>(expected.status)) return false;
-  if (detail == Detail::overlap) return true;
-
-  bool same = same_bits(out.separation[row], expected.separation);
-  const Eigen::Vector3d& position_a = bodies_a_[pairs_[row].a].position;
-  const Eigen::Vector3d& position_b = bodies_b_[pairs_[row].b].position;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto column = static_cast<size_t>(axis);
-    const float point_a = world_coordinate(position_a[axis], expected.arm_a[axis]);
-    const float point_b = world_coordinate(position_b[axis], expected.arm_b[axis]);
-    same = same && same_bits(out.normal[column][row], expected.normal[axis]) &&
-           same_bits(out.point_a[column][row], point_a) &&
-           same_bits(out.point_b[column][row], point_b);
-  }
-  return same && (detail == Detail::contact || has_expected_manifold(row, out));
-}
-
-bool PairStream::has_expected_manifold(size_t row, const ResultColumns& out) const {
-  const reference::PairResult& expected = expected_[row];
-  if (out.manifold_count[row] != expected.manifold_count) return false;
-  const Eigen::Vector3d& position = bodies_a_[pairs_[row].a].position;
-  ManifoldPoints manifold = expected.manifold;
-  for (size_t i = 0; i < expected.manifold_count; ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      float& x = manifold.point[i][static_cast<size_t>(axis)];
-      x = world_coordinate(position[axis], x);
-    }
-  }
-  return std::memcmp(&manifold, &out.manifold[row], sizeof manifold) == 0;
 }
 
 }  // namespace carom::bench

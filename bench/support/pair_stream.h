@@ -51,6 +51,10 @@ class ResultArrays {
   ResultColumns columns_;
 };
 
+// Whether a row of results, in world coordinates, is what the reference says of two bodies.
+bool has_bits_of(const reference::PairResult& expected, const PlacedShape& a, const PlacedShape& b,
+                 Detail detail, const ResultColumns& out, size_t row);
+
 class PairStream {
  public:
   explicit PairStream(const StreamSpec& spec);
@@ -75,9 +79,6 @@ class PairStream {
 
  private:
   void draw();
-  bool has_expected_bits(size_t row, Detail detail, const ResultColumns& out) const;
-  bool has_expected_manifold(size_t row, const ResultColumns& out) const;
-
   StreamSpec spec_;
   std::vector<PlacedShape> bodies_a_;
   std::vector<PlacedShape> bodies_b_;

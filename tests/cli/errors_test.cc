@@ -28,10 +28,11 @@ io::SceneShapes shapes_with(uint8_t kind) {
 }
 
 // One body, a sphere, `frames` frames; frame `bad_frame` holds nothing but NaN.
-void write_scene(const std::string& path, uint8_t kind, int frames = 2, int bad_frame = -1) {
+void write_scene(const std::string& path, const io::SceneShapes& shapes, int frames = 2,
+                 int bad_frame = -1) {
   io::SceneInfo info;
   info.bodies = 1;
-  info.shapes = shapes_with(kind);
+  info.shapes = shapes;
   info.body_shape = {0};
   auto writer = io::SceneWriter::create(path, info);
   ASSERT_TRUE(writer) << writer.error().message;
@@ -44,11 +45,15 @@ void write_scene(const std::string& path, uint8_t kind, int frames = 2, int bad_
   ASSERT_TRUE(writer->finish());
 }
 
+void write_scene(const std::string& path, uint8_t kind, int frames = 2, int bad_frame = -1) {
+  write_scene(path, shapes_with(kind), frames, bad_frame);
+}
+
 // One pair of the sphere, or of the other shape, with itself.
-void write_pairs(const std::string& path, uint8_t kind, uint32_t shape = 0) {
+void write_pairs(const std::string& path, const io::SceneShapes& shapes, uint32_t shape = 0) {
   io::PairsFile file;
   file.pairs = 1;
-  file.shapes = shapes_with(kind);
+  file.shapes = shapes;
   for (io::PairSide* side : {&file.a, &file.b}) {
     side->shape = {shape};
     side->position32 = {{0, 0, 0}};
@@ -57,10 +62,14 @@ void write_pairs(const std::string& path, uint8_t kind, uint32_t shape = 0) {
   ASSERT_TRUE(written) << written.error().message;
 }
 
+void write_pairs(const std::string& path, uint8_t kind, uint32_t shape = 0) {
+  write_pairs(path, shapes_with(kind), shape);
+}
+
 TEST_F(ErrorsTest, Commands) {
-  expect_error({}, {"no command", "run, pairs, verify, advise, accuracy, generate, info"});
+  expect_error({}, {"no command", "run, pairs, verify, advise, accuracy, check, generate, info"});
   expect_error({"frobnicate"}, {"unknown command 'frobnicate'", "run, pairs"});
-  expect_error({"check", "x"}, {"unknown command", "check"});
+  expect_error({"check", path("absent.obj")}, {"absent.obj"});
   expect_error({"--bogus"}, {"unknown command '--bogus'"});
   expect_error({"run", "still:n=5", "--bogus"}, {"--bogus"});
   expect_error({"run"}, {"SCENE"});
@@ -179,8 +188,8 @@ TEST_F(ErrorsTest, Generators) {
   fails("brownian:speed=-1", {"'speed=-1'"});
   fails("brownian:shape=cone", {"'shape=cone'", "cube, sphere, box, capsule"});
   fails("brownian:shape=box,spin=-1", {"'spin=-1'", "from 0"});
-  fails("brownian:spin=2", {"'spin' needs shape=box or shape=capsule"});
-  fails("varied:spin=2,shape=sphere", {"'spin' needs shape=box or shape=capsule"});
+  fails("brownian:spin=2", {"'spin' needs a shape that turns"});
+  fails("varied:spin=2,shape=sphere", {"'spin' needs a shape that turns"});
   fails("still:shape=box,spin=2", {"unknown key 'spin'", "shape, positions"});
   fails("brownian:positions=float16", {"float32"});
   expect_error({"run", "tornado:n=5"}, {"unknown generator 'tornado'"});
@@ -200,19 +209,44 @@ TEST_F(ErrorsTest, FilesThatAreNone) {
   EXPECT_EQ(files(), 2u);
 }
 
-TEST_F(ErrorsTest, KindsWithoutKernel) {
-  constexpr char kNoKernel[] = ", which this version has no kernel for";
-  const std::pair<uint8_t, std::string> kinds[] = {
-      {4, "a dop of k = 7 (6, 14, 18 or 26 was expected)"},
-      {5, std::string("a hull") + kNoKernel},
-      {6, "a mesh of 2 triangles; this version has kernels for meshes of one triangle only"},
-      {7, std::string("a compound") + kNoKernel}};
-  for (const auto& [kind, what] : kinds) {
+TEST_F(ErrorsTest, ShapesOfNothing) {
+  struct Case {
+    uint8_t kind;
+    void (*spoil)(io::SceneShapes&);
+    std::string what;
+  };
+  const Case cases[] = {
+      {4, [](io::SceneShapes&) {}, "a dop of k = 7 (6, 14, 18 or 26 was expected)"},
+      {4,
+       [](io::SceneShapes& s) {
+         s.vertex_range[1] = {0, 0};
+       },
+       "a dop without vertices"},
+      {5,
+       [](io::SceneShapes& s) {
+         s.vertex_range[1] = {0, 0};
+       },
+       "a hull without vertices"},
+      {6,
+       [](io::SceneShapes& s) {
+         s.triangle_range[1] = {0, 0};
+       },
+       "a mesh without triangles"},
+      {7,
+       [](io::SceneShapes& s) {
+         s.child_range[1] = {0, 0};
+       },
+       "a compound without children"},
+      {7, [](io::SceneShapes& s) { s.kind[0] = 8; }, "a compound with a halfspace as a child"}};
+  for (const auto& [kind, spoil, what] : cases) {
+    io::SceneShapes shapes = shapes_with(kind);
+    spoil(shapes);
+    if (shapes.vertex_range[1][1] == 0) shapes.triangle_range[1] = {0, 0};
     const std::string text = "file.npz: shape_kind: shape 1 is " + what;
-    write_scene(path("file.npz"), kind);
+    write_scene(path("file.npz"), shapes);
     expect_error({"run", path("file.npz"), "--json", path("out.json")}, {text});
     expect_error({"verify", path("file.npz")}, {text});
-    write_pairs(path("file.npz"), kind);
+    write_pairs(path("file.npz"), shapes);
     expect_error({"pairs", path("file.npz"), "-o", path("out.npz")}, {text});
     expect_error({"verify", path("file.npz")}, {text});
   }
@@ -233,10 +267,10 @@ TEST_F(ErrorsTest, ControlCharactersDoNotBreakTheLine) {
   expect_error({"run", "brownian:n=\n5"}, {"'n=?5'"});
   expect_error({"run", "still:n=5", "--detail", "so\nme"}, {"'so?me'"});
   expect_error({"run", path("a\nb.npz")}, {"a?b.npz"});
-  write_scene(path("a\nb.npz"), 5);
+  write_scene(path("a\nb.npz"), 4);
   expect_error({"run", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
   expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
-  write_pairs(path("a\nb.npz"), 5);
+  write_pairs(path("a\nb.npz"), 4);
   expect_error({"pairs", path("a\nb.npz"), "-o", path("x.npz")}, {"a?b.npz: shape_kind"});
   expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
   write_pairs(path("a\nb.npz"), 2);

@@ -27,6 +27,9 @@ std::string hash_of(const std::string& spec, uint64_t frames) {
   StateHash hash;
   hash.add(std::span(scene->info().shapes.params));
   hash.add(std::span(scene->info().body_shape));
+  const io::SceneShapes& shapes = scene->info().shapes;
+  if (!shapes.vertices.empty()) hash.add(std::span(shapes.vertices));
+  if (!shapes.child_position.empty()) hash.add(std::span(shapes.child_position));
   io::SceneFrame frame;
   for (uint64_t i = 0; i < frames; ++i) {
     EXPECT_TRUE(scene->read_frame(frame));
@@ -50,6 +53,9 @@ TEST_F(GenerateTest, ScenesNeverChange) {
   EXPECT_EQ(hash_of("still:n=1000", 2), "11af23cd1e077964");
   EXPECT_EQ(hash_of("varied:n=1000,shape=box", 5), "03079dcb9c2193a2");
   EXPECT_EQ(hash_of("static:n=1000,shape=capsule,spin=20", 5), "7f43ce247eb284b6");
+  EXPECT_EQ(hash_of("brownian:n=1000,shape=hull", 5), "29a92da234824389");
+  EXPECT_EQ(hash_of("varied:n=100,shape=mesh", 5), "7ab2230ef1b09553");
+  EXPECT_EQ(hash_of("static:n=100,shape=compound", 5), "366c7bfa31cda38e");
 }
 
 TEST_F(GenerateTest, SeedsDiffer) {
@@ -70,7 +76,9 @@ TEST_F(GenerateTest, RoundTripThroughAFile) {
   for (const std::string spec :
        {"brownian:n=60,frames=4", "varied:n=60,frames=4,shape=sphere",
         "static:n=60,frames=4,positions=float64,motion=static", "still:n=60,frames=2",
-        "static:n=60,frames=4,shape=box", "brownian:n=60,frames=4,shape=capsule"}) {
+        "static:n=60,frames=4,shape=box", "brownian:n=60,frames=4,shape=capsule",
+        "brownian:n=60,frames=2,shape=hull", "varied:n=60,frames=2,shape=mesh",
+        "static:n=60,frames=2,shape=compound"}) {
     const CommandResult result = run_command({"generate", spec, "-o", path("scene.npz")});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.out + result.err, "");
@@ -80,6 +88,9 @@ TEST_F(GenerateTest, RoundTripThroughAFile) {
     EXPECT_EQ(stored->info().dt, generated->info().dt);
     EXPECT_EQ(stored->info().shapes.kind, generated->info().shapes.kind);
     EXPECT_EQ(stored->info().shapes.params, generated->info().shapes.params);
+    EXPECT_EQ(stored->info().shapes.vertices, generated->info().shapes.vertices);
+    EXPECT_EQ(stored->info().shapes.triangles, generated->info().shapes.triangles);
+    EXPECT_EQ(stored->info().shapes.child_shape, generated->info().shapes.child_shape);
     EXPECT_EQ(stored->info().body_shape, generated->info().body_shape);
     EXPECT_EQ(stored->info().body_motion, generated->info().body_motion);
     io::SceneFrame a, b;
@@ -100,7 +111,9 @@ TEST_F(GenerateTest, ARecordingHasThePairsOfItsScene) {
        {"brownian:n=400,frames=4,density=0.5",
         "varied:n=300,frames=3,shape=sphere,positions=float64",
         "static:n=300,frames=3,shape=box,density=0.5",
-        "brownian:n=300,frames=3,shape=capsule,density=0.5,positions=float64"}) {
+        "brownian:n=300,frames=3,shape=capsule,density=0.5,positions=float64",
+        "varied:n=100,frames=2,shape=hull,density=0.5", "still:n=100,frames=2,shape=mesh,density=1",
+        "brownian:n=100,frames=2,shape=compound,density=1"}) {
     ASSERT_EQ(run_command({"generate", spec, "-o", path("scene.aabb")}).code, 0);
     const auto of_scene = run_command({"run", spec, "--detail", "pairs", "--json", "-"}).json();
     const auto of_recording =
@@ -237,6 +250,38 @@ TEST_F(GenerateTest, CapsulesAreAsLongAsTheirEdge) {
   EXPECT_EQ(scene->info().shapes.params.front(), expected);
 }
 
+// In the ball whose diameter is the edge; children included.
+TEST_F(GenerateTest, MadeShapesKeepTheirSize) {
+  for (const std::string shape : {"hull", "mesh", "compound"}) {
+    const auto scene = open("brownian:n=30,shape=" + shape);
+    const io::SceneShapes& shapes = scene->info().shapes;
+    EXPECT_EQ(*std::max_element(scene->info().body_shape.begin(), scene->info().body_shape.end()),
+              15u);
+    ASSERT_FALSE(shapes.vertices.empty());
+    for (const auto& vertex : shapes.vertices) {
+      const float length = Eigen::Vector3f(vertex.data()).norm();
+      EXPECT_LE(length, 0.5f * (shape == "compound" ? 0.25f : 1) + 1e-6f);
+    }
+    EXPECT_EQ(shapes.child_shape.size(), shape == "compound" ? 4 * 16u : 0u);
+    const CommandResult bodies = run_command({"run", "brownian:n=30,frames=2,shape=" + shape});
+    EXPECT_EQ(bodies.err, "");  // no body is left out
+  }
+}
+
+TEST_F(GenerateTest, MadeMeshesAreWatertight) {
+  ASSERT_EQ(
+      run_command({"generate", "varied:n=20,frames=1,shape=mesh", "-o", path("scene.npz")}).code,
+      0);
+  const auto report = run_command({"check", path("scene.npz"), "--json", "-"}).json();
+  ASSERT_EQ(report["shapes"].size(), 20u);
+  for (const auto& shape : report["shapes"]) {
+    EXPECT_EQ(shape["triangles"], 32);
+    EXPECT_EQ(shape["watertight"], true);
+    EXPECT_EQ(shape["inside_out"], false);
+    EXPECT_EQ(shape["duplicate_vertices"]["count"], 0);
+  }
+}
+
 TEST_F(GenerateTest, OrientationsAreUniform) {
   const auto frames = all_frames("still:n=20000,frames=1,shape=box");
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -286,7 +331,7 @@ TEST_F(GenerateTest, WhatRestsDoesNotTurn) {
 
 // Without speed, turning alone changes who touches whom, from frame to frame.
 TEST_F(GenerateTest, RunsTurnTheBodies) {
-  for (const std::string shape : {"box", "capsule"}) {
+  for (const std::string shape : {"box", "capsule", "hull", "mesh", "compound"}) {
     const std::string spec = "brownian:n=200,frames=3,density=0.5,shape=" + shape;
     const auto run = [](const std::string& scene) {
       const CommandResult result = run_command({"run", scene, "--json", "-"});

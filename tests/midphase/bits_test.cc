@@ -58,8 +58,8 @@ std::vector<TestPair> make_mixed_pairs(size_t count, PositionType positions, uin
   Composites composites(seed);
   std::vector<TestPair> pairs;
   while (pairs.size() < count) {
-    const ShapeKind a = kAllKinds[composites.random().below(8)];  // no half-spaces on this side
-    const ShapeKind b = kAllKinds[composites.random().below(std::size(kAllKinds))];
+    const ShapeKind a = kEveryKind[composites.random().below(8)];  // no half-spaces on this side
+    const ShapeKind b = kEveryKind[composites.random().below(std::size(kEveryKind))];
     if (a == ShapeKind::dop || b == ShapeKind::dop) continue;  // they take long
     pairs.push_back(composites.pair(a, b, positions, 1, 5));
   }

@@ -97,15 +97,14 @@ TEST(CompositeCases, ManifoldsSpreadOverAllTriangles) {
   const auto result = result_of(
       {{flat_grid(9, 0.5f), {0, 0, 0}}, oriented_box({0.1, -0.1, 0.45}, {1.5f, 1.25f, 0.5f})});
   ASSERT_EQ(result.manifold_count, 4);
-  double x = 0, y = 0;
+  // One to each corner; triangles that a corner lies in have more points than four.
+  std::array<int, 4> corners{};
   for (const auto& point : result.manifold.point) {
-    EXPECT_NEAR(std::fabs(point[0] - 0.1), 1.5, 1e-4);
-    EXPECT_NEAR(std::fabs(point[1] + 0.1), 1.25, 1e-4);
-    x += point[0] - 0.1;
-    y += point[1] + 0.1;
+    EXPECT_NEAR(std::fabs(point[0] - 0.1), 1.5, 0.1);
+    EXPECT_NEAR(std::fabs(point[1] + 0.1), 1.25, 0.1);
+    ++corners[(point[0] > 0 ? 1 : 0) + (point[1] > 0 ? 2 : 0)];
   }
-  EXPECT_NEAR(x, 0, 1e-4);
-  EXPECT_NEAR(y, 0, 1e-4);
+  EXPECT_EQ(corners, (std::array{1, 1, 1, 1}));
 }
 
 // A step up in a floor keeps its edge: what comes from its side is stopped.
@@ -113,6 +112,13 @@ TEST(CompositeCases, OuterEdgesAreNotLeftOut) {
   const auto result = result_of({{flat_grid(2, 1), {0, 0, 0}}, sphere(1.4, 0.1, 0, 0.5)});
   EXPECT_TRUE(result.overlap);
   expect_near(result.normal, {1, 0, 0});
+}
+
+// Nor do the triangles behind them count, however many are reached.
+TEST(CompositeCases, SheetsAreMetEdgeOn) {
+  const auto result = result_of({{flat_grid(20, 0.1f), {0, 0, 0}}, sphere(1.6, 0.13, 0.05, 1)});
+  EXPECT_TRUE(result.overlap);
+  expect_near(result.normal, Vector3f(0.6f, 0, 0.05f).normalized(), 1e-4f);
 }
 
 TEST(CompositeCases, ConcaveEdgesGiveTheNormalsOfFaces) {

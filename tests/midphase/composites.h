@@ -123,7 +123,7 @@ class Composites {
   oracle::ConvexRandom shapes_;
 };
 
-inline constexpr ShapeKind kAllKinds[] = {
+inline constexpr ShapeKind kEveryKind[] = {
     ShapeKind::sphere,    ShapeKind::capsule, ShapeKind::aabb, ShapeKind::box,
     ShapeKind::dop,       ShapeKind::hull,    ShapeKind::mesh, ShapeKind::compound,
     ShapeKind::halfspace, ShapeKind::triangle};
@@ -131,8 +131,8 @@ inline constexpr ShapeKind kAllKinds[] = {
 // In both orders; one of them is a mesh or a compound.
 inline std::vector<std::array<ShapeKind, 2>> composite_kind_pairs() {
   std::vector<std::array<ShapeKind, 2>> all;
-  for (const ShapeKind a : kAllKinds) {
-    for (const ShapeKind b : kAllKinds) {
+  for (const ShapeKind a : kEveryKind) {
+    for (const ShapeKind b : kEveryKind) {
       if (is_composite(a) || is_composite(b)) all.push_back({a, b});
     }
   }

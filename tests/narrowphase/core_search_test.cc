@@ -160,5 +160,23 @@ TEST(NearestWay, DecidesWhatDepthsDecide) {
   }
 }
 
+// Four points in a plane beside zero, of which rounding makes a tetrahedron around it.
+TEST(NearestWay, FlatDifferencesAreBesideZero) {
+  Random random(6);
+  for (uint32_t round = 0; round < rounds(2000); ++round) {
+    const CoreVector u = random_vector(random, false), v = random_vector(random, false);
+    const CoreVector base = random_vector(random, false);
+    std::vector<CoreVector> points;
+    for (size_t i = 0; i < 6; ++i) {
+      points.push_back(base + u * random.uniform(-1, 1) + v * random.uniform(-1, 1));
+    }
+    const CoreVector n = cross(u, v);
+    const double height = std::fabs(dot(n, base)) / std::sqrt(dot(n, n));
+    const Core zero = core_of({{0, 0, 0}});
+    const CoreGap gap = reference::find_gap(zero, core_of(points), {.decides_only = true});
+    EXPECT_GE(gap.size, height - 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace carom::test

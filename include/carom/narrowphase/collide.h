@@ -26,8 +26,8 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 // pair of parts (the nearest, if they are apart), of equal ones the first by their indices, which
 // sub_a and sub_b name. The manifold joins the points of all parts that are met in about the same
 // direction. Bodies without parts (all triangles of the mesh have no area) are separate by
-// +infinity. Contacts that come over inner edges of a mesh have the normal of the triangle, and
-// count only where there are no others.
+// +infinity. Parts that meet over an inner edge of a mesh come after all others: what lies across
+// the edge is met as well. Where there are no others, the normal is one that the triangle allows.
 //
 // float32 throughout, after one subtraction of the positions in their own type: the error does not
 // depend on the distance from the origin. Bits are the same on every instruction set and for any

@@ -1,0 +1,100 @@
+// Worlds with meshes and compounds: every step is that of the reference, carried results too.
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include "tests/midphase/composites.h"
+#include "tests/support/rounds.h"
+#include "tests/world/histories.h"
+
+namespace carom::test {
+namespace {
+
+// A ground, compounds and small meshes that fall on it, and simple bodies of all kinds.
+void add_bodies(History& history, Composites& composites, size_t count, double side) {
+  BodyDesc ground;
+  ground.shape = grid_mesh(6, static_cast<float>(side) / 6,
+                           [&](float, float) { return composites.random().uniform(-0.3, 0.3); });
+  ground.position = {side / 2, side / 2, 0.3};
+  ground.motion = Motion::fixed;
+  history.add(ground);
+  for (size_t i = 0; i < count; ++i) {
+    BodyDesc body = history.random_body(side, true);
+    const double kind = composites.random().uniform(0, 1);
+    if (kind < 0.3) body.shape = composites.compound(0.6, 4);
+    if (kind >= 0.3 && kind < 0.45) body.shape = composites.mesh(0.6, 8);
+    if (kind < 0.02) body.shape = Mesh{};
+    if (kind < 0.45) body.orientation = composites.orientation();
+    body.position.z() /= 2;
+    history.add(body);
+  }
+}
+
+void expect_reference(const WorldSettings& settings, uint32_t seed) {
+  History history(settings, seed, Kinds::all);
+  Composites composites(seed);
+  add_bodies(history, composites, 40, 4);
+  for (int step = 0; step < static_cast<int>(rounds(16)); ++step) {
+    SCOPED_TRACE(testing::Message() << "step " << step << ", seed " << seed);
+    history.step_and_check();
+    if (testing::Test::HasFailure()) return;
+    if (step % 4 == 3) continue;  // a step in which nothing moves
+    history.move(0.3, 0.1);
+    history.turn(0.2);
+    if (step % 3 == 0) history.remove_random();
+  }
+  EXPECT_GT(history.coverage.overlapping, 50u);
+  EXPECT_GT(history.coverage.kept, 50u);
+}
+
+WorldSettings settings_with(Detail detail, PositionType positions) {
+  WorldSettings settings;
+  settings.detail = detail;
+  settings.positions = positions;
+  return settings;
+}
+
+TEST(CompositeWorld, StepsAreThoseOfTheReference) {
+  for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+    for (const PositionType positions : kPositionTypes) {
+      expect_reference(settings_with(detail, positions), 1 + static_cast<uint32_t>(detail));
+    }
+  }
+}
+
+TEST(CompositeWorld, ThreadsChangeNothing) {
+  WorldSettings settings = settings_with(Detail::manifold, PositionType::float64);
+  settings.parallelism = Parallelism::arena;
+  tbb::task_arena arena(2);
+  arena.execute([&] { expect_reference(settings, 7); });
+}
+
+// Pairs whose k-DOPs are apart are dropped, and only those.
+TEST(CompositeWorld, DopBoundsLoseNothing) {
+  WorldSettings settings = settings_with(Detail::contact, PositionType::float32);
+  settings.dop_bounds = DopKind::k26;
+  expect_reference(settings, 8);
+}
+
+// A box lies on a mesh and is pushed across its edges: one contact, whose normal is the plane's,
+// that names the triangle below.
+TEST(CompositeWorld, ABoxThatSlidesOverAMeshHasOneContact) {
+  World world(settings_with(Detail::manifold, PositionType::float32));
+  world.add({.shape = flat_grid(10, 1), .motion = Motion::fixed});
+  const BodyId box = world.add({.shape = Box{{0.4f, 0.4f, 0.25f}}, .position = {-4, 0.3, 0.249}});
+  for (int step = 0; step < 40; ++step) {
+    world.step();
+    ASSERT_EQ(world.contacts().size(), 1u);
+    const Contact& contact = world.contacts()[0];
+    EXPECT_EQ(contact.a, 0u);
+    EXPECT_LT(contact.sub_a, 200u);
+    EXPECT_EQ(contact.sub_b, 0u);
+    EXPECT_NEAR(contact.normal.z(), 1, 1e-6);
+    EXPECT_NEAR(contact.separation, -0.001, 1e-6);
+    EXPECT_GE(contact.manifold_count, 3);
+    EXPECT_EQ(world.events()[0].kind, step == 0 ? EventKind::begin : EventKind::persist);
+    world.set_position(box, world.position(box) + Eigen::Vector3d(0.1, 0.003, 0));
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
