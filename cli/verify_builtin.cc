@@ -42,41 +42,91 @@ void make_triangle(io::SceneShapes& shapes, size_t index, const std::array<float
   shapes.triangles.push_back({0, 1, 2});
 }
 
-// A k-DOP within these half extents.
-void make_dop(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
-  constexpr std::array kPlanes = {6.0f, 14.0f, 18.0f, 26.0f};
+// Six vertices within these half extents.
+void add_vertices(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
   const auto [x, y, z] = half;
-  shapes.params[index] = {kPlanes[index / 7 % kPlanes.size()]};
   shapes.vertex_range[index] = {static_cast<uint32_t>(shapes.vertices.size()), 6};
   shapes.vertices.insert(
       shapes.vertices.end(),
       {{x, 0, z / 2}, {-x, y / 2, 0}, {0, y, -z / 2}, {x / 2, -y, 0}, {0, 0, z}, {-x / 2, 0, -z}});
 }
 
-// Spheres, capsules, aabbs, boxes and triangles in turn, a few k-DOPs and fewer half-spaces, all
-// from the half extents that `shapes` holds.
-void make_all_kinds(io::SceneShapes& shapes) {
+void make_dop(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
+  constexpr std::array kPlanes = {6.0f, 14.0f, 18.0f, 26.0f};
+  shapes.params[index] = {kPlanes[index / 7 % kPlanes.size()]};
+  add_vertices(shapes, index, half);
+}
+
+// Triangles that share edges.
+void make_mesh(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
+  shapes.params[index] = {index % 2 ? 1.0f : 0.0f, index % 4 < 2 ? 0.0f : 0.2f * half[0]};
+  add_vertices(shapes, index, half);
+  shapes.triangle_range[index] = {static_cast<uint32_t>(shapes.triangles.size()), 4};
+  shapes.triangles.insert(shapes.triangles.end(), {{0, 2, 4}, {4, 2, 1}, {4, 1, 3}, {1, 5, 3}});
+}
+
+// A ball and a box beside each other; shapes of their own behind the others.
+void make_compound(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
+  const auto [x, y, z] = half;
+  shapes.params[index] = {};
+  shapes.child_range[index] = {static_cast<uint32_t>(shapes.child_shape.size()), 2};
+  for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::box}) {
+    const float side = kind == ShapeKind::box ? 0.5f : -0.5f;
+    shapes.child_shape.push_back(static_cast<uint32_t>(shapes.kind.size()));
+    shapes.child_position.push_back({side * x, 0, side * z});
+    shapes.child_orientation.push_back({1, 0, side, 2});
+    shapes.kind.push_back(static_cast<uint8_t>(kind));
+    shapes.params.push_back({x / 2, y / 2, z / 2});
+    shapes.vertex_range.emplace_back();
+    shapes.triangle_range.emplace_back();
+    shapes.child_range.emplace_back();
+  }
+}
+
+// The kind of shape `i` of a scene of all kinds: spheres, capsules, aabbs, boxes and triangles in
+// turn, fewer of others.
+ShapeKind kind_in_turn(size_t i) {
   constexpr std::array kKinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
-                                 ShapeKind::box, ShapeKind::mesh};
-  constexpr size_t kDopStride = 21;
-  shapes.vertex_range.resize(shapes.kind.size());
-  shapes.triangle_range.resize(shapes.kind.size());
-  for (size_t i = 0; i < shapes.kind.size(); ++i) {
-    const bool halfspace = i % kHalfspaceStride == 0;
-    const ShapeKind kind = halfspace             ? ShapeKind::halfspace
-                           : i % kDopStride == 1 ? ShapeKind::dop
-                                                 : kKinds[i % kKinds.size()];
-    shapes.kind[i] = static_cast<uint8_t>(kind);
+                                 ShapeKind::box, ShapeKind::triangle};
+  if (i % kHalfspaceStride == 0) return ShapeKind::halfspace;
+  switch (i % 21) {
+    case 1:
+      return ShapeKind::dop;
+    case 8:
+      return ShapeKind::hull;
+    case 13:
+      return ShapeKind::mesh;
+    case 18:
+      return ShapeKind::compound;
+    default:
+      return kKinds[i % kKinds.size()];
+  }
+}
+
+// All from the half extents that `shapes` holds.
+void make_all_kinds(io::SceneShapes& shapes) {
+  const size_t count = shapes.kind.size();
+  shapes.vertex_range.resize(count);
+  shapes.triangle_range.resize(count);
+  shapes.child_range.resize(count);
+  for (size_t i = 0; i < count; ++i) {
+    const ShapeKind kind = kind_in_turn(i);
+    // A file's triangle is a mesh of one.
+    shapes.kind[i] = static_cast<uint8_t>(kind == ShapeKind::triangle ? ShapeKind::mesh : kind);
     std::array<float, 8>& params = shapes.params[i];
     const std::array half = {params[0], params[1], params[2]};
     if (kind == ShapeKind::capsule) params = {-half[0], 0, half[2], half[0], 0, 0, half[1] / 2};
     if (kind == ShapeKind::halfspace) params = {half[0], -half[1], half[2], -1};
-    if (kind == ShapeKind::mesh) make_triangle(shapes, i, half);
+    if (kind == ShapeKind::triangle) make_triangle(shapes, i, half);
     if (kind == ShapeKind::dop) make_dop(shapes, i, half);
+    if (kind == ShapeKind::hull) add_vertices(shapes, i, half);
+    if (kind == ShapeKind::mesh) make_mesh(shapes, i, half);
+    if (kind == ShapeKind::compound) make_compound(shapes, i, half);
   }
-  shapes.params[16][6] = -1;     // the radius of a capsule
-  shapes.vertices[5][1] = kNan;  // of a k-DOP
-  shapes.vertices[8][1] = kNan;  // of a triangle
+  shapes.params[16][6] = -1;      // the radius of a capsule
+  shapes.vertices[5][1] = kNan;   // of a k-DOP
+  shapes.vertices[8][1] = kNan;   // of a triangle
+  shapes.vertices[10][1] = kNan;  // of a hull
 }
 
 // A generated scene of boxes of which some become other kinds, with layers, masks, owners, sensors

@@ -158,6 +158,9 @@ inline constexpr double kWithoutArea = 0x1p-48;
 // 2^-52 over it, and the nearest face of their difference does better.
 inline constexpr double kTouchingWay = 0x1p-24;
 
+// Between cores further apart than this the way is exact enough to say which corners it ends at.
+inline constexpr double kFarFromTouching = 0x1p-6;
+
 // Points of two cores that are further from facing each other than this do not stand for where they
 // meet; and how much less far than the furthest points those may be that do.
 inline constexpr double kFacing = 0x1p-26;

@@ -197,12 +197,15 @@ class CompositeRun {
       found.bound = out.separation_bound[i];
       found.nearest = double{found.separation} - found.bound;
     }
-    const double nearest = std::min(best.nearest, found.nearest);
+    const bool is_alike = found.is_over_edge() == best.is_over_edge();
+    const double nearest = best.is_found && is_alike ? best.nearest : HUGE_VAL;
     if (!best.is_found || found.order() < best.order()) {
       set_contact(batch_, i, found);
       best = found;
+      best.nearest = std::min(found.nearest, nearest);
+    } else if (is_alike) {
+      best.nearest = std::min(found.nearest, nearest);
     }
-    best.nearest = nearest;
     if (tests_.manifolds && found.overlap == 1 && !found.is_over_edge()) {
       contacts_.add(k, contact_of(batch_, i, found));
     }

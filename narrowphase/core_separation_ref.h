@@ -25,6 +25,7 @@ struct CoreGap {
   bool is_flat = false;
   bool is_proven = false;  // that they are apart, or overlap by more than rounding
   bool has_ended = true;
+  bool is_at_corners = false;  // that face each other, up to rounding far below kFacing
 };
 
 // How far zero is inside of the tetrahedron, or less than zero.
@@ -48,7 +49,10 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
   }
   const double distance = std::sqrt(dot(nearest.way, nearest.way));
   if (distance > kTouchingWay && distance - nearest.gap / distance <= kSameGap) {
-    return {.size = distance, .normal = nearest.way * (1 / distance), .is_proven = true};
+    return {.size = distance,
+            .normal = nearest.way * (1 / distance),
+            .is_proven = true,
+            .is_at_corners = distance > kFarFromTouching};
   }
   const WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
   // Rounding may have ended GJK at corners of shapes that are all but flat: what is proven counts.
@@ -70,7 +74,7 @@ inline Meeting::Points furthest_points(const Core& core, const CoreVector& n, do
   const size_t step = (count + Meeting::Points::kCapacity - 1) / Meeting::Points::kCapacity;
   Meeting::Points points;
   size_t found = 0;
-  for (size_t i = 0; i < core.size(); ++i) {
+  for (size_t i = 0; found < count; ++i) {
     if (dot(n, core.point(i)) >= least && found++ % step == 0) {
       points.push_back(eigen_vector(core.point(i)));
     }
@@ -78,17 +82,35 @@ inline Meeting::Points furthest_points(const Core& core, const CoreVector& n, do
   return points;
 }
 
+// Of two edges seen along n: the point of the first where they cross. None if they do not cross
+// well inside.
+inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, const Vector3d& n,
+                          Vector3d& point) {
+  const Vector3d u = a[1] - a[0], v = b[1] - b[0], between = b[0] - a[0];
+  const double slope = dot(n, cross(u, v));
+  const double t = dot(n, cross(between, v)) / slope, s = dot(n, cross(between, u)) / slope;
+  constexpr double kInside = 0x1p-20;
+  if (!(t > kInside && t < 1 - kInside && s > kInside && s < 1 - kInside)) return false;
+  point = a[0] + u * t;
+  return slope * slope > kParallelEdges * (dot(u, u) * dot(v, v));
+}
+
 // Where they meet, on A. The normal is rounded, most of all between shapes that are close: points
 // that should face each other need not be the furthest by a little, so that the slack grows until
 // they are.
 inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
                               FurthestPoint furthest) {
+  const Vector3d n = eigen_vector(gap.normal);
   Vector3d best;
   double least = HUGE_VAL;
   for (double slack = kInPlane; slack <= kMostSlack; slack *= 256) {
     const Meeting::Points on_a = furthest_points(a, gap.normal, slack, furthest);
     const Meeting::Points on_b = furthest_points(b, -gap.normal, slack, furthest);
-    const Meeting meeting(on_a, on_b, eigen_vector(gap.normal));
+    // Most pairs meet at a corner, or where two edges cross.
+    if (gap.is_at_corners && on_a.size() == 1) return on_a[0];
+    if (gap.is_at_corners && on_b.size() == 1) return on_b[0] - n * gap.size;
+    if (on_a.size() == 2 && on_b.size() == 2 && find_crossing(on_a, on_b, n, best)) return best;
+    const Meeting meeting(on_a, on_b, n);
     if (meeting.distance() < least) {
       least = meeting.distance();
       best = meeting.point();

@@ -18,7 +18,6 @@ namespace carom {
 // What two parts have in common: normal, separation, and the points of their manifold, relative to
 // the position of body A.
 struct PartContact {
-  bool is_over_edge;              // it came over an inner edge of a mesh at first
   std::array<uint64_t, 2> parts;  // in the order of sub-shapes
   std::array<float, 3> normal;
   float separation;

@@ -27,13 +27,16 @@ class NearestPoint {
   using Corners = FewOf<CoreVector, 4>;
 
   explicit NearestPoint(const Corners& corners) : last_(corners[corners.size() - 1]) {
-    keep(last_, dot(last_, last_), {});
     const size_t others = corners.size() - 1;
-    for (size_t i = 0; i < others; ++i) try_segment(corners[i]);
+    keep(last_, 0);
+    for (size_t i = 0; i < others; ++i) try_segment(corners[i], 1u << i);
     for (size_t i = 1; i < others; ++i) {
-      for (size_t j = 0; j < i; ++j) try_triangle(corners[i], corners[j]);
+      for (size_t j = 0; j < i; ++j) try_triangle(corners[i], corners[j], 1u << i | 1u << j);
     }
     if (others == 3) try_tetrahedron(corners[0], corners[1], corners[2]);
+    for (size_t i = 0; i < others; ++i) {
+      if (kept_ >> i & 1) corners_.push_back(corners[i]);
+    }
     corners_.push_back(last_);
   }
 
@@ -43,28 +46,26 @@ class NearestPoint {
   bool is_around_zero() const { return corners_.size() == 4; }
 
  private:
-  void keep(const CoreVector& point, double squared, const Corners& others) {
+  // `others`: which corners beside the last span the point, as bits.
+  void keep(const CoreVector& point, unsigned others) {
+    const double squared = dot(point, point);
     if (!(squared < squared_)) return;
     squared_ = squared;
     point_ = point;
-    corners_ = others;
+    kept_ = others;
   }
 
-  void try_segment(const CoreVector& p) {
+  void try_segment(const CoreVector& p, unsigned others) {
     const CoreVector side = p - last_;
     const double along = -dot(last_, side), length = dot(side, side);
-    if (!(along > 0 && along < length)) return;
-    const CoreVector point = last_ + side * (along / length);
-    keep(point, dot(point, point), {p});
+    if (along > 0 && along < length) keep(last_ + side * (along / length), others);
   }
 
-  void try_triangle(const CoreVector& p, const CoreVector& q) {
+  void try_triangle(const CoreVector& p, const CoreVector& q, unsigned others) {
     const CoreVector n = cross(p - last_, q - last_);
     const bool is_over =
         dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 && dot(n, cross(last_, p)) > 0;
-    if (!is_over) return;
-    const CoreVector point = n * (dot(n, last_) / dot(n, n));
-    keep(point, dot(point, point), {p, q});
+    if (is_over) keep(n * (dot(n, last_) / dot(n, n)), others);
   }
 
   // Zero is inside if it is on the side of every face on which the fourth corner is. Of corners in
@@ -72,7 +73,7 @@ class NearestPoint {
   void try_tetrahedron(const CoreVector& p, const CoreVector& q, const CoreVector& r) {
     const bool is_inside = is_beside(p, q, r, last_) && is_beside(q, r, last_, p) &&
                            is_beside(r, last_, p, q) && is_beside(last_, p, q, r);
-    if (is_inside) keep({0, 0, 0}, 0, {p, q, r});
+    if (is_inside) keep({0, 0, 0}, 0b111);
   }
   static bool is_beside(const CoreVector& a, const CoreVector& b, const CoreVector& c,
                         const CoreVector& fourth) {
@@ -88,6 +89,7 @@ class NearestPoint {
   CoreVector last_;
   double squared_ = HUGE_VAL;
   CoreVector point_;
+  unsigned kept_ = 0;
   Corners corners_;
 };
 

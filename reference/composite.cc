@@ -105,15 +105,6 @@ std::vector<Simple> parts_of(const Shape& shape, const Double3& position,
   return parts;
 }
 
-// Of a triangle of a mesh.
-bool has_inner_edges(const Simple& part) {
-  return part.mesh && std::get<Triangle>(part.shape).inner_edges != 0;
-}
-
-PairResult test(const Simple& a, const Simple& b) {
-  return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
-}
-
 PairResult test(const Simple& a, const Simple& b) {
   return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
 }

@@ -61,6 +61,10 @@ STREAM_TARGETS = {
     ("hull_hull_8", "manifold"): (2055 / 300, 2055 / 150),
     ("hull_hull_16", "manifold"): (2729 / 400, 2729 / 200),
     ("hull_hull_32", "manifold"): (3607 / 550, 3607 / 300),
+    ("sphere_mesh", "contact"): (1354 / 400, 1354 / 200),
+    ("capsule_mesh", "contact"): (6779 / 900, 6779 / 400),
+    ("box_mesh", "contact"): (13799 / 1700, 13799 / 800),
+    ("hull_mesh_16", "contact"): (15948 / 2700, 15948 / 1500),
 }
 
 # Names for readers, and colour and dashes of the lines.

@@ -5,6 +5,7 @@
 
 #include "bench/support/cached.h"
 #include "bench/support/measure.h"
+#include "bench/support/mesh_stream.h"
 #include "bench/support/pair_stream.h"
 #include "bench/support/suites.h"
 
@@ -155,6 +156,40 @@ void register_in_l2(const KindPair& kinds) {
   }
 }
 
+void measure_on_terrain(benchmark::State& state, const MeshSpec& spec, Detail detail, Isa isa) {
+  const auto& stream = cached<MeshStream>(spec);
+  if (!use_isa(state, isa)) return;
+  ResultArrays results(spec.count);
+  results.spoil();
+  if (const Result<void> done = stream.run(detail, results.columns()); !done) {
+    return fail(state, done.error().message);
+  }
+  if (const auto wrong = stream.difference(detail, results.columns())) return fail(state, *wrong);
+  PassTimes times;
+  for (auto _ : state) {
+    times.measure([&] { (void)stream.run(detail, results.columns()); });
+    benchmark::ClobberMemory();
+  }
+  report(state, "pair", spec.count, times, stream.reference_seconds());
+}
+
+// Bodies on a mesh of 10,000 triangles.
+void register_terrain(size_t count) {
+  for (const ShapeKind kind :
+       {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box, ShapeKind::hull}) {
+    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+      for (const Isa isa : usable_isas()) {
+        const std::string title =
+            std::string(name(kind)) + "_mesh/" + name(detail) + "/f32/hit50/rows/" + name(isa);
+        const MeshSpec spec{.kind = kind, .count = count};
+        benchmark::RegisterBenchmark(title.c_str(), [=](benchmark::State& state) {
+          measure_on_terrain(state, spec, detail, isa);
+        })->Unit(benchmark::kMicrosecond);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void register_narrowphase(const Options& options) {
@@ -168,6 +203,7 @@ void register_narrowphase(const Options& options) {
     }
     if (kinds.a == ShapeKind::aabb && kinds.b == ShapeKind::aabb) register_in_l2(kinds);
   }
+  register_terrain(options.pairs / 10);
 }
 
 }  // namespace carom::bench

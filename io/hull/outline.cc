@@ -17,11 +17,15 @@ struct Corner {
   uint32_t index;
 };
 
-// Whether b turns left on the way from a to c, by more than what counts as straight.
-bool turns_left(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+// Whether b is to the right of the way from a to c, and by more than what counts as straight if it
+// is between the two.
+bool is_corner(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d way = c - a;
   const Vector2d step = b - a;
-  return step.x() * way.y() - step.y() * way.x() > kFlat * way.norm();
+  const double along = step.dot(way);
+  const bool is_between = along >= 0 && along <= way.squaredNorm();
+  const double area = step.x() * way.y() - step.y() * way.x();
+  return area > (is_between ? kFlat * way.norm() : 0);
 }
 
 // Puts the lower chain of sorted corners behind `out`, without its last corner.
@@ -29,8 +33,7 @@ template <class Iterator>
 void append_chain(Iterator begin, Iterator end, std::vector<Corner>& out) {
   const size_t first = out.size();
   for (auto next = begin; next != end; ++next) {
-    while (out.size() >= first + 2 &&
-           !turns_left(out[out.size() - 2].at, out.back().at, next->at)) {
+    while (out.size() >= first + 2 && !is_corner(out[out.size() - 2].at, out.back().at, next->at)) {
       out.pop_back();
     }
     out.push_back(*next);

@@ -164,6 +164,23 @@ TEST(BuildHull, PointsBecomeWhatTheyAre) {
   expect_closed(polygon);
 }
 
+// Corners that are straight below each other up to rounding, and not in that order.
+TEST(BuildHull, UprightEdgesKeepTheirEnds) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  for (int run = 0; run < 500; ++run) {
+    Points points;
+    for (int i = 0; i < 6; ++i) {
+      const float off = std::ldexp(unit(random), -20 - static_cast<int>(random() % 40));
+      points.push_back({off, i % 2 ? 2 * off : off, unit(random)});
+    }
+    points.push_back({1, 1, unit(random)});
+    const BuiltHull hull = built(points);
+    expect_subset(points, hull);
+    expect_same_support(points, hull, random);
+  }
+}
+
 TEST(BuildHull, RefusesNothingAndWhatIsNotFinite) {
   EXPECT_FALSE(build_hull({}));
   const float nan = std::numeric_limits<float>::quiet_NaN();

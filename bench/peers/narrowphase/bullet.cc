@@ -8,9 +8,11 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btBvhTriangleMeshShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -27,13 +29,14 @@ constexpr btScalar kMargin = 2.5e-4f;
 
 btVector3 vector(const float* v) { return {v[0], v[1], v[2]}; }
 
-std::shared_ptr<btConvexShape> with_margin(std::shared_ptr<btConvexShape> shape, btScalar margin) {
+std::shared_ptr<btCollisionShape> with_margin(std::shared_ptr<btCollisionShape> shape,
+                                              btScalar margin) {
   shape->setMargin(margin);
   return shape;
 }
 
 // Of spheres and capsules the margin is the radius. Bullet adds it to hulls: those have none.
-std::shared_ptr<btConvexShape> make_shape(PeerShape shape, const std::array<float, 9>& size) {
+std::shared_ptr<btCollisionShape> make_shape(PeerShape shape, const std::array<float, 9>& size) {
   switch (shape) {
     case PeerShape::sphere:
       return std::make_shared<btSphereShape>(size[0]);
@@ -46,34 +49,54 @@ std::shared_ptr<btConvexShape> make_shape(PeerShape shape, const std::array<floa
           std::make_shared<btTriangleShape>(vector(&size[0]), vector(&size[3]), vector(&size[6])),
           kMargin);
     case PeerShape::hull:
+    case PeerShape::mesh:
       break;
   }
   return nullptr;
 }
 
-std::shared_ptr<btConvexShape> make_hull(const std::vector<std::array<float, 3>>& points) {
+std::shared_ptr<btCollisionShape> make_hull(const std::vector<std::array<float, 3>>& points) {
   auto hull = std::make_shared<btConvexHullShape>();
   for (const auto& point : points) hull->addPoint(vector(point.data()), false);
   hull->recalcLocalAabb();
   return with_margin(hull, 0);
 }
 
+struct TriangleMesh {
+  explicit TriangleMesh(const PeerBodies& source) {
+    for (const auto& [a, b, c] : source.triangles) {
+      triangles.addTriangle(vector(source.vertices[a].data()), vector(source.vertices[b].data()),
+                            vector(source.vertices[c].data()));
+    }
+    shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
+    shape->setMargin(kMargin);
+  }
+  btTriangleMesh triangles;
+  std::unique_ptr<btBvhTriangleMeshShape> shape;
+};
+
+std::shared_ptr<btCollisionShape> make_mesh(const PeerBodies& source) {
+  auto mesh = std::make_shared<TriangleMesh>(source);
+  btCollisionShape* shape = mesh->shape.get();
+  return {std::move(mesh), shape};
+}
+
 // One side of the pairs.
 class Bodies {
  public:
   explicit Bodies(const PeerBodies& source) {
-    std::vector<std::shared_ptr<btConvexShape>> hulls;
-    for (const auto& points : source.hulls) hulls.push_back(make_hull(points));
+    std::vector<std::shared_ptr<btCollisionShape>> shared;
+    for (const auto& points : source.hulls) shared.push_back(make_hull(points));
+    if (source.shape == PeerShape::mesh) shared.push_back(make_mesh(source));
     for (const PeerBody& body : source.bodies) {
-      const bool is_hull = source.shape == PeerShape::hull;
-      shapes_.push_back(is_hull ? hulls[body.hull] : make_shape(source.shape, body.size));
+      shapes_.push_back(shared.empty() ? make_shape(source.shape, body.size) : shared[body.hull]);
       const auto& q = body.orientation;
       transforms_.emplace_back(btQuaternion(q[0], q[1], q[2], q[3]), vector(body.position.data()));
     }
   }
 
   size_t count() const { return shapes_.size(); }
-  btConvexShape* shape(size_t i) const { return shapes_[i].get(); }
+  btCollisionShape* shape(size_t i) const { return shapes_[i].get(); }
   const btTransform& transform(size_t i) const { return transforms_[i]; }
 
   // Makes `object` body i.
@@ -83,7 +106,7 @@ class Bodies {
   }
 
  private:
-  std::vector<std::shared_ptr<btConvexShape>> shapes_;
+  std::vector<std::shared_ptr<btCollisionShape>> shapes_;
   std::vector<btTransform> transforms_;
 };
 
@@ -211,7 +234,8 @@ class DetectorPairs final : public PairPeer {
       input.m_transformA = a_.transform(i);
       input.m_transformB = b_.transform(i);
       Decision decision;
-      test_(a_.shape(i), b_.shape(i), input, decision);
+      test_(static_cast<btConvexShape*>(a_.shape(i)), static_cast<btConvexShape*>(b_.shape(i)),
+            input, decision);
       overlaps[i] = decision.touches ? 1 : 0;
       touching += overlaps[i];
     }

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <ctime>
 #include <functional>
-#include <map>
 #include <optional>
 
 #include "bench/peers/narrowphase/pair_peer.h"
+#include "bench/peers/narrowphase/peer_bodies.h"
 #include "bench/support/measure.h"
+#include "bench/support/mesh_stream.h"
 #include "bench/support/pair_stream.h"
 
 namespace carom::bench {
@@ -18,98 +19,38 @@ constexpr double kBand = 1e-3;           // of the mean bounding radius: nearer 
 constexpr double kMostDifferent = 1e-3;  // of Bullet's decisions
 constexpr int kTurns = 5;
 
-std::array<float, 9> peer_size(const Sphere& sphere) { return {sphere.radius}; }
-std::array<float, 9> peer_size(const Capsule& capsule) { return {capsule.radius, capsule.b.y()}; }
-std::array<float, 9> peer_size(const Aabb& box) {
-  return {box.upper.x(), box.upper.y(), box.upper.z()};
-}
-std::array<float, 9> peer_size(const Box& box) {
-  return {box.half.x(), box.half.y(), box.half.z()};
-}
-std::array<float, 9> peer_size(const Triangle& triangle) {
-  const auto& [a, b, c] = triangle.corners;
-  return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
-}
-// Hulls have points in place of sizes; of the others there are no streams.
-template <class Other>
-std::array<float, 9> peer_size(const Other& /*shape*/) {
-  return {};
-}
-
-PeerShape peer_shape(ShapeKind kind) {
-  switch (kind) {
-    case ShapeKind::sphere:
-      return PeerShape::sphere;
-    case ShapeKind::capsule:
-      return PeerShape::capsule;
-    case ShapeKind::triangle:
-      return PeerShape::triangle;
-    case ShapeKind::hull:
-      return PeerShape::hull;
-    default:
-      return PeerShape::box;
-  }
-}
-
-// Each geometry once.
-class PeerHulls {
- public:
-  explicit PeerHulls(std::vector<std::vector<std::array<float, 3>>>& all) : all_(all) {}
-
-  // 0 of what is no hull.
-  size_t place_of(const Shape& shape) {
-    const auto* hull = std::get_if<Hull>(&shape);
-    if (!hull) return 0;
-    const auto [found, is_new] = places_.emplace(hull->geometry.get(), all_.size());
-    if (is_new) {
-      all_.emplace_back();
-      for (const Eigen::Vector3f& p : hull->geometry->points()) {
-        all_.back().push_back({p.x(), p.y(), p.z()});
-      }
-    }
-    return found->second;
-  }
-
- private:
-  std::vector<std::vector<std::array<float, 3>>>& all_;
-  std::map<const HullGeometry*, size_t> places_;
-};
-
-// Boxes along the axes are boxes that are not turned.
-PeerBodies peer_bodies(ShapeKind kind, const std::vector<PlacedShape>& bodies) {
-  PeerBodies all = {peer_shape(kind), {}, {}};
-  PeerHulls hulls(all.hulls);
-  for (const PlacedShape& body : bodies) {
-    const Eigen::Vector3f p = body.position.cast<float>();
-    const Eigen::Vector4f q = body.orientation.coeffs();
-    all.bodies.push_back(
-        {{p.x(), p.y(), p.z()},
-         {q.x(), q.y(), q.z(), q.w()},
-         std::visit([](const auto& shape) { return peer_size(shape); }, body.shape),
-         hulls.place_of(body.shape)});
-  }
-  return all;
-}
-
 double mean_radius(const PlacedShape& a, const PlacedShape& b) {
   return (local_bounds(a).diagonal().norm() + local_bounds(b).diagonal().norm()) / 4;
+}
+
+void compare_decision(float separation, double radius, bool bullet, StreamResult& result) {
+  if (std::fabs(separation) <= kBand * radius) {
+    ++result.excluded;
+  } else if ((separation <= 0) != bullet) {
+    ++result.different;
+  }
 }
 
 void compare_decisions(const PairStream& stream, std::span<const uint8_t> bullet,
                        StreamResult& result) {
   for (size_t i = 0; i < bullet.size(); ++i) {
-    const reference::PairResult& expected = stream.expected(i);
-    const double radius = mean_radius(stream.bodies_a()[i], stream.bodies_b()[i]);
-    if (std::fabs(expected.separation) <= kBand * radius) {
-      ++result.excluded;
-    } else if (expected.overlap != (bullet[i] != 0)) {
-      ++result.different;
-    }
+    compare_decision(stream.expected(i).separation,
+                     mean_radius(stream.bodies_a()[i], stream.bodies_b()[i]), bullet[i] != 0,
+                     result);
+  }
+}
+
+void compare_decisions(const MeshStream& stream, std::span<const uint8_t> bullet,
+                       StreamResult& result) {
+  for (size_t i = 0; i < bullet.size(); ++i) {
+    const PlacedShape& body = stream.bodies()[i];
+    compare_decision(stream.separation(i), mean_radius(body, body), bullet[i] != 0, result);
   }
 }
 
 // Why Carom's results are not those of its reference.
-std::string difference(const PairStream& stream, Detail detail) {
+template <class Stream>
+std::string difference(const Stream& stream, Detail detail) {
   ResultArrays results(stream.spec().count);
   for (const Isa isa : usable_isas()) {
     force_isa(isa);
@@ -162,14 +103,13 @@ class TimedRunner {
 };
 
 // So that the drift of a machine's clock meets all alike.
-std::vector<RunnerResult> time_in_turns(const PairStream& stream, const PeerStreamSpec& spec,
+template <class Stream>
+std::vector<RunnerResult> time_in_turns(const Stream& stream, const PeerStreamSpec& spec,
                                         PairPeer& bullet, double budget) {
   ResultArrays results(stream.spec().count);
-  std::vector<reference::PairResult> reference_results;
   std::vector<uint8_t> overlaps(stream.spec().count);
   std::vector<TimedRunner> runners;
   runners.emplace_back("bullet", [&] { bullet.run(overlaps); });
-  runners.emplace_back("reference", [&] { stream.run_reference(reference_results); });
   for (const Isa isa : usable_isas()) {
     // Bullet's contacts say nothing of pairs that are apart.
     const auto separate = spec.distance ? SeparatePairs::measured : SeparatePairs::decided;
@@ -182,7 +122,25 @@ std::vector<RunnerResult> time_in_turns(const PairStream& stream, const PeerStre
   unforce_isa();
   std::vector<RunnerResult> timed;
   for (TimedRunner& runner : runners) timed.push_back(runner.result());
+  // Measured when the stream was made.
+  timed.push_back({"reference", 1, stream.reference_seconds(), stream.reference_seconds()});
   return timed;
+}
+
+template <class Stream>
+StreamResult compare(const PeerStreamSpec& spec, const Stream& stream, PairPeer& bullet,
+                     double budget) {
+  StreamResult result;
+  result.pair = spec.name();
+  result.output = spec.distance ? "distance" : name(spec.detail);
+  result.pairs = stream.spec().count;
+  result.hit_percent = stream.hit_percent();
+  result.wrong = difference(stream, spec.detail);
+  std::vector<uint8_t> overlaps(result.pairs);
+  result.bullet_points = bullet.run(overlaps);
+  compare_decisions(stream, overlaps, result);
+  if (result.agrees()) result.runners = time_in_turns(stream, spec, bullet, budget);
+  return result;
 }
 
 }  // namespace
@@ -210,7 +168,11 @@ std::vector<PeerStreamSpec> peer_streams() {
           {"hull_hull", hull, hull, contact, 32},
           {"hull_hull", hull, hull, manifold, 8},
           {"hull_hull", hull, hull, manifold, 16},
-          {"hull_hull", hull, hull, manifold, 32}};
+          {"hull_hull", hull, hull, manifold, 32},
+          {"sphere_mesh", sphere, mesh, contact},
+          {"capsule_mesh", capsule, mesh, contact},
+          {"box_mesh", box, mesh, contact},
+          {"hull_mesh", hull, mesh, contact, 16}};
 }
 
 std::string PeerStreamSpec::name() const {
@@ -229,24 +191,18 @@ bool StreamResult::agrees() const {
 }
 
 StreamResult compare(const PeerStreamSpec& spec, size_t pairs, double budget) {
+  if (spec.b == ShapeKind::mesh) {
+    const MeshStream stream({.kind = spec.a, .count = pairs, .vertices = spec.vertices});
+    const auto bullet =
+        make_bullet_pairs(peer_bodies(spec.a, stream.bodies()),
+                          peer_ground(stream.terrain(), pairs), PeerDetail::contact);
+    return compare(spec, stream, *bullet, budget);
+  }
   const PairStream stream(
       {.kind_a = spec.a, .kind_b = spec.b, .count = pairs, .vertices = spec.vertices});
-  const std::unique_ptr<PairPeer> bullet =
-      make_bullet_pairs(peer_bodies(spec.a, stream.bodies_a()),
-                        peer_bodies(spec.b, stream.bodies_b()), peer_detail(spec));
-  StreamResult result;
-  result.pair = spec.name();
-  result.output = spec.distance ? "distance" : name(spec.detail);
-  result.pairs = pairs;
-  result.hit_percent = stream.hit_percent();
-  result.wrong = difference(stream, spec.detail);
-  std::vector<uint8_t> overlaps(pairs);
-  result.bullet_points = bullet->run(overlaps);
-  compare_decisions(stream, overlaps, result);
-  if (!result.agrees()) return result;
-
-  result.runners = time_in_turns(stream, spec, *bullet, budget);
-  return result;
+  const auto bullet = make_bullet_pairs(peer_bodies(spec.a, stream.bodies_a()),
+                                        peer_bodies(spec.b, stream.bodies_b()), peer_detail(spec));
+  return compare(spec, stream, *bullet, budget);
 }
 
 }  // namespace carom::bench

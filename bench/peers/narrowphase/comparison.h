@@ -12,7 +12,7 @@
 namespace carom::bench {
 
 struct PeerStreamSpec {
-  const char* pair;  // as narrowphase/pair_list.inc calls it
+  const char* pair;  // as narrowphase/pair_list.inc calls it; "sphere_mesh"
   ShapeKind a;
   ShapeKind b;
   Detail detail;

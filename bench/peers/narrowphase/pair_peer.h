@@ -11,7 +11,7 @@
 
 namespace carom::bench {
 
-enum class PeerShape { sphere, capsule, box, triangle, hull };
+enum class PeerShape { sphere, capsule, box, triangle, hull, mesh };
 
 struct PeerBody {
   std::array<float, 3> position;
@@ -24,8 +24,10 @@ struct PeerBody {
 
 struct PeerBodies {
   PeerShape shape;
-  std::vector<PeerBody> bodies;
-  std::vector<std::vector<std::array<float, 3>>> hulls;  // points
+  std::vector<PeerBody> bodies = {};
+  std::vector<std::vector<std::array<float, 3>>> hulls = {};  // points
+  std::vector<std::array<float, 3>> vertices = {};            // of the mesh that all bodies share
+  std::vector<std::array<uint32_t, 3>> triangles = {};
 };
 
 enum class PeerDetail { overlap, contact, distance };

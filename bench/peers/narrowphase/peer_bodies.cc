@@ -1,0 +1,91 @@
+#include "bench/peers/narrowphase/peer_bodies.h"
+
+#include <map>
+#include <variant>
+
+namespace carom::bench {
+namespace {
+
+std::array<float, 9> peer_size(const Sphere& sphere) { return {sphere.radius}; }
+std::array<float, 9> peer_size(const Capsule& capsule) { return {capsule.radius, capsule.b.y()}; }
+std::array<float, 9> peer_size(const Aabb& box) {
+  return {box.upper.x(), box.upper.y(), box.upper.z()};
+}
+std::array<float, 9> peer_size(const Box& box) {
+  return {box.half.x(), box.half.y(), box.half.z()};
+}
+std::array<float, 9> peer_size(const Triangle& triangle) {
+  const auto& [a, b, c] = triangle.corners;
+  return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
+}
+// Hulls have points in place of sizes; of the others there are no streams.
+template <class Other>
+std::array<float, 9> peer_size(const Other& /*shape*/) {
+  return {};
+}
+
+PeerShape peer_shape(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::sphere:
+      return PeerShape::sphere;
+    case ShapeKind::capsule:
+      return PeerShape::capsule;
+    case ShapeKind::triangle:
+      return PeerShape::triangle;
+    case ShapeKind::hull:
+      return PeerShape::hull;
+    default:
+      return PeerShape::box;
+  }
+}
+
+// Each geometry once.
+class PeerHulls {
+ public:
+  explicit PeerHulls(std::vector<std::vector<std::array<float, 3>>>& all) : all_(all) {}
+
+  // 0 of what is no hull.
+  size_t place_of(const Shape& shape) {
+    const auto* hull = std::get_if<Hull>(&shape);
+    if (!hull) return 0;
+    const auto [found, is_new] = places_.emplace(hull->geometry.get(), all_.size());
+    if (is_new) {
+      all_.emplace_back();
+      for (const Eigen::Vector3f& p : hull->geometry->points()) {
+        all_.back().push_back({p.x(), p.y(), p.z()});
+      }
+    }
+    return found->second;
+  }
+
+ private:
+  std::vector<std::vector<std::array<float, 3>>>& all_;
+  std::map<const HullGeometry*, size_t> places_;
+};
+
+}  // namespace
+
+PeerBodies peer_bodies(ShapeKind kind, const std::vector<PlacedShape>& bodies) {
+  PeerBodies all = {.shape = peer_shape(kind)};
+  PeerHulls hulls(all.hulls);
+  for (const PlacedShape& body : bodies) {
+    const Eigen::Vector3f p = body.position.cast<float>();
+    const Eigen::Vector4f q = body.orientation.coeffs();
+    all.bodies.push_back(
+        {{p.x(), p.y(), p.z()},
+         {q.x(), q.y(), q.z(), q.w()},
+         std::visit([](const auto& shape) { return peer_size(shape); }, body.shape),
+         hulls.place_of(body.shape)});
+  }
+  return all;
+}
+
+PeerBodies peer_ground(const Terrain& terrain, size_t count) {
+  PeerBodies all = {.shape = PeerShape::mesh};
+  for (const Eigen::Vector3f& p : terrain.vertices) all.vertices.push_back({p.x(), p.y(), p.z()});
+  for (const auto& [a, b, c] : terrain.triangles) all.triangles.push_back({a, b, c});
+  all.bodies.assign(count, {{0, 0, 0}, {0, 0, 0, 1}, {}});
+  return all;
+}
+
+}  // namespace carom::bench
