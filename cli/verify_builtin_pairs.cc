@@ -307,13 +307,21 @@ class RandomPairs {
 };
 
 constexpr size_t kPairs = 2003;
-constexpr size_t kSlowPairs = 211;  // of kinds that are tested one at a time, or by their parts
+constexpr size_t kSlowPairs = 211;    // of kinds that are tested one at a time
+constexpr size_t kPairsOfParts = 79;  // of kinds that are tested by their parts
 
-bool is_slow(ShapeKind kind) { return kind == ShapeKind::dop || has_geometry(kind); }
+size_t pair_count(ShapeKind a, ShapeKind b) {
+  const auto is_either = [&](auto is) { return is(a) || is(b); };
+  if (is_either(is_composite)) return kPairsOfParts;
+  const auto is_slow = [](ShapeKind kind) {
+    return kind == ShapeKind::dop || kind == ShapeKind::hull;
+  };
+  return is_either(is_slow) ? kSlowPairs : kPairs;
+}
 
 BuiltinPairs pairs_of(ShapeKind a, ShapeKind b, PositionType positions, uint64_t seed) {
   RandomPairs pairs(positions, seed);
-  for (size_t i = 0; i < (is_slow(a) || is_slow(b) ? kSlowPairs : kPairs); ++i) pairs.add(a, b);
+  for (size_t i = 0; i < pair_count(a, b); ++i) pairs.add(a, b);
   pairs.add_special(a, b);
   return {std::string(name(a)) + "-" + name(b) + " pairs", pairs.take()};
 }
@@ -330,7 +338,9 @@ BuiltinPairs mixed_pairs(PositionType positions, uint64_t seed) {
     }
   }
   RandomPairs pairs(positions, seed);
-  for (const auto& [a, b] : kinds) pairs.add_special(a, b);
+  for (const auto& [a, b] : kinds) {
+    if (!is_composite(a) && !is_composite(b)) pairs.add_special(a, b);
+  }
   for (size_t i = 0; i < kPairs; ++i) {
     const auto& [a, b] = kinds[i % kinds.size()];
     pairs.add(a, b);

@@ -110,7 +110,7 @@ struct PlacedTriangle {
     const Double3 in_mesh = turned_back(turn, way);
     const Double3 a = corner(mesh, triangle, 0);
     const Double3 u = minus(corner(mesh, triangle, 1), a), v = minus(corner(mesh, triangle, 2), a);
-    const double height[] = {0, dot(in_mesh, u), dot(in_mesh, v)};
+    const Double3 height = {0, dot(in_mesh, u), dot(in_mesh, v)};
     const double least =
         std::max({height[0], height[1], height[2]}) - kSameHeight * (greatest(u) + greatest(v));
     unsigned corners = 0;

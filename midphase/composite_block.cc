@@ -185,14 +185,15 @@ class CompositeRun {
 
   void merge(size_t i) {
     const ResultColumns out = batch_.results();
+    const size_t k = batch_.owner(i);
+    Outcome& best = outcomes_[k];
+    if (best.overlap == 1 && out.overlap[i] == 0 && !tests_.bounds) return;
     Outcome found;
     found.is_found = true;
     found.overlap = out.overlap[i];
     found.edges_to_close = batch_.edges_to_close(i);
     found.separation = out.separation[i];
     found.parts = {batch_.side(0).order(i), batch_.side(1).order(i)};
-    const size_t k = batch_.owner(i);
-    Outcome& best = outcomes_[k];
     if (tests_.bounds) {
       found.bound = out.separation_bound[i];
       found.nearest = double{found.separation} - found.bound;

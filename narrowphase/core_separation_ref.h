@@ -48,21 +48,22 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
     if (depth > kProvenGap) return {.size = -depth, .normal = {1, 0, 0}, .is_proven = true};
   }
   const double distance = std::sqrt(dot(nearest.way, nearest.way));
-  if (distance > kTouchingWay && distance - nearest.gap / distance <= kSameGap) {
+  // Rounding may have ended GJK too early, at corners of shapes that are all but flat.
+  const bool is_distance =
+      distance > kTouchingCores && distance - nearest.gap / distance <= kSameGap;
+  if (is_distance && distance > kTouchingWay) {
     return {.size = distance,
             .normal = nearest.way * (1 / distance),
             .is_proven = true,
             .is_at_corners = distance > kFarFromTouching};
   }
   const WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
-  // Rounding may have ended GJK at corners of shapes that are all but flat: what is proven counts.
-  const bool is_known = distance <= kTouchingWay;
-  const bool is_apart = is_known && distance > kTouchingCores;
-  return {.size = is_apart ? distance : out.gap,
+  const bool is_close = out.gap <= 0 || distance - out.gap <= kTouchingWay;
+  return {.size = is_distance ? distance : out.gap,
           .normal = out.normal,
           .is_flat = out.is_flat,
           .is_proven = std::fabs(out.gap) > kProvenGap,
-          .has_ended = out.has_ended && (is_known || out.gap <= 0)};
+          .has_ended = out.has_ended && is_close};
 }
 
 // The points of a core that are furthest along n, up to a slack; some of them where there are many.

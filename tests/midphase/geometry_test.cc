@@ -133,9 +133,9 @@ TEST(CompoundGeometry, BadDataIsRefused) {
   for (const Shape& shape : {Shape(Hull{}), Shape(Mesh{})}) {
     EXPECT_THAT(error_of(child(shape)), HasSubstr("no geometry"));
   }
-  for (const Shape& shape :
-       {Shape(Sphere{-1}), Shape(Sphere{kNan}), Shape(Box{{1, -1, 1}}),
-        Shape(Aabb{{1, 0, 0}, {0, 0, 0}}), Shape(Capsule{{}, {0, 0, kInfinity}, 1})}) {
+  for (const Shape& shape : {Shape(Sphere{-1}), Shape(Sphere{kNan}), Shape(Box{{1, -1, 1}}),
+                             Shape(Aabb{{1, 0, 0}, {0, 0, 0}}),
+                             Shape(Capsule{Vector3f(0, 0, 0), Vector3f(0, 0, kInfinity), 1})}) {
     EXPECT_THAT(error_of(child(shape)), HasSubstr("child 1 of the compound has a shape"));
   }
   CompoundChild bad = child(Sphere{1});

@@ -178,5 +178,26 @@ TEST(NearestWay, FlatDifferencesAreBesideZero) {
   }
 }
 
+// A hull as thin as rounding made it, with a point inside: GJK stops beside it.
+TEST(NearestWay, NeedleAroundZero) {
+  const Core needle =
+      core_of({{-0.037270426832785364, -0.073177986330249079, -0.00481753879288703},
+               {1.079212152950789, 2.1189613292399989, 0.13949832198213467},
+               {-0.30435995919987791, -0.59759053856125677, -0.03934135177019521},
+               {-0.50983973962634521, -1.0010364889013124, -0.065901534360979119},
+               {-0.2343129108349471, -0.46005777680035131, -0.030287126194537994},
+               {0.67520424666383083, 1.3257186705734481, 0.087276433176532359},
+               {-0.092948534303696373, -0.18249831071400591, -0.012014469289048479},
+               {0.84825123363883859, 1.6654848846650094, 0.10964435624871999},
+               {0.88294373680103577, 1.7336013911361678, 0.11412870430699906},
+               {-0.46097807370732458, -0.90509990577901256, -0.059585731349974025}});
+  const Core zero = core_of({{0, 0, 0}});
+  const CoreGap gap = reference::find_gap(zero, needle, {});
+  EXPECT_LT(gap.size, 0);
+  EXPECT_GT(gap.size, -1e-8);
+  EXPECT_TRUE(gap.has_ended);
+  EXPECT_LE(reference::find_gap(zero, needle, {.decides_only = true}).size, 0);
+}
+
 }  // namespace
 }  // namespace carom::test
