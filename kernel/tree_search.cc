@@ -45,8 +45,8 @@ HWY_INLINE void for_each_bit(uint32_t bits, const Use& use) {
 
 constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
 
-// No child has half of its node's items: seven splits of the largest group, each of which leaves 7/8
-// at most. That makes 31 levels, with seven children waiting in each.
+// No child has half of its node's items: seven splits of the largest group, each of which leaves
+// 7/8 at most. That makes 31 levels, with seven children waiting in each.
 inline constexpr size_t kMostWaiting = 8 * 32;
 
 void touching_items(const BoxTree& tree, const TreeBox& box, FunctionRef<void(uint32_t)> found) {

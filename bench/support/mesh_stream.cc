@@ -14,7 +14,7 @@ constexpr size_t kHulls = 64;
 constexpr size_t kCompared = 50;
 constexpr float kReach = Terrain::kSide * Terrain::kSquares / 2;  // metres from the origin
 
-float height(float x, float y) { return std::sin(0.7f * x) * std::cos(0.5f * y) / 2; }
+float height(float x, float y) { return std::sin(0.35f * x) * std::cos(0.25f * y); }
 
 Terrain make_terrain() {
   constexpr uint32_t kRow = Terrain::kSquares + 1;
