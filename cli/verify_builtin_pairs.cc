@@ -314,8 +314,9 @@ class RandomPairs {
 };
 
 constexpr size_t kPairs = 2003;
-constexpr size_t kSlowPairs = 101;
-constexpr size_t kPairsOfParts = 61;
+constexpr size_t kMixedPairs = 1009;
+constexpr size_t kSlowPairs = 83;
+constexpr size_t kPairsOfParts = 53;
 
 size_t pair_count(ShapeKind a, ShapeKind b) {
   if (is_composite(a) || is_composite(b)) return kPairsOfParts;
@@ -344,7 +345,7 @@ BuiltinPairs mixed_pairs(PositionType positions, uint64_t seed) {
   for (const auto& [a, b] : kinds) {
     if (!is_slow(a, b)) pairs.add_special(a, b);
   }
-  for (size_t i = 0; i < kPairs; ++i) {
+  for (size_t i = 0; i < kMixedPairs; ++i) {
     const auto& [a, b] = kinds[i % kinds.size()];
     pairs.add(a, b);
   }

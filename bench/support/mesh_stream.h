@@ -22,7 +22,7 @@ struct MeshSpec {
 // Squares of two triangles over x and y, in metres, about the origin.
 struct Terrain {
   static constexpr int kSquares = 71;  // along each side: 10,082 triangles
-  static constexpr float kSide = 1.6f;
+  static constexpr float kSide = 1.8f;
 
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;  // fronts look up
