@@ -161,8 +161,9 @@ class RandomPairs {
     pairs_.b.push(shape_b, pose_b);
   }
 
+  // Compounds may be made of surfaces.
   static bool is_surface(ShapeKind kind) {
-    return kind == ShapeKind::triangle || kind == ShapeKind::mesh;
+    return kind == ShapeKind::triangle || is_composite(kind);
   }
 
   // How deep two shapes may overlap before they are apart again; surfaces have no inside.

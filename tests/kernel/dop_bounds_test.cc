@@ -103,9 +103,10 @@ ExactSlab exact_slab(const PlacedShape& body, const std::array<int8_t, 3>& direc
 Real three_floats(float x) { return 3 * (std::nextafter(std::fabs(x), kInfinity) - std::fabs(x)); }
 
 // Thick triangles with hardly any area do not know their back, and have a radius instead; k-DOPs
-// have the slabs of their box.
+// and hulls have the slabs of their box.
 bool is_tight(const PlacedShape& body, const ConvexFamily& family) {
-  if (kind_of(body.shape) == ShapeKind::dop) return false;
+  const ShapeKind kind = kind_of(body.shape);
+  if (kind == ShapeKind::dop || kind == ShapeKind::hull) return false;
   const auto* triangle = std::get_if<Triangle>(&body.shape);
   return triangle == nullptr || triangle->thickness == 0 ||
          (!family.degenerate && family.aspect < 100 &&

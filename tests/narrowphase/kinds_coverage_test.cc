@@ -39,8 +39,9 @@ TEST(KindsCoverage, HitsAndMissesAreBalanced) {
     if (!is_free || family.degenerate) continue;
     if (std::string(family.name) == "at 1e9") continue;  // float32 steps there are of 64 m
     for (const KindPair& kinds : supported_kind_pairs()) {
+      if (has_polytope(kinds) && kinds.a > kinds.b) continue;  // one order tells
       int hits = 0;
-      const int count = has_polytope(kinds) ? 64 : 400;
+      const int count = has_polytope(kinds) ? 100 : 400;
       for (const TestPair& pair : make_kind_pairs(family, kinds, PositionType::float32, count)) {
         hits += reference_result(pair, PositionType::float32).overlap;
       }

@@ -125,7 +125,6 @@ TEST(ConvexOracle, Halfspaces) {
   EXPECT_TRUE(std::isinf(crossed.oracle().separation().value));
 }
 
-
 // Outlines as sets of points, which may begin anywhere.
 std::vector<std::vector<uint32_t>> from_least(const HullFaces& found) {
   std::vector<std::vector<uint32_t>> faces = found.faces();
