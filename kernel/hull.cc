@@ -46,8 +46,8 @@ Result<std::shared_ptr<const HullGeometry>> make_hull(
     if (*std::max_element(face.begin(), face.end()) >= points.size()) {
       return Error{"face " + std::to_string(i) + " of the hull has a corner that does not exist"};
     }
-    hull->faces_.push_back({static_cast<uint32_t>(hull->corners_.size()),
-                            static_cast<uint32_t>(face.size())});
+    hull->faces_.push_back(
+        {static_cast<uint32_t>(hull->corners_.size()), static_cast<uint32_t>(face.size())});
     hull->corners_.insert(hull->corners_.end(), face.begin(), face.end());
   }
   return std::shared_ptr<const HullGeometry>(std::move(hull));

@@ -222,8 +222,7 @@ void World::State::test_pairs() {
       remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
   const Collidables view = has_proxies() ? proxies.view(bodies) : bodies.view();
   const bool sub_shapes =
-      !has_proxies() &&
-      (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
+      !has_proxies() && (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
   collide_pairs(view, plan.pairs_to_test(now.pairs), settings.detail,
                 results.prepare(plan.tested(), settings.detail, sub_shapes), direction,
                 settings.parallelism, settings.accuracy);

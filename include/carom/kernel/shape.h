@@ -84,8 +84,8 @@ struct Halfspace {
 
 // A Dop (carom/kernel/dop.h) turns with its body, as a box does; its slabs must have a point in
 // common.
-using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh,
-                           Compound>;
+using Shape =
+    std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh, Compound>;
 
 CAROM_EXPORT ShapeKind kind_of(const Shape& shape);
 
@@ -95,6 +95,8 @@ constexpr bool is_composite(ShapeKind kind) {
 }
 
 // Kinds whose numbers lie in a geometry that bodies share.
-constexpr bool has_geometry(ShapeKind kind) { return kind == ShapeKind::hull || is_composite(kind); }
+constexpr bool has_geometry(ShapeKind kind) {
+  return kind == ShapeKind::hull || is_composite(kind);
+}
 
 }  // namespace carom
