@@ -89,9 +89,11 @@ class Meeting {
     }
   }
 
+  // By more than rounding: points on the edges are found there.
   bool is_inside(const Vector3d& p, const Outline& outline) const {
     for (const Edge& edge : outline.edges) {
-      if (!(turn(edge.to - edge.from, p - edge.from) > 0)) return false;
+      const Vector3d along = edge.to - edge.from;
+      if (!(turn(along, p - edge.from) > kInPlane * largest_component(along))) return false;
     }
     return !outline.edges.empty();
   }
@@ -102,8 +104,9 @@ class Meeting {
         const Vector3d u = on_a.to - on_a.from, v = on_b.to - on_b.from;
         const Vector3d between = on_b.from - on_a.from;
         const double slope = turn(u, v);
+        if (!(slope * slope > kParallelEdges * (dot(u, u) * dot(v, v)))) continue;
         const double t = turn(between, v) / slope, s = turn(between, u) / slope;
-        if (!(t > 0 && t < 1 && s > 0 && s < 1)) continue;  // nor if they are parallel
+        if (!(t > 0 && t < 1 && s > 0 && s < 1)) continue;
         const Vector3d crossing = on_a.from + u * t;
         keep(crossing, crossing);
       }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # fuzz.sh BUILD_DIR: runs every fuzz target for SECONDS_EACH seconds (20), from the seeds in
-# fuzz/corpus/NAME; what it finds stays in BUILD_DIR/corpus/NAME.
+# fuzz/corpus/NAME_fuzz; what it finds stays in BUILD_DIR/corpus/NAME.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build_dir=$1
@@ -12,7 +12,7 @@ for target in $targets; do
   corpus=$build_dir/corpus/$name
   mkdir -p "$corpus"
   seeds=()
-  [ ! -d "fuzz/corpus/$name" ] || seeds=("fuzz/corpus/$name")
+  [ ! -d "fuzz/corpus/${name}_fuzz" ] || seeds=("fuzz/corpus/${name}_fuzz")
   echo "== $name"
   "$target" -max_total_time="${SECONDS_EACH:-20}" -timeout=10 -rss_limit_mb=4096 -verbosity=0 \
     -print_final_stats=1 -artifact_prefix="$build_dir/" "$corpus" "${seeds[@]}"

@@ -199,5 +199,20 @@ TEST(NearestWay, NeedleAroundZero) {
   EXPECT_LE(reference::find_gap(zero, needle, {.decides_only = true}).size, 0);
 }
 
+// Two edges over one another: they cross nowhere, whatever rounding says, and meet in the middle of
+// what they share.
+TEST(Meeting, OfParallelEdges) {
+  using reference::Vector3d;
+  const Vector3d a0(-0.331117314175, 0.282886261923, 0.412349905338);
+  const Vector3d a1(0.644368258308, 0.524042068562, 0.403171575772);
+  const Vector3d b0(0.0128835405375, 0.133989513938, 0.197599656721);
+  const Vector3d b1(-1.30747166042, -0.192423641232, 0.210022859606);
+  const Vector3d u = (a1 - a0).normalized();
+  const Vector3d n = (b0 - a0 - u * u.dot(b0 - a0)).normalized();
+  const Vector3d point = reference::Meeting({a0, a1}, {b0, b1}, n).point();
+  const double first = std::max(0.0, u.dot(b1 - a0)), last = u.dot(b0 - a0);
+  EXPECT_NEAR(u.dot(point - a0), (first + last) / 2, 1e-9);
+}
+
 }  // namespace
 }  // namespace carom::test
