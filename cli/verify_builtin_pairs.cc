@@ -53,6 +53,7 @@ Compound compound_of(const std::vector<CompoundChild>& children) {
 
 Hull even_hull(float size) {
   std::vector<Eigen::Vector3f> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i) {
     corners.emplace_back(i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size);
   }

@@ -51,7 +51,7 @@ Form form_of(const std::vector<Vector3d>& points) {
   result.first = largest(points, distance_to(points[0])).first;
   result.last = largest(points, distance_to(points[result.first])).first;
   result.form = HullForm::segment;
-  const Vector3d origin = points[result.first];
+  const Vector3d& origin = points[result.first];
   const Vector3d along = (points[result.last] - origin).normalized();
   const auto off_line = [&](const Vector3d& p) { return along.cross(p - origin).norm(); };
   const auto [third, height] = largest(points, off_line);
