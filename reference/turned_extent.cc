@@ -96,6 +96,7 @@ Aabb extent_of_points(const std::vector<Vector3d>& points, const Eigen::Quaterni
 
 std::vector<Vector3d> corners_of(const Eigen::Vector3f& lower, const Eigen::Vector3f& upper) {
   std::vector<Vector3d> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i) {
     corners.emplace_back((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
                          (i & 4 ? upper : lower).z());
@@ -167,6 +168,7 @@ Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation) {
 
 Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation) {
   std::vector<Vector3d> points;
+  points.reserve(hull.geometry->points().size());
   for (const Eigen::Vector3f& p : hull.geometry->points()) points.push_back(p.cast<double>());
   return extent_of_points(points, orientation);
 }
