@@ -14,7 +14,9 @@ endif()
 find_program(CAROM_CCACHE ccache)
 mark_as_advanced(CAROM_CCACHE)
 if(CAROM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CAROM_CCACHE})
+  # Clones in different directories share what they have compiled.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CAROM_CCACHE})
 endif()
 
 # Bit equality: no contraction to FMA, and no SLP vectorisation, under which g++ 12 drops the
