@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr double kFlat = 1e-12;   // on a line, in a plane
-constexpr double kInside = 1e-9;  // left out of a solid
+constexpr double kInside = 1e-9;  // left out of a solid, as a share of its height
 
 // The index with the largest value, and the value.
 template <class Value>
@@ -34,12 +34,14 @@ std::pair<uint32_t, double> largest(const std::vector<Vector3d>& points, const V
   return best;
 }
 
-// What points are together: the ends of a segment, or the normal of a plane.
+// What points are together: the ends of a segment, the normal of a plane, or how far a solid reaches
+// beyond the plane of three of its points.
 struct Form {
   HullForm form = HullForm::point;
   uint32_t first = 0;
   uint32_t last = 0;
   Vector3d normal = Vector3d::Zero();
+  double height = 0;
 };
 
 Form form_of(const std::vector<Vector3d>& points) {
@@ -60,7 +62,8 @@ Form form_of(const std::vector<Vector3d>& points) {
   result.form = HullForm::polygon;
   result.normal = along.cross(points[third] - origin).normalized();
   const auto off_plane = [&](const Vector3d& p) { return std::abs(result.normal.dot(p - origin)); };
-  if (largest(points, off_plane).second > kFlat) result.form = HullForm::solid;
+  result.height = largest(points, off_plane).second;
+  if (result.height > kFlat) result.form = HullForm::solid;
   return result;
 }
 
@@ -86,13 +89,13 @@ HullFaces polygon_faces(const UnitPoints& unit, const Vector3d& normal) {
   return faces;
 }
 
-HullFaces solid_faces(const UnitPoints& unit) {
+HullFaces solid_faces(const UnitPoints& unit, double height) {
   std::optional<Facets> facets = find_facets(unit.point, false);
   if (!facets) facets = find_facets(unit.point, true);
   if (!facets) return all_points(unit.point.size());
   HullFaces faces = merge_facets(unit.point, facets->list, unit.rounding);
-  // Facets so thick may hide corners.
-  if (facets->thickness > kInside) faces.is_corner.assign(unit.point.size(), true);
+  // Facets so thick may hide corners: between two that meet at a small angle there is more room.
+  if (facets->thickness > kInside * height) faces.is_corner.assign(unit.point.size(), true);
   return faces;
 }
 
@@ -105,7 +108,7 @@ HullFaces faces_of(const UnitPoints& unit, const Form& form) {
     case HullForm::polygon:
       return polygon_faces(unit, form.normal);
     case HullForm::solid:
-      return solid_faces(unit);
+      return solid_faces(unit, form.height);
   }
   return {};
 }

@@ -181,6 +181,27 @@ TEST(BuildHull, UprightEdgesKeepTheirEnds) {
   }
 }
 
+// Facets 1e-15 thick that meet at 1e-11: they hid ends that were off by a thousandth of the size.
+TEST(BuildHull, WedgesKeepTheirEnds) {
+  const std::vector<Points> wedges = {
+      {{1.13458409e-11f, 1.13458409e-11f, -0.672511578f},
+       {-5.69627201e-12f, -1.1392544e-11f, -0.993408144f},
+       {2.12684037e-12f, 2.12684037e-12f, -0.867225409f},
+       {-1.13953968e-15f, -2.27907936e-15f, 0.231766343f},
+       {1.81030169e-12f, 1.81030169e-12f, 0.120865464f},
+       {9.4504806e-19f, 1.89009612e-18f, 0.23093152f},
+       {1, 1, 0.655672073f}},
+      {{-1.2390187e-11f, -1.2390187e-11f, 0.926223397f},
+       {4.02496612e-12f, 8.04993225e-12f, -0.688188851f},
+       {-8.3640061e-13f, -8.3640061e-13f, -0.957276881f},
+       {-6.10485891e-13f, -1.22097178e-12f, 0.883849144f},
+       {1.02122064e-18f, 1.02122064e-18f, -0.307504594f},
+       {1.73165505e-18f, 3.4633101e-18f, -0.957466483f},
+       {1, 1, 0.53594172f}}};
+  std::mt19937_64 random(1);
+  for (const Points& points : wedges) expect_same_support(points, built(points), random);
+}
+
 TEST(BuildHull, RefusesNothingAndWhatIsNotFinite) {
   EXPECT_FALSE(build_hull({}));
   const float nan = std::numeric_limits<float>::quiet_NaN();

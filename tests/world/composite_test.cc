@@ -3,7 +3,6 @@
 #include <tbb/task_arena.h>
 
 #include "tests/midphase/composites.h"
-#include "tests/support/rounds.h"
 #include "tests/world/histories.h"
 
 namespace carom::test {
@@ -33,7 +32,7 @@ void expect_reference(const WorldSettings& settings, uint32_t seed) {
   History history(settings, seed, Kinds::all);
   Composites composites(seed);
   add_bodies(history, composites, 40, 4);
-  for (int step = 0; step < static_cast<int>(rounds(16)); ++step) {
+  for (int step = 0; step < 16; ++step) {
     SCOPED_TRACE(testing::Message() << "step " << step << ", seed " << seed);
     history.step_and_check();
     if (testing::Test::HasFailure()) return;
