@@ -34,8 +34,8 @@ std::pair<uint32_t, double> largest(const std::vector<Vector3d>& points, const V
   return best;
 }
 
-// What points are together: the ends of a segment, the normal of a plane, or how far a solid reaches
-// beyond the plane of three of its points.
+// What points are together: the ends of a segment, the normal of a plane, or how far a solid
+// reaches beyond the plane of three of its points.
 struct Form {
   HullForm form = HullForm::point;
   uint32_t first = 0;

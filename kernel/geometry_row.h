@@ -14,11 +14,17 @@ inline std::array<float, 4> geometry_row(const void* geometry) {
   return row;
 }
 
+// From where such a row begins.
+template <class Geometry>
+const Geometry* geometry_at(const float* row) {
+  const void* geometry;
+  std::memcpy(&geometry, row, sizeof geometry);
+  return static_cast<const Geometry*>(geometry);
+}
+
 template <class Geometry>
 const Geometry* geometry_at(const std::array<float, 4>& row) {
-  const void* geometry;
-  std::memcpy(&geometry, row.data(), sizeof geometry);
-  return static_cast<const Geometry*>(geometry);
+  return geometry_at<Geometry>(row.data());
 }
 
 }  // namespace carom

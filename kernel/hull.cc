@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <string>
 
+#include "kernel/hull_features.h"
+
 namespace carom {
 namespace {
 
 std::vector<float> columns_of(std::span<const Eigen::Vector3f> points) {
-  constexpr size_t kLanes = 8;
+  constexpr size_t kLanes = 16;
   const size_t padded = (points.size() + kLanes - 1) / kLanes * kLanes;
   std::vector<float> columns(3 * padded);
   for (size_t i = 0; i < padded; ++i) {
@@ -15,6 +17,15 @@ std::vector<float> columns_of(std::span<const Eigen::Vector3f> points) {
     for (int axis = 0; axis < 3; ++axis) columns[axis * padded + i] = point[axis];
   }
   return columns;
+}
+
+std::vector<std::array<float, 4>> records_of(std::span<const Eigen::Vector3f> points,
+                                             const Eigen::Vector3f& middle) {
+  std::vector<std::array<float, 4>> records;
+  records.reserve(points.size() + 1);
+  for (const Eigen::Vector3f& p : points) records.push_back({p.x(), p.y(), p.z(), 0});
+  records.push_back({middle.x(), middle.y(), middle.z(), 0});
+  return records;
 }
 
 Eigen::Vector3d mean_of(std::span<const Eigen::Vector3f> points) {
@@ -38,6 +49,7 @@ Result<std::shared_ptr<const HullGeometry>> make_hull(
   hull->points_.assign(points.begin(), points.end());
   hull->columns_ = columns_of(points);
   hull->middle_ = mean_of(points);
+  hull->records_ = records_of(points, hull->middle_.cast<float>());
   for (size_t i = 0; i < faces.size(); ++i) {
     const std::vector<uint32_t>& face = faces[i];
     if (face.size() < 3) {
@@ -50,6 +62,7 @@ Result<std::shared_ptr<const HullGeometry>> make_hull(
         {static_cast<uint32_t>(hull->corners_.size()), static_cast<uint32_t>(face.size())});
     hull->corners_.insert(hull->corners_.end(), face.begin(), face.end());
   }
+  hull->features_ = HullFeatures::of(*hull);
   return std::shared_ptr<const HullGeometry>(std::move(hull));
 }
 

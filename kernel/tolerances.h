@@ -182,6 +182,45 @@ inline constexpr double kInFace = 0x1p-47;
 // Of gaps between cores, and depths, this is more than all rounding: such decisions are proven.
 inline constexpr double kProvenGap = 0x1p-36;
 
+// --- Cores in float32, in scaled units: what GJK in lanes may decide. Coordinates of a difference
+// reach nine, rotated points and their products round to 30 units of 2^-24 ---
+
+// Further apart, or deeper in each other, than this they surely are: four times that rounding.
+inline constexpr float kSureGap = 0x1p-16f;
+
+// Volumes of a tetrahedron's corners with zero, over the squared distance of the furthest corner,
+// that surely put zero inside, deeper than kSureGap.
+inline constexpr float kSureVolume = 0x1p-14f;
+
+// The way is the shortest if the projections on it lie apart by no less than this share of it.
+inline constexpr float kLeastProgress = 0x1p-21f;
+
+// How much less than their distance the cores may be apart along the normal: rounding of both.
+inline constexpr float kSameGapInFloat = 0x1p-19f;
+
+// Cores nearer than this have no good way between them in float32.
+inline constexpr float kNearCores = 0x1p-12f;
+
+// Points that reach as far as the furthest up to this face the other core as well.
+inline constexpr float kFacingSlack = 0x1p-16f;
+
+// Squared sine of edges that cross at too small an angle to say where.
+inline constexpr float kSmallCrossing = 0x1p-14f;
+
+// Corners of a face of a hull may be so much behind its plane, as a share of the hull's size.
+inline constexpr double kBehindFace = 0x1p-20;
+
+// Squared sine of edges of hulls that are so nearly parallel that float32 does not know the axis
+// across both.
+inline constexpr float kAlongEachOther = 0x1p-16f;
+
+// Pairs whose scale is a greater power of two, or a smaller one, are not tested in float32.
+inline constexpr float kGreatestScale = 0x1p90f;
+
+// Rounds of GJK in lanes, and points of a core there: who needs more goes on in double precision.
+inline constexpr size_t kMostLaneRounds = 20;
+inline constexpr size_t kMostLanePoints = 128;
+
 // --- Meshes and compounds ---
 
 // Faces that meet at a smaller angle (its tangent) bend neither way: a twentieth of a degree.

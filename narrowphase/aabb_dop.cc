@@ -3,6 +3,6 @@
 
 namespace carom {
 
-void run_aabb_dop(const Batch& batch) { run_core_batch<Aabb, Dop>(batch); }
+void run_aabb_dop(const Batch& batch) { run_core_batch<Aabb, Dop>(batch, nullptr); }
 
 }  // namespace carom

@@ -1,8 +1,34 @@
-// Aabb against hull: searches over any two cores.
+// Aabb against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/aabb_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch-inl.h"
+#include "narrowphase/gjk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void aabb_hull(const Batch& batch) { run_batch<CoreKernel<AabbLanes, HullLanes>>(batch); }
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "narrowphase/core_batch.h"
+#include "simd/dispatch.h"
 
 namespace carom {
 
-void run_aabb_hull(const Batch& batch) { run_core_batch<Aabb, Hull>(batch); }
+HWY_EXPORT(aabb_hull);
+
+void run_aabb_hull(const Batch& batch) {
+  run_core_batch<Aabb, Hull>(batch, CAROM_DISPATCH(aabb_hull));
+}
 
 }  // namespace carom
+#endif  // HWY_ONCE

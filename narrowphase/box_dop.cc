@@ -3,6 +3,6 @@
 
 namespace carom {
 
-void run_box_dop(const Batch& batch) { run_core_batch<Box, Dop>(batch); }
+void run_box_dop(const Batch& batch) { run_core_batch<Box, Dop>(batch, nullptr); }
 
 }  // namespace carom

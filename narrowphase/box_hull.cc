@@ -1,8 +1,34 @@
-// Box against hull: searches over any two cores.
+// Box against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/box_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch-inl.h"
+#include "narrowphase/gjk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void box_hull(const Batch& batch) { run_batch<CoreKernel<BoxLanes, HullLanes>>(batch); }
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "narrowphase/core_batch.h"
+#include "simd/dispatch.h"
 
 namespace carom {
 
-void run_box_hull(const Batch& batch) { run_core_batch<Box, Hull>(batch); }
+HWY_EXPORT(box_hull);
+
+void run_box_hull(const Batch& batch) {
+  run_core_batch<Box, Hull>(batch, CAROM_DISPATCH(box_hull));
+}
 
 }  // namespace carom
+#endif  // HWY_ONCE

@@ -3,6 +3,6 @@
 
 namespace carom {
 
-void run_capsule_dop(const Batch& batch) { run_core_batch<Capsule, Dop>(batch); }
+void run_capsule_dop(const Batch& batch) { run_core_batch<Capsule, Dop>(batch, nullptr); }
 
 }  // namespace carom

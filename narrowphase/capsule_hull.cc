@@ -1,8 +1,34 @@
-// Capsule against hull: searches over any two cores.
+// Capsule against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/capsule_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch-inl.h"
+#include "narrowphase/gjk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void capsule_hull(const Batch& batch) { run_batch<CoreKernel<CapsuleLanes, HullLanes>>(batch); }
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "narrowphase/core_batch.h"
+#include "simd/dispatch.h"
 
 namespace carom {
 
-void run_capsule_hull(const Batch& batch) { run_core_batch<Capsule, Hull>(batch); }
+HWY_EXPORT(capsule_hull);
+
+void run_capsule_hull(const Batch& batch) {
+  run_core_batch<Capsule, Hull>(batch, CAROM_DISPATCH(capsule_hull));
+}
 
 }  // namespace carom
+#endif  // HWY_ONCE

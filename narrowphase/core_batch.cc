@@ -1,9 +1,15 @@
 #include "narrowphase/core_batch.h"
 
+#include <algorithm>
+#include <array>
+
 #include "narrowphase/any_pair_ref.h"
 #include "narrowphase/furthest.h"
+#include "narrowphase/hull_steps.h"
+#include "narrowphase/passes.h"
 #include "narrowphase/row_store.h"
 #include "narrowphase/scalar_batch.h"
+#include "narrowphase/single_pair.h"
 #include "narrowphase/stated_body.h"
 
 namespace carom {
@@ -32,56 +38,99 @@ bool has_exact_points(const T& shape) {
   return true;
 }
 
+// Tests the rows of a batch that lanes have left, one at a time.
 template <class A, class B>
-void test_rows(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b) {
-  const Collidables view_a = view_of(batch.a, batch.layout, kind_a);
-  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
-  const BodyReader a{view_a};
-  const BodyReader b{view_b};
-  const RowStore store(batch, kind_a, kind_b);
-  const reference::CoreTest test = {furthest_point_in_lanes(), !has_contacts(batch.detail)};
-  for (size_t row = 0; row < batch.count; ++row) {
-    const Pair pair = batch.pairs[row];
-    if (!a.is_valid(pair.a) || !b.is_valid(pair.b)) {
-      store.put_invalid(row);
-      continue;
+class RowTester {
+ public:
+  RowTester(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b)
+      : batch_(batch),
+        view_a_(view_of(batch.a, batch.layout, kind_a)),
+        view_b_(view_of(batch.b, batch.layout, kind_b)),
+        store_(batch, kind_a, kind_b),
+        test_{furthest_point_in_lanes(), !has_contacts(batch.detail)} {}
+
+  void run(size_t row, bool is_deep) const {
+    const Pair pair = batch_.pairs[row];
+    if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) return store_.put_invalid(row);
+    if (is_deep && put_depth(row)) return;
+    put_separation(row);
+  }
+
+ private:
+  // Between hulls, in float32, if that is sure.
+  bool put_depth(size_t row) const {
+    if constexpr (std::is_same_v<A, Hull> && std::is_same_v<B, Hull>) {
+      const Pair pair = batch_.pairs[row];
+      const auto hull = [](const BodyReader& body, size_t index) -> reference::HullShape<float> {
+        return {geometry_at<HullGeometry>(body.row(index, 0)), 1};
+      };
+      const reference::Separation s = reference::in_scaled_units<float>(
+          hull(a_, pair.a), hull(b_, pair.b), rounded_pose(a_, b_, pair),
+          [](const auto& x, const auto& y, const reference::PairPose<float>& pose) {
+            return hull_depth(x, y, pose, hull_steps_in_lanes());
+          });
+      if (!s.is_unsure) store_.put(row, s.status, numbers_of(s));
+      return !s.is_unsure;
     }
-    const Position<double> p = a.position<double>(pair.a), q = b.position<double>(pair.b);
-    const auto shape_a = shape_at<A>(a, pair.a);
-    const auto shape_b = shape_at<B>(b, pair.b);
+    return false;
+  }
+
+  // In double precision.
+  void put_separation(size_t row) const {
+    const Pair pair = batch_.pairs[row];
+    const Position<double> p = a_.template position<double>(pair.a);
+    const Position<double> q = b_.template position<double>(pair.b);
+    const auto shape_a = shape_at<A>(a_, pair.a);
+    const auto shape_b = shape_at<B>(b_, pair.b);
     const reference::SeparationAs<double> s = reference::in_scaled_units<double>(
         shape_a, shape_b,
-        {{q.x - p.x, q.y - p.y, q.z - p.z}, orientation_of(a, pair.a), orientation_of(b, pair.b)},
+        {{q.x - p.x, q.y - p.y, q.z - p.z}, orientation_of(a_, pair.a), orientation_of(b_, pair.b)},
         [&](const auto& x, const auto& y, const reference::PairPose<double>& pose) {
-          return core_separation(x, y, pose, test);
+          return core_separation(x, y, pose, test_);
         });
-    store.put(row, s.status, numbers_of(reference::rounded(s)));
+    store_.put(row, s.status, numbers_of(reference::rounded(s)));
     const bool is_proven = !s.is_unsure && has_exact_points(shape_a) && has_exact_points(shape_b);
-    if (batch.unsure && !is_proven) batch.unsure[row] = 1;
+    if (batch_.unsure && !is_proven) batch_.unsure[row] = 1;
   }
-}
+
+  const Batch& batch_;
+  const Collidables view_a_, view_b_;
+  const BodyReader a_{view_a_}, b_{view_b_};
+  const RowStore store_;
+  const reference::CoreTest test_;
+};
 
 }  // namespace
 
 template <class A, class B>
-void run_core_batch(const Batch& batch) {
+void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
   if (batch.pass == Pass::manifold) return run_scalar_manifolds(batch, kind_a, kind_b);
-  test_rows<A, B>(batch, kind_a, kind_b);
+  std::array<uint8_t, kPairsPerBlock> left;
+  std::fill_n(left.begin(), batch.count, in_lanes ? 0 : 1);
+  if (in_lanes) {
+    Batch lanes = batch;
+    lanes.unsure = left.data();
+    in_lanes(lanes);
+  }
+  const RowTester<A, B> rows(batch, kind_a, kind_b);
+  for (size_t row = 0; row < batch.count; ++row) {
+    if (left[row] != 0) rows.run(row, left[row] == kDeep);
+  }
 }
 
-template void run_core_batch<Sphere, Dop>(const Batch&);
-template void run_core_batch<Capsule, Dop>(const Batch&);
-template void run_core_batch<Aabb, Dop>(const Batch&);
-template void run_core_batch<Box, Dop>(const Batch&);
-template void run_core_batch<Dop, Dop>(const Batch&);
-template void run_core_batch<Dop, Triangle>(const Batch&);
-template void run_core_batch<Sphere, Hull>(const Batch&);
-template void run_core_batch<Capsule, Hull>(const Batch&);
-template void run_core_batch<Aabb, Hull>(const Batch&);
-template void run_core_batch<Box, Hull>(const Batch&);
-template void run_core_batch<Dop, Hull>(const Batch&);
-template void run_core_batch<Hull, Hull>(const Batch&);
-template void run_core_batch<Hull, Triangle>(const Batch&);
+template void run_core_batch<Sphere, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Capsule, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Aabb, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Box, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Dop, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Dop, Triangle>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Sphere, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Capsule, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Aabb, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Box, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Dop, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Hull, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Hull, Triangle>(const Batch&, void (*)(const Batch&));
 
 }  // namespace carom

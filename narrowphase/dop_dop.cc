@@ -3,6 +3,6 @@
 
 namespace carom {
 
-void run_dop_dop(const Batch& batch) { run_core_batch<Dop, Dop>(batch); }
+void run_dop_dop(const Batch& batch) { run_core_batch<Dop, Dop>(batch, nullptr); }
 
 }  // namespace carom

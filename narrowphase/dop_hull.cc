@@ -3,6 +3,6 @@
 
 namespace carom {
 
-void run_dop_hull(const Batch& batch) { run_core_batch<Dop, Hull>(batch); }
+void run_dop_hull(const Batch& batch) { run_core_batch<Dop, Hull>(batch, nullptr); }
 
 }  // namespace carom

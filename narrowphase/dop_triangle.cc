@@ -3,6 +3,6 @@
 
 namespace carom {
 
-void run_dop_triangle(const Batch& batch) { run_core_batch<Dop, Triangle>(batch); }
+void run_dop_triangle(const Batch& batch) { run_core_batch<Dop, Triangle>(batch, nullptr); }
 
 }  // namespace carom

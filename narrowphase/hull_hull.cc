@@ -1,8 +1,34 @@
-// Hull against hull: searches over any two cores.
+// Hull against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/hull_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch-inl.h"
+#include "narrowphase/gjk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void hull_hull(const Batch& batch) { run_batch<CoreKernel<HullLanes, HullLanes>>(batch); }
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "narrowphase/core_batch.h"
+#include "simd/dispatch.h"
 
 namespace carom {
 
-void run_hull_hull(const Batch& batch) { run_core_batch<Hull, Hull>(batch); }
+HWY_EXPORT(hull_hull);
+
+void run_hull_hull(const Batch& batch) {
+  run_core_batch<Hull, Hull>(batch, CAROM_DISPATCH(hull_hull));
+}
 
 }  // namespace carom
+#endif  // HWY_ONCE

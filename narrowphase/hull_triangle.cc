@@ -1,8 +1,34 @@
-// Hull against triangle: searches over any two cores.
+// Hull against triangle: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/hull_triangle.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch-inl.h"
+#include "narrowphase/gjk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void hull_triangle(const Batch& batch) { run_batch<CoreKernel<HullLanes, TriangleLanes>>(batch); }
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "narrowphase/core_batch.h"
+#include "simd/dispatch.h"
 
 namespace carom {
 
-void run_hull_triangle(const Batch& batch) { run_core_batch<Hull, Triangle>(batch); }
+HWY_EXPORT(hull_triangle);
+
+void run_hull_triangle(const Batch& batch) {
+  run_core_batch<Hull, Triangle>(batch, CAROM_DISPATCH(hull_triangle));
+}
 
 }  // namespace carom
+#endif  // HWY_ONCE

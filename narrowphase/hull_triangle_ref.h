@@ -1,6 +1,7 @@
 // Hull (A) against triangle (B), as cores.
 #pragma once
 
+#include "narrowphase/hull_separation_ref.h"
 #include "narrowphase/ruled_hull_ref.h"
 
 namespace carom::reference {
@@ -16,7 +17,7 @@ inline SeparationAs<double> core_separation(const HullShape<double>& a,
 template <class Real>
 SeparationAs<Real> separation(const HullShape<Real>& a, const TriangleShape<Real>& b,
                               const PairPose<Real>& pose) {
-  return separation_of_cores(a, b, pose);
+  return separation_with_hull(a, b, pose);
 }
 
 }  // namespace carom::reference

@@ -8,6 +8,8 @@
 
 #include <type_traits>
 
+#include "carom/kernel/hull.h"
+#include "kernel/geometry_row.h"
 #include "narrowphase/batch.h"
 #include "simd/gather-inl.h"
 #include "simd/rotation-inl.h"
@@ -448,6 +450,34 @@ struct HalfspaceLanes {
   }
   HWY_INLINE F extent() const { return hn::Abs(offset); }
   HWY_INLINE void scale(F s) { offset = hn::Mul(offset, s); }
+};
+
+// Points stay where they are until they are asked for.
+struct HullLanes {
+  static constexpr ShapeKind kKind = ShapeKind::hull;
+  static constexpr bool kIsOriented = true;
+  const HullGeometry* geometry[kLanes];  // nullptr in lanes that are not valid
+  F largest;                             // coordinate, not yet scaled
+  F scaling;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE HullLanes load(const BatchSide& side, const Bodies& bodies,
+                                   const PositionLanes&) {
+    HullLanes hull;
+    const RowSource<kRole, 1, Bodies> rows{side, bodies, 0};
+    for (size_t i = 0; i < kLanes; ++i) hull.geometry[i] = geometry_at<HullGeometry>(rows.row(i));
+    hull.largest = lanes_from(
+        [&](size_t i) HWY_ATTR { return hull.geometry[i] ? hull.geometry[i]->size() : -1.0f; });
+    hull.scaling = splat(1);
+    return hull;
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(largest, splat(0)); }
+  HWY_INLINE F size() const { return largest; }
+  HWY_INLINE void clear_unless(Mask keep) { largest = hn::IfThenElseZero(keep, largest); }
+  HWY_INLINE F extent() const { return hn::Mul(largest, scaling); }
+  HWY_INLINE void scale(F s) { scaling = hn::Mul(scaling, s); }
 };
 
 }  // namespace carom::HWY_NAMESPACE

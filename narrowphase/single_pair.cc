@@ -78,9 +78,8 @@ reference::SeparationAs<double> exact_separation(const Batch& batch, ShapeKind k
       {{d.x, d.y, d.z}, orientation_of(a, pair.a), orientation_of(b, pair.b)});
 }
 
-// As the kernels see it: from one subtraction in the type of the positions.
 template <class T>
-reference::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair) {
+reference::PairPose<float> rounded_pose_of(const BodyReader& a, const BodyReader& b, Pair pair) {
   const Position<T> at_a = a.position<T>(pair.a), at_b = b.position<T>(pair.b);
   const Eigen::Matrix<T, 3, 1> position_a(at_a.x, at_a.y, at_a.z);
   const Eigen::Matrix<T, 3, 1> position_b(at_b.x, at_b.y, at_b.z);
@@ -92,6 +91,10 @@ reference::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b
 }
 
 }  // namespace
+
+reference::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair) {
+  return a.is_float64() ? rounded_pose_of<double>(a, b, pair) : rounded_pose_of<float>(a, b, pair);
+}
 
 Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind) {
   Collidables view;
@@ -153,8 +156,7 @@ uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, 
   contact.normal = vector(tested.normal);
   contact.arm_a = vector(tested.point_a);
   const reference::Manifold manifold = reference::manifold_of(
-      shape_of(a, pair.a), shape_of(b, pair.b),
-      a.is_float64() ? rounded_pose<double>(a, b, pair) : rounded_pose<float>(a, b, pair), contact);
+      shape_of(a, pair.a), shape_of(b, pair.b), rounded_pose(a, b, pair), contact);
   points = manifold.points;
   return manifold.count;
 }

@@ -4,13 +4,18 @@
 #include <array>
 
 #include "carom/kernel/shape.h"
+#include "kernel/body_reader.h"
 #include "kernel/tolerances.h"
 #include "narrowphase/batch.h"
+#include "narrowphase/vector_ref.h"
 
 namespace carom {
 
 // One side as a set of bodies.
 Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind);
+
+// Where both are as the kernels see it: from one subtraction in the type of the positions.
+reference::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair);
 
 // Whether both bodies of row `row` are valid.
 bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);

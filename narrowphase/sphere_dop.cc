@@ -3,6 +3,6 @@
 
 namespace carom {
 
-void run_sphere_dop(const Batch& batch) { run_core_batch<Sphere, Dop>(batch); }
+void run_sphere_dop(const Batch& batch) { run_core_batch<Sphere, Dop>(batch, nullptr); }
 
 }  // namespace carom

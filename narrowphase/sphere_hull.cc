@@ -1,8 +1,34 @@
-// Sphere against hull: searches over any two cores.
+// Sphere against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/sphere_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch-inl.h"
+#include "narrowphase/gjk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void sphere_hull(const Batch& batch) { run_batch<CoreKernel<SphereLanes, HullLanes>>(batch); }
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 #include "narrowphase/core_batch.h"
+#include "simd/dispatch.h"
 
 namespace carom {
 
-void run_sphere_hull(const Batch& batch) { run_core_batch<Sphere, Hull>(batch); }
+HWY_EXPORT(sphere_hull);
+
+void run_sphere_hull(const Batch& batch) {
+  run_core_batch<Sphere, Hull>(batch, CAROM_DISPATCH(sphere_hull));
+}
 
 }  // namespace carom
+#endif  // HWY_ONCE

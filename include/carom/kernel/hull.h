@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,6 +13,8 @@
 #include "carom/kernel/result.h"
 
 namespace carom {
+
+class HullFeatures;
 
 // In the body's frame. A hull may be a point, a segment or a flat polygon: such a one has no faces,
 // or two that look in opposite directions.
@@ -32,8 +35,13 @@ class CAROM_EXPORT HullGeometry {
   float size() const { return size_; }  // the greatest magnitude of a coordinate
   const Eigen::Vector3d& middle() const { return middle_; }  // the mean of the points
   // Coordinates of all points along one axis, and behind them the first one's, up to a multiple of
-  // eight.
+  // sixteen.
   const float* column(size_t axis) const { return columns_.data() + axis * columns_.size() / 3; }
+  // x, y, z, 0 of every point, and behind them of middle(), rounded.
+  std::span<const std::array<float, 4>> records() const { return records_; }
+  // Of a solid whose faces are in order; nullptr otherwise, which costs time where such a hull
+  // overlaps another.
+  const HullFeatures* features() const { return features_.get(); }
 
  private:
   friend CAROM_EXPORT Result<std::shared_ptr<const HullGeometry>> make_hull(
@@ -43,14 +51,17 @@ class CAROM_EXPORT HullGeometry {
   std::vector<Face> faces_;
   std::vector<uint32_t> corners_;
   std::vector<float> columns_;
+  std::vector<std::array<float, 4>> records_;
+  std::shared_ptr<const HullFeatures> features_;
   float size_ = 0;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
 };
 
 // From the corners of a convex polytope and the outlines of its faces. Points that are inside, or
-// given twice, do no harm but cost time. Faces are used for manifolds, and for the ways out of
-// triangles that have rules; all else knows the points alone. Fails if there is no point, a
-// coordinate is not finite, or a face has fewer than three corners or one that does not exist.
+// given twice, do no harm but cost time. Faces are used for manifolds, for the ways out of
+// triangles that have rules, and, if they close a solid with all points behind them, for depths;
+// all else knows the points alone. Fails if there is no point, a coordinate is not finite, or a
+// face has fewer than three corners or one that does not exist.
 CAROM_EXPORT Result<std::shared_ptr<const HullGeometry>> make_hull(
     std::span<const Eigen::Vector3f> points, std::span<const std::vector<uint32_t>> faces);
 

@@ -1,0 +1,87 @@
+#include "kernel/hull_features.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "kernel/tolerances.h"
+
+namespace carom {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d point(const HullGeometry& hull, uint32_t i) { return hull.points()[i].cast<double>(); }
+
+// Source: as of the faces of manifolds (hull_face_ref.h).
+Vector3d area_vector(const HullGeometry& hull, std::span<const uint32_t> corners) {
+  const Vector3d first = point(hull, corners[0]);
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 2; i < corners.size(); ++i) {
+    sum += (point(hull, corners[i - 1]) - first).cross(point(hull, corners[i]) - first);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::shared_ptr<const HullFeatures> HullFeatures::of(const HullGeometry& hull) {
+  if (hull.faces().size() < 4) return nullptr;
+  auto features = std::make_shared<HullFeatures>();
+  const bool is_solid = features->add_faces(hull) && features->add_edges(hull);
+  return is_solid ? features : nullptr;
+}
+
+bool HullFeatures::add_faces(const HullGeometry& hull) {
+  const double most_behind = kBehindFace * double{hull.size()};
+  for (const HullGeometry::Face& face : hull.faces()) {
+    const auto corners = hull.corners(face);
+    const Vector3d area = area_vector(hull, corners);
+    const double twice_area = area.stableNorm();
+    if (!(twice_area > 0)) return false;
+    const Vector3d normal = area / twice_area;
+    double height = normal.dot(point(hull, corners[0]));
+    for (uint32_t i = 0; i < hull.points().size(); ++i) {
+      height = std::max(height, normal.dot(point(hull, i)));
+    }
+    for (const uint32_t corner : corners) {
+      if (height - normal.dot(point(hull, corner)) > most_behind) return false;
+    }
+    faces_.push_back({normal.cast<float>(), static_cast<float>(height), face.first, face.count});
+  }
+  return true;
+}
+
+bool HullFeatures::add_edges(const HullGeometry& hull) {
+  // Which face has the way from one point to another to its right.
+  std::map<std::pair<uint32_t, uint32_t>, std::pair<uint32_t, uint32_t>> side_of_way;
+  around_.assign(hull.corners().size(), 0);
+  const auto way = [&](const HullGeometry::Face& face, uint32_t side) {
+    const auto corners = hull.corners(face);
+    return std::pair(corners[side], corners[(side + 1) % face.count]);
+  };
+  for (uint32_t f = 0; f < hull.faces().size(); ++f) {
+    const HullGeometry::Face& face = hull.faces()[f];
+    for (uint32_t side = 0; side < face.count; ++side) {
+      if (!side_of_way.emplace(way(face, side), std::pair(f, face.first + side)).second) {
+        return false;
+      }
+    }
+  }
+  for (const auto& [there, left] : side_of_way) {
+    const auto back = side_of_way.find({there.second, there.first});
+    if (back == side_of_way.end()) return false;
+    if (there.first > there.second) continue;
+    const auto& right = back->second;
+    const Vector3d along = point(hull, there.second) - point(hull, there.first);
+    const double length = along.stableNorm();
+    if (!(length > 0)) return false;
+    around_[left.second] = around_[right.second] = static_cast<uint32_t>(edges_.size());
+    edges_.push_back({(along / length).cast<float>(), there.first, left.first, right.first});
+  }
+  return true;
+}
+
+}  // namespace carom

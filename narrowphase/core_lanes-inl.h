@@ -1,0 +1,161 @@
+// Shapes as cores in lanes: the points of one core a lane, in world axes, relative to the position
+// of A, grown by a radius.
+#if defined(CAROM_NARROWPHASE_CORE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_CORE_LANES_INL_H_
+#undef CAROM_NARROWPHASE_CORE_LANES_INL_H_
+#else
+#define CAROM_NARROWPHASE_CORE_LANES_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+
+#include "kernel/tolerances.h"
+#include "narrowphase/load-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// Cores with fewer points than others repeat their last one.
+class CoreLanes {
+ public:
+  F radius;
+  F3 middle;       // any point inside, to begin with
+  F count_lanes;   // how many points each has
+  Mask has_space;  // those that have no more than there is room for, and no rules
+
+  // The same number of points in every lane.
+  HWY_INLINE void begin(size_t count) {
+    count_ = count;
+    count_lanes = splat(static_cast<float>(count));
+    has_space = hn::Not(no_lanes());
+    radius = splat(0);
+  }
+  HWY_INLINE void set(size_t i, const F3& p) {
+    const FloatTag tag;
+    hn::Store(p.x, tag, points_[i][0]);
+    hn::Store(p.y, tag, points_[i][1]);
+    hn::Store(p.z, tag, points_[i][2]);
+  }
+
+  size_t count() const { return count_; }
+  HWY_INLINE F3 point(size_t i) const {
+    const FloatTag tag;
+    return {hn::Load(tag, points_[i][0]), hn::Load(tag, points_[i][1]),
+            hn::Load(tag, points_[i][2])};
+  }
+
+ private:
+  size_t count_;
+  HWY_ALIGN float points_[kMostLanePoints][3][kLanes];
+};
+
+HWY_INLINE void make_core(const SphereLanes& sphere, const Quaternion&, const F3& offset,
+                          CoreLanes& core) {
+  core.begin(1);
+  core.set(0, offset);
+  core.middle = offset;
+  core.radius = sphere.radius;
+}
+
+HWY_INLINE void make_core(const CapsuleLanes& capsule, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  const Rotation turn = rotation_of(q);
+  const F3 a = rotate(turn, capsule.a) + offset, b = rotate(turn, capsule.b) + offset;
+  core.begin(2);
+  core.set(0, a);
+  core.set(1, b);
+  core.middle = (a + b) * splat(0.5f);
+  core.radius = capsule.radius;
+}
+
+HWY_INLINE void make_core_of_box(const F3& lower, const F3& upper, const Rotation& turn,
+                                 const F3& offset, CoreLanes& core) {
+  core.begin(8);
+  for (size_t i = 0; i < 8; ++i) {  // bit k of i: at the upper end of axis k
+    core.set(i, rotate(turn, {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y,
+                              i & 4 ? upper.z : lower.z}) +
+                    offset);
+  }
+  core.middle = rotate(turn, (lower + upper) * splat(0.5f)) + offset;
+}
+
+HWY_INLINE void make_core(const AabbLanes& box, const Quaternion&, const F3& offset,
+                          CoreLanes& core) {
+  const F one = splat(1), zero = splat(0);
+  make_core_of_box(box.lower, box.upper, {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}},
+                   offset, core);
+}
+
+HWY_INLINE void make_core(const BoxLanes& box, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  make_core_of_box(-box.half, box.half, rotation_of(q), offset, core);
+}
+
+HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  const Rotation turn = rotation_of(q);
+  core.begin(3);
+  core.set(0, rotate(turn, triangle.a) + offset);
+  core.set(1, rotate(turn, triangle.b) + offset);
+  core.set(2, rotate(turn, triangle.c) + offset);
+  core.middle = core.point(0);
+  core.has_space = hn::Not(triangle.is_special);
+}
+
+// Record k of the hull of each lane, or its last point.
+struct HullRecords {
+  std::array<const float*, kLanes> first;
+  std::array<size_t, kLanes> last;
+  size_t k;
+
+  HWY_INLINE const float* record(size_t lane) const {
+    return first[lane] + 4 * std::min(k, last[lane]);
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
+#endif
+  HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
+};
+
+HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  static constexpr std::array<float, 8> kNothing{};
+  HullRecords records, middles;
+  size_t count = 1;
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    const HullGeometry* const geometry = hull.geometry[lane];
+    const size_t points = geometry ? geometry->points().size() : 1;
+    const bool has_space = points <= kMostLanePoints;
+    records.first[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
+    records.last[lane] = has_space ? points - 1 : 0;
+    middles.first[lane] = records.first[lane] + 4 * points;
+    middles.last[lane] = 0;
+    count = std::max(count, records.last[lane] + 1);
+  }
+  const Rotation turn = rotation_of(q);
+  core.begin(count);
+  F unused;
+  F3 p;
+  for (records.k = 0; records.k < count; ++records.k) {
+    transpose_records(records, p, unused);
+    core.set(records.k, rotate(turn, p * hull.scaling) + offset);
+  }
+  middles.k = 0;
+  transpose_records(middles, p, unused);
+  core.middle = rotate(turn, p * hull.scaling) + offset;
+  core.count_lanes =
+      lanes_from([&](size_t lane) { return static_cast<float>(records.last[lane] + 1); });
+  core.has_space = hn::Ge(lanes_from([&](size_t lane) HWY_ATTR {
+                            const HullGeometry* const geometry = hull.geometry[lane];
+                            const bool fits =
+                                geometry && geometry->points().size() <= kMostLanePoints;
+                            return fits ? 1.0f : 0.0f;
+                          }),
+                          splat(1));
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_CORE_LANES_INL_H_

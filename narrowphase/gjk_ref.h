@@ -1,0 +1,307 @@
+// GJK in float32 and scaled units: distances that are sure, and decisions; all else is left to
+// searches in double precision. The kernels in lanes do the same, operation for operation.
+//
+// Sources: as of nearest_way.h. Of a simplex every point, side and face with the last corner is
+// tried, and the nearest kept: lanes have no branches to save.
+#pragma once
+
+#include <array>
+
+#include "kernel/few_of.h"
+#include "kernel/tolerances.h"
+#include "narrowphase/convex_ref.h"
+#include "narrowphase/separation_ref.h"
+#include "narrowphase/shapes_ref.h"
+
+namespace carom::reference {
+
+using Eigen::Vector3f;
+
+// Points in world axes, relative to the position of A.
+struct FloatCore {
+  FewOf<Vector3f, kMostLanePoints> points;
+  float radius = 0;
+  Vector3f middle = Vector3f::Zero();
+  bool has_space = true;  // for all points; and there are no rules
+};
+
+inline FloatCore float_core(const SphereShape<float>& sphere, const Quaternion<float>&,
+                            const Vector3f& offset) {
+  return {{offset}, sphere.radius, offset};
+}
+
+inline FloatCore float_core(const CapsuleShape<float>& capsule, const Quaternion<float>& q,
+                            const Vector3f& offset) {
+  const Rotation<float> turn = rotation_of(q);
+  const Vector3f a = rotate(turn, capsule.a) + offset, b = rotate(turn, capsule.b) + offset;
+  return {{a, b}, capsule.radius, (a + b) * 0.5f};
+}
+
+inline FloatCore float_core_of_box(const Vector3f& lower, const Vector3f& upper,
+                                   const Rotation<float>& turn, const Vector3f& offset) {
+  FloatCore core;
+  for (size_t i = 0; i < 8; ++i) {
+    const Vector3f corner((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
+                          (i & 4 ? upper : lower).z());
+    core.points.push_back(rotate(turn, corner) + offset);
+  }
+  core.middle = rotate(turn, Vector3f((lower + upper) * 0.5f)) + offset;
+  return core;
+}
+
+inline FloatCore float_core(const AabbShape<float>& box, const Quaternion<float>&,
+                            const Vector3f& offset) {
+  const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
+  return float_core_of_box(box.lower, box.upper, unturned, offset);
+}
+
+inline FloatCore float_core(const BoxShape<float>& box, const Quaternion<float>& q,
+                            const Vector3f& offset) {
+  return float_core_of_box(-box.half, box.half, rotation_of(q), offset);
+}
+
+inline FloatCore float_core(const TriangleShape<float>& triangle, const Quaternion<float>& q,
+                            const Vector3f& offset) {
+  const Rotation<float> turn = rotation_of(q);
+  FloatCore core;
+  for (const Vector3f& corner : triangle.corners) {
+    core.points.push_back(rotate(turn, corner) + offset);
+  }
+  core.middle = core.points[0];
+  core.has_space = !triangle.is_special();
+  return core;
+}
+
+inline FloatCore float_core(const HullShape<float>& hull, const Quaternion<float>& q,
+                            const Vector3f& offset) {
+  const Rotation<float> turn = rotation_of(q);
+  const auto scale = static_cast<float>(hull.scale);
+  const auto placed = [&](const std::array<float, 4>& p) -> Vector3f {
+    return rotate(turn, Vector3f(Vector3f(p[0], p[1], p[2]) * scale)) + offset;
+  };
+  const size_t count = hull.geometry->points().size();
+  FloatCore core;
+  core.has_space = count <= kMostLanePoints;
+  for (size_t i = 0; core.has_space && i < count; ++i) {
+    core.points.push_back(placed(hull.geometry->records()[i]));
+  }
+  core.middle = placed(hull.geometry->records()[count]);
+  return core;
+}
+
+inline Vector3f furthest_point(const FloatCore& core, const Vector3f& way) {
+  Vector3f best = core.points[0];
+  float most = dot(way, best);
+  for (size_t i = 1; i < core.points.size(); ++i) {
+    const float height = dot(way, core.points[i]);
+    if (!(height > most)) continue;
+    most = height;
+    best = core.points[i];
+  }
+  return best;
+}
+
+// Heights along a way: of the furthest point, and how many reach as far up to a slack.
+struct FurthestHeights {
+  float most, second = -kLargest, third = -kLargest;
+
+  bool is_one() const { return most - second > kFacingSlack; }
+  bool is_two() const { return most - third > kFacingSlack; }
+};
+
+inline FurthestHeights furthest_heights(const FloatCore& core, const Vector3f& way) {
+  FurthestHeights found{dot(way, core.points[0])};
+  for (size_t i = 1; i < core.points.size(); ++i) {
+    const float height = dot(way, core.points[i]);
+    const float below_most = min(found.most, height);
+    const float below_second = min(found.second, below_most);
+    found.most = max(found.most, height);
+    found.second = max(found.second, below_most);
+    found.third = max(found.third, below_second);
+  }
+  return found;
+}
+
+// A corner of B - A, and the point of A that it belongs to.
+struct Corner {
+  Vector3f point, on_a;
+};
+
+inline Corner difference_corner(const FloatCore& a, const FloatCore& b, const Vector3f& way) {
+  const Vector3f on_a = furthest_point(a, way);
+  return {furthest_point(b, -way) - on_a, on_a};
+}
+
+// Up to three corners, in any of the places.
+struct Simplex {
+  std::array<Corner, 3> corner;
+  std::array<bool, 3> is_used{};
+};
+
+// Of a simplex and one more corner: the point nearest to zero, if the new corner is among those
+// that span it, and which others do.
+class NearestOfCorners {
+ public:
+  NearestOfCorners(const Simplex& simplex, const Vector3f& last)
+      : last_(last), point(last), squared(dot(last, last)) {
+    const auto& used = simplex.is_used;
+    const auto at = [&](size_t i) -> const Vector3f& { return simplex.corner[i].point; };
+    for (size_t i = 0; i < 3; ++i) {
+      if (used[i]) try_segment(at(i), i);
+    }
+    for (const auto& [i, j] : {std::array<size_t, 2>{0, 1}, {0, 2}, {1, 2}}) {
+      if (used[i] && used[j]) try_triangle(at(i), at(j), i, j);
+    }
+    if (used[0] && used[1] && used[2]) try_tetrahedron(at(0), at(1), at(2));
+  }
+
+ private:
+  Vector3f last_;
+
+ public:
+  Vector3f point;
+  float squared;
+  std::array<bool, 3> is_kept{};
+  bool is_around = false;       // zero lies inside of all four
+  bool is_sure_around = false;  // and deep enough to be sure
+
+ private:
+  void keep(const Vector3f& p, size_t one, size_t other) {
+    const float square = dot(p, p);
+    if (!(square < squared)) return;
+    squared = square;
+    point = p;
+    for (size_t i = 0; i < 3; ++i) is_kept[i] = i == one || i == other;
+  }
+
+  void try_segment(const Vector3f& p, size_t other) {
+    const Vector3f side = p - last_;
+    const float along = -dot(last_, side), length = dot(side, side);
+    if (along > 0 && along < length) keep(last_ + side * (along / length), other, other);
+  }
+
+  void try_triangle(const Vector3f& p, const Vector3f& q, size_t one, size_t other) {
+    const Vector3f n = cross<float>(p - last_, q - last_);
+    const bool is_over =
+        dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 && dot(n, cross(p, last_)) < 0;
+    if (is_over) keep(n * (dot(n, last_) / dot(n, n)), one, other);
+  }
+
+  // Zero is inside if its coordinates in the four corners have one sign.
+  void try_tetrahedron(const Vector3f& p, const Vector3f& q, const Vector3f& r) {
+    const Vector3f r_last = cross(r, last_);
+    const float of_p = dot(q, r_last), of_q = -dot(p, r_last), of_r = dot(p, cross(q, last_)),
+                of_last = -dot(r, cross(p, q));
+    const float least = min(min(of_p, of_q), min(of_r, of_last));
+    const float most = max(max(of_p, of_q), max(of_r, of_last));
+    const float depth = max(least, -most);
+    const float size = max(max(dot(p, p), dot(q, q)), max(dot(r, r), dot(last_, last_)));
+    is_around = depth > 0;
+    is_sure_around = is_around && depth > size * kSureVolume;
+  }
+};
+
+struct Gjk {
+  Vector3f way;  // from A to B
+  float squared;
+  Simplex ends;            // the corners that span it
+  bool is_around = false;  // zero is surely inside of B - A
+  bool has_ended = false;
+};
+
+inline Gjk run_gjk(const FloatCore& a, const FloatCore& b) {
+  const Corner first = difference_corner(a, b, b.middle - a.middle);
+  Gjk gjk{first.point, dot(first.point, first.point), {{first, first, first}, {true}}};
+  for (size_t round = 0; round < kMostLaneRounds; ++round) {
+    if (!(gjk.squared > kNearCores * kNearCores)) return gjk;
+    const Corner next = difference_corner(a, b, gjk.way);
+    const float gap = dot(gjk.way, next.point);
+    const bool is_shortest = gjk.squared - gap <= gjk.squared * kLeastProgress;
+    const NearestOfCorners nearest(gjk.ends, next.point);
+    gjk.is_around = nearest.is_sure_around;
+    if (nearest.is_around) return gjk;
+    gjk.has_ended = is_shortest || !(nearest.squared < gjk.squared);
+    if (gjk.has_ended) return gjk;
+    gjk.way = nearest.point;
+    gjk.squared = nearest.squared;
+    gjk.ends.is_used = nearest.is_kept;
+    size_t place = 0;
+    while (gjk.ends.is_used[place]) ++place;
+    gjk.ends.corner[place] = next;
+    gjk.ends.is_used[place] = true;
+  }
+  return gjk;
+}
+
+// Where the cores are nearest to each other.
+struct NearestCores {
+  float distance;
+  Vector3f normal;  // unit, from A to B
+  Vector3f on_a;
+  bool is_sure;
+};
+
+inline NearestCores nearest_cores(const FloatCore& a, const FloatCore& b, const Gjk& gjk) {
+  FewOf<Corner, 3> ends;
+  for (size_t i = 0; i < 3; ++i) {
+    if (gjk.ends.is_used[i]) ends.push_back(gjk.ends.corner[i]);
+  }
+  const Corner& p = ends[0];
+  Vector3f way = p.point, on_a = p.on_a;
+  bool is_narrow = false;
+  if (ends.size() == 2) {  // across the side between them
+    const Corner& q = ends[1];
+    const Vector3f u = q.point - p.point;
+    const float uu = dot(u, u), along = -dot(p.point, u) / uu;
+    const Vector3f on_side = p.point + u * along;
+    way = on_side - u * (dot(on_side, u) / uu);
+    on_a = p.on_a + (q.on_a - p.on_a) * along;
+  }
+  if (ends.size() == 3) {  // across their plane
+    const Corner &q = ends[1], &r = ends[2];
+    const Vector3f u = q.point - p.point, v = r.point - p.point, n = cross(u, v);
+    const float nn = dot(n, n);
+    const float of_q = dot(n, cross(r.point, p.point)) / nn;
+    const float of_r = dot(n, cross(p.point, q.point)) / nn;
+    way = n * (dot(n, p.point) / nn);
+    on_a = (p.on_a + (q.on_a - p.on_a) * of_q) + (r.on_a - p.on_a) * of_r;
+    is_narrow = !(nn > kSmallCrossing * (dot(u, u) * dot(v, v)));
+  }
+  const float distance = std::sqrt(dot(way, way));
+  const Vector3f normal = way * (1 / distance);
+  const FurthestHeights of_a = furthest_heights(a, normal), of_b = furthest_heights(b, -normal);
+  const float gap = -(of_a.most + of_b.most);
+  const bool is_shortest = std::fabs(distance - gap) <= kSameGapInFloat;
+  // One point faces the other core, or two edges cross: there is no other place where they meet.
+  const bool is_unique =
+      of_a.is_one() || of_b.is_one() || (ends.size() == 3 && of_a.is_two() && of_b.is_two());
+  const bool is_sure =
+      gjk.has_ended && distance > kNearCores && !is_narrow && is_shortest && is_unique;
+  return {distance, normal, on_a, is_sure};
+}
+
+struct FloatTest {
+  Separation separation;
+  bool is_deep = false;  // surely: the cores themselves overlap
+};
+
+// `up`: metres a unit.
+inline FloatTest nearest_separation(const FloatCore& a, const FloatCore& b, const Vector3f& d,
+                                    float up) {
+  FloatTest test{not_in_float<float>()};
+  if (!a.has_space || !b.has_space || !(up >= 1 / kGreatestScale && up <= kGreatestScale)) {
+    return test;
+  }
+  const Gjk gjk = run_gjk(a, b);
+  test.is_deep = gjk.is_around;
+  const NearestCores nearest = nearest_cores(a, b, gjk);
+  Separation& result = test.separation;
+  result.separation = nearest.distance - (a.radius + b.radius);
+  result.is_unsure = !(nearest.is_sure && std::fabs(result.separation) > kSureGap);
+  result.normal = nearest.normal;
+  result.arm_a = nearest.on_a + nearest.normal * a.radius;
+  result.arm_b = (result.arm_a + nearest.normal * result.separation) - d;
+  return test;
+}
+
+}  // namespace carom::reference

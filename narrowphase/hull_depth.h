@@ -1,0 +1,80 @@
+// How deep two solid hulls overlap, and which way out is the shortest, in float32 and scaled units:
+// every separating axis that could be that way is tried.
+//
+// The axes are the normals of faces, and the directions across two edges whose arcs on the sphere
+// of normals cross. No axis between the faces at an edge can be better than what one point of the
+// other hull says of both faces: most edges need no other.
+//
+// Sources: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree", SIGGRAPH 1996 (the axes); D. Gregorius,
+// "The Separating Axis Test between Convex Polyhedra", Game Developers Conference, 2013 (the arcs).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kernel/few_of.h"
+#include "kernel/hull_features.h"
+#include "kernel/tolerances.h"
+#include "narrowphase/separation_ref.h"
+#include "narrowphase/shapes_ref.h"
+
+namespace carom {
+
+using Eigen::Vector3f;
+
+// Points of one hull in the frame of another, in columns, as many as fill whole vectors: places
+// behind the last repeat the first.
+struct HullPoints {
+  size_t count, padded;
+  std::array<float, kMostLanePoints> x, y, z;
+
+  Vector3f operator[](size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+// Of points seen along a way: the first of those furthest, its height, and how many reach as far up
+// to kFacingSlack.
+struct FurthestOfHull {
+  size_t index;
+  float height;
+};
+
+// Edges that an edge of A is to be crossed with, in columns: the frame is that of A.
+struct EdgeColumns {
+  static constexpr size_t kMost = 64;
+  static constexpr size_t kColumns = 12;  // direction, a point, normals to the left and the right
+
+  size_t count = 0;
+  std::array<std::array<float, kMost>, kColumns> column;
+};
+
+// An edge of A.
+struct EdgeOfHull {
+  Vector3f direction, from, left, right;
+};
+
+// The best axis across the edge and one of the others.
+struct BestCrossing {
+  float gap = -reference::kLargest;  // of projections on the axis: negative in overlaps
+  size_t other = 0;
+  bool is_doubtful = false;  // some are too nearly parallel
+};
+
+// What runs in lanes; reference::kHullSteps has the same, scalar.
+struct HullSteps {
+  // turn * (point * scale) + offset.
+  void (*place)(const HullGeometry& hull, float scale, const reference::Rotation<float>& turn,
+                const Vector3f& offset, HullPoints& out);
+  FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
+  // How many reach as far as `height` up to kFacingSlack.
+  size_t (*count_as_far)(const HullPoints& points, const Vector3f& way, float height);
+  BestCrossing (*cross)(const EdgeOfHull& edge, const EdgeColumns& others);
+};
+
+// The contact of two hulls that surely overlap; unsure if their features do not tell it, or if they
+// meet in more than one place. In a vector's worth of time, hulls with kMostLanePoints points at
+// most.
+reference::Separation hull_depth(const reference::HullShape<float>& a,
+                                 const reference::HullShape<float>& b,
+                                 const reference::PairPose<float>& pose, const HullSteps& steps);
+
+}  // namespace carom

@@ -1,0 +1,147 @@
+// Points of a hull, and edges, in lanes (hull_steps_ref.h is the reference).
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/hull_steps.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/hull_steps.h"
+#include "simd/rotation-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+using reference::Vector3;
+
+HWY_INLINE F3 in_all_lanes(const Vector3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
+
+HWY_INLINE F indices() { return hn::Iota(FloatTag(), 0); }
+
+// Of lanes with the greatest value, the least index.
+struct FirstOfMost {
+  F most, index;
+
+  static HWY_INLINE FirstOfMost none() { return {splat(-FLT_MAX), splat(0)}; }
+  HWY_INLINE void keep(Mask exists, F value, F at) {
+    const Mask is_better = hn::And(exists, hn::Gt(value, most));
+    most = hn::IfThenElse(is_better, value, most);
+    index = hn::IfThenElse(is_better, at, index);
+  }
+  HWY_INLINE float value() const { return hn::GetLane(hn::MaxOfLanes(FloatTag(), most)); }
+  HWY_INLINE size_t place() const {
+    const FloatTag tag;
+    const Mask is_best = hn::Eq(most, hn::MaxOfLanes(tag, most));
+    const F candidates = hn::IfThenElse(is_best, index, splat(FLT_MAX));
+    return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, candidates)));
+  }
+};
+
+void place_points(const HullGeometry& hull, float scale, const reference::Rotation<float>& turn,
+                  const Vector3f& offset, HullPoints& out) {
+  const FloatTag tag;
+  const Rotation r{in_all_lanes(turn.x), in_all_lanes(turn.y), in_all_lanes(turn.z)};
+  const F3 d = in_all_lanes(offset);
+  const F s = splat(scale);
+  out.count = hull.points().size();
+  out.padded = (out.count + kLanes - 1) / kLanes * kLanes;
+  for (size_t i = 0; i < out.padded; i += kLanes) {
+    const F3 p = {hn::LoadU(tag, hull.column(0) + i), hn::LoadU(tag, hull.column(1) + i),
+                  hn::LoadU(tag, hull.column(2) + i)};
+    const F3 placed = rotate(r, p * s) + d;
+    hn::StoreU(placed.x, tag, out.x.data() + i);
+    hn::StoreU(placed.y, tag, out.y.data() + i);
+    hn::StoreU(placed.z, tag, out.z.data() + i);
+  }
+}
+
+HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
+  const FloatTag tag;
+  return dot(way, {hn::LoadU(tag, points.x.data() + i), hn::LoadU(tag, points.y.data() + i),
+                   hn::LoadU(tag, points.z.data() + i)});
+}
+
+FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
+  const F3 n = in_all_lanes(way);
+  const Mask all = hn::Not(no_lanes());
+  FirstOfMost best = FirstOfMost::none();
+  F index = indices();
+  for (size_t i = 0; i < points.padded; i += kLanes) {
+    best.keep(all, heights(points, n, i), index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.place(), best.value()};
+}
+
+size_t count_as_far(const HullPoints& points, const Vector3f& way, float height) {
+  const FloatTag tag;
+  const F3 n = in_all_lanes(way);
+  const F most = splat(height), count = splat(static_cast<float>(points.count));
+  F index = indices();
+  size_t found = 0;
+  for (size_t i = 0; i < points.padded; i += kLanes) {
+    const Mask is_as_far = hn::Le(hn::Sub(most, heights(points, n, i)), splat(kFacingSlack));
+    found += hn::CountTrue(tag, hn::And(is_as_far, hn::Lt(index, count)));
+    index = hn::Add(index, splat(kLanes));
+  }
+  return found;
+}
+
+BestCrossing cross_edge(const EdgeOfHull& edge, const EdgeColumns& others) {
+  const FloatTag tag;
+  const F zero = splat(0), count = splat(static_cast<float>(others.count));
+  const F3 direction_a = in_all_lanes(edge.direction), from_a = in_all_lanes(edge.from),
+           left_a = in_all_lanes(edge.left), right_a = in_all_lanes(edge.right),
+           outwards = in_all_lanes(edge.left + edge.right);
+  FirstOfMost best = FirstOfMost::none();
+  Mask is_doubtful = no_lanes();
+  F index = indices();
+  for (size_t i = 0; i < others.count; i += kLanes) {
+    const auto vector = [&](size_t c) HWY_ATTR -> F3 {
+      return {hn::LoadU(tag, others.column[c].data() + i),
+              hn::LoadU(tag, others.column[c + 1].data() + i),
+              hn::LoadU(tag, others.column[c + 2].data() + i)};
+    };
+    const F3 direction = vector(0), from = vector(3), left = vector(6), right = vector(9);
+    const F of_left = dot(left, direction_a), of_right = dot(right, direction_a);
+    const F on_left = dot(left_a, direction), on_right = dot(right_a, direction);
+    const Mask is_axis =
+        hn::And(hn::And(hn::Lt(index, count), hn::Lt(hn::Mul(of_right, of_left), zero)),
+                hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
+                        hn::Lt(hn::Mul(of_right, on_left), zero)));
+    const F3 n = cross(direction_a, direction);
+    const F nn = dot(n, n);
+    const Mask is_long = hn::Gt(nn, splat(kAlongEachOther));
+    is_doubtful = hn::Or(is_doubtful, hn::AndNot(is_long, is_axis));
+    const F along = hn::Mul(dot(n, from - from_a), hn::Div(splat(1), hn::Sqrt(nn)));
+    const F gap = hn::IfThenElse(hn::Lt(dot(n, outwards), zero), hn::Neg(along), along);
+    best.keep(hn::And(is_axis, is_long), gap, index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.value(), best.place(), !hn::AllFalse(tag, is_doubtful)};
+}
+
+const HullSteps& hull_steps() {
+  static constexpr HullSteps kSteps = {&place_points, &furthest_of_hull, &count_as_far,
+                                       &cross_edge};
+  return kSteps;
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(hull_steps);
+
+}  // namespace
+
+const HullSteps& hull_steps_in_lanes() { return CAROM_DISPATCH(hull_steps)(); }
+
+}  // namespace carom
+#endif  // HWY_ONCE
