@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -36,6 +37,10 @@ std::shared_ptr<const HullFeatures> HullFeatures::of(const HullGeometry& hull) {
 
 bool HullFeatures::add_faces(const HullGeometry& hull) {
   const double most_behind = kBehindFace * double{hull.size()};
+  const size_t padded = (hull.faces().size() + 15) / 16 * 16;
+  columns_.assign(4 * padded, 0);
+  std::fill_n(columns_.begin() + static_cast<ptrdiff_t>(3 * padded), padded, HUGE_VALF);
+  double inner_radius = HUGE_VAL;
   for (const HullGeometry::Face& face : hull.faces()) {
     const auto corners = hull.corners(face);
     const Vector3d area = area_vector(hull, corners);
@@ -49,8 +54,13 @@ bool HullFeatures::add_faces(const HullGeometry& hull) {
     for (const uint32_t corner : corners) {
       if (height - normal.dot(point(hull, corner)) > most_behind) return false;
     }
-    faces_.push_back({normal.cast<float>(), static_cast<float>(height), face.first, face.count});
+    const Eigen::Vector3f n = normal.cast<float>();
+    planes_.push_back({n.x(), n.y(), n.z(), static_cast<float>(height)});
+    for (size_t i = 0; i < 4; ++i) columns_[i * padded + faces_.size()] = planes_.back()[i];
+    inner_radius = std::min(inner_radius, height - normal.dot(hull.middle()));
+    faces_.push_back({face.first, face.count});
   }
+  inner_radius_ = static_cast<float>(std::max(inner_radius - 4 * most_behind, 0.0));
   return true;
 }
 

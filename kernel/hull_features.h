@@ -15,12 +15,6 @@ namespace carom {
 // In the body's frame.
 class HullFeatures {
  public:
-  struct Face {
-    Eigen::Vector3f normal;  // unit, outwards
-    float height;            // of its plane over the origin of the body, along the normal
-    uint32_t first;          // into the list of edges()
-    uint32_t count;
-  };
   // From one point to the next, with these faces beside it as seen from outside.
   struct Edge {
     Eigen::Vector3f direction;  // unit; left normal x right normal has it
@@ -32,21 +26,40 @@ class HullFeatures {
   // each between two faces.
   static std::shared_ptr<const HullFeatures> of(const HullGeometry& hull);
 
-  std::span<const Face> faces() const { return faces_; }
+  size_t face_count() const { return faces_.size(); }
+  Eigen::Vector3f normal(size_t face) const {  // unit, outwards
+    const std::array<float, 4>& plane = planes_[face];
+    return {plane[0], plane[1], plane[2]};
+  }
+  // Of a face's plane over the origin of the body, along the normal.
+  float height(size_t face) const { return planes_[face][3]; }
+  // The same in columns: x, y, z of the normals, and heights, up to a multiple of sixteen; behind
+  // the last, faces that lie further out than anything.
+  const float* column(size_t i) const { return columns_.data() + i * columns_.size() / 4; }
+  // A ball of this size around the middle of the hull lies inside of it, surely.
+  float inner_radius() const { return inner_radius_; }
   const Edge& edge(uint32_t i) const { return edges_[i]; }
   size_t edge_count() const { return edges_.size(); }
   // Those around a face.
-  std::span<const uint32_t> edges(const Face& face) const {
-    return std::span(around_).subspan(face.first, face.count);
+  std::span<const uint32_t> edges_around(size_t face) const {
+    return std::span(around_).subspan(faces_[face].first, faces_[face].count);
   }
 
  private:
   bool add_faces(const HullGeometry& hull);
   bool add_edges(const HullGeometry& hull);
 
+  struct Face {
+    uint32_t first;  // into around_
+    uint32_t count;
+  };
+
   std::vector<Face> faces_;
   std::vector<Edge> edges_;
   std::vector<uint32_t> around_;
+  std::vector<std::array<float, 4>> planes_;
+  std::vector<float> columns_;
+  float inner_radius_ = 0;
 };
 
 }  // namespace carom

@@ -49,9 +49,13 @@ class RowTester {
         store_(batch, kind_a, kind_b),
         test_{furthest_point_in_lanes(), !has_contacts(batch.detail)} {}
 
+  bool is_valid(size_t row) const {
+    return a_.is_valid(batch_.pairs[row].a) && b_.is_valid(batch_.pairs[row].b);
+  }
+  void put_invalid(size_t row) const { store_.put_invalid(row); }
+
+  // Both bodies are valid.
   void run(size_t row, bool is_deep) const {
-    const Pair pair = batch_.pairs[row];
-    if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) return store_.put_invalid(row);
     if (is_deep && put_depth(row)) return;
     put_separation(row);
   }
@@ -106,14 +110,18 @@ template <class A, class B>
 void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
   if (batch.pass == Pass::manifold) return run_scalar_manifolds(batch, kind_a, kind_b);
-  std::array<uint8_t, kPairsPerBlock> left;
-  std::fill_n(left.begin(), batch.count, in_lanes ? 0 : 1);
+  const RowTester<A, B> rows(batch, kind_a, kind_b);
+  std::array<uint8_t, kPairsPerBlock> left{};
   if (in_lanes) {
     Batch lanes = batch;
     lanes.unsure = left.data();
     in_lanes(lanes);
+  } else {
+    for (size_t row = 0; row < batch.count; ++row) {
+      left[row] = rows.is_valid(row) ? 1 : 0;
+      if (left[row] == 0) rows.put_invalid(row);
+    }
   }
-  const RowTester<A, B> rows(batch, kind_a, kind_b);
   for (size_t row = 0; row < batch.count; ++row) {
     if (left[row] != 0) rows.run(row, left[row] == kDeep);
   }

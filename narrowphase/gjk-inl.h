@@ -300,9 +300,9 @@ struct CoreKernel {
                                          Report& report) {
     const F reach = hn::Sub(radius, splat(kSureGap));
     // Cores that all but touch may be flat, which is for others to say.
-    const Mask is_within = hn::And(hn::Gt(gjk.squared, splat(kNearCores * kNearCores)),
-                                   hn::And(hn::Gt(reach, splat(0)),
-                                           hn::Lt(gjk.squared, hn::Mul(reach, reach))));
+    const Mask is_within =
+        hn::And(hn::Gt(gjk.squared, splat(kNearCores * kNearCores)),
+                hn::And(hn::Gt(reach, splat(0)), hn::Lt(gjk.squared, hn::Mul(reach, reach))));
     const Mask overlap = hn::Or(gjk.is_around, is_within);
     const Mask is_sure = hn::And(is_known, hn::Or(overlap, gjk.is_apart));
     const F separation = hn::IfThenElse(overlap, splat(-1), splat(1));

@@ -1,5 +1,7 @@
 #include "narrowphase/hull_depth.h"
 
+#include <algorithm>
+
 #include "narrowphase/convex_ref.h"
 
 namespace carom {
@@ -7,28 +9,22 @@ namespace {
 
 using namespace reference;
 
-// A point of the other hull, and how far it lies over the plane of a face: no axis at the face, and
-// none between it and its neighbours, has more.
-struct FaceBound {
-  Vector3f point;
-  float gap;
-  bool is_tried;
-};
-
 // One hull, in its own frame, and the other one's points there.
 struct Side {
-  const HullFeatures& features;
-  const HullPoints& own;
+  const HullGeometry& hull;
   const HullPoints& others;
   float scale;
-  std::vector<FaceBound>& bounds;
+  Ball inside;  // of the other one
+  FaceBounds& bounds;
 
-  float height_of(const HullFeatures::Face& face) const { return face.height * scale; }
-};
+  bool was_tried(uint32_t face) const { return bounds.closed[face] > 0; }
 
-struct BestFace {
-  float gap = -kLargest;
-  size_t face = 0;
+  const HullFeatures& features() const { return *hull.features(); }
+  Vector3f own(uint32_t i) const { return hull.points()[i] * scale; }
+  // How far a point lies over a face.
+  float over(size_t face, const Vector3f& point) const {
+    return dot(features().normal(face), point) - features().height(face) * scale;
+  }
 };
 
 class DepthSearch {
@@ -43,35 +39,42 @@ class DepthSearch {
     centre_ = rotate_back(turn_a_, pose_.d);
     thread_local Memory memory;
     place_points(memory);
-    const Side a{*a_.geometry->features(), memory.a, memory.b_in_a, scale_, memory.bounds_a};
-    const Side b{*b_.geometry->features(), memory.b, memory.a_in_b, scale_, memory.bounds_b};
-    const Vector3f middle_a = middle_of(a_), middle_b = middle_of(b_);
-    const Vector3f from_b = rotate_back(turn_, Vector3f(middle_a - centre_));
-    const BestFace guess_a = bound_faces(a, rotate(turn_, middle_b) + centre_);
-    const BestFace guess_b = bound_faces(b, from_b);
-    const float guess = max(try_face(a, guess_a.face), try_face(b, guess_b.face));
-    const BestFace best_a = try_faces(a, guess), best_b = try_faces(b, guess);
+    const Side a =
+        side(a_, memory.b_in_a, rotate(turn_, middle_of(b_)) + centre_, b_, memory.bounds_a);
+    const Side b = side(b_, memory.a_in_b, rotate_back(turn_, Vector3f(middle_of(a_) - centre_)),
+                        a_, memory.bounds_b);
+    const BestFace best_a = try_faces(a, -kLargest), best_b = try_faces(b, best_a.gap);
     keep_faces(a, best_a, b, best_b);
     cross_edges(a, b);
-    return is_doubtful_ ? not_in_float<float>() : contact(a);
+    return is_doubtful_ ? not_in_float<float>() : contact(memory.a, memory.b_in_a);
   }
 
  private:
+  struct Edges {
+    static constexpr size_t kMost = EdgeColumns::kMost;
+    size_t count = 0;
+    std::array<uint32_t, kMost + 1> index;
+  };
+
   struct Memory {
-    HullPoints a, b, b_in_a, a_in_b;
-    std::vector<FaceBound> bounds_a, bounds_b;
+    HullPoints a, b_in_a, a_in_b;
+    FaceBounds bounds_a, bounds_b;
   };
 
   void place_points(Memory& memory) const {
-    const Vector3f zero = Vector3f::Zero();
     const Rotation<float> back = {{turn_.x.x(), turn_.y.x(), turn_.z.x()},
                                   {turn_.x.y(), turn_.y.y(), turn_.z.y()},
                                   {turn_.x.z(), turn_.y.z(), turn_.z.z()}};
     const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
-    steps_.place(*a_.geometry, scale_, unturned, zero, memory.a);
-    steps_.place(*b_.geometry, scale_, unturned, zero, memory.b);
+    steps_.place(*a_.geometry, scale_, unturned, Vector3f::Zero(), memory.a);
     steps_.place(*b_.geometry, scale_, turn_, centre_, memory.b_in_a);
     steps_.place(*a_.geometry, scale_, back, -rotate_back(turn_, centre_), memory.a_in_b);
+  }
+
+  Side side(const HullShape<float>& hull, const HullPoints& others, const Vector3f& middle,
+            const HullShape<float>& other, FaceBounds& bounds) const {
+    const float radius = other.geometry->features()->inner_radius() * scale_;
+    return {*hull.geometry, others, scale_, {middle, radius}, bounds};
   }
 
   Vector3f middle_of(const HullShape<float>& hull) const {
@@ -81,54 +84,49 @@ class DepthSearch {
 
   // --- Faces ---
 
-  // By a point of the other hull; the face with the greatest bound.
-  static BestFace bound_faces(const Side& side, const Vector3f& point) {
-    const auto faces = side.features.faces();
-    side.bounds.resize(faces.size());
-    BestFace best;
-    for (size_t f = 0; f < faces.size(); ++f) {
-      const float gap = dot(faces[f].normal, point) - side.height_of(faces[f]);
-      side.bounds[f] = {point, gap, false};
-      if (gap > best.gap) best = {gap, f};
-    }
-    return best;
-  }
-
   float try_face(const Side& side, size_t f) const {
-    FaceBound& bound = side.bounds[f];
-    if (bound.is_tried) return bound.gap;
-    const HullFeatures::Face& face = side.features.faces()[f];
-    const FurthestOfHull lowest = steps_.furthest(side.others, -face.normal);
-    bound = {side.others[lowest.index], -lowest.height - side.height_of(face), true};
-    return bound.gap;
+    FaceBounds& bounds = side.bounds;
+    const FurthestOfHull lowest = steps_.furthest(side.others, -side.features().normal(f));
+    const float gap = -lowest.height - side.features().height(f) * scale_;
+    bounds.gap[f] = gap;
+    bounds.ball[f] = static_cast<float>(bounds.balls.size());
+    bounds.closed[f] = kLargest;
+    bounds.tried.push_back(static_cast<uint16_t>(f));
+    bounds.balls.push_back({side.others[lowest.index], 0});
+    return gap;
   }
 
-  // Those that may be better than the guess.
-  BestFace try_faces(const Side& side, float guess) const {
-    BestFace best;
-    for (size_t f = 0; f < side.bounds.size(); ++f) {
-      if (side.bounds[f].gap < guess) continue;
-      const float gap = try_face(side, f);
-      if (gap > best.gap) best = {gap, f};
+  // The best of those that may be better than the least gap: the most promising first, each of
+  // which says something of the others.
+  BestFace try_faces(const Side& side, float least) const {
+    FaceBounds& bounds = side.bounds;
+    bounds.tried.clear();
+    bounds.balls = {side.inside};
+    BestFace best{least, 0};
+    while (true) {
+      const BestFace next = steps_.bound(side.features(), scale_, bounds);
+      if (!(next.gap > best.gap)) return best;
+      const float gap = try_face(side, next.face);
+      if (gap > best.gap) best = {gap, next.face};
     }
-    return best;
   }
 
   void keep_faces(const Side& a, const BestFace& best_a, const Side& b, const BestFace& best_b) {
-    if (best_a.gap >= best_b.gap) {
+    if (!(best_b.gap > best_a.gap)) {
       gap_ = best_a.gap;
-      normal_ = a.features.faces()[best_a.face].normal;
+      normal_ = a.features().normal(best_a.face);
     } else {
       gap_ = best_b.gap;
-      normal_ = -rotate(turn_, b.features.faces()[best_b.face].normal);
+      normal_ = -rotate(turn_, b.features().normal(best_b.face));
     }
   }
 
   // --- Edges ---
 
-  EdgeOfHull edge_of(const Side& side, const HullFeatures::Edge& edge) const {
-    const auto faces = side.features.faces();
-    return {edge.direction, side.own[edge.from], faces[edge.left].normal, faces[edge.right].normal};
+  static EdgeOfHull edge_of(const Side& side, uint32_t e) {
+    const HullFeatures::Edge& edge = side.features().edge(e);
+    return {edge.direction, side.own(edge.from), side.features().normal(edge.left),
+            side.features().normal(edge.right)};
   }
 
   EdgeOfHull in_frame_of_a(const EdgeOfHull& edge) const {
@@ -136,54 +134,54 @@ class DepthSearch {
             rotate(turn_, edge.left), rotate(turn_, edge.right)};
   }
 
-  // How far a point lies over a face.
-  static float over(const Side& side, uint32_t f, const Vector3f& point) {
-    const HullFeatures::Face& face = side.features.faces()[f];
-    return dot(face.normal, point) - side.height_of(face);
+  // The most that an axis between two faces can have, by what bounds the first of them.
+  static float bound_between(const Side& side, uint32_t f, uint32_t beyond) {
+    const FaceBounds& bounds = side.bounds;
+    const auto& [middle, radius] = bounds.balls[static_cast<size_t>(bounds.ball[f])];
+    return max(bounds.gap[f], side.over(beyond, middle) - radius);
   }
 
-  // Whether some axis between the faces of the edge may be better than the best face.
-  bool may_be_better(const Side& side, const HullFeatures::Edge& edge) const {
-    const FaceBound &left = side.bounds[edge.left], &right = side.bounds[edge.right];
-    return max(left.gap, over(side, edge.right, left.point)) > gap_ &&
-           max(right.gap, over(side, edge.left, right.point)) > gap_;
-  }
-
-  // Once each, in the order of faces that were tried.
-  template <class Visit>
-  void for_each_edge(const Side& side, const Visit& visit) const {
-    const auto faces = side.features.faces();
-    for (uint32_t f = 0; f < faces.size(); ++f) {
-      if (!side.bounds[f].is_tried) continue;
-      for (const uint32_t e : side.features.edges(faces[f])) {
-        const HullFeatures::Edge& edge = side.features.edge(e);
-        const uint32_t beyond = edge.left == f ? edge.right : edge.left;
-        const bool was_visited = side.bounds[beyond].is_tried && beyond < f;
-        if (!was_visited && may_be_better(side, edge)) visit(edge);
+  // Those beside which some axis may be better than the best face: beside faces that were not tried
+  // none is. Without branches, which nobody could predict.
+  Edges edges_to_cross(const Side& side) const {
+    const HullFeatures& features = side.features();
+    const FaceBounds& bounds = side.bounds;
+    Edges edges;
+    for (const uint32_t f : bounds.tried) {
+      for (const uint32_t e : features.edges_around(f)) {
+        const auto& [direction, from, left, right] = features.edge(e);
+        const uint32_t beyond = left + right - f;
+        const bool is_first = !side.was_tried(beyond) || f < beyond;
+        const bool may_be_better =
+            (bound_between(side, left, right) > gap_) & (bound_between(side, right, left) > gap_);
+        edges.index[edges.count] = e;
+        edges.count += (is_first & may_be_better & (edges.count < Edges::kMost)) ? 1 : 0;
       }
     }
+    return edges;
   }
 
   void cross_edges(const Side& a, const Side& b) {
+    const Edges edges_b = edges_to_cross(b), edges_a = edges_to_cross(a);
+    is_doubtful_ = edges_a.count == Edges::kMost || edges_b.count == Edges::kMost;
+    if (is_doubtful_ || edges_a.count == 0 || edges_b.count == 0) return;
     EdgeColumns of_b;
-    for_each_edge(b, [&](const HullFeatures::Edge& edge) {
-      if (of_b.count == EdgeColumns::kMost) {
-        is_doubtful_ = true;
-        return;
-      }
-      const EdgeOfHull e = in_frame_of_a(edge_of(b, edge));
-      size_t c = 0;
-      for (const Vector3f& v : {e.direction, e.from, e.left, e.right}) {
-        for (int axis = 0; axis < 3; ++axis) of_b.column[c++][of_b.count] = v[axis];
-      }
-      ++of_b.count;
-    });
-    if (of_b.count == 0 || is_doubtful_) return;
-    for_each_edge(a, [&](const HullFeatures::Edge& edge) {
-      const EdgeOfHull on_a = edge_of(a, edge);
+    for (; of_b.count < edges_b.count; ++of_b.count) {
+      const EdgeOfHull e = in_frame_of_a(edge_of(b, edges_b.index[of_b.count]));
+      const auto put = [&](size_t c, const Vector3f& v) {
+        for (int axis = 0; axis < 3; ++axis)
+          of_b.column[c + static_cast<size_t>(axis)][of_b.count] = v[axis];
+      };
+      put(0, e.direction);
+      put(3, e.from);
+      put(6, e.left);
+      put(9, e.right);
+    }
+    for (size_t i = 0; i < edges_a.count; ++i) {
+      const EdgeOfHull on_a = edge_of(a, edges_a.index[i]);
       const BestCrossing best = steps_.cross(on_a, of_b);
       is_doubtful_ = is_doubtful_ || best.is_doubtful;
-      if (!(best.gap > gap_crossing_)) return;
+      if (!(best.gap > gap_crossing_)) continue;
       gap_crossing_ = best.gap;
       edge_a_ = on_a;
       const auto vector = [&](size_t c) -> Vector3f {
@@ -192,7 +190,7 @@ class DepthSearch {
       };
       direction_b_ = vector(0);
       from_b_ = vector(3);
-    });
+    }
     if (!(gap_crossing_ > gap_)) return;
     has_crossing_ = true;
     gap_ = gap_crossing_;
@@ -204,20 +202,20 @@ class DepthSearch {
 
   // --- The contact ---
 
-  Separation contact(const Side& a) const {
-    const FurthestOfHull of_a = steps_.furthest(a.own, normal_);
-    const FurthestOfHull of_b = steps_.furthest(a.others, -normal_);
+  Separation contact(const HullPoints& a, const HullPoints& b) const {
+    const FurthestOfHull of_a = steps_.furthest(a, normal_);
+    const FurthestOfHull of_b = steps_.furthest(b, -normal_);
     const float gap = -(of_a.height + of_b.height);
     if (!(std::fabs(gap - gap_) <= kSameGapInFloat && gap_ < -kSureGap)) {
       return not_in_float<float>();
     }
-    const size_t count_a = steps_.count_as_far(a.own, normal_, of_a.height);
-    const size_t count_b = steps_.count_as_far(a.others, -normal_, of_b.height);
+    const size_t count_a = steps_.count_as_far(a, normal_, of_a.height);
+    const size_t count_b = steps_.count_as_far(b, -normal_, of_b.height);
     Vector3f on_a;
     if (count_b == 1) {
-      on_a = a.others[of_b.index] - normal_ * gap_;
+      on_a = b[of_b.index] - normal_ * gap_;
     } else if (count_a == 1) {
-      on_a = a.own[of_a.index];
+      on_a = a[of_a.index];
     } else if (has_crossing_ && count_a == 2 && count_b == 2) {
       const float along = dot(cross<float>(from_b_ - edge_a_.from, direction_b_), across_) /
                           dot(cross(edge_a_.direction, direction_b_), across_);
@@ -255,7 +253,9 @@ class DepthSearch {
 Separation hull_depth(const HullShape<float>& a, const HullShape<float>& b,
                       const PairPose<float>& pose, const HullSteps& steps) {
   const auto is_known = [](const HullShape<float>& hull) {
-    return hull.geometry->features() && hull.geometry->points().size() <= kMostLanePoints;
+    const HullFeatures* const features = hull.geometry->features();
+    return features && hull.geometry->points().size() <= kMostLanePoints &&
+           features->face_count() <= FaceBounds::kMost;
   };
   if (!is_known(a) || !is_known(b)) return not_in_float<float>();
   return DepthSearch(a, b, pose, steps).run();

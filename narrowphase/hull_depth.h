@@ -10,7 +10,7 @@
 #pragma once
 
 #include <array>
-#include <vector>
+#include <cstdint>
 
 #include "kernel/few_of.h"
 #include "kernel/hull_features.h"
@@ -36,6 +36,29 @@ struct HullPoints {
 struct FurthestOfHull {
   size_t index;
   float height;
+};
+
+// A part of the other hull: one of its points, or a ball inside of it.
+struct Ball {
+  Vector3f middle;
+  float radius;
+};
+
+// Of the faces of one hull: no axis at a face has a greater gap than this, nor has any between it
+// and its neighbours.
+struct FaceBounds {
+  static constexpr size_t kMost = 2 * kMostLanePoints;
+
+  std::array<float, kMost> gap;
+  std::array<float, kMost> ball;    // the index of the one that says so
+  std::array<float, kMost> closed;  // above zero: the face was tried, the gap is its own
+  FewOf<Ball, kMost + 1> balls;
+  FewOf<uint16_t, kMost> tried;
+};
+
+struct BestFace {
+  float gap = -reference::kLargest;
+  size_t face = 0;
 };
 
 // Edges that an edge of A is to be crossed with, in columns: the frame is that of A.
@@ -64,6 +87,9 @@ struct HullSteps {
   // turn * (point * scale) + offset.
   void (*place)(const HullGeometry& hull, float scale, const reference::Rotation<float>& turn,
                 const Vector3f& offset, HullPoints& out);
+  // By the last of the balls, too. Of the faces that were not tried the first with the greatest
+  // bound.
+  BestFace (*bound)(const HullFeatures& features, float scale, FaceBounds& bounds);
   FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
   // How many reach as far as `height` up to kFacingSlack.
   size_t (*count_as_far)(const HullPoints& points, const Vector3f& way, float height);

@@ -29,9 +29,11 @@ struct FirstOfMost {
     index = hn::IfThenElse(is_better, at, index);
   }
   HWY_INLINE float value() const { return hn::GetLane(hn::MaxOfLanes(FloatTag(), most)); }
-  HWY_INLINE size_t place() const {
+  // Of `count` values.
+  HWY_INLINE size_t place(size_t count) const {
     const FloatTag tag;
     const Mask is_best = hn::Eq(most, hn::MaxOfLanes(tag, most));
+    if (count <= kLanes) return hn::FindKnownFirstTrue(tag, is_best);
     const F candidates = hn::IfThenElse(is_best, index, splat(FLT_MAX));
     return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, candidates)));
   }
@@ -55,6 +57,36 @@ void place_points(const HullGeometry& hull, float scale, const reference::Rotati
   }
 }
 
+BestFace bound_faces(const HullFeatures& features, float scale, FaceBounds& bounds) {
+  const FloatTag tag;
+  const size_t last = bounds.balls.size() - 1;
+  const F3 middle = in_all_lanes(bounds.balls[last].middle);
+  const F s = splat(scale), radius = splat(bounds.balls[last].radius);
+  const F ball = splat(static_cast<float>(last)), none = splat(0), greatest = splat(FLT_MAX);
+  const Mask all = hn::Not(no_lanes());
+  FirstOfMost best = FirstOfMost::none();
+  F index = indices();
+  for (size_t i = 0; i < features.face_count(); i += kLanes) {
+    const F3 n = {hn::LoadU(tag, features.column(0) + i), hn::LoadU(tag, features.column(1) + i),
+                  hn::LoadU(tag, features.column(2) + i)};
+    const F height = hn::Mul(hn::LoadU(tag, features.column(3) + i), s);
+    const F gap = hn::Sub(hn::Sub(dot(n, middle), height), radius);
+    float* const gaps = bounds.gap.data() + i;
+    float* const balls = bounds.ball.data() + i;
+    float* const closed = bounds.closed.data() + i;
+    const F known = last == 0 ? greatest : hn::LoadU(tag, gaps);
+    const F is_closed = last == 0 ? none : hn::LoadU(tag, closed);
+    const Mask is_less = last == 0 ? all : hn::Lt(gap, known);
+    const F least = hn::IfThenElse(is_less, gap, known);
+    hn::StoreU(least, tag, gaps);
+    hn::StoreU(last == 0 ? ball : hn::IfThenElse(is_less, ball, hn::LoadU(tag, balls)), tag, balls);
+    hn::StoreU(is_closed, tag, closed);
+    best.keep(all, hn::Sub(least, is_closed), index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.value(), best.place(features.face_count())};
+}
+
 HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
   const FloatTag tag;
   return dot(way, {hn::LoadU(tag, points.x.data() + i), hn::LoadU(tag, points.y.data() + i),
@@ -70,7 +102,7 @@ FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
     best.keep(all, heights(points, n, i), index);
     index = hn::Add(index, splat(kLanes));
   }
-  return {best.place(), best.value()};
+  return {best.place(points.count), best.value()};
 }
 
 size_t count_as_far(const HullPoints& points, const Vector3f& way, float height) {
@@ -118,12 +150,12 @@ BestCrossing cross_edge(const EdgeOfHull& edge, const EdgeColumns& others) {
     best.keep(hn::And(is_axis, is_long), gap, index);
     index = hn::Add(index, splat(kLanes));
   }
-  return {best.value(), best.place(), !hn::AllFalse(tag, is_doubtful)};
+  return {best.value(), best.place(others.count), !hn::AllFalse(tag, is_doubtful)};
 }
 
 const HullSteps& hull_steps() {
-  static constexpr HullSteps kSteps = {&place_points, &furthest_of_hull, &count_as_far,
-                                       &cross_edge};
+  static constexpr HullSteps kSteps = {&place_points, &bound_faces, &furthest_of_hull,
+                                       &count_as_far, &cross_edge};
   return kSteps;
 }
 

@@ -16,6 +16,23 @@ inline void place_points(const HullGeometry& hull, float scale, const Rotation<f
   }
 }
 
+inline BestFace bound_faces(const HullFeatures& features, float scale, FaceBounds& bounds) {
+  const size_t last = bounds.balls.size() - 1;
+  const auto& [middle, radius] = bounds.balls[last];
+  BestFace best;
+  for (size_t f = 0; f < features.face_count(); ++f) {
+    const float gap = (dot(features.normal(f), middle) - features.height(f) * scale) - radius;
+    if (last == 0 || gap < bounds.gap[f]) {
+      bounds.gap[f] = gap;
+      bounds.ball[f] = static_cast<float>(last);
+    }
+    if (last == 0) bounds.closed[f] = 0;
+    const float open = bounds.gap[f] - bounds.closed[f];
+    if (open > best.gap) best = {open, f};
+  }
+  return best;
+}
+
 inline FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
   FurthestOfHull best{0, dot(way, points[0])};
   for (size_t i = 1; i < points.count; ++i) {
@@ -62,7 +79,7 @@ inline BestCrossing cross_edge(const EdgeOfHull& edge, const EdgeColumns& others
   return best;
 }
 
-inline constexpr HullSteps kHullSteps = {&place_points, &furthest_of_hull, &count_as_far,
-                                         &cross_edge};
+inline constexpr HullSteps kHullSteps = {&place_points, &bound_faces, &furthest_of_hull,
+                                         &count_as_far, &cross_edge};
 
 }  // namespace carom::reference
