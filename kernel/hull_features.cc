@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -29,7 +30,8 @@ Vector3d area_vector(const HullGeometry& hull, std::span<const uint32_t> corners
 }  // namespace
 
 std::shared_ptr<const HullFeatures> HullFeatures::of(const HullGeometry& hull) {
-  if (hull.faces().size() < 4) return nullptr;
+  constexpr size_t kMostFaces = std::numeric_limits<uint16_t>::max();
+  if (hull.faces().size() < 4 || hull.faces().size() > kMostFaces) return nullptr;
   auto features = std::make_shared<HullFeatures>();
   const bool is_solid = features->add_faces(hull) && features->add_edges(hull);
   return is_solid ? features : nullptr;
@@ -56,40 +58,33 @@ bool HullFeatures::add_faces(const HullGeometry& hull) {
     }
     const Eigen::Vector3f n = normal.cast<float>();
     planes_.push_back({n.x(), n.y(), n.z(), static_cast<float>(height)});
-    for (size_t i = 0; i < 4; ++i) columns_[i * padded + faces_.size()] = planes_.back()[i];
+    for (size_t i = 0; i < 4; ++i) columns_[i * padded + planes_.size() - 1] = planes_.back()[i];
     inner_radius = std::min(inner_radius, height - normal.dot(hull.middle()));
-    faces_.push_back({face.first, face.count});
   }
   inner_radius_ = static_cast<float>(std::max(inner_radius - 4 * most_behind, 0.0));
   return true;
 }
 
 bool HullFeatures::add_edges(const HullGeometry& hull) {
-  // Which face has the way from one point to another to its right.
-  std::map<std::pair<uint32_t, uint32_t>, std::pair<uint32_t, uint32_t>> side_of_way;
-  around_.assign(hull.corners().size(), 0);
-  const auto way = [&](const HullGeometry::Face& face, uint32_t side) {
-    const auto corners = hull.corners(face);
-    return std::pair(corners[side], corners[(side + 1) % face.count]);
-  };
+  // Which face has the way from one point to another around it.
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> face_of_way;
   for (uint32_t f = 0; f < hull.faces().size(); ++f) {
-    const HullGeometry::Face& face = hull.faces()[f];
-    for (uint32_t side = 0; side < face.count; ++side) {
-      if (!side_of_way.emplace(way(face, side), std::pair(f, face.first + side)).second) {
-        return false;
-      }
+    const auto corners = hull.corners(hull.faces()[f]);
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const std::pair way(corners[i], corners[(i + 1) % corners.size()]);
+      if (!face_of_way.emplace(way, f).second) return false;
     }
   }
-  for (const auto& [there, left] : side_of_way) {
-    const auto back = side_of_way.find({there.second, there.first});
-    if (back == side_of_way.end()) return false;
+  for (const auto& [there, left] : face_of_way) {
+    const auto back = face_of_way.find({there.second, there.first});
+    if (back == face_of_way.end()) return false;
     if (there.first > there.second) continue;
-    const auto& right = back->second;
+    const uint32_t right = back->second;
     const Vector3d along = point(hull, there.second) - point(hull, there.first);
     const double length = along.stableNorm();
     if (!(length > 0)) return false;
-    around_[left.second] = around_[right.second] = static_cast<uint32_t>(edges_.size());
-    edges_.push_back({(along / length).cast<float>(), there.first, left.first, right.first});
+    edges_.push_back({(along / length).cast<float>(), there.first, left, right});
+    sides_.push_back({static_cast<uint16_t>(left), static_cast<uint16_t>(right)});
   }
   return true;
 }

@@ -26,7 +26,7 @@ class HullFeatures {
   // each between two faces.
   static std::shared_ptr<const HullFeatures> of(const HullGeometry& hull);
 
-  size_t face_count() const { return faces_.size(); }
+  size_t face_count() const { return planes_.size(); }
   Eigen::Vector3f normal(size_t face) const {  // unit, outwards
     const std::array<float, 4>& plane = planes_[face];
     return {plane[0], plane[1], plane[2]};
@@ -40,23 +40,15 @@ class HullFeatures {
   float inner_radius() const { return inner_radius_; }
   const Edge& edge(uint32_t i) const { return edges_[i]; }
   size_t edge_count() const { return edges_.size(); }
-  // Those around a face.
-  std::span<const uint32_t> edges_around(size_t face) const {
-    return std::span(around_).subspan(faces_[face].first, faces_[face].count);
-  }
+  // The faces beside each edge.
+  std::span<const std::array<uint16_t, 2>> sides() const { return sides_; }
 
  private:
   bool add_faces(const HullGeometry& hull);
   bool add_edges(const HullGeometry& hull);
 
-  struct Face {
-    uint32_t first;  // into around_
-    uint32_t count;
-  };
-
-  std::vector<Face> faces_;
   std::vector<Edge> edges_;
-  std::vector<uint32_t> around_;
+  std::vector<std::array<uint16_t, 2>> sides_;
   std::vector<std::array<float, 4>> planes_;
   std::vector<float> columns_;
   float inner_radius_ = 0;

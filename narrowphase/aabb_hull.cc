@@ -6,13 +6,17 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/gjk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-void aabb_hull(const Batch& batch) { run_batch<CoreKernel<AabbLanes, HullLanes>>(batch); }
+void aabb_hull(const Batch& batch) {
+  batch.pass == Pass::direction ? run_direction<AabbLanes, HullLanes>(batch)
+                                : run_batch<CoreKernel<AabbLanes, HullLanes>>(batch);
+}
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

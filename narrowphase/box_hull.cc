@@ -6,13 +6,17 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/gjk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-void box_hull(const Batch& batch) { run_batch<CoreKernel<BoxLanes, HullLanes>>(batch); }
+void box_hull(const Batch& batch) {
+  batch.pass == Pass::direction ? run_direction<BoxLanes, HullLanes>(batch)
+                                : run_batch<CoreKernel<BoxLanes, HullLanes>>(batch);
+}
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

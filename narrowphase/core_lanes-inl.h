@@ -103,56 +103,74 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
-// Record k of the hull of each lane, or its last point.
-struct HullRecords {
-  std::array<const float*, kLanes> first;
-  std::array<size_t, kLanes> last;
-  size_t k;
-
-  HWY_INLINE const float* record(size_t lane) const {
-    return first[lane] + 4 * std::min(k, last[lane]);
+// Points of the hull of each lane: point i, or the last one.
+class HullRecords {
+ public:
+  explicit HWY_INLINE HullRecords(const HullLanes& hull) {
+    static constexpr std::array<float, 8> kNothing{};
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const HullGeometry* const geometry = hull.geometry[lane];
+      first_[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
+      points_[lane] = geometry ? geometry->points().size() : 1;
+      count_ = std::max(count_, points_[lane]);
+    }
   }
+
+  struct Record {
+    const HullRecords& hulls;
+    size_t i;
+
+    HWY_INLINE const float* record(size_t lane) const {
+      return hulls.first_[lane] + 4 * std::min(i, hulls.points_[lane] - 1);
+    }
 #if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
+    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
 #endif
-  HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
+    HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
+  };
+  HWY_INLINE Record at(size_t i) const { return {*this, i}; }
+
+  // Behind the points.
+  struct Middle {
+    const HullRecords& hulls;
+
+    HWY_INLINE const float* record(size_t lane) const {
+      return hulls.first_[lane] + 4 * hulls.points_[lane];
+    }
+#if HWY_TARGET != HWY_SCALAR
+    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
+#endif
+    HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
+  };
+  HWY_INLINE Middle middle() const { return {*this}; }
+
+  size_t count() const { return count_; }  // the most that any hull has
+  HWY_INLINE F count_lanes() const {
+    return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
+  }
+
+ private:
+  std::array<const float*, kLanes> first_;
+  std::array<size_t, kLanes> points_;
+  size_t count_ = 1;
 };
 
 HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
                           CoreLanes& core) {
-  static constexpr std::array<float, 8> kNothing{};
-  HullRecords records, middles;
-  size_t count = 1;
-  for (size_t lane = 0; lane < kLanes; ++lane) {
-    const HullGeometry* const geometry = hull.geometry[lane];
-    const size_t points = geometry ? geometry->points().size() : 1;
-    const bool has_space = points <= kMostLanePoints;
-    records.first[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
-    records.last[lane] = has_space ? points - 1 : 0;
-    middles.first[lane] = records.first[lane] + 4 * points;
-    middles.last[lane] = 0;
-    count = std::max(count, records.last[lane] + 1);
-  }
+  const HullRecords records(hull);
+  const size_t count = std::min(records.count(), kMostLanePoints);
   const Rotation turn = rotation_of(q);
   core.begin(count);
   F unused;
   F3 p;
-  for (records.k = 0; records.k < count; ++records.k) {
-    transpose_records(records, p, unused);
-    core.set(records.k, rotate(turn, p * hull.scaling) + offset);
+  for (size_t i = 0; i < count; ++i) {
+    transpose_records(records.at(i), p, unused);
+    core.set(i, rotate(turn, p * hull.scaling) + offset);
   }
-  middles.k = 0;
-  transpose_records(middles, p, unused);
+  transpose_records(records.middle(), p, unused);
   core.middle = rotate(turn, p * hull.scaling) + offset;
-  core.count_lanes =
-      lanes_from([&](size_t lane) { return static_cast<float>(records.last[lane] + 1); });
-  core.has_space = hn::Ge(lanes_from([&](size_t lane) HWY_ATTR {
-                            const HullGeometry* const geometry = hull.geometry[lane];
-                            const bool fits =
-                                geometry && geometry->points().size() <= kMostLanePoints;
-                            return fits ? 1.0f : 0.0f;
-                          }),
-                          splat(1));
+  core.count_lanes = records.count_lanes();
+  core.has_space = hn::Le(core.count_lanes, splat(static_cast<float>(kMostLanePoints)));
 }
 
 }  // namespace carom::HWY_NAMESPACE

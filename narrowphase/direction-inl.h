@@ -9,6 +9,7 @@
 
 #include "kernel/tolerances.h"
 #include "narrowphase/batch-inl.h"
+#include "narrowphase/core_lanes-inl.h"
 #include "narrowphase/packed_direction.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,6 +48,18 @@ HWY_INLINE F reach_along(const AabbLanes& box, const Quaternion&, const F3& n) {
 HWY_INLINE F reach_along(const TriangleLanes& triangle, const Quaternion& q, const F3& n) {
   const F3 m = rotate_back(q, n);
   return max(max(dot(m, triangle.a), dot(m, triangle.b)), dot(m, triangle.c));
+}
+
+HWY_INLINE F reach_along(const HullLanes& hull, const Quaternion& q, const F3& n) {
+  const F3 m = rotate_back(q, n);
+  HullRecords records(hull);
+  F reach = splat(-FLT_MAX), unused;
+  F3 p;
+  for (size_t i = 0; i < records.count(); ++i) {
+    transpose_records(records.at(i), p, unused);
+    reach = max(reach, dot(m, p));
+  }
+  return hn::Mul(reach, hull.scaling);
 }
 
 template <class Shape>

@@ -17,14 +17,8 @@ struct Side {
   Ball inside;  // of the other one
   FaceBounds& bounds;
 
-  bool was_tried(uint32_t face) const { return bounds.closed[face] > 0; }
-
   const HullFeatures& features() const { return *hull.features(); }
   Vector3f own(uint32_t i) const { return hull.points()[i] * scale; }
-  // How far a point lies over a face.
-  float over(size_t face, const Vector3f& point) const {
-    return dot(features().normal(face), point) - features().height(face) * scale;
-  }
 };
 
 class DepthSearch {
@@ -43,7 +37,10 @@ class DepthSearch {
         side(a_, memory.b_in_a, rotate(turn_, middle_of(b_)) + centre_, b_, memory.bounds_a);
     const Side b = side(b_, memory.a_in_b, rotate_back(turn_, Vector3f(middle_of(a_) - centre_)),
                         a_, memory.bounds_b);
-    const BestFace best_a = try_faces(a, -kLargest), best_b = try_faces(b, best_a.gap);
+    const BestFace best_a = try_faces(a, -kLargest);
+    if (is_doubtful_) return not_in_float<float>();
+    const BestFace best_b = try_faces(b, best_a.gap);
+    if (is_doubtful_) return not_in_float<float>();
     keep_faces(a, best_a, b, best_b);
     cross_edges(a, b);
     return is_doubtful_ ? not_in_float<float>() : contact(memory.a, memory.b_in_a);
@@ -88,24 +85,22 @@ class DepthSearch {
     FaceBounds& bounds = side.bounds;
     const FurthestOfHull lowest = steps_.furthest(side.others, -side.features().normal(f));
     const float gap = -lowest.height - side.features().height(f) * scale_;
-    bounds.gap[f] = gap;
-    bounds.ball[f] = static_cast<float>(bounds.balls.size());
     bounds.closed[f] = kLargest;
-    bounds.tried.push_back(static_cast<uint16_t>(f));
     bounds.balls.push_back({side.others[lowest.index], 0});
     return gap;
   }
 
   // The best of those that may be better than the least gap: the most promising first, each of
   // which says something of the others.
-  BestFace try_faces(const Side& side, float least) const {
+  BestFace try_faces(const Side& side, float least) {
     FaceBounds& bounds = side.bounds;
-    bounds.tried.clear();
     bounds.balls = {side.inside};
     BestFace best{least, 0};
     while (true) {
       const BestFace next = steps_.bound(side.features(), scale_, bounds);
       if (!(next.gap > best.gap)) return best;
+      is_doubtful_ = bounds.balls.is_full();
+      if (is_doubtful_) return best;
       const float gap = try_face(side, next.face);
       if (gap > best.gap) best = {gap, next.face};
     }
@@ -134,29 +129,21 @@ class DepthSearch {
             rotate(turn_, edge.left), rotate(turn_, edge.right)};
   }
 
-  // The most that an axis between two faces can have, by what bounds the first of them.
-  static float bound_between(const Side& side, uint32_t f, uint32_t beyond) {
-    const FaceBounds& bounds = side.bounds;
-    const auto& [middle, radius] = bounds.balls[static_cast<size_t>(bounds.ball[f])];
-    return max(bounds.gap[f], side.over(beyond, middle) - radius);
-  }
-
-  // Those beside which some axis may be better than the best face: beside faces that were not tried
-  // none is. Without branches, which nobody could predict.
+  // Those beside which some axis may be better than the best face. Without branches, which nobody
+  // could predict.
   Edges edges_to_cross(const Side& side) const {
-    const HullFeatures& features = side.features();
-    const FaceBounds& bounds = side.bounds;
+    const auto sides = side.features().sides();
+    const size_t balls = side.bounds.balls.size();
     Edges edges;
-    for (const uint32_t f : bounds.tried) {
-      for (const uint32_t e : features.edges_around(f)) {
-        const auto& [direction, from, left, right] = features.edge(e);
-        const uint32_t beyond = left + right - f;
-        const bool is_first = !side.was_tried(beyond) || f < beyond;
-        const bool may_be_better =
-            (bound_between(side, left, right) > gap_) & (bound_between(side, right, left) > gap_);
-        edges.index[edges.count] = e;
-        edges.count += (is_first & may_be_better & (edges.count < Edges::kMost)) ? 1 : 0;
+    for (size_t e = 0; e < sides.size(); ++e) {
+      const auto [left, right] = sides[e];
+      float bound = kLargest;
+      for (size_t i = 0; i < balls; ++i) {
+        const auto& between = side.bounds.between[i];
+        bound = min(bound, max(between[left], between[right]));
       }
+      edges.index[edges.count] = static_cast<uint32_t>(e);
+      edges.count += bound > gap_ && edges.count < Edges::kMost ? 1 : 0;
     }
     return edges;
   }

@@ -44,16 +44,17 @@ struct Ball {
   float radius;
 };
 
-// Of the faces of one hull: no axis at a face has a greater gap than this, nor has any between it
-// and its neighbours.
+// Of the faces of one hull: what balls say of the gaps of their axes. An axis between two faces has
+// no more than the greater of what a ball says of both, if its middle is below both; `between` is
+// kLargest of faces that it is above.
 struct FaceBounds {
   static constexpr size_t kMost = 2 * kMostLanePoints;
+  static constexpr size_t kMostBalls = 32;
 
-  std::array<float, kMost> gap;
-  std::array<float, kMost> ball;    // the index of the one that says so
-  std::array<float, kMost> closed;  // above zero: the face was tried, the gap is its own
-  FewOf<Ball, kMost + 1> balls;
-  FewOf<uint16_t, kMost> tried;
+  FewOf<Ball, kMostBalls> balls;
+  std::array<std::array<float, kMost>, kMostBalls> between;  // by each
+  std::array<float, kMost> gap;                              // the least of all
+  std::array<float, kMost> closed;                           // above zero: the face was tried
 };
 
 struct BestFace {

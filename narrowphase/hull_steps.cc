@@ -62,7 +62,6 @@ BestFace bound_faces(const HullFeatures& features, float scale, FaceBounds& boun
   const size_t last = bounds.balls.size() - 1;
   const F3 middle = in_all_lanes(bounds.balls[last].middle);
   const F s = splat(scale), radius = splat(bounds.balls[last].radius);
-  const F ball = splat(static_cast<float>(last)), none = splat(0), greatest = splat(FLT_MAX);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
   F index = indices();
@@ -70,16 +69,15 @@ BestFace bound_faces(const HullFeatures& features, float scale, FaceBounds& boun
     const F3 n = {hn::LoadU(tag, features.column(0) + i), hn::LoadU(tag, features.column(1) + i),
                   hn::LoadU(tag, features.column(2) + i)};
     const F height = hn::Mul(hn::LoadU(tag, features.column(3) + i), s);
-    const F gap = hn::Sub(hn::Sub(dot(n, middle), height), radius);
+    const F above = hn::Sub(dot(n, middle), height);
+    const F gap = hn::Sub(above, radius);
+    const F between = hn::IfThenElse(hn::Gt(above, splat(0)), splat(FLT_MAX), gap);
+    hn::StoreU(between, tag, bounds.between[last].data() + i);
     float* const gaps = bounds.gap.data() + i;
-    float* const balls = bounds.ball.data() + i;
     float* const closed = bounds.closed.data() + i;
-    const F known = last == 0 ? greatest : hn::LoadU(tag, gaps);
-    const F is_closed = last == 0 ? none : hn::LoadU(tag, closed);
-    const Mask is_less = last == 0 ? all : hn::Lt(gap, known);
-    const F least = hn::IfThenElse(is_less, gap, known);
+    const F least = last == 0 ? gap : min(hn::LoadU(tag, gaps), gap);
+    const F is_closed = last == 0 ? splat(0) : hn::LoadU(tag, closed);
     hn::StoreU(least, tag, gaps);
-    hn::StoreU(last == 0 ? ball : hn::IfThenElse(is_less, ball, hn::LoadU(tag, balls)), tag, balls);
     hn::StoreU(is_closed, tag, closed);
     best.keep(all, hn::Sub(least, is_closed), index);
     index = hn::Add(index, splat(kLanes));

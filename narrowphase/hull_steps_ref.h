@@ -21,11 +21,10 @@ inline BestFace bound_faces(const HullFeatures& features, float scale, FaceBound
   const auto& [middle, radius] = bounds.balls[last];
   BestFace best;
   for (size_t f = 0; f < features.face_count(); ++f) {
-    const float gap = (dot(features.normal(f), middle) - features.height(f) * scale) - radius;
-    if (last == 0 || gap < bounds.gap[f]) {
-      bounds.gap[f] = gap;
-      bounds.ball[f] = static_cast<float>(last);
-    }
+    const float above = dot(features.normal(f), middle) - features.height(f) * scale;
+    const float gap = above - radius;
+    bounds.between[last][f] = above > 0 ? kLargest : gap;
+    bounds.gap[f] = last == 0 ? gap : min(bounds.gap[f], gap);
     if (last == 0) bounds.closed[f] = 0;
     const float open = bounds.gap[f] - bounds.closed[f];
     if (open > best.gap) best = {open, f};

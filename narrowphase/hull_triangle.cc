@@ -6,13 +6,17 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/gjk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-void hull_triangle(const Batch& batch) { run_batch<CoreKernel<HullLanes, TriangleLanes>>(batch); }
+void hull_triangle(const Batch& batch) {
+  batch.pass == Pass::direction ? run_direction<HullLanes, TriangleLanes>(batch)
+                                : run_batch<CoreKernel<HullLanes, TriangleLanes>>(batch);
+}
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE
