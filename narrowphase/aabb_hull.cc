@@ -14,8 +14,14 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void aabb_hull(const Batch& batch) {
-  batch.pass == Pass::direction ? run_direction<AabbLanes, HullLanes>(batch)
-                                : run_batch<CoreKernel<AabbLanes, HullLanes>>(batch);
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<AabbLanes, HullLanes>(batch);
+    case Pass::distance:
+      return run_batch<CoreKernel<AabbLanes, HullLanes, true>>(batch);
+    default:
+      return run_batch<CoreKernel<AabbLanes, HullLanes, false>>(batch);
+  }
 }
 
 }  // namespace

@@ -14,8 +14,14 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void box_hull(const Batch& batch) {
-  batch.pass == Pass::direction ? run_direction<BoxLanes, HullLanes>(batch)
-                                : run_batch<CoreKernel<BoxLanes, HullLanes>>(batch);
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<BoxLanes, HullLanes>(batch);
+    case Pass::distance:
+      return run_batch<CoreKernel<BoxLanes, HullLanes, true>>(batch);
+    default:
+      return run_batch<CoreKernel<BoxLanes, HullLanes, false>>(batch);
+  }
 }
 
 }  // namespace

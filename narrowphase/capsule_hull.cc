@@ -12,7 +12,9 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-void capsule_hull(const Batch& batch) { run_batch<CoreKernel<CapsuleLanes, HullLanes>>(batch); }
+void capsule_hull(const Batch& batch) {
+  run_batch<CoreKernel<CapsuleLanes, HullLanes, true>>(batch);
+}
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE

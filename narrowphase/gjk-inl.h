@@ -158,6 +158,7 @@ struct GjkLanes {
   F squared;          // of its length
   SimplexLanes ends;  // the corners that span it
   Mask is_apart;      // surely, by more than the radius; found by whoever asks for no more
+  F gap;              // there: of the projections on the way, times its length
   Mask is_around;     // zero is surely inside of B - A
   Mask has_ended;     // at the shortest way
 };
@@ -174,6 +175,7 @@ HWY_INLINE GjkLanes run_gjk(const CoreLanes& a, const CoreLanes& b, F radius) {
   gjk.ends.corner = {first, first, first};
   gjk.ends.is_used = {all, none, none};
   gjk.is_apart = gjk.is_around = gjk.has_ended = none;
+  gjk.gap = splat(0);
   const F sure = hn::Add(radius, splat(kSureGap));
   const F sure_squared = hn::Mul(sure, sure);
   Mask is_open = all;
@@ -186,6 +188,7 @@ HWY_INLINE GjkLanes run_gjk(const CoreLanes& a, const CoreLanes& b, F radius) {
       const Mask is_beyond = hn::And(hn::Gt(gap, splat(0)),
                                      hn::Gt(hn::Mul(gap, gap), hn::Mul(sure_squared, gjk.squared)));
       gjk.is_apart = hn::Or(gjk.is_apart, hn::And(is_open, is_beyond));
+      gjk.gap = hn::IfThenElse(is_open, gap, gjk.gap);
       is_open = hn::AndNot(is_beyond, is_open);
     }
     const Mask is_shortest =
@@ -267,17 +270,19 @@ HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, co
   return {distance, normal, on_a, is_sure};
 }
 
-// The test of two kinds of which one is a hull. Marks as unsure whatever is left to double
-// precision.
-template <class ShapeA, class ShapeB>
+// The test of two kinds of which one is a hull. Marks as unsure whatever is left to other tests,
+// and with kDeep cores that surely overlap, whose depth is wanted. `kMeasures`: separate pairs,
+// too; otherwise their separation is a lower bound, along the normal.
+template <class ShapeA, class ShapeB, bool kMeasures>
 struct CoreKernel {
   using A = ShapeA;
   using B = ShapeB;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::nothing;
+  static constexpr Unsure kUnsure = Unsure::left;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    constexpr bool kDecides = !(kMeasures && Report::kHasContact);
     CoreLanes core_a, core_b;
     make_core(a, pose.a, splat3(0), core_a);
     make_core(b, pose.b, pose.d, core_b);
@@ -285,13 +290,13 @@ struct CoreKernel {
                                   hn::And(hn::Ge(report.up, splat(1 / kGreatestScale)),
                                           hn::Le(report.up, splat(kGreatestScale))));
     const F radius = hn::Add(core_a.radius, core_b.radius);
-    const GjkLanes gjk = run_gjk<!Report::kHasContact>(core_a, core_b, radius);
-    if constexpr (Report::kHasContact) {
-      report_nearest(nearest_cores(core_a, core_b, gjk), radius, core_a, pose, is_known, report);
-      mark_deep(hn::And(gjk.is_around, is_known), report);
-    } else {
+    const GjkLanes gjk = run_gjk<kDecides>(core_a, core_b, radius);
+    if constexpr (kDecides) {
       report_decision(gjk, radius, is_known, report);
+    } else {
+      report_nearest(nearest_cores(core_a, core_b, gjk), radius, core_a, pose, is_known, report);
     }
+    if constexpr (Report::kHasContact) mark_deep(hn::And(gjk.is_around, is_known), report);
   }
 
  private:
@@ -305,8 +310,10 @@ struct CoreKernel {
                 hn::And(hn::Gt(reach, splat(0)), hn::Lt(gjk.squared, hn::Mul(reach, reach))));
     const Mask overlap = hn::Or(gjk.is_around, is_within);
     const Mask is_sure = hn::And(is_known, hn::Or(overlap, gjk.is_apart));
-    const F separation = hn::IfThenElse(overlap, splat(-1), splat(1));
-    report(overlap, hn::Not(is_sure), no_lanes(), separation, splat3(0), splat3(0), splat3(0));
+    const F length = hn::Sqrt(gjk.squared);
+    const F gap = hn::Sub(hn::Div(gjk.gap, length), radius);
+    report(overlap, hn::Not(is_sure), no_lanes(), hn::IfThenElse(gjk.is_apart, gap, splat(-1)),
+           gjk.way * hn::Div(splat(1), length), splat3(0), splat3(0));
   }
 
   // Whose cores overlap is unsure: depths are found elsewhere.

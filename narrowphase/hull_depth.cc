@@ -48,9 +48,9 @@ class DepthSearch {
 
  private:
   struct Edges {
-    static constexpr size_t kMost = EdgeColumns::kMost;
-    size_t count = 0;
-    std::array<uint32_t, kMost + 1> index;
+    static constexpr size_t kMost = 3 * kMostLanePoints;
+    size_t count;
+    std::array<uint16_t, kMost> index;
   };
 
   struct Memory {
@@ -129,28 +129,29 @@ class DepthSearch {
             rotate(turn_, edge.left), rotate(turn_, edge.right)};
   }
 
-  // Those beside which some axis may be better than the best face. Without branches, which nobody
-  // could predict.
+  // Those beside which some axis may be better than the best face, by each ball in turn: the last
+  // ones know most. Without branches, which nobody could predict.
   Edges edges_to_cross(const Side& side) const {
     const auto sides = side.features().sides();
-    const size_t balls = side.bounds.balls.size();
     Edges edges;
-    for (size_t e = 0; e < sides.size(); ++e) {
-      const auto [left, right] = sides[e];
-      float bound = kLargest;
-      for (size_t i = 0; i < balls; ++i) {
-        const auto& between = side.bounds.between[i];
-        bound = min(bound, max(between[left], between[right]));
+    edges.count = sides.size();
+    for (size_t e = 0; e < sides.size(); ++e) edges.index[e] = static_cast<uint16_t>(e);
+    for (size_t ball = side.bounds.balls.size(); ball-- > 0;) {
+      const auto& between = side.bounds.between[ball];
+      size_t left = 0;
+      for (size_t i = 0; i < edges.count; ++i) {
+        const uint16_t e = edges.index[i];
+        edges.index[left] = e;
+        left += max(between[sides[e][0]], between[sides[e][1]]) > gap_ ? 1 : 0;
       }
-      edges.index[edges.count] = static_cast<uint32_t>(e);
-      edges.count += bound > gap_ && edges.count < Edges::kMost ? 1 : 0;
+      edges.count = left;
     }
     return edges;
   }
 
   void cross_edges(const Side& a, const Side& b) {
     const Edges edges_b = edges_to_cross(b), edges_a = edges_to_cross(a);
-    is_doubtful_ = edges_a.count == Edges::kMost || edges_b.count == Edges::kMost;
+    is_doubtful_ = edges_b.count > EdgeColumns::kMost;
     if (is_doubtful_ || edges_a.count == 0 || edges_b.count == 0) return;
     EdgeColumns of_b;
     for (; of_b.count < edges_b.count; ++of_b.count) {
@@ -242,7 +243,8 @@ Separation hull_depth(const HullShape<float>& a, const HullShape<float>& b,
   const auto is_known = [](const HullShape<float>& hull) {
     const HullFeatures* const features = hull.geometry->features();
     return features && hull.geometry->points().size() <= kMostLanePoints &&
-           features->face_count() <= FaceBounds::kMost;
+           features->face_count() <= FaceBounds::kMost &&
+           features->edge_count() <= 3 * kMostLanePoints;
   };
   if (!is_known(a) || !is_known(b)) return not_in_float<float>();
   return DepthSearch(a, b, pose, steps).run();

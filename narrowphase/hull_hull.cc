@@ -14,8 +14,14 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void hull_hull(const Batch& batch) {
-  batch.pass == Pass::direction ? run_direction<HullLanes, HullLanes>(batch)
-                                : run_batch<CoreKernel<HullLanes, HullLanes>>(batch);
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<HullLanes, HullLanes>(batch);
+    case Pass::distance:
+      return run_batch<CoreKernel<HullLanes, HullLanes, true>>(batch);
+    default:
+      return run_batch<CoreKernel<HullLanes, HullLanes, false>>(batch);
+  }
 }
 
 }  // namespace

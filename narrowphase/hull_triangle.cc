@@ -14,8 +14,14 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void hull_triangle(const Batch& batch) {
-  batch.pass == Pass::direction ? run_direction<HullLanes, TriangleLanes>(batch)
-                                : run_batch<CoreKernel<HullLanes, TriangleLanes>>(batch);
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<HullLanes, TriangleLanes>(batch);
+    case Pass::distance:
+      return run_batch<CoreKernel<HullLanes, TriangleLanes, true>>(batch);
+    default:
+      return run_batch<CoreKernel<HullLanes, TriangleLanes, false>>(batch);
+  }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ enum class Unsure {
   nothing,     // the kernel is exact near touch
   separation,  // the separation alone: the normal is good
   everything,
+  left,  // nothing here: what is marked, and that alone, is tested again elsewhere
 };
 
 }  // namespace carom

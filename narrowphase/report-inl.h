@@ -49,7 +49,9 @@ struct LaneReport {
     if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
     unsure = hn::And(unsure, valid);
     if (HWY_UNLIKELY(marks_unsure())) mark_unsure(unsure, answer.separation);
-    if constexpr (Kernel::kUnsure != Unsure::nothing) refine(unsure, answer, overlap, degenerate);
+    if constexpr (Kernel::kUnsure == Unsure::separation || Kernel::kUnsure == Unsure::everything) {
+      refine(unsure, answer, overlap, degenerate);
+    }
     I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
     if (HWY_UNLIKELY(is_odd)) blot_out_invalid(answer, overlap, status);
     store_bytes(status, batch.out.status, row);
@@ -67,8 +69,10 @@ struct LaneReport {
 
   // Gaps that vanished in metres, and numbers so large that they were clamped, are unsure, too.
   HWY_INLINE void mark_unsure(Mask unsure, F separation) const {
-    unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
-    unsure = hn::Or(unsure, hn::AndNot(plain, valid));
+    if constexpr (Kernel::kUnsure != Unsure::left) {
+      unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
+      unsure = hn::Or(unsure, hn::AndNot(plain, valid));
+    }
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
     store_bytes(bytes_where(unsure, 1), batch.unsure, row);
   }
