@@ -1,6 +1,10 @@
 // The face that a hull turns towards another shape, scalar.
 #pragma once
 
+#include <algorithm>
+#include <vector>
+
+#include "kernel/hull_features.h"
 #include "narrowphase/dop_face_ref.h"
 
 namespace carom::reference {
@@ -14,14 +18,16 @@ class HullSideFinder {
   // equals the first. Where there are none, the points that reach as far: one, or two ends.
   FacingSide towards(const Vector3f& m) const {
     const Vector3f along = rotate_back(placed_.turn, m);
-    float most = -HUGE_VALF;
-    for (const Vector3f& p : hull_.points()) most = max(most, dot(along, p * scale_));
+    thread_local std::vector<float> heights;
+    heights.clear();
+    for (const Vector3f& p : hull_.points()) heights.push_back(dot(along, p * scale_));
+    const float most = *std::max_element(heights.begin(), heights.end());
     const float least = most - kSameCorner * (hull_.size() * scale_);
     const HullGeometry::Face* best = nullptr;
     Vector3f best_normal = Vector3f::Zero();
     float nearest = 0;
     for (const HullGeometry::Face& face : hull_.faces()) {
-      if (!reaches(face, along, least)) continue;
+      if (!reaches(face, heights, least)) continue;
       const Vector3f normal = normal_of(face);
       const float cosine = dot(normal, along);
       if (best && !(cosine > nearest)) continue;
@@ -35,15 +41,19 @@ class HullSideFinder {
  private:
   Vector3f point(uint32_t i) const { return hull_.points()[i] * scale_; }
 
-  bool reaches(const HullGeometry::Face& face, const Vector3f& along, float least) const {
+  bool reaches(const HullGeometry::Face& face, const std::vector<float>& heights,
+               float least) const {
     const auto corners = hull_.corners(face);
     return std::any_of(corners.begin(), corners.end(),
-                       [&](uint32_t i) { return dot(along, point(i)) >= least; });
+                       [&](uint32_t i) { return heights[i] >= least; });
   }
 
   // Source: M. E. Newell's sum over the outline; I. Sutherland, R. Sproull, R. Schumacker, "A
   // Characterization of Ten Hidden-Surface Algorithms", Computing Surveys 6(1), 1974.
   Vector3f normal_of(const HullGeometry::Face& face) const {
+    if (const HullFeatures* const features = hull_.features()) {
+      return features->normal(static_cast<size_t>(&face - hull_.faces().data()));
+    }
     const auto corners = hull_.corners(face);
     const Vector3d first = point(corners[0]).cast<double>();
     Vector3d sum = Vector3d::Zero();
