@@ -118,7 +118,7 @@ class RandomPairs {
         break;
       default:
         separate(shape_a, pose_a, shape_b, pose_b,
-                 size_b * depth(a, b) * random_.between(-1, both_surfaces(a, b) ? 0 : 0.5));
+                 size_b * depth(a, b) * random_.between(-1, most_apart(a, b)));
     }
     push(shape_a, pose_a, shape_b, pose_b);
   }
@@ -172,8 +172,11 @@ class RandomPairs {
     return is_surface(a) || is_surface(b) ? 0.05 : 0.3;
   }
 
-  // One-sided ones often do not meet at all.
-  static bool both_surfaces(ShapeKind a, ShapeKind b) { return is_surface(a) && is_surface(b); }
+  // As a share of the depth, so that half of all pairs overlap: one-sided surfaces often do not
+  // meet at all.
+  static double most_apart(ShapeKind a, ShapeKind b) {
+    return 0.5 - 0.25 * (is_surface(a) + is_surface(b));
+  }
 
   // Moves B along the normal until it is about this far from A, unless it comes from behind a
   // one-sided triangle.

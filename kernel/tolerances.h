@@ -204,8 +204,9 @@ inline constexpr float kNearCores = 0x1p-12f;
 // Points that reach as far as the furthest up to this face the other core as well.
 inline constexpr float kFacingSlack = 0x1p-16f;
 
-// Squared sine of edges that cross at too small an angle to say where.
-inline constexpr float kSmallCrossing = 0x1p-14f;
+// Squared sine of edges that cross at too small an angle to say where: rounding moves the crossing
+// by eight times as much.
+inline constexpr float kSmallCrossing = 0x1p-6f;
 
 // Corners of a face of a hull may be so much behind its plane, as a share of the hull's size.
 inline constexpr double kBehindFace = 0x1p-20;

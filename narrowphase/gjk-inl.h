@@ -250,12 +250,11 @@ HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, co
   const F3 n = cross(u, v);
   const F nn = dot(n, n);
   const F height = hn::Div(dot(n, p.point), nn);
-  const F of_q = hn::Div(dot(n, cross(r.point, p.point)), nn);
-  const F of_r = hn::Div(dot(n, cross(p.point, q.point)), nn);
-  way = select(has_three, n * height, way);
+  const F3 foot = n * height, along_plane = foot - p.point;
+  const F of_q = hn::Div(dot(n, cross(along_plane, v)), nn);
+  const F of_r = hn::Div(dot(n, cross(u, along_plane)), nn);
+  way = select(has_three, foot, way);
   on_a = select(has_three, (p.on_a + (q.on_a - p.on_a) * of_q) + (r.on_a - p.on_a) * of_r, on_a);
-  const Mask is_narrow = hn::And(
-      has_three, hn::Not(hn::Gt(nn, hn::Mul(splat(kSmallCrossing), hn::Mul(uu, dot(v, v))))));
 
   const F distance = hn::Sqrt(dot(way, way));
   const F3 normal = way * hn::Div(splat(1), distance);
@@ -263,10 +262,13 @@ HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, co
   const F gap = hn::Neg(hn::Add(of_a.most, of_b.most));
   const Mask is_shortest = hn::Le(hn::Abs(hn::Sub(distance, gap)), splat(kSameGapInFloat));
   // One point faces the other core, or two edges cross: there is no other place where they meet.
-  const Mask is_unique = hn::Or(hn::Or(of_a.is_one(), of_b.is_one()),
-                                hn::And(has_three, hn::And(of_a.is_two(), of_b.is_two())));
+  const Mask crosses = hn::And(hn::Gt(nn, hn::Mul(splat(kSmallCrossing), hn::Mul(uu, dot(v, v)))),
+                               hn::And(has_three, hn::And(of_a.is_two(), of_b.is_two())));
+  const Mask is_unique = hn::Or(hn::Or(of_a.is_one(), of_b.is_one()), crosses);
+  on_a = select(of_a.is_one(), p.on_a, on_a);
+  on_a = select(of_b.is_one(), (p.point + p.on_a) - normal * distance, on_a);
   const Mask is_sure = hn::And(hn::And(gjk.has_ended, hn::Gt(distance, splat(kNearCores))),
-                               hn::And(hn::AndNot(is_narrow, is_shortest), is_unique));
+                               hn::And(is_shortest, is_unique));
   return {distance, normal, on_a, is_sure};
 }
 

@@ -248,7 +248,7 @@ inline NearestCores nearest_cores(const FloatCore& a, const FloatCore& b, const 
   }
   const Corner& p = ends[0];
   Vector3f way = p.point, on_a = p.on_a;
-  bool is_narrow = false;
+  bool is_wide = false;
   if (ends.size() == 2) {  // across the side between them
     const Corner& q = ends[1];
     const Vector3f u = q.point - p.point;
@@ -261,11 +261,12 @@ inline NearestCores nearest_cores(const FloatCore& a, const FloatCore& b, const 
     const Corner &q = ends[1], &r = ends[2];
     const Vector3f u = q.point - p.point, v = r.point - p.point, n = cross(u, v);
     const float nn = dot(n, n);
-    const float of_q = dot(n, cross(r.point, p.point)) / nn;
-    const float of_r = dot(n, cross(p.point, q.point)) / nn;
     way = n * (dot(n, p.point) / nn);
+    const Vector3f along_plane = way - p.point;
+    const float of_q = dot(n, cross(along_plane, v)) / nn;
+    const float of_r = dot(n, cross(u, along_plane)) / nn;
     on_a = (p.on_a + (q.on_a - p.on_a) * of_q) + (r.on_a - p.on_a) * of_r;
-    is_narrow = !(nn > kSmallCrossing * (dot(u, u) * dot(v, v)));
+    is_wide = nn > kSmallCrossing * (dot(u, u) * dot(v, v));
   }
   const float distance = std::sqrt(dot(way, way));
   const Vector3f normal = way * (1 / distance);
@@ -273,10 +274,11 @@ inline NearestCores nearest_cores(const FloatCore& a, const FloatCore& b, const 
   const float gap = -(of_a.most + of_b.most);
   const bool is_shortest = std::fabs(distance - gap) <= kSameGapInFloat;
   // One point faces the other core, or two edges cross: there is no other place where they meet.
-  const bool is_unique =
-      of_a.is_one() || of_b.is_one() || (ends.size() == 3 && of_a.is_two() && of_b.is_two());
-  const bool is_sure =
-      gjk.has_ended && distance > kNearCores && !is_narrow && is_shortest && is_unique;
+  const bool crosses = is_wide && of_a.is_two() && of_b.is_two();
+  const bool is_unique = of_a.is_one() || of_b.is_one() || crosses;
+  if (of_a.is_one()) on_a = p.on_a;
+  if (of_b.is_one()) on_a = (p.point + p.on_a) - normal * distance;
+  const bool is_sure = gjk.has_ended && distance > kNearCores && is_shortest && is_unique;
   return {distance, normal, on_a, is_sure};
 }
 

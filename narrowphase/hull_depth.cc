@@ -204,7 +204,8 @@ class DepthSearch {
       on_a = b[of_b.index] - normal_ * gap_;
     } else if (count_a == 1) {
       on_a = a[of_a.index];
-    } else if (has_crossing_ && count_a == 2 && count_b == 2) {
+    } else if (has_crossing_ && count_a == 2 && count_b == 2 &&
+               dot(across_, across_) > kSmallCrossing) {
       const float along = dot(cross<float>(from_b_ - edge_a_.from, direction_b_), across_) /
                           dot(cross(edge_a_.direction, direction_b_), across_);
       on_a = edge_a_.from + edge_a_.direction * along;

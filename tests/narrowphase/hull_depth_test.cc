@@ -68,7 +68,7 @@ void expect_close(const Separation& found, const reference::SeparationAs<double>
 
 TEST(FloatGjk, IsSureOfMostDistancesAndRightWhereItIs) {
   Random random(1);
-  const uint32_t count = rounds(4000);
+  const uint32_t count = rounds(1200);
   uint32_t separate = 0, sure = 0, deep = 0;
   for (uint32_t round = 0; round < count; ++round) {
     const HullPair pair = random_pair(random, 4 + random.below(60));
@@ -115,7 +115,7 @@ TEST(FloatGjk, LeavesWhatIsTooLargeOrTooSmall) {
 
 TEST(HullDepth, IsTheWayOut) {
   Random random(3);
-  const uint32_t count = rounds(4000);
+  const uint32_t count = rounds(1200);
   uint32_t overlapping = 0, sure = 0;
   for (uint32_t round = 0; round < count; ++round) {
     const HullPair pair = random_pair(random, 4 + random.below(60));
