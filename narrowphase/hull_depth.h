@@ -97,9 +97,8 @@ struct HullSteps {
   BestCrossing (*cross)(const EdgeOfHull& edge, const EdgeColumns& others);
 };
 
-// The contact of two hulls that surely overlap; unsure if their features do not tell it, or if they
-// meet in more than one place. In a vector's worth of time, hulls with kMostLanePoints points at
-// most.
+// The contact of two hulls that surely overlap; unsure if their features do not tell it, if they
+// meet in more than one place, or if one has more than kMostLanePoints points.
 reference::Separation hull_depth(const reference::HullShape<float>& a,
                                  const reference::HullShape<float>& b,
                                  const reference::PairPose<float>& pose, const HullSteps& steps);
