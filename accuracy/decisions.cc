@@ -76,7 +76,7 @@ std::vector<uint8_t> decisions(const BodyArrays& a, const BodyArrays& b, Tier ti
   const ResultColumns out = {.overlap = overlap.data(), .status = status.data()};
   const Accuracy accuracy = {.tier = tier};
   (void)collide_rows(a.view(), b.view(), Detail::overlap, out, WitnessFrame::world,
-                     Parallelism::none, SeparatePairs::measured, accuracy);
+                     Parallelism::none, Measured::all, accuracy);
   return overlap;
 }
 

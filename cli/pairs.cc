@@ -51,7 +51,7 @@ Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions&
     arena.run([&] {
       begin = Clock::now();
       tested = collide_rows(a, b, detail, columns, WitnessFrame::world, arena.parallelism(),
-                            SeparatePairs::measured, accuracy);
+                            Measured::all, accuracy);
       end = Clock::now();
     });
     if (!tested) return io::file_error(options.input, tested.error().message);

@@ -71,7 +71,7 @@ void fill_sub_shapes(const ResultColumns& out, size_t begin, size_t end) {
 
 void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pairs, size_t count,
                     Detail detail, const ResultColumns& out, WitnessFrame frame,
-                    SeparatePairs separate, uint32_t* direction, Parallelism parallelism,
+                    Measured measured, uint32_t* direction, Parallelism parallelism,
                     const Accuracy& accuracy) {
   if (detail == Detail::pairs || count == 0) return;
   const bool composites = has_composites(a) || has_composites(b);
@@ -85,7 +85,7 @@ void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pair
          .count = end - begin,
          .detail = detail,
          .frame = frame,
-         .separate = separate,
+         .measured = measured,
          .direction = direction ? direction + begin : nullptr,
          .accuracy = accuracy,
          .out = from_row(out, begin)});
@@ -105,23 +105,23 @@ bool supports(ShapeKind a, ShapeKind b) {
 
 Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
                      Detail detail, const ResultColumns& out, WitnessFrame frame,
-                     Parallelism parallelism, SeparatePairs separate, const Accuracy& accuracy) {
+                     Parallelism parallelism, Measured measured, const Accuracy& accuracy) {
   const auto pair_at = [&](size_t i) { return pairs[i]; };
   if (Result<void> checked = check_kinds(a, b, pairs.size(), pair_at); !checked) return checked;
-  collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, separate, nullptr,
+  collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, measured, nullptr,
                  parallelism, accuracy);
   return {};
 }
 
 Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                           const ResultColumns& out, WitnessFrame frame, Parallelism parallelism,
-                          SeparatePairs separate, const Accuracy& accuracy) {
+                          Measured measured, const Accuracy& accuracy) {
   assert(a.count == b.count);
   const auto pair_at = [](size_t i) -> Pair {
     return {static_cast<uint32_t>(i), static_cast<uint32_t>(i)};
   };
   if (Result<void> checked = check_kinds(a, b, a.count, pair_at); !checked) return checked;
-  collide_blocks(a, b, nullptr, a.count, detail, out, frame, separate, nullptr, parallelism,
+  collide_blocks(a, b, nullptr, a.count, detail, out, frame, measured, nullptr, parallelism,
                  accuracy);
   return {};
 }
@@ -130,7 +130,7 @@ void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detai
                    const ResultColumns& out, uint32_t* direction, Parallelism parallelism,
                    const Accuracy& accuracy) {
   collide_blocks(bodies, bodies, pairs.data(), pairs.size(), detail, out, WitnessFrame::body,
-                 SeparatePairs::decided, direction, parallelism, accuracy);
+                 Measured::overlapping, direction, parallelism, accuracy);
 }
 
 bool uses_directions(ShapeKind a, ShapeKind b) {

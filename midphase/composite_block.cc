@@ -113,6 +113,11 @@ struct Scratch {
   std::array<uint16_t, kPairsPerBlock> to_measure;
 };
 
+// The deepest of overlapping parts names the parts that overlap.
+Measured of_parts(Measured measured) {
+  return measured == Measured::overlapping ? measured : Measured::all;
+}
+
 class CompositeRun {
  public:
   CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, Scratch& scratch)
@@ -122,7 +127,7 @@ class CompositeRun {
         rows_(rows),
         tests_{.manifolds = block.detail == Detail::manifold,
                .bounds = block.out.separation_bound != nullptr,
-               .separate = block.separate,
+               .measured = of_parts(block.measured),
                .accuracy = block.accuracy},
         batch_(scratch.batch),
         again_(scratch.again),
@@ -141,7 +146,7 @@ class CompositeRun {
     }
     flush();
     const bool is_asked = has_contacts(block_.detail) || tests_.bounds;
-    if (tests_.separate == SeparatePairs::measured && is_asked) measure();
+    if (tests_.measured == Measured::all && is_asked) measure();
   }
 
  private:

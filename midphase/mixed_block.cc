@@ -83,7 +83,7 @@ void run_simple_pairs(const PairBlock& block, Scratch& scratch) {
                       .count = rows.size(),
                       .detail = block.detail,
                       .frame = block.frame,
-                      .separate = block.separate,
+                      .measured = block.measured,
                       .accuracy = block.accuracy,
                       .out = out};
   if (block.direction) {

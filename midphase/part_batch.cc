@@ -117,7 +117,7 @@ void PartBatch::run_plain(const PartTests& tests) {
                   .count = count_,
                   .detail = tests.manifolds ? Detail::manifold : Detail::contact,
                   .frame = WitnessFrame::body,
-                  .separate = tests.separate,
+                  .measured = tests.measured,
                   .accuracy = tests.accuracy,
                   .out = asked(tests)});
 }

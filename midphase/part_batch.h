@@ -55,7 +55,7 @@ class PartColumns {
 struct PartTests {
   bool manifolds = false;
   bool bounds = false;
-  SeparatePairs separate = SeparatePairs::measured;
+  Measured measured = Measured::all;
   Accuracy accuracy;
 };
 

@@ -6,6 +6,7 @@
 #include "narrowphase/any_pair_ref.h"
 #include "narrowphase/furthest.h"
 #include "narrowphase/hull_steps.h"
+#include "narrowphase/pair_kinds.h"
 #include "narrowphase/passes.h"
 #include "narrowphase/row_store.h"
 #include "narrowphase/scalar_batch.h"
@@ -47,7 +48,9 @@ class RowTester {
         view_a_(view_of(batch.a, batch.layout, kind_a)),
         view_b_(view_of(batch.b, batch.layout, kind_b)),
         store_(batch, kind_a, kind_b),
-        test_{furthest_point_in_lanes(), !has_contacts(batch.detail)} {}
+        test_{furthest_point_in_lanes(), !has_contacts(batch.detail)},
+        decides_separate_(has_contacts(batch.detail) && batch.pass == Pass::test &&
+                          kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {}
 
   bool is_valid(size_t row) const {
     return a_.is_valid(batch_.pairs[row].a) && b_.is_valid(batch_.pairs[row].b);
@@ -92,7 +95,8 @@ class RowTester {
         [&](const auto& x, const auto& y, const reference::PairPose<double>& pose) {
           return core_separation(x, y, pose, test_);
         });
-    store_.put(row, s.status, numbers_of(reference::rounded(s)));
+    const bool is_decided_alone = decides_separate_ && s.separation > 0;
+    store_.put(row, is_decided_alone ? Status::ok : s.status, numbers_of(reference::rounded(s)));
     const bool is_proven = !s.is_unsure && has_exact_points(shape_a) && has_exact_points(shape_b);
     if (batch_.unsure && !is_proven) batch_.unsure[row] = 1;
   }
@@ -102,6 +106,9 @@ class RowTester {
   const BodyReader a_{view_a_}, b_{view_b_};
   const RowStore store_;
   const reference::CoreTest test_;
+  // Of separate pairs no more is stated than that they are: the distance pass says how far, and
+  // whether that is a bound.
+  const bool decides_separate_;
 };
 
 }  // namespace

@@ -116,33 +116,23 @@ class HullRecords {
     }
   }
 
+  // A record of each hull.
+  template <bool kIsMiddle>
   struct Record {
     const HullRecords& hulls;
     size_t i;
 
     HWY_INLINE const float* record(size_t lane) const {
-      return hulls.first_[lane] + 4 * std::min(i, hulls.points_[lane] - 1);
+      const size_t points = hulls.points_[lane];
+      return hulls.first_[lane] + 4 * (kIsMiddle ? points : std::min(i, points - 1));
     }
 #if HWY_TARGET != HWY_SCALAR
     HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
 #endif
     HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
   };
-  HWY_INLINE Record at(size_t i) const { return {*this, i}; }
-
-  // Behind the points.
-  struct Middle {
-    const HullRecords& hulls;
-
-    HWY_INLINE const float* record(size_t lane) const {
-      return hulls.first_[lane] + 4 * hulls.points_[lane];
-    }
-#if HWY_TARGET != HWY_SCALAR
-    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
-#endif
-    HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
-  };
-  HWY_INLINE Middle middle() const { return {*this}; }
+  HWY_INLINE Record<false> at(size_t i) const { return {*this, i}; }
+  HWY_INLINE Record<true> middle() const { return {*this, 0}; }
 
   size_t count() const { return count_; }  // the most that any hull has
   HWY_INLINE F count_lanes() const {

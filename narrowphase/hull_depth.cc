@@ -21,6 +21,9 @@ struct Side {
   Vector3f own(uint32_t i) const { return hull.points()[i] * scale; }
 };
 
+// Up to so many points, trying all faces costs less than choosing among them.
+constexpr size_t kFewPoints = 16;
+
 class DepthSearch {
  public:
   DepthSearch(const HullShape<float>& a, const HullShape<float>& b, const PairPose<float>& pose,
@@ -81,27 +84,29 @@ class DepthSearch {
 
   // --- Faces ---
 
-  float try_face(const Side& side, size_t f) const {
-    FaceBounds& bounds = side.bounds;
-    const FurthestOfHull lowest = steps_.furthest(side.others, -side.features().normal(f));
-    const float gap = -lowest.height - side.features().height(f) * scale_;
-    bounds.closed[f] = kLargest;
-    bounds.balls.push_back({side.others[lowest.index], 0});
-    return gap;
+  // The best of those that are better than the least gap.
+  BestFace try_faces(const Side& side, float least) {
+    if (side.others.count > kFewPoints) return try_best_faces(side, least);
+    const BestFace best = steps_.try_all(side.features(), scale_, side.others, side.bounds);
+    return best.gap > least ? best : BestFace{least, 0};
   }
 
-  // The best of those that may be better than the least gap: the most promising first, each of
-  // which says something of the others.
-  BestFace try_faces(const Side& side, float least) {
+  // The most promising first: the point that each finds says something of the others.
+  BestFace try_best_faces(const Side& side, float least) {
     FaceBounds& bounds = side.bounds;
-    bounds.balls = {side.inside};
+    bounds.count = 0;
+    Ball ball = side.inside;
     BestFace best{least, 0};
     while (true) {
-      const BestFace next = steps_.bound(side.features(), scale_, bounds);
+      const BestFace next = steps_.bound(side.features(), scale_, ball, bounds);
       if (!(next.gap > best.gap)) return best;
-      is_doubtful_ = bounds.balls.is_full();
+      is_doubtful_ = bounds.count == FaceBounds::kMostBalls;
       if (is_doubtful_) return best;
-      const float gap = try_face(side, next.face);
+      const FurthestOfHull lowest =
+          steps_.furthest(side.others, -side.features().normal(next.face));
+      const float gap = -lowest.height - side.features().height(next.face) * scale_;
+      bounds.closed[next.face] = kLargest;
+      ball = {side.others[lowest.index], 0};
       if (gap > best.gap) best = {gap, next.face};
     }
   }
@@ -129,62 +134,43 @@ class DepthSearch {
             rotate(turn_, edge.left), rotate(turn_, edge.right)};
   }
 
-  // Those beside which some axis may be better than the best face, by each ball in turn: the last
-  // ones know most. Without branches, which nobody could predict.
-  Edges edges_to_cross(const Side& side) const {
-    const auto sides = side.features().sides();
-    Edges edges;
-    edges.count = sides.size();
-    for (size_t e = 0; e < sides.size(); ++e) edges.index[e] = static_cast<uint16_t>(e);
-    for (size_t ball = side.bounds.balls.size(); ball-- > 0;) {
-      const auto& between = side.bounds.between[ball];
-      size_t left = 0;
-      for (size_t i = 0; i < edges.count; ++i) {
-        const uint16_t e = edges.index[i];
-        edges.index[left] = e;
-        left += max(between[sides[e][0]], between[sides[e][1]]) > gap_ ? 1 : 0;
-      }
-      edges.count = left;
+  // Those beside which some axis may be better than the best face: no ball settles both faces.
+  // Without branches, which nobody could predict.
+  void find_edges_to_cross(const Side& side, Edges& edges) const {
+    steps_.settle(side.features(), gap_, side.bounds);
+    const auto& settled = side.bounds.settled;
+    size_t count = 0;
+    uint16_t e = 0;
+    for (const auto& [left, right] : side.features().sides()) {
+      edges.index[count] = e++;
+      count += (settled[left] & settled[right]) == 0 ? 1 : 0;
     }
-    return edges;
+    edges.count = count;
   }
 
   void cross_edges(const Side& a, const Side& b) {
-    const Edges edges_b = edges_to_cross(b), edges_a = edges_to_cross(a);
-    is_doubtful_ = edges_b.count > EdgeColumns::kMost;
+    Edges edges_a, edges_b;
+    find_edges_to_cross(a, edges_a);
+    find_edges_to_cross(b, edges_b);
+    is_doubtful_ = edges_a.count > EdgeColumns::kMost || edges_b.count > EdgeColumns::kMost;
     if (is_doubtful_ || edges_a.count == 0 || edges_b.count == 0) return;
-    EdgeColumns of_b;
-    for (; of_b.count < edges_b.count; ++of_b.count) {
-      const EdgeOfHull e = in_frame_of_a(edge_of(b, edges_b.index[of_b.count]));
-      const auto put = [&](size_t c, const Vector3f& v) {
-        for (int axis = 0; axis < 3; ++axis)
-          of_b.column[c + static_cast<size_t>(axis)][of_b.count] = v[axis];
-      };
-      put(0, e.direction);
-      put(3, e.from);
-      put(6, e.left);
-      put(9, e.right);
+    EdgeColumns of_a, of_b;
+    for (size_t i = 0; i < edges_a.count; ++i) of_a.push_back(edge_of(a, edges_a.index[i]));
+    for (size_t i = 0; i < edges_b.count; ++i) {
+      of_b.push_back(in_frame_of_a(edge_of(b, edges_b.index[i])));
     }
-    for (size_t i = 0; i < edges_a.count; ++i) {
-      const EdgeOfHull on_a = edge_of(a, edges_a.index[i]);
-      const BestCrossing best = steps_.cross(on_a, of_b);
-      is_doubtful_ = is_doubtful_ || best.is_doubtful;
-      if (!(best.gap > gap_crossing_)) continue;
-      gap_crossing_ = best.gap;
-      edge_a_ = on_a;
-      const auto vector = [&](size_t c) -> Vector3f {
-        return {of_b.column[c][best.other], of_b.column[c + 1][best.other],
-                of_b.column[c + 2][best.other]};
-      };
-      direction_b_ = vector(0);
-      from_b_ = vector(3);
-    }
-    if (!(gap_crossing_ > gap_)) return;
+    const BestCrossing best = steps_.cross(of_a, of_b);
+    is_doubtful_ = best.is_doubtful;
+    if (best.gap > gap_) keep_crossing(best.gap, of_a[best.a], of_b[best.b]);
+  }
+
+  void keep_crossing(float gap, const EdgeOfHull& a, const EdgeOfHull& b) {
     has_crossing_ = true;
-    gap_ = gap_crossing_;
-    across_ = cross(edge_a_.direction, direction_b_);
-    const Vector3f outwards = edge_a_.left + edge_a_.right;
-    if (dot(across_, outwards) < 0) across_ = -across_;
+    gap_ = gap;
+    edge_a_ = a;
+    edge_b_ = b;
+    across_ = cross(a.direction, b.direction);
+    if (dot(across_, Vector3f(a.left + a.right)) < 0) across_ = -across_;
     normal_ = across_ * (1 / std::sqrt(dot(across_, across_)));
   }
 
@@ -206,8 +192,9 @@ class DepthSearch {
       on_a = a[of_a.index];
     } else if (has_crossing_ && count_a == 2 && count_b == 2 &&
                dot(across_, across_) > kSmallCrossing) {
-      const float along = dot(cross<float>(from_b_ - edge_a_.from, direction_b_), across_) /
-                          dot(cross(edge_a_.direction, direction_b_), across_);
+      const float along =
+          dot(cross<float>(edge_b_.from - edge_a_.from, edge_b_.direction), across_) /
+          dot(cross(edge_a_.direction, edge_b_.direction), across_);
       on_a = edge_a_.from + edge_a_.direction * along;
     } else {
       return not_in_float<float>();
@@ -232,9 +219,8 @@ class DepthSearch {
   Vector3f normal_;
   // The best one across two edges.
   bool has_crossing_ = false;
-  float gap_crossing_ = -kLargest;
-  EdgeOfHull edge_a_;
-  Vector3f direction_b_, from_b_, across_;
+  EdgeOfHull edge_a_, edge_b_;
+  Vector3f across_;
 };
 
 }  // namespace

@@ -51,10 +51,11 @@ struct FaceBounds {
   static constexpr size_t kMost = 2 * kMostLanePoints;
   static constexpr size_t kMostBalls = 32;
 
-  FewOf<Ball, kMostBalls> balls;
+  size_t count;                                              // of balls
   std::array<std::array<float, kMost>, kMostBalls> between;  // by each
   std::array<float, kMost> gap;                              // the least of all
   std::array<float, kMost> closed;                           // above zero: the face was tried
+  std::array<uint32_t, kMost> settled;  // a bit for each ball: whether `between` is low enough
 };
 
 struct BestFace {
@@ -62,24 +63,38 @@ struct BestFace {
   size_t face = 0;
 };
 
-// Edges that an edge of A is to be crossed with, in columns: the frame is that of A.
-struct EdgeColumns {
-  static constexpr size_t kMost = 64;
-  static constexpr size_t kColumns = 12;  // direction, a point, normals to the left and the right
-
-  size_t count = 0;
-  std::array<std::array<float, kMost>, kColumns> column;
-};
-
-// An edge of A.
+// With the normals of the faces beside it.
 struct EdgeOfHull {
   Vector3f direction, from, left, right;
 };
 
-// The best axis across the edge and one of the others.
+// Edges of a hull, in columns.
+struct EdgeColumns {
+  static constexpr size_t kMost = 64;
+  static constexpr size_t kColumns = 12;
+
+  size_t count = 0;
+  std::array<std::array<float, kMost>, kColumns> column;
+
+  void push_back(const EdgeOfHull& edge) {
+    size_t c = 0;
+    for (const Vector3f* v : {&edge.direction, &edge.from, &edge.left, &edge.right}) {
+      for (int axis = 0; axis < 3; ++axis) column[c++][count] = (*v)[axis];
+    }
+    ++count;
+  }
+  EdgeOfHull operator[](size_t i) const {
+    const auto vector = [&](size_t c) -> Vector3f {
+      return {column[c][i], column[c + 1][i], column[c + 2][i]};
+    };
+    return {vector(0), vector(3), vector(6), vector(9)};
+  }
+};
+
+// The best axis across an edge of A and one of B.
 struct BestCrossing {
   float gap = -reference::kLargest;  // of projections on the axis: negative in overlaps
-  size_t other = 0;
+  size_t a = 0, b = 0;
   bool is_doubtful = false;  // some are too nearly parallel
 };
 
@@ -88,13 +103,19 @@ struct HullSteps {
   // turn * (point * scale) + offset.
   void (*place)(const HullGeometry& hull, float scale, const reference::Rotation<float>& turn,
                 const Vector3f& offset, HullPoints& out);
-  // By the last of the balls, too. Of the faces that were not tried the first with the greatest
-  // bound.
-  BestFace (*bound)(const HullFeatures& features, float scale, FaceBounds& bounds);
+  // By one more ball. Of the faces that were not tried the first with the greatest bound.
+  BestFace (*bound)(const HullFeatures& features, float scale, const Ball& ball,
+                    FaceBounds& bounds);
+  // By all points, which are few: of all faces the first with the greatest gap.
+  BestFace (*try_all)(const HullFeatures& features, float scale, const HullPoints& points,
+                      FaceBounds& bounds);
+  // Which of the balls leave an axis beside a face no more than `gap`.
+  void (*settle)(const HullFeatures& features, float gap, FaceBounds& bounds);
   FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
   // How many reach as far as `height` up to kFacingSlack.
   size_t (*count_as_far)(const HullPoints& points, const Vector3f& way, float height);
-  BestCrossing (*cross)(const EdgeOfHull& edge, const EdgeColumns& others);
+  // Of axes that are equally good the first of A, and of those the first of B.
+  BestCrossing (*cross)(const EdgeColumns& a, const EdgeColumns& b);
 };
 
 // The contact of two hulls that surely overlap; unsure if their features do not tell it, if they

@@ -29,11 +29,16 @@ struct FirstOfMost {
     index = hn::IfThenElse(is_better, at, index);
   }
   HWY_INLINE float value() const { return hn::GetLane(hn::MaxOfLanes(FloatTag(), most)); }
-  // Of `count` values.
-  HWY_INLINE size_t place(size_t count) const {
+  // The same of the indices 0 to count - 1.
+  HWY_INLINE size_t first_of(size_t count) const {
+    if (count > kLanes) return first();
+    const FloatTag tag;
+    return hn::FindKnownFirstTrue(tag, hn::Eq(most, hn::MaxOfLanes(tag, most)));
+  }
+  // Of lanes that kept nothing it is 0.
+  HWY_INLINE size_t first() const {
     const FloatTag tag;
     const Mask is_best = hn::Eq(most, hn::MaxOfLanes(tag, most));
-    if (count <= kLanes) return hn::FindKnownFirstTrue(tag, is_best);
     const F candidates = hn::IfThenElse(is_best, index, splat(FLT_MAX));
     return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, candidates)));
   }
@@ -57,32 +62,91 @@ void place_points(const HullGeometry& hull, float scale, const reference::Rotati
   }
 }
 
-BestFace bound_faces(const HullFeatures& features, float scale, FaceBounds& bounds) {
+// The planes of some faces of a hull.
+struct FaceLanes {
+  F3 normal;
+  F height;
+
+  HWY_INLINE FaceLanes(const HullFeatures& features, F scale, size_t i) {
+    const FloatTag tag;
+    normal = {hn::LoadU(tag, features.column(0) + i), hn::LoadU(tag, features.column(1) + i),
+              hn::LoadU(tag, features.column(2) + i)};
+    height = hn::Mul(hn::LoadU(tag, features.column(3) + i), scale);
+  }
+};
+
+// What one ball says of a vector of faces.
+struct BoundLanes {
+  F gap, between;
+};
+
+HWY_INLINE BoundLanes bound(const FaceLanes& faces, const F3& middle, F radius) {
+  const F above = hn::Sub(dot(faces.normal, middle), faces.height);
+  const F gap = hn::Sub(above, radius);
+  return {gap, hn::IfThenElse(hn::Gt(above, splat(0)), splat(FLT_MAX), gap)};
+}
+
+BestFace bound_faces(const HullFeatures& features, float scale, const Ball& ball,
+                     FaceBounds& bounds) {
   const FloatTag tag;
-  const size_t last = bounds.balls.size() - 1;
-  const F3 middle = in_all_lanes(bounds.balls[last].middle);
-  const F s = splat(scale), radius = splat(bounds.balls[last].radius);
+  const size_t last = bounds.count++;
+  const F3 middle = in_all_lanes(ball.middle);
+  const F s = splat(scale), radius = splat(ball.radius);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
   F index = indices();
   for (size_t i = 0; i < features.face_count(); i += kLanes) {
-    const F3 n = {hn::LoadU(tag, features.column(0) + i), hn::LoadU(tag, features.column(1) + i),
-                  hn::LoadU(tag, features.column(2) + i)};
-    const F height = hn::Mul(hn::LoadU(tag, features.column(3) + i), s);
-    const F above = hn::Sub(dot(n, middle), height);
-    const F gap = hn::Sub(above, radius);
-    const F between = hn::IfThenElse(hn::Gt(above, splat(0)), splat(FLT_MAX), gap);
-    hn::StoreU(between, tag, bounds.between[last].data() + i);
+    const BoundLanes found = bound(FaceLanes(features, s, i), middle, radius);
+    hn::StoreU(found.between, tag, bounds.between[last].data() + i);
     float* const gaps = bounds.gap.data() + i;
     float* const closed = bounds.closed.data() + i;
-    const F least = last == 0 ? gap : min(hn::LoadU(tag, gaps), gap);
+    const F least = last == 0 ? found.gap : min(hn::LoadU(tag, gaps), found.gap);
     const F is_closed = last == 0 ? splat(0) : hn::LoadU(tag, closed);
     hn::StoreU(least, tag, gaps);
     hn::StoreU(is_closed, tag, closed);
     best.keep(all, hn::Sub(least, is_closed), index);
     index = hn::Add(index, splat(kLanes));
   }
-  return {best.value(), best.place(features.face_count())};
+  return {best.value(), best.first_of(features.face_count())};
+}
+
+BestFace try_all_faces(const HullFeatures& features, float scale, const HullPoints& points,
+                       FaceBounds& bounds) {
+  const FloatTag tag;
+  bounds.count = points.count;
+  const F s = splat(scale), zero = splat(0);
+  const Mask all = hn::Not(no_lanes());
+  FirstOfMost best = FirstOfMost::none();
+  F index = indices();
+  for (size_t i = 0; i < features.face_count(); i += kLanes) {
+    const FaceLanes faces(features, s, i);
+    F least = splat(FLT_MAX);
+    for (size_t p = 0; p < points.count; ++p) {
+      const F3 point = {splat(points.x[p]), splat(points.y[p]), splat(points.z[p])};
+      const BoundLanes found = bound(faces, point, zero);
+      hn::StoreU(found.between, tag, bounds.between[p].data() + i);
+      least = min(least, found.gap);
+    }
+    best.keep(all, least, index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.value(), best.first_of(features.face_count())};
+}
+
+void settle_faces(const HullFeatures& features, float gap, FaceBounds& bounds) {
+  const FloatTag tag;
+  const hn::RebindToUnsigned<FloatTag> bits;
+  const F most = splat(gap);
+  for (size_t i = 0; i < features.face_count(); i += kLanes) {
+    auto settled = hn::Zero(bits);
+    auto bit = hn::Set(bits, 1);
+    for (size_t ball = 0; ball < bounds.count; ++ball) {
+      const Mask is_low = hn::Le(hn::LoadU(tag, bounds.between[ball].data() + i), most);
+      settled = hn::Or(settled, hn::IfThenElseZero(hn::RebindMask(bits, is_low), bit));
+      bit = hn::Add(bit, bit);
+    }
+    hn::StoreU(settled, bits, bounds.settled.data() + i);
+  }
 }
 
 HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
@@ -100,7 +164,7 @@ FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
     best.keep(all, heights(points, n, i), index);
     index = hn::Add(index, splat(kLanes));
   }
-  return {best.place(points.count), best.value()};
+  return {best.first_of(points.count), best.value()};
 }
 
 size_t count_as_far(const HullPoints& points, const Vector3f& way, float height) {
@@ -117,43 +181,55 @@ size_t count_as_far(const HullPoints& points, const Vector3f& way, float height)
   return found;
 }
 
-BestCrossing cross_edge(const EdgeOfHull& edge, const EdgeColumns& others) {
+// Of places (a, b) the first: rows are further apart than any edges of B.
+constexpr float kRow = EdgeColumns::kMost;
+
+BestCrossing cross_all_edges(const EdgeColumns& a, const EdgeColumns& b) {
   const FloatTag tag;
-  const F zero = splat(0), count = splat(static_cast<float>(others.count));
-  const F3 direction_a = in_all_lanes(edge.direction), from_a = in_all_lanes(edge.from),
-           left_a = in_all_lanes(edge.left), right_a = in_all_lanes(edge.right),
-           outwards = in_all_lanes(edge.left + edge.right);
+  const F zero = splat(0), count = splat(static_cast<float>(b.count));
   FirstOfMost best = FirstOfMost::none();
   Mask is_doubtful = no_lanes();
-  F index = indices();
-  for (size_t i = 0; i < others.count; i += kLanes) {
-    const auto vector = [&](size_t c) HWY_ATTR -> F3 {
-      return {hn::LoadU(tag, others.column[c].data() + i),
-              hn::LoadU(tag, others.column[c + 1].data() + i),
-              hn::LoadU(tag, others.column[c + 2].data() + i)};
-    };
-    const F3 direction = vector(0), from = vector(3), left = vector(6), right = vector(9);
-    const F of_left = dot(left, direction_a), of_right = dot(right, direction_a);
-    const F on_left = dot(left_a, direction), on_right = dot(right_a, direction);
-    const Mask is_axis =
-        hn::And(hn::And(hn::Lt(index, count), hn::Lt(hn::Mul(of_right, of_left), zero)),
-                hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
-                        hn::Lt(hn::Mul(of_right, on_left), zero)));
-    const F3 n = cross(direction_a, direction);
-    const F nn = dot(n, n);
-    const Mask is_long = hn::Gt(nn, splat(kAlongEachOther));
-    is_doubtful = hn::Or(is_doubtful, hn::AndNot(is_long, is_axis));
-    const F along = hn::Mul(dot(n, from - from_a), hn::Div(splat(1), hn::Sqrt(nn)));
-    const F gap = hn::IfThenElse(hn::Lt(dot(n, outwards), zero), hn::Neg(along), along);
-    best.keep(hn::And(is_axis, is_long), gap, index);
-    index = hn::Add(index, splat(kLanes));
+  for (size_t k = 0; k < a.count; ++k) {
+    const EdgeOfHull edge = a[k];
+    const F3 direction_a = in_all_lanes(edge.direction), from_a = in_all_lanes(edge.from),
+             left_a = in_all_lanes(edge.left), right_a = in_all_lanes(edge.right),
+             outwards = in_all_lanes(edge.left + edge.right);
+    const F row = splat(static_cast<float>(k) * kRow);
+    F index = indices();
+    for (size_t i = 0; i < b.count; i += kLanes) {
+      // Behind the last there may be subnormal numbers, which some processors are slow with.
+      const Mask exists = hn::Lt(index, count);
+      const auto load = [&](size_t c) HWY_ATTR {
+        return hn::IfThenElseZero(exists, hn::LoadU(tag, b.column[c].data() + i));
+      };
+      const auto vector = [&](size_t c) HWY_ATTR -> F3 {
+        return {load(c), load(c + 1), load(c + 2)};
+      };
+      const F3 direction = vector(0), from = vector(3), left = vector(6), right = vector(9);
+      const F of_left = dot(left, direction_a), of_right = dot(right, direction_a);
+      const F on_left = dot(left_a, direction), on_right = dot(right_a, direction);
+      const Mask is_axis = hn::And(hn::And(exists, hn::Lt(hn::Mul(of_right, of_left), zero)),
+                                   hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
+                                           hn::Lt(hn::Mul(of_right, on_left), zero)));
+      const F3 n = cross(direction_a, direction);
+      const F nn = dot(n, n);
+      const Mask is_short = hn::Not(hn::Gt(nn, splat(kAlongEachOther)));
+      is_doubtful = hn::Or(is_doubtful, hn::And(is_axis, is_short));
+      const F along = hn::Mul(dot(n, from - from_a), hn::Div(splat(1), hn::Sqrt(nn)));
+      const F gap = hn::IfThenElse(hn::Lt(dot(n, outwards), zero), hn::Neg(along), along);
+      best.keep(is_axis, gap, hn::Add(row, index));
+      index = hn::Add(index, splat(kLanes));
+    }
   }
-  return {best.value(), best.place(others.count), !hn::AllFalse(tag, is_doubtful)};
+  const size_t place = best.first();
+  return {best.value(), place / EdgeColumns::kMost, place % EdgeColumns::kMost,
+          !hn::AllFalse(tag, is_doubtful)};
 }
 
 const HullSteps& hull_steps() {
-  static constexpr HullSteps kSteps = {&place_points, &bound_faces, &furthest_of_hull,
-                                       &count_as_far, &cross_edge};
+  static constexpr HullSteps kSteps = {&place_points,   &bound_faces,      &try_all_faces,
+                                       &settle_faces,   &furthest_of_hull, &count_as_far,
+                                       &cross_all_edges};
   return kSteps;
 }
 

@@ -16,13 +16,13 @@ inline void place_points(const HullGeometry& hull, float scale, const Rotation<f
   }
 }
 
-inline BestFace bound_faces(const HullFeatures& features, float scale, FaceBounds& bounds) {
-  const size_t last = bounds.balls.size() - 1;
-  const auto& [middle, radius] = bounds.balls[last];
+inline BestFace bound_faces(const HullFeatures& features, float scale, const Ball& ball,
+                            FaceBounds& bounds) {
+  const size_t last = bounds.count++;
   BestFace best;
   for (size_t f = 0; f < features.face_count(); ++f) {
-    const float above = dot(features.normal(f), middle) - features.height(f) * scale;
-    const float gap = above - radius;
+    const float above = dot(features.normal(f), ball.middle) - features.height(f) * scale;
+    const float gap = above - ball.radius;
     bounds.between[last][f] = above > 0 ? kLargest : gap;
     bounds.gap[f] = last == 0 ? gap : min(bounds.gap[f], gap);
     if (last == 0) bounds.closed[f] = 0;
@@ -30,6 +30,25 @@ inline BestFace bound_faces(const HullFeatures& features, float scale, FaceBound
     if (open > best.gap) best = {open, f};
   }
   return best;
+}
+
+inline BestFace try_all_faces(const HullFeatures& features, float scale, const HullPoints& points,
+                              FaceBounds& bounds) {
+  bounds.count = 0;
+  BestFace best;
+  for (size_t i = 0; i < points.count; ++i) {
+    best = bound_faces(features, scale, {points[i], 0}, bounds);
+  }
+  return best;
+}
+
+inline void settle_faces(const HullFeatures& features, float gap, FaceBounds& bounds) {
+  for (size_t f = 0; f < features.face_count(); ++f) {
+    bounds.settled[f] = 0;
+    for (size_t ball = 0; ball < bounds.count; ++ball) {
+      bounds.settled[f] |= uint32_t{bounds.between[ball][f] <= gap} << ball;
+    }
+  }
 }
 
 inline FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
@@ -49,36 +68,43 @@ inline size_t count_as_far(const HullPoints& points, const Vector3f& way, float 
   return count;
 }
 
-inline BestCrossing cross_edge(const EdgeOfHull& edge, const EdgeColumns& others) {
+// Of the axis across two edges, if there is one: if the arc of the first crosses that of the other
+// one, turned round.
+struct Crossing {
+  bool is_axis;
+  bool is_doubtful;
+  float gap;
+};
+
+inline Crossing cross_edges(const EdgeOfHull& a, const EdgeOfHull& b) {
+  const float of_left = dot(b.left, a.direction), of_right = dot(b.right, a.direction);
+  const float on_left = dot(a.left, b.direction), on_right = dot(a.right, b.direction);
+  const bool is_axis = of_right * of_left < 0 && on_right * on_left < 0 && of_right * on_left < 0;
+  const Vector3f n = cross(a.direction, b.direction);
+  const float nn = dot(n, n);
+  const bool is_doubtful = is_axis && !(nn > kAlongEachOther);
+  const float along = dot(n, Vector3f(b.from - a.from)) * (1 / std::sqrt(nn));
+  const Vector3f outwards = a.left + a.right;
+  return {is_axis, is_doubtful, dot(n, outwards) < 0 ? -along : along};
+}
+
+inline BestCrossing cross_all_edges(const EdgeColumns& a, const EdgeColumns& b) {
   BestCrossing best;
-  const Vector3f outwards = edge.left + edge.right;
-  for (size_t i = 0; i < others.count; ++i) {
-    const auto vector = [&](size_t c) -> Vector3f {
-      return {others.column[c][i], others.column[c + 1][i], others.column[c + 2][i]};
-    };
-    const Vector3f direction = vector(0), from = vector(3), left = vector(6), right = vector(9);
-    // Whether the arc of this edge crosses that of the other one, turned round.
-    const float of_left = dot(left, edge.direction), of_right = dot(right, edge.direction);
-    const float on_left = dot(edge.left, direction), on_right = dot(edge.right, direction);
-    const bool is_axis = of_right * of_left < 0 && on_right * on_left < 0 && of_right * on_left < 0;
-    if (!is_axis) continue;
-    const Vector3f n = cross(edge.direction, direction);
-    const float nn = dot(n, n);
-    if (!(nn > kAlongEachOther)) {
-      best.is_doubtful = true;
-      continue;
-    }
-    const float along = dot(n, Vector3f(from - edge.from)) * (1 / std::sqrt(nn));
-    const float gap = dot(n, outwards) < 0 ? -along : along;
-    if (gap > best.gap) {
-      best.gap = gap;
-      best.other = i;
+  for (size_t i = 0; i < a.count; ++i) {
+    for (size_t k = 0; k < b.count; ++k) {
+      const Crossing crossing = cross_edges(a[i], b[k]);
+      best.is_doubtful = best.is_doubtful || crossing.is_doubtful;
+      if (!crossing.is_axis || !(crossing.gap > best.gap)) continue;
+      best.gap = crossing.gap;
+      best.a = i;
+      best.b = k;
     }
   }
   return best;
 }
 
-inline constexpr HullSteps kHullSteps = {&place_points, &bound_faces, &furthest_of_hull,
-                                         &count_as_far, &cross_edge};
+inline constexpr HullSteps kHullSteps = {&place_points,   &bound_faces,      &try_all_faces,
+                                         &settle_faces,   &furthest_of_hull, &count_as_far,
+                                         &cross_all_edges};
 
 }  // namespace carom::reference

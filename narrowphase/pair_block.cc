@@ -167,7 +167,7 @@ class BlockRunner {
     }
     whole.count = block_.count;
     whole.out = block_.out;
-    run_passes(kPairKinds[kind.index], whole, block_.separate, block_.direction, block_.accuracy);
+    run_passes(kPairKinds[kind.index], whole, block_.measured, block_.direction, block_.accuracy);
   }
 
   void sort_by_kind() {
@@ -196,7 +196,7 @@ class BlockRunner {
     uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
     for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
     if (layout_) {
-      run_passes(kPairKinds[kind.index], part, block_.separate, direction, block_.accuracy);
+      run_passes(kPairKinds[kind.index], part, block_.measured, direction, block_.accuracy);
     } else if (BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64()) {
       run_packed<double>(kind, part, PositionLayout::records64);
     } else {
@@ -219,7 +219,7 @@ class BlockRunner {
     part.b = packed_b.side(b);
     part.layout = layout;
     part.pairs = kRowPairs.data();
-    run_passes(kPairKinds[kind.index], part, block_.separate, nullptr, block_.accuracy);
+    run_passes(kPairKinds[kind.index], part, block_.measured, nullptr, block_.accuracy);
   }
 
   ResultColumns scratch() {

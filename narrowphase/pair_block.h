@@ -18,7 +18,7 @@ struct PairBlock {
   size_t count;  // <= kPairsPerBlock
   Detail detail;
   WitnessFrame frame;
-  SeparatePairs separate = SeparatePairs::measured;
+  Measured measured = Measured::all;
   uint32_t* direction = nullptr;  // of the block's rows; see run_passes()
   Accuracy accuracy;
   ResultColumns out;  // of the block

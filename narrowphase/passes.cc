@@ -185,32 +185,38 @@ ResultColumns ScratchColumns::columns() {
   return {overlap.data(), status.data(), floats[0].data(), column3(1), column3(4), column3(7)};
 }
 
-void run_passes(const PairKind& kind, const Batch& asked, SeparatePairs separate,
-                uint32_t* direction, const Accuracy& accuracy) {
-  const bool measures = separate == SeparatePairs::measured;
+void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint32_t* direction,
+                const Accuracy& accuracy) {
   std::array<uint8_t, kPairsPerBlock> unsure;
   Batch batch = asked;
+  // A proof may find apart what rounding made overlap.
+  const bool is_proven = has_proofs(accuracy.tier);
+  const Measured measured = is_proven && wanted == Measured::separate ? Measured::all : wanted;
   if (accuracy.tier == Tier::fast) {
     batch.single_precision = accuracy.knobs.single_precision;
     batch.faces_only = accuracy.knobs.faces_only;
   }
-  if (has_proofs(accuracy.tier)) {
+  if (is_proven) {
     std::fill_n(unsure.begin(), batch.count, uint8_t{0});
     batch.unsure = unsure.data();
   }
   if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
     run_test(kind, batch, direction);
   } else {
-    kind.run(batch);
+    Batch test = batch;
+    if (kind.has_distance_pass() && measured == Measured::separate) test.detail = Detail::overlap;
+    kind.run(test);
   }
-  if (measures && has_contacts(batch.detail) && kind.has_distance_pass()) {
+  if (has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping) {
     run_distances(kind, batch);
   }
   if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
   if (batch.out.separation_bound) bound_separations(kind, batch);
   if (batch.detail != Detail::manifold) return;
-  if (kind.has_manifold_pass()) {
-    run_manifolds(kind, batch, measures);
+  if (measured == Measured::separate) {
+    std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
+  } else if (kind.has_manifold_pass()) {
+    run_manifolds(kind, batch, measured == Measured::all);
   } else {
     copy_witnesses(batch);
   }

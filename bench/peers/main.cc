@@ -1,11 +1,12 @@
-// carom_peers [--smoke | --large] [--max-bodies N] [--pairs N] [--budget S] [--frame-limit S]
-//             [--out FILE.json] [RECORDING.aabb...]
+// carom_peers [--smoke | --large] [--max-bodies N] [--pairs N] [--streams NAME] [--budget S]
+//             [--frame-limit S] [--out FILE.json] [RECORDING.aabb...]
 // Compares Carom with other libraries, in one run: the broadphase on generated scenes of 1k, 10k
 // and 100k bodies and on recordings of bounds, the narrow phase on streams of pairs.
 //   --smoke          1k bodies, a few frames, 2000 pairs: does everything still run?
 //   --large          a million bodies as well
 //   --max-bodies N   generated scenes have at most so many; 0: recordings alone
 //   --pairs N        of a stream (100000); 0: no narrow phase
+//   --streams NAME   those streams alone whose names begin so: hull_hull
 //   --budget S       seconds of frames a peer and scene, and of passes a runner and stream (1)
 //   --frame-limit S  a peer that needs longer for a frame is left out (5)
 //   --out FILE       the results as JSON
@@ -30,6 +31,7 @@ struct Arguments {
   TimeLimits limits;
   size_t max_bodies = 100'000;
   size_t pairs = 100'000;
+  std::string streams;
   std::string out;
   std::vector<std::string> recordings;
 };
@@ -46,8 +48,8 @@ bool take_value(std::string_view flag, std::string_view value, Arguments& argume
   if (flag == "--pairs") return parse(value, arguments.pairs);
   if (flag == "--budget") return parse(value, arguments.limits.budget);
   if (flag == "--frame-limit") return parse(value, arguments.limits.frame_limit);
-  if (flag != "--out") return false;
-  arguments.out = value;
+  if (flag != "--out" && flag != "--streams") return false;
+  (flag == "--out" ? arguments.out : arguments.streams) = value;
   return true;
 }
 
@@ -126,9 +128,10 @@ class BroadphaseComparison {
   std::vector<SceneResult> results_;
 };
 
-std::vector<StreamResult> compare_streams(size_t pairs, double budget) {
+std::vector<StreamResult> compare_streams(const std::string& names, size_t pairs, double budget) {
   std::vector<StreamResult> results;
   for (const PeerStreamSpec& spec : peer_streams()) {
+    if (!spec.name().starts_with(names)) continue;
     results.push_back(compare(spec, pairs, budget));
     print(results.back());
   }
@@ -159,7 +162,8 @@ int run(const Arguments& arguments) {
   }
   Comparisons comparisons = {arguments.limits, broadphase.results(), {}};
   if (arguments.pairs > 0) {
-    comparisons.streams = compare_streams(arguments.pairs, arguments.limits.budget);
+    comparisons.streams =
+        compare_streams(arguments.streams, arguments.pairs, arguments.limits.budget);
   }
   if (!arguments.out.empty()) {
     const Result<void> written = write_json(arguments.out, comparisons);

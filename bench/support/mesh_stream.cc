@@ -98,9 +98,9 @@ void MeshStream::ask_reference() {
 }
 
 Result<void> MeshStream::run(Detail detail, const ResultColumns& out,
-                             SeparatePairs separate) const {
+                             Measured measured) const {
   return collide_rows(a_->view(), b_->view(), detail, out, WitnessFrame::world, Parallelism::none,
-                      separate);
+                      measured);
 }
 
 std::optional<std::string> MeshStream::difference(Detail detail, const ResultColumns& out) const {

@@ -43,7 +43,7 @@ class MeshStream {
 
   // One pass: row i is body i and the terrain.
   Result<void> run(Detail detail, const ResultColumns& out,
-                   SeparatePairs separate = SeparatePairs::measured) const;
+                   Measured measured = Measured::all) const;
 
   // The first of a few rows that does not have the bits of the reference, as a message.
   std::optional<std::string> difference(Detail detail, const ResultColumns& out) const;

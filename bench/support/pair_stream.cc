@@ -179,13 +179,13 @@ double PairStream::hit_percent() const {
 }
 
 Result<void> PairStream::run(Detail detail, const ResultColumns& out,
-                             SeparatePairs separate) const {
+                             Measured measured) const {
   const auto frame = WitnessFrame::world;
   const auto parallelism = Parallelism::none;
   if (spec_.access == Access::rows) {
-    return collide_rows(a_->view(), b_->view(), detail, out, frame, parallelism, separate);
+    return collide_rows(a_->view(), b_->view(), detail, out, frame, parallelism, measured);
   }
-  return collide(a_->view(), b_->view(), pairs_, detail, out, frame, parallelism, separate);
+  return collide(a_->view(), b_->view(), pairs_, detail, out, frame, parallelism, measured);
 }
 
 void PairStream::run_reference(std::vector<reference::PairResult>& out) const {

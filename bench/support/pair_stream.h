@@ -71,7 +71,7 @@ class PairStream {
 
   // One pass.
   Result<void> run(Detail detail, const ResultColumns& out,
-                   SeparatePairs separate = SeparatePairs::measured) const;
+                   Measured measured = Measured::all) const;
   void run_reference(std::vector<reference::PairResult>& out) const;
 
   // The first row of `out` that does not have the bits of the reference, as a message.

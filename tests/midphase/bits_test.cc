@@ -106,7 +106,7 @@ TEST(CompositeBits, DecidedPairsHaveTheSameContacts) {
   Call call;
   call.detail = Detail::manifold;
   const std::vector<Row> expected = expected_rows(pairs, PositionType::float32, call.detail);
-  call.separate = SeparatePairs::decided;
+  call.measured = Measured::overlapping;
   for_each_isa([&] {
     const std::vector<Row> rows = run_rows(pairs, call);
     for (size_t i = 0; i < rows.size(); ++i) {

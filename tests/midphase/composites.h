@@ -152,7 +152,7 @@ inline std::vector<SubShapes> run_sub_shapes(std::span<const TestPair> pairs, co
   out.sub_b = sub_b.data();
   expect_success(call, [&] {
     return collide_rows(a.view(), b.view(), call.detail, out, call.frame, call.parallelism,
-                        call.separate, call.accuracy);
+                        call.measured, call.accuracy);
   });
   std::vector<SubShapes> all;
   for (size_t i = 0; i < pairs.size(); ++i) all.push_back({sub_a[i], sub_b[i]});

@@ -37,15 +37,12 @@ std::vector<Row> run(std::span<const TestPair> pairs, Detail detail, PositionTyp
   return columns.rows();
 }
 
-constexpr auto kBudget = static_cast<uint8_t>(Status::budget);
-
-// Of separate pairs the decision counts alone: how well their separation is known does not.
+// Of separate pairs the decision counts alone.
 void expect_same(const std::vector<Row>& expected, const std::vector<Row>& rows) {
   ASSERT_EQ(expected.size(), rows.size());
   for (size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(expected[i].overlap, rows[i].overlap) << "pair " << i;
-    const bool has_bound = !expected[i].overlap && expected[i].status == kBudget;
-    ASSERT_TRUE(has_bound || expected[i].status == rows[i].status) << "pair " << i;
+    ASSERT_EQ(expected[i].status, rows[i].status) << "pair " << i;
     ASSERT_TRUE(!rows[i].overlap || same_bits(expected[i], rows[i])) << "pair " << i;
   }
 }

@@ -172,7 +172,7 @@ TEST(Tiers, BoundsAndOverlapsDoNotNeedTheOtherColumns) {
   out.overlap = overlap.data();
   out.separation_bound = bound.data();
   ASSERT_TRUE(collide_rows(a.view(), b.view(), Detail::overlap, out, WitnessFrame::world,
-                           Parallelism::none, SeparatePairs::measured, {Tier::exact, {}}));
+                           Parallelism::none, Measured::all, {Tier::exact, {}}));
   for (size_t i = 0; i < pairs.size(); ++i) {
     EXPECT_GT(bound[i], 0);
     EXPECT_EQ(overlap[i], exact(pairs[i], PositionType::float32));

@@ -20,7 +20,7 @@ struct Call {
   Parallelism parallelism = Parallelism::none;
   unsigned missing = 0;  // columns left out
   FloatMode mode = kDefaultMode;
-  SeparatePairs separate = SeparatePairs::measured;
+  Measured measured = Measured::all;
   Accuracy accuracy = {};
 };
 
@@ -59,7 +59,7 @@ inline std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& ca
   Columns columns(pairs.size(), call.missing);
   expect_success(call, [&] {
     return collide_rows(a.view(), b.view(), call.detail, columns.out(), call.frame,
-                        call.parallelism, call.separate, call.accuracy);
+                        call.parallelism, call.measured, call.accuracy);
   });
   return columns.rows();
 }
@@ -79,7 +79,7 @@ std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, con
   Columns columns(count, call.missing);
   expect_success(call, [&] {
     return carom::collide(a.view(), b.view(), std::span(list.as<Pair>(), count), call.detail,
-                          columns.out(), call.frame, call.parallelism, call.separate,
+                          columns.out(), call.frame, call.parallelism, call.measured,
                           call.accuracy);
   });
   return columns.rows();

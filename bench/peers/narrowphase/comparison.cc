@@ -66,7 +66,7 @@ std::string difference(const Stream& stream, Detail detail) {
 }
 
 PeerDetail peer_detail(const PeerStreamSpec& spec) {
-  if (spec.distance) return PeerDetail::distance;
+  if (spec.measured != Measured::overlapping) return PeerDetail::distance;
   return spec.detail == Detail::overlap ? PeerDetail::overlap : PeerDetail::contact;
 }
 
@@ -111,9 +111,7 @@ std::vector<RunnerResult> time_in_turns(const Stream& stream, const PeerStreamSp
   std::vector<TimedRunner> runners;
   runners.emplace_back("bullet", [&] { bullet.run(overlaps); });
   for (const Isa isa : usable_isas()) {
-    // Bullet's contacts say nothing of pairs that are apart.
-    const auto separate = spec.distance ? SeparatePairs::measured : SeparatePairs::decided;
-    const auto pass = [&, separate] { (void)stream.run(spec.detail, results.columns(), separate); };
+    const auto pass = [&] { (void)stream.run(spec.detail, results.columns(), spec.measured); };
     runners.emplace_back(name(isa), pass, isa);
   }
   for (int turn = 0; turn < kTurns; ++turn) {
@@ -132,7 +130,7 @@ StreamResult compare(const PeerStreamSpec& spec, const Stream& stream, PairPeer&
                      double budget) {
   StreamResult result;
   result.pair = spec.name();
-  result.output = spec.distance ? "distance" : name(spec.detail);
+  result.output = spec.output();
   result.pairs = stream.spec().count;
   result.hit_percent = stream.hit_percent();
   result.wrong = difference(stream, spec.detail);
@@ -148,6 +146,7 @@ StreamResult compare(const PeerStreamSpec& spec, const Stream& stream, PairPeer&
 std::vector<PeerStreamSpec> peer_streams() {
   using enum ShapeKind;
   using enum Detail;
+  using enum Measured;
   return {{"sphere_sphere", sphere, sphere, contact},
           {"sphere_box", sphere, box, contact},
           {"sphere_aabb", sphere, aabb, contact},
@@ -159,10 +158,14 @@ std::vector<PeerStreamSpec> peer_streams() {
           {"sphere_triangle", sphere, triangle, contact},
           {"capsule_triangle", capsule, triangle, contact},
           {"box_triangle", box, triangle, contact},
-          {"hull_hull", hull, hull, contact, 8, true},
-          {"hull_hull", hull, hull, contact, 16, true},
-          {"hull_hull", hull, hull, contact, 32, true},
-          {"hull_hull", hull, hull, contact, 64, true},
+          {"hull_hull", hull, hull, contact, 8, separate},
+          {"hull_hull", hull, hull, contact, 16, separate},
+          {"hull_hull", hull, hull, contact, 32, separate},
+          {"hull_hull", hull, hull, contact, 64, separate},
+          {"hull_hull", hull, hull, contact, 8, all},
+          {"hull_hull", hull, hull, contact, 16, all},
+          {"hull_hull", hull, hull, contact, 32, all},
+          {"hull_hull", hull, hull, contact, 64, all},
           {"hull_hull", hull, hull, contact, 8},
           {"hull_hull", hull, hull, contact, 16},
           {"hull_hull", hull, hull, contact, 32},
@@ -177,6 +180,11 @@ std::vector<PeerStreamSpec> peer_streams() {
 
 std::string PeerStreamSpec::name() const {
   return vertices > 0 ? pair + ("_" + std::to_string(vertices)) : pair;
+}
+
+const char* PeerStreamSpec::output() const {
+  if (measured == Measured::overlapping) return bench::name(detail);
+  return measured == Measured::separate ? "clearance" : "distance";
 }
 
 const RunnerResult* StreamResult::timed(const std::string& runner) const {

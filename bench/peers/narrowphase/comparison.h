@@ -17,11 +17,12 @@ struct PeerStreamSpec {
   ShapeKind b;
   Detail detail;
   size_t vertices = 0;  // of hulls
-  // Separate pairs are measured as well; otherwise their decision is enough.
-  bool distance = false;
+  Measured measured = Measured::overlapping;
 
   // As TARGETS are called: "hull_hull_16".
   std::string name() const;
+  // The detail; "distance" where all pairs are measured, "clearance" where separate ones are.
+  const char* output() const;
 };
 
 std::vector<PeerStreamSpec> peer_streams();
@@ -35,7 +36,7 @@ struct RunnerResult {
 
 struct StreamResult {
   std::string pair;
-  std::string output;  // the detail, or "distance"
+  std::string output;  // as PeerStreamSpec calls it
   size_t pairs = 0;
   double hit_percent = 0;
   std::string wrong;     // how Carom differs from its reference; empty: not at all

@@ -81,12 +81,15 @@ struct ResultColumns {
   uint32_t* sub_b = nullptr;
 };
 
-// What is found out about pairs that are apart, at details with contacts.
-enum class SeparatePairs : uint8_t {
-  measured,  // how far, along which normal, between which points
-  decided,   // that they are apart: columns but overlap, status and manifold_count may hold
-             // anything. Boxes against boxes take half of the time then; for most kinds nothing is
-             // saved
+// Of which pairs more is found out than whether they overlap: how far or how deep, along which
+// normal, between which points. Of the others, columns but overlap, status and manifold_count may
+// hold anything, at details with contacts; the status is that of the decision.
+enum class Measured : uint8_t {
+  all,
+  overlapping,  // contacts. Boxes and hulls against boxes and hulls take half of the time if they
+                // are apart; for most kinds nothing is saved
+  separate,     // clearances: no depth is searched for, which is most of the time that overlapping
+                // hulls take; of composites it is. There are no manifold points
 };
 
 // The frame of the witness points in ResultColumns.
