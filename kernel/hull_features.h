@@ -38,8 +38,7 @@ class HullFeatures {
   const float* column(size_t i) const { return columns_.data() + i * columns_.size() / 4; }
   // A ball of this size around the middle of the hull lies inside of it, surely.
   float inner_radius() const { return inner_radius_; }
-  const Edge& edge(uint32_t i) const { return edges_[i]; }
-  size_t edge_count() const { return edges_.size(); }
+  std::span<const Edge> edges() const { return edges_; }
   // The faces beside each edge.
   std::span<const std::array<uint16_t, 2>> sides() const { return sides_; }
 

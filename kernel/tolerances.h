@@ -208,6 +208,9 @@ inline constexpr float kFacingSlack = 0x1p-16f;
 // by eight times as much.
 inline constexpr float kSmallCrossing = 0x1p-6f;
 
+// Squared sine at a corner of a triangle that is too flat for the search over separating axes.
+inline constexpr double kFlatTriangle = 0x1p-30;
+
 // Corners of a face of a hull may be so much behind its plane, as a share of the hull's size.
 inline constexpr double kBehindFace = 0x1p-20;
 

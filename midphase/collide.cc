@@ -70,9 +70,8 @@ void fill_sub_shapes(const ResultColumns& out, size_t begin, size_t end) {
 }
 
 void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pairs, size_t count,
-                    Detail detail, const ResultColumns& out, WitnessFrame frame,
-                    Measured measured, uint32_t* direction, Parallelism parallelism,
-                    const Accuracy& accuracy) {
+                    Detail detail, const ResultColumns& out, WitnessFrame frame, Measured measured,
+                    uint32_t* direction, Parallelism parallelism, const Accuracy& accuracy) {
   if (detail == Detail::pairs || count == 0) return;
   const bool composites = has_composites(a) || has_composites(b);
   for_each_block(count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {

@@ -46,29 +46,37 @@ struct BodyPair {
   }
 };
 
-// What was found of a pair so far: that of the deepest pair of parts.
-struct Outcome {
+// Which pair of parts is the one to report, and how it came to overlap.
+struct Finding {
   uint8_t overlap = 0;
-  uint8_t status = static_cast<uint8_t>(Status::ok);
-  bool is_found = false;
   std::array<uint8_t, 2> edges_to_close{};  // of triangles, over which the contact came
   float separation = kInfinity;
-  std::array<float, 3> normal = {kNan, kNan, kNan};
-  std::array<float, 3> arm_a = {kNan, kNan, kNan};
-  std::array<float, 3> arm_b = {kNan, kNan, kNan};
   std::array<uint64_t, 2> parts{};
-  float bound = 0;
-  double nearest = HUGE_VAL;  // the least that a separation may be in truth
 
   bool is_over_edge() const { return edges_to_close[0] != 0 || edges_to_close[1] != 0; }
-  bool is_invalid() const { return status == static_cast<uint8_t>(Status::invalid); }
 
   // Overlapping pairs before undecided ones before separate ones; contacts that came over an inner
   // edge last, since what lies across that edge knows better.
-  auto order() const {
-    const int rank = overlap == 1 ? 0 : overlap == kUndecided ? 1 : 2;
-    return std::tuple(rank, is_over_edge(), separation, parts);
+  bool is_before(const Finding& other) const {
+    const auto order = [](const Finding& f) {
+      const int rank = f.overlap == 1 ? 0 : f.overlap == kUndecided ? 1 : 2;
+      return std::tuple(rank, f.is_over_edge(), f.separation, f.parts);
+    };
+    return order(*this) < order(other);
   }
+};
+
+// What was found of a pair so far: that of the deepest pair of parts.
+struct Outcome : Finding {
+  uint8_t status = static_cast<uint8_t>(Status::ok);
+  bool is_found = false;
+  std::array<float, 3> normal = {kNan, kNan, kNan};
+  std::array<float, 3> arm_a = {kNan, kNan, kNan};
+  std::array<float, 3> arm_b = {kNan, kNan, kNan};
+  float bound = 0;
+  double nearest = HUGE_VAL;  // the least that a separation may be in truth
+
+  bool is_invalid() const { return status == static_cast<uint8_t>(Status::invalid); }
 };
 
 Outcome no_answer() {
@@ -189,49 +197,55 @@ class CompositeRun {
   }
 
   void merge(size_t i) {
-    const ResultColumns out = batch_.results();
+    const ResultColumns& out = batch_.results();
     const size_t k = batch_.owner(i);
     Outcome& best = outcomes_[k];
     if (best.overlap == 1 && out.overlap[i] == 0 && !tests_.bounds) return;
-    Outcome found;
-    found.is_found = true;
-    found.overlap = out.overlap[i];
-    found.edges_to_close = batch_.edges_to_close(i);
-    found.separation = out.separation[i];
-    found.parts = {batch_.side(0).order(i), batch_.side(1).order(i)};
-    if (tests_.bounds) {
-      found.bound = out.separation_bound[i];
-      found.nearest = double{found.separation} - found.bound;
-    }
-    const bool is_alike = found.is_over_edge() == best.is_over_edge();
-    const double nearest = best.is_found && is_alike ? best.nearest : HUGE_VAL;
-    if (!best.is_found || found.order() < best.order()) {
-      set_contact(batch_, i, found);
-      best = found;
-      best.nearest = std::min(found.nearest, nearest);
-    } else if (is_alike) {
-      best.nearest = std::min(found.nearest, nearest);
+    Finding found{out.overlap[i], {}, out.separation[i], batch_.orders(i)};
+    // Where it came from need not be known of what is not the best in any case.
+    const bool may_be_best = !best.is_found || found.is_before(best);
+    if (!may_be_best && !tests_.manifolds && !tests_.bounds) return;
+    if (found.overlap == 1) found.edges_to_close = batch_.edges_to_close(i);
+    const bool is_best = may_be_best && (!best.is_found || found.is_before(best));
+    if (tests_.bounds) keep_bound(i, found, is_best, best);
+    if (is_best) {
+      static_cast<Finding&>(best) = found;
+      best.is_found = true;
+      if (found.overlap != 0 || tests_.measured == Measured::all) {
+        set_contact(batch_, i, best);
+      } else {
+        best.status = out.status[i];
+      }
     }
     if (tests_.manifolds && found.overlap == 1 && !found.is_over_edge()) {
       contacts_.add(k, contact_of(batch_, i, found));
     }
   }
 
-  static void set_contact(PartBatch& batch, size_t i, Outcome& outcome) {
-    const ResultColumns out = batch.results();
+  // Before `best` is replaced.
+  void keep_bound(size_t i, const Finding& found, bool is_best, Outcome& best) const {
+    const float bound = batch_.results().separation_bound[i];
+    const bool is_alike = found.is_over_edge() == best.is_over_edge();
+    const double others = best.is_found && is_alike ? best.nearest : HUGE_VAL;
+    if (is_best) best.bound = bound;
+    if (is_best || is_alike) best.nearest = std::min(double{found.separation} - bound, others);
+  }
+
+  static void set_contact(const PartBatch& batch, size_t i, Outcome& outcome) {
+    const ResultColumns& out = batch.results();
     outcome.status = out.status[i];
     outcome.separation = out.separation[i];
     outcome.normal = at_row(out.normal, i);
-    outcome.arm_a = moved(at_row(out.point_a, i), batch.side(0).arm(i));
-    outcome.arm_b = moved(at_row(out.point_b, i), batch.side(1).arm(i));
+    outcome.arm_a = moved(at_row(out.point_a, i), batch.arm_a(i));
+    outcome.arm_b = moved(at_row(out.point_b, i), batch.arm_b(i));
   }
 
-  static PartContact contact_of(PartBatch& batch, size_t i, const Outcome& found) {
-    const ResultColumns out = batch.results();
+  static PartContact contact_of(const PartBatch& batch, size_t i, const Finding& found) {
+    const ResultColumns& out = batch.results();
     PartContact contact{found.parts, at_row(out.normal, i), found.separation, out.manifold_count[i],
                         out.manifold[i]};
     for (size_t k = 0; k < contact.count; ++k) {
-      contact.points.point[k] = moved(contact.points.point[k], batch.side(0).arm(i));
+      contact.points.point[k] = moved(contact.points.point[k], batch.arm_a(i));
     }
     return contact;
   }
@@ -246,7 +260,7 @@ class CompositeRun {
       const BodyPair bodies(a_, b_, pair(k));
       again_.add(k, part_at(bodies.a, o.parts[0]), part_at(bodies.b, o.parts[1]), o.edges_to_close);
     }
-    again_.run_again(tests_);
+    again_.run(tests_);
     for (size_t i = 0; i < again_.count(); ++i) {
       const size_t k = again_.owner(i);
       Outcome& o = outcomes_[k];

@@ -1,6 +1,7 @@
 // Overlaps of parts at detail manifold, pair after pair.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -26,12 +27,11 @@ class ContactRuns {
   }
 
   std::span<PartContact> of(size_t owner) {
-    for (size_t i = 0; i < runs_.size(); ++i) {
-      if (runs_[i].owner != owner) continue;
-      const size_t end = i + 1 < runs_.size() ? runs_[i + 1].first : contacts_.size();
-      return std::span(contacts_).subspan(runs_[i].first, end - runs_[i].first);
-    }
-    return {};
+    const auto run = std::lower_bound(runs_.begin(), runs_.end(), owner,
+                                      [](const Run& r, size_t o) { return r.owner < o; });
+    if (run == runs_.end() || run->owner != owner) return {};
+    const size_t end = run + 1 == runs_.end() ? contacts_.size() : run[1].first;
+    return std::span(contacts_).subspan(run->first, end - run->first);
   }
 
   void forget_before(size_t owner) {

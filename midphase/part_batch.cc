@@ -5,45 +5,56 @@
 #include "narrowphase/pair_block.h"
 
 namespace carom {
-void PartColumns::put(size_t i, const PlacedPart& part) {
-  const Double3& p = part.position;
-  record_[i] = {p[0], p[1], p[2], part.part->radius};
-  position_[i] = p;
-  arm_[i] = part.arm;
-  orientation_[i] = part.orientation;
-  kind_[i] = part.kind();
-  triangle_[i] = part.triangle;
-  order_[i] = part.order();
-  const bool is_of_mesh = part.triangle != PlacedPart::kWhole;
-  mesh_[i] = is_of_mesh ? &part.mesh() : nullptr;
-  if (is_of_mesh) {
-    put_rows(i, triangle_rows(*mesh_[i], part.triangle).data(), 3);
-  } else {
-    put_rows(i, part.part->rows.data(), row_count(kind_[i]));
-  }
-  if (kind_[i] != ShapeKind::aabb) return;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    lower_[axis][i] = part.part->lower[axis];
-    upper_[axis][i] = part.part->upper[axis];
-  }
+
+void PartColumns::clear() {
+  count_ = frames_used_ = rows_used_ = 0;
+  are_mixed_ = false;
 }
 
-void PartColumns::put_rows(size_t i, const Row* rows, uint32_t count) {
-  first_row_[i] = rows_used_;
-  std::copy_n(rows, count, rows_.begin() + rows_used_);
-  rows_used_ += count;
+uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
+  const bool has_frame = frames_used_ > 0 && frames_[frames_used_ - 1].is_of(owner, part);
+  if (has_frame && triangle_[count_ - 1] == part.triangle) return count_ - 1;
+  if (!has_frame) put_frame(owner, part);
+  const uint32_t body = count_++;
+  const Double3& p = part.position;
+  record_[body] = {p[0], p[1], p[2], part.part->radius};
+  orientation_[body] = part.orientation;
+  kind_[body] = part.kind();
+  are_mixed_ = are_mixed_ || kind_[body] != kind_[0];
+  frame_[body] = frames_used_ - 1;
+  triangle_[body] = part.triangle;
+  order_[body] = part.order();
+  first_row_[body] = rows_used_;
+  if (is_of_mesh(body)) {
+    put_rows(triangle_rows(part.mesh(), part.triangle).data(), 3);
+  } else {
+    put_rows(part.part->rows.data(), row_count(kind_[body]));
+  }
+  for (size_t axis = 0; kind_[body] == ShapeKind::aabb && axis < 3; ++axis) {
+    lower_[axis][body] = part.part->lower[axis];
+    upper_[axis][body] = part.part->upper[axis];
+  }
+  return body;
+}
+
+void PartColumns::put_frame(size_t owner, const PlacedPart& part) {
+  const MeshGeometry* const mesh = part.triangle == part.kWhole ? nullptr : &part.mesh();
+  frames_[frames_used_++] = {part.position, part.arm, part.turn, mesh, part.child, owner};
+}
+
+void PartColumns::put_rows(const Row* rows, uint32_t row_count) {
+  std::copy_n(rows, row_count, rows_.begin() + rows_used_);
+  rows_used_ += row_count;
 }
 
 // Of one kind, if all are: that saves the narrow phase from sorting them.
-Collidables PartColumns::view(size_t count) const {
+Collidables PartColumns::view() const {
   Collidables view;
-  view.count = count;
+  view.count = count_;
   view.position = {
       .data = record_.data(), .stride = sizeof record_[0], .type = PositionType::float64};
   view.uniform_kind = kind_[0];
-  const bool are_mixed = std::any_of(kind_.begin(), kind_.begin() + static_cast<long>(count),
-                                     [&](ShapeKind kind) { return kind != kind_[0]; });
-  if (are_mixed) view.kind = kind_.data();
+  if (are_mixed_) view.kind = kind_.data();
   for (size_t axis = 0; axis < 3; ++axis) {
     view.boxes.lower[axis] = lower_[axis].data();
     view.boxes.upper[axis] = upper_[axis].data();
@@ -53,95 +64,82 @@ Collidables PartColumns::view(size_t count) const {
   return view;
 }
 
-Part PartColumns::part(size_t i) const {
+Part PartColumns::part(size_t body) const {
   Part part;
-  part.kind = kind_[i];
-  part.radius = static_cast<float>(record_[i].radius);
+  part.kind = kind_[body];
+  part.radius = static_cast<float>(record_[body].radius);
   for (size_t axis = 0; part.kind == ShapeKind::aabb && axis < 3; ++axis) {
-    part.lower[axis] = lower_[axis][i];
-    part.upper[axis] = upper_[axis][i];
+    part.lower[axis] = lower_[axis][body];
+    part.upper[axis] = upper_[axis][body];
   }
-  std::copy_n(rows_.data() + first_row_[i], row_count(part.kind), part.rows.begin());
-  part.orientation = orientation_[i];
-  part.position = position_[i];
+  std::copy_n(rows_.data() + first_row_[body], row_count(part.kind), part.rows.begin());
+  part.orientation = orientation_[body];
+  part.position = frames_[frame_[body]].position;
   return part;
 }
 
-PlacedTriangle PartColumns::triangle(size_t i) const {
-  return {*mesh_[i], triangle_[i], position_[i], rotation_of(orientation_[i])};
+PlacedTriangle PartColumns::triangle(size_t body) const {
+  const Frame& frame = frames_[frame_[body]];
+  return {*frame.mesh, triangle_[body], frame.position, frame.turn};
+}
+
+PartBatch::PartBatch() {
+  results_ = scratch_.columns();
+  results_.manifold_count = manifold_count_.data();
+  results_.manifold = manifold_.data();
+  results_.separation_bound = bound_.data();
 }
 
 void PartBatch::clear() {
   count_ = 0;
-  has_meshes_ = false;
   for (PartColumns& side : sides_) side.clear();
 }
 
 void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b) {
   owner_[count_] = static_cast<uint32_t>(owner);
-  sides_[0].put(count_, a);
-  sides_[1].put(count_, b);
-  const auto is_of_mesh = [](const PlacedPart& part) { return part.triangle != part.kWhole; };
-  has_meshes_ = has_meshes_ || is_of_mesh(a) || is_of_mesh(b);
-  ++count_;
+  pairs_[count_++] = {sides_[0].put(owner, a), sides_[1].put(owner, b)};
 }
 
 void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b,
                     const std::array<uint8_t, 2>& inner_edges) {
   add(owner, a, b);
-  for (size_t side = 0; side < 2; ++side) {
-    if (inner_edges[side] != 0) sides_[side].set_inner_edges(count_ - 1, inner_edges[side]);
-  }
+  const Pair pair = pairs_[count_ - 1];
+  if (inner_edges[0] != 0) sides_[0].set_inner_edges(pair.a, inner_edges[0]);
+  if (inner_edges[1] != 0) sides_[1].set_inner_edges(pair.b, inner_edges[1]);
 }
 
-ResultColumns PartBatch::results() {
-  ResultColumns columns = scratch_.columns();
-  columns.manifold_count = manifold_count_.data();
-  columns.manifold = manifold_.data();
-  columns.separation_bound = bound_.data();
-  return columns;
-}
-
-ResultColumns PartBatch::asked(const PartTests& tests) {
-  ResultColumns columns = results();
-  if (!tests.bounds) columns.separation_bound = nullptr;
-  return columns;
-}
-
-void PartBatch::run_plain(const PartTests& tests) {
+void PartBatch::run(const PartTests& tests) {
   if (count_ == 0) return;
-  run_pair_block({.a = sides_[0].view(count_),
-                  .b = sides_[1].view(count_),
-                  .pairs = nullptr,
+  ResultColumns asked = results_;
+  if (!tests.bounds) asked.separation_bound = nullptr;
+  run_pair_block({.a = sides_[0].view(),
+                  .b = sides_[1].view(),
+                  .pairs = pairs_.data(),
                   .first = 0,
                   .count = count_,
                   .detail = tests.manifolds ? Detail::manifold : Detail::contact,
                   .frame = WitnessFrame::body,
                   .measured = tests.measured,
                   .accuracy = tests.accuracy,
-                  .out = asked(tests)});
+                  .out = asked});
 }
 
 // Half-spaces always push along their own normal.
-std::array<uint8_t, 2> PartBatch::find_edges_to_close(size_t i) {
-  const ResultColumns out = results();
-  const Double3 normal = {out.normal[0][i], out.normal[1][i], out.normal[2][i]};
+std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) const {
   std::array<uint8_t, 2> edges{};
+  const Double3 normal = {results_.normal[0][i], results_.normal[1][i], results_.normal[2][i]};
+  const std::array<uint32_t, 2> body = {pairs_[i].a, pairs_[i].b};
   for (size_t side = 0; side < 2; ++side) {
+    const PartColumns& own = sides_[side];
     const PartColumns& other = sides_[1 - side];
-    if (!sides_[side].is_of_mesh(i) || other.kind(i) == ShapeKind::halfspace) continue;
-    edges[side] = sides_[side].triangle(i).edges_to_close(side == 0 ? normal : minus({}, normal),
-                                                          [&] { return middle_of(other.part(i)); });
+    const uint32_t facing = body[1 - side];
+    if (!own.is_of_mesh(body[side]) || other.kind(facing) == ShapeKind::halfspace) continue;
+    edges[side] =
+        own.triangle(body[side]).edges_to_close(side == 0 ? normal : minus({}, normal), [&] {
+          return middle_of(other.part(facing));
+        });
   }
   return edges;
-}
-
-void PartBatch::run(const PartTests& tests) {
-  run_plain(tests);
-  for (size_t i = 0; i < count_; ++i) {
-    const bool may_be_over_edge = has_meshes_ && scratch_.overlap[i] == 1;
-    edges_to_close_[i] = may_be_over_edge ? find_edges_to_close(i) : std::array<uint8_t, 2>{};
-  }
 }
 
 }  // namespace carom

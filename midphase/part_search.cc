@@ -119,6 +119,25 @@ struct SeenPlane {
 
 bool is_plane(const PlacedPart& part) { return part.kind() == ShapeKind::halfspace; }
 
+// The parts of a body, one at a time. Those of a mesh differ in no more than the triangle.
+class PartOf {
+ public:
+  explicit PartOf(const PlacedPart& whole) : whole_(whole), part_(whole) {}
+
+  const PlacedPart& item(uint32_t index) {
+    if (whole_.kind() == ShapeKind::mesh) {
+      part_.triangle = index;
+    } else {
+      part_ = whole_.item(index);
+    }
+    return part_;
+  }
+
+ private:
+  const PlacedPart& whole_;
+  PlacedPart part_;
+};
+
 // Which of two bodies with parts is taken apart: the compound; of two of a kind both.
 bool takes_apart_first(const PlacedPart& a, const PlacedPart& b) {
   if (!a.has_parts()) return false;
@@ -135,9 +154,11 @@ class PartSearch {
     } else if (a.kind() == b.kind()) {
       take_apart_both(a, b);
     } else if (takes_apart_first(a, b)) {
-      for_each_near(a, b, [&](uint32_t item) { run(a.item(item), b); });
+      PartOf part(a);
+      for_each_near(a, b, [&](uint32_t item) { run(part.item(item), b); });
     } else {
-      for_each_near(b, a, [&](uint32_t item) { run(a, b.item(item)); });
+      PartOf part(b);
+      for_each_near(b, a, [&](uint32_t item) { run(a, part.item(item)); });
     }
   }
 
@@ -145,8 +166,9 @@ class PartSearch {
   void take_apart_both(const PlacedPart& a, const PlacedPart& b) const {
     const FrameChange change = to_frame_of(a, b);
     const double lengths = size_of(a) + size_of(b) + greatest(change.offset);
+    PartOf part_a(a), part_b(b);
     find_touching_items(a.tree(), b.tree(), change, with_slack(reach_, lengths),
-                        [&](uint32_t i, uint32_t j) { run(a.item(i), b.item(j)); });
+                        [&](uint32_t i, uint32_t j) { run(part_a.item(i), part_b.item(j)); });
   }
 
   template <class Use>

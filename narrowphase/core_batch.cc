@@ -21,10 +21,17 @@ reference::Quaternion<double> orientation_of(const BodyReader& body, size_t inde
   return reference::quaternion_as<double>({q[0], q[1], q[2], q[3]});
 }
 
-template <class T>
+template <class T, class Real>
 auto shape_at(const BodyReader& body, size_t index) {
-  return reference::shape_as<double>(std::get<T>(shape_of(body, index)));
+  if constexpr (std::is_same_v<T, Hull>) {
+    return reference::HullShape<Real>{geometry_at<HullGeometry>(body.row(index, 0)), 1};
+  } else {
+    return reference::shape_as<Real>(std::get<T>(shape_of(body, index)));
+  }
 }
+
+template <class T>
+using FloatShape = decltype(reference::shape_as<float>(std::declval<T>()));
 
 std::array<float, 10> numbers_of(const reference::Separation& s) {
   return {s.separation, s.normal.x(), s.normal.y(), s.normal.z(), s.arm_a.x(),
@@ -64,17 +71,15 @@ class RowTester {
   }
 
  private:
-  // Between hulls, in float32, if that is sure.
+  // Between solids, in float32, if that is sure.
   bool put_depth(size_t row) const {
-    if constexpr (std::is_same_v<A, Hull> && std::is_same_v<B, Hull>) {
+    if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
       const Pair pair = batch_.pairs[row];
-      const auto hull = [](const BodyReader& body, size_t index) -> reference::HullShape<float> {
-        return {geometry_at<HullGeometry>(body.row(index, 0)), 1};
-      };
       const reference::Separation s = reference::in_scaled_units<float>(
-          hull(a_, pair.a), hull(b_, pair.b), rounded_pose(a_, b_, pair),
+          shape_at<A, float>(a_, pair.a), shape_at<B, float>(b_, pair.b),
+          rounded_pose(a_, b_, pair),
           [](const auto& x, const auto& y, const reference::PairPose<float>& pose) {
-            return hull_depth(x, y, pose, hull_steps_in_lanes());
+            return shape_depth(x, y, pose, hull_steps_in_lanes());
           });
       if (!s.is_unsure) store_.put(row, s.status, numbers_of(s));
       return !s.is_unsure;
@@ -87,8 +92,8 @@ class RowTester {
     const Pair pair = batch_.pairs[row];
     const Position<double> p = a_.template position<double>(pair.a);
     const Position<double> q = b_.template position<double>(pair.b);
-    const auto shape_a = shape_at<A>(a_, pair.a);
-    const auto shape_b = shape_at<B>(b_, pair.b);
+    const auto shape_a = shape_at<A, double>(a_, pair.a);
+    const auto shape_b = shape_at<B, double>(b_, pair.b);
     const reference::SeparationAs<double> s = reference::in_scaled_units<double>(
         shape_a, shape_b,
         {{q.x - p.x, q.y - p.y, q.z - p.z}, orientation_of(a_, pair.a), orientation_of(b_, pair.b)},

@@ -9,37 +9,36 @@ namespace {
 
 using namespace reference;
 
-// One hull, in its own frame, and the other one's points there.
+// One solid, in its own frame, and the other one's points there.
 struct Side {
-  const HullGeometry& hull;
+  const Solid& solid;
   const HullPoints& others;
-  float scale;
   Ball inside;  // of the other one
   FaceBounds& bounds;
-
-  const HullFeatures& features() const { return *hull.features(); }
-  Vector3f own(uint32_t i) const { return hull.points()[i] * scale; }
 };
 
-// Up to so many points, trying all faces costs less than choosing among them.
-constexpr size_t kFewPoints = 16;
+// Up to so many points, times faces in groups, trying all faces costs less than choosing among
+// them.
+constexpr size_t kFewFeatures = 64;
 
 class DepthSearch {
  public:
-  DepthSearch(const HullShape<float>& a, const HullShape<float>& b, const PairPose<float>& pose,
-              const HullSteps& steps)
-      : a_(a), b_(b), pose_(pose), steps_(steps), scale_(static_cast<float>(a.scale)) {}
+  DepthSearch(const Solid& a, const Solid& b, const PairPose<float>& pose, const HullSteps& steps)
+      : a_(a), b_(b), pose_(pose), steps_(steps) {}
 
   Separation run() {
-    turn_a_ = rotation_of(pose_.a);
-    turn_ = rotation_of(relative_rotation(pose_.a, pose_.b));
+    const Quaternion<float> unturned{Vector3f::Zero(), 1};
+    const Quaternion<float>& q = a_.is_turned ? pose_.a : unturned;
+    turn_a_ = rotation_of(q);
+    turn_ = rotation_of(relative_rotation(q, b_.is_turned ? pose_.b : unturned));
     centre_ = rotate_back(turn_a_, pose_.d);
     thread_local Memory memory;
     place_points(memory);
-    const Side a =
-        side(a_, memory.b_in_a, rotate(turn_, middle_of(b_)) + centre_, b_, memory.bounds_a);
-    const Side b = side(b_, memory.a_in_b, rotate_back(turn_, Vector3f(middle_of(a_) - centre_)),
-                        a_, memory.bounds_b);
+    const Side a = {a_, memory.b_in_a, inside(b_, rotate(turn_, middle_of(b_)) + centre_),
+                    memory.bounds_a};
+    const Side b = {b_, memory.a_in_b,
+                    inside(a_, rotate_back(turn_, Vector3f(middle_of(a_) - centre_))),
+                    memory.bounds_b};
     const BestFace best_a = try_faces(a, -kLargest);
     if (is_doubtful_) return not_in_float<float>();
     const BestFace best_b = try_faces(b, best_a.gap);
@@ -51,9 +50,8 @@ class DepthSearch {
 
  private:
   struct Edges {
-    static constexpr size_t kMost = 3 * kMostLanePoints;
     size_t count;
-    std::array<uint16_t, kMost> index;
+    std::array<uint16_t, Solid::kMostEdges> index;
   };
 
   struct Memory {
@@ -66,29 +64,30 @@ class DepthSearch {
                                   {turn_.x.y(), turn_.y.y(), turn_.z.y()},
                                   {turn_.x.z(), turn_.y.z(), turn_.z.z()}};
     const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
-    steps_.place(*a_.geometry, scale_, unturned, Vector3f::Zero(), memory.a);
-    steps_.place(*b_.geometry, scale_, turn_, centre_, memory.b_in_a);
-    steps_.place(*a_.geometry, scale_, back, -rotate_back(turn_, centre_), memory.a_in_b);
+    steps_.place(a_, unturned, Vector3f::Zero(), memory.a);
+    steps_.place(b_, turn_, centre_, memory.b_in_a);
+    steps_.place(a_, back, -rotate_back(turn_, centre_), memory.a_in_b);
   }
 
-  Side side(const HullShape<float>& hull, const HullPoints& others, const Vector3f& middle,
-            const HullShape<float>& other, FaceBounds& bounds) const {
-    const float radius = other.geometry->features()->inner_radius() * scale_;
-    return {*hull.geometry, others, scale_, {middle, radius}, bounds};
-  }
-
-  Vector3f middle_of(const HullShape<float>& hull) const {
-    const std::array<float, 4>& middle = hull.geometry->records()[hull.geometry->points().size()];
-    return Vector3f(middle[0], middle[1], middle[2]) * scale_;
+  static Vector3f middle_of(const Solid& solid) { return solid.middle * solid.scale; }
+  static Ball inside(const Solid& solid, const Vector3f& middle) {
+    return {middle, solid.inner_radius * solid.scale};
   }
 
   // --- Faces ---
 
   // The best of those that are better than the least gap.
   BestFace try_faces(const Side& side, float least) {
-    if (side.others.count > kFewPoints) return try_best_faces(side, least);
-    const BestFace best = steps_.try_all(side.features(), scale_, side.others, side.bounds);
+    if (!has_few_features(side)) return try_best_faces(side, least);
+    const BestFace best = steps_.try_all(side.solid, side.others, side.bounds);
     return best.gap > least ? best : BestFace{least, 0};
+  }
+
+  static bool has_few_features(const Side& side) {
+    constexpr size_t kFacesAtOnce = 8;
+    const size_t groups = (side.solid.face_count + kFacesAtOnce - 1) / kFacesAtOnce;
+    return side.others.count <= FaceBounds::kMostBalls &&
+           side.others.count * groups <= kFewFeatures;
   }
 
   // The most promising first: the point that each finds says something of the others.
@@ -98,13 +97,12 @@ class DepthSearch {
     Ball ball = side.inside;
     BestFace best{least, 0};
     while (true) {
-      const BestFace next = steps_.bound(side.features(), scale_, ball, bounds);
+      const BestFace next = steps_.bound(side.solid, ball, bounds);
       if (!(next.gap > best.gap)) return best;
       is_doubtful_ = bounds.count == FaceBounds::kMostBalls;
       if (is_doubtful_) return best;
-      const FurthestOfHull lowest =
-          steps_.furthest(side.others, -side.features().normal(next.face));
-      const float gap = -lowest.height - side.features().height(next.face) * scale_;
+      const FurthestOfHull lowest = steps_.furthest(side.others, -side.solid.normal(next.face));
+      const float gap = -lowest.height - side.solid.height(next.face);
       bounds.closed[next.face] = kLargest;
       ball = {side.others[lowest.index], 0};
       if (gap > best.gap) best = {gap, next.face};
@@ -114,19 +112,19 @@ class DepthSearch {
   void keep_faces(const Side& a, const BestFace& best_a, const Side& b, const BestFace& best_b) {
     if (!(best_b.gap > best_a.gap)) {
       gap_ = best_a.gap;
-      normal_ = a.features().normal(best_a.face);
+      normal_ = a.solid.normal(best_a.face);
     } else {
       gap_ = best_b.gap;
-      normal_ = -rotate(turn_, b.features().normal(best_b.face));
+      normal_ = -rotate(turn_, b.solid.normal(best_b.face));
     }
   }
 
   // --- Edges ---
 
   static EdgeOfHull edge_of(const Side& side, uint32_t e) {
-    const HullFeatures::Edge& edge = side.features().edge(e);
-    return {edge.direction, side.own(edge.from), side.features().normal(edge.left),
-            side.features().normal(edge.right)};
+    const Solid::Edge& edge = side.solid.edges[e];
+    return {edge.direction, side.solid.corner(edge.from), side.solid.normal(edge.left),
+            side.solid.normal(edge.right)};
   }
 
   EdgeOfHull in_frame_of_a(const EdgeOfHull& edge) const {
@@ -137,11 +135,11 @@ class DepthSearch {
   // Those beside which some axis may be better than the best face: no ball settles both faces.
   // Without branches, which nobody could predict.
   void find_edges_to_cross(const Side& side, Edges& edges) const {
-    steps_.settle(side.features(), gap_, side.bounds);
+    steps_.settle(side.solid, gap_, side.bounds);
     const auto& settled = side.bounds.settled;
     size_t count = 0;
     uint16_t e = 0;
-    for (const auto& [left, right] : side.features().sides()) {
+    for (const auto& [left, right] : side.solid.sides) {
       edges.index[count] = e++;
       count += (settled[left] & settled[right]) == 0 ? 1 : 0;
     }
@@ -207,10 +205,9 @@ class DepthSearch {
     return result;
   }
 
-  const HullShape<float>&a_, &b_;
+  const Solid &a_, &b_;
   const PairPose<float>& pose_;
   const HullSteps& steps_;
-  const float scale_;
   Rotation<float> turn_a_, turn_;  // of A to the world, of B to A
   Vector3f centre_;                // of B, in the frame of A
   bool is_doubtful_ = false;
@@ -225,15 +222,9 @@ class DepthSearch {
 
 }  // namespace
 
-Separation hull_depth(const HullShape<float>& a, const HullShape<float>& b,
-                      const PairPose<float>& pose, const HullSteps& steps) {
-  const auto is_known = [](const HullShape<float>& hull) {
-    const HullFeatures* const features = hull.geometry->features();
-    return features && hull.geometry->points().size() <= kMostLanePoints &&
-           features->face_count() <= FaceBounds::kMost &&
-           features->edge_count() <= 3 * kMostLanePoints;
-  };
-  if (!is_known(a) || !is_known(b)) return not_in_float<float>();
+Separation solid_depth(const Solid& a, const Solid& b, const PairPose<float>& pose,
+                       const HullSteps& steps) {
+  if (!a.is_known() || !b.is_known()) return not_in_float<float>();
   return DepthSearch(a, b, pose, steps).run();
 }
 

@@ -1,4 +1,4 @@
-// How deep two solid hulls overlap, and which way out is the shortest, in float32 and scaled units:
+// How deep two solids overlap, and which way out is the shortest, in float32 and scaled units:
 // every separating axis that could be that way is tried.
 //
 // The axes are the normals of faces, and the directions across two edges whose arcs on the sphere
@@ -12,17 +12,12 @@
 #include <array>
 #include <cstdint>
 
-#include "kernel/few_of.h"
-#include "kernel/hull_features.h"
-#include "kernel/tolerances.h"
 #include "narrowphase/separation_ref.h"
-#include "narrowphase/shapes_ref.h"
+#include "narrowphase/solid.h"
 
 namespace carom {
 
-using Eigen::Vector3f;
-
-// Points of one hull in the frame of another, in columns, as many as fill whole vectors: places
+// Points of one solid in the frame of another, in columns, as many as fill whole vectors: places
 // behind the last repeat the first.
 struct HullPoints {
   size_t count, padded;
@@ -48,7 +43,7 @@ struct Ball {
 // no more than the greater of what a ball says of both, if its middle is below both; `between` is
 // kLargest of faces that it is above.
 struct FaceBounds {
-  static constexpr size_t kMost = 2 * kMostLanePoints;
+  static constexpr size_t kMost = Solid::kMostFaces;
   static constexpr size_t kMostBalls = 32;
 
   size_t count;                                              // of balls
@@ -101,16 +96,14 @@ struct BestCrossing {
 // What runs in lanes; reference::kHullSteps has the same, scalar.
 struct HullSteps {
   // turn * (point * scale) + offset.
-  void (*place)(const HullGeometry& hull, float scale, const reference::Rotation<float>& turn,
-                const Vector3f& offset, HullPoints& out);
+  void (*place)(const Solid& solid, const reference::Rotation<float>& turn, const Vector3f& offset,
+                HullPoints& out);
   // By one more ball. Of the faces that were not tried the first with the greatest bound.
-  BestFace (*bound)(const HullFeatures& features, float scale, const Ball& ball,
-                    FaceBounds& bounds);
+  BestFace (*bound)(const Solid& solid, const Ball& ball, FaceBounds& bounds);
   // By all points, which are few: of all faces the first with the greatest gap.
-  BestFace (*try_all)(const HullFeatures& features, float scale, const HullPoints& points,
-                      FaceBounds& bounds);
+  BestFace (*try_all)(const Solid& solid, const HullPoints& points, FaceBounds& bounds);
   // Which of the balls leave an axis beside a face no more than `gap`.
-  void (*settle)(const HullFeatures& features, float gap, FaceBounds& bounds);
+  void (*settle)(const Solid& solid, float gap, FaceBounds& bounds);
   FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
   // How many reach as far as `height` up to kFacingSlack.
   size_t (*count_as_far)(const HullPoints& points, const Vector3f& way, float height);
@@ -118,10 +111,18 @@ struct HullSteps {
   BestCrossing (*cross)(const EdgeColumns& a, const EdgeColumns& b);
 };
 
-// The contact of two hulls that surely overlap; unsure if their features do not tell it, if they
-// meet in more than one place, or if one has more than kMostLanePoints points.
-reference::Separation hull_depth(const reference::HullShape<float>& a,
-                                 const reference::HullShape<float>& b,
-                                 const reference::PairPose<float>& pose, const HullSteps& steps);
+// The contact of two solids that surely overlap; unsure if their features do not tell it, or if
+// they meet in more than one place.
+reference::Separation solid_depth(const Solid& a, const Solid& b,
+                                  const reference::PairPose<float>& pose, const HullSteps& steps);
+
+// The same of shapes: hulls, boxes and triangles.
+template <class A, class B>
+reference::Separation shape_depth(const A& a, const B& b, const reference::PairPose<float>& pose,
+                                  const HullSteps& steps) {
+  const auto solid_a = solid_of(a);
+  const auto solid_b = solid_of(b);
+  return solid_depth(solid_a.view(), solid_b.view(), pose, steps);
+}
 
 }  // namespace carom

@@ -24,9 +24,8 @@ SeparationAs<Real> separation_with_hull(const A& a, const B& b, const PairPose<R
     const FloatTest test =
         nearest_separation(float_core(a, pose.a, Vector3f::Zero()), float_core(b, pose.b, pose.d),
                            pose.d, metres_a_unit(a, b));
-    constexpr bool kAreHulls = std::is_same_v<A, B>;
-    if constexpr (kAreHulls) {
-      if (test.is_deep) return hull_depth(a, b, pose, kHullSteps);
+    if constexpr (kIsSolid<A> && kIsSolid<B>) {
+      if (test.is_deep) return shape_depth(a, b, pose, kHullSteps);
     }
     return test.separation;
   } else {

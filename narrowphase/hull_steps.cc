@@ -44,17 +44,17 @@ struct FirstOfMost {
   }
 };
 
-void place_points(const HullGeometry& hull, float scale, const reference::Rotation<float>& turn,
+void place_points(const Solid& solid, const reference::Rotation<float>& turn,
                   const Vector3f& offset, HullPoints& out) {
   const FloatTag tag;
   const Rotation r{in_all_lanes(turn.x), in_all_lanes(turn.y), in_all_lanes(turn.z)};
   const F3 d = in_all_lanes(offset);
-  const F s = splat(scale);
-  out.count = hull.points().size();
+  const F s = splat(solid.scale);
+  out.count = solid.point_count;
   out.padded = (out.count + kLanes - 1) / kLanes * kLanes;
   for (size_t i = 0; i < out.padded; i += kLanes) {
-    const F3 p = {hn::LoadU(tag, hull.column(0) + i), hn::LoadU(tag, hull.column(1) + i),
-                  hn::LoadU(tag, hull.column(2) + i)};
+    const F3 p = {hn::LoadU(tag, solid.point[0] + i), hn::LoadU(tag, solid.point[1] + i),
+                  hn::LoadU(tag, solid.point[2] + i)};
     const F3 placed = rotate(r, p * s) + d;
     hn::StoreU(placed.x, tag, out.x.data() + i);
     hn::StoreU(placed.y, tag, out.y.data() + i);
@@ -67,11 +67,11 @@ struct FaceLanes {
   F3 normal;
   F height;
 
-  HWY_INLINE FaceLanes(const HullFeatures& features, F scale, size_t i) {
+  HWY_INLINE FaceLanes(const Solid& solid, size_t i) {
     const FloatTag tag;
-    normal = {hn::LoadU(tag, features.column(0) + i), hn::LoadU(tag, features.column(1) + i),
-              hn::LoadU(tag, features.column(2) + i)};
-    height = hn::Mul(hn::LoadU(tag, features.column(3) + i), scale);
+    normal = {hn::LoadU(tag, solid.plane[0] + i), hn::LoadU(tag, solid.plane[1] + i),
+              hn::LoadU(tag, solid.plane[2] + i)};
+    height = hn::Mul(hn::LoadU(tag, solid.plane[3] + i), splat(solid.scale));
   }
 };
 
@@ -86,17 +86,16 @@ HWY_INLINE BoundLanes bound(const FaceLanes& faces, const F3& middle, F radius) 
   return {gap, hn::IfThenElse(hn::Gt(above, splat(0)), splat(FLT_MAX), gap)};
 }
 
-BestFace bound_faces(const HullFeatures& features, float scale, const Ball& ball,
-                     FaceBounds& bounds) {
+BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
   const FloatTag tag;
   const size_t last = bounds.count++;
   const F3 middle = in_all_lanes(ball.middle);
-  const F s = splat(scale), radius = splat(ball.radius);
+  const F radius = splat(ball.radius);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
   F index = indices();
-  for (size_t i = 0; i < features.face_count(); i += kLanes) {
-    const BoundLanes found = bound(FaceLanes(features, s, i), middle, radius);
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
+    const BoundLanes found = bound(FaceLanes(solid, i), middle, radius);
     hn::StoreU(found.between, tag, bounds.between[last].data() + i);
     float* const gaps = bounds.gap.data() + i;
     float* const closed = bounds.closed.data() + i;
@@ -107,19 +106,18 @@ BestFace bound_faces(const HullFeatures& features, float scale, const Ball& ball
     best.keep(all, hn::Sub(least, is_closed), index);
     index = hn::Add(index, splat(kLanes));
   }
-  return {best.value(), best.first_of(features.face_count())};
+  return {best.value(), best.first_of(solid.face_count)};
 }
 
-BestFace try_all_faces(const HullFeatures& features, float scale, const HullPoints& points,
-                       FaceBounds& bounds) {
+BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds& bounds) {
   const FloatTag tag;
   bounds.count = points.count;
-  const F s = splat(scale), zero = splat(0);
+  const F zero = splat(0);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
   F index = indices();
-  for (size_t i = 0; i < features.face_count(); i += kLanes) {
-    const FaceLanes faces(features, s, i);
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
+    const FaceLanes faces(solid, i);
     F least = splat(FLT_MAX);
     for (size_t p = 0; p < points.count; ++p) {
       const F3 point = {splat(points.x[p]), splat(points.y[p]), splat(points.z[p])};
@@ -130,14 +128,14 @@ BestFace try_all_faces(const HullFeatures& features, float scale, const HullPoin
     best.keep(all, least, index);
     index = hn::Add(index, splat(kLanes));
   }
-  return {best.value(), best.first_of(features.face_count())};
+  return {best.value(), best.first_of(solid.face_count)};
 }
 
-void settle_faces(const HullFeatures& features, float gap, FaceBounds& bounds) {
+void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
   const FloatTag tag;
   const hn::RebindToUnsigned<FloatTag> bits;
   const F most = splat(gap);
-  for (size_t i = 0; i < features.face_count(); i += kLanes) {
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
     auto settled = hn::Zero(bits);
     auto bit = hn::Set(bits, 1);
     for (size_t ball = 0; ball < bounds.count; ++ball) {

@@ -5,23 +5,22 @@
 
 namespace carom::reference {
 
-inline void place_points(const HullGeometry& hull, float scale, const Rotation<float>& turn,
-                         const Vector3f& offset, HullPoints& out) {
-  out.count = out.padded = hull.points().size();
+inline void place_points(const Solid& solid, const Rotation<float>& turn, const Vector3f& offset,
+                         HullPoints& out) {
+  out.count = out.padded = solid.point_count;
   for (size_t i = 0; i < out.count; ++i) {
-    const Vector3f p = rotate(turn, Vector3f(hull.points()[i] * scale)) + offset;
+    const Vector3f p = rotate(turn, solid.corner(i)) + offset;
     out.x[i] = p.x();
     out.y[i] = p.y();
     out.z[i] = p.z();
   }
 }
 
-inline BestFace bound_faces(const HullFeatures& features, float scale, const Ball& ball,
-                            FaceBounds& bounds) {
+inline BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
   const size_t last = bounds.count++;
   BestFace best;
-  for (size_t f = 0; f < features.face_count(); ++f) {
-    const float above = dot(features.normal(f), ball.middle) - features.height(f) * scale;
+  for (size_t f = 0; f < solid.face_count; ++f) {
+    const float above = dot(solid.normal(f), ball.middle) - solid.height(f);
     const float gap = above - ball.radius;
     bounds.between[last][f] = above > 0 ? kLargest : gap;
     bounds.gap[f] = last == 0 ? gap : min(bounds.gap[f], gap);
@@ -32,18 +31,17 @@ inline BestFace bound_faces(const HullFeatures& features, float scale, const Bal
   return best;
 }
 
-inline BestFace try_all_faces(const HullFeatures& features, float scale, const HullPoints& points,
-                              FaceBounds& bounds) {
+inline BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds& bounds) {
   bounds.count = 0;
   BestFace best;
   for (size_t i = 0; i < points.count; ++i) {
-    best = bound_faces(features, scale, {points[i], 0}, bounds);
+    best = bound_faces(solid, {points[i], 0}, bounds);
   }
   return best;
 }
 
-inline void settle_faces(const HullFeatures& features, float gap, FaceBounds& bounds) {
-  for (size_t f = 0; f < features.face_count(); ++f) {
+inline void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
+  for (size_t f = 0; f < solid.face_count; ++f) {
     bounds.settled[f] = 0;
     for (size_t ball = 0; ball < bounds.count; ++ball) {
       bounds.settled[f] |= uint32_t{bounds.between[ball][f] <= gap} << ball;

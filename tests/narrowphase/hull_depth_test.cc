@@ -47,14 +47,32 @@ HullPair random_pair(Random& random, size_t count) {
 
 HullShape<float> float_hull(const Hull& hull) { return {hull.geometry.get(), 1}; }
 
-reference::SeparationAs<double> in_double(const HullPair& pair) {
+HullShape<double> in_double(const HullShape<float>& hull) { return {hull.geometry, hull.scale}; }
+reference::BoxShape<double> in_double(const reference::BoxShape<float>& box) {
+  return {box.half.cast<double>()};
+}
+reference::AabbShape<double> in_double(const reference::AabbShape<float>& box) {
+  return {box.lower.cast<double>(), box.upper.cast<double>()};
+}
+reference::TriangleShape<double> in_double(const reference::TriangleShape<float>& t) {
+  const auto corner = [&](size_t i) -> Vector3d { return t.corners[i].cast<double>(); };
+  return {{corner(0), corner(1), corner(2)}, 0, false, 0, false};
+}
+
+// B in the place of its hull.
+template <class Shape>
+reference::SeparationAs<double> in_double(const HullPair& pair, const Shape& b) {
   const auto turn = [](const reference::Quaternion<float>& q) -> reference::Quaternion<double> {
     return {q.v.cast<double>(), q.w};
   };
   return core_separation(
-      HullShape<double>{pair.a.geometry.get(), 1}, HullShape<double>{pair.b.geometry.get(), 1},
+      in_double(float_hull(pair.a)), in_double(b),
       PairPose<double>{pair.pose.d.cast<double>(), turn(pair.pose.a), turn(pair.pose.b)},
       reference::CoreTest());
+}
+
+reference::SeparationAs<double> in_double(const HullPair& pair) {
+  return in_double(pair, float_hull(pair.b));
 }
 
 void expect_close(const Separation& found, const reference::SeparationAs<double>& exact) {
@@ -123,7 +141,7 @@ TEST(HullDepth, IsTheWayOut) {
     if (exact.separation > -1e-3) continue;
     ++overlapping;
     const Separation found =
-        hull_depth(float_hull(pair.a), float_hull(pair.b), pair.pose, reference::kHullSteps);
+        shape_depth(float_hull(pair.a), float_hull(pair.b), pair.pose, reference::kHullSteps);
     if (found.is_unsure) continue;
     ++sure;
     expect_close(found, exact);
@@ -143,7 +161,7 @@ TEST(HullDepth, KnownOnes) {
   const Hull tip = oracle::hull_of(pyramid(-1));
   const reference::Quaternion<float> unturned{Vector3f::Zero(), 1};
   const auto depth = [&](const Hull& a, const Hull& b, const PairPose<float>& pose) {
-    return hull_depth(float_hull(a), float_hull(b), pose, reference::kHullSteps);
+    return shape_depth(float_hull(a), float_hull(b), pose, reference::kHullSteps);
   };
   const Separation face_of_a = depth(cube, tip, {{0.25f, 0.5f, 1.75f}, unturned, unturned});
   ASSERT_FALSE(face_of_a.is_unsure);
@@ -171,9 +189,77 @@ TEST(HullDepth, KnownOnes) {
 TEST(HullDepth, IsUnsureOfFacesOnFaces) {
   const Hull cube = oracle::hull_of(cube_corners());
   const reference::Quaternion<float> unturned{Vector3f::Zero(), 1};
-  EXPECT_TRUE(hull_depth(float_hull(cube), float_hull(cube), {{0, 0, 1.5f}, unturned, unturned},
-                         reference::kHullSteps)
+  EXPECT_TRUE(shape_depth(float_hull(cube), float_hull(cube), {{0, 0, 1.5f}, unturned, unturned},
+                          reference::kHullSteps)
                   .is_unsure);
+}
+
+// --- Boxes and triangles ---
+
+// Against hulls, which have the same features made by other means, or double precision.
+template <class MakeShape>
+void expect_ways_out(uint64_t seed, float nearer, const MakeShape& make_shape) {
+  Random random(seed);
+  const uint32_t count = rounds(1200);
+  uint32_t overlapping = 0, sure = 0;
+  for (uint32_t round = 0; round < count; ++round) {
+    HullPair pair = random_pair(random, 4 + random.below(60));
+    pair.pose.d *= nearer;
+    const auto shape = make_shape(random);
+    const auto exact = in_double(pair, shape);
+    if (exact.separation > -1e-3) continue;
+    ++overlapping;
+    const Separation found =
+        shape_depth(float_hull(pair.a), shape, pair.pose, reference::kHullSteps);
+    if (found.is_unsure) continue;
+    ++sure;
+    expect_close(found, exact);
+    EXPECT_NEAR((found.arm_b + pair.pose.d - found.arm_a - found.normal * found.separation).norm(),
+                0, 1e-6);
+  }
+  EXPECT_GT(overlapping, count * 3 / 10);
+  EXPECT_LT(overlapping, count * 7 / 10);
+  EXPECT_GT(sure, overlapping * 95 / 100);
+}
+
+Vector3f random_half(Random& random) {
+  const auto side = [&] { return static_cast<float>(random.uniform(0.1, 0.8)); };
+  return {side(), side(), side()};
+}
+
+TEST(SolidDepth, OfBoxes) {
+  expect_ways_out(7, 1, [](Random& random) -> reference::BoxShape<float> {
+    return {random_half(random)};
+  });
+}
+
+TEST(SolidDepth, OfUprightBoxesWhateverTheirPoseSays) {
+  expect_ways_out(8, 1, [](Random& random) -> reference::AabbShape<float> {
+    const Vector3f middle = 0.3f * random.direction().cast<float>(), half = random_half(random);
+    return {middle - half, middle + half};
+  });
+}
+
+TEST(SolidDepth, OfTriangles) {
+  expect_ways_out(9, 0.6f, [](Random& random) -> reference::TriangleShape<float> {
+    const auto corner = [&]() -> Vector3f { return random.direction().cast<float>(); };
+    return {{corner(), corner(), corner()}, 0, false, 0, false};
+  });
+}
+
+TEST(SolidDepth, IsUnsureOfTrianglesWithRulesAndOfFlatOnes) {
+  const Hull cube = oracle::hull_of(cube_corners());
+  const reference::Quaternion<float> on_x{{0.3f, 0.1f, 0}, 1};
+  const auto is_unsure = [&](const reference::TriangleShape<float>& triangle) {
+    return shape_depth(float_hull(cube), triangle, {{0, 0, 0.9f}, {Vector3f::Zero(), 1}, on_x},
+                       reference::kHullSteps)
+        .is_unsure;
+  };
+  const Vector3f a(0, 0, 0), b(3, 0, 0), c(0, 3, 0);
+  EXPECT_FALSE(is_unsure({{a, b, c}, 0, false, 0, false}));
+  EXPECT_TRUE(is_unsure({{a, b, c}, 0, true, 0, true}));
+  EXPECT_TRUE(is_unsure({{a, b, a}, 0, false, 0, false}));
+  EXPECT_TRUE(is_unsure({{a, b, Vector3f(1, 1e-5f, 0)}, 0, false, 0, false}));
 }
 
 // --- The steps in lanes ---
@@ -197,8 +283,12 @@ TEST(HullSteps, OfPointsAreThoseOfTheReferenceOnEveryIsa) {
       const auto turn = reference::rotation_of(random_turn(random));
       const Vector3f offset = random.direction().cast<float>();
       HullPoints expected, found;
-      scalar.place(*hull.geometry, 0.5f, turn, offset, expected);
-      lanes.place(*hull.geometry, 0.5f, turn, offset, found);
+      Solid solid;
+      solid.point_count = count;
+      for (size_t axis = 0; axis < 3; ++axis) solid.point[axis] = hull.geometry->column(axis);
+      solid.scale = 0.5f;
+      scalar.place(solid, turn, offset, expected);
+      lanes.place(solid, turn, offset, found);
       ASSERT_EQ(expected.count, found.count);
       for (size_t i = 0; i < count; ++i) EXPECT_EQ(expected[i], found[i]) << i;
       for (const Vector3f& way : {turn.z, Vector3f(-turn.z), offset}) {
@@ -213,29 +303,58 @@ TEST(HullSteps, OfPointsAreThoseOfTheReferenceOnEveryIsa) {
   });
 }
 
+void expect_same(const BestFace& expected, const BestFace& found) {
+  EXPECT_EQ(expected.face, found.face);
+  expect_same_bits(expected.gap, found.gap);
+}
+
+void expect_settled_alike(const Solid& solid, FaceBounds& expected, FaceBounds& found) {
+  uint32_t settled = 0, open = 0;
+  for (const float gap : {-0.5f, 0.0f, 0.5f}) {
+    reference::settle_faces(solid, gap, expected);
+    hull_steps_in_lanes().settle(solid, gap, found);
+    for (size_t f = 0; f < solid.face_count; ++f) {
+      EXPECT_EQ(expected.settled[f], found.settled[f]);
+      for (size_t ball = 0; ball < expected.count; ++ball) {
+        ++((expected.settled[f] >> ball & 1) != 0 ? settled : open);
+      }
+    }
+  }
+  EXPECT_GT(settled, 0u);
+  EXPECT_GT(open, 0u);
+}
+
 TEST(HullSteps, OfFacesAreThoseOfTheReferenceOnEveryIsa) {
   for_each_isa([] {
     Random random(5);
     for (size_t count = 4; count <= 30; ++count) {
       SCOPED_TRACE(count);
       const Hull hull = oracle::hull_of(round_points(count, {1, 0.5f, 1}, random));
-      const HullFeatures* const features = hull.geometry->features();
-      ASSERT_TRUE(features);
+      const SolidHull hull_solid(HullShape<float>{hull.geometry.get(), 0.5});
+      const Solid& solid = hull_solid.view();
+      ASSERT_TRUE(solid.is_known());
       FaceBounds expected, found;
-      for (size_t ball = 0; ball < 4; ++ball) {
-        const Vector3f middle = random.direction().cast<float>();
-        const float radius = ball == 0 ? 0.25f : 0;
-        for (FaceBounds* bounds : {&expected, &found}) bounds->balls.push_back({middle, radius});
-        const BestFace best = reference::bound_faces(*features, 0.5f, expected);
-        const BestFace best_in_lanes = hull_steps_in_lanes().bound(*features, 0.5f, found);
-        ASSERT_EQ(best.face, best_in_lanes.face);
-        expect_same_bits(best.gap, best_in_lanes.gap);
-        for (size_t f = 0; f < features->face_count(); ++f) {
+      expected.count = found.count = 0;
+      for (size_t i = 0; i < 4; ++i) {
+        const Ball ball{random.direction().cast<float>(), i == 0 ? 0.25f : 0};
+        const BestFace best = reference::bound_faces(solid, ball, expected);
+        expect_same(best, hull_steps_in_lanes().bound(solid, ball, found));
+        ASSERT_EQ(expected.count, found.count);
+        for (size_t f = 0; f < solid.face_count; ++f) {
           expect_same_bits(expected.gap[f], found.gap[f]);
-          expect_same_bits(expected.between[ball][f], found.between[ball][f]);
+          expect_same_bits(expected.between[i][f], found.between[i][f]);
         }
         expected.closed[best.face] = found.closed[best.face] = reference::kLargest;
       }
+      expect_settled_alike(solid, expected, found);
+
+      // By all points of another one.
+      HullPoints points;
+      reference::place_points(solid, {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()},
+                              random.direction().cast<float>(), points);
+      expect_same(reference::try_all_faces(solid, points, expected),
+                  hull_steps_in_lanes().try_all(solid, points, found));
+      expect_settled_alike(solid, expected, found);
     }
   });
 }
@@ -246,25 +365,23 @@ TEST(HullSteps, OfEdgesAreThoseOfTheReferenceOnEveryIsa) {
     uint32_t crossed = 0, doubtful = 0;
     for (uint32_t round = 0; round < rounds(400); ++round) {
       const auto vector = [&]() -> Vector3f { return random.direction().cast<float>(); };
-      const EdgeOfHull edge{vector(), vector(), vector(), vector()};
-      EdgeColumns others;
-      others.count = random.below(EdgeColumns::kMost + 1);
-      for (size_t i = 0; i < others.count; ++i) {
-        // Some along the edge itself, and some twice.
-        const bool is_along = random.chance(0.02);
-        for (size_t c = 0; c < EdgeColumns::kColumns; c += 3) {
-          Vector3f v = vector();
-          if (c == 0 && is_along) v = edge.direction + 1e-3f * v;
-          for (size_t axis = 0; axis < 3; ++axis) {
-            others.column[c + axis][i] =
-                i % 5 == 4 ? others.column[c + axis][i - 1] : v[static_cast<int>(axis)];
-          }
+      const auto edge = [&]() -> EdgeOfHull { return {vector(), vector(), vector(), vector()}; };
+      EdgeColumns a, b;
+      const size_t count_a = random.below(5), count_b = random.below(EdgeColumns::kMost + 1);
+      for (size_t i = 0; i < count_a; ++i) a.push_back(i == 2 ? a[1] : edge());
+      for (size_t i = 0; i < count_b; ++i) {
+        // Some along one of the others, and some twice.
+        EdgeOfHull other = i % 5 == 4 ? b[i - 1] : edge();
+        if (a.count > 0 && random.chance(0.02)) {
+          other.direction = a[0].direction + 1e-3f * other.direction;
         }
+        b.push_back(other);
       }
-      const BestCrossing expected = reference::cross_edge(edge, others);
-      const BestCrossing found = hull_steps_in_lanes().cross(edge, others);
+      const BestCrossing expected = reference::cross_all_edges(a, b);
+      const BestCrossing found = hull_steps_in_lanes().cross(a, b);
       expect_same_bits(expected.gap, found.gap);
-      EXPECT_EQ(expected.other, found.other);
+      EXPECT_EQ(expected.a, found.a);
+      EXPECT_EQ(expected.b, found.b);
       EXPECT_EQ(expected.is_doubtful, found.is_doubtful);
       crossed += expected.gap > -1;
       doubtful += expected.is_doubtful;
