@@ -29,7 +29,7 @@ void main() {
 
 // Rings about z, the equator once for each end.
 function ball() {
-  const rings = parts.length > 5000 ? 6 : 12, sectors = 2 * rings, ringList = [];
+  const rings = parts.length > 5000 ? 6 : 16, sectors = 2 * rings, ringList = [];
   for (let i = 0; i <= rings; ++i) {
     const height = Math.PI * (i / rings - 0.5), end = 2 * i < rings ? -1 : 1;
     if (2 * i === rings) ringList.push([height, -1]);

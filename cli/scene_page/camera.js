@@ -28,7 +28,7 @@ function aim() {
   const z = row(back, -(far + near) / (far - near));
   z[3] -= 2 * far * near / (far - near);
   const aside = document.querySelector('aside').offsetWidth / canvas.clientWidth;
-  for (let i = 0; i < 4; ++i) x[i] += (aside < 0.4 ? aside : 0) * w[i];  // in the middle of what the panel leaves free
+  for (let i = 0; i < 4; ++i) x[i] += (aside < 0.5 ? aside : 0) * w[i];  // in the middle of what the panel leaves free
   camera.toClip = [0, 1, 2, 3].flatMap(i => [x[i], y[i], z[i], w[i]]);
 }
 
@@ -60,6 +60,6 @@ function poseTowards(i) {
   back = sub(back, times(normal, dot(back, normal)));
   back = unit(length(back) > 0.05 ? back : sideOf(normal));
   if (dot(back, up) < -0.2) back = times(back, -1);
-  return {target: boxAround(points).middle, distance: Number.isFinite(leastReach(i)) ? 3 * leastReach(i) : camera.distance,
+  return {target: boxAround(points).middle, distance: Number.isFinite(leastReach(i)) ? 3.6 * leastReach(i) : camera.distance,
     yaw: Math.atan2(dot(back, south), dot(back, east)), pitch: Math.max(-1.4, Math.min(1.4, Math.asin(dot(back, up))))};
 }

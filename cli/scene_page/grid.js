@@ -2,7 +2,7 @@
 'use strict';
 
 const gridVertex = 'in vec3 point; uniform mat4 toClip; void main() { gl_Position = toClip * vec4(point, 1); }';
-const gridFragment = 'out vec4 pixel; void main() { pixel = vec4(0.5, 0.53, 0.56, 0.6); }';
+const gridFragment = 'out vec4 pixel; void main() { pixel = vec4(0.5, 0.53, 0.56, 0.35); }';
 
 function gridOf({shape, position, orientation}) {
   const size = length(shape.normal), normal = turned(orientation, times(shape.normal, 1 / size));

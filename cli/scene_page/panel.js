@@ -24,7 +24,7 @@ const bodyName = index => `${kindOf(rowOf.get(index))} ${index}`;
 function surfaceText({on, across, left_out}) {
   if (!on.points) return '';
   return `Tried against every face, edge and corner: all points lie within ${metres(on.greatest)} of the surface that they are on, ` +
-    `half within ${metres(on.median)}` + (across.points ? `; by their depth along the normal, within ${metres(across.greatest)} of B.` : '.') +
+    `half within ${metres(on.median)}` + (across.points ? `; moved by their depth along the normal, those of manifolds lie within ${metres(across.greatest)} of B.` : '.') +
     (left_out ? ` ${count(left_out)} on large hulls were not tried.` : '');
 }
 
