@@ -25,6 +25,10 @@ std::filesystem::path canonical(const std::string& path) {
   return error ? absolute : resolved;
 }
 
+bool names_file(const OutputFile& output) {
+  return !output.name.empty() && !(output.option == "--json" && output.name == "-");
+}
+
 Error not_yet(const std::string& what, const std::string& text, const std::string& available) {
   return {what + " '" + text + "' does not exist in this version (there are: " + available + ")"};
 }
@@ -228,10 +232,15 @@ const CLI::Validator& file_name() {
   return validator;
 }
 
-Result<void> check_apart(const std::string& json, const std::string& option,
-                         const std::string& output) {
-  if (json.empty() || json == "-" || canonical(json) != canonical(output)) return {};
-  return Error{"--json and " + option + " name the same file"};
+Result<void> check_apart(std::span<const OutputFile> outputs) {
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    for (const OutputFile& other : outputs.subspan(i + 1)) {
+      if (!names_file(outputs[i]) || !names_file(other)) continue;
+      if (canonical(outputs[i].name) != canonical(other.name)) continue;
+      return Error{outputs[i].option + " and " + other.option + " name the same file"};
+    }
+  }
+  return {};
 }
 
 Result<void> check_isa_variable() {

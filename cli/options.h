@@ -63,9 +63,12 @@ Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail
 // For options that name a file: an empty name (a script's unset variable) is refused.
 const CLI::Validator& file_name();
 
-// Refuses a --json that names the same file as another output, however the two are spelled.
-Result<void> check_apart(const std::string& json, const std::string& option,
-                         const std::string& output);
+struct OutputFile {
+  std::string option;
+  std::string name;  // empty: not given
+};
+// Refuses outputs that name the same file, however they are spelled. "-" of --json is no file.
+Result<void> check_apart(std::span<const OutputFile> outputs);
 
 // The library ignores a CAROM_ISA that it cannot use; whoever runs the program wants to know.
 Result<void> check_isa_variable();

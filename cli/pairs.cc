@@ -1,5 +1,6 @@
 // carom pairs: tests a file of pairs.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -131,7 +132,8 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   if (!detail) return detail.error();
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
   if (!isa) return isa.error();
-  Result<void> apart = check_apart(options.json, "-o", options.output);
+  Result<void> apart =
+      check_apart(std::array<OutputFile, 2>{{{"--json", options.json}, {"-o", options.output}}});
   if (!apart) return apart.error();
   Result<JsonOutput> json = JsonOutput::open(options.json);
   if (!json) return json.error();

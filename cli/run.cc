@@ -1,5 +1,6 @@
 // carom run: replays a scene and measures it.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "cli/json_output.h"
 #include "cli/options.h"
 #include "cli/run_report.h"
+#include "cli/scene_page.h"
 #include "cli/scene_source.h"
 
 namespace carom::cli {
@@ -29,6 +31,7 @@ struct RunOptions {
   bool no_cache = false;
   std::string json;
   std::string pairs_out;
+  std::string page;
 };
 
 Result<WorldSettings> world_settings(const RunOptions& options) {
@@ -39,6 +42,10 @@ Result<WorldSettings> world_settings(const RunOptions& options) {
   if (!accuracy) return accuracy.error();
   Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
   if (!detail) return detail.error();
+  if (!options.page.empty() && !has_contacts(*detail)) {
+    return Error{"--page shows contacts: it needs --detail contact or manifold, not " +
+                 options.engine.detail};
+  }
   Result<BroadphaseMethod> broadphase = parse_broadphase(options.broadphase);
   if (!broadphase) return broadphase.error();
   if (Result<void> margin = check_margin(options.margin); !margin) return margin.error();
@@ -54,19 +61,35 @@ Result<WorldSettings> world_settings(const RunOptions& options) {
   return settings;
 }
 
-Result<std::optional<PairsOutput>> open_pairs_output(const RunOptions& options) {
-  std::optional<PairsOutput> output;
-  if (options.pairs_out.empty()) return output;
-  Result<void> apart = check_apart(options.json, "--pairs-out", options.pairs_out);
+struct Outputs {
+  JsonOutput json;
+  std::optional<PairsOutput> pairs;
+  std::optional<ScenePage> page;
+};
+
+Result<Outputs> open_outputs(const RunOptions& options) {
+  Result<void> apart = check_apart(std::array<OutputFile, 3>{
+      {{"--json", options.json}, {"--pairs-out", options.pairs_out}, {"--page", options.page}}});
   if (!apart) return apart.error();
-  Result<PairsOutput> created = PairsOutput::create(options.pairs_out);
-  if (!created) return created.error();
-  output.emplace(std::move(*created));
-  return output;
+  Outputs outputs;
+  Result<JsonOutput> json = JsonOutput::open(options.json);
+  if (!json) return json.error();
+  outputs.json = std::move(*json);
+  if (!options.pairs_out.empty()) {
+    Result<PairsOutput> pairs = PairsOutput::create(options.pairs_out);
+    if (!pairs) return pairs.error();
+    outputs.pairs.emplace(std::move(*pairs));
+  }
+  if (!options.page.empty()) {
+    Result<ScenePage> page = ScenePage::create(options.page);
+    if (!page) return page.error();
+    outputs.page.emplace(std::move(*page));
+  }
+  return outputs;
 }
 
-Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
-                            std::optional<PairsOutput>& pairs_out, const Console& console) {
+Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings, Outputs& outputs,
+                            const Console& console) {
   Result<std::unique_ptr<io::SceneReader>> scene = open_source(options.scene);
   if (!scene) return scene.error();
   const io::SceneInfo& info = (*scene)->info();
@@ -94,7 +117,7 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
   Progress progress(console, "frame", report.frames);
   std::optional<Error> failure;
   arena.run([&] {
-    auto record = replay(**scene, *player, world, report.frames, pairs_out, progress);
+    auto record = replay(**scene, *player, world, report.frames, outputs.pairs, progress);
     if (record) {
       report.record = std::move(*record);
     } else {
@@ -104,6 +127,10 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings,
   if (failure) return *failure;
   report.memory = world.memory();
   report.peak_rss_bytes = peak_rss_bytes();
+  if (outputs.page) {
+    Result<void> added = outputs.page->add_frame(world, report.scene, report.frames - 1);
+    if (!added) return added.error();
+  }
   return report;
 }
 
@@ -119,27 +146,31 @@ void warn_of_quarantined(const std::vector<uint32_t>& bodies, const Console& con
   console.warning(text + (bodies.size() > kNamed ? ", ..." : ""));
 }
 
+// All but the JSON, which is written as it is finished.
+Result<void> finish(Outputs& outputs) {
+  if (outputs.pairs) {
+    if (Result<void> finished = outputs.pairs->finish(); !finished) return finished;
+  }
+  return outputs.page ? outputs.page->finish() : Result<void>();
+}
+
 Result<int> run(const RunOptions& options, const Console& console) {
   Result<WorldSettings> settings = world_settings(options);
   if (!settings) return settings.error();
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
   if (!isa) return isa.error();
-  Result<JsonOutput> json = JsonOutput::open(options.json);
-  if (!json) return json.error();
-  Result<std::optional<PairsOutput>> pairs_out = open_pairs_output(options);
-  if (!pairs_out) return pairs_out.error();
+  Result<Outputs> outputs = open_outputs(options);
+  if (!outputs) return outputs.error();
 
-  Result<RunReport> report = run_scene(options, *settings, *pairs_out, console);
+  Result<RunReport> report = run_scene(options, *settings, *outputs, console);
   if (!report) return report.error();
   warn_of_quarantined(report->record.quarantined_bodies, console);
-  if (*pairs_out) {
-    if (Result<void> finished = (*pairs_out)->finish(); !finished) return finished.error();
-  }
-  if (!json->wanted()) {
+  if (Result<void> finished = finish(*outputs); !finished) return finished.error();
+  if (!outputs->json.wanted()) {
     print(*report, console.out);
     return 0;
   }
-  Result<void> written = json->write(to_json(*report), console);
+  Result<void> written = outputs->json.write(to_json(*report), console);
   return written ? Result<int>(0) : written.error();
 }
 
@@ -171,6 +202,10 @@ void add_run_command(CLI::App& program, Action& action) {
                    "Test every pair anew and drop the sort order between frames");
   add_json_option(command, options->json);
   command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)")
+      ->check(file_name());
+  command
+      .add_option("--page", options->page,
+                  "Write a page that shows the last frame and its contacts in 3D (.html)")
       ->check(file_name());
   command.callback([options, &action] {
     action = [options](const Console& console) { return run(*options, console); };

@@ -244,6 +244,14 @@ R signed_distance(const ConvexShape<R>& shape, const Vec3<R>& point) {
   return exact_separation(shape, ConvexShape<R>(point));
 }
 
+// Of a point from the surface, on whichever side of it; of what is flat, from the shape.
+template <class R>
+R surface_distance(const ConvexShape<R>& shape, const Vec3<R>& point) {
+  using std::abs;
+  if (shape.is_halfspace) return abs(dot(shape.normal, point) - shape.offset);
+  return abs(convex::FeatureSearch<R>(shape, ConvexShape<R>(point)).distance() - shape.radius);
+}
+
 // Two bodies as they are stored, in coordinates relative to the position of A.
 template <class R = long double>
 struct ConvexOracle {

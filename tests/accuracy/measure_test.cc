@@ -121,7 +121,7 @@ TEST(Judge, FindsEveryLie) {
 
 TEST(Page, HoldsTheDataAndNothingThatEndsTheScript) {
   const std::string page = page_with({{"failures", {"</script> is text"}}});
-  EXPECT_NE(page.find(R"({"failures":["<\/script> is text"]})"), std::string::npos);
+  EXPECT_NE(page.find(R"({"failures":["\u003c/script> is text"]})"), std::string::npos);
   EXPECT_EQ(page.find("CAROM_DATA"), std::string::npos);
   EXPECT_NE(page.find("</html>"), std::string::npos);
 }

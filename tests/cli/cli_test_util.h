@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cli/cli.h"
+#include "cli/verify_builtin.h"
 
 namespace carom::cli {
 
@@ -75,6 +76,23 @@ inline std::string test_data(const std::string& name) {
 inline nlohmann::json read_json(const std::string& path) {
   std::ifstream file(path);
   return nlohmann::json::parse(file, nullptr, false);
+}
+
+// Writes what `carom verify` calls by that name.
+inline void write_builtin(const std::string& name, const std::string& path) {
+  for (BuiltinScene& builtin : builtin_scenes()) {
+    if (builtin.name != name) continue;
+    auto writer = io::SceneWriter::create(path, builtin.scene->info());
+    ASSERT_TRUE(writer) << writer.error().message;
+    io::SceneFrame frame;
+    for (uint64_t i = 0; i < builtin.scene->info().frames; ++i) {
+      ASSERT_TRUE(builtin.scene->read_frame(frame));
+      ASSERT_TRUE(writer->write_frame(frame));
+    }
+    ASSERT_TRUE(writer->finish());
+    return;
+  }
+  FAIL() << "no scene " << name;
 }
 
 // The samples that lie beside the project, or in CAROM_SHARED; empty (and it says so) if there are

@@ -82,6 +82,7 @@ TEST_F(ErrorsTest, EmptyFileNames) {
   const std::string what = "the name of the file is empty";
   expect_error({"run", scene, "--json", ""}, {"--json", what});
   expect_error({"run", scene, "--pairs-out", ""}, {"--pairs-out", what});
+  expect_error({"run", scene, "--page", ""}, {"--page", what});
   expect_error({"pairs", "x.npz", "-o", ""}, {"--output", what});
 }
 
@@ -108,6 +109,14 @@ TEST_F(ErrorsTest, OptionsOfRun) {
   expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("x")}, {"the same file"});
   expect_error({"run", scene, "--json", path("x"), "--pairs-out", path("./x")}, {"the same file"});
   expect_error({"run", scene, "--json", "x", "--pairs-out", "./x"}, {"the same file"});
+  expect_error({"run", scene, "--json", path("x"), "--page", path("./x")},
+               {"--json and --page name the same file"});
+  expect_error({"run", scene, "--pairs-out", path("x"), "--page", path("./x")},
+               {"--pairs-out and --page name the same file"});
+  for (const char* detail : {"pairs", "overlap"}) {
+    expect_error({"run", scene, "--detail", detail, "--page", path("x")},
+                 {"--page", "--detail contact or manifold", detail});
+  }
   EXPECT_EQ(files(), 0u);
 }
 
@@ -280,9 +289,9 @@ TEST_F(ErrorsTest, ControlCharactersDoNotBreakTheLine) {
 
 TEST_F(ErrorsTest, OutputsOfAFailedRunDoNotAppear) {
   write_scene(path("scene.npz"), 2, 5, 3);
-  expect_error(
-      {"run", path("scene.npz"), "--json", path("out.json"), "--pairs-out", path("out.npz")},
-      {"scene.npz", "position"});
+  expect_error({"run", path("scene.npz"), "--json", path("out.json"), "--pairs-out",
+                path("out.npz"), "--page", path("out.html")},
+               {"scene.npz", "position"});
   EXPECT_EQ(files(), 1u);
   // A file that was there before stays as it was.
   std::ofstream(path("out.json")) << "before";
@@ -296,6 +305,7 @@ TEST_F(ErrorsTest, OutputsThatCannotBeWritten) {
   const std::string scene = "still:n=5,frames=2";
   expect_error({"run", scene, "--json", path("no/folder.json")}, {"folder.json"});
   expect_error({"run", scene, "--pairs-out", path("no/folder.npz")}, {"folder.npz"});
+  expect_error({"run", scene, "--page", path("no/folder.html")}, {"folder.html"});
   EXPECT_EQ(files(), 0u);
 }
 

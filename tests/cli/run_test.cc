@@ -7,7 +7,6 @@
 #include "carom/simd/isa.h"
 #include "cli/replay.h"
 #include "cli/scene_source.h"
-#include "cli/verify_builtin.h"
 #include "io/npz.h"
 #include "io/recording.h"
 #include "tests/cli/cli_test_util.h"
@@ -71,23 +70,6 @@ uint64_t sum_of(const json& list) {
   uint64_t sum = 0;
   for (const json& item : list) sum += item.get<uint64_t>();
   return sum;
-}
-
-// Writes what `carom verify` calls by that name.
-void write_builtin(const std::string& name, const std::string& path) {
-  for (BuiltinScene& builtin : builtin_scenes()) {
-    if (builtin.name != name) continue;
-    auto writer = io::SceneWriter::create(path, builtin.scene->info());
-    ASSERT_TRUE(writer) << writer.error().message;
-    io::SceneFrame frame;
-    for (uint64_t i = 0; i < builtin.scene->info().frames; ++i) {
-      ASSERT_TRUE(builtin.scene->read_frame(frame));
-      ASSERT_TRUE(writer->write_frame(frame));
-    }
-    ASSERT_TRUE(writer->finish());
-    return;
-  }
-  FAIL() << "no scene " << name;
 }
 
 TEST_F(RunTest, ScenesOfAllKindsDoNotDependOnHowTheyAreRun) {

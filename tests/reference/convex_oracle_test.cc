@@ -61,6 +61,24 @@ TEST(ConvexOracle, Spheres) {
   expect_normal({r25, at(0, 0, 0), r25, at(0, 9, 0)}, {0, 1, 0});
 }
 
+// On both sides of the surface, and of what has but one.
+TEST(ConvexOracle, DistancesFromSurfaces) {
+  const auto distance = [](const Shape& shape, double x, double y, double z) {
+    const Vec point{x, y, z};
+    return surface_distance(ConvexShape<>(shape, at(1, 0, 0)), point);
+  };
+  expect_near(distance(Sphere{2}, 1, 0, 0.5), 1.5L, kTight);
+  expect_near(distance(Sphere{2}, 1, 3, 4), 3, kTight);
+  expect_near(distance(capsule({0, 0, 0}, {0, 0, 4}, 1), 1, 0.25, 2), 0.75L, kTight);
+  expect_near(distance(box(1, 2, 3), 1.25, 0, 0), 0.75L, kTight);
+  expect_near(distance(box(1, 2, 3), 5, 6, 0), 5, kTight);
+  expect_near(distance(box(1, 2, 3), 0, 2, 3), 0, 0);
+  expect_near(distance(triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}), 2, 1, -0.5), 0.5L, kTight);
+  expect_near(distance(triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 2), 2, 1, -0.5), 0.5L, kTight);
+  expect_near(distance(Halfspace{{0, 0, 2}, 1}, 7, 7, -1), 1.5L, kTight);
+  expect_near(distance(Halfspace{{0, 0, 2}, 1}, 7, 7, 1), 0.5L, kTight);
+}
+
 TEST(ConvexOracle, CasesOfBoxes) {
   const Shape cube = box(1, 1, 1);
   expect_separation({cube, at(0, 0, 0), cube, at(0, 0, 1.9)}, -0.1L, 1e-15L);

@@ -1,0 +1,210 @@
+// carom run --page: what the page is told; how it draws it is for eyes.
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "io/recording.h"
+#include "io/scene.h"
+#include "tests/cli/cli_test_util.h"
+
+namespace carom::cli {
+namespace {
+
+using nlohmann::json;
+
+class ScenePageTest : public CliTest {
+ protected:
+  // Runs a scene with these options, and gives what its page is told.
+  json page_of(const std::string& scene, std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {"run", scene, "--page", path("page.html"), "--json", "-"});
+    const CommandResult result = run_command(options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    report_ = result.json();
+    return data_in(text_of_page());
+  }
+
+  std::string text_of_page() const {
+    std::ifstream file(path("page.html"));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  const json& report() const { return report_; }
+
+ private:
+  static json data_in(const std::string& text) {
+    const std::string before = "<script>const data = ", after = ";</script>";
+    const size_t begin = text.find(before) + before.size();
+    return json::parse(text.substr(begin, text.find(after, begin) - begin), nullptr, false);
+  }
+
+  json report_;
+};
+
+TEST_F(ScenePageTest, HoldsTheContactsOfTheLastFrame) {
+  write_builtin("all kinds, float32", path("scene.npz"));
+  for (const std::string detail : {"contact", "manifold"}) {
+    const json data = page_of(path("scene.npz"), {"--detail", detail});
+    const json& contact = data["contact"];
+    EXPECT_EQ(data["scene"], path("scene.npz"));
+    EXPECT_EQ(data["detail"], detail);
+    EXPECT_EQ(data["frame"].get<int>() + 1, report()["frames"].get<int>());
+    const size_t contacts = report()["contacts_per_frame"].back();
+    EXPECT_GT(contacts, 10u);
+    for (const char* column : {"a", "b", "separation", "points"}) {
+      EXPECT_EQ(contact[column].size(), contacts) << column;
+    }
+    for (const char* column : {"normal", "arm_a", "arm_b"}) {
+      EXPECT_EQ(contact[column].size(), 3 * contacts) << column;
+    }
+    size_t points = 0;
+    for (const json& count : contact["points"]) points += count.get<size_t>();
+    EXPECT_EQ(points > contacts, detail == "manifold");
+    EXPECT_EQ(contact["point"].size(), 3 * points);
+    EXPECT_EQ(contact["point_separation"].size(), points);
+  }
+}
+
+TEST_F(ScenePageTest, HoldsEveryValidBodyAndEveryShapeOnce) {
+  write_builtin("all kinds, float64", path("scene.npz"));
+  const json data = page_of(path("scene.npz"));
+  EXPECT_EQ(data["left_out"], report()["quarantined_per_frame"].back());
+  const size_t bodies = report()["bodies"].get<size_t>() - data["left_out"].get<size_t>();
+  EXPECT_EQ(data["body"]["index"].size(), bodies);
+  EXPECT_EQ(data["body"]["motion"].size(), bodies);
+  EXPECT_EQ(data["body"]["position"].size(), 3 * bodies);
+  EXPECT_EQ(data["body"]["orientation"].size(), 4 * bodies);
+  std::set<std::string> kinds;
+  for (const size_t shape : data["body"]["shape"]) kinds.insert(data["shapes"][shape]["kind"]);
+  EXPECT_EQ(kinds, (std::set<std::string>{"sphere", "capsule", "aabb", "box", "dop", "hull", "mesh",
+                                          "compound", "halfspace", "triangle"}));
+  EXPECT_EQ(page_of("brownian:n=50,frames=2,shape=box")["shapes"].size(), 1u);
+}
+
+// Outlines name corners, and children come before what they are children of.
+TEST_F(ScenePageTest, ShapesAreWhole) {
+  write_builtin("all kinds, float32", path("scene.npz"));
+  const json shapes = page_of(path("scene.npz"))["shapes"];
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    for (const json& face : shapes[i].value("faces", json::array())) {
+      EXPECT_GE(face.size(), 3u);
+      for (const json& corner : face) {
+        EXPECT_LT(3 * corner.get<size_t>(), shapes[i]["points"].size());
+      }
+    }
+    for (const json& child : shapes[i].value("children", json::array())) {
+      EXPECT_LT(child["shape"].get<size_t>(), i);
+    }
+  }
+}
+
+// Where two meshes keep the normals of their faces, the point on a triangle may lie beside it.
+TEST_F(ScenePageTest, ContactsLieOnTheSurfaces) {
+  const std::string scene = "brownian:n=300,frames=2,density=0.5,speed=0.5,shape=";
+  for (const std::string shape : {"cube", "sphere", "box", "capsule", "hull", "mesh", "compound"}) {
+    const json data = page_of(scene + shape, {"--detail", "manifold"});
+    const json &on = data["surface"]["on"], &across = data["surface"]["across"];
+    const size_t contacts = data["contact"]["a"].size();
+    const size_t points = data["contact"]["point_separation"].size();
+    EXPECT_GT(contacts, 50u);
+    EXPECT_EQ(on["points"].get<size_t>(), 2 * contacts + points);
+    EXPECT_EQ(across["points"].get<size_t>(), points);
+    EXPECT_EQ(data["surface"]["left_out"], 0);
+    EXPECT_LT(on["median"].get<double>(), 1e-7) << shape;
+    if (shape != "mesh") {
+      EXPECT_LT(on["greatest"].get<double>(), 1e-6) << shape;
+    }
+    if (shape != "mesh" && shape != "compound") {
+      EXPECT_LT(across["greatest"].get<double>(), 2e-6) << shape;
+    }
+    EXPECT_LT(on["furthest_contact"].get<size_t>(), contacts);
+  }
+}
+
+// Balls in place of boxes touch where the boxes are not.
+TEST_F(ScenePageTest, ContactsBesideTheSurfacesAreSeen) {
+  const json data = page_of("brownian:n=100,frames=1,density=0.5,shape=box",
+                            {"--tier", "fast", "--knobs", "proxy-spheres"});
+  EXPECT_GT(data["surface"]["on"]["greatest"].get<double>(), 0.1);
+}
+
+// A ball on a hull of points along a spiral.
+TEST_F(ScenePageTest, HullsTooLargeForTheOracleAreNotMeasured) {
+  io::SceneInfo info;
+  info.bodies = 2;
+  info.shapes.kind = {0, 5};
+  info.shapes.params = {{1}, {}};
+  constexpr uint32_t kPoints = 400;
+  for (uint32_t i = 0; i < kPoints; ++i) {
+    const float z = 1 - (2 * static_cast<float>(i) + 1) / kPoints,
+                around = 2.4f * static_cast<float>(i);
+    const float r = std::sqrt(1 - z * z);
+    info.shapes.vertices.push_back({r * std::cos(around), r * std::sin(around), z});
+  }
+  info.shapes.vertex_range = {{0, 0}, {0, kPoints}};
+  info.body_shape = {0, 1};
+  auto writer = io::SceneWriter::create(path("scene.npz"), info);
+  ASSERT_TRUE(writer) << writer.error().message;
+  io::SceneFrame frame;
+  frame.position32 = {0, 0, 0, 1.9f, 0, 0};
+  ASSERT_TRUE(writer->write_frame(frame));
+  ASSERT_TRUE(writer->finish());
+  const json surface = page_of(path("scene.npz"))["surface"];
+  EXPECT_EQ(surface["on"]["points"], 1);
+  EXPECT_EQ(surface["left_out"], 1);
+}
+
+TEST_F(ScenePageTest, NoContacts) {
+  const json data = page_of("still:n=1,frames=2");
+  EXPECT_EQ(data["body"]["index"], json::array({0}));
+  EXPECT_EQ(data["contact"]["a"], json::array());
+  EXPECT_EQ(data["surface"]["on"]["points"], 0);
+  EXPECT_EQ(data["surface"]["on"]["greatest"], 0.0);
+}
+
+TEST_F(ScenePageTest, NoBodies) {
+  io::SceneInfo info;
+  info.shapes.kind = {0};
+  info.shapes.params = {{1}};
+  auto writer = io::SceneWriter::create(path("empty.npz"), info);
+  ASSERT_TRUE(writer) << writer.error().message;
+  ASSERT_TRUE(writer->write_frame({}));
+  ASSERT_TRUE(writer->finish());
+  const json data = page_of(path("empty.npz"));
+  EXPECT_EQ(data["body"]["index"], json::array());
+  EXPECT_EQ(data["shapes"], json::array());
+  EXPECT_EQ(data["contact"]["a"], json::array());
+}
+
+// What is no number has no place in JSON.
+TEST_F(ScenePageTest, BodiesThatAreNotFiniteAreLeftOut) {
+  auto writer = io::RecordingWriter::create(path("bad.aabb"), "bad", "Cubes", 4);
+  ASSERT_TRUE(writer);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> boxes = {0,   0, 0, 0, 1, 1, 1, 0,   //
+                                    nan, 0, 0, 0, 1, 1, 1, 0,   //
+                                    1,   1, 1, 0, 2, 2, 2, 0,   //
+                                    5,   5, 5, 0, 4, 6, 6, 0};  // min > max
+  ASSERT_TRUE(writer->write_frame(boxes));
+  ASSERT_TRUE(writer->finish());
+  const json data = page_of(path("bad.aabb"));
+  EXPECT_EQ(data["body"]["index"], json::array({0, 2}));
+  EXPECT_EQ(data["left_out"], 2);
+  EXPECT_EQ(data["contact"]["b"], json::array({2}));
+}
+
+TEST_F(ScenePageTest, NeedsNothingElse) {
+  std::filesystem::create_directory(path("<script>"));
+  write_builtin("all kinds, float32", path("<script>/scene.npz"));
+  const json data = page_of(path("<script>/scene.npz"));
+  EXPECT_EQ(data["scene"], path("<script>/scene.npz"));
+  const std::string text = text_of_page();
+  EXPECT_EQ(text.find("<script>/scene.npz"), std::string::npos);
+  EXPECT_EQ(text.find("CAROM_DATA"), std::string::npos);
+  for (const char* other : {"src=", "href=", "import(", "fetch(", "http"}) {
+    EXPECT_EQ(text.find(other), std::string::npos) << other;
+  }
+  EXPECT_NE(text.find("</html>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace carom::cli
