@@ -21,6 +21,14 @@ struct Side {
 // them.
 constexpr size_t kFewFeatures = 64;
 
+// More edges than this beside which no axis is ruled out are for others to cross.
+constexpr size_t kMostCrossed = 64;
+
+// In the frame of A, with the normals of the faces beside it.
+struct EdgeOfSolid {
+  Vector3f direction, from, left, right;
+};
+
 class DepthSearch {
  public:
   DepthSearch(const Solid& a, const Solid& b, const PairPose<float>& pose, const HullSteps& steps)
@@ -121,15 +129,16 @@ class DepthSearch {
 
   // --- Edges ---
 
-  static EdgeOfHull edge_of(const Side& side, uint32_t e) {
-    const Solid::Edge& edge = side.solid.edges[e];
-    return {edge.direction, side.solid.corner(edge.from), side.solid.normal(edge.left),
-            side.solid.normal(edge.right)};
+  static EdgeOfSolid edge_of_a(const Side& a, uint32_t e) {
+    const Solid::Edge& edge = a.solid.edges[e];
+    return {edge.direction, a.solid.corner(edge.from), a.solid.normal(edge.left),
+            a.solid.normal(edge.right)};
   }
 
-  EdgeOfHull in_frame_of_a(const EdgeOfHull& edge) const {
-    return {rotate(turn_, edge.direction), rotate(turn_, edge.from) + centre_,
-            rotate(turn_, edge.left), rotate(turn_, edge.right)};
+  EdgeOfSolid edge_of_b(const Side& b, const HullPoints& in_frame_of_a, uint32_t e) const {
+    const Solid::Edge& edge = b.solid.edges[e];
+    return {rotate(turn_, edge.direction), in_frame_of_a[edge.from],
+            rotate(turn_, b.solid.normal(edge.left)), rotate(turn_, b.solid.normal(edge.right))};
   }
 
   // Those beside which some axis may be better than the best face: no ball settles both faces.
@@ -150,39 +159,52 @@ class DepthSearch {
     Edges edges_a, edges_b;
     find_edges_to_cross(a, edges_a);
     find_edges_to_cross(b, edges_b);
-    is_doubtful_ = edges_a.count > EdgeColumns::kMost || edges_b.count > EdgeColumns::kMost;
+    is_doubtful_ = edges_a.count > kMostCrossed || edges_b.count > kMostCrossed;
     if (is_doubtful_ || edges_a.count == 0 || edges_b.count == 0) return;
-    EdgeColumns of_a, of_b;
-    for (size_t i = 0; i < edges_a.count; ++i) of_a.push_back(edge_of(a, edges_a.index[i]));
-    for (size_t i = 0; i < edges_b.count; ++i) {
-      of_b.push_back(in_frame_of_a(edge_of(b, edges_b.index[i])));
+    std::array<EdgeOfSolid, kMostCrossed> of_b;
+    for (size_t k = 0; k < edges_b.count; ++k) {
+      of_b[k] = edge_of_b(b, a.others, edges_b.index[k]);
     }
-    const BestCrossing best = steps_.cross(of_a, of_b);
-    is_doubtful_ = best.is_doubtful;
-    if (best.gap > gap_) keep_crossing(best.gap, of_a[best.a], of_b[best.b]);
+    for (size_t i = 0; i < edges_a.count; ++i) {
+      const EdgeOfSolid of_a = edge_of_a(a, edges_a.index[i]);
+      for (size_t k = 0; k < edges_b.count; ++k) try_crossing(of_a, of_b[k]);
+    }
+    if (has_crossing_) take_crossing();
   }
 
-  void keep_crossing(float gap, const EdgeOfHull& a, const EdgeOfHull& b) {
+  // Whether the arc of the first crosses that of the other one, turned round: there is an axis
+  // across both then.
+  void try_crossing(const EdgeOfSolid& a, const EdgeOfSolid& b) {
+    const float of_left = dot(b.left, a.direction), of_right = dot(b.right, a.direction);
+    const float on_left = dot(a.left, b.direction), on_right = dot(a.right, b.direction);
+    if (!(of_right * of_left < 0 && on_right * on_left < 0 && of_right * on_left < 0)) return;
+    const Vector3f n = cross(a.direction, b.direction);
+    const float nn = dot(n, n);
+    if (!(nn > kAlongEachOther)) is_doubtful_ = true;
+    const float along = dot(n, Vector3f(b.from - a.from)) * (1 / std::sqrt(nn));
+    const float gap = dot(n, Vector3f(a.left + a.right)) < 0 ? -along : along;
+    if (!(gap > gap_)) return;
     has_crossing_ = true;
     gap_ = gap;
     edge_a_ = a;
     edge_b_ = b;
-    across_ = cross(a.direction, b.direction);
-    if (dot(across_, Vector3f(a.left + a.right)) < 0) across_ = -across_;
+  }
+
+  void take_crossing() {
+    across_ = cross(edge_a_.direction, edge_b_.direction);
+    if (dot(across_, Vector3f(edge_a_.left + edge_a_.right)) < 0) across_ = -across_;
     normal_ = across_ * (1 / std::sqrt(dot(across_, across_)));
   }
 
   // --- The contact ---
 
   Separation contact(const HullPoints& a, const HullPoints& b) const {
-    const FurthestOfHull of_a = steps_.furthest(a, normal_);
-    const FurthestOfHull of_b = steps_.furthest(b, -normal_);
+    const auto [of_a, count_a] = steps_.facing(a, normal_);
+    const auto [of_b, count_b] = steps_.facing(b, -normal_);
     const float gap = -(of_a.height + of_b.height);
     if (!(std::fabs(gap - gap_) <= kSameGapInFloat && gap_ < -kSureGap)) {
       return not_in_float<float>();
     }
-    const size_t count_a = steps_.count_as_far(a, normal_, of_a.height);
-    const size_t count_b = steps_.count_as_far(b, -normal_, of_b.height);
     Vector3f on_a;
     if (count_b == 1) {
       on_a = b[of_b.index] - normal_ * gap_;
@@ -216,7 +238,7 @@ class DepthSearch {
   Vector3f normal_;
   // The best one across two edges.
   bool has_crossing_ = false;
-  EdgeOfHull edge_a_, edge_b_;
+  EdgeOfSolid edge_a_, edge_b_;
   Vector3f across_;
 };
 

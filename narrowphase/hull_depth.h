@@ -26,11 +26,15 @@ struct HullPoints {
   Vector3f operator[](size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-// Of points seen along a way: the first of those furthest, its height, and how many reach as far up
-// to kFacingSlack.
+// Of points seen along a way the first of those furthest.
 struct FurthestOfHull {
   size_t index;
   float height;
+};
+
+struct FacingPoints {
+  FurthestOfHull furthest;
+  size_t count;
 };
 
 // A part of the other hull: one of its points, or a ball inside of it.
@@ -58,41 +62,6 @@ struct BestFace {
   size_t face = 0;
 };
 
-// With the normals of the faces beside it.
-struct EdgeOfHull {
-  Vector3f direction, from, left, right;
-};
-
-// Edges of a hull, in columns.
-struct EdgeColumns {
-  static constexpr size_t kMost = 64;
-  static constexpr size_t kColumns = 12;
-
-  size_t count = 0;
-  std::array<std::array<float, kMost>, kColumns> column;
-
-  void push_back(const EdgeOfHull& edge) {
-    size_t c = 0;
-    for (const Vector3f* v : {&edge.direction, &edge.from, &edge.left, &edge.right}) {
-      for (int axis = 0; axis < 3; ++axis) column[c++][count] = (*v)[axis];
-    }
-    ++count;
-  }
-  EdgeOfHull operator[](size_t i) const {
-    const auto vector = [&](size_t c) -> Vector3f {
-      return {column[c][i], column[c + 1][i], column[c + 2][i]};
-    };
-    return {vector(0), vector(3), vector(6), vector(9)};
-  }
-};
-
-// The best axis across an edge of A and one of B.
-struct BestCrossing {
-  float gap = -reference::kLargest;  // of projections on the axis: negative in overlaps
-  size_t a = 0, b = 0;
-  bool is_doubtful = false;  // some are too nearly parallel
-};
-
 // What runs in lanes; reference::kHullSteps has the same, scalar.
 struct HullSteps {
   // turn * (point * scale) + offset.
@@ -105,10 +74,8 @@ struct HullSteps {
   // Which of the balls leave an axis beside a face no more than `gap`.
   void (*settle)(const Solid& solid, float gap, FaceBounds& bounds);
   FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
-  // How many reach as far as `height` up to kFacingSlack.
-  size_t (*count_as_far)(const HullPoints& points, const Vector3f& way, float height);
-  // Of axes that are equally good the first of A, and of those the first of B.
-  BestCrossing (*cross)(const EdgeColumns& a, const EdgeColumns& b);
+  // The furthest, and how many points reach as far up to kFacingSlack.
+  FacingPoints (*facing)(const HullPoints& points, const Vector3f& way);
 };
 
 // The contact of two solids that surely overlap; unsure if their features do not tell it, or if

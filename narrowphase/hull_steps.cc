@@ -1,4 +1,4 @@
-// Points of a hull, and edges, in lanes (hull_steps_ref.h is the reference).
+// Points and faces of solids in lanes (hull_steps_ref.h is the reference).
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -165,10 +165,11 @@ FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
   return {best.first_of(points.count), best.value()};
 }
 
-size_t count_as_far(const HullPoints& points, const Vector3f& way, float height) {
+FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   const FloatTag tag;
+  const FurthestOfHull furthest = furthest_of_hull(points, way);
   const F3 n = in_all_lanes(way);
-  const F most = splat(height), count = splat(static_cast<float>(points.count));
+  const F most = splat(furthest.height), count = splat(static_cast<float>(points.count));
   F index = indices();
   size_t found = 0;
   for (size_t i = 0; i < points.padded; i += kLanes) {
@@ -176,58 +177,12 @@ size_t count_as_far(const HullPoints& points, const Vector3f& way, float height)
     found += hn::CountTrue(tag, hn::And(is_as_far, hn::Lt(index, count)));
     index = hn::Add(index, splat(kLanes));
   }
-  return found;
-}
-
-// Of places (a, b) the first: rows are further apart than any edges of B.
-constexpr float kRow = EdgeColumns::kMost;
-
-BestCrossing cross_all_edges(const EdgeColumns& a, const EdgeColumns& b) {
-  const FloatTag tag;
-  const F zero = splat(0), count = splat(static_cast<float>(b.count));
-  FirstOfMost best = FirstOfMost::none();
-  Mask is_doubtful = no_lanes();
-  for (size_t k = 0; k < a.count; ++k) {
-    const EdgeOfHull edge = a[k];
-    const F3 direction_a = in_all_lanes(edge.direction), from_a = in_all_lanes(edge.from),
-             left_a = in_all_lanes(edge.left), right_a = in_all_lanes(edge.right),
-             outwards = in_all_lanes(edge.left + edge.right);
-    const F row = splat(static_cast<float>(k) * kRow);
-    F index = indices();
-    for (size_t i = 0; i < b.count; i += kLanes) {
-      // Behind the last there may be subnormal numbers, which some processors are slow with.
-      const Mask exists = hn::Lt(index, count);
-      const auto load = [&](size_t c) HWY_ATTR {
-        return hn::IfThenElseZero(exists, hn::LoadU(tag, b.column[c].data() + i));
-      };
-      const auto vector = [&](size_t c) HWY_ATTR -> F3 {
-        return {load(c), load(c + 1), load(c + 2)};
-      };
-      const F3 direction = vector(0), from = vector(3), left = vector(6), right = vector(9);
-      const F of_left = dot(left, direction_a), of_right = dot(right, direction_a);
-      const F on_left = dot(left_a, direction), on_right = dot(right_a, direction);
-      const Mask is_axis = hn::And(hn::And(exists, hn::Lt(hn::Mul(of_right, of_left), zero)),
-                                   hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
-                                           hn::Lt(hn::Mul(of_right, on_left), zero)));
-      const F3 n = cross(direction_a, direction);
-      const F nn = dot(n, n);
-      const Mask is_short = hn::Not(hn::Gt(nn, splat(kAlongEachOther)));
-      is_doubtful = hn::Or(is_doubtful, hn::And(is_axis, is_short));
-      const F along = hn::Mul(dot(n, from - from_a), hn::Div(splat(1), hn::Sqrt(nn)));
-      const F gap = hn::IfThenElse(hn::Lt(dot(n, outwards), zero), hn::Neg(along), along);
-      best.keep(is_axis, gap, hn::Add(row, index));
-      index = hn::Add(index, splat(kLanes));
-    }
-  }
-  const size_t place = best.first();
-  return {best.value(), place / EdgeColumns::kMost, place % EdgeColumns::kMost,
-          !hn::AllFalse(tag, is_doubtful)};
+  return {furthest, found};
 }
 
 const HullSteps& hull_steps() {
-  static constexpr HullSteps kSteps = {&place_points,   &bound_faces,      &try_all_faces,
-                                       &settle_faces,   &furthest_of_hull, &count_as_far,
-                                       &cross_all_edges};
+  static constexpr HullSteps kSteps = {&place_points, &bound_faces,      &try_all_faces,
+                                       &settle_faces, &furthest_of_hull, &facing_points};
   return kSteps;
 }
 

@@ -58,51 +58,15 @@ inline FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f&
   return best;
 }
 
-inline size_t count_as_far(const HullPoints& points, const Vector3f& way, float height) {
-  size_t count = 0;
+inline FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
+  FacingPoints facing{furthest_of_hull(points, way), 0};
   for (size_t i = 0; i < points.count; ++i) {
-    count += height - dot(way, points[i]) <= kFacingSlack ? 1 : 0;
+    facing.count += facing.furthest.height - dot(way, points[i]) <= kFacingSlack ? 1 : 0;
   }
-  return count;
+  return facing;
 }
 
-// Of the axis across two edges, if there is one: if the arc of the first crosses that of the other
-// one, turned round.
-struct Crossing {
-  bool is_axis;
-  bool is_doubtful;
-  float gap;
-};
-
-inline Crossing cross_edges(const EdgeOfHull& a, const EdgeOfHull& b) {
-  const float of_left = dot(b.left, a.direction), of_right = dot(b.right, a.direction);
-  const float on_left = dot(a.left, b.direction), on_right = dot(a.right, b.direction);
-  const bool is_axis = of_right * of_left < 0 && on_right * on_left < 0 && of_right * on_left < 0;
-  const Vector3f n = cross(a.direction, b.direction);
-  const float nn = dot(n, n);
-  const bool is_doubtful = is_axis && !(nn > kAlongEachOther);
-  const float along = dot(n, Vector3f(b.from - a.from)) * (1 / std::sqrt(nn));
-  const Vector3f outwards = a.left + a.right;
-  return {is_axis, is_doubtful, dot(n, outwards) < 0 ? -along : along};
-}
-
-inline BestCrossing cross_all_edges(const EdgeColumns& a, const EdgeColumns& b) {
-  BestCrossing best;
-  for (size_t i = 0; i < a.count; ++i) {
-    for (size_t k = 0; k < b.count; ++k) {
-      const Crossing crossing = cross_edges(a[i], b[k]);
-      best.is_doubtful = best.is_doubtful || crossing.is_doubtful;
-      if (!crossing.is_axis || !(crossing.gap > best.gap)) continue;
-      best.gap = crossing.gap;
-      best.a = i;
-      best.b = k;
-    }
-  }
-  return best;
-}
-
-inline constexpr HullSteps kHullSteps = {&place_points,   &bound_faces,      &try_all_faces,
-                                         &settle_faces,   &furthest_of_hull, &count_as_far,
-                                         &cross_all_edges};
+inline constexpr HullSteps kHullSteps = {&place_points, &bound_faces,      &try_all_faces,
+                                         &settle_faces, &furthest_of_hull, &facing_points};
 
 }  // namespace carom::reference

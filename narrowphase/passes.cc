@@ -75,13 +75,16 @@ static_assert(kPairsPerBlock % kMostLanes == 0);
 
 bool overlaps(const Batch& batch, size_t row) { return batch.out.overlap[row] == 1; }
 
-bool is_separate(const Batch& batch, size_t row) {
-  return !batch.out.overlap[row] && batch.out.status[row] != static_cast<uint8_t>(Status::invalid);
+bool is_invalid(const Batch& batch, size_t row) {
+  return batch.out.status[row] == static_cast<uint8_t>(Status::invalid);
 }
 
-void run_distances(const PairKind& kind, const Batch& batch) {
+// `of_invalid_pairs`: the columns of these as well.
+void run_distances(const PairKind& kind, const Batch& batch, bool of_invalid_pairs) {
   RowSelection separate(batch);
-  separate.select([&](size_t row) { return is_separate(batch, row); });
+  separate.select([&](size_t row) {
+    return !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
+  });
   if (separate.count() == 0) return;
   ScratchColumns scratch;
   Batch distances = separate.batch(Pass::distance);
@@ -208,7 +211,7 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
     kind.run(test);
   }
   if (has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping) {
-    run_distances(kind, batch);
+    run_distances(kind, batch, measured == Measured::separate);
   }
   if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
   if (batch.out.separation_bound) bound_separations(kind, batch);

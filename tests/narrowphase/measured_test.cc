@@ -1,0 +1,81 @@
+// Pairs that are not asked for are decided as ever, and the others measured as if all were.
+#include <gtest/gtest.h>
+
+#include "tests/support/isas.h"
+#include "tests/support/kind_pairs.h"
+#include "tests/support/rounds.h"
+#include "tests/support/run.h"
+
+namespace carom::test {
+namespace {
+
+// Rows that are measured have all bits; of the others overlap counts, and that they are valid.
+void expect_measured(std::span<const TestPair> pairs, std::span<const Row> all,
+                     std::span<const Row> found, Measured measured) {
+  ASSERT_EQ(all.size(), found.size());
+  for (size_t i = 0; i < all.size(); ++i) {
+    const bool is_valid = all[i].status != static_cast<uint8_t>(Status::invalid);
+    const bool is_measured = (all[i].overlap == 1) == (measured == Measured::overlapping);
+    if (!is_valid || is_measured) {
+      EXPECT_TRUE(same_rows(all.subspan(i, 1), found.subspan(i, 1), pairs.subspan(i, 1)));
+    } else {
+      EXPECT_EQ(all[i].overlap, found[i].overlap) << "pair " << i;
+      EXPECT_NE(found[i].status, static_cast<uint8_t>(Status::invalid)) << "pair " << i;
+    }
+  }
+}
+
+class MeasuredPairs : public testing::TestWithParam<ConvexFamily> {};
+
+TEST_P(MeasuredPairs, HaveTheBitsOfAll) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    std::vector<TestPair> pairs =
+        make_kind_pairs(GetParam(), kinds, PositionType::float32, fewer_polytopes(kinds, 70));
+    vary_triangles(pairs);
+    const std::vector<TestPair> nonsense = make_kind_nonsense(kinds, 20);
+    pairs.insert(pairs.end(), nonsense.begin(), nonsense.end());
+    Call call = call_with(PositionType::float32);
+    const std::vector<Row> all =
+        expected_rows(pairs, PositionType::float32, call.detail, call.frame);
+    for_each_isa([&] {
+      for (const Measured measured : {Measured::overlapping, Measured::separate}) {
+        call.measured = measured;
+        expect_measured(pairs, all, run_rows(pairs, call), measured);
+        expect_measured(pairs, all, run_list(pairs, call), measured);
+      }
+    });
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, MeasuredPairs, testing::ValuesIn(convex_families()),
+                         family_name);
+
+TEST(MeasuredPairs, HaveNoManifoldsWhereSeparateOnesAreAskedFor) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    const std::vector<TestPair> pairs =
+        make_kind_pairs(convex_families()[0], kinds, PositionType::float32, 40);
+    Call call = call_with(PositionType::float32);
+    call.detail = Detail::manifold;
+    call.measured = Measured::separate;
+    for (const Row& row : run_rows(pairs, call)) EXPECT_EQ(row.manifold_count, 0);
+  }
+}
+
+// A proof may part what rounding made overlap: its distance is known then.
+TEST(MeasuredPairs, AreAllWhereDecisionsAreProven) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    SCOPED_TRACE(name(kinds));
+    const std::vector<TestPair> pairs =
+        make_kind_pairs(convex_families()[0], kinds, PositionType::float32, 40);
+    Call call = call_with(PositionType::float32);
+    call.accuracy.tier = Tier::exact;
+    const std::vector<Row> all = run_rows(pairs, call);
+    call.measured = Measured::separate;
+    EXPECT_TRUE(same_rows(all, run_rows(pairs, call), pairs));
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
