@@ -22,20 +22,42 @@ enum MeshFlag : uint8_t { kOneSided = 1, kThick = 2, kAnyIndex = 4 };
 constexpr size_t kMostTriangles = 24;
 constexpr size_t kMostChildren = 6;
 
-// Nothing if the numbers make no shape; make_mesh() and make_compound() are to say so.
+// Nothing if the numbers make no shape.
 using MaybeShape = std::optional<Shape>;
+using Triangles = std::vector<std::array<uint32_t, 3>>;
+using Vertices = std::vector<Eigen::Vector3f>;
+
+// What make_mesh() asks for.
+bool is_mesh(const Vertices& vertices, const Triangles& triangles, const MeshRules& rules) {
+  const auto is_finite = [](const Eigen::Vector3f& p) { return p.allFinite(); };
+  const auto has_corners = [&](const std::array<uint32_t, 3>& triangle) {
+    return *std::max_element(triangle.begin(), triangle.end()) < vertices.size();
+  };
+  return !triangles.empty() && rules.thickness >= 0 &&
+         std::all_of(vertices.begin(), vertices.end(), is_finite) &&
+         std::all_of(triangles.begin(), triangles.end(), has_corners);
+}
+
+// What make_compound() asks for, of shapes that are valid.
+bool is_compound(const std::vector<CompoundChild>& children) {
+  return !children.empty() && std::all_of(children.begin(), children.end(), [](const auto& child) {
+    return !std::holds_alternative<Halfspace>(child.shape) && child.orientation.norm() > 0;
+  });
+}
 
 MaybeShape take_mesh(double size, size_t most_triangles, Data& data) {
   const auto flags = take<uint8_t>(data);
   const size_t corners = take<uint8_t>(data) % 16;
-  std::vector<std::array<uint32_t, 3>> triangles(take<uint8_t>(data) % (most_triangles + 1));
+  Triangles triangles(take<uint8_t>(data) % (most_triangles + 1));
   const uint32_t indices = flags & kAnyIndex || corners == 0 ? 256 : static_cast<uint32_t>(corners);
   for (auto& triangle : triangles) {
     for (uint32_t& corner : triangle) corner = take<uint8_t>(data) % indices;
   }
   MeshRules rules{.one_sided = (flags & kOneSided) != 0};
   if (flags & kThick) rules.thickness = static_cast<float>(size * take_unit(data));
-  const auto mesh = make_mesh(CloudReader(size, data).points(corners), triangles, rules);
+  const Vertices vertices = CloudReader(size, data).points(corners);
+  const auto mesh = make_mesh(vertices, triangles, rules);
+  EXPECT_EQ(bool(mesh), is_mesh(vertices, triangles, rules));
   if (!mesh) return std::nullopt;
   return Mesh{*mesh};
 }
@@ -74,6 +96,7 @@ MaybeShape take_compound(double size, Data& data) {
     child.orientation = take_orientation(data);
   }
   const auto compound = make_compound(children);
+  EXPECT_EQ(bool(compound), is_compound(children));
   if (!compound) return std::nullopt;
   return Compound{*compound};
 }

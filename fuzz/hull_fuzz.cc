@@ -1,6 +1,7 @@
 // Any bytes as two clouds of points: build_hull() ends and makes what it says, and of the hulls,
 // placed in any way, all kernels say what the reference says and independent projections confirm.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -17,7 +18,14 @@ using namespace carom::fuzz;
 using carom::io::BuiltHull;
 using Eigen::Vector3d;
 
-enum Flag : uint8_t { kFloat64 = 1, kSameHull = 2, kSameTurn = 4, kTouching = 8, kFar = 16 };
+enum Flag : uint8_t {
+  kFloat64 = 1,
+  kSameHull = 2,
+  kSameTurn = 4,
+  kTouching = 8,
+  kFar = 16,
+  kNear = 32
+};
 
 // The oracle tries every three corners, and every two edges.
 constexpr size_t kMostJudged = 20;
@@ -89,7 +97,8 @@ void place(TestPair& pair, uint8_t flags, Data& data) {
   const Hull &a = std::get<Hull>(pair.a.shape), &b = std::get<Hull>(pair.b.shape);
   const double reach = reach_of(a) + reach_of(b);
   if (flags & kFar) pair.a.position = take_vector(data) * 1000 * reach;
-  const Vector3d way = take_vector(data) * reach;
+  const int nearness = flags & kNear ? take<uint8_t>(data) % 32 : 0;
+  const Vector3d way = take_vector(data) * std::ldexp(reach, -nearness);
   pair.b.position = pair.a.position + middle_of(pair.a) - middle_of(pair.b) + way;
   if (!(flags & kTouching) || !(way.norm() > 0)) return;
   const Vector3d unit = way.normalized();
