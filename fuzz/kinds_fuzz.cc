@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -151,7 +150,7 @@ Body without_excess(ShapeKind kind, Body body) {
   return body;
 }
 
-Hull take_hull_of(ShapeKind kind, std::span<const uint8_t>& data) {
+Hull take_hull_of(ShapeKind kind, Data& data) {
   return kind == ShapeKind::hull ? take_hull(data) : Hull{};
 }
 
@@ -179,7 +178,7 @@ void print(const char* who, const Row& row) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2) return 0;
-  std::span<const uint8_t> rest(data, size);
+  Data rest(data, size);
   KindPair kinds = kPairs[take<uint8_t>(rest) % std::size(kPairs)];
   const auto flags = take<uint8_t>(rest);
   if (flags & kExchanged) std::swap(kinds.a, kinds.b);

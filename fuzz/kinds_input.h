@@ -2,17 +2,14 @@
 // reads for A and for B.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <span>
 #include <vector>
 
 #include "carom/kernel/views.h"
-#include "oracle/convex_random.h"
+#include "fuzz/random_shape.h"
 
 namespace carom::fuzz {
 
@@ -38,22 +35,12 @@ struct Body {
   std::array<double, 3> position;
 };
 
-// From the front of the data; what is missing is zero.
-template <class T>
-T take(std::span<const uint8_t>& data) {
-  T value{};
-  const size_t size = std::min(data.size(), sizeof value);
-  std::memcpy(&value, data.data(), size);
-  data = data.subspan(size);
-  return value;
-}
-
 // The first byte says what follows: below kRandomHull the points themselves, one to sixteen of
 // them; otherwise the style, the size and the seed of a random hull of up to 64.
 inline constexpr uint8_t kRandomHull = 128;
 inline constexpr size_t kMostPoints = 16;
 
-inline Hull take_points(size_t count, std::span<const uint8_t>& data) {
+inline Hull take_points(size_t count, Data& data) {
   std::vector<Eigen::Vector3f> points(count, Eigen::Vector3f::Zero());
   for (Eigen::Vector3f& point : points) {
     for (float& x : point) {
@@ -64,17 +51,11 @@ inline Hull take_points(size_t count, std::span<const uint8_t>& data) {
   return oracle::hull_of(points);
 }
 
-inline Hull take_hull(std::span<const uint8_t>& data) {
+inline Hull take_hull(Data& data) {
   const auto form = take<uint8_t>(data);
   if (form < kRandomHull) return take_points(form % kMostPoints + 1, data);
-  const auto power = take<uint8_t>(data);
-  oracle::Random random(take<uint64_t>(data));
-  oracle::ConvexRandom shapes({.aspect = std::pow(10.0, form >> 4 & 7),
-                               .degenerate = (form & 1) != 0,
-                               .lattice = (form & 2) != 0,
-                               .aligned = (form & 4) != 0},
-                              random);
-  return std::get<Hull>(shapes.shape(ShapeKind::hull, std::pow(10.0, power % 84 - 45)));
+  const double size = std::pow(10.0, take<uint8_t>(data) % 84 - 45);
+  return std::get<Hull>(take_random_shape(ShapeKind::hull, form, size, data));
 }
 
 }  // namespace carom::fuzz

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "fuzz/kinds_input.h"
+#include "fuzz/points_input.h"
 #include "io/pairs_file.h"
 #include "io/recording.h"
 #include "io/scene.h"
+#include "tests/midphase/composites.h"
 
 namespace {
 
@@ -147,6 +149,91 @@ bool write_all_kinds(const std::string& folder) {
   return true;
 }
 
+// Numbers of a metre or less.
+void put_random(std::ofstream& file, carom::oracle::Random& random, size_t bytes) {
+  while (bytes-- > 0) file.put(static_cast<char>(random.bits()));
+}
+
+// Half of them turned and moved; a 1000th as thin as they are wide.
+void put_cloud(std::ofstream& file, carom::oracle::Random& random, uint8_t family, size_t points) {
+  const uint8_t place = family % 2 ? 3 : 0;
+  file.put(static_cast<char>(family)).put(static_cast<char>(place));
+  if (place != 0) put_random(file, random, 4 + 6);
+  file.put(10);
+  put_random(file, random, points * 6);
+}
+
+// Two hulls of 17 points of a family, half of them the same one, half of them touching.
+bool write_hull_pair(const std::string& path, uint8_t family) {
+  constexpr uint8_t kCount = 128;
+  carom::oracle::Random random(family);
+  std::ofstream file(path, std::ios::binary);
+  const bool is_same = family % 4 < 2;
+  file.put(static_cast<char>(is_same ? 2 : 8));
+  for (int hull = 0; hull < (is_same ? 1 : 2); ++hull) {
+    file.put(static_cast<char>(kCount)).put(0);
+    put_cloud(file, random, family, 17);
+  }
+  put_random(file, random, 4 + 4 + 6);
+  return bool(file.flush());
+}
+
+bool write_all_hulls(const std::string& folder) {
+  for (uint8_t family = 0; family < static_cast<uint8_t>(carom::fuzz::Family::count); ++family) {
+    if (!write_hull_pair(folder + "family_" + std::to_string(family), family)) return false;
+  }
+  return true;
+}
+
+void put_simple(std::ofstream& file, carom::oracle::Random& random) {
+  file.put(0);
+  put_random(file, random, 8);
+}
+
+// Six triangles over eight points.
+void put_mesh(std::ofstream& file, carom::oracle::Random& random) {
+  file.put(0).put(8).put(6);
+  put_random(file, random, 6 * 3);
+  put_cloud(file, random, static_cast<uint8_t>(carom::fuzz::Family::box), 8);
+}
+
+// A sphere, a box, a mesh.
+void put_compound(std::ofstream& file, carom::oracle::Random& random) {
+  using carom::ShapeKind;
+  file.put(3);
+  for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::box, ShapeKind::mesh}) {
+    file.put(static_cast<char>(kind));
+    kind == ShapeKind::mesh ? put_mesh(file, random) : put_simple(file, random);
+    put_random(file, random, 6 + 4);
+  }
+}
+
+void put_shape(std::ofstream& file, carom::oracle::Random& random, carom::ShapeKind kind) {
+  if (kind == carom::ShapeKind::mesh) return put_mesh(file, random);
+  if (kind == carom::ShapeKind::compound) return put_compound(file, random);
+  put_simple(file, random);
+}
+
+bool write_composites(const std::string& path, uint8_t pair,
+                      const std::array<carom::ShapeKind, 2>& kinds) {
+  carom::oracle::Random random(pair);
+  std::ofstream file(path, std::ios::binary);
+  file.put(static_cast<char>(pair)).put(0).put(0);
+  for (const carom::ShapeKind kind : kinds) put_shape(file, random, kind);
+  put_random(file, random, 6 + 4 + 4);
+  return bool(file.flush());
+}
+
+bool write_all_composites(const std::string& folder) {
+  const auto kinds = carom::test::composite_kind_pairs();
+  for (uint8_t pair = 0; pair < kinds.size(); ++pair) {
+    const std::string name =
+        std::string(carom::name(kinds[pair][0])) + "_" + carom::name(kinds[pair][1]);
+    if (!write_composites(folder + name, pair, kinds[pair])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -155,7 +242,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string folder = std::string(argv[1]) + "/";
-  for (const char* kind : {"recording_fuzz", "scene_fuzz", "pairs_fuzz", "kinds_fuzz"}) {
+  for (const char* kind : {"recording_fuzz", "scene_fuzz", "pairs_fuzz", "kinds_fuzz", "hull_fuzz",
+                           "composites_fuzz"}) {
     std::filesystem::create_directories(folder + kind);
   }
   const bool done = write_scene(folder + "scene_fuzz/small.npz", false, Compression::kStored) &&
@@ -165,7 +253,9 @@ int main(int argc, char** argv) {
                     write_recording(folder + "recording_fuzz/three.aabb", 3) &&
                     write_seed_pairs(folder + "pairs_fuzz/small.npz", false) &&
                     write_seed_pairs(folder + "pairs_fuzz/full.npz", true) &&
-                    write_all_kinds(folder + "kinds_fuzz/");
+                    write_all_kinds(folder + "kinds_fuzz/") &&
+                    write_all_hulls(folder + "hull_fuzz/") &&
+                    write_all_composites(folder + "composites_fuzz/");
   if (!done) std::fprintf(stderr, "the corpus could not be written\n");
   return done ? 0 : 1;
 }

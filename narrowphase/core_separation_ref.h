@@ -48,16 +48,20 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
     if (depth > kProvenGap) return {.size = -depth, .normal = {1, 0, 0}, .is_proven = true};
   }
   const double distance = std::sqrt(dot(nearest.way, nearest.way));
+  const double parted = distance > kTouchingCores ? nearest.gap / distance : -HUGE_VAL;
   // Rounding may have ended GJK too early, at corners of shapes that are all but flat.
-  const bool is_distance =
-      distance > kTouchingCores && distance - nearest.gap / distance <= kSameGap;
+  const bool is_distance = distance - parted <= kSameGap;
   if (is_distance && distance > kTouchingWay) {
     return {.size = distance,
             .normal = nearest.way * (1 / distance),
             .is_proven = true,
             .is_at_corners = distance > kFarFromTouching};
   }
-  const WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
+  WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
+  // Of a difference without volume no more than one way out is tried.
+  if (parted - out.gap > kSameWayOut) {
+    out = {.normal = nearest.way * (1 / distance), .gap = parted};
+  }
   const bool is_close = out.gap <= 0 || distance - out.gap <= kTouchingWay;
   return {.size = is_distance ? distance : out.gap,
           .normal = out.normal,

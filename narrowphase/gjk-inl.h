@@ -267,8 +267,13 @@ HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, co
   const Mask is_unique = hn::Or(hn::Or(of_a.is_one(), of_b.is_one()), crosses);
   on_a = select(of_a.is_one(), p.on_a, on_a);
   on_a = select(of_b.is_one(), (p.point + p.on_a) - normal * distance, on_a);
+  // Rounding tilts the plane of a needle: its corners are not equally far then.
+  const auto is_level = [&](const F3& side) HWY_ATTR {
+    return hn::Le(hn::Abs(dot(normal, side)), splat(kSameGapInFloat));
+  };
+  const Mask is_tilted = hn::AndNot(hn::And(is_level(u), is_level(v)), has_three);
   const Mask is_sure = hn::And(hn::And(gjk.has_ended, hn::Gt(distance, splat(kNearCores))),
-                               hn::And(is_shortest, is_unique));
+                               hn::And(is_shortest, hn::AndNot(is_tilted, is_unique)));
   return {distance, normal, on_a, is_sure};
 }
 

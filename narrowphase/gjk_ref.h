@@ -278,7 +278,13 @@ inline NearestCores nearest_cores(const FloatCore& a, const FloatCore& b, const 
   const bool is_unique = of_a.is_one() || of_b.is_one() || crosses;
   if (of_a.is_one()) on_a = p.on_a;
   if (of_b.is_one()) on_a = (p.point + p.on_a) - normal * distance;
-  const bool is_sure = gjk.has_ended && distance > kNearCores && is_shortest && is_unique;
+  // Rounding tilts the plane of a needle: its corners are not equally far then.
+  const auto is_level = [&](const Corner& corner) {
+    return std::fabs(dot(normal, corner.point - p.point)) <= kSameGapInFloat;
+  };
+  const bool is_tilted = ends.size() == 3 && !(is_level(ends[1]) && is_level(ends[2]));
+  const bool is_sure =
+      gjk.has_ended && distance > kNearCores && is_shortest && is_unique && !is_tilted;
   return {distance, normal, on_a, is_sure};
 }
 

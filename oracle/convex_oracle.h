@@ -3,6 +3,7 @@
 // other real type will do.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -153,16 +154,18 @@ class FeatureSearch {
   }
 
   // The face over the point. Measured from its longest edge, so that the uncertain tilt of a sliver
-  // does no harm: nothing of it is far from that edge.
+  // does no harm: nothing of it is far from that edge. A point over the seam of two triangles is to
+  // be over one of them, whatever the rounding.
   void point_face(const Vec& p, const ConvexFace<R>& face, const R& sign) {
     const Vec d = p - face.origin;
     const R y = dot(d, face.v);
-    if (!(face.height > 0) || y < 0 || y > face.height) return;
+    const R seam = 16 * std::numeric_limits<R>::epsilon() * (face.base + length(d));
+    if (!(face.height > 0) || y < -seam || y > face.height + seam) return;
     const R x = dot(d, face.u);
-    const R share = y / face.height;
+    const R share = std::clamp<R>(y / face.height, 0, 1);
     const R left = face.apex_x * share;
     const R right = face.base + (face.apex_x - face.base) * share;
-    if (x >= left && x <= right) keep(face.normal * (-dot(d, face.normal) * sign));
+    if (x >= left - seam && x <= right + seam) keep(face.normal * (-dot(d, face.normal) * sign));
   }
 
   // Edges that cross, seen along their common normal; parallel ones are left to their ends.

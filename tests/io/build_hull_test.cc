@@ -1,105 +1,22 @@
-#include "io/build_hull.h"
+#include "tests/io/hull_checks.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 #include <vector>
 
 namespace carom::io {
 namespace {
 
-using Eigen::Vector3d;
-using Eigen::Vector3f;
 using Eigen::Vector3i;
-using Points = std::vector<Vector3f>;
 
 BuiltHull built(const Points& points) {
   Result<BuiltHull> hull = build_hull(points);
   EXPECT_TRUE(hull) << (hull ? "" : hull.error().message);
   return hull ? *hull : BuiltHull{};
-}
-
-double support(std::span<const Vector3f> points, const Vector3d& direction) {
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Vector3f& p : points) best = std::max(best, direction.dot(p.cast<double>()));
-  return best;
-}
-
-Vector3d extents(const Points& points) {
-  Vector3d lower = points[0].cast<double>(), upper = lower;
-  for (const Vector3f& p : points) {
-    lower = lower.cwiseMin(p.cast<double>());
-    upper = upper.cwiseMax(p.cast<double>());
-  }
-  return upper - lower;
-}
-
-Vector3d direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return Vector3d(normal(random), normal(random), normal(random)).normalized();
-}
-
-Vector3d face_normal(const HullGeometry& hull, const HullGeometry::Face& face) {
-  const std::span<const uint32_t> corners = hull.corners(face);
-  const auto point = [&](size_t i) { return hull.points()[corners[i]].cast<double>(); };
-  Vector3d sum = Vector3d::Zero();
-  for (size_t i = 2; i < corners.size(); ++i) {
-    sum += (point(i - 1) - point(0)).cross(point(i) - point(0));
-  }
-  return sum.normalized();
-}
-
-// No corner is lost: in random directions, stretched like the points, and along the way to every
-// point, the hull reaches as far as what it was made from.
-void expect_same_support(const Points& points, const BuiltHull& hull, std::mt19937_64& random,
-                         double tolerance = 1e-8) {
-  const Vector3d size = extents(points);
-  const Vector3d inverse = size.unaryExpr([](double s) { return s > 0 ? 1 / s : 0; });
-  for (int i = 0; i < 100; ++i) {
-    const Vector3d d = direction(random).cwiseProduct(inverse);
-    EXPECT_GE(support(hull.geometry->points(), d), support(points, d) - tolerance) << d.transpose();
-  }
-}
-
-// What is kept is a part of what was given, in its order, each once.
-void expect_subset(const Points& points, const BuiltHull& hull) {
-  auto next = points.begin();
-  for (const Vector3f& p : hull.geometry->points()) {
-    next = std::find(next, points.end(), p);
-    ASSERT_NE(next, points.end());
-    ++next;
-  }
-  EXPECT_EQ(points.size(), hull.geometry->points().size() + hull.duplicates + hull.inside);
-}
-
-// All points are behind every face, up to `tolerance` extents.
-void expect_faces_outside(const Points& points, const BuiltHull& hull, double tolerance) {
-  const double size = extents(points).maxCoeff();
-  for (const HullGeometry::Face& face : hull.geometry->faces()) {
-    const Vector3d normal = face_normal(*hull.geometry, face);
-    const Vector3d corner = hull.geometry->points()[hull.geometry->corners(face)[0]].cast<double>();
-    EXPECT_LE(support(points, normal), normal.dot(corner) + tolerance * size);
-  }
-}
-
-// Every edge is there once in each direction.
-void expect_closed(const BuiltHull& hull) {
-  std::map<std::pair<uint32_t, uint32_t>, int> edges;
-  for (const HullGeometry::Face& face : hull.geometry->faces()) {
-    const std::span<const uint32_t> corners = hull.geometry->corners(face);
-    for (size_t i = 0; i < corners.size(); ++i) {
-      ++edges[{corners[i], corners[(i + 1) % corners.size()]}];
-    }
-  }
-  for (const auto& [edge, count] : edges) {
-    EXPECT_EQ(count, 1);
-    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
-  }
 }
 
 Points grid(int steps) {

@@ -244,6 +244,29 @@ TEST(ConvexOracle, Hulls) {
 }
 
 // Two edges that cross at a small angle, one above the other: the gap is that of the two planes.
+// Faces are triangles to the oracle: found by hull_fuzz, which had a point over the seam of two,
+// and over neither of them.
+TEST(ConvexOracle, PointsOverSeamsOfFaces) {
+  Random random(1);
+  const auto vector = [&] {
+    const auto integer = [&] { return static_cast<float>(random.below(41)) - 20; };
+    const float x = integer(), y = integer();
+    return Eigen::Vector3f(x, y, integer());
+  };
+  for (int run = 0; run < 500; ++run) {
+    const Eigen::Vector3f a = vector(), u = vector(), v = vector(), n = u.cross(v);
+    if (n.isZero()) continue;
+    const ConvexShape<> face(hull_of({a, a + u, a + u + v, a + v}), Pose{});
+    const float share = static_cast<float>(1 + random.below(31)) / 32;
+    const Eigen::Vector3f over[] = {a + (u + v) * share + n, a + u + (v - u) * share + n};
+    for (const Eigen::Vector3f& p : over) {
+      const Vec point = vec3_as<long double>(p);
+      const long double height = length(vec3_as<long double>(n));
+      expect_near(signed_distance(face, point), height, kTight * (height + 100));
+    }
+  }
+}
+
 TEST(ConvexOracle, NearParallelEdges) {
   for (double angle : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2}) {
     const auto half = static_cast<float>(angle / 2);

@@ -111,17 +111,21 @@ inline void check_manifold(const ExactKinds& exact, const reference::PairResult&
   }
 }
 
-// Everything of the reference's result, which it returns.
-inline reference::PairResult checked_result(const TestPair& pair, PositionType positions) {
-  SCOPED_TRACE(show(pair) + "\n" + name(positions));
-  const ExactKinds exact(pair, positions);
-  const reference::PairResult result = reference_result(pair, positions);
+inline void check_result(const ExactKinds& exact, const reference::PairResult& result) {
   EXPECT_NE(result.status, Status::invalid);
   check_decision(exact, result);
   check_separation(exact, result);
   check_normal(exact, result);
   check_witnesses(exact, result);
   check_manifold(exact, result);
+}
+
+// Everything of the reference's result, which it returns.
+inline reference::PairResult checked_result(const TestPair& pair, PositionType positions) {
+  SCOPED_TRACE(show(pair) + "\n" + name(positions));
+  const ExactKinds exact(pair, positions);
+  const reference::PairResult result = reference_result(pair, positions);
+  check_result(exact, result);
   return result;
 }
 

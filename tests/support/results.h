@@ -69,14 +69,13 @@ std::array<float, 3> witness(const PlacedShape& body, const Arm& arm, PositionTy
   return point;
 }
 
-// What the reference says.
-inline Row expected_row(const TestPair& pair, PositionType positions, Detail detail,
-                        WitnessFrame frame) {
+// What a result of the reference is as a row.
+inline Row row_of(const reference::PairResult& result, const TestPair& pair, PositionType positions,
+                  Detail detail, WitnessFrame frame) {
   Row row;
   std::memset(static_cast<void*>(&row), kUntouched, sizeof row);
   row.unused = 0;
   if (detail == Detail::pairs) return row;
-  const reference::PairResult result = reference_result(pair, positions);
   row.overlap = result.overlap ? 1 : 0;
   row.status = static_cast<uint8_t>(result.status);
   if (detail == Detail::overlap) return row;
@@ -95,6 +94,12 @@ inline Row expected_row(const TestPair& pair, PositionType positions, Detail det
     row.manifold.point[i] = witness(pair.a, result.manifold.point[i], positions, frame);
   }
   return row;
+}
+
+// What the reference says.
+inline Row expected_row(const TestPair& pair, PositionType positions, Detail detail,
+                        WitnessFrame frame) {
+  return row_of(reference_result(pair, positions), pair, positions, detail, frame);
 }
 
 // Guarded columns for `count` results; bit c of `missing` leaves column c out.

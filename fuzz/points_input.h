@@ -1,0 +1,100 @@
+// Clouds of points from bytes, of families that hulls and meshes find hard.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "fuzz/take.h"
+
+namespace carom::fuzz {
+
+enum class Family : uint8_t {
+  any,       // floats of any bits
+  box,       // anywhere in it
+  lattice,   // few distinct coordinates
+  flat,      // in a plane but for rounding
+  noisy,     // a little off the plane
+  line,      // on a line but for rounding
+  repeated,  // many of them are one of the first four
+  sliver,    // two axes are short
+  wedge,     // two planes that meet at a small angle
+  needle,    // about one axis, but for the first
+  count
+};
+
+// A metre mostly, otherwise 1e-30 to 1e18.
+inline double take_size(Data& data) {
+  const auto power = take<uint8_t>(data);
+  return power < 192 ? 1 : std::pow(10.0, power % 49 - 30);
+}
+
+// The bytes of a cloud: the family, whether it is turned and moved, its thinness; then six a point,
+// but of `any`, which has twelve.
+class CloudReader {
+ public:
+  CloudReader(double size, Data& data) : size_(size), data_(data) {
+    family_ = static_cast<Family>(take<uint8_t>(data) % static_cast<int>(Family::count));
+    const auto place = take<uint8_t>(data);
+    if (place & 1) turn_ = take_orientation(data).cast<double>();
+    if (place & 2) middle_ = take_vector(data) * std::ldexp(1, place >> 3);
+    if (turn_.norm() > 0) turn_.normalize();
+    const auto thin = take<uint8_t>(data);
+    thinness_ = std::ldexp(1, -(thin % 64));
+    other_thinness_ = std::ldexp(1, -(thin / 64 * 16));
+  }
+
+  std::vector<Eigen::Vector3f> points(size_t count) {
+    std::vector<Eigen::Vector3f> all;
+    while (all.size() < count) all.push_back(next(all));
+    return all;
+  }
+
+ private:
+  Eigen::Vector3f next(const std::vector<Eigen::Vector3f>& before) {
+    if (family_ == Family::any) {
+      const float x = take<float>(data_), y = take<float>(data_);
+      return {x, y, take<float>(data_)};
+    }
+    const Eigen::Vector3d p = take_vector(data_);
+    if (family_ == Family::repeated && before.size() >= 4 && p.x() < 0) {
+      return before[static_cast<size_t>(-4 * p.x()) % 4];
+    }
+    const Eigen::Vector3d shaped = before.empty() && family_ == Family::needle ? p : formed(p);
+    return ((middle_ + turn_ * shaped) * size_).cast<float>();
+  }
+
+  Eigen::Vector3d formed(const Eigen::Vector3d& p) const {
+    const double height = p.x() / 3 + p.y() / 7;  // over the plane z = 0, rounded in every bit
+    switch (family_) {
+      case Family::lattice:
+        return (p * 2).array().round();
+      case Family::flat:
+        return {p.x(), p.y(), height};
+      case Family::noisy:
+        return {p.x(), p.y(), height + p.z() * thinness_};
+      case Family::line:
+        return {p.x(), p.x() / 3, p.x() / 7};
+      case Family::sliver:
+        return {p.x(), p.y() * thinness_, p.z() * other_thinness_};
+      case Family::wedge:
+        return {p.x(), p.y(), p.z() < 0 ? 0 : std::abs(p.y()) * thinness_};
+      case Family::needle:
+        return {p.x() * thinness_, p.y() * thinness_ * other_thinness_, p.z()};
+      default:
+        return p;
+    }
+  }
+
+  double size_;
+  Data& data_;
+  Family family_;
+  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  double thinness_;
+  double other_thinness_;
+};
+
+}  // namespace carom::fuzz

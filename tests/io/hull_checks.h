@@ -1,0 +1,129 @@
+// What build_hull() states of the hulls that it makes.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "io/build_hull.h"
+#include "oracle/convex_oracle.h"
+
+namespace carom::io {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using Points = std::vector<Vector3f>;
+
+inline double support(std::span<const Vector3f> points, const Vector3d& direction) {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Vector3f& p : points) best = std::max(best, direction.dot(p.cast<double>()));
+  return best;
+}
+
+inline Vector3d extents(const Points& points) {
+  Vector3d lower = points[0].cast<double>(), upper = lower;
+  for (const Vector3f& p : points) {
+    lower = lower.cwiseMin(p.cast<double>());
+    upper = upper.cwiseMax(p.cast<double>());
+  }
+  return upper - lower;
+}
+
+inline Vector3d direction(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  return Vector3d(normal(random), normal(random), normal(random)).normalized();
+}
+
+inline Vector3d face_normal(const HullGeometry& hull, const HullGeometry::Face& face) {
+  const std::span<const uint32_t> corners = hull.corners(face);
+  const auto point = [&](size_t i) { return hull.points()[corners[i]].cast<double>(); };
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 2; i < corners.size(); ++i) {
+    sum += (point(i - 1) - point(0)).cross(point(i) - point(0));
+  }
+  return sum.normalized();
+}
+
+// No corner is lost: in random directions, stretched like the points, and along the way to every
+// point, the hull reaches as far as what it was made from.
+inline void expect_same_support(const Points& points, const BuiltHull& hull,
+                                std::mt19937_64& random, double tolerance = 1e-8) {
+  const Vector3d size = extents(points);
+  const Vector3d inverse = size.unaryExpr([](double s) { return s > 0 ? 1 / s : 0; });
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d d = direction(random).cwiseProduct(inverse);
+    EXPECT_GE(support(hull.geometry->points(), d), support(points, d) - tolerance) << d.transpose();
+  }
+}
+
+// What is kept is a part of what was given, in its order, each once.
+inline void expect_subset(const Points& points, const BuiltHull& hull) {
+  auto next = points.begin();
+  for (const Vector3f& p : hull.geometry->points()) {
+    next = std::find(next, points.end(), p);
+    ASSERT_NE(next, points.end());
+    ++next;
+  }
+  EXPECT_EQ(points.size(), hull.geometry->points().size() + hull.duplicates + hull.inside);
+}
+
+// All points are behind every face, up to `tolerance` extents.
+inline void expect_faces_outside(const Points& points, const BuiltHull& hull, double tolerance) {
+  const double size = extents(points).maxCoeff();
+  for (const HullGeometry::Face& face : hull.geometry->faces()) {
+    const Vector3d normal = face_normal(*hull.geometry, face);
+    const Vector3d corner = hull.geometry->points()[hull.geometry->corners(face)[0]].cast<double>();
+    EXPECT_LE(support(points, normal), normal.dot(corner) + tolerance * size);
+  }
+}
+
+// In the frame in which errors are stated: every axis scaled by a power of two, so that `size` is
+// 1/2 to 1 along it, or 0.
+inline Points scaled_axes(std::span<const Vector3f> points, const Vector3d& size) {
+  Points scaled(points.begin(), points.end());
+  for (int axis = 0; axis < 3; ++axis) {
+    int exponent = 0;
+    std::frexp(size[axis], &exponent);
+    for (Vector3f& p : scaled) p[axis] = std::ldexp(p[axis], -exponent);
+  }
+  return scaled;
+}
+
+// What is left out is inside of what is kept, to `tolerance` extents. Tries all features of the
+// hull: for few corners.
+inline void expect_inside(const Points& points, const BuiltHull& hull, double tolerance = 1e-9) {
+  const auto kept = hull.geometry->points();
+  const Vector3d size = extents(points);
+  const Points all = scaled_axes(points, size);
+  const oracle::ConvexShape<> around(oracle::hull_of(scaled_axes(kept, size)), Pose{});
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (std::find(kept.begin(), kept.end(), points[i]) != kept.end()) continue;
+    const auto point = oracle::vec3_as<long double>(all[i]);
+    EXPECT_LE(oracle::signed_distance(around, point), tolerance) << "point " << i;
+  }
+}
+
+// Every edge is there once in each direction.
+inline void expect_closed(const BuiltHull& hull) {
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  for (const HullGeometry::Face& face : hull.geometry->faces()) {
+    const std::span<const uint32_t> corners = hull.geometry->corners(face);
+    for (size_t i = 0; i < corners.size(); ++i) {
+      ++edges[{corners[i], corners[(i + 1) % corners.size()]}];
+    }
+  }
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1u);
+  }
+}
+
+}  // namespace carom::io
