@@ -51,6 +51,10 @@ STREAM_TARGETS = {
     ("sphere_triangle", "contact"): (109 / 17, 109 / 5),
     ("capsule_triangle", "contact"): (981 / 40, 981 / 12),
     ("box_triangle", "contact"): (1643 / 60, 1643 / 20),
+    ("hull_hull_8", "clearance"): (1937 / 95, 1937 / 60),
+    ("hull_hull_16", "clearance"): (2523 / 125, 2523 / 80),
+    ("hull_hull_32", "clearance"): (3298 / 180, 3298 / 105),
+    ("hull_hull_64", "clearance"): (4946 / 300, 4946 / 160),
     ("hull_hull_8", "distance"): (1937 / 95, 1937 / 60),
     ("hull_hull_16", "distance"): (2523 / 125, 2523 / 80),
     ("hull_hull_32", "distance"): (3298 / 180, 3298 / 105),
@@ -243,7 +247,11 @@ def streams_page(report):
            "orientations random, positions float32. Carom is asked by `collide_rows()` and writes "
            "its results to memory. Bullet runs the algorithm that its dispatcher picks for the two "
            "shapes, made once, with the manifold emptied before every pair; the overlap of boxes "
-           "is that algorithm's detector without a manifold. `aabb` is a box that is not turned.\n")
+           "is that algorithm's detector without a manifold. `aabb` is a box that is not turned. "
+           "`distance`: all pairs are measured, which for those that overlap is their depth; "
+           "`clearance`: those that are apart, and of the others the decision. Bullet is asked "
+           "for depths in both: the targets of both are those that were set for distances "
+           "without depths.\n")
     yield "## Decisions\n"
     yield ("Before anything is timed, all results of Carom are compared with its reference bit by "
            "bit, and Bullet's decisions with Carom's, except for pairs whose separation is below "

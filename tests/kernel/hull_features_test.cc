@@ -31,7 +31,7 @@ TEST(HullFeatures, OfACube) {
   const HullFeatures* const features = features_of(cube_corners(2), kFacesOfCube, hull);
   ASSERT_TRUE(features);
   ASSERT_EQ(features->face_count(), 6u);
-  ASSERT_EQ(features->edge_count(), 12u);
+  ASSERT_EQ(features->edges().size(), 12u);
   EXPECT_NEAR(features->inner_radius(), 2, 1e-4);
   EXPECT_LE(features->inner_radius(), 2);
   for (size_t f = 0; f < 6; ++f) {
@@ -54,9 +54,9 @@ TEST(HullFeatures, EdgesLieBetweenTheirFaces) {
     const Hull hull = oracle::hull_of(round_points(4 + random.below(40), {1, 2, 0.5f}, random));
     const HullFeatures* const features = hull.geometry->features();
     ASSERT_TRUE(features);
-    ASSERT_EQ(hull.geometry->points().size() + features->face_count(), features->edge_count() + 2);
-    for (uint32_t e = 0; e < features->edge_count(); ++e) {
-      const HullFeatures::Edge& edge = features->edge(e);
+    ASSERT_EQ(hull.geometry->points().size() + features->face_count(), features->edges().size() + 2);
+    for (uint32_t e = 0; e < features->edges().size(); ++e) {
+      const HullFeatures::Edge& edge = features->edges()[e];
       const Vector3f& point = hull.geometry->points()[edge.from];
       for (const uint32_t f : {edge.left, edge.right}) {
         EXPECT_NEAR(features->normal(f).dot(point), features->height(f), 1e-5);
