@@ -22,7 +22,7 @@ struct ScratchColumns {
 // fills. `direction`: none, or of every row a direction in which the pair may be apart, as packed
 // by packed_direction.h. At details with contacts it is tried first, and what was found is
 // remembered; separate pairs must not be measured then.
-void run_passes(const PairKind& kind, const Batch& batch, Measured measured,
-                uint32_t* direction, const Accuracy& accuracy);
+void run_passes(const PairKind& kind, const Batch& batch, Measured measured, uint32_t* direction,
+                const Accuracy& accuracy);
 
 }  // namespace carom

@@ -97,8 +97,7 @@ void MeshStream::ask_reference() {
       watch.seconds() * static_cast<double>(bodies_.size()) / static_cast<double>(expected_.size());
 }
 
-Result<void> MeshStream::run(Detail detail, const ResultColumns& out,
-                             Measured measured) const {
+Result<void> MeshStream::run(Detail detail, const ResultColumns& out, Measured measured) const {
   return collide_rows(a_->view(), b_->view(), detail, out, WitnessFrame::world, Parallelism::none,
                       measured);
 }

@@ -178,8 +178,7 @@ double PairStream::hit_percent() const {
   return 100.0 * static_cast<double>(hits) / static_cast<double>(spec_.count);
 }
 
-Result<void> PairStream::run(Detail detail, const ResultColumns& out,
-                             Measured measured) const {
+Result<void> PairStream::run(Detail detail, const ResultColumns& out, Measured measured) const {
   const auto frame = WitnessFrame::world;
   const auto parallelism = Parallelism::none;
   if (spec_.access == Access::rows) {

@@ -54,7 +54,8 @@ TEST(HullFeatures, EdgesLieBetweenTheirFaces) {
     const Hull hull = oracle::hull_of(round_points(4 + random.below(40), {1, 2, 0.5f}, random));
     const HullFeatures* const features = hull.geometry->features();
     ASSERT_TRUE(features);
-    ASSERT_EQ(hull.geometry->points().size() + features->face_count(), features->edges().size() + 2);
+    ASSERT_EQ(hull.geometry->points().size() + features->face_count(),
+              features->edges().size() + 2);
     for (uint32_t e = 0; e < features->edges().size(); ++e) {
       const HullFeatures::Edge& edge = features->edges()[e];
       const Vector3f& point = hull.geometry->points()[edge.from];

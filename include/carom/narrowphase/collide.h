@@ -44,8 +44,7 @@ CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   const ResultColumns& out,
                                   WitnessFrame frame = WitnessFrame::world,
                                   Parallelism parallelism = Parallelism::none,
-                                  Measured measured = Measured::all,
-                                  const Accuracy& accuracy = {});
+                                  Measured measured = Measured::all, const Accuracy& accuracy = {});
 
 // The same for pair i = (a[i], b[i]), i < a.count == b.count: no list of pairs is read.
 CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
