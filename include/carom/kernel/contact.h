@@ -52,8 +52,8 @@ static_assert(sizeof(Contact) == 64);
 
 // The points of one overlap, 64 bytes: up to four, on the surface of A, spread as wide as the area
 // in which A and B overlap along the contact's normal. Point i is separation[i] * normal from B's
-// surface, where B or A has parts along the normal of these, up to 18 degrees from the contact's.
-// None is deeper than the contact. Unused: zero. Without initialisers: arrays are scratch memory.
+// surface; where B or A has parts along the normal of these, up to 18 degrees from the contact's.
+// None is deeper than the contact, up to rounding. Unused: zero. No initialisers: scratch memory.
 struct ManifoldPoints {
   std::array<std::array<float, 3>, 4> point;
   std::array<float, 4> separation;
