@@ -3,7 +3,7 @@
 //
 // The axes are the normals of faces, and the directions across two edges whose arcs on the sphere
 // of normals cross. No axis between the faces at an edge can be better than what one point of the
-// other hull says of both faces: most edges need no other.
+// other solid says of both faces: most edges need no other.
 //
 // Sources: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree", SIGGRAPH 1996 (the axes); D. Gregorius,
 // "The Separating Axis Test between Convex Polyhedra", Game Developers Conference, 2013 (the arcs).
@@ -37,15 +37,15 @@ struct FacingPoints {
   size_t count;
 };
 
-// A part of the other hull: one of its points, or a ball inside of it.
+// A part of the other solid: one of its points, or a ball inside of it.
 struct Ball {
   Vector3f middle;
   float radius;
 };
 
-// Of the faces of one hull: what balls say of the gaps of their axes. An axis between two faces has
-// no more than the greater of what a ball says of both, if its middle is below both; `between` is
-// kLargest of faces that it is above.
+// Of the faces of one solid: what balls say of the gaps of their axes. An axis between two faces
+// has no more than the greater of what a ball says of both, if its middle is below both; `between`
+// is kLargest of faces that it is above.
 struct FaceBounds {
   static constexpr size_t kMost = Solid::kMostFaces;
   static constexpr size_t kMostBalls = 32;

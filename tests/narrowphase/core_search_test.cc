@@ -132,20 +132,45 @@ TEST(WayOut, BeginsWithAnyCorners) {
   }
 }
 
+Core ball(Random& random, size_t count) {
+  std::vector<CoreVector> points;
+  for (size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d p = random.direction();
+    points.push_back({p.x(), p.y(), p.z()});
+  }
+  return core_of(points);
+}
+
 TEST(WayOut, OfManyPoints) {
   Random random(4);
-  const auto ball = [&](size_t count) {
-    std::vector<CoreVector> points;
-    for (size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3d p = random.direction();
-      points.push_back({p.x(), p.y(), p.z()});
-    }
-    return core_of(points);
-  };
-  const Core a = ball(500), b = ball(500);
+  const Core a = ball(random, 500), b = ball(random, 500);
   const CoreGap gap = reference::find_gap(a, b, {});
   EXPECT_LT(gap.size, -1.8);
   EXPECT_GT(gap.size, -2);
+}
+
+// The difference is nearly as near to zero everywhere, and no polytope of a few hundred corners
+// tells where nearest.
+TEST(WayOut, BeyondItsBudgetIsTheBestThatWasFoundAndSaysSo) {
+  Random random(11);
+  const Core a = ball(random, 3000), b = ball(random, 3000);
+  const FurthestPoint furthest = &reference::furthest_point;
+  const NearestWay nearest = nearest_way(a, b, furthest);
+  const WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
+  EXPECT_FALSE(out.has_ended);
+  EXPECT_NEAR(dot(out.normal, out.normal), 1, 1e-12);
+  // A way out all the same: no point of A is further along it.
+  const double projected = dot(out.normal, b.point(furthest(b, -out.normal))) -
+                           dot(out.normal, a.point(furthest(a, out.normal)));
+  EXPECT_NEAR(out.gap, projected, 1e-12);
+  EXPECT_GT(out.gap, -2);
+  EXPECT_LT(out.gap, -1.9);
+  const CoreGap gap = reference::find_gap(a, b, {});
+  EXPECT_FALSE(gap.has_ended);
+  const auto separation =
+      reference::core_separation(a, b, gap, Eigen::Vector3d::Zero(), reference::CoreTest());
+  EXPECT_EQ(separation.status, Status::budget);
+  EXPECT_EQ(separation.separation, out.gap);
 }
 
 TEST(NearestWay, DecidesWhatDepthsDecide) {
