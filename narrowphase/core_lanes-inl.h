@@ -103,7 +103,7 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
-// Points of the hull of each lane: point i, or the last one.
+// Records of the hull of each lane: its points, then the middle.
 class HullRecords {
  public:
   explicit HWY_INLINE HullRecords(const HullLanes& hull) {
@@ -112,53 +112,70 @@ class HullRecords {
       const HullGeometry* const geometry = hull.geometry[lane];
       first_[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
       points_[lane] = geometry ? geometry->points().size() : 1;
-      count_ = std::max(count_, points_[lane]);
+      most_ = std::max(most_, points_[lane]);
+      least_ = std::min(least_, points_[lane]);
     }
   }
 
-  // A record of each hull.
-  template <bool kIsMiddle>
-  struct Record {
+  // use(i, point i of each hull, or its last one), i < count.
+  template <class Use>
+  HWY_INLINE void for_each_point(size_t count, const Use& use) const {
+    size_t i = 0;
+    for (; i < std::min(least_, count); ++i) use(i, read([i](size_t) { return i; }));
+    for (; i < count; ++i) {
+      use(i, read([i, this](size_t lane) { return std::min(i, points_[lane] - 1); }));
+    }
+  }
+  HWY_INLINE F3 middle() const {
+    return read([this](size_t lane) { return points_[lane]; });
+  }
+
+  size_t most() const { return most_; }  // points
+  HWY_INLINE F count_lanes() const {
+    return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
+  }
+
+ private:
+  // Record place(lane) of each lane.
+  template <class Place>
+  struct Source {
     const HullRecords& hulls;
-    size_t i;
+    const Place& place;
 
     HWY_INLINE const float* record(size_t lane) const {
-      const size_t points = hulls.points_[lane];
-      return hulls.first_[lane] + 4 * (kIsMiddle ? points : std::min(i, points - 1));
+      return hulls.first_[lane] + 4 * place(lane);
     }
 #if HWY_TARGET != HWY_SCALAR
     HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
 #endif
     HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
   };
-  HWY_INLINE Record<false> at(size_t i) const { return {*this, i}; }
-  HWY_INLINE Record<true> middle() const { return {*this, 0}; }
 
-  size_t count() const { return count_; }  // the most that any hull has
-  HWY_INLINE F count_lanes() const {
-    return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
+  template <class Place>
+  HWY_INLINE F3 read(const Place& place) const {
+    F3 p;
+    F unused;
+    transpose_records(Source<Place>{*this, place}, p, unused);
+    return p;
   }
 
- private:
   std::array<const float*, kLanes> first_;
   std::array<size_t, kLanes> points_;
-  size_t count_ = 1;
+  size_t most_ = 1;
+  size_t least_ = kMostLanePoints;
 };
 
 HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
                           CoreLanes& core) {
   const HullRecords records(hull);
-  const size_t count = std::min(records.count(), kMostLanePoints);
-  const Rotation turn = rotation_of(q);
+  const size_t count = std::min(records.most(), kMostLanePoints);
+  // Powers of two, so that it does not matter which factor they go with.
+  Rotation turn = rotation_of(q);
+  for (F3* column : {&turn.x, &turn.y, &turn.z}) *column = *column * hull.scaling;
   core.begin(count);
-  F unused;
-  F3 p;
-  for (size_t i = 0; i < count; ++i) {
-    transpose_records(records.at(i), p, unused);
-    core.set(i, rotate(turn, p * hull.scaling) + offset);
-  }
-  transpose_records(records.middle(), p, unused);
-  core.middle = rotate(turn, p * hull.scaling) + offset;
+  records.for_each_point(
+      count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
+  core.middle = rotate(turn, records.middle()) + offset;
   core.count_lanes = records.count_lanes();
   core.has_space = hn::Le(core.count_lanes, splat(static_cast<float>(kMostLanePoints)));
 }

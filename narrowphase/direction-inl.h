@@ -52,13 +52,11 @@ HWY_INLINE F reach_along(const TriangleLanes& triangle, const Quaternion& q, con
 
 HWY_INLINE F reach_along(const HullLanes& hull, const Quaternion& q, const F3& n) {
   const F3 m = rotate_back(q, n);
-  HullRecords records(hull);
-  F reach = splat(-FLT_MAX), unused;
-  F3 p;
-  for (size_t i = 0; i < records.count(); ++i) {
-    transpose_records(records.at(i), p, unused);
+  const HullRecords records(hull);
+  F reach = splat(-FLT_MAX);
+  records.for_each_point(records.most(), [&](size_t, const F3& p) HWY_ATTR {
     reach = max(reach, dot(m, p));
-  }
+  });
   return hn::Mul(reach, hull.scaling);
 }
 

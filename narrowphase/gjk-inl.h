@@ -67,10 +67,20 @@ HWY_INLINE CornerLanes difference_corner(const CoreLanes& a, const CoreLanes& b,
   return {furthest_point(b, -way) - on_a, on_a};
 }
 
-// Up to three corners, in any of the places; which of them there are differs from lane to lane.
+// Whether bit `i` is set: of which corners are meant.
+HWY_INLINE Mask has_bit(I bits, size_t i) {
+  return hn::RebindMask(FloatTag(), hn::TestBit(bits, hn::Set(IntTag(), 1 << i)));
+}
+
+HWY_INLINE I select(Mask mask, I yes, I no) {
+  return hn::IfThenElse(hn::RebindMask(IntTag(), mask), yes, no);
+}
+
+// Up to three corners, in any of the places; which of them there are differs from lane to lane, a
+// bit a place (a mask each costs more than the arithmetic).
 struct SimplexLanes {
   std::array<CornerLanes, 3> corner;
-  std::array<Mask, 3> is_used;
+  I used;
 };
 
 // Of a simplex and one more corner: the point nearest to zero, if the new corner is among those
@@ -78,78 +88,133 @@ struct SimplexLanes {
 struct NearestLanes {
   F3 point;
   F squared;
-  std::array<Mask, 3> is_kept;
+  I kept;               // a bit a place
   Mask is_around;       // zero lies inside of all four
   Mask is_sure_around;  // and deep enough to be sure
 };
 
+// kPlaces: of those of the simplex, how many may be used. The first rounds save most of the work.
+template <size_t kPlaces>
 class NearestSearch {
  public:
-  HWY_INLINE NearestSearch(const SimplexLanes& simplex, const F3& last) {
-    const Mask none = no_lanes();
-    best_ = {last, dot(last, last), {none, none, none}, none, none};
-    const F3 &p = simplex.corner[0].point, &q = simplex.corner[1].point,
-             &r = simplex.corner[2].point;
-    const auto& used = simplex.is_used;
-    const F3 to_p = p - last, to_q = q - last, to_r = r - last;
-    const F3 pq = cross(p, q), pr = cross(p, r), qr = cross(q, r);
-    const F3 p_last = cross(p, last), q_last = cross(q, last), r_last = cross(r, last);
-    try_segment(last, to_p, used[0], 0);
-    try_segment(last, to_q, used[1], 1);
-    try_segment(last, to_r, used[2], 2);
-    try_triangle(last, to_p, to_q, pq, p_last, q_last, hn::And(used[0], used[1]), 0, 1);
-    try_triangle(last, to_p, to_r, pr, p_last, r_last, hn::And(used[0], used[2]), 0, 2);
-    try_triangle(last, to_q, to_r, qr, q_last, r_last, hn::And(used[1], used[2]), 1, 2);
-    const Mask has_four = hn::And(hn::And(used[0], used[1]), used[2]);
-    if (hn::AllFalse(FloatTag(), has_four)) return;
-    try_tetrahedron(p, q, r, last, pq, q_last, r_last, has_four);
+  HWY_INLINE NearestSearch(const SimplexLanes& simplex, const F3& last) : last_(last) {
+    best_ = {last, dot(last, last), hn::Zero(IntTag()), no_lanes(), no_lanes()};
+    Side p = side_to(simplex, 0);
+    if constexpr (kPlaces == 1) {
+      try_side(p, hn::Set(IntTag(), 0b001));
+    } else {
+      Side q = side_to(simplex, 1);
+      const Plane pq = try_triangle(p, q, 0b011);
+      if constexpr (kPlaces == 2) {
+        try_sides(p, q);
+      } else {
+        Side r = side_to(simplex, 2);
+        const F volume = dot(pq.normal, r.way);
+        const F height_pr = try_triangle(p, r, 0b101).height;
+        const F height_qr = try_triangle(q, r, 0b110).height;
+        try_sides(p, q, r);
+        const Mask has_four =
+            hn::RebindMask(FloatTag(), hn::Eq(simplex.used, hn::Set(IntTag(), 0b111)));
+        if (!hn::AllFalse(FloatTag(), has_four)) {
+          try_tetrahedron(simplex, height_qr, hn::Neg(height_pr), pq.height, volume, has_four);
+        }
+      }
+    }
   }
 
   HWY_INLINE const NearestLanes& nearest() const { return best_; }
 
  private:
-  HWY_INLINE void keep(Mask is_inside, const F3& point, size_t one, size_t other) {
-    const F squared = dot(point, point);
-    const Mask is_nearer = hn::And(is_inside, hn::Lt(squared, best_.squared));
+  // From the last corner to another. Without length where there is none: zero is then neither
+  // beside it nor over its triangles.
+  struct Side {
+    F3 way;
+    F along;  // how far zero is along it, times its length
+    F squared;
+    F towards;  // positive if zero is on its triangles' side of it
+
+    HWY_INLINE Mask has_zero_beside() const {
+      return hn::AndNot(hn::Gt(towards, splat(0)),
+                        hn::Gt(min(along, hn::Sub(squared, along)), splat(0)));
+    }
+  };
+
+  // Of a triangle.
+  struct Plane {
+    F3 normal;
+    F height;  // of its corners, from zero
+  };
+
+  HWY_INLINE Side side_to(const SimplexLanes& simplex, size_t i) const {
+    const F3 way = zero_unless(has_bit(simplex.used, i), simplex.corner[i].point - last_);
+    return {way, hn::Neg(dot(last_, way)), dot(way, way), splat(0)};
+  }
+
+  // The triangle of two sides; by Lagrange's identity: no more products than dot products of those.
+  HWY_INLINE Plane try_triangle(Side& p, Side& q, int32_t kept) {
+    const F pq = dot(p.way, q.way);
+    const F of_p = hn::Sub(hn::Mul(q.squared, p.along), hn::Mul(q.along, pq));
+    const F of_q = hn::Sub(hn::Mul(p.squared, q.along), hn::Mul(p.along, pq));
+    p.towards = max(p.towards, of_q);
+    q.towards = max(q.towards, of_p);
+    const F3 normal = cross(p.way, q.way);
+    const F height = dot(normal, last_);
+    const F squared_normal = dot(normal, normal);
+    const F of_last = hn::Sub(squared_normal, hn::Add(of_p, of_q));
+    const F share = hn::Div(height, squared_normal);
+    keep(hn::Gt(min(min(of_p, of_q), of_last), splat(0)), normal * share, hn::Mul(share, height),
+         hn::Set(IntTag(), kept));
+    return {normal, height};
+  }
+
+  // The first of them that zero is beside.
+  template <class... More>
+  HWY_INLINE void try_sides(const Side& p, const Side& q, const More&... r) {
+    Side side = p;
+    I kept = hn::Set(IntTag(), 0b001);
+    const auto put = [&](const Side& other, int32_t bit) HWY_ATTR {
+      const Mask is_beside = other.has_zero_beside();
+      side.way = select(is_beside, other.way, side.way);
+      side.along = hn::IfThenElse(is_beside, other.along, side.along);
+      side.squared = hn::IfThenElse(is_beside, other.squared, side.squared);
+      side.towards = hn::IfThenElse(is_beside, other.towards, side.towards);
+      kept = select(is_beside, hn::Set(IntTag(), bit), kept);
+    };
+    (put(r, 0b100), ...);
+    put(q, 0b010);
+    put(p, 0b001);
+    try_side(side, kept);
+  }
+
+  HWY_INLINE void try_side(const Side& side, I kept) {
+    const F3 point = last_ + side.way * hn::Div(side.along, side.squared);
+    keep(side.has_zero_beside(), point, dot(point, point), kept);
+  }
+
+  HWY_INLINE void keep(Mask is_there, const F3& point, F squared, I kept) {
+    const Mask is_nearer = hn::And(is_there, hn::Lt(squared, best_.squared));
     best_.squared = hn::IfThenElse(is_nearer, squared, best_.squared);
     best_.point = select(is_nearer, point, best_.point);
-    for (size_t i = 0; i < 3; ++i) {
-      best_.is_kept[i] = i == one || i == other ? hn::Or(best_.is_kept[i], is_nearer)
-                                                : hn::AndNot(is_nearer, best_.is_kept[i]);
-    }
+    best_.kept = select(is_nearer, kept, best_.kept);
   }
 
-  HWY_INLINE void try_segment(const F3& last, const F3& side, Mask exists, size_t other) {
-    const F along = hn::Neg(dot(last, side)), length = dot(side, side);
-    const Mask is_inside = hn::And(exists, hn::And(hn::Gt(along, splat(0)), hn::Lt(along, length)));
-    keep(is_inside, last + side * hn::Div(along, length), other, other);
-  }
-
-  // u, v: the sides from the last corner; pq, p_last, q_last: products of the corners themselves.
-  HWY_INLINE void try_triangle(const F3& last, const F3& u, const F3& v, const F3& pq,
-                               const F3& p_last, const F3& q_last, Mask exists, size_t one,
-                               size_t other) {
-    const F zero = splat(0);
-    const F3 n = cross(u, v);
-    const Mask is_over = hn::And(hn::Gt(dot(n, pq), zero), hn::And(hn::Gt(dot(n, q_last), zero),
-                                                                   hn::Lt(dot(n, p_last), zero)));
-    keep(hn::And(exists, is_over), n * hn::Div(dot(n, last), dot(n, n)), one, other);
-  }
-
-  // Zero is inside if its coordinates in the four corners have one sign.
-  HWY_INLINE void try_tetrahedron(const F3& p, const F3& q, const F3& r, const F3& last,
-                                  const F3& pq, const F3& q_last, const F3& r_last, Mask exists) {
-    const F of_p = dot(q, r_last), of_q = hn::Neg(dot(p, r_last)), of_r = dot(p, q_last),
-            of_last = hn::Neg(dot(r, pq));
+  // Zero is inside if its coordinates in the four corners have one sign. `volume`: of the sides.
+  HWY_INLINE void try_tetrahedron(const SimplexLanes& simplex, F of_p, F of_q, F of_r, F volume,
+                                  Mask exists) {
+    const F of_last = hn::Neg(hn::Add(volume, hn::Add(hn::Add(of_p, of_q), of_r)));
     const F least = min(min(of_p, of_q), min(of_r, of_last));
     const F most = max(max(of_p, of_q), max(of_r, of_last));
     const F depth = max(least, hn::Neg(most));
-    const F size = max(max(dot(p, p), dot(q, q)), max(dot(r, r), dot(last, last)));
+    const auto squared = [&](size_t i) HWY_ATTR {
+      return dot(simplex.corner[i].point, simplex.corner[i].point);
+    };
+    const F size = max(max(squared(0), squared(1)), max(squared(2), dot(last_, last_)));
     best_.is_around = hn::And(exists, hn::Gt(depth, splat(0)));
     best_.is_sure_around =
         hn::And(best_.is_around, hn::Gt(depth, hn::Mul(size, splat(kSureVolume))));
   }
 
+  const F3 last_;
   NearestLanes best_;
 };
 
@@ -163,56 +228,66 @@ struct GjkLanes {
   Mask has_ended;     // at the shortest way
 };
 
+// The new corner takes the first place that is free.
+HWY_INLINE void replace_corners(Mask is_open, I kept, const CornerLanes& next,
+                                SimplexLanes& simplex) {
+  const I above = hn::Add(kept, hn::Set(IntTag(), 1));
+  const I taken =
+      hn::IfThenElseZero(hn::RebindMask(IntTag(), is_open), hn::AndNot(kept, above));
+  for (size_t i = 0; i < 3; ++i) {
+    simplex.corner[i] = select(has_bit(taken, i), next, simplex.corner[i]);
+  }
+  simplex.used = select(is_open, hn::Or(kept, taken), simplex.used);
+}
+
+// One more corner. `sure_squared`: of a gap that surely parts; asked for if the search only decides.
+template <bool kDecides, size_t kPlaces>
+HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, F sure_squared, GjkLanes& gjk,
+                          Mask& is_open) {
+  const CornerLanes next = difference_corner(a, b, gjk.way);
+  const F gap = dot(gjk.way, next.point);
+  if constexpr (kDecides) {
+    const Mask is_beyond = hn::And(hn::Gt(gap, splat(0)),
+                                   hn::Gt(hn::Mul(gap, gap), hn::Mul(sure_squared, gjk.squared)));
+    gjk.is_apart = hn::Or(gjk.is_apart, hn::And(is_open, is_beyond));
+    gjk.gap = hn::IfThenElse(is_open, gap, gjk.gap);
+    is_open = hn::AndNot(is_beyond, is_open);
+  }
+  const Mask is_shortest =
+      hn::Le(hn::Sub(gjk.squared, gap), hn::Mul(gjk.squared, splat(kLeastProgress)));
+  const NearestSearch<kPlaces> search(gjk.ends, next.point);
+  const NearestLanes& nearest = search.nearest();
+  const Mask is_nearer = hn::Lt(nearest.squared, gjk.squared);
+  gjk.is_around = hn::Or(gjk.is_around, hn::And(is_open, nearest.is_sure_around));
+  is_open = hn::AndNot(nearest.is_around, is_open);
+  gjk.has_ended = hn::Or(gjk.has_ended, hn::And(is_open, hn::Or(is_shortest, hn::Not(is_nearer))));
+  is_open = hn::AndNot(gjk.has_ended, is_open);
+  gjk.way = select(is_open, nearest.point, gjk.way);
+  gjk.squared = hn::IfThenElse(is_open, nearest.squared, gjk.squared);
+  replace_corners(is_open, nearest.kept, next, gjk.ends);
+  is_open = hn::And(is_open, hn::Gt(gjk.squared, splat(kNearCores * kNearCores)));
+}
+
 // `radius`: of both together. `kDecides`: no more is wanted than who is apart.
 template <bool kDecides>
 HWY_INLINE GjkLanes run_gjk(const CoreLanes& a, const CoreLanes& b, F radius) {
-  const FloatTag tag;
-  const Mask none = no_lanes(), all = hn::Not(none);
+  const Mask none = no_lanes();
   const CornerLanes first = difference_corner(a, b, b.middle - a.middle);
   GjkLanes gjk;
   gjk.way = first.point;
   gjk.squared = dot(gjk.way, gjk.way);
   gjk.ends.corner = {first, first, first};
-  gjk.ends.is_used = {all, none, none};
+  gjk.ends.used = hn::Set(IntTag(), 0b001);
   gjk.is_apart = gjk.is_around = gjk.has_ended = none;
   gjk.gap = splat(0);
   const F sure = hn::Add(radius, splat(kSureGap));
   const F sure_squared = hn::Mul(sure, sure);
-  Mask is_open = all;
-  for (size_t round = 0; round < kMostLaneRounds; ++round) {
-    is_open = hn::And(is_open, hn::Gt(gjk.squared, splat(kNearCores * kNearCores)));
-    if (hn::AllFalse(tag, is_open)) break;
-    const CornerLanes next = difference_corner(a, b, gjk.way);
-    const F gap = dot(gjk.way, next.point);
-    if constexpr (kDecides) {
-      const Mask is_beyond = hn::And(hn::Gt(gap, splat(0)),
-                                     hn::Gt(hn::Mul(gap, gap), hn::Mul(sure_squared, gjk.squared)));
-      gjk.is_apart = hn::Or(gjk.is_apart, hn::And(is_open, is_beyond));
-      gjk.gap = hn::IfThenElse(is_open, gap, gjk.gap);
-      is_open = hn::AndNot(is_beyond, is_open);
-    }
-    const Mask is_shortest =
-        hn::Le(hn::Sub(gjk.squared, gap), hn::Mul(gjk.squared, splat(kLeastProgress)));
-    const NearestSearch search(gjk.ends, next.point);
-    const NearestLanes& nearest = search.nearest();
-    const Mask is_nearer = hn::Lt(nearest.squared, gjk.squared);
-    gjk.is_around = hn::Or(gjk.is_around, hn::And(is_open, nearest.is_sure_around));
-    is_open = hn::AndNot(nearest.is_around, is_open);
-    gjk.has_ended =
-        hn::Or(gjk.has_ended, hn::And(is_open, hn::Or(is_shortest, hn::Not(is_nearer))));
-    is_open = hn::AndNot(gjk.has_ended, is_open);
-    gjk.way = select(is_open, nearest.point, gjk.way);
-    gjk.squared = hn::IfThenElse(is_open, nearest.squared, gjk.squared);
-    // The new corner takes the first place that is free.
-    Mask has_no_place = is_open;
-    for (size_t i = 0; i < 3; ++i) {
-      const Mask is_kept = nearest.is_kept[i];
-      const Mask takes = hn::AndNot(is_kept, has_no_place);
-      gjk.ends.corner[i] = select(takes, next, gjk.ends.corner[i]);
-      gjk.ends.is_used[i] = hn::Or(hn::AndNot(is_open, gjk.ends.is_used[i]),
-                                   hn::Or(takes, hn::And(is_open, is_kept)));
-      has_no_place = hn::And(has_no_place, is_kept);
-    }
+  Mask is_open = hn::Gt(gjk.squared, splat(kNearCores * kNearCores));
+  run_round<kDecides, 1>(a, b, sure_squared, gjk, is_open);
+  run_round<kDecides, 2>(a, b, sure_squared, gjk, is_open);
+  for (size_t round = 2; round < kMostLaneRounds; ++round) {
+    if (hn::AllFalse(FloatTag(), is_open)) break;
+    run_round<kDecides, 3>(a, b, sure_squared, gjk, is_open);
   }
   return gjk;
 }
@@ -226,7 +301,8 @@ struct NearestCores {
 };
 
 HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, const GjkLanes& gjk) {
-  const auto& used = gjk.ends.is_used;
+  const std::array<Mask, 3> used = {has_bit(gjk.ends.used, 0), has_bit(gjk.ends.used, 1),
+                                    has_bit(gjk.ends.used, 2)};
   const auto& corner = gjk.ends.corner;
   const Mask has_three = hn::And(hn::And(used[0], used[1]), used[2]);
   const Mask has_two = hn::AndNot(

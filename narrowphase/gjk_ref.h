@@ -74,10 +74,11 @@ inline FloatCore float_core(const TriangleShape<float>& triangle, const Quaterni
 
 inline FloatCore float_core(const HullShape<float>& hull, const Quaternion<float>& q,
                             const Vector3f& offset) {
-  const Rotation<float> turn = rotation_of(q);
-  const auto scale = static_cast<float>(hull.scale);
+  Rotation<float> turn = rotation_of(q);
+  // A power of two, so that it does not matter which factor it goes with.
+  for (Vector3f* column : {&turn.x, &turn.y, &turn.z}) *column *= static_cast<float>(hull.scale);
   const auto placed = [&](const std::array<float, 4>& p) -> Vector3f {
-    return rotate(turn, Vector3f(Vector3f(p[0], p[1], p[2]) * scale)) + offset;
+    return rotate(turn, Vector3f(p[0], p[1], p[2])) + offset;
   };
   const size_t count = hull.geometry->points().size();
   FloatCore core;
@@ -145,17 +146,39 @@ class NearestOfCorners {
   NearestOfCorners(const Simplex& simplex, const Vector3f& last)
       : last_(last), point(last), squared(dot(last, last)) {
     const auto& used = simplex.is_used;
-    const auto at = [&](size_t i) -> const Vector3f& { return simplex.corner[i].point; };
-    for (size_t i = 0; i < 3; ++i) {
-      if (used[i]) try_segment(at(i), i);
+    std::array<Side, 3> side;
+    for (size_t i = 0; i < 3; ++i) side[i] = side_to(simplex.corner[i].point, used[i]);
+    const Triangle pq = triangle_of(side[0], side[1]), pr = triangle_of(side[0], side[2]),
+                   qr = triangle_of(side[1], side[2]);
+    try_sides(side, {pq.is_towards_second || pr.is_towards_second,
+                     pq.is_towards_first || qr.is_towards_second,
+                     pr.is_towards_first || qr.is_towards_first});
+    try_triangle(pq, 0, 1);
+    try_triangle(pr, 0, 2);
+    try_triangle(qr, 1, 2);
+    if (used[0] && used[1] && used[2]) {
+      try_tetrahedron(simplex, pq, pr, qr, dot(pq.normal, side[2].way));
     }
-    for (const auto& [i, j] : {std::array<size_t, 2>{0, 1}, {0, 2}, {1, 2}}) {
-      if (used[i] && used[j]) try_triangle(at(i), at(j), i, j);
-    }
-    if (used[0] && used[1] && used[2]) try_tetrahedron(at(0), at(1), at(2));
   }
 
  private:
+  // From the last corner to another.
+  struct Side {
+    Vector3f way;
+    float along;  // how far zero is along it, times its length
+    float squared;
+    bool is_used;
+  };
+
+  // Of the last corner and two others.
+  struct Triangle {
+    Vector3f normal;
+    float height;  // of the last corner, from zero
+    float squared_normal;
+    bool is_towards_first, is_towards_second;  // zero is on that corner's side of the other's side
+    bool is_over;                              // zero is over the triangle, or below it
+  };
+
   Vector3f last_;
 
  public:
@@ -166,36 +189,66 @@ class NearestOfCorners {
   bool is_sure_around = false;  // and deep enough to be sure
 
  private:
-  void keep(const Vector3f& p, size_t one, size_t other) {
+  Side side_to(const Vector3f& corner, bool is_used) const {
+    const Vector3f way = corner - last_;
+    return {way, -dot(last_, way), dot(way, way), is_used};
+  }
+
+  // By Lagrange's identity: no more products than dot products of the sides.
+  Triangle triangle_of(const Side& p, const Side& q) const {
+    if (!p.is_used || !q.is_used) return {};
+    const float pq = dot(p.way, q.way);
+    const float of_p = q.squared * p.along - q.along * pq;
+    const float of_q = p.squared * q.along - p.along * pq;
+    Triangle t;
+    t.normal = cross<float>(p.way, q.way);
+    t.height = dot(t.normal, last_);
+    t.squared_normal = dot(t.normal, t.normal);
+    t.is_towards_first = of_p > 0;
+    t.is_towards_second = of_q > 0;
+    t.is_over = t.is_towards_first && t.is_towards_second && t.squared_normal > of_p + of_q;
+    return t;
+  }
+
+  // `is_left_out`: zero is nearer to triangles at the side.
+  void try_sides(const std::array<Side, 3>& sides, const std::array<bool, 3>& is_left_out) {
+    for (size_t i = 0; i < 3; ++i) {
+      const Side& s = sides[i];
+      if (!s.is_used || is_left_out[i] || !(s.along > 0 && s.along < s.squared)) continue;
+      keep(last_ + s.way * (s.along / s.squared), i);
+      return;
+    }
+  }
+
+  void keep(const Vector3f& p, size_t other) {
     const float square = dot(p, p);
     if (!(square < squared)) return;
     squared = square;
     point = p;
+    is_kept[other] = true;
+  }
+
+  void try_triangle(const Triangle& t, size_t one, size_t other) {
+    if (!t.is_over) return;
+    const float share = t.height / t.squared_normal, square = share * t.height;
+    if (!(square < squared)) return;
+    squared = square;
+    point = t.normal * share;
     for (size_t i = 0; i < 3; ++i) is_kept[i] = i == one || i == other;
   }
 
-  void try_segment(const Vector3f& p, size_t other) {
-    const Vector3f side = p - last_;
-    const float along = -dot(last_, side), length = dot(side, side);
-    if (along > 0 && along < length) keep(last_ + side * (along / length), other, other);
-  }
-
-  void try_triangle(const Vector3f& p, const Vector3f& q, size_t one, size_t other) {
-    const Vector3f n = cross<float>(p - last_, q - last_);
-    const bool is_over =
-        dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 && dot(n, cross(p, last_)) < 0;
-    if (is_over) keep(n * (dot(n, last_) / dot(n, n)), one, other);
-  }
-
-  // Zero is inside if its coordinates in the four corners have one sign.
-  void try_tetrahedron(const Vector3f& p, const Vector3f& q, const Vector3f& r) {
-    const Vector3f r_last = cross(r, last_);
-    const float of_p = dot(q, r_last), of_q = -dot(p, r_last), of_r = dot(p, cross(q, last_)),
-                of_last = -dot(r, cross(p, q));
+  // Zero is inside if its coordinates in the four corners have one sign. `volume`: of the sides.
+  void try_tetrahedron(const Simplex& simplex, const Triangle& pq, const Triangle& pr,
+                       const Triangle& qr, float volume) {
+    const float of_p = qr.height, of_q = -pr.height, of_r = pq.height;
+    const float of_last = -(volume + ((of_p + of_q) + of_r));
     const float least = min(min(of_p, of_q), min(of_r, of_last));
     const float most = max(max(of_p, of_q), max(of_r, of_last));
     const float depth = max(least, -most);
-    const float size = max(max(dot(p, p), dot(q, q)), max(dot(r, r), dot(last_, last_)));
+    const auto square = [&](size_t i) {
+      return dot(simplex.corner[i].point, simplex.corner[i].point);
+    };
+    const float size = max(max(square(0), square(1)), max(square(2), dot(last_, last_)));
     is_around = depth > 0;
     is_sure_around = is_around && depth > size * kSureVolume;
   }
