@@ -21,14 +21,16 @@ class CoreLanes {
  public:
   F radius;
   F3 middle;       // any point inside, to begin with
-  F count_lanes;   // how many points each has
   Mask has_space;  // those that have no more than there is room for, and no rules
 
   // The same number of points in every lane.
-  HWY_INLINE void begin(size_t count) {
+  HWY_INLINE void begin(size_t count) { begin(count, count, splat(static_cast<float>(count))); }
+  // `each`: how many of them it has, at least `least`.
+  HWY_INLINE void begin(size_t count, size_t least, F each) {
     count_ = count;
-    count_lanes = splat(static_cast<float>(count));
-    has_space = hn::Not(no_lanes());
+    least_ = least;
+    each_ = each;
+    has_space = hn::Le(each, splat(static_cast<float>(kMostLanePoints)));
     radius = splat(0);
   }
   HWY_INLINE void set(size_t i, const F3& p) {
@@ -39,6 +41,8 @@ class CoreLanes {
   }
 
   size_t count() const { return count_; }
+  size_t least() const { return least_; }  // that are no repetitions in any lane
+  HWY_INLINE Mask has(size_t i) const { return hn::Lt(splat(static_cast<float>(i)), each_); }
   HWY_INLINE F3 point(size_t i) const {
     const FloatTag tag;
     return {hn::Load(tag, points_[i][0]), hn::Load(tag, points_[i][1]),
@@ -46,7 +50,8 @@ class CoreLanes {
   }
 
  private:
-  size_t count_;
+  size_t count_, least_;
+  F each_;
   HWY_ALIGN float points_[kMostLanePoints][3][kLanes];
 };
 
@@ -130,7 +135,9 @@ class HullRecords {
     return read([this](size_t lane) { return points_[lane]; });
   }
 
-  size_t most() const { return most_; }  // points
+  // Points.
+  size_t most() const { return most_; }
+  size_t least() const { return least_; }
   HWY_INLINE F count_lanes() const {
     return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
   }
@@ -172,12 +179,10 @@ HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& 
   // Powers of two, so that it does not matter which factor they go with.
   Rotation turn = rotation_of(q);
   for (F3* column : {&turn.x, &turn.y, &turn.z}) *column = *column * hull.scaling;
-  core.begin(count);
+  core.begin(count, records.least(), records.count_lanes());
   records.for_each_point(
       count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
   core.middle = rotate(turn, records.middle()) + offset;
-  core.count_lanes = records.count_lanes();
-  core.has_space = hn::Le(core.count_lanes, splat(static_cast<float>(kMostLanePoints)));
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -30,27 +30,25 @@ HWY_INLINE F3 furthest_point(const CoreLanes& core, const F3& way) {
   return best;
 }
 
-// Heights along a way: of the furthest point, and how many reach as far up to a slack.
-struct FurthestHeights {
-  F most, second, third;
+// Along a way: how high the furthest point is, and how many are as high as `height` up to a slack.
+struct FacingCount {
+  F most, count;
 
-  HWY_INLINE Mask is_one() const { return hn::Gt(hn::Sub(most, second), splat(kFacingSlack)); }
-  HWY_INLINE Mask is_two() const { return hn::Gt(hn::Sub(most, third), splat(kFacingSlack)); }
+  HWY_INLINE Mask is_one() const { return hn::Lt(count, splat(1.5f)); }
+  HWY_INLINE Mask is_two() const { return hn::Lt(count, splat(2.5f)); }
 };
 
-HWY_INLINE FurthestHeights furthest_heights(const CoreLanes& core, const F3& way) {
-  const F none = splat(-FLT_MAX);
-  FurthestHeights found{dot(way, core.point(0)), none, none};
-  for (size_t i = 1; i < core.count(); ++i) {
-    const Mask exists = hn::Lt(splat(static_cast<float>(i)), core.count_lanes);
-    const F height = hn::IfThenElse(exists, dot(way, core.point(i)), none);
-    const F below_most = min(found.most, height);
-    const F below_second = min(found.second, below_most);
-    found.most = max(found.most, height);
-    found.second = max(found.second, below_most);
-    found.third = max(found.third, below_second);
+HWY_INLINE FacingCount count_facing(const CoreLanes& core, const F3& way, F height) {
+  const F limit = hn::Sub(height, splat(kFacingSlack)), one = splat(1);
+  FacingCount facing{splat(-FLT_MAX), splat(0)};
+  for (size_t i = 0; i < core.count(); ++i) {
+    const F h = dot(way, core.point(i));
+    Mask is_facing = hn::Ge(h, limit);
+    if (i >= core.least()) is_facing = hn::And(is_facing, core.has(i));
+    facing.most = max(facing.most, h);
+    facing.count = hn::Add(facing.count, hn::IfThenElseZero(is_facing, one));
   }
-  return found;
+  return facing;
 }
 
 // A corner of B - A, and the point of A that it belongs to.
@@ -232,15 +230,15 @@ struct GjkLanes {
 HWY_INLINE void replace_corners(Mask is_open, I kept, const CornerLanes& next,
                                 SimplexLanes& simplex) {
   const I above = hn::Add(kept, hn::Set(IntTag(), 1));
-  const I taken =
-      hn::IfThenElseZero(hn::RebindMask(IntTag(), is_open), hn::AndNot(kept, above));
+  const I taken = hn::IfThenElseZero(hn::RebindMask(IntTag(), is_open), hn::AndNot(kept, above));
   for (size_t i = 0; i < 3; ++i) {
     simplex.corner[i] = select(has_bit(taken, i), next, simplex.corner[i]);
   }
   simplex.used = select(is_open, hn::Or(kept, taken), simplex.used);
 }
 
-// One more corner. `sure_squared`: of a gap that surely parts; asked for if the search only decides.
+// One more corner. `sure_squared`: of a gap that surely parts; asked for if the search only
+// decides.
 template <bool kDecides, size_t kPlaces>
 HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, F sure_squared, GjkLanes& gjk,
                           Mask& is_open) {
@@ -334,7 +332,9 @@ HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, co
 
   const F distance = hn::Sqrt(dot(way, way));
   const F3 normal = way * hn::Div(splat(1), distance);
-  const FurthestHeights of_a = furthest_heights(a, normal), of_b = furthest_heights(b, -normal);
+  const F3 on_b = p.point + p.on_a;
+  const FacingCount of_a = count_facing(a, normal, dot(normal, p.on_a)),
+                    of_b = count_facing(b, -normal, hn::Neg(dot(normal, on_b)));
   const F gap = hn::Neg(hn::Add(of_a.most, of_b.most));
   const Mask is_shortest = hn::Le(hn::Abs(hn::Sub(distance, gap)), splat(kSameGapInFloat));
   // One point faces the other core, or two edges cross: there is no other place where they meet.
@@ -342,7 +342,7 @@ HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, co
                                hn::And(has_three, hn::And(of_a.is_two(), of_b.is_two())));
   const Mask is_unique = hn::Or(hn::Or(of_a.is_one(), of_b.is_one()), crosses);
   on_a = select(of_a.is_one(), p.on_a, on_a);
-  on_a = select(of_b.is_one(), (p.point + p.on_a) - normal * distance, on_a);
+  on_a = select(of_b.is_one(), on_b - normal * distance, on_a);
   // Rounding tilts the plane of a needle: its corners are not equally far then.
   const auto is_level = [&](const F3& side) HWY_ATTR {
     return hn::Le(hn::Abs(dot(normal, side)), splat(kSameGapInFloat));

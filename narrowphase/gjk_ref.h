@@ -102,25 +102,21 @@ inline Vector3f furthest_point(const FloatCore& core, const Vector3f& way) {
   return best;
 }
 
-// Heights along a way: of the furthest point, and how many reach as far up to a slack.
-struct FurthestHeights {
-  float most, second = -kLargest, third = -kLargest;
-
-  bool is_one() const { return most - second > kFacingSlack; }
-  bool is_two() const { return most - third > kFacingSlack; }
+// Along a way: how high the furthest point is, and how many are as high as `height` up to a slack.
+struct FacingCount {
+  float most = -kLargest;
+  size_t count = 0;
 };
 
-inline FurthestHeights furthest_heights(const FloatCore& core, const Vector3f& way) {
-  FurthestHeights found{dot(way, core.points[0])};
-  for (size_t i = 1; i < core.points.size(); ++i) {
-    const float height = dot(way, core.points[i]);
-    const float below_most = min(found.most, height);
-    const float below_second = min(found.second, below_most);
-    found.most = max(found.most, height);
-    found.second = max(found.second, below_most);
-    found.third = max(found.third, below_second);
+inline FacingCount count_facing(const FloatCore& core, const Vector3f& way, float height) {
+  const float limit = height - kFacingSlack;
+  FacingCount facing;
+  for (const Vector3f& p : core.points) {
+    const float h = dot(way, p);
+    facing.most = max(facing.most, h);
+    facing.count += h >= limit;
   }
-  return found;
+  return facing;
 }
 
 // A corner of B - A, and the point of A that it belongs to.
@@ -323,14 +319,16 @@ inline NearestCores nearest_cores(const FloatCore& a, const FloatCore& b, const 
   }
   const float distance = std::sqrt(dot(way, way));
   const Vector3f normal = way * (1 / distance);
-  const FurthestHeights of_a = furthest_heights(a, normal), of_b = furthest_heights(b, -normal);
+  const Vector3f on_b = p.point + p.on_a;
+  const FacingCount of_a = count_facing(a, normal, dot(normal, p.on_a)),
+                    of_b = count_facing(b, -normal, -dot(normal, on_b));
   const float gap = -(of_a.most + of_b.most);
   const bool is_shortest = std::fabs(distance - gap) <= kSameGapInFloat;
   // One point faces the other core, or two edges cross: there is no other place where they meet.
-  const bool crosses = is_wide && of_a.is_two() && of_b.is_two();
-  const bool is_unique = of_a.is_one() || of_b.is_one() || crosses;
-  if (of_a.is_one()) on_a = p.on_a;
-  if (of_b.is_one()) on_a = (p.point + p.on_a) - normal * distance;
+  const bool crosses = is_wide && of_a.count <= 2 && of_b.count <= 2;
+  const bool is_unique = of_a.count <= 1 || of_b.count <= 1 || crosses;
+  if (of_a.count <= 1) on_a = p.on_a;
+  if (of_b.count <= 1) on_a = on_b - normal * distance;
   // Rounding tilts the plane of a needle: its corners are not equally far then.
   const auto is_level = [&](const Corner& corner) {
     return std::fabs(dot(normal, corner.point - p.point)) <= kSameGapInFloat;
