@@ -20,6 +20,7 @@ struct Scratch {
   std::array<uint8_t, kPairsPerBlock> manifold_count;
   std::array<ManifoldPoints, kPairsPerBlock> manifold;
   std::array<float, kPairsPerBlock> separation_bound;
+  std::array<uint64_t, kPairsPerBlock> features;
 
   std::span<const uint16_t> simple_rows() const { return std::span(simple).first(simple_count); }
   std::span<const uint16_t> composite_rows() const {
@@ -58,6 +59,7 @@ void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail,
   scatter(from.overlap, to.overlap, rows);
   scatter(from.status, to.status, rows);
   scatter(from.separation_bound, to.separation_bound, rows);
+  scatter(from.features, to.features, rows);
   if (!has_contacts(detail)) return;
   scatter(from.separation, to.separation, rows);
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -76,6 +78,10 @@ void run_simple_pairs(const PairBlock& block, Scratch& scratch) {
   out.manifold_count = scratch.manifold_count.data();
   out.manifold = scratch.manifold.data();
   if (block.out.separation_bound) out.separation_bound = scratch.separation_bound.data();
+  if (block.out.features) out.features = scratch.features.data();
+  for (size_t i = 0; out.features && i < rows.size(); ++i) {
+    out.features[i] = block.out.features[rows[i]];
+  }
   PairBlock simple = {.a = block.a,
                       .b = block.b,
                       .pairs = scratch.pairs.data(),

@@ -160,8 +160,12 @@ struct BatchLoop {
     }
     TailColumns results;
     uint8_t unsure[kLanes] = {};
+    uint64_t features[kLanes] = {};
+    for (size_t i = 0; batch.features && i < count; ++i)
+      features[i] = batch.features[first_row + i];
     Batch tail = batch;
     tail.unsure = batch.unsure ? unsure : nullptr;
+    tail.features = batch.features ? features : nullptr;
     tail.pairs = pairs;
     tail.pairs_are_rows = false;
     tail.count = kLanes;
@@ -169,6 +173,8 @@ struct BatchLoop {
     run(tail);
     results.copy_to(batch.out, first_row, count, kDetail);
     for (size_t i = 0; batch.unsure && i < count; ++i) batch.unsure[first_row + i] = unsure[i];
+    for (size_t i = 0; batch.features && i < count; ++i)
+      batch.features[first_row + i] = features[i];
   }
 
   static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {

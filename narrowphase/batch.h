@@ -31,13 +31,14 @@ struct BatchSide {
 // What a run of a batch does. All pairs are tested; some kinds leave work for rows that need it.
 enum class Pass : uint8_t {
   direction,  // whether pairs are apart along a direction, and need no test
+  recall,     // the contact columns of pairs that are nearest where they were; others are unsure
   test,      // decision, and the contact of overlapping pairs; where there is no distance pass, all
   distance,  // the contact columns of separate pairs
   manifold,  // points of overlapping pairs, whose results are in `tested`
 };
 
 // The passes of a kind beside the test. A direction pass pays where the test tries many axes.
-enum class MorePasses : uint8_t { none, manifold, direction_and_manifold, all };
+enum class MorePasses : uint8_t { none, manifold, direction_and_manifold, all, all_and_recall };
 
 // Lists of pairs, and what else is read by row, may be read up to a multiple of this. (The test
 // pass reads no further than `count`.)
@@ -56,12 +57,13 @@ struct Batch {
   WitnessFrame frame = WitnessFrame::world;
   Pass pass = Pass::test;
   ResultColumns out;
-  // Pass::test alone: one a row, zero before; set where the decision was not beyond the doubt of
-  // float32, whatever was made of it then. nullptr: nobody asks.
+  // Pass::test and Pass::recall: one a row, zero before; set where the decision was not beyond the
+  // doubt of float32, whatever was made of it then. nullptr: nobody asks.
   uint8_t* unsure = nullptr;
   bool single_precision = false;        // FastKnobs
   bool faces_only = false;              // FastKnobs
   const uint32_t* direction = nullptr;  // Pass::direction alone: packed_direction.h
+  uint64_t* features = nullptr;         // read by Pass::recall, written by Pass::distance
   // Pass::manifold alone.
   ResultColumns tested;                    // separation, normal and point_a, relative to A
   const uint16_t* manifold_row = nullptr;  // the row of `out` that row i goes to

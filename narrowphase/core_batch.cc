@@ -122,7 +122,7 @@ template <class A, class B>
 void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
   if (batch.pass == Pass::manifold) return run_scalar_manifolds(batch, kind_a, kind_b);
-  if (batch.pass == Pass::direction) return in_lanes(batch);
+  if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
   const RowTester<A, B> rows(batch, kind_a, kind_b);
   std::array<uint8_t, kPairsPerBlock> left{};
   if (in_lanes) {

@@ -131,6 +131,10 @@ class HullRecords {
       use(i, read([i, this](size_t lane) { return std::min(i, points_[lane] - 1); }));
     }
   }
+  // Point `places[lane]` of each, or its last one.
+  HWY_INLINE F3 points_at(const std::array<uint8_t, kLanes>& places) const {
+    return read([&](size_t lane) { return std::min<size_t>(places[lane], points_[lane] - 1); });
+  }
   HWY_INLINE F3 middle() const {
     return read([this](size_t lane) { return points_[lane]; });
   }
@@ -172,13 +176,18 @@ class HullRecords {
   size_t least_ = kMostLanePoints;
 };
 
+// Turns and scales: by a power of two, so that it does not matter which factor it goes with.
+HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
+  Rotation turn = rotation_of(q);
+  for (F3* column : {&turn.x, &turn.y, &turn.z}) *column = *column * hull.scaling;
+  return turn;
+}
+
 HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
                           CoreLanes& core) {
   const HullRecords records(hull);
   const size_t count = std::min(records.most(), kMostLanePoints);
-  // Powers of two, so that it does not matter which factor they go with.
-  Rotation turn = rotation_of(q);
-  for (F3* column : {&turn.x, &turn.y, &turn.z}) *column = *column * hull.scaling;
+  const Rotation turn = placing_turn(hull, q);
   core.begin(count, records.least(), records.count_lanes());
   records.for_each_point(
       count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });

@@ -12,6 +12,7 @@
 #include "kernel/tolerances.h"
 #include "narrowphase/core_batch.h"
 #include "narrowphase/core_lanes-inl.h"
+#include "narrowphase/features.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -290,6 +291,38 @@ HWY_INLINE GjkLanes run_gjk(const CoreLanes& a, const CoreLanes& b, F radius) {
   return gjk;
 }
 
+// The corners of a simplex that are in use, to the front; behind them anything.
+struct FrontCorners {
+  CornerLanes p, q, r;
+  Mask has_two, has_three;
+
+  explicit HWY_INLINE FrontCorners(const SimplexLanes& simplex) {
+    const std::array<Mask, 3> used = {has_bit(simplex.used, 0), has_bit(simplex.used, 1),
+                                      has_bit(simplex.used, 2)};
+    const auto& corner = simplex.corner;
+    has_three = hn::And(hn::And(used[0], used[1]), used[2]);
+    has_two = hn::AndNot(
+        has_three, hn::Or(hn::And(used[0], used[1]), hn::And(hn::Or(used[0], used[1]), used[2])));
+    p = select(used[0], corner[0], select(used[1], corner[1], corner[2]));
+    q = select(hn::And(used[0], used[1]), corner[1], corner[2]);
+    r = corner[2];
+  }
+};
+
+HWY_INLINE Mask is_same(const F3& p, const F3& q) {
+  return hn::And(hn::Eq(p.x, q.x), hn::And(hn::Eq(p.y, q.y), hn::Eq(p.z, q.z)));
+}
+
+// Which point of the core it is, as `is_it` says.
+template <class IsIt>
+HWY_INLINE F place_of(const CoreLanes& core, const IsIt& is_it) {
+  F place = splat(0);
+  for (size_t i = 0; i < core.count(); ++i) {
+    place = hn::IfThenElse(is_it(core.point(i)), splat(static_cast<float>(i)), place);
+  }
+  return place;
+}
+
 // Where the cores are nearest to each other.
 struct NearestCores {
   F distance;
@@ -298,59 +331,131 @@ struct NearestCores {
   Mask is_sure;
 };
 
-HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b, const GjkLanes& gjk) {
-  const std::array<Mask, 3> used = {has_bit(gjk.ends.used, 0), has_bit(gjk.ends.used, 1),
-                                    has_bit(gjk.ends.used, 2)};
-  const auto& corner = gjk.ends.corner;
-  const Mask has_three = hn::And(hn::And(used[0], used[1]), used[2]);
-  const Mask has_two = hn::AndNot(
-      has_three, hn::Or(hn::And(used[0], used[1]), hn::And(hn::Or(used[0], used[1]), used[2])));
-  // Those in use, to the front.
-  const CornerLanes p = select(used[0], corner[0], select(used[1], corner[1], corner[2]));
-  const CornerLanes q = select(hn::And(used[0], used[1]), corner[1], corner[2]);
-  const CornerLanes& r = corner[2];
-  const F3 u = q.point - p.point, v = r.point - p.point;
+// One to three corners, as far as they differ in the front places, and the way to their difference.
+class SpannedWay {
+ public:
+  // p, and q where there are two, and r where there are three.
+  HWY_INLINE SpannedWay(const CornerLanes& p, const CornerLanes& q, const CornerLanes& r,
+                        Mask has_two, Mask has_three)
+      : p_(p), has_three_(has_three), u_(q.point - p.point), v_(r.point - p.point) {
+    // One corner.
+    way_ = p.point;
+    on_a_ = p.on_a;
+    // Two: across the side between them.
+    const F uu = dot(u_, u_);
+    const F along = hn::Div(hn::Neg(dot(p.point, u_)), uu);
+    const F3 on_side = p.point + u_ * along;
+    way_ = select(has_two, on_side - u_ * hn::Div(dot(on_side, u_), uu), way_);
+    on_a_ = select(has_two, p.on_a + (q.on_a - p.on_a) * along, on_a_);
+    // Three: across their plane.
+    const F3 n = cross(u_, v_);
+    const F nn = dot(n, n);
+    const F3 foot = n * hn::Div(dot(n, p.point), nn), along_plane = foot - p.point;
+    const F of_q = hn::Div(dot(n, cross(along_plane, v_)), nn);
+    const F of_r = hn::Div(dot(n, cross(u_, along_plane)), nn);
+    way_ = select(has_three, foot, way_);
+    on_a_ =
+        select(has_three, (p.on_a + (q.on_a - p.on_a) * of_q) + (r.on_a - p.on_a) * of_r, on_a_);
 
-  // One corner.
-  F3 way = p.point;
-  F3 on_a = p.on_a;
-  // Two: across the side between them.
-  const F uu = dot(u, u);
-  const F along = hn::Div(hn::Neg(dot(p.point, u)), uu);
-  const F3 on_side = p.point + u * along;
-  way = select(has_two, on_side - u * hn::Div(dot(on_side, u), uu), way);
-  on_a = select(has_two, p.on_a + (q.on_a - p.on_a) * along, on_a);
-  // Three: across their plane.
-  const F3 n = cross(u, v);
-  const F nn = dot(n, n);
-  const F height = hn::Div(dot(n, p.point), nn);
-  const F3 foot = n * height, along_plane = foot - p.point;
-  const F of_q = hn::Div(dot(n, cross(along_plane, v)), nn);
-  const F of_r = hn::Div(dot(n, cross(u, along_plane)), nn);
-  way = select(has_three, foot, way);
-  on_a = select(has_three, (p.on_a + (q.on_a - p.on_a) * of_q) + (r.on_a - p.on_a) * of_r, on_a);
+    is_wide_ =
+        hn::And(has_three, hn::Gt(nn, hn::Mul(splat(kSmallCrossing), hn::Mul(uu, dot(v_, v_)))));
+    const F zero = splat(0), one = splat(1);
+    const Mask is_in_side = hn::And(hn::Gt(along, zero), hn::Lt(along, one));
+    const Mask is_in_triangle =
+        hn::And(hn::Gt(min(of_q, of_r), zero), hn::Lt(hn::Add(of_q, of_r), one));
+    ends_inside_ =
+        hn::And(hn::Or(hn::Not(has_two), is_in_side), hn::Or(hn::Not(has_three), is_in_triangle));
+    distance_ = hn::Sqrt(dot(way_, way_));
+    normal_ = way_ * hn::Div(one, distance_);
+  }
 
-  const F distance = hn::Sqrt(dot(way, way));
-  const F3 normal = way * hn::Div(splat(1), distance);
-  const F3 on_b = p.point + p.on_a;
-  const FacingCount of_a = count_facing(a, normal, dot(normal, p.on_a)),
-                    of_b = count_facing(b, -normal, hn::Neg(dot(normal, on_b)));
-  const F gap = hn::Neg(hn::Add(of_a.most, of_b.most));
-  const Mask is_shortest = hn::Le(hn::Abs(hn::Sub(distance, gap)), splat(kSameGapInFloat));
-  // One point faces the other core, or two edges cross: there is no other place where they meet.
-  const Mask crosses = hn::And(hn::Gt(nn, hn::Mul(splat(kSmallCrossing), hn::Mul(uu, dot(v, v)))),
-                               hn::And(has_three, hn::And(of_a.is_two(), of_b.is_two())));
-  const Mask is_unique = hn::Or(hn::Or(of_a.is_one(), of_b.is_one()), crosses);
-  on_a = select(of_a.is_one(), p.on_a, on_a);
-  on_a = select(of_b.is_one(), on_b - normal * distance, on_a);
-  // Rounding tilts the plane of a needle: its corners are not equally far then.
-  const auto is_level = [&](const F3& side) HWY_ATTR {
-    return hn::Le(hn::Abs(dot(normal, side)), splat(kSameGapInFloat));
-  };
-  const Mask is_tilted = hn::AndNot(hn::And(is_level(u), is_level(v)), has_three);
-  const Mask is_sure = hn::And(hn::And(gjk.has_ended, hn::Gt(distance, splat(kNearCores))),
-                               hn::And(is_shortest, hn::AndNot(is_tilted, is_unique)));
-  return {distance, normal, on_a, is_sure};
+  HWY_INLINE F distance() const { return distance_; }
+  HWY_INLINE const F3& normal() const { return normal_; }       // unit, from A to B
+  HWY_INLINE Mask ends_inside() const { return ends_inside_; }  // of the span of the corners
+  // Of a corner's points, along the normal of either.
+  HWY_INLINE F height_of_a() const { return dot(normal_, p_.on_a); }
+  HWY_INLINE F height_of_b() const { return hn::Neg(dot(normal_, on_b())); }
+
+  // Where the cores are nearest to each other, if they are nowhere nearer; of_a along the normal,
+  // of_b against it.
+  HWY_INLINE NearestCores confirmed_by(const FacingCount& of_a, const FacingCount& of_b) const {
+    const F gap = hn::Neg(hn::Add(of_a.most, of_b.most));
+    const Mask is_shortest = hn::Le(hn::Abs(hn::Sub(distance_, gap)), splat(kSameGapInFloat));
+    // One point faces the other core, or two edges cross: there is no other place to meet.
+    const Mask crosses = hn::And(is_wide_, hn::And(of_a.is_two(), of_b.is_two()));
+    const Mask is_unique = hn::Or(hn::Or(of_a.is_one(), of_b.is_one()), crosses);
+    F3 on_a = select(of_a.is_one(), p_.on_a, on_a_);
+    on_a = select(of_b.is_one(), on_b() - normal_ * distance_, on_a);
+    // Rounding tilts the plane of a needle: its corners are not equally far then.
+    const Mask is_tilted = hn::AndNot(hn::And(is_level(u_), is_level(v_)), has_three_);
+    const Mask is_sure = hn::And(hn::Gt(distance_, splat(kNearCores)),
+                                 hn::And(is_shortest, hn::AndNot(is_tilted, is_unique)));
+    return {distance_, normal_, on_a, is_sure};
+  }
+
+ private:
+  HWY_INLINE F3 on_b() const { return p_.point + p_.on_a; }
+  HWY_INLINE Mask is_level(const F3& side) const {
+    return hn::Le(hn::Abs(dot(normal_, side)), splat(kSameGapInFloat));
+  }
+
+  const CornerLanes p_;
+  const Mask has_three_;
+  const F3 u_, v_;
+  F3 way_, on_a_, normal_;
+  F distance_;
+  Mask is_wide_, ends_inside_;
+};
+
+HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b,
+                                      const FrontCorners& ends) {
+  const SpannedWay way(ends.p, ends.q, ends.r, ends.has_two, ends.has_three);
+  return way.confirmed_by(count_facing(a, way.normal(), way.height_of_a()),
+                          count_facing(b, -way.normal(), way.height_of_b()));
+}
+
+// Writes by which corners the cores are nearest, where that is sure.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
+                               Mask is_sure, uint64_t* features) {
+  HWY_ALIGN float count[kLanes];
+  HWY_ALIGN float places[2 * kMostFeatures][kLanes];
+  const F one = splat(1), two = splat(2), three = splat(3);
+  const F corners = hn::IfThenElse(ends.has_three, three, hn::IfThenElse(ends.has_two, two, one));
+  hn::Store(hn::IfThenElseZero(is_sure, corners), FloatTag(), count);
+  const std::array<const CornerLanes*, kMostFeatures> corner = {&ends.p, &ends.q, &ends.r};
+  for (size_t k = 0; k < kMostFeatures; ++k) {
+    const CornerLanes& c = *corner[k];
+    const auto of_a = [&](const F3& p) HWY_ATTR { return is_same(p, c.on_a); };
+    const auto of_b = [&](const F3& p) HWY_ATTR { return is_same(p - c.on_a, c.point); };
+    hn::Store(place_of(a, of_a), FloatTag(), places[2 * k]);
+    hn::Store(place_of(b, of_b), FloatTag(), places[2 * k + 1]);
+  }
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    Features found{static_cast<size_t>(count[lane])};
+    for (size_t k = 0; k < found.count; ++k) {
+      found.of_a[k] = static_cast<uint8_t>(places[2 * k][lane]);
+      found.of_b[k] = static_cast<uint8_t>(places[2 * k + 1][lane]);
+    }
+    features[lane] = pack_features(found);
+  }
+}
+
+// `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
+// elsewhere.
+template <class Report>
+HWY_INLINE void report_nearest(const NearestCores& nearest, F radius, F radius_a, const F3& d,
+                               Report& report) {
+  const F separation = hn::Sub(nearest.distance, radius);
+  const Mask is_sure = hn::And(nearest.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap)));
+  const F3 arm_a = nearest.on_a + nearest.normal * radius_a;
+  const F3 arm_b = (arm_a + nearest.normal * separation) - d;
+  report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, nearest.normal,
+         arm_a, arm_b);
+}
+
+// Scales at which float32 may decide. `up`: metres a unit.
+HWY_INLINE Mask is_usual_scale(F up) {
+  return hn::And(hn::Ge(up, splat(1 / kGreatestScale)), hn::Le(up, splat(kGreatestScale)));
 }
 
 // The test of two kinds of which one is a hull. Marks as unsure whatever is left to other tests,
@@ -369,15 +474,21 @@ struct CoreKernel {
     CoreLanes core_a, core_b;
     make_core(a, pose.a, splat3(0), core_a);
     make_core(b, pose.b, pose.d, core_b);
-    const Mask is_known = hn::And(hn::And(core_a.has_space, core_b.has_space),
-                                  hn::And(hn::Ge(report.up, splat(1 / kGreatestScale)),
-                                          hn::Le(report.up, splat(kGreatestScale))));
+    const Mask is_known =
+        hn::And(hn::And(core_a.has_space, core_b.has_space), is_usual_scale(report.up));
     const F radius = hn::Add(core_a.radius, core_b.radius);
     const GjkLanes gjk = run_gjk<kDecides>(core_a, core_b, radius);
     if constexpr (kDecides) {
       report_decision(gjk, radius, is_known, report);
     } else {
-      report_nearest(nearest_cores(core_a, core_b, gjk), radius, core_a, pose, is_known, report);
+      const FrontCorners ends(gjk.ends);
+      NearestCores nearest = nearest_cores(core_a, core_b, ends);
+      nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
+      report_nearest(nearest, radius, core_a.radius, pose.d, report);
+      if (report.batch.features) {
+        const Mask is_sure = hn::And(nearest.is_sure, report.valid);
+        write_features(core_a, core_b, ends, is_sure, report.batch.features + report.row);
+      }
     }
     if constexpr (Report::kHasContact) mark_deep(hn::And(gjk.is_around, is_known), report);
   }
@@ -397,20 +508,6 @@ struct CoreKernel {
     const F gap = hn::Sub(hn::Div(gjk.gap, length), radius);
     report(overlap, hn::Not(is_sure), no_lanes(), hn::IfThenElse(gjk.is_apart, gap, splat(-1)),
            gjk.way * hn::Div(splat(1), length), splat3(0), splat3(0));
-  }
-
-  // Whose cores overlap is unsure: depths are found elsewhere.
-  template <class Report>
-  static HWY_INLINE void report_nearest(const NearestCores& nearest, F radius,
-                                        const CoreLanes& core_a, const PoseLanes& pose,
-                                        Mask is_known, Report& report) {
-    const F separation = hn::Sub(nearest.distance, radius);
-    const Mask is_sure =
-        hn::And(hn::And(is_known, nearest.is_sure), hn::Gt(hn::Abs(separation), splat(kSureGap)));
-    const F3 arm_a = nearest.on_a + nearest.normal * core_a.radius;
-    const F3 arm_b = (arm_a + nearest.normal * separation) - pose.d;
-    report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, nearest.normal,
-           arm_a, arm_b);
   }
 
   template <class Report>

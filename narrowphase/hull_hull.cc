@@ -8,6 +8,7 @@
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/direction-inl.h"
 #include "narrowphase/gjk-inl.h"
+#include "narrowphase/recall-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -17,6 +18,8 @@ void hull_hull(const Batch& batch) {
   switch (batch.pass) {
     case Pass::direction:
       return run_direction<HullLanes, HullLanes>(batch);
+    case Pass::recall:
+      return run_batch<RecallKernel<HullLanes, HullLanes>>(batch);
     case Pass::distance:
       return run_batch<CoreKernel<HullLanes, HullLanes, true>>(batch);
     default:

@@ -195,6 +195,9 @@ class BlockRunner {
     part.out = scratch();
     uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
     for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
+    for (size_t i = 0; part.out.features && i < count; ++i) {
+      features_[i] = block_.out.features[rows_[i]];
+    }
     if (layout_) {
       run_passes(kPairKinds[kind.index], part, block_.measured, direction, block_.accuracy);
     } else if (BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64()) {
@@ -227,6 +230,7 @@ class BlockRunner {
     columns.manifold_count = manifold_count_.data();
     columns.manifold = manifold_.data();
     if (block_.out.separation_bound) columns.separation_bound = separation_bound_.data();
+    if (block_.out.features) columns.features = features_.data();
     return columns;
   }
 
@@ -237,6 +241,7 @@ class BlockRunner {
     copy(from.overlap, to.overlap, count);
     copy(from.status, to.status, count);
     copy(from.separation_bound, to.separation_bound, count);
+    copy(from.features, to.features, count);
     if (!has_contacts(block_.detail)) return;
     if (kind.flipped) flip(from, count);
     move_points(from, count, [this](size_t i) { return pair(rows_[i]); });
@@ -337,6 +342,7 @@ class BlockRunner {
   std::array<ManifoldPoints, kPairsPerBlock> manifold_;
   std::array<float, kPairsPerBlock> separation_bound_;
   std::array<uint32_t, kPairsPerBlock> directions_;
+  std::array<uint64_t, kPairsPerBlock> features_;
 };
 
 }  // namespace
@@ -351,7 +357,7 @@ ResultColumns from_row(const ResultColumns& columns, size_t row) {
   return {shift(columns.overlap),        shift(columns.status),   shift(columns.separation),
           shift3(columns.normal),        shift3(columns.point_a), shift3(columns.point_b),
           shift(columns.manifold_count), shift(columns.manifold), shift(columns.separation_bound),
-          shift(columns.sub_a),          shift(columns.sub_b)};
+          shift(columns.sub_a),          shift(columns.sub_b),    shift(columns.features)};
 }
 
 }  // namespace carom

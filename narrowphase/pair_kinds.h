@@ -16,9 +16,10 @@ struct PairKind {
   MorePasses more;
 
   bool has_direction_pass() const {
-    return more == MorePasses::direction_and_manifold || more == MorePasses::all;
+    return more == MorePasses::direction_and_manifold || has_distance_pass();
   }
-  bool has_distance_pass() const { return more == MorePasses::all; }
+  bool has_recall_pass() const { return more == MorePasses::all_and_recall; }
+  bool has_distance_pass() const { return more == MorePasses::all || has_recall_pass(); }
   bool has_manifold_pass() const { return more != MorePasses::none; }
 };
 

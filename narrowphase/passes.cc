@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "narrowphase/decide_unsure.h"
+#include "narrowphase/features.h"
 #include "narrowphase/packed_direction.h"
 #include "narrowphase/separation_bound.h"
 
@@ -34,6 +35,7 @@ class RowSelection {
     Batch selected = batch_;
     selected.pass = pass;
     selected.unsure = nullptr;
+    selected.features = nullptr;
     selected.pairs = pairs_.data();
     selected.pairs_are_rows = false;
     selected.count = count_;
@@ -79,29 +81,39 @@ bool is_invalid(const Batch& batch, size_t row) {
   return batch.out.status[row] == static_cast<uint8_t>(Status::invalid);
 }
 
-// `of_invalid_pairs`: the columns of these as well.
-void run_distances(const PairKind& kind, const Batch& batch, bool of_invalid_pairs) {
+using RowFlags = std::array<uint8_t, kPairsPerBlock>;
+
+// The separate pairs among the open ones. `of_invalid_pairs`: the columns of these as well. Writes
+// the features of all open pairs.
+void run_distances(const PairKind& kind, const Batch& batch, const RowFlags& open,
+                   bool of_invalid_pairs) {
+  for (size_t row = 0; batch.features && row < batch.count; ++row) {
+    if (open[row]) batch.features[row] = kNoFeatures;
+  }
   RowSelection separate(batch);
   separate.select([&](size_t row) {
-    return !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
+    return open[row] && !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
   });
   if (separate.count() == 0) return;
   ScratchColumns scratch;
+  std::array<uint64_t, kPairsPerBlock> features;
   Batch distances = separate.batch(Pass::distance);
+  distances.features = batch.features ? features.data() : nullptr;
   distances.out = scratch.columns();
   kind.run(distances);
   separate.scatter(distances.out, batch.out, batch.detail);
+  if (batch.features) separate.scatter(features.data(), batch.features);
 }
 
 // Writes to `open` which rows need a test.
 void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* direction,
-                    std::array<uint8_t, kPairsPerBlock>& open) {
+                    RowFlags& open) {
   open.fill(1);
   RowSelection known(batch);
   known.select([&](size_t row) { return direction[row] != kNoDirection; });
   if (known.count() == 0) return;
   std::array<uint32_t, kPairsPerBlock> known_direction;
-  std::array<uint8_t, kPairsPerBlock> known_open;
+  RowFlags known_open;
   known.gather(direction, known_direction.data());
   Batch directions = known.batch(Pass::direction);
   directions.direction = known_direction.data();
@@ -111,8 +123,7 @@ void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* di
 }
 
 // Of the pairs that were tested; without branches, which would be taken at random.
-void remember_directions(const Batch& batch, const std::array<uint8_t, kPairsPerBlock>& tested,
-                         uint32_t* direction) {
+void remember_directions(const Batch& batch, const RowFlags& tested, uint32_t* direction) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
     const uint32_t found =
@@ -122,26 +133,48 @@ void remember_directions(const Batch& batch, const std::array<uint8_t, kPairsPer
   }
 }
 
-// The test, but for pairs that are still apart in a direction that is known.
-void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
-  std::array<uint8_t, kPairsPerBlock> open;
-  run_directions(kind, batch, direction, open);
+// Writes to `open` which rows need a test, and the results of the others.
+void run_recall(const PairKind& kind, const Batch& batch, RowFlags& open) {
+  open.fill(1);
+  RowSelection known(batch);
+  known.select([&](size_t row) { return batch.features[row] != kNoFeatures; });
+  if (known.count() == 0) return;
+  ScratchColumns scratch;
+  std::array<uint64_t, kPairsPerBlock> features;
+  RowFlags unsure{};
+  known.gather(batch.features, features.data());
+  Batch recall = known.batch(Pass::recall);
+  recall.features = features.data();
+  recall.unsure = unsure.data();
+  recall.out = scratch.columns();
+  kind.run(recall);
+  known.scatter(recall.out, batch.out, batch.detail);
+  known.scatter(unsure.data(), open.data());
+}
+
+// Tests the open rows and leaves the others as they are.
+void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
   RowSelection tested(batch);
   tested.select([&](size_t row) { return open[row] != 0; });
-  if (tested.count() == batch.count) {
-    kind.run(batch);
-  } else {
-    ScratchColumns scratch;
-    std::array<uint8_t, kPairsPerBlock> unsure{};
-    Batch test = tested.batch(Pass::test);
-    test.out = scratch.columns();
-    if (batch.unsure) test.unsure = unsure.data();
-    kind.run(test);
-    if (batch.unsure) tested.scatter(unsure.data(), batch.unsure);
-    std::fill_n(batch.out.overlap, batch.count, uint8_t{0});
-    std::fill_n(batch.out.status, batch.count, static_cast<uint8_t>(Status::ok));
-    tested.scatter(test.out, batch.out, batch.detail);
-  }
+  if (tested.count() == batch.count) return kind.run(batch);
+  if (tested.count() == 0) return;
+  ScratchColumns scratch;
+  RowFlags unsure{};
+  Batch test = tested.batch(Pass::test);
+  test.out = scratch.columns();
+  if (batch.unsure) test.unsure = unsure.data();
+  kind.run(test);
+  if (batch.unsure) tested.scatter(unsure.data(), batch.unsure);
+  tested.scatter(test.out, batch.out, batch.detail);
+}
+
+// The test, but for pairs that are still apart in a direction that is known.
+void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
+  RowFlags open;
+  run_directions(kind, batch, direction, open);
+  std::fill_n(batch.out.overlap, batch.count, uint8_t{0});
+  std::fill_n(batch.out.status, batch.count, static_cast<uint8_t>(Status::ok));
+  test_open(kind, batch, open);
   remember_directions(batch, open, direction);
 }
 
@@ -190,7 +223,7 @@ ResultColumns ScratchColumns::columns() {
 
 void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint32_t* direction,
                 const Accuracy& accuracy) {
-  std::array<uint8_t, kPairsPerBlock> unsure;
+  RowFlags unsure;
   Batch batch = asked;
   // A proof may find apart what rounding made overlap.
   const bool is_proven = has_proofs(accuracy.tier);
@@ -203,16 +236,25 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
     std::fill_n(unsure.begin(), batch.count, uint8_t{0});
     batch.unsure = unsure.data();
   }
+  const bool has_distances =
+      has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping;
+  const bool recalls = has_distances && batch.out.features && kind.has_recall_pass() && !is_proven;
+  if (recalls) batch.features = batch.out.features;
+  RowFlags open;
+  if (has_distances && !recalls) open.fill(1);
+  if (recalls) run_recall(kind, batch, open);
   if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
     run_test(kind, batch, direction);
   } else {
     Batch test = batch;
     if (kind.has_distance_pass() && measured == Measured::separate) test.detail = Detail::overlap;
-    kind.run(test);
+    if (recalls) {
+      test_open(kind, test, open);
+    } else {
+      kind.run(test);
+    }
   }
-  if (has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping) {
-    run_distances(kind, batch, measured == Measured::separate);
-  }
+  if (has_distances) run_distances(kind, batch, open, measured == Measured::separate);
   if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
   if (batch.out.separation_bound) bound_separations(kind, batch);
   if (batch.detail != Detail::manifold) return;

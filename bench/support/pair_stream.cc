@@ -179,12 +179,35 @@ double PairStream::hit_percent() const {
 }
 
 Result<void> PairStream::run(Detail detail, const ResultColumns& out, Measured measured) const {
+  return run(*b_, detail, out, measured);
+}
+
+Result<void> PairStream::run_next_step(Detail detail, const ResultColumns& out,
+                                       Measured measured) const {
+  return run(*b_next_, detail, out, measured);
+}
+
+Result<void> PairStream::run(const DenseBodies& b, Detail detail, const ResultColumns& out,
+                             Measured measured) const {
   const auto frame = WitnessFrame::world;
   const auto parallelism = Parallelism::none;
   if (spec_.access == Access::rows) {
-    return collide_rows(a_->view(), b_->view(), detail, out, frame, parallelism, measured);
+    return collide_rows(a_->view(), b.view(), detail, out, frame, parallelism, measured);
   }
-  return collide(a_->view(), b_->view(), pairs_, detail, out, frame, parallelism, measured);
+  return collide(a_->view(), b.view(), pairs_, detail, out, frame, parallelism, measured);
+}
+
+void PairStream::draw_next_step() {
+  oracle::Random random(2);
+  std::vector<PlacedShape> moved = bodies_b_;
+  for (PlacedShape& body : moved) {
+    const double size = local_bounds(body).diagonal().norm();
+    body.position += kStepLength * size * random.direction();
+    const Eigen::AngleAxisd turn(kStepAngle, random.direction());
+    body.orientation = (Eigen::Quaterniond(turn) * body.orientation.cast<double>()).cast<float>();
+    body = as_stored(body, spec_.storage);
+  }
+  b_next_ = std::make_unique<DenseBodies>(spec_.kind_b, moved, spec_.storage);
 }
 
 void PairStream::run_reference(std::vector<reference::PairResult>& out) const {

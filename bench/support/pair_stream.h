@@ -51,6 +51,10 @@ class ResultArrays {
   ResultColumns columns_;
 };
 
+// Steps of pairs that move: by this share of the size of a body, and by this angle.
+inline constexpr double kStepLength = 0.01;
+inline constexpr double kStepAngle = 0.01;
+
 // Whether a row of results, in world coordinates, is what the reference says of two bodies.
 bool has_bits_of(const reference::PairResult& expected, const PlacedShape& a, const PlacedShape& b,
                  Detail detail, const ResultColumns& out, size_t row);
@@ -72,6 +76,9 @@ class PairStream {
   // One pass.
   Result<void> run(Detail detail, const ResultColumns& out,
                    Measured measured = Measured::all) const;
+  // The same with all second bodies a step further, as draw_next_step() has them.
+  Result<void> run_next_step(Detail detail, const ResultColumns& out, Measured measured) const;
+  void draw_next_step();
   void run_reference(std::vector<reference::PairResult>& out) const;
 
   // The first row of `out` that does not have the bits of the reference, as a message.
@@ -79,12 +86,16 @@ class PairStream {
 
  private:
   void draw();
+  Result<void> run(const DenseBodies& b, Detail detail, const ResultColumns& out,
+                   Measured measured) const;
+
   StreamSpec spec_;
   std::vector<PlacedShape> bodies_a_;
   std::vector<PlacedShape> bodies_b_;
   std::vector<Pair> pairs_;
   std::unique_ptr<DenseBodies> a_;
   std::unique_ptr<DenseBodies> b_;
+  std::unique_ptr<DenseBodies> b_next_;
   std::vector<reference::PairResult> expected_;
   double reference_seconds_ = 0;
 };

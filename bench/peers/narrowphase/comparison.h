@@ -18,10 +18,13 @@ struct PeerStreamSpec {
   Detail detail;
   size_t vertices = 0;  // of hulls
   Measured measured = Measured::overlapping;
+  // The pairs of the last pass once more, a step further (bench/support/pair_stream.h).
+  bool again = false;
 
   // As TARGETS are called: "hull_hull_16".
   std::string name() const;
-  // The detail; "distance" where all pairs are measured, "clearance" where separate ones are.
+  // The detail; "distance" where all pairs are measured, "clearance" where separate ones are, and
+  // "again" where those were measured the step before.
   const char* output() const;
 };
 
