@@ -21,7 +21,8 @@ struct ExactPair {
 
 class ExactSets {
  public:
-  explicit ExactSets(uint64_t seed) : random_(seed), shapes_({}, random_) {}
+  explicit ExactSets(uint64_t seed)
+      : random_(seed), shapes_({}, random_), slender_({.aspect = 1e3}, random_) {}
 
   // In either order. Of sizes that are not only 1, up to a million sizes from the origin.
   ExactPair next(ShapeKind kind_a, ShapeKind kind_b) {
@@ -30,7 +31,10 @@ class ExactSets {
     const double size = kSizes[random_.below(3)];
     TestPair pair;
     pair.a.shape = shape(kind_a, size, true);
-    pair.b.shape = shape(kind_b, size * random_.uniform(0.2, 0.9), false);
+    const bool is_small = random_.chance(0.2);
+    const double size_b =
+        size * (is_small ? random_.log_uniform(0.01, 0.2) : random_.uniform(0.2, 0.9));
+    pair.b.shape = shape(kind_b, size_b, false);
     pair.a.orientation = shapes_.orientation();
     pair.b.orientation = shapes_.orientation();
     pair.a.position = random_.direction() * size * kDistances[random_.below(3)];
@@ -40,7 +44,7 @@ class ExactSets {
 
  private:
   // A quarter anywhere, a quarter moved to overlap or be apart by up to a third of the size, the
-  // rest by much less.
+  // rest by a ten-thousandth of it at most.
   void place(TestPair& pair, double size) {
     const Eigen::Vector3d direction = random_.direction();
     const bool is_anywhere = random_.chance(0.25);
@@ -48,7 +52,7 @@ class ExactSets {
     pair.b.position = pair.a.position + direction * reach;
     if (is_anywhere) return;
     double gap =
-        size * (random_.chance(0.3) ? random_.uniform(0, 0.3) : random_.log_uniform(1e-9, 1e-4));
+        size * (random_.chance(0.3) ? random_.uniform(0, 0.3) : random_.log_uniform(1e-10, 1e-4));
     if (random_.chance(0.5)) gap = -gap;
     ExactSeparations exact = CompositeOracle(pair).separations();
     if (exact.all <= 0) {
@@ -64,7 +68,7 @@ class ExactSets {
   Shape shape(ShapeKind kind, double size, bool is_large) {
     if (kind == ShapeKind::mesh) return mesh(size, is_large ? 9 : 5);
     if (kind == ShapeKind::compound) return compound(size);
-    return shapes_.shape(kind, size);
+    return (random_.chance(0.2) ? slender_ : shapes_).shape(kind, size);
   }
 
   // A terrain or a closed surface, 18 to 176 triangles; two-sided, some thick.
@@ -153,6 +157,7 @@ class ExactSets {
 
   oracle::Random random_;
   oracle::ConvexRandom shapes_;
+  oracle::ConvexRandom slender_;
 };
 
 }  // namespace carom::test
