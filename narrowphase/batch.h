@@ -63,7 +63,7 @@ struct Batch {
   bool single_precision = false;        // FastKnobs
   bool faces_only = false;              // FastKnobs
   const uint32_t* direction = nullptr;  // Pass::direction alone: packed_direction.h
-  uint64_t* features = nullptr;         // read by Pass::recall, written by Pass::distance
+  uint64_t* features = nullptr;         // read by Pass::recall, written by test and distance
   // Pass::manifold alone.
   ResultColumns tested;                    // separation, normal and point_a, relative to A
   const uint16_t* manifold_row = nullptr;  // the row of `out` that row i goes to

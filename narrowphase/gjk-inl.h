@@ -82,6 +82,25 @@ struct SimplexLanes {
   I used;
 };
 
+// Whether zero is inside of four corners: if its coordinates in them have one sign.
+struct ZeroInside {
+  Mask is_inside;
+  Mask is_sure;  // and deep enough to be sure
+
+  // `of`: of zero with all corners but the first, the second, the third; `volume`: of the sides
+  // from the last one.
+  HWY_INLINE ZeroInside(const std::array<F, 3>& of, F volume, const std::array<F3, 4>& corner) {
+    const F of_last = hn::Neg(hn::Add(volume, hn::Add(hn::Add(of[0], of[1]), of[2])));
+    const F least = min(min(of[0], of[1]), min(of[2], of_last));
+    const F most = max(max(of[0], of[1]), max(of[2], of_last));
+    const F depth = max(least, hn::Neg(most));
+    const auto squared = [&](size_t i) HWY_ATTR { return dot(corner[i], corner[i]); };
+    const F size = max(max(squared(0), squared(1)), max(squared(2), squared(3)));
+    is_inside = hn::Gt(depth, splat(0));
+    is_sure = hn::And(is_inside, hn::Gt(depth, hn::Mul(size, splat(kSureVolume))));
+  }
+};
+
 // Of a simplex and one more corner: the point nearest to zero, if the new corner is among those
 // that span it, and which others do.
 struct NearestLanes {
@@ -115,7 +134,11 @@ class NearestSearch {
         const Mask has_four =
             hn::RebindMask(FloatTag(), hn::Eq(simplex.used, hn::Set(IntTag(), 0b111)));
         if (!hn::AllFalse(FloatTag(), has_four)) {
-          try_tetrahedron(simplex, height_qr, hn::Neg(height_pr), pq.height, volume, has_four);
+          const auto& corner = simplex.corner;
+          const ZeroInside zero({height_qr, hn::Neg(height_pr), pq.height}, volume,
+                                {corner[0].point, corner[1].point, corner[2].point, last});
+          best_.is_around = hn::And(has_four, zero.is_inside);
+          best_.is_sure_around = hn::And(has_four, zero.is_sure);
         }
       }
     }
@@ -197,22 +220,6 @@ class NearestSearch {
     best_.kept = select(is_nearer, kept, best_.kept);
   }
 
-  // Zero is inside if its coordinates in the four corners have one sign. `volume`: of the sides.
-  HWY_INLINE void try_tetrahedron(const SimplexLanes& simplex, F of_p, F of_q, F of_r, F volume,
-                                  Mask exists) {
-    const F of_last = hn::Neg(hn::Add(volume, hn::Add(hn::Add(of_p, of_q), of_r)));
-    const F least = min(min(of_p, of_q), min(of_r, of_last));
-    const F most = max(max(of_p, of_q), max(of_r, of_last));
-    const F depth = max(least, hn::Neg(most));
-    const auto squared = [&](size_t i) HWY_ATTR {
-      return dot(simplex.corner[i].point, simplex.corner[i].point);
-    };
-    const F size = max(max(squared(0), squared(1)), max(squared(2), dot(last_, last_)));
-    best_.is_around = hn::And(exists, hn::Gt(depth, splat(0)));
-    best_.is_sure_around =
-        hn::And(best_.is_around, hn::Gt(depth, hn::Mul(size, splat(kSureVolume))));
-  }
-
   const F3 last_;
   NearestLanes best_;
 };
@@ -221,6 +228,7 @@ struct GjkLanes {
   F3 way;             // from A to B
   F squared;          // of its length
   SimplexLanes ends;  // the corners that span it
+  CornerLanes last;   // with three of those: around zero, if that is asked for
   Mask is_apart;      // surely, by more than the radius; found by whoever asks for no more
   F gap;              // there: of the projections on the way, times its length
   Mask is_around;     // zero is surely inside of B - A
@@ -238,16 +246,22 @@ HWY_INLINE void replace_corners(Mask is_open, I kept, const CornerLanes& next,
   simplex.used = select(is_open, hn::Or(kept, taken), simplex.used);
 }
 
-// One more corner. `sure_squared`: of a gap that surely parts; asked for if the search only
-// decides.
+// Of searches that only decide.
+struct Decision {
+  F sure_squared;   // of a gap that surely parts
+  bool keeps_last;  // of the corners around zero
+};
+
+// One more corner.
 template <bool kDecides, size_t kPlaces>
-HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, F sure_squared, GjkLanes& gjk,
-                          Mask& is_open) {
+HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, const Decision& decision,
+                          GjkLanes& gjk, Mask& is_open) {
   const CornerLanes next = difference_corner(a, b, gjk.way);
   const F gap = dot(gjk.way, next.point);
   if constexpr (kDecides) {
-    const Mask is_beyond = hn::And(hn::Gt(gap, splat(0)),
-                                   hn::Gt(hn::Mul(gap, gap), hn::Mul(sure_squared, gjk.squared)));
+    const Mask is_beyond =
+        hn::And(hn::Gt(gap, splat(0)),
+                hn::Gt(hn::Mul(gap, gap), hn::Mul(decision.sure_squared, gjk.squared)));
     gjk.is_apart = hn::Or(gjk.is_apart, hn::And(is_open, is_beyond));
     gjk.gap = hn::IfThenElse(is_open, gap, gjk.gap);
     is_open = hn::AndNot(is_beyond, is_open);
@@ -257,7 +271,11 @@ HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, F sure_squared
   const NearestSearch<kPlaces> search(gjk.ends, next.point);
   const NearestLanes& nearest = search.nearest();
   const Mask is_nearer = hn::Lt(nearest.squared, gjk.squared);
-  gjk.is_around = hn::Or(gjk.is_around, hn::And(is_open, nearest.is_sure_around));
+  const Mask is_sure_around = hn::And(is_open, nearest.is_sure_around);
+  gjk.is_around = hn::Or(gjk.is_around, is_sure_around);
+  if constexpr (kDecides && kPlaces == 3) {
+    if (decision.keeps_last) gjk.last = select(is_sure_around, next, gjk.last);
+  }
   is_open = hn::AndNot(nearest.is_around, is_open);
   gjk.has_ended = hn::Or(gjk.has_ended, hn::And(is_open, hn::Or(is_shortest, hn::Not(is_nearer))));
   is_open = hn::AndNot(gjk.has_ended, is_open);
@@ -267,26 +285,28 @@ HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, F sure_squared
   is_open = hn::And(is_open, hn::Gt(gjk.squared, splat(kNearCores * kNearCores)));
 }
 
-// `radius`: of both together. `kDecides`: no more is wanted than who is apart.
+// `radius`: of both together. `kDecides`: no more is wanted than who is apart, and with
+// `keeps_last` the corners around zero.
 template <bool kDecides>
-HWY_INLINE GjkLanes run_gjk(const CoreLanes& a, const CoreLanes& b, F radius) {
+HWY_INLINE GjkLanes run_gjk(const CoreLanes& a, const CoreLanes& b, F radius, bool keeps_last) {
   const Mask none = no_lanes();
   const CornerLanes first = difference_corner(a, b, b.middle - a.middle);
   GjkLanes gjk;
   gjk.way = first.point;
   gjk.squared = dot(gjk.way, gjk.way);
   gjk.ends.corner = {first, first, first};
+  gjk.last = first;
   gjk.ends.used = hn::Set(IntTag(), 0b001);
   gjk.is_apart = gjk.is_around = gjk.has_ended = none;
   gjk.gap = splat(0);
   const F sure = hn::Add(radius, splat(kSureGap));
-  const F sure_squared = hn::Mul(sure, sure);
+  const Decision decision{hn::Mul(sure, sure), keeps_last};
   Mask is_open = hn::Gt(gjk.squared, splat(kNearCores * kNearCores));
-  run_round<kDecides, 1>(a, b, sure_squared, gjk, is_open);
-  run_round<kDecides, 2>(a, b, sure_squared, gjk, is_open);
+  run_round<kDecides, 1>(a, b, decision, gjk, is_open);
+  run_round<kDecides, 2>(a, b, decision, gjk, is_open);
   for (size_t round = 2; round < kMostLaneRounds; ++round) {
     if (hn::AllFalse(FloatTag(), is_open)) break;
-    run_round<kDecides, 3>(a, b, sure_squared, gjk, is_open);
+    run_round<kDecides, 3>(a, b, decision, gjk, is_open);
   }
   return gjk;
 }
@@ -313,11 +333,11 @@ HWY_INLINE Mask is_same(const F3& p, const F3& q) {
   return hn::And(hn::Eq(p.x, q.x), hn::And(hn::Eq(p.y, q.y), hn::Eq(p.z, q.z)));
 }
 
-// Which point of the core it is, as `is_it` says.
+// Which point of the core it is, as `is_it` says; of several the first.
 template <class IsIt>
 HWY_INLINE F place_of(const CoreLanes& core, const IsIt& is_it) {
   F place = splat(0);
-  for (size_t i = 0; i < core.count(); ++i) {
+  for (size_t i = core.count(); i-- > 0;) {
     place = hn::IfThenElse(is_it(core.point(i)), splat(static_cast<float>(i)), place);
   }
   return place;
@@ -414,30 +434,46 @@ HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b,
                           count_facing(b, -way.normal(), way.height_of_b()));
 }
 
-// Writes by which corners the cores are nearest, where that is sure.
-HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
-                               Mask is_sure, uint64_t* features) {
-  HWY_ALIGN float count[kLanes];
-  HWY_ALIGN float places[2 * kMostFeatures][kLanes];
-  const F one = splat(1), two = splat(2), three = splat(3);
-  const F corners = hn::IfThenElse(ends.has_three, three, hn::IfThenElse(ends.has_two, two, one));
-  hn::Store(hn::IfThenElseZero(is_sure, corners), FloatTag(), count);
-  const std::array<const CornerLanes*, kMostFeatures> corner = {&ends.p, &ends.q, &ends.r};
-  for (size_t k = 0; k < kMostFeatures; ++k) {
-    const CornerLanes& c = *corner[k];
+// Writes `count` of the corners, a lane each, as features.
+template <size_t kCorners>
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
+                               const std::array<const CornerLanes*, kCorners>& corners, F count,
+                               uint64_t* features) {
+  HWY_ALIGN float counts[kLanes];
+  HWY_ALIGN float places[2 * kCorners][kLanes];
+  hn::Store(count, FloatTag(), counts);
+  for (size_t k = 0; k < kCorners; ++k) {
+    const CornerLanes& c = *corners[k];
     const auto of_a = [&](const F3& p) HWY_ATTR { return is_same(p, c.on_a); };
     const auto of_b = [&](const F3& p) HWY_ATTR { return is_same(p - c.on_a, c.point); };
     hn::Store(place_of(a, of_a), FloatTag(), places[2 * k]);
     hn::Store(place_of(b, of_b), FloatTag(), places[2 * k + 1]);
   }
   for (size_t lane = 0; lane < kLanes; ++lane) {
-    Features found{static_cast<size_t>(count[lane])};
+    Features found{static_cast<size_t>(counts[lane])};
     for (size_t k = 0; k < found.count; ++k) {
       found.of_a[k] = static_cast<uint8_t>(places[2 * k][lane]);
       found.of_b[k] = static_cast<uint8_t>(places[2 * k + 1][lane]);
     }
     features[lane] = pack_features(found);
   }
+}
+
+// Those that are nearest, where that is sure.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
+                               Mask is_sure, uint64_t* features) {
+  const F count =
+      hn::IfThenElse(ends.has_three, splat(3), hn::IfThenElse(ends.has_two, splat(2), splat(1)));
+  write_features<3>(a, b, {&ends.p, &ends.q, &ends.r}, hn::IfThenElseZero(is_sure, count),
+                    features);
+}
+
+// Those around zero, where that is sure.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const GjkLanes& gjk,
+                               Mask is_sure, uint64_t* features) {
+  const auto& corner = gjk.ends.corner;
+  write_features<4>(a, b, {&corner[0], &corner[1], &corner[2], &gjk.last},
+                    hn::IfThenElseZero(is_sure, splat(4)), features);
 }
 
 // `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
@@ -477,17 +513,21 @@ struct CoreKernel {
     const Mask is_known =
         hn::And(hn::And(core_a.has_space, core_b.has_space), is_usual_scale(report.up));
     const F radius = hn::Add(core_a.radius, core_b.radius);
-    const GjkLanes gjk = run_gjk<kDecides>(core_a, core_b, radius);
+    uint64_t* const features = report.batch.features ? report.batch.features + report.row : nullptr;
+    const GjkLanes gjk = run_gjk<kDecides>(core_a, core_b, radius, features != nullptr);
     if constexpr (kDecides) {
       report_decision(gjk, radius, is_known, report);
+      if (features) {
+        const Mask is_sure = hn::And(gjk.is_around, hn::And(is_known, report.valid));
+        write_features(core_a, core_b, gjk, is_sure, features);
+      }
     } else {
       const FrontCorners ends(gjk.ends);
       NearestCores nearest = nearest_cores(core_a, core_b, ends);
       nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
       report_nearest(nearest, radius, core_a.radius, pose.d, report);
-      if (report.batch.features) {
-        const Mask is_sure = hn::And(nearest.is_sure, report.valid);
-        write_features(core_a, core_b, ends, is_sure, report.batch.features + report.row);
+      if (features) {
+        write_features(core_a, core_b, ends, hn::And(nearest.is_sure, report.valid), features);
       }
     }
     if constexpr (Report::kHasContact) mark_deep(hn::And(gjk.is_around, is_known), report);

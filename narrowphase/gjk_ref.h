@@ -72,11 +72,16 @@ inline FloatCore float_core(const TriangleShape<float>& triangle, const Quaterni
   return core;
 }
 
+// Turns and scales: by a power of two, so that it does not matter which factor it goes with.
+inline Rotation<float> placing_turn(const HullShape<float>& hull, const Quaternion<float>& q) {
+  Rotation<float> turn = rotation_of(q);
+  for (Vector3f* column : {&turn.x, &turn.y, &turn.z}) *column *= static_cast<float>(hull.scale);
+  return turn;
+}
+
 inline FloatCore float_core(const HullShape<float>& hull, const Quaternion<float>& q,
                             const Vector3f& offset) {
-  Rotation<float> turn = rotation_of(q);
-  // A power of two, so that it does not matter which factor it goes with.
-  for (Vector3f* column : {&turn.x, &turn.y, &turn.z}) *column *= static_cast<float>(hull.scale);
+  const Rotation<float> turn = placing_turn(hull, q);
   const auto placed = [&](const std::array<float, 4>& p) -> Vector3f {
     return rotate(turn, Vector3f(p[0], p[1], p[2])) + offset;
   };
@@ -135,6 +140,25 @@ struct Simplex {
   std::array<bool, 3> is_used{};
 };
 
+// Whether zero is inside of four corners: if its coordinates in them have one sign.
+struct ZeroInside {
+  bool is_inside;
+  bool is_sure;  // and deep enough to be sure
+
+  // `of`: of zero with all corners but the first, the second, the third; `volume`: of the sides
+  // from the last one.
+  ZeroInside(const std::array<float, 3>& of, float volume, const std::array<Vector3f, 4>& corner) {
+    const float of_last = -(volume + ((of[0] + of[1]) + of[2]));
+    const float least = min(min(of[0], of[1]), min(of[2], of_last));
+    const float most = max(max(of[0], of[1]), max(of[2], of_last));
+    const float depth = max(least, -most);
+    const auto squared = [&](size_t i) { return dot(corner[i], corner[i]); };
+    const float size = max(max(squared(0), squared(1)), max(squared(2), squared(3)));
+    is_inside = depth > 0;
+    is_sure = is_inside && depth > size * kSureVolume;
+  }
+};
+
 // Of a simplex and one more corner: the point nearest to zero, if the new corner is among those
 // that span it, and which others do.
 class NearestOfCorners {
@@ -153,7 +177,11 @@ class NearestOfCorners {
     try_triangle(pr, 0, 2);
     try_triangle(qr, 1, 2);
     if (used[0] && used[1] && used[2]) {
-      try_tetrahedron(simplex, pq, pr, qr, dot(pq.normal, side[2].way));
+      const auto& corner = simplex.corner;
+      const ZeroInside zero({qr.height, -pr.height, pq.height}, dot(pq.normal, side[2].way),
+                            {corner[0].point, corner[1].point, corner[2].point, last});
+      is_around = zero.is_inside;
+      is_sure_around = zero.is_sure;
     }
   }
 
@@ -231,22 +259,6 @@ class NearestOfCorners {
     squared = square;
     point = t.normal * share;
     for (size_t i = 0; i < 3; ++i) is_kept[i] = i == one || i == other;
-  }
-
-  // Zero is inside if its coordinates in the four corners have one sign. `volume`: of the sides.
-  void try_tetrahedron(const Simplex& simplex, const Triangle& pq, const Triangle& pr,
-                       const Triangle& qr, float volume) {
-    const float of_p = qr.height, of_q = -pr.height, of_r = pq.height;
-    const float of_last = -(volume + ((of_p + of_q) + of_r));
-    const float least = min(min(of_p, of_q), min(of_r, of_last));
-    const float most = max(max(of_p, of_q), max(of_r, of_last));
-    const float depth = max(least, -most);
-    const auto square = [&](size_t i) {
-      return dot(simplex.corner[i].point, simplex.corner[i].point);
-    };
-    const float size = max(max(square(0), square(1)), max(square(2), dot(last_, last_)));
-    is_around = depth > 0;
-    is_sure_around = is_around && depth > size * kSureVolume;
   }
 };
 
@@ -378,6 +390,9 @@ inline Separation separation_of(const NearestCores& nearest, float radius_a, flo
   return result;
 }
 
+// Scales at which float32 may decide. `up`: metres a unit.
+inline bool is_usual_scale(double up) { return up >= 1 / kGreatestScale && up <= kGreatestScale; }
+
 struct FloatTest {
   Separation separation;
   bool is_deep = false;  // surely: the cores themselves overlap
@@ -387,9 +402,7 @@ struct FloatTest {
 inline FloatTest nearest_separation(const FloatCore& a, const FloatCore& b, const Vector3f& d,
                                     float up) {
   FloatTest test{not_in_float<float>()};
-  if (!a.has_space || !b.has_space || !(up >= 1 / kGreatestScale && up <= kGreatestScale)) {
-    return test;
-  }
+  if (!a.has_space || !b.has_space || !is_usual_scale(up)) return test;
   const Gjk gjk = run_gjk(a, b);
   test.is_deep = gjk.is_around;
   NearestCores nearest = nearest_cores(a, b, gjk);

@@ -83,13 +83,9 @@ bool is_invalid(const Batch& batch, size_t row) {
 
 using RowFlags = std::array<uint8_t, kPairsPerBlock>;
 
-// The separate pairs among the open ones. `of_invalid_pairs`: the columns of these as well. Writes
-// the features of all open pairs.
+// The separate pairs among the open ones. `of_invalid_pairs`: the columns of these as well.
 void run_distances(const PairKind& kind, const Batch& batch, const RowFlags& open,
                    bool of_invalid_pairs) {
-  for (size_t row = 0; batch.features && row < batch.count; ++row) {
-    if (open[row]) batch.features[row] = kNoFeatures;
-  }
   RowSelection separate(batch);
   separate.select([&](size_t row) {
     return open[row] && !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
@@ -133,11 +129,15 @@ void remember_directions(const Batch& batch, const RowFlags& tested, uint32_t* d
   }
 }
 
-// Writes to `open` which rows need a test, and the results of the others.
-void run_recall(const PairKind& kind, const Batch& batch, RowFlags& open) {
+// Writes to `open` which rows need a test, and the results of the others. `finds_depths`: of
+// overlapping pairs there is more to find than that they are.
+void run_recall(const PairKind& kind, const Batch& batch, bool finds_depths, RowFlags& open) {
   open.fill(1);
+  const size_t most = finds_depths ? kMostFeatures - 1 : kMostFeatures;
   RowSelection known(batch);
-  known.select([&](size_t row) { return batch.features[row] != kNoFeatures; });
+  known.select([&](size_t row) {
+    return batch.features[row] != kNoFeatures && feature_count(batch.features[row]) <= most;
+  });
   if (known.count() == 0) return;
   ScratchColumns scratch;
   std::array<uint64_t, kPairsPerBlock> features;
@@ -160,10 +160,13 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
   if (tested.count() == 0) return;
   ScratchColumns scratch;
   RowFlags unsure{};
+  std::array<uint64_t, kPairsPerBlock> features;
   Batch test = tested.batch(Pass::test);
   test.out = scratch.columns();
   if (batch.unsure) test.unsure = unsure.data();
+  if (batch.features) test.features = features.data();
   kind.run(test);
+  if (batch.features) tested.scatter(features.data(), batch.features);
   if (batch.unsure) tested.scatter(unsure.data(), batch.unsure);
   tested.scatter(test.out, batch.out, batch.detail);
 }
@@ -242,7 +245,7 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
   if (recalls) batch.features = batch.out.features;
   RowFlags open;
   if (has_distances && !recalls) open.fill(1);
-  if (recalls) run_recall(kind, batch, open);
+  if (recalls) run_recall(kind, batch, measured == Measured::all, open);
   if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
     run_test(kind, batch, direction);
   } else {

@@ -1,5 +1,5 @@
-// Pairs of hulls that are nearest by the same corners as the last time: nothing is searched for
-// (recall_ref.h says what is sure).
+// Pairs of hulls that are nearest, or overlap, by the same corners as the last time: nothing is
+// searched for (recall_ref.h says what is sure).
 #if defined(CAROM_NARROWPHASE_RECALL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_RECALL_INL_H_
 #undef CAROM_NARROWPHASE_RECALL_INL_H_
@@ -73,7 +73,16 @@ class FeatureLanes {
   std::array<std::array<uint8_t, kLanes>, kMostFeatures> of_a_, of_b_;
 };
 
-// Marks as unsure whatever is nearest elsewhere, or not surely there.
+HWY_INLINE ZeroInside zero_inside(const std::array<F3, 4>& corner) {
+  const F3& last = corner[3];
+  const F3 p = corner[0] - last, q = corner[1] - last, r = corner[2] - last;
+  const F3 pq = cross(p, q);
+  return ZeroInside({dot(cross(q, r), last), hn::Neg(dot(cross(p, r), last)), dot(pq, last)},
+                    dot(pq, r), corner);
+}
+
+// Marks as unsure whatever is nearest elsewhere, or not surely there. Of pairs that overlap there
+// is the decision alone.
 template <class ShapeA, class ShapeB>
 struct RecallKernel {
   using A = ShapeA;
@@ -86,15 +95,21 @@ struct RecallKernel {
     const StoredHull hull_a(a, pose.a, splat3(0)), hull_b(b, pose.b, pose.d);
     const FeatureLanes features(report.batch.features + report.row);
     const F count = features.count();
-    const SpannedWay way(features.corner(0, hull_a, hull_b), features.corner(1, hull_a, hull_b),
-                         features.corner(2, hull_a, hull_b), hn::Eq(count, splat(2)),
-                         hn::Eq(count, splat(3)));
+    const CornerLanes p = features.corner(0, hull_a, hull_b),
+                      q = features.corner(1, hull_a, hull_b),
+                      r = features.corner(2, hull_a, hull_b),
+                      last = features.corner(3, hull_a, hull_b);
+    const Mask is_known = hn::And(is_usual_scale(report.up), report.valid);
+    const Mask is_around = hn::And(hn::And(is_known, hn::Eq(count, splat(4))),
+                                   zero_inside({p.point, q.point, r.point, last.point}).is_sure);
+    const SpannedWay way(p, q, r, hn::Eq(count, splat(2)), hn::Eq(count, splat(3)));
     NearestCores nearest = way.confirmed_by(hull_a.count_facing(way.normal(), way.height_of_a()),
                                             hull_b.count_facing(-way.normal(), way.height_of_b()));
-    const Mask is_known =
-        hn::And(hn::And(hn::Gt(count, splat(0)), hn::Le(count, splat(kMostFeatures))),
-                hn::And(is_usual_scale(report.up), report.valid));
-    nearest.is_sure = hn::And(nearest.is_sure, hn::And(way.ends_inside(), is_known));
+    const Mask is_span = hn::And(hn::Gt(count, splat(0)), hn::Lt(count, splat(4)));
+    nearest.is_sure =
+        hn::And(nearest.is_sure, hn::And(way.ends_inside(), hn::And(is_known, is_span)));
+    nearest.distance = hn::IfThenElse(is_around, splat(-1), nearest.distance);
+    nearest.is_sure = hn::Or(nearest.is_sure, is_around);
     report_nearest(nearest, splat(0), splat(0), pose.d, report);
   }
 };
