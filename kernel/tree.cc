@@ -265,6 +265,15 @@ TreeBox rounded_outwards(const Double3& middle, const Double3& half) {
   return box;
 }
 
+RoundedBox rounded_outwards(const Double3& middle, const Double3& half, double radius) {
+  constexpr double kLeast = 0x1p-60, kMost = 0x1p60;
+  if (radius >= kLeast && radius <= kMost) {
+    // More than distances to it and their squares round.
+    return {rounded_outwards(middle, half), static_cast<float>(radius * radius * (1 + 0x1p-18))};
+  }
+  return {rounded_outwards(middle, {half[0] + radius, half[1] + radius, half[2] + radius})};
+}
+
 FrameChange FrameChange::inverse() const {
   FrameChange result;
   for (size_t i = 0; i < 3; ++i) result.turn[i] = {turn[0][i], turn[1][i], turn[2][i]};

@@ -17,6 +17,12 @@ struct TreeBox {
   std::array<float, 3> lower, upper;
 };
 
+// All that is within a radius of a box: a ball, if the box is a point.
+struct RoundedBox {
+  TreeBox box;
+  float squared_radius = 0;
+};
+
 // From the frame of one tree to that of another: x -> turn x + offset.
 struct FrameChange {
   std::array<Double3, 3> turn;  // rows of a rotation
@@ -30,6 +36,10 @@ struct FrameChange {
 
 // The box of that middle and half size, rounded outwards as above.
 TreeBox rounded_outwards(const Double3& middle, const Double3& half);
+
+// The same within a radius, rounded up; where its square would leave the range of float32 a box
+// that has been grown by it.
+RoundedBox rounded_outwards(const Double3& middle, const Double3& half, double radius);
 
 class BoxTree {
  public:
@@ -56,7 +66,7 @@ class BoxTree {
   size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
 
   // The set found is the same on every ISA, its order as well.
-  void find_touching(const TreeBox& box, FunctionRef<void(uint32_t item)> found) const;
+  void find_touching(const RoundedBox& box, FunctionRef<void(uint32_t item)> found) const;
 
   // Items of which a corner has normal . x <= limit.
   void find_below(const Double3& normal, double limit,

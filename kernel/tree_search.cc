@@ -38,6 +38,28 @@ HWY_INLINE uint32_t touching(const BoxTree::Node& node, const TreeBox& box) {
   return bits;
 }
 
+// Bit i: child i is within the radius of the box.
+HWY_INLINE uint32_t touching(const BoxTree::Node& node, const RoundedBox& rounded) {
+  const ChildTag tag;
+  const auto& [box, squared_radius] = rounded;
+  uint32_t bits = 0;
+  for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
+    auto squared = hn::Zero(tag);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto above =
+          hn::Sub(hn::Load(tag, node.lower[axis] + i), hn::Set(tag, box.upper[axis]));
+      const auto below =
+          hn::Sub(hn::Set(tag, box.lower[axis]), hn::Load(tag, node.upper[axis] + i));
+      const auto gap = hn::Max(hn::Max(above, below), hn::Zero(tag));
+      squared = hn::Add(squared, hn::Mul(gap, gap));
+    }
+    uint8_t mask[8] = {};
+    hn::StoreMaskBits(tag, hn::Le(squared, hn::Set(tag, squared_radius)), mask);
+    bits |= (mask[0] & ((1u << kChildLanes) - 1)) << i;
+  }
+  return bits;
+}
+
 template <class Use>
 HWY_INLINE void for_each_bit(uint32_t bits, const Use& use) {
   for (; bits != 0; bits &= bits - 1) use(static_cast<size_t>(std::countr_zero(bits)));
@@ -49,8 +71,8 @@ constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
 // 7/8 at most. That makes 31 levels, with seven children waiting in each.
 inline constexpr size_t kMostWaiting = 8 * 32;
 
-void touching_items(const BoxTree& tree, const TreeBox& box, FunctionRef<void(uint32_t)> found) {
-  if (tree.is_empty()) return;
+template <class Box>
+HWY_INLINE void find_items(const BoxTree& tree, const Box& box, FunctionRef<void(uint32_t)> found) {
   const BoxTree::Node* const nodes = tree.nodes().data();
   uint32_t waiting[kMostWaiting];
   size_t count = 0;
@@ -65,6 +87,15 @@ void touching_items(const BoxTree& tree, const TreeBox& box, FunctionRef<void(ui
         waiting[count++] = child;
       }
     });
+  }
+}
+
+void touching_items(const BoxTree& tree, const RoundedBox& box, FunctionRef<void(uint32_t)> found) {
+  if (tree.is_empty()) return;
+  if (box.squared_radius == 0) {  // squares of distances might vanish
+    find_items(tree, box.box, found);
+  } else {
+    find_items(tree, box, found);
   }
 }
 
@@ -192,7 +223,7 @@ namespace carom {
 HWY_EXPORT(touching_items);
 HWY_EXPORT(touching_pairs);
 
-void BoxTree::find_touching(const TreeBox& box, FunctionRef<void(uint32_t)> found) const {
+void BoxTree::find_touching(const RoundedBox& box, FunctionRef<void(uint32_t)> found) const {
   CAROM_DISPATCH(touching_items)(*this, box, found);
 }
 

@@ -78,6 +78,11 @@ Part PartColumns::part(size_t body) const {
   return part;
 }
 
+Double3 PartColumns::middle(size_t body) const {
+  const bool is_at_middle = kind_[body] == ShapeKind::sphere || kind_[body] == ShapeKind::box;
+  return is_at_middle ? frames_[frame_[body]].position : middle_of(part(body));
+}
+
 PlacedTriangle PartColumns::triangle(size_t body) const {
   const Frame& frame = frames_[frame_[body]];
   return {*frame.mesh, triangle_[body], frame.position, frame.turn};
@@ -136,7 +141,7 @@ std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) const {
     if (!own.is_of_mesh(body[side]) || other.kind(facing) == ShapeKind::halfspace) continue;
     edges[side] =
         own.triangle(body[side]).edges_to_close(side == 0 ? normal : minus({}, normal), [&] {
-          return middle_of(other.part(facing));
+          return other.middle(facing);
         });
   }
   return edges;

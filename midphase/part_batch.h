@@ -19,7 +19,7 @@ class PartColumns {
 
   Collidables view() const;
   ShapeKind kind(size_t body) const { return kind_[body]; }
-  Part part(size_t body) const;
+  Double3 middle(size_t body) const;
   const Double3& arm(size_t body) const { return frames_[frame_[body]].arm; }
   uint64_t order(size_t body) const { return order_[body]; }
 
@@ -32,6 +32,8 @@ class PartColumns {
   }
 
  private:
+  Part part(size_t body) const;
+
   // What the triangles of a mesh have in common.
   struct Frame {
     Double3 position, arm;

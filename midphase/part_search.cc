@@ -42,15 +42,20 @@ class SeenPart {
     } else if (part.kind() == ShapeKind::capsule) {
       const std::array<Row, kMostRows>& rows = part.part->rows;
       see_points(std::array{vector_of(rows[0]), vector_of(rows[1])}, rows[0][3]);
+    } else if (part.kind() == ShapeKind::sphere) {
+      see_points(std::array<Double3, 1>{}, part.part->radius);
     } else {
       see_box(box_of(*part.part));
     }
   }
 
-  // Grown by `reach`.
-  TreeBox box(double reach) const {
-    const double slack = with_slack(reach, size_ + greatest(box_.middle) + greatest(box_.half));
-    return rounded_outwards(box_.middle, plus(box_.half, {slack, slack, slack}));
+  TreeBox box() const {
+    return rounded_outwards(box_.middle, plus(box_.half, {radius_, radius_, radius_}));
+  }
+  // And what is within `reach` of it.
+  RoundedBox surroundings(double reach) const {
+    const double lengths = size_ + greatest(box_.middle) + greatest(box_.half) + radius_;
+    return rounded_outwards(box_.middle, box_.half, with_slack(radius_ + reach, lengths));
   }
 
  private:
@@ -83,8 +88,9 @@ class SeenPart {
     }
     for (size_t axis = 0; axis < 3; ++axis) {
       box_.middle[axis] = (lower[axis] + upper[axis]) / 2;
-      box_.half[axis] = (upper[axis] - lower[axis]) / 2 + radius;
+      box_.half[axis] = (upper[axis] - lower[axis]) / 2;
     }
+    radius_ = radius;
   }
 
   void see_box(const PartBox& box) {
@@ -98,6 +104,7 @@ class SeenPart {
   const FrameChange change_;
   const double size_;
   PartBox box_;
+  double radius_ = 0;  // around it
 };
 
 // A half-space as seen from a tree: all x with normal . x <= limit.
@@ -177,7 +184,7 @@ class PartSearch {
       const SeenPlane plane(tree, other);
       tree.tree().find_below(plane.normal, plane.limit + with_slack(reach_, plane.lengths), use);
     } else {
-      tree.tree().find_touching(SeenPart(tree, other).box(reach_), use);
+      tree.tree().find_touching(SeenPart(tree, other).surroundings(reach_), use);
     }
   }
 
@@ -187,7 +194,7 @@ class PartSearch {
 
 uint32_t near_item(const PlacedPart& tree, const PlacedPart& other) {
   if (is_plane(other)) return tree.tree().low_item(SeenPlane(tree, other).normal);
-  return tree.tree().near_item(SeenPart(tree, other).box(0));
+  return tree.tree().near_item(SeenPart(tree, other).box());
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ std::vector<TreeBox> make_boxes(const Style& style, size_t count, Random& random
 
 Items found_in(const BoxTree& tree, const TreeBox& box) {
   Items found;
-  tree.find_touching(box, [&](uint32_t item) { found.push_back(item); });
+  tree.find_touching({box}, [&](uint32_t item) { found.push_back(item); });
   std::sort(found.begin(), found.end());
   return found;
 }
