@@ -55,6 +55,9 @@ STREAM_TARGETS = {
     ("hull_hull_16", "clearance"): (2523 / 125, 2523 / 80),
     ("hull_hull_32", "clearance"): (3298 / 180, 3298 / 105),
     ("hull_hull_64", "clearance"): (4946 / 300, 4946 / 160),
+    ("hull_hull_8", "again"): (1937 / 60, 1937 / 25),
+    ("hull_hull_16", "again"): (2523 / 75, 2523 / 35),
+    ("hull_hull_32", "again"): (3298 / 100, 3298 / 45),
     ("hull_hull_8", "distance"): (1937 / 95, 1937 / 60),
     ("hull_hull_16", "distance"): (2523 / 125, 2523 / 80),
     ("hull_hull_32", "distance"): (3298 / 180, 3298 / 105),
@@ -249,9 +252,10 @@ def streams_page(report):
            "shapes, made once, with the manifold emptied before every pair; the overlap of boxes "
            "is that algorithm's detector without a manifold. `aabb` is a box that is not turned. "
            "`distance`: all pairs are measured, which for those that overlap is their depth; "
-           "`clearance`: those that are apart, and of the others the decision. Bullet is asked "
-           "for depths in both: the targets of both are those that were set for distances "
-           "without depths.\n")
+           "`clearance`: those that are apart, and of the others the decision; `again`: the same a "
+           "step further (1 % of the diagonal of the bounds, 0.01 radians), with what the last step "
+           "knew, while Bullet begins anew. Bullet is asked for depths in all three: the targets "
+           "are those that were set for distances without depths.\n")
     yield "## Decisions\n"
     yield ("Before anything is timed, all results of Carom are compared with its reference bit by "
            "bit, and Bullet's decisions with Carom's, except for pairs whose separation is below "
