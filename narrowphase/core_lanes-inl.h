@@ -116,7 +116,7 @@ class HullRecords {
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const HullGeometry* const geometry = hull.geometry[lane];
       first_[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
-      points_[lane] = geometry ? geometry->points().size() : 1;
+      points_[lane] = geometry ? geometry->records().size() - 1 : 1;
       most_ = std::max(most_, points_[lane]);
       least_ = std::min(least_, points_[lane]);
     }
@@ -143,6 +143,7 @@ class HullRecords {
   size_t most() const { return most_; }
   size_t least() const { return least_; }
   HWY_INLINE F count_lanes() const {
+    if (least_ == most_) return splat(static_cast<float>(most_));  // as most often
     return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
   }
 
