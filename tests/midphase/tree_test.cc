@@ -103,6 +103,59 @@ TEST(BoxTree, FindsWhatBruteForceFinds) {
   }
 }
 
+double squared_distance(const TreeBox& a, const TreeBox& b) {
+  double sum = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double above = double{a.lower[axis]} - b.upper[axis];
+    const double below = double{b.lower[axis]} - a.upper[axis];
+    const double gap = std::max({above, below, 0.0});
+    sum += gap * gap;
+  }
+  return sum;
+}
+
+// All that is within the radius, and nothing much further; a ball, if the box is a point.
+TEST(BoxTree, FindsWhatIsNearABox) {
+  for (const Style& style : kStyles) {
+    SCOPED_TRACE(style.name);
+    Random random(4);
+    for (const size_t count : kCounts) {
+      const std::vector<TreeBox> boxes = make_boxes(style, count, random);
+      const BoxTree tree(boxes);
+      for (int i = 0; i < 30; ++i) {
+        Double3 middle, half;
+        for (size_t axis = 0; axis < 3; ++axis) {
+          middle[axis] = style.distance + random.uniform(-style.spread, style.spread);
+          half[axis] = i % 2 == 0 ? 0 : random.uniform(0, style.size);
+        }
+        const double radius = random.uniform(0, style.spread / 3);
+        const TreeBox box = rounded_outwards(middle, half);
+        Items found;
+        tree.find_touching(rounded_outwards(middle, half, radius),
+                           [&](uint32_t item) { found.push_back(item); });
+        const bool is_round = radius > 1e-15 && radius < 1e15;
+        const std::set<uint32_t> all(found.begin(), found.end());
+        ASSERT_EQ(all.size(), found.size());
+        for (uint32_t k = 0; k < count; ++k) {
+          const double squared = squared_distance(boxes[k], box);
+          const bool is_within = !is_empty(boxes[k]) && squared <= radius * radius;
+          // Beyond the squares of float32 the box is grown: its corners are further away.
+          const double most = radius * radius * (is_round ? 1 + 1e-5 : 3 + 1e-5);
+          const bool is_beyond = is_empty(boxes[k]) || squared > most + 1e-80;
+          ASSERT_TRUE(!is_within || all.count(k) == 1);
+          ASSERT_TRUE(!is_beyond || all.count(k) == 0);
+        }
+        for_each_isa([&] {
+          Items again;
+          tree.find_touching(rounded_outwards(middle, half, radius),
+                             [&](uint32_t item) { again.push_back(item); });
+          EXPECT_EQ(again, found);  // in this order
+        });
+      }
+    }
+  }
+}
+
 TEST(BoxTree, FindsWhatIsBelowAPlane) {
   for (const Style& style : kStyles) {
     SCOPED_TRACE(style.name);
