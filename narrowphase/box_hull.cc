@@ -7,7 +7,7 @@
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/direction-inl.h"
-#include "narrowphase/gjk-inl.h"
+#include "narrowphase/core_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {

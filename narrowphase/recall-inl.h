@@ -9,8 +9,8 @@
 
 #include <array>
 
+#include "narrowphase/core_kernel-inl.h"
 #include "narrowphase/features.h"
-#include "narrowphase/gjk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {

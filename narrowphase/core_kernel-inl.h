@@ -1,0 +1,163 @@
+// The test of two kinds of which one is a hull, by GJK in lanes.
+#if defined(CAROM_NARROWPHASE_CORE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_CORE_KERNEL_INL_H_
+#undef CAROM_NARROWPHASE_CORE_KERNEL_INL_H_
+#else
+#define CAROM_NARROWPHASE_CORE_KERNEL_INL_H_
+#endif
+
+#include <array>
+
+#include "kernel/tolerances.h"
+#include "narrowphase/core_batch.h"
+#include "narrowphase/features.h"
+#include "narrowphase/gjk-inl.h"
+#include "narrowphase/spanned_way-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+HWY_INLINE Mask is_same(const F3& p, const F3& q) {
+  return hn::And(hn::Eq(p.x, q.x), hn::And(hn::Eq(p.y, q.y), hn::Eq(p.z, q.z)));
+}
+
+// Which point of the core it is, as `is_it` says; of several the first.
+template <class IsIt>
+HWY_INLINE F place_of(const CoreLanes& core, const IsIt& is_it) {
+  F place = splat(0);
+  for (size_t i = core.count(); i-- > 0;) {
+    place = hn::IfThenElse(is_it(core.point(i)), splat(static_cast<float>(i)), place);
+  }
+  return place;
+}
+
+// Writes `count` of the corners, a lane each, as features.
+template <size_t kCorners>
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
+                               const std::array<const CornerLanes*, kCorners>& corners, F count,
+                               uint64_t* features) {
+  HWY_ALIGN float counts[kLanes];
+  HWY_ALIGN float places[2 * kCorners][kLanes];
+  hn::Store(count, FloatTag(), counts);
+  for (size_t k = 0; k < kCorners; ++k) {
+    const CornerLanes& c = *corners[k];
+    const auto of_a = [&](const F3& p) HWY_ATTR { return is_same(p, c.on_a); };
+    const auto of_b = [&](const F3& p) HWY_ATTR { return is_same(p - c.on_a, c.point); };
+    hn::Store(place_of(a, of_a), FloatTag(), places[2 * k]);
+    hn::Store(place_of(b, of_b), FloatTag(), places[2 * k + 1]);
+  }
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    Features found{static_cast<size_t>(counts[lane])};
+    for (size_t k = 0; k < found.count; ++k) {
+      found.of_a[k] = static_cast<uint8_t>(places[2 * k][lane]);
+      found.of_b[k] = static_cast<uint8_t>(places[2 * k + 1][lane]);
+    }
+    features[lane] = pack_features(found);
+  }
+}
+
+// Those that are nearest, where that is sure.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
+                               Mask is_sure, uint64_t* features) {
+  const F count =
+      hn::IfThenElse(ends.has_three, splat(3), hn::IfThenElse(ends.has_two, splat(2), splat(1)));
+  write_features<3>(a, b, {&ends.p, &ends.q, &ends.r}, hn::IfThenElseZero(is_sure, count),
+                    features);
+}
+
+// Those around zero, where that is sure.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const GjkLanes& gjk,
+                               Mask is_sure, uint64_t* features) {
+  const auto& corner = gjk.ends.corner;
+  write_features<4>(a, b, {&corner[0], &corner[1], &corner[2], &gjk.last},
+                    hn::IfThenElseZero(is_sure, splat(4)), features);
+}
+
+// `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
+// elsewhere.
+template <class Report>
+HWY_INLINE void report_nearest(const NearestCores& nearest, F radius, F radius_a, const F3& d,
+                               Report& report) {
+  const F separation = hn::Sub(nearest.distance, radius);
+  const Mask is_sure = hn::And(nearest.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap)));
+  const F3 arm_a = nearest.on_a + nearest.normal * radius_a;
+  const F3 arm_b = (arm_a + nearest.normal * separation) - d;
+  report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, nearest.normal,
+         arm_a, arm_b);
+}
+
+// Scales at which float32 may decide. `up`: metres a unit.
+HWY_INLINE Mask is_usual_scale(F up) {
+  return hn::And(hn::Ge(up, splat(1 / kGreatestScale)), hn::Le(up, splat(kGreatestScale)));
+}
+
+// The test of two kinds of which one is a hull. Marks as unsure whatever is left to other tests,
+// and with kDeep cores that surely overlap, whose depth is wanted. `kMeasures`: separate pairs,
+// too; otherwise their separation is a lower bound, along the normal.
+template <class ShapeA, class ShapeB, bool kMeasures>
+struct CoreKernel {
+  using A = ShapeA;
+  using B = ShapeB;
+  static constexpr Units kUnits = Units::scaled;
+  static constexpr Unsure kUnsure = Unsure::left;
+
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    constexpr bool kDecides = !(kMeasures && Report::kHasContact);
+    CoreLanes core_a, core_b;
+    make_core(a, pose.a, splat3(0), core_a);
+    make_core(b, pose.b, pose.d, core_b);
+    const Mask is_known =
+        hn::And(hn::And(core_a.has_space, core_b.has_space), is_usual_scale(report.up));
+    const F radius = hn::Add(core_a.radius, core_b.radius);
+    uint64_t* const features = report.batch.features ? report.batch.features + report.row : nullptr;
+    const GjkLanes gjk = run_gjk<kDecides>(core_a, core_b, radius, features != nullptr);
+    if constexpr (kDecides) {
+      report_decision(gjk, radius, is_known, report);
+      if (features) {
+        const Mask is_sure = hn::And(gjk.is_around, hn::And(is_known, report.valid));
+        write_features(core_a, core_b, gjk, is_sure, features);
+      }
+    } else {
+      const FrontCorners ends(gjk.ends);
+      NearestCores nearest = nearest_cores(core_a, core_b, ends);
+      nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
+      report_nearest(nearest, radius, core_a.radius, pose.d, report);
+      if (features) {
+        write_features(core_a, core_b, ends, hn::And(nearest.is_sure, report.valid), features);
+      }
+    }
+    if constexpr (Report::kHasContact) mark_deep(hn::And(gjk.is_around, is_known), report);
+  }
+
+ private:
+  template <class Report>
+  static HWY_INLINE void report_decision(const GjkLanes& gjk, F radius, Mask is_known,
+                                         Report& report) {
+    const F reach = hn::Sub(radius, splat(kSureGap));
+    // Cores that all but touch may be flat, which is for others to say.
+    const Mask is_within =
+        hn::And(hn::Gt(gjk.squared, splat(kNearCores * kNearCores)),
+                hn::And(hn::Gt(reach, splat(0)), hn::Lt(gjk.squared, hn::Mul(reach, reach))));
+    const Mask overlap = hn::Or(gjk.is_around, is_within);
+    const Mask is_sure = hn::And(is_known, hn::Or(overlap, gjk.is_apart));
+    const F length = hn::Sqrt(gjk.squared);
+    const F gap = hn::Sub(hn::Div(gjk.gap, length), radius);
+    report(overlap, hn::Not(is_sure), no_lanes(), hn::IfThenElse(gjk.is_apart, gap, splat(-1)),
+           gjk.way * hn::Div(splat(1), length), splat3(0), splat3(0));
+  }
+
+  template <class Report>
+  static HWY_INLINE void mark_deep(Mask is_deep, const Report& report) {
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(hn::IfThenElseZero(hn::And(is_deep, report.valid), splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] != 0) report.batch.unsure[report.row + i] = kDeep;
+    }
+  }
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_CORE_KERNEL_INL_H_
