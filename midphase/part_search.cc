@@ -8,6 +8,8 @@
 namespace carom {
 namespace {
 
+constexpr double kGreatestOffset = 0x1p1000;
+
 FrameChange to_frame_of(const PlacedPart& frame, const PlacedPart& part) {
   FrameChange change;
   for (size_t i = 0; i < 3; ++i) {
@@ -15,7 +17,10 @@ FrameChange to_frame_of(const PlacedPart& frame, const PlacedPart& part) {
     const Double3 seen = turned_back(frame.turn, axis);
     for (size_t k = 0; k < 3; ++k) change.turn[k][i] = seen[k];
   }
-  change.offset = turned_back(frame.turn, minus(part.position, frame.position));
+  // Beyond the search everything is near: no further than that, so that sums stay finite.
+  Double3 way = minus(part.position, frame.position);
+  for (double& x : way) x = std::clamp(x, -kGreatestOffset, kGreatestOffset);
+  change.offset = turned_back(frame.turn, way);
   return change;
 }
 
@@ -87,8 +92,9 @@ class SeenPart {
       }
     }
     for (size_t axis = 0; axis < 3; ++axis) {
-      box_.middle[axis] = (lower[axis] + upper[axis]) / 2;
-      box_.half[axis] = (upper[axis] - lower[axis]) / 2;
+      // Halves first: sums of the greatest doubles are infinite.
+      box_.middle[axis] = lower[axis] / 2 + upper[axis] / 2;
+      box_.half[axis] = upper[axis] / 2 - lower[axis] / 2;
     }
     radius_ = radius;
   }

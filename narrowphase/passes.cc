@@ -263,6 +263,7 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
   if (batch.detail != Detail::manifold) return;
   if (measured == Measured::separate) {
     std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
+    std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
   } else if (kind.has_manifold_pass()) {
     run_manifolds(kind, batch, measured == Measured::all);
   } else {

@@ -66,6 +66,28 @@ std::vector<TestPair> make_mixed_pairs(size_t count, PositionType positions, uin
   return pairs;
 }
 
+// Where sums of coordinates are infinite, and differences.
+TEST(CompositeBits, AtTheEndOfDoublePrecision) {
+  const Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Capsule capsule{{0, 0, 0}, {1, 0, 0}, 1};
+  std::vector<TestPair> pairs;
+  for (const Shape& shape : {Shape(Sphere{1}), Shape(capsule), Shape(mesh)}) {
+    for (const double y : {8.9e307, 9e307, 1e308, -9e307}) {
+      for (const double other : {0.0, y, -y}) {
+        TestPair pair;
+        pair.a = {shape, {0, y, 0}};
+        pair.b = {mesh, {0, other, 0}};
+        pairs.push_back(pair);
+        std::swap(pair.a, pair.b);
+        pairs.push_back(pair);
+      }
+    }
+  }
+  Call call = call_with(PositionType::float64);
+  call.detail = Detail::manifold;
+  expect_reference(pairs, call);
+}
+
 TEST(CompositeBits, SimplePairsAmongThem) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> pairs = make_mixed_pairs(rounds(400), positions);

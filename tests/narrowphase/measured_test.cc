@@ -1,6 +1,9 @@
 // Pairs that are not asked for are decided as ever, and the others measured as if all were.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
+#include "tests/support/hulls.h"
 #include "tests/support/isas.h"
 #include "tests/support/kind_pairs.h"
 #include "tests/support/rounds.h"
@@ -23,6 +26,12 @@ void expect_measured(std::span<const TestPair> pairs, std::span<const Row> all,
       EXPECT_NE(found[i].status, static_cast<uint8_t>(Status::invalid)) << "pair " << i;
     }
   }
+}
+
+void expect_no_manifold(const Row& row) {
+  const ManifoldPoints none{};
+  EXPECT_EQ(row.manifold_count, 0);
+  EXPECT_EQ(std::memcmp(&row.manifold, &none, sizeof none), 0);
 }
 
 class MeasuredPairs : public testing::TestWithParam<ConvexFamily> {};
@@ -59,8 +68,23 @@ TEST(MeasuredPairs, HaveNoManifoldsWhereSeparateOnesAreAskedFor) {
     Call call = call_with(PositionType::float32);
     call.detail = Detail::manifold;
     call.measured = Measured::separate;
-    for (const Row& row : run_rows(pairs, call)) EXPECT_EQ(row.manifold_count, 0);
+    for (const Row& row : run_rows(pairs, call)) expect_no_manifold(row);
   }
+}
+
+// Also where results come by way of memory that earlier calls have used.
+TEST(MeasuredPairs, OfMixedKindsHaveNoManifoldsOfEarlierCalls) {
+  std::vector<TestPair> pairs(4);
+  const Shape cube = oracle::hull_of(cube_corners());
+  for (TestPair& pair : pairs) pair.a.shape = pair.b.shape = cube;
+  pairs[0].a.shape = pairs[0].b.shape = Sphere{1};
+  Call call = call_with(PositionType::float32);
+  call.detail = Detail::manifold;
+  for (TestPair& pair : pairs) pair.b.position = {1.9, 0.3, 0.2};
+  EXPECT_GT(run_rows(pairs, call)[1].manifold_count, 0);
+  for (TestPair& pair : pairs) pair.b.position = {2.5, 0.3, 0.2};
+  call.measured = Measured::separate;
+  for (const Row& row : run_rows(pairs, call)) expect_no_manifold(row);
 }
 
 // A proof may part what rounding made overlap: its distance is known then.
