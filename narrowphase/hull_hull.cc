@@ -6,8 +6,8 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
-#include "narrowphase/direction-inl.h"
 #include "narrowphase/core_kernel-inl.h"
+#include "narrowphase/direction-inl.h"
 #include "narrowphase/recall-inl.h"
 
 HWY_BEFORE_NAMESPACE();
