@@ -78,9 +78,9 @@ void run_simple_pairs(const PairBlock& block, Scratch& scratch) {
   out.manifold_count = scratch.manifold_count.data();
   out.manifold = scratch.manifold.data();
   if (block.out.separation_bound) out.separation_bound = scratch.separation_bound.data();
-  if (block.out.features) out.features = scratch.features.data();
-  for (size_t i = 0; out.features && i < rows.size(); ++i) {
-    out.features[i] = block.out.features[rows[i]];
+  if (block.out.features) {
+    for (size_t i = 0; i < rows.size(); ++i) scratch.features[i] = block.out.features[rows[i]];
+    out.features = scratch.features.data();
   }
   PairBlock simple = {.a = block.a,
                       .b = block.b,
