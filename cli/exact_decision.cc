@@ -1,6 +1,7 @@
 #include "cli/exact_decision.h"
 
 #include <algorithm>
+#include <array>
 #include <variant>
 #include <vector>
 
@@ -21,7 +22,8 @@ void add_triangles(const MeshGeometry& mesh, const StatedBody& body,
                    std::vector<StatedBody>& parts) {
   for (size_t i = 0; i < mesh.triangles().size(); ++i) {
     if (mesh.is_degenerate(i)) continue;
-    const auto rows = triangle_rows(mesh, i);
+    std::array<Row, 3> rows;
+    put_triangle_rows(mesh, i, rows.data());
     parts.push_back(
         {shape_from_rows(ShapeKind::triangle, rows.data()), body.position, body.orientation});
   }

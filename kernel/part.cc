@@ -100,14 +100,4 @@ Row product(const Row& q, const Row& p) {
   return result;
 }
 
-std::array<Row, 3> triangle_rows(const MeshGeometry& mesh, size_t triangle) {
-  const float fourth[] = {mesh.rules().thickness, mesh.rules().one_sided ? 1.0f : 0.0f, 0.0f};
-  std::array<Row, 3> rows;
-  for (size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3f& v = mesh.vertices()[mesh.triangles()[triangle][i]];
-    rows[i] = {v.x(), v.y(), v.z(), fourth[i]};
-  }
-  return rows;
-}
-
 }  // namespace carom

@@ -77,8 +77,15 @@ inline Double3 middle_of(const Part& part) {
   return plus(part.position, turned(part.turn(), box_of(part).middle));
 }
 
-// Rows of a triangle of a mesh, without inner edges.
-std::array<Row, 3> triangle_rows(const MeshGeometry& mesh, size_t triangle);
+// Writes the three rows of a triangle of a mesh, without inner edges. (To where they are needed:
+// what is stored as floats and copied as rows waits for the stores.)
+inline void put_triangle_rows(const MeshGeometry& mesh, size_t triangle, Row* rows) {
+  const float fourth[] = {mesh.rules().thickness, mesh.rules().one_sided ? 1.0f : 0.0f, 0.0f};
+  for (size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3f& v = mesh.vertices()[mesh.triangles()[triangle][i]];
+    rows[i] = {v.x(), v.y(), v.z(), fourth[i]};
+  }
+}
 
 inline Double3 corner(const MeshGeometry& mesh, size_t triangle, size_t i) {
   const Eigen::Vector3f& v = mesh.vertices()[mesh.triangles()[triangle][i]];

@@ -26,10 +26,11 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
   order_[body] = part.order();
   first_row_[body] = rows_used_;
   if (is_of_mesh(body)) {
-    put_rows(triangle_rows(part.mesh(), part.triangle).data(), 3);
+    put_triangle_rows(part.mesh(), part.triangle, rows_.data() + rows_used_);
   } else {
-    put_rows(part.part->rows.data(), row_count(kind_[body]));
+    std::copy_n(part.part->rows.data(), row_count(kind_[body]), rows_.data() + rows_used_);
   }
+  rows_used_ += row_count(kind_[body]);
   for (size_t axis = 0; kind_[body] == ShapeKind::aabb && axis < 3; ++axis) {
     lower_[axis][body] = part.part->lower[axis];
     upper_[axis][body] = part.part->upper[axis];
@@ -40,11 +41,6 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
 void PartColumns::put_frame(size_t owner, const PlacedPart& part) {
   const MeshGeometry* const mesh = part.triangle == part.kWhole ? nullptr : &part.mesh();
   frames_[frames_used_++] = {part.position, part.arm, part.turn, mesh, part.child, owner};
-}
-
-void PartColumns::put_rows(const Row* rows, uint32_t row_count) {
-  std::copy_n(rows, row_count, rows_.begin() + rows_used_);
-  rows_used_ += row_count;
 }
 
 // Of one kind, if all are: that saves the narrow phase from sorting them.

@@ -48,7 +48,6 @@ class PartColumns {
   };
 
   void put_frame(size_t owner, const PlacedPart& part);
-  void put_rows(const Row* rows, uint32_t row_count);
 
   struct Position {
     double x, y, z, radius;

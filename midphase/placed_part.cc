@@ -30,7 +30,7 @@ Part body_part(const BodyReader& reader, size_t i) {
       part.upper[axis] = reader.upper(axis, i);
     }
   } else {
-    part.rows = reader.rows(i);
+    for (uint32_t k = 0; k < row_count(part.kind); ++k) part.rows[k] = reader.row(i, k);
     part.orientation = reader.orientation(i);
   }
   return part;

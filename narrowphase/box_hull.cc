@@ -8,6 +8,8 @@
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/core_kernel-inl.h"
 #include "narrowphase/direction-inl.h"
+#include "narrowphase/hull_points-inl.h"
+#include "narrowphase/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -19,6 +21,8 @@ void box_hull(const Batch& batch) {
       return run_direction<BoxLanes, HullLanes>(batch);
     case Pass::distance:
       return run_batch<CoreKernel<BoxLanes, HullLanes, true>>(batch);
+    case Pass::manifold:
+      return run_manifold<BoxLanes, HullLanes>(batch);
     default:
       return run_batch<CoreKernel<BoxLanes, HullLanes, false>>(batch);
   }

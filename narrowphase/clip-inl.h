@@ -104,17 +104,31 @@ HWY_INLINE F slack_of_edge(F dx, F dy) {
   return hn::Mul(splat(kClipSlack), hn::Add(hn::Abs(dx), hn::Abs(dy)));
 }
 
+// What the slack of two sides adds to the sharp corner between them is long: it ends where the
+// corners end.
 template <size_t kSeen>
-HWY_INLINE void clip_edge(const TriangleFace& face, const Seen<kSeen>& seen, size_t from, size_t to,
-                          const SeenWay& way, F& near, F& far) {
-  // What the slack of two sides adds to the sharp corner between them is long: it ends where the
-  // corners end.
+HWY_INLINE void clip_to_extent(const TriangleFace& face, const Seen<kSeen>& seen, size_t from,
+                               const SeenWay& way, F& near, F& far) {
   clip_between(seen.x[from], way.x, splat(0), face.x[1], near, far);
-  for (size_t k = 0; k < 3; ++k) {
+}
+template <size_t kMost, size_t kSeen>
+HWY_INLINE void clip_to_extent(const PolygonFace<kMost>& face, const Seen<kSeen>& seen, size_t from,
+                               const SeenWay& way, F& near, F& far) {
+  clip_between(seen.x[from], way.x, face.lower_x, face.upper_x, near, far);
+  clip_between(seen.y[from], way.y, face.lower_y, face.upper_y, near, far);
+}
+
+template <class Face, size_t kSeen>
+HWY_INLINE void clip_edge(const Face& face, const Seen<kSeen>& seen, size_t from, size_t to,
+                          const SeenWay& way, F& near, F& far) {
+  constexpr size_t kSides = Face::kCorners;
+  const Mask every = hn::Not(no_lanes());
+  clip_to_extent(face, seen, from, way, near, far);
+  for (size_t k = 0; k < kSides; ++k) {
     const F a_x = face.x[k];
     const F a_y = face.y[k];
-    const F side_x = hn::Sub(face.x[(k + 1) % 3], a_x);
-    const F side_y = hn::Sub(face.y[(k + 1) % 3], a_y);
+    const F side_x = hn::Sub(face.x[(k + 1) % kSides], a_x);
+    const F side_y = hn::Sub(face.y[(k + 1) % kSides], a_y);
     const F slack = slack_of_edge(side_x, side_y);
     const auto inward = [&](F p_x, F p_y) HWY_ATTR {
       return hn::Add(area_left(side_x, side_y, hn::Sub(p_x, a_x), hn::Sub(p_y, a_y)), slack);
@@ -123,8 +137,8 @@ HWY_INLINE void clip_edge(const TriangleFace& face, const Seen<kSeen>& seen, siz
     const F rate = crossing(hn::Sub(inward(seen.x[to], seen.y[to]), start));
     const F t = hn::Div(hn::Neg(start), rate);
     const Mask enters = hn::Gt(rate, splat(0));
-    near = hn::IfThenElse(enters, max(near, t), near);
-    far = hn::IfThenElse(enters, far, min(far, t));
+    near = hn::IfThenElse(face.where(k, enters), max(near, t), near);
+    far = hn::IfThenElse(face.where(k, hn::AndNot(enters, every)), min(far, t), far);
   }
 }
 
@@ -133,7 +147,8 @@ HWY_INLINE void confine(const Rectangle& face, F& x, F& y) {
   x = clamp(x, face.lower_x, face.upper_x);
   y = clamp(y, face.lower_y, face.upper_y);
 }
-HWY_INLINE void confine(const TriangleFace&, F&, F&) {}
+template <class Face>
+HWY_INLINE void confine(const Face&, F&, F&) {}
 
 // The ends of what is in sight of an edge -> points `first` and `first + 1`; exact where it is all.
 template <class Face, size_t kCount, size_t kSeen>
@@ -218,34 +233,47 @@ HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& 
   }
 }
 
-// Corners of the face that a triangle with this normal covers -> points from kFirst on.
-template <size_t kFirst, class Face, size_t kCount>
+// Corners of the face that a polygon with this normal covers -> points from kFirst on.
+template <size_t kFirst, class Face, size_t kSeen, size_t kCount>
 HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, const F3& m,
-                            const Seen<3>& seen, const SeenWay (&ways)[3],
+                            const Seen<kSeen>& seen, const SeenWay (&ways)[kSeen],
                             ClipPoints<kCount>& out) {
   const F zero = splat(0);
   const F facing = dot(normal, m);
-  const F area =
+  F area =
       area_left(ways[0].x, ways[0].y, hn::Sub(seen.x[2], seen.x[0]), hn::Sub(seen.y[2], seen.y[0]));
+  for (size_t i = 3; i < kSeen; ++i) {
+    const F last_x = hn::Sub(seen.x[i - 1], seen.x[0]), last_y = hn::Sub(seen.y[i - 1], seen.y[0]);
+    area = hn::Add(area, area_left(last_x, last_y, hn::Sub(seen.x[i], seen.x[0]),
+                                   hn::Sub(seen.y[i], seen.y[0])));
+  }
   const F side = hn::IfThenElse(hn::Lt(area, zero), splat(-1), splat(1));
   const F slope_x = hn::Div(dot(face.frame.u, normal), facing);
   const F slope_y = hn::Div(dot(face.frame.v, normal), facing);
-  const F slack[3] = {slack_of_edge(ways[0].x, ways[0].y), slack_of_edge(ways[1].x, ways[1].y),
-                      slack_of_edge(ways[2].x, ways[2].y)};
-  const F all_slack = hn::Add(hn::Add(slack[0], slack[1]), slack[2]);
+  F slack[kSeen];
+  F all_slack = zero;
+  F lower_x = seen.x[0], lower_y = seen.y[0], upper_x = seen.x[0], upper_y = seen.y[0];
+  for (size_t i = 0; i < kSeen; ++i) {
+    slack[i] = slack_of_edge(ways[i].x, ways[i].y);
+    all_slack = hn::Add(all_slack, slack[i]);
+    lower_x = min(lower_x, seen.x[i]);
+    lower_y = min(lower_y, seen.y[i]);
+    upper_x = max(upper_x, seen.x[i]);
+    upper_y = max(upper_y, seen.y[i]);
+  }
+  lower_x = hn::Sub(lower_x, splat(kClipSlack));
+  lower_y = hn::Sub(lower_y, splat(kClipSlack));
+  upper_x = hn::Add(upper_x, splat(kClipSlack));
+  upper_y = hn::Add(upper_y, splat(kClipSlack));
   const Mask has_area = hn::And(hn::Gt(hn::Mul(area, side), all_slack),
                                 hn::And(is_open, hn::Gt(hn::Abs(facing), splat(kEdgeOn))));
-  const F lower_x = hn::Sub(min(min(seen.x[0], seen.x[1]), seen.x[2]), splat(kClipSlack));
-  const F lower_y = hn::Sub(min(min(seen.y[0], seen.y[1]), seen.y[2]), splat(kClipSlack));
-  const F upper_x = hn::Add(max(max(seen.x[0], seen.x[1]), seen.x[2]), splat(kClipSlack));
-  const F upper_y = hn::Add(max(max(seen.y[0], seen.y[1]), seen.y[2]), splat(kClipSlack));
   for (size_t k = 0; k < Face::kCorners; ++k) {
     const F x = face.corner_x(k);
     const F y = face.corner_y(k);
     const Mask in_x = hn::And(hn::Ge(x, lower_x), hn::Le(x, upper_x));
     const Mask in_y = hn::And(hn::Ge(y, lower_y), hn::Le(y, upper_y));
-    Mask covered = hn::And(has_area, hn::And(in_x, in_y));
-    for (size_t i = 0; i < 3; ++i) {
+    Mask covered = face.where(k, hn::And(has_area, hn::And(in_x, in_y)));
+    for (size_t i = 0; i < kSeen; ++i) {
       const F left = area_left(ways[i].x, ways[i].y, hn::Sub(x, seen.x[i]), hn::Sub(y, seen.y[i]));
       covered = hn::And(covered, hn::Ge(hn::Add(hn::Mul(left, side), slack[i]), zero));
     }
@@ -271,21 +299,24 @@ HWY_INLINE void clip(const Rectangle& face, const Rectangle& other, const F3& m,
   put_corners<8>(face, is_open, seen, u, v, out);
 }
 
-// The same of a triangle with this normal, or zero if it has no area.
-template <class Face, size_t kCount>
-HWY_INLINE void clip(const Face& face, const F3 (&corners)[3], const F3& normal, const F3& m,
+// The same of another polygon, of which the normal is zero if it has no area.
+template <class Face, class OtherFace, size_t kCount>
+HWY_INLINE void clip(const Face& face, const FaceSide<OtherFace>& other, const F3& m,
                      ClipPoints<kCount>& out) {
-  static_assert(kCount == 6 + Face::kCorners);
+  constexpr size_t kSeen = OtherFace::kCorners;
+  static_assert(kCount == 2 * kSeen + Face::kCorners);
   const FaceView view(face.frame, m);
-  Seen<3> seen;
-  SeenWay ways[3];
-  for (size_t i = 0; i < 3; ++i) view.project(corners[i], seen.x[i], seen.y[i], seen.s[i]);
-  for (size_t i = 0; i < 3; ++i) {
-    const size_t next = (i + 1) % 3;
-    way_between(seen, i, next, ways[i]);
-    put_edge(face, view.is_open, seen, i, next, ways[i], 2 * i, out);
+  Seen<kSeen> seen;
+  SeenWay ways[kSeen];
+  for (size_t i = 0; i < kSeen; ++i) {
+    view.project(other.corners[i], seen.x[i], seen.y[i], seen.s[i]);
   }
-  put_corners<6>(face, view.is_open, normal, m, seen, ways, out);
+  for (size_t i = 0; i < kSeen; ++i) {
+    const size_t next = (i + 1) % kSeen;
+    way_between(seen, i, next, ways[i]);
+    put_edge(face, other.face.where(i, view.is_open), seen, i, next, ways[i], 2 * i, out);
+  }
+  put_corners<2 * kSeen>(face, view.is_open, other.face.frame.n, m, seen, ways, out);
 }
 
 }  // namespace carom::HWY_NAMESPACE

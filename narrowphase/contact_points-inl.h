@@ -45,56 +45,89 @@ HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
   put_on_frame(face.frame, all, splat(kSamePoint), out);
 }
 
+// Of a box and another face.
+template <AnyBox A, class OtherFace>
+HWY_INLINE void touch_box(const A& a, const Placed& placed, const FaceSide<OtherFace>& other,
+                          const ContactLanes& contact, PointLanes& out) {
+  Rectangle face;
+  ClipPoints<4 + 2 * OtherFace::kCorners> all;
+  face_towards(contact.normal, a, placed, face);
+  clip(face, other, contact.normal, all);
+  put_on_frame(face.frame, all, splat(kSamePoint), out);
+}
+
 template <AnyBox A>
 HWY_INLINE void contact_points(const A& a, const TriangleLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
-  F3 corners[3];
-  TriangleFace other;
-  corners_of(b, placed.b, corners);
-  triangle_face(corners, other);
-  Rectangle face;
-  ClipPoints<10> all;
-  face_towards(contact.normal, a, placed.a, face);
-  clip(face, corners, other.frame.n, contact.normal, all);
-  put_on_frame(face.frame, all, splat(kSamePoint), out);
-  use_if(shows_face(b, other.frame.n, -contact.normal), out);
+  FaceSide<TriangleFace> side;
+  triangle_side(b, placed.b, side);
+  touch_box(a, placed.a, side, contact, out);
+  use_if(shows_face(b, side.face.frame.n, -contact.normal), out);
 }
 
-HWY_INLINE void put_where(Mask mask, const FaceFrame& from, FaceFrame& to) {
-  to.origin = select(mask, from.origin, to.origin);
-  to.u = select(mask, from.u, to.u);
-  to.v = select(mask, from.v, to.v);
-  to.n = select(mask, from.n, to.n);
+HWY_INLINE void swap_where(Mask mask, F& a, F& b) {
+  const F kept = a;
+  a = hn::IfThenElse(mask, b, a);
+  b = hn::IfThenElse(mask, kept, b);
+}
+HWY_INLINE void swap_where(Mask mask, F3& a, F3& b) {
+  swap_where(mask, a.x, b.x);
+  swap_where(mask, a.y, b.y);
+  swap_where(mask, a.z, b.z);
 }
 
-// The face is that of the triangle which the normal meets more squarely; of equals that of A.
-HWY_INLINE void contact_points(const TriangleLanes& a, const TriangleLanes& b,
-                               const PlacedPair& placed, const ContactLanes& contact,
-                               PointLanes& out) {
-  const F3& n = contact.normal;
-  F3 corners_a[3], other[3];
-  TriangleFace face, face_b;
-  corners_of(a, placed.a, corners_a);
-  corners_of(b, placed.b, other);
-  triangle_face(corners_a, face);
-  triangle_face(other, face_b);
-  const Mask shown = hn::And(shows_face(a, face.frame.n, n), shows_face(b, face_b.frame.n, -n));
-  const Mask on_b = hn::Gt(hn::Abs(dot(face_b.frame.n, n)), hn::Abs(dot(face.frame.n, n)));
+HWY_INLINE void swap_rest(Mask, TriangleFace&, TriangleFace&) {}
+template <size_t kMost>
+HWY_INLINE void swap_rest(Mask mask, PolygonFace<kMost>& a, PolygonFace<kMost>& b) {
+  swap_where(mask, a.count, b.count);
+  swap_where(mask, a.lower_x, b.lower_x);
+  swap_where(mask, a.lower_y, b.lower_y);
+  swap_where(mask, a.upper_x, b.upper_x);
+  swap_where(mask, a.upper_y, b.upper_y);
+}
 
-  const F3 normal = select(on_b, face.frame.n, face_b.frame.n);
-  put_where(on_b, face_b.frame, face.frame);
-  for (size_t k = 0; k < 3; ++k) {
-    other[k] = select(on_b, corners_a[k], other[k]);
-    face.x[k] = hn::IfThenElse(on_b, face_b.x[k], face.x[k]);
-    face.y[k] = hn::IfThenElse(on_b, face_b.y[k], face.y[k]);
+// Their heights are the same.
+template <class Face>
+HWY_INLINE void swap_where(Mask mask, FaceSide<Face>& a, FaceSide<Face>& b) {
+  swap_where(mask, a.face.frame.origin, b.face.frame.origin);
+  swap_where(mask, a.face.frame.u, b.face.frame.u);
+  swap_where(mask, a.face.frame.v, b.face.frame.v);
+  swap_where(mask, a.face.frame.n, b.face.frame.n);
+  for (size_t k = 0; k < Face::kCorners; ++k) {
+    swap_where(mask, a.face.x[k], b.face.x[k]);
+    swap_where(mask, a.face.y[k], b.face.y[k]);
+    swap_where(mask, a.corners[k], b.corners[k]);
   }
+  swap_rest(mask, a.face, b.face);
+}
+
+// Points on A where two polygons cover one another. The face is that which the normal meets more
+// squarely; of equals that of A. The sides may be exchanged.
+template <class Face>
+HWY_INLINE void touch_faces(FaceSide<Face>& a, FaceSide<Face>& b, const ContactLanes& contact,
+                            PointLanes& out) {
+  const F3& n = contact.normal;
+  const Mask on_b = hn::Gt(hn::Abs(dot(b.face.frame.n, n)), hn::Abs(dot(a.face.frame.n, n)));
+  swap_where(on_b, a, b);
   const F3 m = negate_if(on_b, n);
-  ClipPoints<9> all;
-  clip(face, other, normal, m, all);
-  put_on_frame(face.frame, all, splat(kSamePoint), out);
+  ClipPoints<3 * Face::kCorners> all;
+  clip(a.face, b, m, all);
+  put_on_frame(a.face.frame, all, splat(kSamePoint), out);
   for (size_t k = 0; k < 4; ++k) {
     out.point[k] = select(on_b, out.point[k] + m * out.s[k], out.point[k]);
   }
+}
+
+HWY_INLINE void contact_points(const TriangleLanes& a, const TriangleLanes& b,
+                               const PlacedPair& placed, const ContactLanes& contact,
+                               PointLanes& out) {
+  FaceSide<TriangleFace> side_a, side_b;
+  triangle_side(a, placed.a, side_a);
+  triangle_side(b, placed.b, side_b);
+  const F3& n = contact.normal;
+  const Mask shown =
+      hn::And(shows_face(a, side_a.face.frame.n, n), shows_face(b, side_b.face.frame.n, -n));
+  touch_faces(side_a, side_b, contact, out);
   use_if(shown, out);
 }
 

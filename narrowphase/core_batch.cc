@@ -78,8 +78,8 @@ class RowTester {
       const reference::Separation s = reference::in_scaled_units<float>(
           shape_at<A, float>(a_, pair.a), shape_at<B, float>(b_, pair.b),
           rounded_pose(a_, b_, pair),
-          [](const auto& x, const auto& y, const reference::PairPose<float>& pose) {
-            return shape_depth(x, y, pose, hull_steps_in_lanes());
+          [&](const auto& x, const auto& y, const reference::PairPose<float>& pose) {
+            return shape_depth(x, y, pose, steps_);
           });
       if (!s.is_unsure) store_.put(row, s.status, numbers_of(s));
       return !s.is_unsure;
@@ -110,18 +110,33 @@ class RowTester {
   const Collidables view_a_, view_b_;
   const BodyReader a_{view_a_}, b_{view_b_};
   const RowStore store_;
+  const HullSteps& steps_ = hull_steps_in_lanes();  // choosing an ISA a row would show
   const reference::CoreTest test_;
   // Of separate pairs no more is stated than that they are: the distance pass says how far, and
   // whether that is a bound.
   const bool decides_separate_;
 };
 
+template <class A, class B>
+inline constexpr bool kHasPointsInLanes = kIsSolid<FloatShape<A>>&& kIsSolid<FloatShape<B>>;
+
+template <class A, class B>
+void run_manifold_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
+  const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
+  if (!kHasPointsInLanes<A, B>) return run_scalar_manifolds(batch, kind_a, kind_b);
+  std::array<uint8_t, kPairsPerBlock> left{};
+  Batch lanes = batch;
+  lanes.unsure = left.data();
+  in_lanes(lanes);
+  run_scalar_manifolds(batch, kind_a, kind_b, left.data());
+}
+
 }  // namespace
 
 template <class A, class B>
 void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
-  if (batch.pass == Pass::manifold) return run_scalar_manifolds(batch, kind_a, kind_b);
+  if (batch.pass == Pass::manifold) return run_manifold_batch<A, B>(batch, in_lanes);
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
   const RowTester<A, B> rows(batch, kind_a, kind_b);
   std::array<uint8_t, kPairsPerBlock> left{};

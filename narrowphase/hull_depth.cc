@@ -21,12 +21,9 @@ struct Side {
 // them.
 constexpr size_t kFewFeatures = 64;
 
-// More edges than this beside which no axis is ruled out are for others to cross.
-constexpr size_t kMostCrossed = 64;
-
-// In the frame of A, with the normals of the faces beside it.
-struct EdgeOfSolid {
-  Vector3f direction, from, left, right;
+// In the frame of A.
+struct CrossedEdge {
+  Vector3f direction, from;
 };
 
 class DepthSearch {
@@ -40,7 +37,7 @@ class DepthSearch {
     turn_a_ = rotation_of(q);
     turn_ = rotation_of(relative_rotation(q, b_.is_turned ? pose_.b : unturned));
     centre_ = rotate_back(turn_a_, pose_.d);
-    thread_local Memory memory;
+    Memory& memory = memory_of_thread();
     place_points(memory);
     const Side a = {a_, memory.b_in_a, inside(b_, rotate(turn_, middle_of(b_)) + centre_),
                     memory.bounds_a};
@@ -52,7 +49,7 @@ class DepthSearch {
     const BestFace best_b = try_faces(b, best_a.gap);
     if (is_doubtful_) return not_in_float<float>();
     keep_faces(a, best_a, b, best_b);
-    cross_edges(a, b);
+    cross_edges(a, b, memory);
     return is_doubtful_ ? not_in_float<float>() : contact(memory.a, memory.b_in_a);
   }
 
@@ -65,7 +62,14 @@ class DepthSearch {
   struct Memory {
     HullPoints a, b_in_a, a_in_b;
     FaceBounds bounds_a, bounds_b;
+    EdgeColumns edges_a, edges_b;
   };
+
+  // Not inlined: its address would be looked up again in every loop.
+  [[gnu::noinline]] static Memory& memory_of_thread() {
+    thread_local Memory memory;
+    return memory;
+  }
 
   void place_points(Memory& memory) const {
     const Rotation<float> back = {{turn_.x.x(), turn_.y.x(), turn_.z.x()},
@@ -129,18 +133,6 @@ class DepthSearch {
 
   // --- Edges ---
 
-  static EdgeOfSolid edge_of_a(const Side& a, uint32_t e) {
-    const Solid::Edge& edge = a.solid.edges[e];
-    return {edge.direction, a.solid.corner(edge.from), a.solid.normal(edge.left),
-            a.solid.normal(edge.right)};
-  }
-
-  EdgeOfSolid edge_of_b(const Side& b, const HullPoints& in_frame_of_a, uint32_t e) const {
-    const Solid::Edge& edge = b.solid.edges[e];
-    return {rotate(turn_, edge.direction), in_frame_of_a[edge.from],
-            rotate(turn_, b.solid.normal(edge.left)), rotate(turn_, b.solid.normal(edge.right))};
-  }
-
   // Those beside which some axis may be better than the best face: no ball settles both faces.
   // Without branches, which nobody could predict.
   void find_edges_to_cross(const Side& side, Edges& edges) const {
@@ -155,44 +147,47 @@ class DepthSearch {
     edges.count = count;
   }
 
-  void cross_edges(const Side& a, const Side& b) {
+  // `corners`: in the frame of A.
+  static void put_edges(const Solid& solid, const HullPoints& corners, const Edges& edges,
+                        EdgeColumns& columns) {
+    columns.count = edges.count;
+    for (size_t k = 0; k < edges.count; ++k) {
+      const Solid::Edge& edge = solid.edges[edges.index[k]];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        columns.direction[axis][k] = edge.direction[static_cast<int>(axis)];
+        columns.left[axis][k] = solid.plane[axis][edge.left];
+        columns.right[axis][k] = solid.plane[axis][edge.right];
+      }
+      columns.from[0][k] = corners.x[edge.from];
+      columns.from[1][k] = corners.y[edge.from];
+      columns.from[2][k] = corners.z[edge.from];
+    }
+  }
+
+  void cross_edges(const Side& a, const Side& b, Memory& memory) {
     Edges edges_a, edges_b;
     find_edges_to_cross(a, edges_a);
     find_edges_to_cross(b, edges_b);
     is_doubtful_ = edges_a.count > kMostCrossed || edges_b.count > kMostCrossed;
     if (is_doubtful_ || edges_a.count == 0 || edges_b.count == 0) return;
-    std::array<EdgeOfSolid, kMostCrossed> of_b;
-    for (size_t k = 0; k < edges_b.count; ++k) {
-      of_b[k] = edge_of_b(b, a.others, edges_b.index[k]);
-    }
-    for (size_t i = 0; i < edges_a.count; ++i) {
-      const EdgeOfSolid of_a = edge_of_a(a, edges_a.index[i]);
-      for (size_t k = 0; k < edges_b.count; ++k) try_crossing(of_a, of_b[k]);
-    }
-    if (has_crossing_) take_crossing();
+    put_edges(a_, memory.a, edges_a, memory.edges_a);
+    put_edges(b_, memory.b_in_a, edges_b, memory.edges_b);
+    const Crossing crossing = steps_.cross(memory.edges_a, memory.edges_b, turn_, gap_);
+    is_doubtful_ = crossing.is_doubtful;
+    if (crossing.exists) take_crossing(crossing, memory.edges_a, memory.edges_b);
   }
 
-  // Whether the arc of the first crosses that of the other one, turned round: there is an axis
-  // across both then.
-  void try_crossing(const EdgeOfSolid& a, const EdgeOfSolid& b) {
-    const float of_left = dot(b.left, a.direction), of_right = dot(b.right, a.direction);
-    const float on_left = dot(a.left, b.direction), on_right = dot(a.right, b.direction);
-    if (!(of_right * of_left < 0 && on_right * on_left < 0 && of_right * on_left < 0)) return;
-    const Vector3f n = cross(a.direction, b.direction);
-    const float nn = dot(n, n);
-    if (!(nn > kAlongEachOther)) is_doubtful_ = true;
-    const float along = dot(n, Vector3f(b.from - a.from)) * (1 / std::sqrt(nn));
-    const float gap = dot(n, Vector3f(a.left + a.right)) < 0 ? -along : along;
-    if (!(gap > gap_)) return;
+  void take_crossing(const Crossing& crossing, const EdgeColumns& a, const EdgeColumns& b) {
+    const auto of = [](const EdgeColumns::Column3& column, size_t k) -> Vector3f {
+      return {column[0][k], column[1][k], column[2][k]};
+    };
+    const size_t i = crossing.of_a, k = crossing.of_b;
     has_crossing_ = true;
-    gap_ = gap;
-    edge_a_ = a;
-    edge_b_ = b;
-  }
-
-  void take_crossing() {
+    gap_ = crossing.gap;
+    edge_a_ = {of(a.direction, i), of(a.from, i)};
+    edge_b_ = {rotate(turn_, of(b.direction, k)), of(b.from, k)};
     across_ = cross(edge_a_.direction, edge_b_.direction);
-    if (dot(across_, Vector3f(edge_a_.left + edge_a_.right)) < 0) across_ = -across_;
+    if (dot(across_, Vector3f(of(a.left, i) + of(a.right, i))) < 0) across_ = -across_;
     normal_ = across_ * (1 / std::sqrt(dot(across_, across_)));
   }
 
@@ -238,7 +233,7 @@ class DepthSearch {
   Vector3f normal_;
   // The best one across two edges.
   bool has_crossing_ = false;
-  EdgeOfSolid edge_a_, edge_b_;
+  CrossedEdge edge_a_, edge_b_;
   Vector3f across_;
 };
 

@@ -62,6 +62,26 @@ struct BestFace {
   size_t face = 0;
 };
 
+// More edges than this beside which no axis is ruled out are for others to cross.
+inline constexpr size_t kMostCrossed = 64;
+
+// Edges of one solid, in columns: where they begin, their directions, and the normals of the faces
+// beside them.
+struct EdgeColumns {
+  using Column3 = std::array<std::array<float, kMostCrossed>, 3>;
+
+  size_t count;
+  Column3 from, direction, left, right;
+};
+
+// An axis across two edges. `gap`: along it, more than that of all other axes; if `exists`.
+struct Crossing {
+  float gap;
+  size_t of_a = 0, of_b = 0;
+  bool exists = false;
+  bool is_doubtful = false;  // some edges that cross are along each other
+};
+
 // What runs in lanes; reference::kHullSteps has the same, scalar.
 struct HullSteps {
   // turn * (point * scale) + offset.
@@ -74,6 +94,10 @@ struct HullSteps {
   // Which of the balls leave an axis beside a face no more than `gap`.
   void (*settle)(const Solid& solid, float gap, FaceBounds& bounds);
   FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
+  // The best axis across an edge of A and one of B of which the arcs cross; of equals the first.
+  // `turn`: of the directions and normals of B to the frame of the rest.
+  Crossing (*cross)(const EdgeColumns& a, const EdgeColumns& b,
+                    const reference::Rotation<float>& turn, float gap);
   // The furthest, and how many points reach as far up to kFacingSlack.
   FacingPoints (*facing)(const HullPoints& points, const Vector3f& way);
 };

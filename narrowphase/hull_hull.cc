@@ -8,6 +8,8 @@
 #include "narrowphase/batch-inl.h"
 #include "narrowphase/core_kernel-inl.h"
 #include "narrowphase/direction-inl.h"
+#include "narrowphase/hull_points-inl.h"
+#include "narrowphase/manifold-inl.h"
 #include "narrowphase/recall-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,6 +24,8 @@ void hull_hull(const Batch& batch) {
       return run_batch<RecallKernel<HullLanes, HullLanes>>(batch);
     case Pass::distance:
       return run_batch<CoreKernel<HullLanes, HullLanes, true>>(batch);
+    case Pass::manifold:
+      return run_manifold<HullLanes, HullLanes>(batch);
     default:
       return run_batch<CoreKernel<HullLanes, HullLanes, false>>(batch);
   }

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/hull_steps.h"
+#include "simd/first_of_most-inl.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,34 +16,6 @@ namespace {
 using reference::Vector3;
 
 HWY_INLINE F3 in_all_lanes(const Vector3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
-
-HWY_INLINE F indices() { return hn::Iota(FloatTag(), 0); }
-
-// Of lanes with the greatest value, the least index.
-struct FirstOfMost {
-  F most, index;
-
-  static HWY_INLINE FirstOfMost none() { return {splat(-FLT_MAX), splat(0)}; }
-  HWY_INLINE void keep(Mask exists, F value, F at) {
-    const Mask is_better = hn::And(exists, hn::Gt(value, most));
-    most = hn::IfThenElse(is_better, value, most);
-    index = hn::IfThenElse(is_better, at, index);
-  }
-  HWY_INLINE float value() const { return hn::GetLane(hn::MaxOfLanes(FloatTag(), most)); }
-  // The same of the indices 0 to count - 1.
-  HWY_INLINE size_t first_of(size_t count) const {
-    if (count > kLanes) return first();
-    const FloatTag tag;
-    return hn::FindKnownFirstTrue(tag, hn::Eq(most, hn::MaxOfLanes(tag, most)));
-  }
-  // Of lanes that kept nothing it is 0.
-  HWY_INLINE size_t first() const {
-    const FloatTag tag;
-    const Mask is_best = hn::Eq(most, hn::MaxOfLanes(tag, most));
-    const F candidates = hn::IfThenElse(is_best, index, splat(FLT_MAX));
-    return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, candidates)));
-  }
-};
 
 void place_points(const Solid& solid, const reference::Rotation<float>& turn,
                   const Vector3f& offset, HullPoints& out) {
@@ -93,7 +66,7 @@ BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
   const F radius = splat(ball.radius);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
-  F index = indices();
+  F index = lane_indices();
   for (size_t i = 0; i < solid.face_count; i += kLanes) {
     const BoundLanes found = bound(FaceLanes(solid, i), middle, radius);
     hn::StoreU(found.between, tag, bounds.between[last].data() + i);
@@ -115,7 +88,7 @@ BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds&
   const F zero = splat(0);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
-  F index = indices();
+  F index = lane_indices();
   for (size_t i = 0; i < solid.face_count; i += kLanes) {
     const FaceLanes faces(solid, i);
     F least = splat(FLT_MAX);
@@ -157,7 +130,7 @@ FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
   const F3 n = in_all_lanes(way);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
-  F index = indices();
+  F index = lane_indices();
   for (size_t i = 0; i < points.padded; i += kLanes) {
     best.keep(all, heights(points, n, i), index);
     index = hn::Add(index, splat(kLanes));
@@ -170,7 +143,7 @@ FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   const FurthestOfHull furthest = furthest_of_hull(points, way);
   const F3 n = in_all_lanes(way);
   const F most = splat(furthest.height), count = splat(static_cast<float>(points.count));
-  F index = indices();
+  F index = lane_indices();
   size_t found = 0;
   for (size_t i = 0; i < points.padded; i += kLanes) {
     const Mask is_as_far = hn::Le(hn::Sub(most, heights(points, n, i)), splat(kFacingSlack));
@@ -180,9 +153,81 @@ FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   return {furthest, found};
 }
 
+// Some edges of a column; behind the last, edges without direction, which cross no other.
+struct EdgeLanes {
+  F3 from, direction, left, right;
+
+  HWY_INLINE EdgeLanes(const EdgeColumns& edges, size_t k) {
+    const Mask exist = hn::FirstN(FloatTag(), edges.count - k);
+    const auto load = [&](const EdgeColumns::Column3& column) HWY_ATTR -> F3 {
+      const FloatTag tag;
+      return zero_unless(
+          exist, {hn::LoadU(tag, column[0].data() + k), hn::LoadU(tag, column[1].data() + k),
+                  hn::LoadU(tag, column[2].data() + k)});
+    };
+    from = load(edges.from);
+    direction = load(edges.direction);
+    left = load(edges.left);
+    right = load(edges.right);
+  }
+};
+
+HWY_INLINE F3 in_all_lanes(const EdgeColumns::Column3& column, size_t i) {
+  return {splat(column[0][i]), splat(column[1][i]), splat(column[2][i])};
+}
+
+// One vector of edges of B, in the frame of A.
+HWY_INLINE void cross_with(const EdgeColumns& a, const EdgeLanes& b, F index, FirstOfMost& best,
+                           Mask& doubtful) {
+  const F zero = splat(0);
+  for (size_t i = 0; i < a.count; ++i) {
+    const F3 direction = in_all_lanes(a.direction, i);
+    const F3 left = in_all_lanes(a.left, i), right = in_all_lanes(a.right, i);
+    const F of_left = dot(b.left, direction), of_right = dot(b.right, direction);
+    const F on_left = dot(left, b.direction), on_right = dot(right, b.direction);
+    const Mask crosses = hn::And(hn::Lt(hn::Mul(of_right, of_left), zero),
+                                 hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
+                                         hn::Lt(hn::Mul(of_right, on_left), zero)));
+    if (!hn::AllFalse(FloatTag(), crosses)) {
+      const F3 n = cross(direction, b.direction);
+      const F nn = dot(n, n);
+      doubtful = hn::Or(doubtful, hn::AndNot(hn::Gt(nn, splat(kAlongEachOther)), crosses));
+      const F along =
+          hn::Mul(dot(n, b.from - in_all_lanes(a.from, i)), hn::Div(splat(1), hn::Sqrt(nn)));
+      const Mask is_back = hn::Lt(dot(n, left + right), zero);
+      best.keep_first(crosses, hn::IfThenElse(is_back, hn::Neg(along), along), index);
+    }
+    index = hn::Add(index, splat(kMostCrossed));
+  }
+}
+
+Crossing cross_edges(const EdgeColumns& a, const EdgeColumns& b,
+                     const reference::Rotation<float>& turn, float gap) {
+  const Rotation r{in_all_lanes(turn.x), in_all_lanes(turn.y), in_all_lanes(turn.z)};
+  Mask doubtful = no_lanes();
+  Crossing crossing{gap};
+  FirstOfMost best{splat(gap), splat(-1)};
+  for (size_t k = 0; k < b.count; k += kLanes) {
+    EdgeLanes edges(b, k);
+    edges.direction = rotate(r, edges.direction);
+    edges.left = rotate(r, edges.left);
+    edges.right = rotate(r, edges.right);
+    cross_with(a, edges, hn::Add(lane_indices(), splat(static_cast<float>(k))), best, doubtful);
+  }
+  crossing.is_doubtful = !hn::AllFalse(FloatTag(), doubtful);
+  crossing.exists = best.value() > gap;
+  if (!crossing.exists) return crossing;
+  const size_t first = best.first();
+  crossing.gap = best.value();
+  crossing.of_a = first / kMostCrossed;
+  crossing.of_b = first % kMostCrossed;
+  return crossing;
+}
+
 const HullSteps& hull_steps() {
   static constexpr HullSteps kSteps = {&place_points, &bound_faces,      &try_all_faces,
-                                       &settle_faces, &furthest_of_hull, &facing_points};
+                                       &settle_faces, &furthest_of_hull, &cross_edges,
+                                       &facing_points};
   return kSteps;
 }
 

@@ -64,7 +64,11 @@ class ManifoldLoop {
         {hn::Mul(column(tested.point_a[0]), down), hn::Mul(column(tested.point_a[1]), down),
          hn::Mul(column(tested.point_a[2]), down)}};
     PointLanes points;
-    contact_points(a, b, placed, contact, points);
+    if constexpr (A::kKind == ShapeKind::hull || B::kKind == ShapeKind::hull) {
+      leave_unless(contact_points(a, b, placed, contact, points), batch, row);
+    } else {
+      contact_points(a, b, placed, contact, points);
+    }
     ManifoldRows rows;
     put_records(points, contact, up, rows);
     rows.copy_to(batch.out, batch.manifold_row + row, std::min(kLanes, batch.count - row));
@@ -81,6 +85,12 @@ class ManifoldLoop {
       const F one = splat(1);
       placed.turn = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
     }
+  }
+
+  // Marks the rows that the reference is to find points of.
+  static HWY_INLINE void leave_unless(Mask is_known, const Batch& batch, size_t row) {
+    if (HWY_LIKELY(hn::AllTrue(FloatTag(), is_known))) return;
+    store_bytes(bytes_where(hn::Not(is_known), 1), batch.unsure, row);
   }
 
   // Back in metres; none deeper than the contact, none apart. One point alone is the witness.

@@ -38,6 +38,7 @@ struct Rectangle {
 
   HWY_INLINE F corner_x(size_t i) const { return i == 1 || i == 2 ? upper_x : lower_x; }
   HWY_INLINE F corner_y(size_t i) const { return i >= 2 ? upper_y : lower_y; }
+  static HWY_INLINE Mask where(size_t, Mask mask) { return mask; }
 };
 
 // A triangle, its longest edge along x. Without area it has only zeros.
@@ -48,6 +49,34 @@ struct TriangleFace {
 
   HWY_INLINE F corner_x(size_t i) const { return x[i]; }
   HWY_INLINE F corner_y(size_t i) const { return y[i]; }
+  static HWY_INLINE Mask where(size_t, Mask mask) { return mask; }
+};
+
+// A face with as many corners as `count` says, three at least; behind the last the first again, so
+// that it is the next one of the last.
+template <size_t kMost>
+struct PolygonFace {
+  static constexpr size_t kCorners = kMost;
+  FaceFrame frame;
+  F x[kMost], y[kMost];  // counter-clockwise
+  F count;
+  // No part of an edge beyond these is in sight.
+  F lower_x, lower_y, upper_x, upper_y;
+
+  HWY_INLINE F corner_x(size_t i) const { return x[i]; }
+  HWY_INLINE F corner_y(size_t i) const { return y[i]; }
+  // Where there is a corner i as well.
+  HWY_INLINE Mask where(size_t i, Mask mask) const {
+    if (i < 3) return mask;
+    return hn::And(mask, hn::Gt(count, splat(static_cast<float>(i))));
+  }
+};
+
+// A face, and its corners as they are seen from the position of A.
+template <class Face>
+struct FaceSide {
+  Face face;
+  F3 corners[Face::kCorners];
 };
 
 template <class Shape>
@@ -122,6 +151,12 @@ HWY_INLINE void triangle_face(const F3 (&corners)[3], TriangleFace& face) {
   face.x[1] = dot(frame.u, along);
   face.x[2] = hn::Neg(dot(frame.u, back));
   face.y[2] = hn::Neg(dot(frame.v, back));
+}
+
+HWY_INLINE void triangle_side(const TriangleLanes& triangle, const Placed& placed,
+                              FaceSide<TriangleFace>& side) {
+  corners_of(triangle, placed, side.corners);
+  triangle_face(side.corners, side.face);
 }
 
 // Special triangles are seen from the front only; `toward` leads to the other shape.

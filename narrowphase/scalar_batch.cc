@@ -27,8 +27,10 @@ void run_scalar_batch(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b) {
   test_rows(batch, kind_a, kind_b);
 }
 
-void run_scalar_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b) {
+void run_scalar_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
+                          const uint8_t* wanted) {
   for (size_t row = 0; row < batch.count; ++row) {
+    if (wanted && wanted[row] == 0) continue;
     const size_t to = batch.manifold_row[row];
     batch.out.manifold_count[to] =
         manifold_answer(batch, kind_a, kind_b, row, batch.out.manifold[to]);

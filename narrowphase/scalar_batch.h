@@ -8,7 +8,8 @@ namespace carom {
 
 void run_scalar_batch(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
 
-// The manifold pass of such a batch, or of any other.
-void run_scalar_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
+// The manifold pass of such a batch, or of any other; of all rows, or of those that are `wanted`.
+void run_scalar_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
+                          const uint8_t* wanted = nullptr);
 
 }  // namespace carom

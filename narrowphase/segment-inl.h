@@ -70,11 +70,13 @@ HWY_INLINE Mask way_between(const F3& d, F dd, const F3& e, F ee, F s, F t, cons
 HWY_INLINE F3 any_perpendicular(const F3& d) {
   const AxisMasks axis = least_axis({hn::Abs(d.x), hn::Abs(d.y), hn::Abs(d.z)});
   const F zero = splat(0);
-  const F3 v = select(axis.x, {zero, hn::Neg(d.z), d.y},
-                      select(axis.y, {d.z, zero, hn::Neg(d.x)}, {hn::Neg(d.y), d.x, zero}));
+  const F3 around_x = {zero, hn::Neg(d.z), d.y};
+  const F3 around_y = {d.z, zero, hn::Neg(d.x)};
+  const F3 around_z = {hn::Neg(d.y), d.x, zero};
+  const F3 v = select(axis.x, around_x, select(axis.y, around_y, around_z));
   const F squared = dot(v, v);
-  return select(hn::Gt(squared, zero), v * hn::Div(splat(1), hn::Sqrt(squared)),
-                {splat(1), zero, zero});
+  const F3 x = {splat(1), zero, zero};
+  return select(hn::Gt(squared, zero), v * hn::Div(splat(1), hn::Sqrt(squared)), x);
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -54,7 +54,7 @@ struct Rotation {
 
 // M(q) / |q|^2. Source: K. Shoemake, Animating Rotation with Quaternion Curves, SIGGRAPH 1985.
 template <class Real>
-Rotation<Real> rotation_of(const Quaternion<Real>& q) {
+[[gnu::always_inline]] inline Rotation<Real> rotation_of(const Quaternion<Real>& q) {
   const Real s = Real(2) / (dot(q.v, q.v) + q.w * q.w);
   const Vector3<Real> scaled = q.v * s;
   const Real xx = q.v.x() * scaled.x(), xy = q.v.x() * scaled.y(), xz = q.v.x() * scaled.z();
@@ -72,7 +72,8 @@ Quaternion<Real> relative_rotation(const Quaternion<Real>& a, const Quaternion<R
 }
 
 template <class Real>
-Vector3<Real> rotate(const Rotation<Real>& r, const Vector3<Real>& v) {
+[[gnu::always_inline]] inline Vector3<Real> rotate(const Rotation<Real>& r,
+                                                   const Vector3<Real>& v) {
   return (r.x * v.x() + r.y * v.y()) + r.z * v.z();
 }
 

@@ -1,0 +1,52 @@
+// The greatest of many values, a vector at a time, and where it was.
+#if defined(CAROM_SIMD_FIRST_OF_MOST_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_SIMD_FIRST_OF_MOST_INL_H_
+#undef CAROM_SIMD_FIRST_OF_MOST_INL_H_
+#else
+#define CAROM_SIMD_FIRST_OF_MOST_INL_H_
+#endif
+
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+HWY_INLINE F lane_indices() { return hn::Iota(FloatTag(), 0); }
+
+// Of lanes with the greatest value, the least index.
+struct FirstOfMost {
+  F most, index;
+
+  static HWY_INLINE FirstOfMost none() { return {splat(-FLT_MAX), splat(0)}; }
+  HWY_INLINE void keep(Mask exists, F value, F at) {
+    const Mask is_better = hn::And(exists, hn::Gt(value, most));
+    most = hn::IfThenElse(is_better, value, most);
+    index = hn::IfThenElse(is_better, at, index);
+  }
+  // Of equals the one with the least index.
+  HWY_INLINE void keep_first(Mask exists, F value, F at) {
+    const Mask is_equal = hn::And(hn::Eq(value, most), hn::Lt(at, index));
+    const Mask is_better = hn::And(exists, hn::Or(hn::Gt(value, most), is_equal));
+    most = hn::IfThenElse(is_better, value, most);
+    index = hn::IfThenElse(is_better, at, index);
+  }
+  HWY_INLINE float value() const { return hn::GetLane(hn::MaxOfLanes(FloatTag(), most)); }
+  // The same of the indices 0 to count - 1.
+  HWY_INLINE size_t first_of(size_t count) const {
+    if (count > kLanes) return first();
+    const FloatTag tag;
+    return hn::FindKnownFirstTrue(tag, hn::Eq(most, hn::MaxOfLanes(tag, most)));
+  }
+  // Of lanes that kept nothing it is 0.
+  HWY_INLINE size_t first() const {
+    const FloatTag tag;
+    const Mask is_best = hn::Eq(most, hn::MaxOfLanes(tag, most));
+    const F candidates = hn::IfThenElse(is_best, index, splat(FLT_MAX));
+    return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, candidates)));
+  }
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_SIMD_FIRST_OF_MOST_INL_H_
