@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "kernel/few_of.h"
+
 namespace carom {
 namespace {
 
@@ -39,6 +41,9 @@ double with_slack(double reach, double lengths) {
 
 // A part as seen from a tree.
 class SeenPart {
+  // Of hulls with more, the box is seen.
+  static constexpr size_t kMostSeenPoints = 64;
+
  public:
   SeenPart(const PlacedPart& tree, const PlacedPart& part)
       : change_(to_frame_of(tree, part)), size_(size_of(tree)) {
@@ -49,6 +54,8 @@ class SeenPart {
       see_points(std::array{vector_of(rows[0]), vector_of(rows[1])}, rows[0][3]);
     } else if (part.kind() == ShapeKind::sphere) {
       see_points(std::array<Double3, 1>{}, part.part->radius);
+    } else if (part.kind() == ShapeKind::hull) {
+      see_hull(*geometry_at<HullGeometry>(part.part->rows[0]), *part.part);
     } else {
       see_box(box_of(*part.part));
     }
@@ -81,10 +88,18 @@ class SeenPart {
     }
   }
 
-  template <size_t kCount>
-  void see_points(const std::array<Double3, kCount>& points, double radius) {
+  // The box of a box that is turned has twice the faces of that of the points inside.
+  void see_hull(const HullGeometry& hull, const Part& part) {
+    if (hull.points().size() > kMostSeenPoints) return see_box(box_of(part));
+    FewOf<Double3, kMostSeenPoints> points;
+    for (const Eigen::Vector3f& p : hull.points()) points.push_back({p.x(), p.y(), p.z()});
+    see_points(points, 0);
+  }
+
+  template <class Points>
+  void see_points(const Points& points, double radius) {
     Double3 lower = seen(points[0]), upper = lower;
-    for (size_t i = 1; i < kCount; ++i) {
+    for (size_t i = 1; i < points.size(); ++i) {
       const Double3 point = seen(points[i]);
       for (size_t axis = 0; axis < 3; ++axis) {
         lower[axis] = std::min(lower[axis], point[axis]);

@@ -166,6 +166,7 @@ struct BatchLoop {
     Batch tail = batch;
     tail.unsure = batch.unsure ? unsure : nullptr;
     tail.features = batch.features ? features : nullptr;
+    tail.open = nullptr;
     tail.pairs = pairs;
     tail.pairs_are_rows = false;
     tail.count = kLanes;

@@ -44,6 +44,8 @@ enum class MorePasses : uint8_t { none, manifold, direction_and_manifold, all, a
 // pass reads no further than `count`.)
 inline constexpr size_t kMostLanes = 16;
 
+struct OpenSearches;
+
 // Row i tests a[pairs[i].a] against b[pairs[i].b]; the result goes to row i of `out`, which has
 // every column that the detail fills.
 struct Batch {
@@ -64,6 +66,7 @@ struct Batch {
   bool faces_only = false;              // FastKnobs
   const uint32_t* direction = nullptr;  // Pass::direction alone: packed_direction.h
   uint64_t* features = nullptr;         // read by Pass::recall, written by test and distance
+  OpenSearches* open = nullptr;         // of hulls: core_stages-inl.h
   // Pass::manifold alone.
   ResultColumns tested;                    // separation, normal and point_a, relative to A
   const uint16_t* manifold_row = nullptr;  // the row of `out` that row i goes to

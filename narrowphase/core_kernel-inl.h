@@ -74,12 +74,13 @@ HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const Gjk
 }
 
 // `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
-// elsewhere.
+// elsewhere. Lanes that go on later are neither.
 template <class Report>
 HWY_INLINE void report_nearest(const NearestCores& nearest, F radius, F radius_a, const F3& d,
-                               Report& report) {
+                               Mask goes_on, Report& report) {
   const F separation = hn::Sub(nearest.distance, radius);
-  const Mask is_sure = hn::And(nearest.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap)));
+  const Mask is_sure =
+      hn::Or(goes_on, hn::And(nearest.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap))));
   const F3 arm_a = nearest.on_a + nearest.normal * radius_a;
   const F3 arm_b = (arm_a + nearest.normal * separation) - d;
   report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, nearest.normal,
@@ -91,10 +92,17 @@ HWY_INLINE Mask is_usual_scale(F up) {
   return hn::And(hn::Ge(up, splat(1 / kGreatestScale)), hn::Le(up, splat(kGreatestScale)));
 }
 
+// Tests run as a whole, or in two stages (core_stages-inl.h).
+enum class Stage { whole, first, rest };
+
+// No more lanes of a vector than these leave it at the end of the first stage: three of sixteen,
+// and none of four, which would cost more than it saves.
+inline constexpr size_t kFewOpen = 3 * kLanes / 16;
+
 // The test of two kinds of which one is a hull. Marks as unsure whatever is left to other tests,
 // and with kDeep cores that surely overlap, whose depth is wanted. `kMeasures`: separate pairs,
 // too; otherwise their separation is a lower bound, along the normal.
-template <class ShapeA, class ShapeB, bool kMeasures>
+template <class ShapeA, class ShapeB, bool kMeasures, Stage kStage = Stage::whole>
 struct CoreKernel {
   using A = ShapeA;
   using B = ShapeB;
@@ -111,9 +119,11 @@ struct CoreKernel {
         hn::And(hn::And(core_a.has_space, core_b.has_space), is_usual_scale(report.up));
     const F radius = hn::Add(core_a.radius, core_b.radius);
     uint64_t* const features = report.batch.features ? report.batch.features + report.row : nullptr;
-    const GjkLanes gjk = run_gjk<kDecides>(core_a, core_b, radius, features != nullptr);
+    GjkSearch search;
+    const Mask goes_on = run_stage<kDecides>(core_a, core_b, radius, report, search);
+    const GjkLanes& gjk = search.gjk;
     if constexpr (kDecides) {
-      report_decision(gjk, radius, is_known, report);
+      report_decision(gjk, radius, is_known, goes_on, report);
       if (features) {
         const Mask is_sure = hn::And(gjk.is_around, hn::And(is_known, report.valid));
         write_features(core_a, core_b, gjk, is_sure, features);
@@ -122,7 +132,7 @@ struct CoreKernel {
       const FrontCorners ends(gjk.ends);
       NearestCores nearest = nearest_cores(core_a, core_b, ends);
       nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
-      report_nearest(nearest, radius, core_a.radius, pose.d, report);
+      report_nearest(nearest, radius, core_a.radius, pose.d, goes_on, report);
       if (features) {
         write_features(core_a, core_b, ends, hn::And(nearest.is_sure, report.valid), features);
       }
@@ -131,8 +141,30 @@ struct CoreKernel {
   }
 
  private:
+  // Yields the lanes that go on later.
+  template <bool kDecides, class Report>
+  static HWY_INLINE Mask run_stage(const CoreLanes& a, const CoreLanes& b, F radius,
+                                   const Report& report, GjkSearch& search) {
+    const Decision decision = decision_at(radius, report.batch.features != nullptr);
+    OpenSearches* const open = report.batch.open;
+    if constexpr (kStage == Stage::rest) {
+      resume(*open, report.row, search);
+    } else {
+      begin_search<kDecides>(a, b, decision, search);
+    }
+    if constexpr (kStage == Stage::first) {
+      go_on<kDecides>(a, b, decision, open ? kFewOpen : 0, search);
+      const Mask goes_on = hn::And(search.is_open, report.valid);
+      if (!hn::AllFalse(FloatTag(), goes_on)) leave(search, goes_on, report.row, *open);
+      return goes_on;
+    } else {
+      go_on<kDecides>(a, b, decision, 0, search);
+      return no_lanes();
+    }
+  }
+
   template <class Report>
-  static HWY_INLINE void report_decision(const GjkLanes& gjk, F radius, Mask is_known,
+  static HWY_INLINE void report_decision(const GjkLanes& gjk, F radius, Mask is_known, Mask goes_on,
                                          Report& report) {
     const F reach = hn::Sub(radius, splat(kSureGap));
     // Cores that all but touch may be flat, which is for others to say.
@@ -140,7 +172,7 @@ struct CoreKernel {
         hn::And(hn::Gt(gjk.squared, splat(kNearCores * kNearCores)),
                 hn::And(hn::Gt(reach, splat(0)), hn::Lt(gjk.squared, hn::Mul(reach, reach))));
     const Mask overlap = hn::Or(gjk.is_around, is_within);
-    const Mask is_sure = hn::And(is_known, hn::Or(overlap, gjk.is_apart));
+    const Mask is_sure = hn::Or(goes_on, hn::And(is_known, hn::Or(overlap, gjk.is_apart)));
     const F length = hn::Sqrt(gjk.squared);
     const F gap = hn::Sub(hn::Div(gjk.gap, length), radius);
     report(overlap, hn::Not(is_sure), no_lanes(), hn::IfThenElse(gjk.is_apart, gap, splat(-1)),

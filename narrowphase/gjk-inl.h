@@ -9,7 +9,9 @@
 
 #include "kernel/tolerances.h"
 #include "narrowphase/core_lanes-inl.h"
+#include "narrowphase/open_searches.h"
 #include "narrowphase/simplex-inl.h"
+#include "simd/compress-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -94,30 +96,93 @@ HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, const Decision
   is_open = hn::And(is_open, hn::Gt(gjk.squared, splat(kNearCores * kNearCores)));
 }
 
-// `radius`: of both together. `kDecides`: no more is wanted than who is apart, and with
-// `keeps_last` the corners around zero.
-template <bool kDecides>
-HWY_INLINE GjkLanes run_gjk(const CoreLanes& a, const CoreLanes& b, F radius, bool keeps_last) {
-  const Mask none = no_lanes();
-  const CornerLanes first = difference_corner(a, b, b.middle - a.middle);
+// `radius`: of both together. `keeps_last`: the corners around zero.
+HWY_INLINE Decision decision_at(F radius, bool keeps_last) {
+  const F sure = hn::Add(radius, splat(kSureGap));
+  return {hn::Mul(sure, sure), keeps_last};
+}
+
+// A search, and how far it is.
+struct GjkSearch {
   GjkLanes gjk;
+  Mask is_open;
+  F rounds;  // so far
+};
+
+// The first two rounds. `kDecides`: no more is wanted than who is apart.
+template <bool kDecides>
+HWY_INLINE void begin_search(const CoreLanes& a, const CoreLanes& b, const Decision& decision,
+                             GjkSearch& search) {
+  const CornerLanes first = difference_corner(a, b, b.middle - a.middle);
+  GjkLanes& gjk = search.gjk;
   gjk.way = first.point;
   gjk.squared = dot(gjk.way, gjk.way);
   gjk.ends.corner = {first, first, first};
   gjk.last = first;
   gjk.ends.used = hn::Set(IntTag(), 0b001);
-  gjk.is_apart = gjk.is_around = gjk.has_ended = none;
+  gjk.is_apart = gjk.is_around = gjk.has_ended = no_lanes();
   gjk.gap = splat(0);
-  const F sure = hn::Add(radius, splat(kSureGap));
-  const Decision decision{hn::Mul(sure, sure), keeps_last};
-  Mask is_open = hn::Gt(gjk.squared, splat(kNearCores * kNearCores));
-  run_round<kDecides, 1>(a, b, decision, gjk, is_open);
-  run_round<kDecides, 2>(a, b, decision, gjk, is_open);
-  for (size_t round = 2; round < kMostLaneRounds; ++round) {
-    if (hn::AllFalse(FloatTag(), is_open)) break;
-    run_round<kDecides, 3>(a, b, decision, gjk, is_open);
+  search.is_open = hn::Gt(gjk.squared, splat(kNearCores * kNearCores));
+  run_round<kDecides, 1>(a, b, decision, gjk, search.is_open);
+  run_round<kDecides, 2>(a, b, decision, gjk, search.is_open);
+  search.rounds = splat(2);
+}
+
+// Until no more than `few` lanes are open.
+template <bool kDecides>
+HWY_INLINE void go_on(const CoreLanes& a, const CoreLanes& b, const Decision& decision, size_t few,
+                      GjkSearch& search) {
+  while (hn::CountTrue(FloatTag(), search.is_open) > few) {
+    run_round<kDecides, 3>(a, b, decision, search.gjk, search.is_open);
+    search.rounds = hn::Add(search.rounds, splat(1));
+    search.is_open =
+        hn::And(search.is_open, hn::Lt(search.rounds, splat(static_cast<float>(kMostLaneRounds))));
   }
-  return gjk;
+}
+
+// use(column, lanes) of the numbers that a search goes on with.
+template <class Search, class Use>
+HWY_INLINE void for_each_column(Search& search, const Use& use) {
+  const auto use3 = [&](size_t column, auto& v) HWY_ATTR {
+    use(column, v.x);
+    use(column + 1, v.y);
+    use(column + 2, v.z);
+  };
+  use(0, search.rounds);
+  use(1, search.gjk.squared);
+  use3(2, search.gjk.way);
+  for (size_t i = 0; i < 3; ++i) {
+    auto& corner = search.gjk.ends.corner[i];
+    use3(5 + 6 * i, corner.point);
+    use3(8 + 6 * i, corner.on_a);
+  }
+}
+inline constexpr size_t kUsedCorners = 23;  // the column of bits beside those
+static_assert(kUsedCorners + 1 == OpenSearches::kColumns);
+
+// The lanes of `row` and those behind it that go on later.
+HWY_INLINE void leave(const GjkSearch& search, Mask leaves, size_t row, OpenSearches& open) {
+  const IndexTag bits;
+  for_each_column(search, [&](size_t column, const F& v) HWY_ATTR {
+    compress_store(hn::BitCast(bits, v), leaves, open.column[column].data() + open.count);
+  });
+  compress_store(hn::BitCast(bits, search.gjk.ends.used), leaves,
+                 open.column[kUsedCorners].data() + open.count);
+  const Indices rows = hn::Iota(bits, static_cast<uint32_t>(row));
+  open.count += compress_store(rows, leaves, open.row.data() + open.count);
+}
+
+HWY_INLINE void resume(const OpenSearches& open, size_t row, GjkSearch& search) {
+  const IndexTag bits;
+  for_each_column(search, [&](size_t column, F& v) HWY_ATTR {
+    v = hn::BitCast(FloatTag(), hn::LoadU(bits, open.column[column].data() + row));
+  });
+  GjkLanes& gjk = search.gjk;
+  gjk.ends.used = hn::BitCast(IntTag(), hn::LoadU(bits, open.column[kUsedCorners].data() + row));
+  gjk.last = gjk.ends.corner[0];
+  gjk.is_apart = gjk.is_around = gjk.has_ended = no_lanes();
+  gjk.gap = splat(0);
+  search.is_open = hn::Not(no_lanes());
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
-#include "narrowphase/core_kernel-inl.h"
+#include "narrowphase/core_stages-inl.h"
 #include "narrowphase/direction-inl.h"
 #include "narrowphase/hull_points-inl.h"
 #include "narrowphase/manifold-inl.h"
@@ -23,11 +23,11 @@ void hull_hull(const Batch& batch) {
     case Pass::recall:
       return run_batch<RecallKernel<HullLanes, HullLanes>>(batch);
     case Pass::distance:
-      return run_batch<CoreKernel<HullLanes, HullLanes, true>>(batch);
+      return run_core<HullLanes, HullLanes, true>(batch);
     case Pass::manifold:
       return run_manifold<HullLanes, HullLanes>(batch);
     default:
-      return run_batch<CoreKernel<HullLanes, HullLanes, false>>(batch);
+      return run_core<HullLanes, HullLanes, false>(batch);
   }
 }
 

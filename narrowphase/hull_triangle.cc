@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch-inl.h"
-#include "narrowphase/core_kernel-inl.h"
+#include "narrowphase/core_stages-inl.h"
 #include "narrowphase/direction-inl.h"
 #include "narrowphase/hull_points-inl.h"
 #include "narrowphase/manifold-inl.h"
@@ -20,11 +20,11 @@ void hull_triangle(const Batch& batch) {
     case Pass::direction:
       return run_direction<HullLanes, TriangleLanes>(batch);
     case Pass::distance:
-      return run_batch<CoreKernel<HullLanes, TriangleLanes, true>>(batch);
+      return run_core<HullLanes, TriangleLanes, true>(batch);
     case Pass::manifold:
       return run_manifold<HullLanes, TriangleLanes>(batch);
     default:
-      return run_batch<CoreKernel<HullLanes, TriangleLanes, false>>(batch);
+      return run_core<HullLanes, TriangleLanes, false>(batch);
   }
 }
 

@@ -110,7 +110,7 @@ struct RecallKernel {
         hn::And(nearest.is_sure, hn::And(way.ends_inside(), hn::And(is_known, is_span)));
     nearest.distance = hn::IfThenElse(is_around, splat(-1), nearest.distance);
     nearest.is_sure = hn::Or(nearest.is_sure, is_around);
-    report_nearest(nearest, splat(0), splat(0), pose.d, report);
+    report_nearest(nearest, splat(0), splat(0), pose.d, no_lanes(), report);
   }
 };
 
