@@ -192,8 +192,26 @@ class CompositeRun {
 
   void run_batch() {
     batch_.run(tests_);
-    for (size_t i = 0; i < batch_.count(); ++i) merge(i);
+    for (size_t begin = 0; begin < batch_.count();) {
+      size_t end = begin + 1;
+      while (end < batch_.count() && batch_.owner(end) == batch_.owner(begin)) ++end;
+      merge(begin, end);
+      begin = end;
+    }
     batch_.clear();
+  }
+
+  // The deepest first: of what is behind it, less has to be asked.
+  void merge(size_t begin, size_t end) {
+    const ResultColumns& out = batch_.results();
+    size_t first = begin;
+    for (size_t i = begin + 1; i < end; ++i) {
+      if (out.separation[i] < out.separation[first]) first = i;
+    }
+    merge(first);
+    for (size_t i = begin; i < end; ++i) {
+      if (i != first) merge(i);
+    }
   }
 
   void merge(size_t i) {

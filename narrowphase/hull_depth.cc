@@ -115,7 +115,7 @@ class DepthSearch {
       if (is_doubtful_) return best;
       const FurthestOfHull lowest = steps_.furthest(side.others, -side.solid.normal(next.face));
       const float gap = -lowest.height - side.solid.height(next.face);
-      bounds.closed[next.face] = kLargest;
+      bounds.gap[next.face] = -kLargest;
       ball = {side.others[lowest.index], 0};
       if (gap > best.gap) best = {gap, next.face};
     }

@@ -45,15 +45,14 @@ struct Ball {
 
 // Of the faces of one solid: what balls say of the gaps of their axes. An axis between two faces
 // has no more than the greater of what a ball says of both, if its middle is below both; `between`
-// is kLargest of faces that it is above.
+// is above zero of faces that it is above.
 struct FaceBounds {
   static constexpr size_t kMost = Solid::kMostFaces;
   static constexpr size_t kMostBalls = 32;
 
   size_t count;                                              // of balls
   std::array<std::array<float, kMost>, kMostBalls> between;  // by each
-  std::array<float, kMost> gap;                              // the least of all
-  std::array<float, kMost> closed;                           // above zero: the face was tried
+  std::array<float, kMost> gap;         // the least of all; -kLargest if the face was tried
   std::array<uint32_t, kMost> settled;  // a bit for each ball: whether `between` is low enough
 };
 
@@ -91,7 +90,7 @@ struct HullSteps {
   BestFace (*bound)(const Solid& solid, const Ball& ball, FaceBounds& bounds);
   // By all points, which are few: of all faces the first with the greatest gap.
   BestFace (*try_all)(const Solid& solid, const HullPoints& points, FaceBounds& bounds);
-  // Which of the balls leave an axis beside a face no more than `gap`.
+  // Which of the balls leave an axis beside a face no more than `gap`, below zero.
   void (*settle)(const Solid& solid, float gap, FaceBounds& bounds);
   FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
   // The best axis across an edge of A and one of B of which the arcs cross; of equals the first.

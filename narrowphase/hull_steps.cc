@@ -48,15 +48,19 @@ struct FaceLanes {
   }
 };
 
+HWY_INLINE F above(const FaceLanes& faces, const F3& point) {
+  return hn::Sub(dot(faces.normal, point), faces.height);
+}
+
 // What one ball says of a vector of faces.
 struct BoundLanes {
   F gap, between;
 };
 
 HWY_INLINE BoundLanes bound(const FaceLanes& faces, const F3& middle, F radius) {
-  const F above = hn::Sub(dot(faces.normal, middle), faces.height);
-  const F gap = hn::Sub(above, radius);
-  return {gap, hn::IfThenElse(hn::Gt(above, splat(0)), splat(FLT_MAX), gap)};
+  const F height = above(faces, middle);
+  const F gap = hn::Sub(height, radius);
+  return {gap, hn::IfThenElse(hn::Gt(height, splat(0)), splat(FLT_MAX), gap)};
 }
 
 BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
@@ -71,12 +75,9 @@ BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
     const BoundLanes found = bound(FaceLanes(solid, i), middle, radius);
     hn::StoreU(found.between, tag, bounds.between[last].data() + i);
     float* const gaps = bounds.gap.data() + i;
-    float* const closed = bounds.closed.data() + i;
     const F least = last == 0 ? found.gap : min(hn::LoadU(tag, gaps), found.gap);
-    const F is_closed = last == 0 ? splat(0) : hn::LoadU(tag, closed);
     hn::StoreU(least, tag, gaps);
-    hn::StoreU(is_closed, tag, closed);
-    best.keep(all, hn::Sub(least, is_closed), index);
+    best.keep(all, least, index);
     index = hn::Add(index, splat(kLanes));
   }
   return {best.value(), best.first_of(solid.face_count)};
@@ -85,7 +86,6 @@ BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
 BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds& bounds) {
   const FloatTag tag;
   bounds.count = points.count;
-  const F zero = splat(0);
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
   F index = lane_indices();
@@ -94,9 +94,9 @@ BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds&
     F least = splat(FLT_MAX);
     for (size_t p = 0; p < points.count; ++p) {
       const F3 point = {splat(points.x[p]), splat(points.y[p]), splat(points.z[p])};
-      const BoundLanes found = bound(faces, point, zero);
-      hn::StoreU(found.between, tag, bounds.between[p].data() + i);
-      least = min(least, found.gap);
+      const F gap = above(faces, point);
+      hn::StoreU(gap, tag, bounds.between[p].data() + i);
+      least = min(least, gap);
     }
     best.keep(all, least, index);
     index = hn::Add(index, splat(kLanes));

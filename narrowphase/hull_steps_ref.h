@@ -24,18 +24,22 @@ inline BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bo
     const float gap = above - ball.radius;
     bounds.between[last][f] = above > 0 ? kLargest : gap;
     bounds.gap[f] = last == 0 ? gap : min(bounds.gap[f], gap);
-    if (last == 0) bounds.closed[f] = 0;
-    const float open = bounds.gap[f] - bounds.closed[f];
-    if (open > best.gap) best = {open, f};
+    if (bounds.gap[f] > best.gap) best = {bounds.gap[f], f};
   }
   return best;
 }
 
 inline BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds& bounds) {
-  bounds.count = 0;
+  bounds.count = points.count;
   BestFace best;
-  for (size_t i = 0; i < points.count; ++i) {
-    best = bound_faces(solid, {points[i], 0}, bounds);
+  for (size_t f = 0; f < solid.face_count; ++f) {
+    float least = kLargest;
+    for (size_t i = 0; i < points.count; ++i) {
+      const float gap = dot(solid.normal(f), points[i]) - solid.height(f);
+      bounds.between[i][f] = gap;
+      least = min(least, gap);
+    }
+    if (least > best.gap) best = {least, f};
   }
   return best;
 }

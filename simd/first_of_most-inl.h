@@ -40,7 +40,13 @@ struct FirstOfMost {
   // Of lanes that kept nothing it is 0.
   HWY_INLINE size_t first() const {
     const FloatTag tag;
+    HWY_ALIGN float indices[kLanes];
+    hn::Store(index, tag, indices);
     const Mask is_best = hn::Eq(most, hn::MaxOfLanes(tag, most));
+    // As mostly; the least of several takes as long as all that comes before.
+    if (HWY_LIKELY(hn::CountTrue(tag, is_best) == 1)) {
+      return static_cast<size_t>(indices[hn::FindKnownFirstTrue(tag, is_best)]);
+    }
     const F candidates = hn::IfThenElse(is_best, index, splat(FLT_MAX));
     return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, candidates)));
   }
