@@ -150,9 +150,14 @@ void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
       if (left[row] == 0) rows.put_invalid(row);
     }
   }
+  // Listed first: whether a row is left is as random as whether pairs overlap.
+  std::array<uint16_t, kPairsPerBlock + 1> list;
+  size_t count = 0;
   for (size_t row = 0; row < batch.count; ++row) {
-    if (left[row] != 0) rows.run(row, left[row] == kDeep);
+    list[count] = static_cast<uint16_t>(row);
+    count += left[row] != 0 ? 1 : 0;
   }
+  for (size_t i = 0; i < count; ++i) rows.run(list[i], left[list[i]] == kDeep);
 }
 
 template void run_core_batch<Sphere, Dop>(const Batch&, void (*)(const Batch&));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "kernel/dop_polytope.h"
 #include "narrowphase/polygon_ref.h"
@@ -25,26 +26,30 @@ class DopSideFinder {
         placed_(placed),
         same_point_(double{kSameCorner} * dop.greatest) {}
 
-  // Of the faces that reach as far along m as any point does, that whose normal is nearest to m; of
-  // equals the first. If there are only edges and points, one of those.
-  FacingSide towards(const Vector3f& m) const {
+  // Of the faces that reach as far along m as any point does, chosen as of hulls (hull_face_ref.h).
+  // If there are only edges and points, one of those.
+  FacingSide towards(const Vector3f& m, float depth) const {
     const Vector3f along = rotate_back(placed_.turn, m);
     double most = -HUGE_VAL;
     for (const Double3& point : polytope_.points()) most = std::max(most, height(along, point));
+    const double least = most - same_point_, touching = most - std::max(same_point_, double{depth});
+    const auto count_above = [&](const Corners& corners, double limit) {
+      return std::count_if(corners.begin(), corners.end(),
+                           [&](const Double3& x) { return height(along, x) >= limit; });
+    };
+    using Rank = std::pair<size_t, bool>;  // corners, and whether two of them touch
     Corners best;
+    Rank best_rank{};
     size_t plane = 0;
     float nearest = 0;
     for (const DopFace& face : polytope_.faces()) {
-      const auto reaches = [&](const DopCorner& corner) {
-        return height(along, corner.point) >= most - same_point_;
-      };
-      if (std::none_of(face.corners.begin(), face.corners.end(), reaches)) continue;
       const Corners corners = distinct_corners(face);
-      const size_t rank = std::min<size_t>(corners.size(), 3);
-      const size_t best_rank = std::min<size_t>(best.size(), 3);
+      if (count_above(corners, least) == 0) continue;
+      const Rank rank{std::min<size_t>(corners.size(), 3), count_above(corners, touching) >= 2};
       const float cosine = dot(normal_of(face.plane), along);
       if (rank < best_rank || (rank == best_rank && !(cosine > nearest))) continue;
       best = corners;
+      best_rank = rank;
       plane = face.plane;
       nearest = cosine;
     }
@@ -113,9 +118,9 @@ class DopSideFinder {
   const double same_point_;
 };
 
-inline FacingSide side_towards(const Vector3f& m, const DopShape<float>& dop,
+inline FacingSide side_towards(const Vector3f& m, float depth, const DopShape<float>& dop,
                                const Placed& placed) {
-  return DopSideFinder(dop, placed).towards(m);
+  return DopSideFinder(dop, placed).towards(m, depth);
 }
 
 }  // namespace carom::reference

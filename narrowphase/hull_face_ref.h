@@ -14,24 +14,31 @@ class HullSideFinder {
   HullSideFinder(const HullShape<float>& hull, const Placed& placed)
       : hull_(*hull.geometry), scale_(static_cast<float>(hull.scale)), placed_(placed) {}
 
-  // Of the faces that reach as far along m as any point does, that whose normal is nearest to m; of
-  // equals the first. Where there are none, the points that reach as far: one, or two ends.
-  FacingSide towards(const Vector3f& m) const {
+  // Of the faces that reach as far along m as any point does, and that have two corners no more
+  // than `depth` below it, or if there are none of the others, that whose normal is nearest to m;
+  // of equals the first. (Beside a ridge may be a flatter face that has one end of it.) Where there
+  // are none, the points that reach as far: one, or two ends.
+  FacingSide towards(const Vector3f& m, float depth) const {
     const Vector3f along = rotate_back(placed_.turn, m);
     thread_local std::vector<float> heights;
     heights.clear();
     for (const Vector3f& p : hull_.points()) heights.push_back(dot(along, p * scale_));
     const float most = *std::max_element(heights.begin(), heights.end());
     const float least = most - kSameCorner * (hull_.size() * scale_);
+    const float touching = min(least, most - depth);
     const HullGeometry::Face* best = nullptr;
+    bool best_has_two = false;
     Vector3f best_normal = Vector3f::Zero();
     float nearest = 0;
     for (const HullGeometry::Face& face : hull_.faces()) {
-      if (!reaches(face, heights, least)) continue;
+      if (count_above(face, heights, least) == 0) continue;
+      const bool has_two = count_above(face, heights, touching) >= 2;
       const Vector3f normal = normal_of(face);
       const float cosine = dot(normal, along);
-      if (best && !(cosine > nearest)) continue;
+      const bool is_better = has_two == best_has_two ? cosine > nearest : has_two;
+      if (best && !is_better) continue;
       best = &face;
+      best_has_two = has_two;
       best_normal = normal;
       nearest = cosine;
     }
@@ -41,11 +48,12 @@ class HullSideFinder {
  private:
   Vector3f point(uint32_t i) const { return hull_.points()[i] * scale_; }
 
-  bool reaches(const HullGeometry::Face& face, const std::vector<float>& heights,
-               float least) const {
+  // Corners.
+  size_t count_above(const HullGeometry::Face& face, const std::vector<float>& heights,
+                     float least) const {
     const auto corners = hull_.corners(face);
-    return std::any_of(corners.begin(), corners.end(),
-                       [&](uint32_t i) { return heights[i] >= least; });
+    return static_cast<size_t>(std::count_if(corners.begin(), corners.end(),
+                                             [&](uint32_t i) { return heights[i] >= least; }));
   }
 
   // Source: M. E. Newell's sum over the outline; I. Sutherland, R. Sproull, R. Schumacker, "A
@@ -98,9 +106,9 @@ class HullSideFinder {
   const Placed& placed_;
 };
 
-inline FacingSide side_towards(const Vector3f& m, const HullShape<float>& hull,
+inline FacingSide side_towards(const Vector3f& m, float depth, const HullShape<float>& hull,
                                const Placed& placed) {
-  return HullSideFinder(hull, placed).towards(m);
+  return HullSideFinder(hull, placed).towards(m, depth);
 }
 
 }  // namespace carom::reference

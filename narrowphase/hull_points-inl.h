@@ -23,16 +23,17 @@ HWY_INLINE void with_corners(size_t most, const Use& use) {
   use(std::integral_constant<size_t, kMostSideCorners>());
 }
 
-HWY_INLINE FacingFaces faces_towards(const F3& m, const HullLanes& hull, const Placed& placed) {
-  return FacingFaces(hull, rotate_back(placed.turn, m));
+HWY_INLINE FacingFaces faces_towards(const F3& m, const HullLanes& hull, const Placed& placed,
+                                     const ContactLanes& contact) {
+  return FacingFaces(hull, rotate_back(placed.turn, m), hn::Neg(contact.separation));
 }
 
 // Each yields which lanes it knows the points of; the others are left to the reference.
 
 HWY_INLINE Mask contact_points(const HullLanes& a, const HullLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
-  const FacingFaces faces_a = faces_towards(contact.normal, a, placed.a);
-  const FacingFaces faces_b = faces_towards(-contact.normal, b, placed.b);
+  const FacingFaces faces_a = faces_towards(contact.normal, a, placed.a, contact);
+  const FacingFaces faces_b = faces_towards(-contact.normal, b, placed.b, contact);
   with_corners(std::max(faces_a.most(), faces_b.most()), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side_a, side_b;
     hull_side(a, placed.a, faces_a, side_a);
@@ -45,7 +46,7 @@ HWY_INLINE Mask contact_points(const HullLanes& a, const HullLanes& b, const Pla
 template <AnyBox A>
 HWY_INLINE Mask contact_points(const A& a, const HullLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
-  const FacingFaces faces = faces_towards(-contact.normal, b, placed.b);
+  const FacingFaces faces = faces_towards(-contact.normal, b, placed.b, contact);
   with_corners(faces.most(), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side;
     hull_side(b, placed.b, faces, side);
@@ -56,7 +57,7 @@ HWY_INLINE Mask contact_points(const A& a, const HullLanes& b, const PlacedPair&
 
 HWY_INLINE Mask contact_points(const HullLanes& a, const TriangleLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
-  const FacingFaces faces = faces_towards(contact.normal, a, placed.a);
+  const FacingFaces faces = faces_towards(contact.normal, a, placed.a, contact);
   FaceSide<TriangleFace> triangle;
   triangle_side(b, placed.b, triangle);
   const Mask shown = shows_face(b, triangle.face.frame.n, -contact.normal);

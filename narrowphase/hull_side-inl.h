@@ -24,10 +24,11 @@ namespace carom::HWY_NAMESPACE {
 // Of faces with more corners, and of hulls whose features are not known, the reference tells.
 inline constexpr size_t kMostSideCorners = 8;
 
-// One hull, searched along one way, in its own frame.
+// One hull, searched along one way, in its own frame. `depth`: of the contact.
 class FacingFaceSearch {
  public:
-  FacingFaceSearch(const HullGeometry& hull, float scale, const F3& along) : hull_(hull) {
+  FacingFaceSearch(const HullGeometry& hull, float scale, const F3& along, float depth)
+      : hull_(hull) {
     const FloatTag tag;
     F most = splat(-FLT_MAX);
     for (size_t i = 0; i < hull.points().size(); i += kLanes) {
@@ -37,7 +38,10 @@ class FacingFaceSearch {
       hn::Store(height, tag, heights_ + i);
       most = max(most, height);
     }
-    least_ = hn::GetLane(hn::MaxOfLanes(tag, most)) - kSameCorner * (hull.size() * scale);
+    const float furthest = hn::GetLane(hn::MaxOfLanes(tag, most));
+    least_ = furthest - kSameCorner * (hull.size() * scale);
+    touching_ = std::min(least_, furthest - depth);
+    most_corners_ = std::min<size_t>(count_touching(), 2);
     for (size_t i = 0; i < hull.faces().size(); i += kLanes) {
       const HullFeatures& features = *hull.features();
       const F3 normal = {hn::LoadU(tag, features.column(0) + i),
@@ -47,18 +51,35 @@ class FacingFaceSearch {
     }
   }
 
-  // Of the faces that reach as far as any point does, that whose normal is nearest to the way; of
-  // equals the first. The nearest of all is mostly one of them.
+  // The face that the reference finds. Mostly it is the one whose normal is nearest to the way.
   std::optional<size_t> run() {
+    std::optional<size_t> found;
     while (true) {
       const size_t face = nearest();
-      if (cosines_[face] == -FLT_MAX) return std::nullopt;
-      if (reaches(face)) return face;
+      if (cosines_[face] == -FLT_MAX) return found;
+      if (count_above(face, least_) > 0) {
+        if (count_above(face, touching_) >= most_corners_) return face;
+        if (!found) found = face;
+      }
       cosines_[face] = -FLT_MAX;
     }
   }
 
  private:
+  // Points.
+  size_t count_touching() const {
+    const FloatTag tag;
+    const F count = splat(static_cast<float>(hull_.points().size()));
+    size_t found = 0;
+    F index = lane_indices();
+    for (size_t i = 0; i < hull_.points().size(); i += kLanes) {
+      const Mask touches = hn::Ge(hn::Load(tag, heights_ + i), splat(touching_));
+      found += hn::CountTrue(tag, hn::And(touches, hn::Lt(index, count)));
+      index = hn::Add(index, splat(kLanes));
+    }
+    return found;
+  }
+
   size_t nearest() const {
     const FloatTag tag;
     const F count = splat(static_cast<float>(hull_.faces().size()));
@@ -71,14 +92,15 @@ class FacingFaceSearch {
     return best.first_of(hull_.faces().size());
   }
 
-  bool reaches(size_t face) const {
+  size_t count_above(size_t face, float least) const {
     const auto corners = hull_.corners(hull_.faces()[face]);
-    return std::any_of(corners.begin(), corners.end(),
-                       [this](uint32_t i) { return heights_[i] >= least_; });
+    return static_cast<size_t>(std::count_if(corners.begin(), corners.end(),
+                                             [&](uint32_t i) { return heights_[i] >= least; }));
   }
 
   const HullGeometry& hull_;
-  float least_;
+  float least_, touching_;  // heights
+  size_t most_corners_;     // that touch, of one face; two are enough
   HWY_ALIGN float heights_[kMostLanePoints];
   HWY_ALIGN float cosines_[2 * kMostLanePoints];
 };
@@ -88,17 +110,18 @@ class FacingFaceSearch {
 class FacingFaces {
  public:
   // `along`: in the frames of the hulls.
-  FacingFaces(const HullLanes& hull, const F3& along) {
+  FacingFaces(const HullLanes& hull, const F3& along, F depth) {
     const FloatTag tag;
     HWY_ALIGN float ways[3][kLanes];
-    HWY_ALIGN float scales[kLanes];
+    HWY_ALIGN float scales[kLanes], depths[kLanes];
+    hn::Store(depth, tag, depths);
     hn::Store(along.x, tag, ways[0]);
     hn::Store(along.y, tag, ways[1]);
     hn::Store(along.z, tag, ways[2]);
     hn::Store(hull.scaling, tag, scales);
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const F3 way = {splat(ways[0][lane]), splat(ways[1][lane]), splat(ways[2][lane])};
-      find(hull.geometry[lane], scales[lane], way, lane);
+      find(hull.geometry[lane], scales[lane], way, depths[lane], lane);
     }
   }
 
@@ -112,7 +135,7 @@ class FacingFaces {
   const std::array<uint8_t, kLanes>& place(size_t corner) const { return place_[corner]; }
 
  private:
-  void find(const HullGeometry* hull, float scale, const F3& way, size_t lane) {
+  void find(const HullGeometry* hull, float scale, const F3& way, float depth, size_t lane) {
     count_[lane] = 0;
     for (auto& places : place_) places[lane] = 0;
     for (auto& component : normal_) component[lane] = 0;
@@ -120,7 +143,7 @@ class FacingFaces {
         hull->faces().size() > 2 * kMostLanePoints) {
       return;
     }
-    const std::optional<size_t> face = FacingFaceSearch(*hull, scale, way).run();
+    const std::optional<size_t> face = FacingFaceSearch(*hull, scale, way, depth).run();
     if (!face) return;
     const auto corners = hull->corners(hull->faces()[*face]);
     if (corners.size() > kMostSideCorners) return;

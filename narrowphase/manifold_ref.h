@@ -99,8 +99,8 @@ template <AnyFaced A, AnyFaced B>
 requires(std::is_same_v<A, DopShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
     ContactPoints
     manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
-  const FacingSide side_a = side_towards(contact.normal, a, placed.a);
-  const FacingSide side_b = side_towards(-contact.normal, b, placed.b);
+  const FacingSide side_a = side_towards(contact.normal, -contact.separation, a, placed.a);
+  const FacingSide side_b = side_towards(-contact.normal, -contact.separation, b, placed.b);
   return touch_faces(side_a.face, side_a.corners, side_b.face, side_b.corners, contact);
 }
 
@@ -110,7 +110,7 @@ ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPa
   const std::array<Vector3f, 3> corners_b = corners_of(b, placed.b);
   const TriangleFace face_b = triangle_face(corners_b);
   if (!shows_face(b, face_b.frame.n, -contact.normal)) return witness_only(contact);
-  const FacingSide side_a = side_towards(contact.normal, a, placed.a);
+  const FacingSide side_a = side_towards(contact.normal, -contact.separation, a, placed.a);
   return touch_faces(side_a.face, side_a.corners, face_b, corners_b, contact);
 }
 
@@ -118,7 +118,7 @@ template <AnyBox A, AnyFaced B>
 ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
                        const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
-  const FacingSide side = side_towards(-contact.normal, b, placed.b);
+  const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
   const ClipPoints points =
       reduce(clip(face, side.corners, side.face.frame.n, contact.normal), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
@@ -127,7 +127,7 @@ ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
 template <AnyFaced B>
 ContactPoints manifold(const CapsuleShape<float>& a, const B& b, const PlacedPair& placed,
                        const ScaledContact& contact) {
-  const FacingSide side = side_towards(-contact.normal, b, placed.b);
+  const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
   return touch_face(line_towards(contact.normal, a, placed.a), side.face, contact);
 }
 
@@ -213,7 +213,7 @@ template <AnyFaced A>
 ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
                        const ScaledContact& contact) {
   const Vector3f& m = contact.normal;
-  const FacingSide side = side_towards(m, a, placed.a);
+  const FacingSide side = side_towards(m, -contact.separation, a, placed.a);
   const FaceFrame frame = plane_frame(contact.arm_a, m);
   const float size = a.size();
   ClipPoints all;
