@@ -60,7 +60,8 @@ void aabb_box(const Batch& batch) {
       return run_batch<AabbBoxDistance>(batch);
     case Pass::manifold:
       return run_manifold<AabbLanes, BoxLanes>(batch);
-    case Pass::recall:  // of hulls alone
+    case Pass::clearance:  // of hulls alone
+    case Pass::recall:
       return;
   }
 }

@@ -33,12 +33,22 @@ enum class Pass : uint8_t {
   direction,  // whether pairs are apart along a direction, and need no test
   recall,     // the contact columns of pairs that are nearest where they were; others are unsure
   test,      // decision, and the contact of overlapping pairs; where there is no distance pass, all
-  distance,  // the contact columns of separate pairs
-  manifold,  // points of overlapping pairs, whose results are in `tested`
+  distance,  // the contact columns of separate pairs; of kinds that measure at once, of all
+  clearance,  // of those kinds: decision, and the contact columns of separate pairs
+  manifold,   // points of overlapping pairs, whose results are in `tested`
 };
 
-// The passes of a kind beside the test. A direction pass pays where the test tries many axes.
-enum class MorePasses : uint8_t { none, manifold, direction_and_manifold, all, all_and_recall };
+// The passes of a kind beside the test. A direction pass pays where the test tries many axes. Kinds
+// whose way to a decision is the beginning of their way to a distance measure at once: their
+// distance pass, and a clearance pass, are run in place of the test.
+enum class MorePasses : uint8_t {
+  none,
+  manifold,
+  direction_and_manifold,
+  distance,             // and those
+  clearance,            // and those, which measures at once
+  recall_and_clearance  // and those
+};
 
 // Lists of pairs, and what else is read by row, may be read up to a multiple of this. (The test
 // pass reads no further than `count`.)

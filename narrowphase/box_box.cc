@@ -55,7 +55,8 @@ void box_box(const Batch& batch) {
       return run_batch<BoxBoxDistance>(batch);
     case Pass::manifold:
       return run_manifold<BoxLanes, BoxLanes>(batch);
-    case Pass::recall:  // of hulls alone
+    case Pass::clearance:  // of hulls alone
+    case Pass::recall:
       return;
   }
 }

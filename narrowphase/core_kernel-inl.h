@@ -56,21 +56,25 @@ HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
   }
 }
 
-// Those that are nearest, where that is sure.
-HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
-                               Mask is_sure, uint64_t* features) {
-  const F count =
-      hn::IfThenElse(ends.has_three, splat(3), hn::IfThenElse(ends.has_two, splat(2), splat(1)));
-  write_features<3>(a, b, {&ends.p, &ends.q, &ends.r}, hn::IfThenElseZero(is_sure, count),
-                    features);
-}
-
 // Those around zero, where that is sure.
 HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const GjkLanes& gjk,
                                Mask is_sure, uint64_t* features) {
   const auto& corner = gjk.ends.corner;
   write_features<4>(a, b, {&corner[0], &corner[1], &corner[2], &gjk.last},
                     hn::IfThenElseZero(is_sure, splat(4)), features);
+}
+
+// Those around zero, or those that are nearest, where either is sure.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
+                               Mask is_nearest, const GjkLanes& gjk, Mask is_around,
+                               uint64_t* features) {
+  const auto& corner = gjk.ends.corner;
+  const CornerLanes p = select(is_around, corner[0], ends.p);
+  const CornerLanes q = select(is_around, corner[1], ends.q);
+  const CornerLanes r = select(is_around, corner[2], ends.r);
+  const F count = hn::IfThenElseZero(is_nearest, ends.count());
+  write_features<4>(a, b, {&p, &q, &r, &gjk.last}, hn::IfThenElse(is_around, splat(4), count),
+                    features);
 }
 
 // `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
@@ -100,9 +104,10 @@ enum class Stage { whole, first, rest };
 inline constexpr size_t kFewOpen = 3 * kLanes / 16;
 
 // The test of two kinds of which one is a hull. Marks as unsure whatever is left to other tests,
-// and with kDeep cores that surely overlap, whose depth is wanted. `kMeasures`: separate pairs,
-// too; otherwise their separation is a lower bound, along the normal.
-template <class ShapeA, class ShapeB, bool kMeasures, Stage kStage = Stage::whole>
+// and with kDeep cores that surely overlap, whose depth is wanted. At Pass::test the separation of
+// separate pairs is a lower bound, along the normal; at Pass::clearance overlaps have no depth; at
+// Pass::distance there is all.
+template <class ShapeA, class ShapeB, Pass kPass, Stage kStage = Stage::whole>
 struct CoreKernel {
   using A = ShapeA;
   using B = ShapeB;
@@ -111,7 +116,7 @@ struct CoreKernel {
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    constexpr bool kDecides = !(kMeasures && Report::kHasContact);
+    constexpr bool kDecides = kPass == Pass::test || !Report::kHasContact;
     CoreLanes core_a, core_b;
     make_core(a, pose.a, splat3(0), core_a);
     make_core(b, pose.b, pose.d, core_b);
@@ -132,12 +137,20 @@ struct CoreKernel {
       const FrontCorners ends(gjk.ends);
       NearestCores nearest = nearest_cores(core_a, core_b, ends);
       nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
-      report_nearest(nearest, radius, core_a.radius, pose.d, goes_on, report);
+      const Mask is_nearest = hn::And(nearest.is_sure, report.valid);
+      const Mask is_around = hn::And(gjk.is_around, hn::And(is_known, report.valid));
       if (features) {
-        write_features(core_a, core_b, ends, hn::And(nearest.is_sure, report.valid), features);
+        write_features(core_a, core_b, ends, is_nearest, gjk, is_around, features);
       }
+      if constexpr (kPass == Pass::clearance) {
+        nearest.distance = hn::IfThenElse(is_around, splat(-1), nearest.distance);
+        nearest.is_sure = hn::Or(nearest.is_sure, is_around);
+      }
+      report_nearest(nearest, radius, core_a.radius, pose.d, goes_on, report);
     }
-    if constexpr (Report::kHasContact) mark_deep(hn::And(gjk.is_around, is_known), report);
+    if constexpr (Report::kHasContact && kPass != Pass::clearance) {
+      mark_deep(hn::And(gjk.is_around, is_known), report);
+    }
   }
 
  private:

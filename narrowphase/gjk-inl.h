@@ -84,7 +84,7 @@ HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, const Decision
   const Mask is_nearer = hn::Lt(nearest.squared, gjk.squared);
   const Mask is_sure_around = hn::And(is_open, nearest.is_sure_around);
   gjk.is_around = hn::Or(gjk.is_around, is_sure_around);
-  if constexpr (kDecides && kPlaces == 3) {
+  if constexpr (kPlaces == 3) {
     if (decision.keeps_last) gjk.last = select(is_sure_around, next, gjk.last);
   }
   is_open = hn::AndNot(nearest.is_around, is_open);

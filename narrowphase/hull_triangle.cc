@@ -20,11 +20,13 @@ void hull_triangle(const Batch& batch) {
     case Pass::direction:
       return run_direction<HullLanes, TriangleLanes>(batch);
     case Pass::distance:
-      return run_core<HullLanes, TriangleLanes, true>(batch);
+      return run_core<HullLanes, TriangleLanes, Pass::distance>(batch);
+    case Pass::clearance:
+      return run_core<HullLanes, TriangleLanes, Pass::clearance>(batch);
     case Pass::manifold:
       return run_manifold<HullLanes, TriangleLanes>(batch);
     default:
-      return run_core<HullLanes, TriangleLanes, false>(batch);
+      return run_core<HullLanes, TriangleLanes, Pass::test>(batch);
   }
 }
 

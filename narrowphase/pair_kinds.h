@@ -18,8 +18,10 @@ struct PairKind {
   bool has_direction_pass() const {
     return more == MorePasses::direction_and_manifold || has_distance_pass();
   }
-  bool has_recall_pass() const { return more == MorePasses::all_and_recall; }
-  bool has_distance_pass() const { return more == MorePasses::all || has_recall_pass(); }
+  bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
+  // Whether the distance pass finds what the test does, for all rows.
+  bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
+  bool has_distance_pass() const { return more == MorePasses::distance || measures_at_once(); }
   bool has_manifold_pass() const { return more != MorePasses::none; }
 };
 

@@ -97,7 +97,7 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
   ScratchColumns scratch;
   RowFlags unsure{};
   std::array<uint64_t, kPairsPerBlock> features;
-  Batch test = tested.batch(Pass::test);
+  Batch test = tested.batch(batch.pass);
   test.out = scratch.columns();
   if (batch.unsure) test.unsure = unsure.data();
   if (batch.features) test.features = features.data();
@@ -179,6 +179,7 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
       has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping;
   const bool recalls = has_distances && batch.out.features && kind.has_recall_pass() && !is_proven;
   if (recalls) batch.features = batch.out.features;
+  const bool is_at_once = has_distances && kind.measures_at_once();
   RowFlags open;
   if (has_distances && !recalls) open.fill(1);
   if (recalls) run_recall(kind, batch, measured == Measured::all, open);
@@ -186,14 +187,19 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
     run_test(kind, batch, direction);
   } else {
     Batch test = batch;
-    if (kind.has_distance_pass() && measured == Measured::separate) test.detail = Detail::overlap;
+    if (is_at_once) {
+      test.pass = measured == Measured::separate ? Pass::clearance : Pass::distance;
+    } else if (kind.has_distance_pass() && measured == Measured::separate) {
+      test.detail = Detail::overlap;
+    }
     if (recalls) {
       test_open(kind, test, open);
     } else {
       kind.run(test);
     }
   }
-  if (has_distances) run_distances(kind, batch, open, measured == Measured::separate);
+  if (has_distances && !is_at_once)
+    run_distances(kind, batch, open, measured == Measured::separate);
   if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
   if (batch.out.separation_bound) bound_separations(kind, batch);
   if (batch.detail != Detail::manifold) return;

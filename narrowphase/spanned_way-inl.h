@@ -42,6 +42,10 @@ struct FrontCorners {
   CornerLanes p, q, r;
   Mask has_two, has_three;
 
+  HWY_INLINE F count() const {
+    return hn::IfThenElse(has_three, splat(3), hn::IfThenElse(has_two, splat(2), splat(1)));
+  }
+
   explicit HWY_INLINE FrontCorners(const SimplexLanes& simplex) {
     const std::array<Mask, 3> used = {has_bit(simplex.used, 0), has_bit(simplex.used, 1),
                                       has_bit(simplex.used, 2)};

@@ -12,7 +12,9 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-void sphere_hull(const Batch& batch) { run_batch<CoreKernel<SphereLanes, HullLanes, true>>(batch); }
+void sphere_hull(const Batch& batch) {
+  run_batch<CoreKernel<SphereLanes, HullLanes, Pass::distance>>(batch);
+}
 
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE
