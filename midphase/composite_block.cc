@@ -235,9 +235,7 @@ class CompositeRun {
         best.status = out.status[i];
       }
     }
-    if (tests_.manifolds && found.overlap == 1 && !found.is_over_edge()) {
-      contacts_.add(k, contact_of(batch_, i, found));
-    }
+    if (tests_.manifolds && found.overlap == 1) contacts_.add(k, contact_of(batch_, i, found));
   }
 
   // Before `best` is replaced.
@@ -260,8 +258,8 @@ class CompositeRun {
 
   static PartContact contact_of(const PartBatch& batch, size_t i, const Finding& found) {
     const ResultColumns& out = batch.results();
-    PartContact contact{found.parts, at_row(out.normal, i), found.separation, out.manifold_count[i],
-                        out.manifold[i]};
+    PartContact contact{found.parts,           at_row(out.normal, i), found.separation,
+                        out.manifold_count[i], out.manifold[i],       found.is_over_edge()};
     for (size_t k = 0; k < contact.count; ++k) {
       contact.points.point[k] = moved(contact.points.point[k], batch.arm_a(i));
     }
@@ -282,15 +280,25 @@ class CompositeRun {
     for (size_t i = 0; i < again_.count(); ++i) {
       const size_t k = again_.owner(i);
       Outcome& o = outcomes_[k];
-      PartContact contact{o.parts, o.normal, o.separation, 1, {}};
+      PartContact contact{o.parts, o.normal, o.separation, 1, {}, false};
       contact.points.point[0] = o.arm_a;
       contact.points.separation[0] = o.separation;
       if (again_.results().overlap[i] == 1) {
         set_contact(again_, i, o);
         if (tests_.manifolds) contact = contact_of(again_, i, o);
+        contact.is_over_edge = false;
       }
-      write(k, {&contact, 1});
+      write(k, replaced(contacts_.of(k), contact));
     }
+  }
+
+  // The contacts of a pair, with another one of the same parts.
+  static std::span<PartContact> replaced(std::span<PartContact> contacts,
+                                         const PartContact& contact) {
+    for (PartContact& each : contacts) {
+      if (each.parts == contact.parts) each = contact;
+    }
+    return contacts;
   }
 
   static PlacedPart part_at(const PlacedPart& body, uint64_t part) {

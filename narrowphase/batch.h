@@ -75,7 +75,7 @@ struct Batch {
   bool single_precision = false;        // FastKnobs
   bool faces_only = false;              // FastKnobs
   const uint32_t* direction = nullptr;  // Pass::direction alone: packed_direction.h
-  uint64_t* features = nullptr;         // read by Pass::recall, written by test and distance
+  uint64_t* features = nullptr;         // read by Pass::recall, written by distance and clearance
   OpenSearches* open = nullptr;         // of hulls: core_stages-inl.h
   // Pass::manifold alone.
   ResultColumns tested;                    // separation, normal and point_a, relative to A

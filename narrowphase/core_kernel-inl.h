@@ -32,14 +32,13 @@ HWY_INLINE F place_of(const CoreLanes& core, const IsIt& is_it) {
 }
 
 // Writes `count` of the corners, a lane each, as features.
-template <size_t kCorners>
 HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
-                               const std::array<const CornerLanes*, kCorners>& corners, F count,
-                               uint64_t* features) {
+                               const std::array<const CornerLanes*, kMostFeatures>& corners,
+                               F count, uint64_t* features) {
   HWY_ALIGN float counts[kLanes];
-  HWY_ALIGN float places[2 * kCorners][kLanes];
+  HWY_ALIGN float places[2 * kMostFeatures][kLanes];
   hn::Store(count, FloatTag(), counts);
-  for (size_t k = 0; k < kCorners; ++k) {
+  for (size_t k = 0; k < kMostFeatures; ++k) {
     const CornerLanes& c = *corners[k];
     const auto of_a = [&](const F3& p) HWY_ATTR { return is_same(p, c.on_a); };
     const auto of_b = [&](const F3& p) HWY_ATTR { return is_same(p - c.on_a, c.point); };
@@ -56,14 +55,6 @@ HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
   }
 }
 
-// Those around zero, where that is sure.
-HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const GjkLanes& gjk,
-                               Mask is_sure, uint64_t* features) {
-  const auto& corner = gjk.ends.corner;
-  write_features<4>(a, b, {&corner[0], &corner[1], &corner[2], &gjk.last},
-                    hn::IfThenElseZero(is_sure, splat(4)), features);
-}
-
 // Those around zero, or those that are nearest, where either is sure.
 HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
                                Mask is_nearest, const GjkLanes& gjk, Mask is_around,
@@ -73,8 +64,8 @@ HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const Fro
   const CornerLanes q = select(is_around, corner[1], ends.q);
   const CornerLanes r = select(is_around, corner[2], ends.r);
   const F count = hn::IfThenElseZero(is_nearest, ends.count());
-  write_features<4>(a, b, {&p, &q, &r, &gjk.last}, hn::IfThenElse(is_around, splat(4), count),
-                    features);
+  write_features(a, b, {&p, &q, &r, &gjk.last}, hn::IfThenElse(is_around, splat(4), count),
+                 features);
 }
 
 // `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
@@ -123,24 +114,20 @@ struct CoreKernel {
     const Mask is_known =
         hn::And(hn::And(core_a.has_space, core_b.has_space), is_usual_scale(report.up));
     const F radius = hn::Add(core_a.radius, core_b.radius);
-    uint64_t* const features = report.batch.features ? report.batch.features + report.row : nullptr;
     GjkSearch search;
     const Mask goes_on = run_stage<kDecides>(core_a, core_b, radius, report, search);
     const GjkLanes& gjk = search.gjk;
     if constexpr (kDecides) {
       report_decision(gjk, radius, is_known, goes_on, report);
-      if (features) {
-        const Mask is_sure = hn::And(gjk.is_around, hn::And(is_known, report.valid));
-        write_features(core_a, core_b, gjk, is_sure, features);
-      }
     } else {
       const FrontCorners ends(gjk.ends);
       NearestCores nearest = nearest_cores(core_a, core_b, ends);
       nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
       const Mask is_nearest = hn::And(nearest.is_sure, report.valid);
       const Mask is_around = hn::And(gjk.is_around, hn::And(is_known, report.valid));
-      if (features) {
-        write_features(core_a, core_b, ends, is_nearest, gjk, is_around, features);
+      if (report.batch.features) {
+        write_features(core_a, core_b, ends, is_nearest, gjk, is_around,
+                       report.batch.features + report.row);
       }
       if constexpr (kPass == Pass::clearance) {
         nearest.distance = hn::IfThenElse(is_around, splat(-1), nearest.distance);
@@ -158,20 +145,20 @@ struct CoreKernel {
   template <bool kDecides, class Report>
   static HWY_INLINE Mask run_stage(const CoreLanes& a, const CoreLanes& b, F radius,
                                    const Report& report, GjkSearch& search) {
-    const Decision decision = decision_at(radius, report.batch.features != nullptr);
+    const SearchGoal goal = goal_at(radius, report.batch.features != nullptr);
     OpenSearches* const open = report.batch.open;
     if constexpr (kStage == Stage::rest) {
       resume(*open, report.row, search);
     } else {
-      begin_search<kDecides>(a, b, decision, search);
+      begin_search<kDecides>(a, b, goal, search);
     }
     if constexpr (kStage == Stage::first) {
-      go_on<kDecides>(a, b, decision, open ? kFewOpen : 0, search);
+      go_on<kDecides>(a, b, goal, open ? kFewOpen : 0, search);
       const Mask goes_on = hn::And(search.is_open, report.valid);
       if (!hn::AllFalse(FloatTag(), goes_on)) leave(search, goes_on, report.row, *open);
       return goes_on;
     } else {
-      go_on<kDecides>(a, b, decision, 0, search);
+      go_on<kDecides>(a, b, goal, 0, search);
       return no_lanes();
     }
   }

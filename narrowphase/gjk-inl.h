@@ -57,22 +57,20 @@ HWY_INLINE void replace_corners(Mask is_open, I kept, const CornerLanes& next,
   simplex.used = select(is_open, hn::Or(kept, taken), simplex.used);
 }
 
-// Of searches that only decide.
-struct Decision {
-  F sure_squared;   // of a gap that surely parts
-  bool keeps_last;  // of the corners around zero
+struct SearchGoal {
+  F sure_squared;   // who only decides: of a gap that surely parts
+  bool keeps_last;  // who measures: of the corners around zero
 };
 
 // One more corner.
 template <bool kDecides, size_t kPlaces>
-HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, const Decision& decision,
+HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal,
                           GjkLanes& gjk, Mask& is_open) {
   const CornerLanes next = difference_corner(a, b, gjk.way);
   const F gap = dot(gjk.way, next.point);
   if constexpr (kDecides) {
-    const Mask is_beyond =
-        hn::And(hn::Gt(gap, splat(0)),
-                hn::Gt(hn::Mul(gap, gap), hn::Mul(decision.sure_squared, gjk.squared)));
+    const Mask is_beyond = hn::And(
+        hn::Gt(gap, splat(0)), hn::Gt(hn::Mul(gap, gap), hn::Mul(goal.sure_squared, gjk.squared)));
     gjk.is_apart = hn::Or(gjk.is_apart, hn::And(is_open, is_beyond));
     gjk.gap = hn::IfThenElse(is_open, gap, gjk.gap);
     is_open = hn::AndNot(is_beyond, is_open);
@@ -84,8 +82,8 @@ HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, const Decision
   const Mask is_nearer = hn::Lt(nearest.squared, gjk.squared);
   const Mask is_sure_around = hn::And(is_open, nearest.is_sure_around);
   gjk.is_around = hn::Or(gjk.is_around, is_sure_around);
-  if constexpr (kPlaces == 3) {
-    if (decision.keeps_last) gjk.last = select(is_sure_around, next, gjk.last);
+  if constexpr (!kDecides && kPlaces == 3) {
+    if (goal.keeps_last) gjk.last = select(is_sure_around, next, gjk.last);
   }
   is_open = hn::AndNot(nearest.is_around, is_open);
   gjk.has_ended = hn::Or(gjk.has_ended, hn::And(is_open, hn::Or(is_shortest, hn::Not(is_nearer))));
@@ -97,7 +95,7 @@ HWY_INLINE void run_round(const CoreLanes& a, const CoreLanes& b, const Decision
 }
 
 // `radius`: of both together. `keeps_last`: the corners around zero.
-HWY_INLINE Decision decision_at(F radius, bool keeps_last) {
+HWY_INLINE SearchGoal goal_at(F radius, bool keeps_last) {
   const F sure = hn::Add(radius, splat(kSureGap));
   return {hn::Mul(sure, sure), keeps_last};
 }
@@ -109,9 +107,10 @@ struct GjkSearch {
   F rounds;  // so far
 };
 
-// The first two rounds. `kDecides`: no more is wanted than who is apart.
+// The first two rounds. `kDecides`: no more is wanted than who is apart; otherwise the search
+// measures.
 template <bool kDecides>
-HWY_INLINE void begin_search(const CoreLanes& a, const CoreLanes& b, const Decision& decision,
+HWY_INLINE void begin_search(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal,
                              GjkSearch& search) {
   const CornerLanes first = difference_corner(a, b, b.middle - a.middle);
   GjkLanes& gjk = search.gjk;
@@ -123,17 +122,17 @@ HWY_INLINE void begin_search(const CoreLanes& a, const CoreLanes& b, const Decis
   gjk.is_apart = gjk.is_around = gjk.has_ended = no_lanes();
   gjk.gap = splat(0);
   search.is_open = hn::Gt(gjk.squared, splat(kNearCores * kNearCores));
-  run_round<kDecides, 1>(a, b, decision, gjk, search.is_open);
-  run_round<kDecides, 2>(a, b, decision, gjk, search.is_open);
+  run_round<kDecides, 1>(a, b, goal, gjk, search.is_open);
+  run_round<kDecides, 2>(a, b, goal, gjk, search.is_open);
   search.rounds = splat(2);
 }
 
 // Until no more than `few` lanes are open.
 template <bool kDecides>
-HWY_INLINE void go_on(const CoreLanes& a, const CoreLanes& b, const Decision& decision, size_t few,
+HWY_INLINE void go_on(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal, size_t few,
                       GjkSearch& search) {
   while (hn::CountTrue(FloatTag(), search.is_open) > few) {
-    run_round<kDecides, 3>(a, b, decision, search.gjk, search.is_open);
+    run_round<kDecides, 3>(a, b, goal, search.gjk, search.is_open);
     search.rounds = hn::Add(search.rounds, splat(1));
     search.is_open =
         hn::And(search.is_open, hn::Lt(search.rounds, splat(static_cast<float>(kMostLaneRounds))));

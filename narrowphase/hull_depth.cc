@@ -133,10 +133,10 @@ class DepthSearch {
 
   // --- Edges ---
 
-  // Those beside which some axis may be better than the best face: no ball settles both faces.
-  // Without branches, which nobody could predict.
+  // Those beside which some axis may be better than the best face, or as good up to rounding: no
+  // ball settles both faces. Without branches, which nobody could predict.
   void find_edges_to_cross(const Side& side, Edges& edges) const {
-    steps_.settle(side.solid, gap_, side.bounds);
+    steps_.settle(side.solid, gap_ - kSameGapInFloat, side.bounds);
     const auto& settled = side.bounds.settled;
     size_t count = 0;
     uint16_t e = 0;
@@ -172,9 +172,13 @@ class DepthSearch {
     if (is_doubtful_ || edges_a.count == 0 || edges_b.count == 0) return;
     put_edges(a_, memory.a, edges_a, memory.edges_a);
     put_edges(b_, memory.b_in_a, edges_b, memory.edges_b);
-    const Crossing crossing = steps_.cross(memory.edges_a, memory.edges_b, turn_, gap_);
+    const Crossing crossing =
+        steps_.cross(memory.edges_a, memory.edges_b, turn_, gap_ - kSameGapInFloat);
     is_doubtful_ = crossing.is_doubtful;
-    if (crossing.exists) take_crossing(crossing, memory.edges_a, memory.edges_b);
+    may_cross_ = crossing.exists;
+    if (crossing.exists && crossing.gap > gap_) {
+      take_crossing(crossing, memory.edges_a, memory.edges_b);
+    }
   }
 
   void take_crossing(const Crossing& crossing, const EdgeColumns& a, const EdgeColumns& b) {
@@ -203,8 +207,13 @@ class DepthSearch {
     Vector3f on_a;
     if (count_b == 1) {
       on_a = b[of_b.index] - normal_ * gap_;
+      if (may_cross_ && !is_inside(a_, on_a)) return not_in_float<float>();
     } else if (count_a == 1) {
       on_a = a[of_a.index];
+      const Vector3f on_b = on_a + normal_ * gap_;
+      if (may_cross_ && !is_inside(b_, rotate_back(turn_, Vector3f(on_b - centre_)))) {
+        return not_in_float<float>();
+      }
     } else if (has_crossing_ && count_a == 2 && count_b == 2 &&
                dot(across_, across_) > kSmallCrossing) {
       const float along =
@@ -222,6 +231,14 @@ class DepthSearch {
     return result;
   }
 
+  // In the frame of the solid, up to rounding.
+  static bool is_inside(const Solid& solid, const Vector3f& point) {
+    for (size_t f = 0; f < solid.face_count; ++f) {
+      if (dot(solid.normal(f), point) - solid.height(f) > kSameGapInFloat) return false;
+    }
+    return true;
+  }
+
   const Solid &a_, &b_;
   const PairPose<float>& pose_;
   const HullSteps& steps_;
@@ -231,6 +248,9 @@ class DepthSearch {
   // The best axis, in the frame of A.
   float gap_ = 0;
   Vector3f normal_;
+  // An axis across two edges is as good as that of a face up to rounding, or better: the point that
+  // faces the other solid may lie beside that face then, the further the more parallel they are.
+  bool may_cross_ = false;
   // The best one across two edges.
   bool has_crossing_ = false;
   CrossedEdge edge_a_, edge_b_;

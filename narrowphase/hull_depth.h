@@ -73,7 +73,7 @@ struct EdgeColumns {
   Column3 from, direction, left, right;
 };
 
-// An axis across two edges. `gap`: along it, more than that of all other axes; if `exists`.
+// The best axis across two edges, if it `exists`. `gap`: along it.
 struct Crossing {
   float gap;
   size_t of_a = 0, of_b = 0;
@@ -93,7 +93,8 @@ struct HullSteps {
   // Which of the balls leave an axis beside a face no more than `gap`, below zero.
   void (*settle)(const Solid& solid, float gap, FaceBounds& bounds);
   FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
-  // The best axis across an edge of A and one of B of which the arcs cross; of equals the first.
+  // The best axis across an edge of A and one of B of which the arcs cross, if its gap is more than
+  // `gap`; of equals the first.
   // `turn`: of the directions and normals of B to the frame of the rest.
   Crossing (*cross)(const EdgeColumns& a, const EdgeColumns& b,
                     const reference::Rotation<float>& turn, float gap);

@@ -23,10 +23,12 @@ struct PartContact {
   float separation;
   uint8_t count;
   ManifoldPoints points;
+  bool is_over_edge;  // the way out leads over an inner edge
 
-  // The deeper one first.
+  // The deeper one first; those over inner edges last.
   friend bool operator<(const PartContact& x, const PartContact& y) {
-    return std::tie(x.separation, x.parts) < std::tie(y.separation, y.parts);
+    return std::tie(x.is_over_edge, x.separation, x.parts) <
+           std::tie(y.is_over_edge, y.separation, y.parts);
   }
 };
 
@@ -77,7 +79,8 @@ const SeenPoint& greatest(const Points& points, const Value& value) {
       [&](const SeenPoint& x, const SeenPoint& y) { return value(x) < value(y); });
 }
 
-// Of all parts whose normals are about that of the contact, which is the first.
+// Of all parts whose normals are about that of the contact, which is the first. (A body that is
+// tilted a little on a flat mesh meets most triangles over their inner edges.)
 inline void see_points(std::span<const PartContact> contacts, std::vector<SeenPoint>& seen,
                        double& size) {
   const PartContact& deepest = contacts[0];

@@ -19,22 +19,18 @@ bool is_invalid(const Batch& batch, size_t row) {
 
 using RowFlags = std::array<uint8_t, kPairsPerBlock>;
 
-// The separate pairs among the open ones. `of_invalid_pairs`: the columns of these as well.
-void run_distances(const PairKind& kind, const Batch& batch, const RowFlags& open,
-                   bool of_invalid_pairs) {
+// Of the separate pairs. `of_invalid_pairs`: the columns of these as well.
+void run_distances(const PairKind& kind, const Batch& batch, bool of_invalid_pairs) {
   RowSelection separate(batch);
   separate.select([&](size_t row) {
-    return open[row] && !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
+    return !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
   });
   if (separate.count() == 0) return;
   ScratchColumns scratch;
-  std::array<uint64_t, kPairsPerBlock> features;
   Batch distances = separate.batch(Pass::distance);
-  distances.features = batch.features ? features.data() : nullptr;
   distances.out = scratch.columns();
   kind.run(distances);
   separate.scatter(distances.out, batch.out, batch.detail);
-  if (batch.features) separate.scatter(features.data(), batch.features);
 }
 
 // Writes to `open` which rows need a test.
@@ -177,29 +173,25 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
   }
   const bool has_distances =
       has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping;
-  const bool recalls = has_distances && batch.out.features && kind.has_recall_pass() && !is_proven;
-  if (recalls) batch.features = batch.out.features;
   const bool is_at_once = has_distances && kind.measures_at_once();
-  RowFlags open;
-  if (has_distances && !recalls) open.fill(1);
-  if (recalls) run_recall(kind, batch, measured == Measured::all, open);
+  const bool recalls = is_at_once && batch.out.features && kind.has_recall_pass() && !is_proven;
+  if (recalls) batch.features = batch.out.features;
+  Batch test = batch;
+  if (is_at_once) {
+    test.pass = measured == Measured::separate ? Pass::clearance : Pass::distance;
+  } else if (kind.has_distance_pass() && measured == Measured::separate) {
+    test.detail = Detail::overlap;
+  }
   if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
     run_test(kind, batch, direction);
+  } else if (recalls) {
+    RowFlags open;
+    run_recall(kind, batch, measured == Measured::all, open);
+    test_open(kind, test, open);
   } else {
-    Batch test = batch;
-    if (is_at_once) {
-      test.pass = measured == Measured::separate ? Pass::clearance : Pass::distance;
-    } else if (kind.has_distance_pass() && measured == Measured::separate) {
-      test.detail = Detail::overlap;
-    }
-    if (recalls) {
-      test_open(kind, test, open);
-    } else {
-      kind.run(test);
-    }
+    kind.run(test);
   }
-  if (has_distances && !is_at_once)
-    run_distances(kind, batch, open, measured == Measured::separate);
+  if (has_distances && !is_at_once) run_distances(kind, batch, measured == Measured::separate);
   if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
   if (batch.out.separation_bound) bound_separations(kind, batch);
   if (batch.detail != Detail::manifold) return;

@@ -149,13 +149,11 @@ PairResult nothing() {
   return {false, Status::ok, std::numeric_limits<float>::infinity(), nan, nan, nan, 0, {}, 0, 0};
 }
 
-PartContact contact_of(const PairResult& result, const Simple& a, const Simple& b) {
+PartContact contact_of(const PairResult& result, const Simple& a, const Simple& b,
+                       bool is_over_edge) {
   const Vector3f& n = result.normal;
-  return {{a.order, b.order},
-          {n.x(), n.y(), n.z()},
-          result.separation,
-          result.manifold_count,
-          result.manifold};
+  return {{a.order, b.order},    {n.x(), n.y(), n.z()}, result.separation,
+          result.manifold_count, result.manifold,       is_over_edge};
 }
 
 // Overlapping pairs of parts before separate ones, those that meet over inner edges after others;
@@ -221,12 +219,15 @@ PairResult collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& 
       const bool is_over_edge = closed[0] != 0 || closed[1] != 0;
       const Rank rank(result.overlap ? 0 : 1, is_over_edge, result.separation, a.order, b.order);
       if (rank < best.rank) best = {rank, result, &a, &b, closed};
-      if (result.overlap && !is_over_edge) contacts.push_back(contact_of(result, a, b));
+      if (result.overlap) contacts.push_back(contact_of(result, a, b, is_over_edge));
     }
   }
   if (best.is_over_edge()) {
     close_edges(best);
-    contacts = {contact_of(best.result, *best.a, *best.b)};
+    const PartContact closed = contact_of(best.result, *best.a, *best.b, false);
+    for (PartContact& contact : contacts) {
+      if (contact.parts == closed.parts) contact = closed;
+    }
   }
   std::vector<merging::SeenPoint> seen;
   const MergedManifold manifold = merged_manifold(contacts, seen);

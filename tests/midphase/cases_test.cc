@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "tests/midphase/composites.h"
+#include "tests/support/hulls.h"
 
 namespace carom::test {
 namespace {
@@ -105,6 +108,48 @@ TEST(CompositeCases, ManifoldsSpreadOverAllTriangles) {
     ++corners[(point[0] > 0 ? 1 : 0) + (point[1] > 0 ? 2 : 0)];
   }
   EXPECT_EQ(corners, (std::array{1, 1, 1, 1}));
+}
+
+// Of the points of the manifold, seen from above.
+double area_of(const reference::PairResult& result) {
+  std::vector<Vector3d> points;
+  Vector3d middle = Vector3d::Zero();
+  for (size_t i = 0; i < result.manifold_count; ++i) {
+    const auto& p = result.manifold.point[i];
+    points.emplace_back(p[0], p[1], 0);
+    middle += points.back() / result.manifold_count;
+  }
+  const auto angle = [&](const Vector3d& p) {
+    return std::atan2(p.y() - middle.y(), p.x() - middle.x());
+  };
+  std::sort(points.begin(), points.end(),
+            [&](const Vector3d& p, const Vector3d& q) { return angle(p) < angle(q); });
+  double area = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    area += points[i].cross(points[(i + 1) % points.size()]).z() / 2;
+  }
+  return area;
+}
+
+// Tilted as little as rounding does, a body leaves most triangles over their inner edges.
+TEST(CompositeCases, ManifoldsOfTiltedBodiesStaySpread) {
+  oracle::Random random(17);
+  const Shape shapes[] = {Box{{0.5f, 0.5f, 0.5f}}, oracle::hull_of(cube_corners(0.5f))};
+  const Mesh ground = flat_grid(5, 1);
+  for (const double tilt : {0.0, 1e-6, 1e-4, 1e-3, 1e-2}) {
+    for (const Shape& shape : shapes) {
+      for (int i = 0; i < 20; ++i) {
+        const Vector3f axis = random.direction().cast<float>();
+        const Quaternionf turn = Quaternionf(Eigen::AngleAxisf(float(tilt), axis.normalized())) *
+                                 Eigen::AngleAxisf(float(random.uniform(0, 3)), Vector3f::UnitZ());
+        const Vector3d at(random.uniform(-1, 1), random.uniform(-1, 1), 0.49 - 0.7 * tilt);
+        const auto result = result_of({{ground, {0, 0, 0}}, {shape, at, turn}});
+        SCOPED_TRACE(testing::Message() << "tilt " << tilt << ", place " << i);
+        EXPECT_NEAR(result.normal.z(), 1, 1e-3);
+        EXPECT_GT(area_of(result), 0.5);
+      }
+    }
+  }
 }
 
 // A step up in a floor keeps its edge: what comes from its side is stopped.
