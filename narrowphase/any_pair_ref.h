@@ -40,7 +40,7 @@ SeparationAs<Real> separation_of(const Shape& a, const Shape& b, const PairPose<
 }
 
 // Squares of what is used neither vanish nor overflow.
-template <class Real>
+template <class Real>  // as a call it would wait for what was just stored
 [[gnu::always_inline]] inline Quaternion<Real> quaternion_as(const Eigen::Vector4f& q) {
   const float norm = dot(q.head<3>().eval(), q.head<3>().eval()) + q.w() * q.w();
   Eigen::Vector4f scaled = q;

@@ -53,7 +53,7 @@ struct Rotation {
 };
 
 // M(q) / |q|^2. Source: K. Shoemake, Animating Rotation with Quaternion Curves, SIGGRAPH 1985.
-template <class Real>
+template <class Real>  // as a call it would pass all columns through memory
 [[gnu::always_inline]] inline Rotation<Real> rotation_of(const Quaternion<Real>& q) {
   const Real s = Real(2) / (dot(q.v, q.v) + q.w * q.w);
   const Vector3<Real> scaled = q.v * s;
@@ -71,7 +71,7 @@ Quaternion<Real> relative_rotation(const Quaternion<Real>& a, const Quaternion<R
   return {(b.v * a.w - a.v * b.w) - cross(a.v, b.v), a.w * b.w + dot(a.v, b.v)};
 }
 
-template <class Real>
+template <class Real>  // as a call it would pass all columns through memory
 [[gnu::always_inline]] inline Vector3<Real> rotate(const Rotation<Real>& r,
                                                    const Vector3<Real>& v) {
   return (r.x * v.x() + r.y * v.y()) + r.z * v.z();
