@@ -69,8 +69,8 @@ struct Batch {
   WitnessFrame frame = WitnessFrame::world;
   Pass pass = Pass::test;
   ResultColumns out;
-  // Pass::test and Pass::recall: one a row, zero before; set where the decision was not beyond the
-  // doubt of float32, whatever was made of it then. nullptr: nobody asks.
+  // One a row, zero before; set where the decision was not beyond the doubt of float32, whatever
+  // was made of it then; at Pass::manifold where points are left to find. nullptr: nobody asks.
   uint8_t* unsure = nullptr;
   bool single_precision = false;        // FastKnobs
   bool faces_only = false;              // FastKnobs

@@ -13,7 +13,7 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void capsule_hull(const Batch& batch) {
-  run_batch<CoreKernel<CapsuleLanes, HullLanes, Pass::distance>>(batch);
+  run_batch<CoreKernel<CapsuleLanes, HullLanes, Pass::distance>>(batch);  // whatever is asked for
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void sphere_hull(const Batch& batch) {
-  run_batch<CoreKernel<SphereLanes, HullLanes, Pass::distance>>(batch);
+  run_batch<CoreKernel<SphereLanes, HullLanes, Pass::distance>>(batch);  // whatever is asked for
 }
 
 }  // namespace
