@@ -102,11 +102,14 @@ bool supports(ShapeKind a, ShapeKind b) {
   return composites ? is_shape(a) && is_shape(b) : find_pair_kind(a, b).exists();
 }
 
+Result<void> check_pairs(const Collidables& a, const Collidables& b, std::span<const Pair> pairs) {
+  return check_kinds(a, b, pairs.size(), [&](size_t i) { return pairs[i]; });
+}
+
 Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
                      Detail detail, const ResultColumns& out, WitnessFrame frame,
                      Parallelism parallelism, Measured measured, const Accuracy& accuracy) {
-  const auto pair_at = [&](size_t i) { return pairs[i]; };
-  if (Result<void> checked = check_kinds(a, b, pairs.size(), pair_at); !checked) return checked;
+  if (Result<void> checked = check_pairs(a, b, pairs); !checked) return checked;
   collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, measured, nullptr,
                  parallelism, accuracy);
   return {};

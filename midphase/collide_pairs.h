@@ -6,6 +6,7 @@
 #include "carom/kernel/contact.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
+#include "carom/kernel/result.h"
 #include "carom/kernel/tier.h"
 #include "carom/kernel/views.h"
 #include "narrowphase/packed_direction.h"
@@ -19,6 +20,9 @@ namespace carom {
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
                    const ResultColumns& out, uint32_t* direction, Parallelism parallelism,
                    const Accuracy& accuracy);
+
+// Fails if a pair is of kinds that no kernel exists for.
+Result<void> check_pairs(const Collidables& a, const Collidables& b, std::span<const Pair> pairs);
 
 // Whether tests of these kinds make use of directions.
 bool uses_directions(ShapeKind a, ShapeKind b);

@@ -59,8 +59,8 @@ HWY_INLINE AxisMasks axis_number(F number) {
 // e_i cross v.
 HWY_INLINE F3 axis_cross(const AxisMasks& axis, const F3& v) {
   const F zero = splat(0);
-  return select(axis.x, {zero, hn::Neg(v.z), v.y},
-                select(axis.y, {v.z, zero, hn::Neg(v.x)}, {hn::Neg(v.y), v.x, zero}));
+  return select(axis.x, F3{zero, hn::Neg(v.z), v.y},
+                select(axis.y, F3{v.z, zero, hn::Neg(v.x)}, F3{hn::Neg(v.y), v.x, zero}));
 }
 
 // The greatest gap along normals of faces, and which one: 0 to 2 of A, 3 to 5 of B.

@@ -162,8 +162,8 @@ struct EdgeLanes {
     const auto load = [&](const EdgeColumns::Column3& column) HWY_ATTR -> F3 {
       const FloatTag tag;
       return zero_unless(
-          exist, {hn::LoadU(tag, column[0].data() + k), hn::LoadU(tag, column[1].data() + k),
-                  hn::LoadU(tag, column[2].data() + k)});
+          exist, F3{hn::LoadU(tag, column[0].data() + k), hn::LoadU(tag, column[1].data() + k),
+                    hn::LoadU(tag, column[2].data() + k)});
     };
     from = load(edges.from);
     direction = load(edges.direction);

@@ -28,9 +28,18 @@ inline constexpr size_t kLanes = HWY_LANES(float);
 HWY_INLINE Mask no_lanes() { return hn::MaskFromVec(hn::Zero(FloatTag())); }
 HWY_INLINE F splat(float value) { return hn::Set(FloatTag(), value); }
 
+// As many double lanes as the ISA has: half as many as floats, one on the scalar target.
+using DoubleTag = hn::ScalableTag<double>;
+using D = hn::Vec<DoubleTag>;
+using DoubleMask = hn::Mask<DoubleTag>;
+inline constexpr size_t kDoubleLanes = HWY_LANES(double);
+
+HWY_INLINE D splat_double(double value) { return hn::Set(DoubleTag(), value); }
+
 // a < b ? a : b and a > b ? a : b, to the bit: of equal operands (+0 and -0) the second. Highway's
 // own Min and Max do that on x86 only.
-HWY_INLINE F min(F a, F b) {
+template <class V>
+HWY_INLINE V min(V a, V b) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
   return hn::Min(a, b);
 #else
@@ -38,7 +47,8 @@ HWY_INLINE F min(F a, F b) {
 #endif
 }
 
-HWY_INLINE F max(F a, F b) {
+template <class V>
+HWY_INLINE V max(V a, V b) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
   return hn::Max(a, b);
 #else
@@ -50,40 +60,55 @@ HWY_INLINE F clamp_to_finite(F v) { return min(max(v, splat(-FLT_MAX)), splat(FL
 
 // g++ 12 copies structs of vectors through memory, in pieces, and stalls on it: hand them on by
 // reference and return them, but do not make them members of other results.
-struct F3 {
-  F x, y, z;
+template <class V>
+struct Lanes3 {
+  V x, y, z;
 };
+using F3 = Lanes3<F>;
+using D3 = Lanes3<D>;
 
 HWY_INLINE F3 splat3(float value) { return {splat(value), splat(value), splat(value)}; }
-HWY_INLINE F3 operator+(const F3& a, const F3& b) {
+
+template <class V>
+HWY_INLINE Lanes3<V> operator+(const Lanes3<V>& a, const Lanes3<V>& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }
-HWY_INLINE F3 operator-(const F3& a, const F3& b) {
+template <class V>
+HWY_INLINE Lanes3<V> operator-(const Lanes3<V>& a, const Lanes3<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-HWY_INLINE F3 operator*(const F3& a, F s) {
+template <class V>
+HWY_INLINE Lanes3<V> operator*(const Lanes3<V>& a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
-HWY_INLINE F3 operator-(const F3& a) { return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)}; }
-HWY_INLINE F3 min(const F3& a, const F3& b) {
+template <class V>
+HWY_INLINE Lanes3<V> operator-(const Lanes3<V>& a) {
+  return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
+}
+template <class V>
+HWY_INLINE Lanes3<V> min(const Lanes3<V>& a, const Lanes3<V>& b) {
   return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
 }
-HWY_INLINE F3 max(const F3& a, const F3& b) {
+template <class V>
+HWY_INLINE Lanes3<V> max(const Lanes3<V>& a, const Lanes3<V>& b) {
   return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
 HWY_INLINE F3 clamp_to_finite(const F3& v) {
   return {clamp_to_finite(v.x), clamp_to_finite(v.y), clamp_to_finite(v.z)};
 }
-HWY_INLINE F3 select(Mask mask, const F3& yes, const F3& no) {
+template <class M, class V>
+HWY_INLINE Lanes3<V> select(M mask, const Lanes3<V>& yes, const Lanes3<V>& no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
           hn::IfThenElse(mask, yes.z, no.z)};
 }
-HWY_INLINE F3 zero_unless(Mask mask, const F3& v) {
+template <class M, class V>
+HWY_INLINE Lanes3<V> zero_unless(M mask, const Lanes3<V>& v) {
   return {hn::IfThenElseZero(mask, v.x), hn::IfThenElseZero(mask, v.y),
           hn::IfThenElseZero(mask, v.z)};
 }
 
-HWY_INLINE F largest_component(const F3& v) {
+template <class V>
+HWY_INLINE V largest_component(const Lanes3<V>& v) {
   return max(max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 

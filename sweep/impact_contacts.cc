@@ -1,0 +1,243 @@
+#include "sweep/impact_contacts.h"
+
+#include <limits>
+#include <memory>
+
+#include "midphase/part_batch.h"
+#include "narrowphase/pair_block.h"
+#include "sweep/composite_times.h"
+#include "sweep/moving_body.h"
+
+namespace carom {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// Where a body, or a part of one, is at a time.
+struct PlaceInTime {
+  Double3 position;
+  Double3 arm;  // from where the body turns
+  Row orientation;
+};
+
+PlaceInTime place_at(const Double3& pivot, const Double3& arm, const Row& orientation,
+                     const MovingReader& side, size_t body, double t) {
+  const Position<float> d = side.displacement(body);
+  const Double3 moved = plus(pivot, {d.x * t, d.y * t, d.z * t});
+  const Eigen::Vector3d rotation = side.rotation_vector(body);
+  if (rotation.isZero(0)) return {plus(moved, arm), arm, orientation};
+  const reference::Quaternion<double> turn = reference::turn_by(rotation, t);
+  const Eigen::Vector3d turned_arm =
+      reference::rotate(reference::rotation_of(turn), Eigen::Vector3d(arm.data()));
+  const Double3 arm_then = {turned_arm.x(), turned_arm.y(), turned_arm.z()};
+  const Row as_row = {static_cast<float>(turn.v.x()), static_cast<float>(turn.v.y()),
+                      static_cast<float>(turn.v.z()), static_cast<float>(turn.w)};
+  return {plus(moved, arm_then), arm_then, product(as_row, orientation)};
+}
+
+// Whole simple bodies where they are at the time of impact, dense; their shapes stay where they
+// are.
+class PlacedSide {
+ public:
+  void clear() { count_ = 0; }
+
+  void put(const MovingReader& side, size_t body, double t) {
+    const BodyReader reader = side.body();
+    const Position<double> p = reader.position<double>(body);
+    const PlaceInTime place =
+        place_at({p.x, p.y, p.z}, {}, reader.orientation(body), side, body, t);
+    kind_[count_] = reader.kind(body);
+    const bool is_sphere = kind_[count_] == ShapeKind::sphere;
+    record_[count_] = {place.position[0], place.position[1], place.position[2],
+                       is_sphere ? reader.radius(body) : 0.0};
+    orientation_[count_] = place.orientation;
+    first_row_[count_] =
+        row_count(kind_[count_]) > 0 ? static_cast<uint32_t>(reader.first_row(body)) : 0;
+    box_slot_[count_] = static_cast<uint32_t>(reader.box(body));
+    ++count_;
+  }
+
+  Collidables view(const Collidables& bodies) const {
+    Collidables view;
+    view.count = count_;
+    view.position = {
+        .data = record_.data(), .stride = sizeof record_[0], .type = PositionType::float64};
+    view.kind = bodies.kind ? kind_.data() : nullptr;
+    view.uniform_kind = bodies.uniform_kind;
+    view.boxes = bodies.boxes;
+    view.box_slot = box_slot_.data();
+    view.orientation.data = orientation_[0].data();
+    view.rows = {bodies.rows.data, first_row_.data()};
+    return view;
+  }
+
+ private:
+  size_t count_ = 0;
+  alignas(64) std::array<std::array<double, 4>, kPairsPerBlock> record_;
+  std::array<Row, kPairsPerBlock> orientation_;
+  std::array<ShapeKind, kPairsPerBlock> kind_;
+  std::array<uint32_t, kPairsPerBlock> first_row_, box_slot_;
+};
+
+struct Scratch {
+  PlacedSide a, b;
+  size_t count;
+  std::array<uint16_t, kPairsPerBlock> row;  // of every placed pair
+  ScratchColumns columns;
+  PartBatch parts;
+  std::array<std::array<Double3, 2>, kPairsPerBlock> arms;  // of the parts of every pair
+};
+
+class ImpactContacts {
+ public:
+  ImpactContacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
+                 std::span<const FirstTime> first, WitnessFrame frame, const ImpactColumns& out,
+                 Scratch& scratch)
+      : side_a_(a),
+        side_b_(b),
+        a_{a},
+        b_{b},
+        pairs_(pairs),
+        first_(first),
+        frame_(frame),
+        out_(out),
+        scratch_(scratch) {}
+
+  void run() {
+    clear();
+    for (size_t row = 0; row < first_.size(); ++row) {
+      const bool meets = first_[row].time <= 1;
+      if (!meets) {
+        write_nothing(row);
+      } else if (is_composite(row)) {
+        add_parts(row);
+      } else {
+        add_bodies(row);
+      }
+    }
+    run_bodies();
+    run_parts();
+  }
+
+ private:
+  bool is_composite(size_t row) const {
+    return carom::is_composite(a_.body().kind(pairs_[row].a)) ||
+           carom::is_composite(b_.body().kind(pairs_[row].b));
+  }
+
+  void clear() {
+    scratch_.a.clear();
+    scratch_.b.clear();
+    scratch_.count = 0;
+    scratch_.parts.clear();
+  }
+
+  void write_nothing(size_t row) {
+    if (out_.separation) out_.separation[row] = kNan;
+    for (const std::array<float*, 3>& columns : {out_.normal, out_.point_a, out_.point_b}) {
+      for (float* column : columns) {
+        if (column) column[row] = kNan;
+      }
+    }
+  }
+
+  void add_bodies(size_t row) {
+    scratch_.row[scratch_.count++] = static_cast<uint16_t>(row);
+    scratch_.a.put(a_, pairs_[row].a, first_[row].time);
+    scratch_.b.put(b_, pairs_[row].b, first_[row].time);
+  }
+
+  void run_bodies() {
+    if (scratch_.count == 0) return;
+    const Collidables a = scratch_.a.view(side_a_.bodies), b = scratch_.b.view(side_b_.bodies);
+    const ResultColumns found = scratch_.columns.columns();
+    run_pair_block({.a = a,
+                    .b = b,
+                    .pairs = nullptr,
+                    .first = 0,
+                    .count = scratch_.count,
+                    .detail = Detail::contact,
+                    .frame = frame_,
+                    .accuracy = {},
+                    .out = found});
+    for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {}, {});
+  }
+
+  // The parts that meet, placed in the frame of A at the start.
+  void add_parts(size_t row) {
+    const PlacedBodies bodies(side_a_, side_b_, pairs_[row]);
+    const size_t i = scratch_.parts.count();
+    PlacedPart a = part_at(bodies.a, first_[row].parts[0]);
+    PlacedPart b = part_at(bodies.b, first_[row].parts[1]);
+    scratch_.arms[i] = {place(a, a_, pairs_[row].a, row), place(b, b_, pairs_[row].b, row)};
+    scratch_.parts.add(row, a, b);
+  }
+
+  // Returns its arm then.
+  Double3 place(PlacedPart& part, const MovingReader& side, size_t body, size_t row) {
+    const PlaceInTime place = place_at(minus(part.position, part.arm), part.arm, part.orientation,
+                                       side, body, first_[row].time);
+    part.position = place.position;
+    part.orientation = place.orientation;
+    part.turn = part.part->is_turned() ? rotation_of(place.orientation) : kNotTurned;
+    return place.arm;
+  }
+
+  void run_parts() {
+    scratch_.parts.run({});
+    for (size_t i = 0; i < scratch_.parts.count(); ++i) {
+      const size_t row = scratch_.parts.owner(i);
+      if (frame_ == WitnessFrame::body) {
+        write(row, scratch_.parts.results(), i, scratch_.arms[i][0], scratch_.arms[i][1]);
+      } else {
+        write_in_world(row, i);
+      }
+    }
+  }
+
+  // From the parts' own positions, `arm_a` and `arm_b` from where points are to be seen.
+  void write(size_t row, const ResultColumns& found, size_t i, const Double3& arm_a,
+             const Double3& arm_b) {
+    if (out_.separation) out_.separation[row] = found.separation[i];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (out_.normal[axis]) out_.normal[axis][row] = found.normal[axis][i];
+      const auto seen = [&](const std::array<float*, 3>& points, double arm) {
+        return static_cast<float>(points[axis][i] + arm);
+      };
+      if (out_.point_a[axis]) out_.point_a[axis][row] = seen(found.point_a, arm_a[axis]);
+      if (out_.point_b[axis]) out_.point_b[axis][row] = seen(found.point_b, arm_b[axis]);
+    }
+  }
+
+  void write_in_world(size_t row, size_t i) {
+    const std::array<Double3, 2>& arms = scratch_.arms[i];
+    write(row, scratch_.parts.results(), i,
+          plus(position_then(a_, pairs_[row].a, first_[row].time), arms[0]),
+          plus(position_then(b_, pairs_[row].b, first_[row].time), arms[1]));
+  }
+
+  static Double3 position_then(const MovingReader& side, size_t body, double t) {
+    const Position<double> p = side.body().position<double>(body);
+    const Position<float> d = side.displacement(body);
+    return {p.x + d.x * t, p.y + d.y * t, p.z + d.z * t};
+  }
+
+  const MovingSide &side_a_, &side_b_;
+  const MovingReader a_, b_;
+  const Pair* pairs_;
+  const std::span<const FirstTime> first_;
+  const WitnessFrame frame_;
+  const ImpactColumns& out_;
+  Scratch& scratch_;
+};
+
+}  // namespace
+
+void find_impact_contacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
+                          std::span<const FirstTime> first, WitnessFrame frame,
+                          const ImpactColumns& out) {
+  static thread_local const auto scratch = std::make_unique<Scratch>();
+  ImpactContacts(a, b, pairs, first, frame, out, *scratch).run();
+}
+
+}  // namespace carom

@@ -1,0 +1,20 @@
+// The contacts of pairs at their times of impact.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "carom/sweep/time_of_impact.h"
+#include "sweep/impact.h"
+#include "sweep/simple_times.h"
+
+namespace carom {
+
+// Fills the contact columns of `out` for all rows: those of `first` that have a time in [0, 1], and
+// not a number for the others. The contact is that of the bodies (of composites: of the two parts)
+// placed where they are then, by the kernels of the narrow phase.
+void find_impact_contacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
+                          std::span<const FirstTime> first, WitnessFrame frame,
+                          const ImpactColumns& out);
+
+}  // namespace carom

@@ -1,0 +1,172 @@
+#include "sweep/simple_times.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+
+#include "narrowphase/furthest.h"
+#include "sweep/gather_linear.h"
+
+namespace carom {
+namespace {
+
+using reference::kNever;
+
+constexpr size_t kRowsPerBlock = 1024;
+constexpr size_t kKinds = 6;  // of LinearKind
+constexpr uint8_t kAdvanced = kKinds * kKinds, kInvalid = kAdvanced + 1;
+constexpr size_t kGroups = kInvalid + 1;
+
+// The rows of a block, sorted by how they are tested.
+struct Scratch {
+  std::array<uint8_t, kRowsPerBlock> group;
+  std::array<uint16_t, kRowsPerBlock> row;
+  std::array<size_t, kGroups + 1> first;  // of each group in `row`
+  LinearRows rows;
+};
+
+class SimpleTimes {
+ public:
+  SimpleTimes(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
+              const TimeColumns& out, Scratch& scratch)
+      : a_{a}, b_{b}, pairs_(pairs), count_(count), out_(out), scratch_(scratch) {}
+
+  void run() {
+    sort_rows();
+    for (size_t group = 0; group < kAdvanced; ++group) {
+      if (!rows_of(group).empty()) run_linear(group);
+    }
+    if (!rows_of(kAdvanced).empty()) advance();
+    for (const uint16_t row : rows_of(kInvalid)) {
+      write(row, std::numeric_limits<double>::quiet_NaN(), Status::invalid);
+    }
+    leave_out_what_passes();
+  }
+
+ private:
+  std::span<const uint16_t> rows_of(size_t group) const {
+    return {scratch_.row.data() + scratch_.first[group],
+            scratch_.first[group + 1] - scratch_.first[group]};
+  }
+
+  void write(size_t row, double time, Status status) {
+    out_.time[row] = time;
+    out_.status[row] = static_cast<uint8_t>(status);
+  }
+
+  void sort_rows() {
+    scratch_.first.fill(0);
+    for (size_t row = 0; row < count_; ++row) {
+      scratch_.group[row] = group_of(pairs_[row]);
+      ++scratch_.first[scratch_.group[row] + 1];
+    }
+    for (size_t group = 0; group < kGroups; ++group) {
+      scratch_.first[group + 1] += scratch_.first[group];
+    }
+    std::array<size_t, kGroups> next;
+    std::copy_n(scratch_.first.begin(), kGroups, next.begin());
+    for (size_t row = 0; row < count_; ++row) {
+      scratch_.row[next[scratch_.group[row]]++] = static_cast<uint16_t>(row);
+    }
+  }
+
+  uint8_t group_of(Pair pair) const {
+    if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) return kInvalid;
+    if (!a_.moves_in_a_line(pair.a) || !b_.moves_in_a_line(pair.b)) return kAdvanced;
+    const LinearKind a = kind_of(a_, pair.a), b = kind_of(b_, pair.b);
+    const auto [low, high] = std::minmax(a, b);
+    const bool has_kernel = high != LinearKind::none && low != LinearKind::triangle;
+    if (!has_kernel && !(low == LinearKind::triangle && high == LinearKind::plane)) {
+      return kAdvanced;
+    }
+    return static_cast<uint8_t>(static_cast<size_t>(a) * kKinds + static_cast<size_t>(b));
+  }
+
+  static LinearKind kind_of(const MovingReader& side, size_t i) {
+    const LinearKind kind = linear_kind(side.body().kind(i));
+    const bool is_thick = kind == LinearKind::triangle && side.body().row(i, 0)[3] > 0;
+    return is_thick ? LinearKind::none : kind;
+  }
+
+  void run_linear(size_t group) {
+    const auto kind_a = static_cast<LinearKind>(group / kKinds);
+    const auto kind_b = static_cast<LinearKind>(group % kKinds);
+    const bool flipped = kind_a > kind_b;
+    const LinearKind low = flipped ? kind_b : kind_a, high = flipped ? kind_a : kind_b;
+    const GatherLinear gather = gather_linear(low, high);
+    const LinearKernel kernel = linear_kernel(low, high);
+    const size_t columns = LinearRows::kPairColumns + number_count(low) + number_count(high);
+    const std::span<const uint16_t> rows = rows_of(group);
+    for (size_t begin = 0; begin < rows.size(); begin += LinearRows::kMost) {
+      const size_t count = std::min(rows.size() - begin, LinearRows::kMost);
+      for (size_t i = 0; i < count; ++i) {
+        const Pair pair = pairs_[rows[begin + i]];
+        if (flipped) {
+          gather(b_, a_, {pair.b, pair.a}, scratch_.rows, i);
+        } else {
+          gather(a_, b_, pair, scratch_.rows, i);
+        }
+      }
+      scratch_.rows.pad(columns, count);
+      kernel(scratch_.rows, count);
+      for (size_t i = 0; i < count; ++i) {
+        write(rows[begin + i], scratch_.rows.times()[i], Status::ok);
+      }
+    }
+  }
+
+  void advance() {
+    const FurthestPoint furthest = furthest_point_in_lanes();
+    for (const uint16_t row : rows_of(kAdvanced)) {
+      const Pair pair = pairs_[row];
+      const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
+      const reference::AdvancementResult result = reference::advancement_time(
+          a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), position_from(a_, b_, pair),
+          way_from(a_, b_, pair), furthest);
+      write(row, result.t, result.status);
+    }
+  }
+
+  // One-sided triangles do not meet what comes from behind.
+  void leave_out_what_passes() {
+    if (!has_triangles(a_) && !has_triangles(b_)) return;
+    for (size_t row = 0; row < count_; ++row) {
+      if (!(out_.time[row] <= 1)) continue;
+      const Pair pair = pairs_[row];
+      if (!is_triangle(a_, pair.a) && !is_triangle(b_, pair.b)) continue;
+      const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
+      const bool passes = reference::passes_one_sided(
+          a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), position_from(a_, b_, pair),
+          way_from(a_, b_, pair), out_.time[row]);
+      if (passes) write(row, kNever, Status::ok);
+    }
+  }
+
+  static bool is_triangle(const MovingReader& side, size_t i) {
+    return side.body().kind(i) == ShapeKind::triangle;
+  }
+  static bool has_triangles(const MovingReader& side) {
+    const Collidables& bodies = side.side.bodies;
+    return bodies.kind || bodies.uniform_kind == ShapeKind::triangle;
+  }
+
+  const MovingReader a_, b_;
+  const Pair* pairs_;
+  const size_t count_;
+  const TimeColumns out_;
+  Scratch& scratch_;
+};
+
+}  // namespace
+
+void find_simple_times(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
+                       const TimeColumns& out) {
+  static thread_local const auto scratch = std::make_unique<Scratch>();
+  for (size_t begin = 0; begin < count; begin += kRowsPerBlock) {
+    const size_t rows = std::min(count - begin, kRowsPerBlock);
+    SimpleTimes(a, b, pairs + begin, rows, {out.time + begin, out.status + begin}, *scratch).run();
+  }
+}
+
+}  // namespace carom
