@@ -4,106 +4,14 @@
 #include <limits>
 #include <tuple>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
-#include "kernel/part.h"
 #include "narrowphase/merge_ref.h"
+#include "reference/simple_parts.h"
 
 namespace carom::reference {
 namespace {
 
-using Eigen::Quaternionf;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-
-// A shape that has no parts.
-struct Simple {
-  Shape shape;
-  Part placed;                         // the same, as numbers
-  Double3 arm{};                       // from the body's position
-  uint64_t order = 0;                  // the child, and the triangle of a mesh
-  uint32_t sub = 0;                    // what it is called
-  const MeshGeometry* mesh = nullptr;  // of which it is this triangle
-  size_t triangle = 0;
-
-  Pose pose() const {
-    const Row& q = placed.orientation;
-    return {Vector3d(placed.position[0], placed.position[1], placed.position[2]),
-            Quaternionf(q[3], q[0], q[1], q[2])};
-  }
-  PlacedTriangle placed_triangle() const {
-    return {*mesh, triangle, placed.position, rotation_of(placed.orientation)};
-  }
-};
-
-Part part_of(const Shape& shape, const Double3& position, const Row& orientation) {
-  Part part;
-  part.kind = kind_of(shape);
-  part.position = position;
-  part.rows = shape_rows(shape);
-  part.orientation = orientation;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) part.radius = sphere->radius;
-  if (const auto* box = std::get_if<Aabb>(&shape)) {
-    std::copy_n(box->lower.data(), 3, part.lower.begin());
-    std::copy_n(box->upper.data(), 3, part.upper.begin());
-  }
-  return part;
-}
-
-Triangle triangle_of(const MeshGeometry& mesh, size_t i) {
-  Triangle triangle;
-  for (size_t k = 0; k < 3; ++k) triangle.corners[k] = mesh.vertices()[mesh.triangles()[i][k]];
-  triangle.thickness = mesh.rules().thickness;
-  triangle.one_sided = mesh.rules().one_sided;
-  return triangle;
-}
-
-// What a body, or a child of one, is made of. `whole` is the shape in its place.
-void add_parts(const Simple& whole, std::vector<Simple>& parts) {
-  if (const auto* mesh = std::get_if<Mesh>(&whole.shape)) {
-    for (size_t i = 0; i < mesh->geometry->triangles().size(); ++i) {
-      if (mesh->geometry->is_degenerate(i)) continue;
-      Simple part = whole;
-      part.shape = triangle_of(*mesh->geometry, i);
-      part.placed = part_of(part.shape, whole.placed.position, whole.placed.orientation);
-      part.order += i;
-      part.mesh = mesh->geometry.get();
-      part.triangle = i;
-      parts.push_back(part);
-    }
-  } else if (const auto* compound = std::get_if<Compound>(&whole.shape)) {
-    const Part& body = whole.placed;
-    for (uint32_t i = 0; i < compound->geometry->parts().size(); ++i) {
-      const Part& child = compound->geometry->parts()[i];
-      const PlacedChild pose =
-          placed(child, body.position, rotation_of(body.orientation), body.orientation);
-      Simple part;
-      part.shape = child.kind == ShapeKind::sphere ? Shape(Sphere{child.radius})
-                                                   : shape_from_rows(child.kind, child.rows.data());
-      part.placed = part_of(part.shape, pose.position, pose.orientation);
-      part.arm = pose.arm;
-      part.order = uint64_t{i} << 32;
-      add_parts(part, parts);
-    }
-  } else {
-    parts.push_back(whole);
-  }
-}
-
-std::vector<Simple> parts_of(const Shape& shape, const Double3& position,
-                             const Quaternionf& orientation) {
-  const Eigen::Vector4f& q = orientation.coeffs();
-  Simple whole;
-  whole.shape = shape;
-  whole.placed = part_of(shape, position, {q.x(), q.y(), q.z(), q.w()});
-  std::vector<Simple> parts;
-  add_parts(whole, parts);
-  const bool by_child = kind_of(shape) == ShapeKind::compound;
-  for (Simple& part : parts) {
-    part.sub = static_cast<uint32_t>(by_child ? part.order >> 32 : part.order);
-  }
-  return parts;
-}
 
 PairResult test(const Simple& a, const Simple& b) {
   return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);

@@ -51,14 +51,22 @@ inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vecto
   return {&core, arm, turning, turns, angle_of(turning) * kUpwards, reach * kUpwards};
 }
 
-// What a moving core reaches along a direction at a time.
+// Two moving cores, B at `from` + t * `way`.
+struct MovingPair {
+  MovingCore a, b;
+  Vector3d from, way;
+  double radii = 0;
+  FurthestPoint furthest = nullptr;
+};
+
+// What a moving core reaches along a direction.
 struct MovingSupport {
   double height;
   double rate;     // of the furthest point
   Vector3d point;  // it, from where the body turns
 
-  MovingSupport(const MovingCore& moving, const Vector3d& n, double t, FurthestPoint furthest) {
-    const Rotation<double> turn = moving.turn(t);
+  MovingSupport(const MovingCore& moving, const Rotation<double>& turn, const Vector3d& n,
+                FurthestPoint furthest) {
     const Vector3d own = moving.turns ? rotate_back(turn, n) : n;
     const Vector3d corner =
         eigen_vector(moving.core->point(furthest(*moving.core, core_vector(own))));
@@ -70,46 +78,72 @@ struct MovingSupport {
   }
 };
 
-// Two moving cores, B at `from` + t * `way`.
-struct MovingPair {
-  MovingCore a, b;
-  Vector3d from, way;
-  double radii = 0;
-  FurthestPoint furthest = nullptr;
-};
+// What a direction is fixed to: shapes that lie flat on each other keep a direction that turns with
+// the one whose face it is.
+enum class FixedTo { world, a, b };
 
-// The gap along a fixed direction from A to B, radii included, as a function of time.
-class FixedDirectionGap {
+// The gap along a direction from A to B, radii included, as a function of time.
+class DirectionGap {
  public:
-  FixedDirectionGap(const MovingPair& pair, const Vector3d& n) : pair_(pair), n_(n) {
-    const auto turning = [&](const MovingCore& core) {
-      const Vector3d across = cross(n, core.rotation);
-      return std::sqrt(dot(across, across)) * core.reach;
-    };
-    most_closing_ = (turning(pair.a) + turning(pair.b)) - dot(n, pair.way);
+  // The direction is `n` at time t.
+  DirectionGap(const MovingPair& pair, const Vector3d& n, double t, FixedTo fixed)
+      : pair_(pair), fixed_(fixed), n_(n) {
+    if (fixed == FixedTo::a) n_ = rotate_back(pair.a.turn(t), n);
+    if (fixed == FixedTo::b) n_ = rotate_back(pair.b.turn(t), n);
+    set_bounds(t);
   }
 
   struct Value {
     double gap, rate;
   };
   Value at(double t) const {
-    const MovingSupport a(pair_.a, n_, t, pair_.furthest), b(pair_.b, -n_, t, pair_.furthest);
+    const Rotation<double> turn_a = pair_.a.turn(t), turn_b = pair_.b.turn(t);
+    const Vector3d n = fixed_ == FixedTo::world ? n_
+                       : fixed_ == FixedTo::a   ? rotate(turn_a, n_)
+                                                : rotate(turn_b, n_);
+    const MovingSupport a(pair_.a, turn_a, n, pair_.furthest);
+    const MovingSupport b(pair_.b, turn_b, -n, pair_.furthest);
     const Vector3d place = pair_.from + pair_.way * t;
-    return {(dot(n_, place) - (a.height + b.height)) - pair_.radii,
-            dot(n_, pair_.way) - (a.rate + b.rate)};
+    double rate = dot(n, pair_.way) - (a.rate + b.rate);
+    if (fixed_ != FixedTo::world) {
+      const Vector3d& turning = fixed_ == FixedTo::a ? pair_.a.rotation : pair_.b.rotation;
+      rate += dot(cross(turning, n), Vector3d((place + b.point) - a.point));
+    }
+    return {(dot(n, place) - (a.height + b.height)) - pair_.radii, rate};
   }
 
-  // Bounds for all times.
+  // Bounds from t on: of how fast the gap closes, and of second derivatives.
   double most_closing() const { return most_closing_; }
-  double most_curved() const {
-    const MovingCore &a = pair_.a, &b = pair_.b;
-    return a.speed * a.speed * a.reach + b.speed * b.speed * b.reach;
-  }
+  double most_curved() const { return most_curved_; }
 
  private:
+  static double length(const Vector3d& v) { return std::sqrt(dot(v, v)); }
+  static double own_turning(const MovingCore& core, const Vector3d& n) {
+    return length(cross(n, core.rotation)) * core.reach;
+  }
+
+  // The points of what the direction is fixed to do not move along it.
+  void set_bounds(double t) {
+    const MovingCore &a = pair_.a, &b = pair_.b;
+    if (fixed_ == FixedTo::world) {
+      most_closing_ = (own_turning(a, n_) + own_turning(b, n_)) - dot(n_, pair_.way);
+      most_curved_ = a.speed * a.speed * a.reach + b.speed * b.speed * b.reach;
+      return;
+    }
+    const MovingCore& frame = fixed_ == FixedTo::a ? a : b;
+    const MovingCore& other = fixed_ == FixedTo::a ? b : a;
+    const double start = length(pair_.from + pair_.way * t), end = length(pair_.from + pair_.way);
+    const double furthest = max(start, end) + other.reach;
+    const double fastest = length(pair_.way) + other.speed * other.reach;
+    most_closing_ = frame.speed * furthest + fastest;
+    most_curved_ = frame.speed * (frame.speed * furthest + 2 * fastest) +
+                   other.speed * other.speed * other.reach;
+  }
+
   const MovingPair& pair_;
-  const Vector3d n_;
-  double most_closing_;
+  const FixedTo fixed_;
+  Vector3d n_;  // in the frame of what it is fixed to
+  double most_closing_ = 0, most_curved_ = 0;
 };
 
 // Whether a function with these values at both ends of a time s, and second derivatives of `curved`
@@ -122,7 +156,7 @@ inline bool stays_above(double first, double last, double curved, double s, doub
 }
 
 inline constexpr double kBeyondEnd = 2;  // a time that is none
-inline constexpr int kMostSteps = 16;    // along one direction
+inline constexpr int kMostSteps = 4;     // along one direction
 inline constexpr int kMostHalvings = 60;
 
 // From a time t at which the gap is positive to one before which it is positive all along, and
@@ -136,6 +170,8 @@ double advance(const Gap& gap, double t, double tolerance) {
     const double sure = closing > 0 ? (now.gap - aim) / closing : kNever;
     if (sure >= left) return kBeyondEnd;
     double s = now.rate < 0 ? min((now.gap - aim) / -now.rate, left) : left;
+    // Further the chord proves nothing, whatever the gap is there.
+    if (gap.most_curved() > 0) s = min(s, std::sqrt(8 * now.gap / gap.most_curved()));
     auto then = now;
     for (int halving = 0;; ++halving) {
       if (s <= sure || halving == kMostHalvings) s = sure;
@@ -181,10 +217,26 @@ inline CoreScratch& core_scratch_of_thread() {
   return scratch;
 }
 
+// From t on along the direction; with `spinning` ones that turn with either body are tried as well,
+// and the one that leads furthest counts.
+inline double advance_along(const MovingPair& pair, const Vector3d& n, double t, double tolerance,
+                            bool spinning) {
+  double next = advance(DirectionGap(pair, n, t, FixedTo::world), t, tolerance);
+  if (spinning && pair.a.speed > 0 && next <= 1) {
+    next = max(next, advance(DirectionGap(pair, n, t, FixedTo::a), t, tolerance));
+  }
+  if (spinning && pair.b.speed > 0 && next <= 1) {
+    next = max(next, advance(DirectionGap(pair, n, t, FixedTo::b), t, tolerance));
+  }
+  return next;
+}
+
+inline constexpr int kMostRounds = 256;  // grazing halves the gap at each; most pairs need five
+inline constexpr int kEasyRounds = 6;    // most have met by then: spinning directions cost more
+
 // `tolerance`: the distance at which they have met.
 inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
                                        CoreScratch& scratch) {
-  constexpr int kMostRounds = 256;  // grazing halves the gap at each; most pairs need five
   double t = 0;
   for (int round = 0; round < kMostRounds; ++round) {
     place(pair.a, Vector3d::Zero(), t, scratch.placed_a);
@@ -193,8 +245,8 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
     const double distance = std::sqrt(dot(nearest.way, nearest.way));
     const bool is_touching = nearest.corners.size() == 4 || distance <= kTouchingCores;
     if (is_touching || distance - pair.radii <= tolerance) return {t};
-    const FixedDirectionGap gap(pair, eigen_vector(nearest.way * (1 / distance)));
-    const double next = advance(gap, t, tolerance);
+    const Vector3d n = eigen_vector(nearest.way * (1 / distance));
+    const double next = advance_along(pair, n, t, tolerance, round >= kEasyRounds);
     if (next > 1) return {kNever};
     if (next == t) return {t, distance - pair.radii <= 2 * tolerance ? Status::ok : Status::budget};
     t = next;
@@ -202,52 +254,11 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
   return {t, Status::budget};
 }
 
-// The height of a moving core over a plane that may turn, as a function of time.
-class PlaneGap {
- public:
-  // n . x <= offset is the half-space at the start; the core is seen from where it turns.
-  PlaneGap(const MovingPair& pair, const Vector3d& n, double offset, const Vector3d& rotation)
-      : pair_(pair), n_(n), offset_(offset), rotation_(rotation), speed_(angle_of(rotation)) {}
-
-  struct Value {
-    double gap, rate;
-  };
-  Value at(double t) const {
-    const Vector3d n = speed_ > 0 ? rotate(rotation_of(turn_by(rotation_, t)), n_) : n_;
-    const MovingSupport lowest(pair_.b, -n, t, pair_.furthest);
-    const Vector3d place = pair_.from + pair_.way * t;
-    const double height = dot(n, place) - lowest.height;
-    const double tilting = dot(cross(rotation_, n), Vector3d(place + lowest.point));
-    return {(height - offset_) - pair_.radii, (dot(n, pair_.way) - lowest.rate) + tilting};
-  }
-
-  double most_closing() const {
-    const double turning = speed_ * furthest() + pair_.b.speed * pair_.b.reach;
-    return turning + (speed_ > 0 ? length(pair_.way) : -dot(n_, pair_.way));
-  }
-  double most_curved() const {
-    const double own = pair_.b.speed * pair_.b.speed * pair_.b.reach;
-    const double fastest = length(pair_.way) + pair_.b.speed * pair_.b.reach;
-    return own + speed_ * (speed_ * furthest() + 2 * fastest);
-  }
-
- private:
-  static double length(const Vector3d& v) { return std::sqrt(dot(v, v)); }
-  // From where the half-space turns.
-  double furthest() const { return length(pair_.from) + length(pair_.way) + pair_.b.reach; }
-
-  const MovingPair& pair_;
-  const Vector3d n_;
-  const double offset_;
-  const Vector3d rotation_;
-  const double speed_;
-};
-
-// The core B of the pair against a half-space at the place of A.
-inline AdvancementResult time_over_plane(const MovingPair& pair, const Vector3d& n, double offset,
-                                         const Vector3d& rotation, double tolerance) {
-  constexpr int kMostRounds = 256;
-  const PlaneGap gap(pair, n, offset, rotation);
+// A is a half-space, as the one point of its plane that is furthest along the unit normal n: the
+// direction is known, and turns with it.
+inline AdvancementResult time_over_plane(const MovingPair& pair, const Vector3d& n,
+                                         double tolerance) {
+  const DirectionGap gap(pair, n, 0, FixedTo::a);
   double t = 0;
   for (int round = 0; round < kMostRounds; ++round) {
     if (gap.at(t).gap <= tolerance) return {t};

@@ -144,7 +144,7 @@ inline double lowest(const TriangleShape<double>& triangle, const Quaternion<dou
 }
 
 template <class A>
-  requires requires(A a, Quaternion<double> q, Vector3d n) { lowest(a, q, n); }
+requires requires(A a, Quaternion<double> q, Vector3d n) { lowest(a, q, n); }
 double linear_time(const A& a, const HalfspaceShape<double>& b, const LinearPose& pose) {
   const LinearPlane plane(b, pose);
   return meets_plane(plane.height + lowest(a, pose.a, plane.normal), plane.rate, pose.slack);

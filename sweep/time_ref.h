@@ -151,14 +151,17 @@ inline AdvancementResult advancement_time(const MovingShape& a, const MovingShap
   pair.way = way * scale;
   pair.furthest = furthest;
   if (plane) {
-    // Seen from the half-space, whose position stands still.
+    // Seen from the half-space.
     pair.from = -pair.from;
     pair.way = -pair.way;
+    const HalfspaceShape<double> half = shape_as<double>(*plane);
+    const Vector3d normal = rotate(rotation_of(b.q), half.normal);
+    make_core_of_points(std::array{Vector3d(normal * (half.offset * scale))}, Vector3d::Zero(),
+                        scratch.b);
+    pair.a = moving_core(scratch.b, Vector3d::Zero(), b.rotation, true);
     pair.b = moving_core(a, scale, scratch.a);
     pair.radii = scratch.a.radius;
-    const HalfspaceShape<double> half = shape_as<double>(*plane);
-    return time_over_plane(pair, rotate(rotation_of(b.q), half.normal), half.offset * scale,
-                           b.rotation, meeting_distance(pair));
+    return time_over_plane(pair, normal, meeting_distance(pair));
   }
   pair.a = moving_core(a, scale, scratch.a);
   pair.b = moving_core(b, scale, scratch.b);

@@ -11,6 +11,7 @@
 #include "carom/kernel/contact.h"
 #include "carom/kernel/event.h"
 #include "carom/kernel/pair.h"
+#include "carom/kernel/sweep.h"
 #include "carom/kernel/views.h"
 
 namespace carom::reference {
@@ -52,6 +53,24 @@ CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b);
 // Tests A against B, whatever their kinds; carom::supports() must be true of them.
 CAROM_EXPORT PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
                                 const Pose& pose_b, PositionType positions);
+
+// When two bodies that move meet, and the contact then; names and signs as in ImpactColumns, arms
+// relative to the bodies' positions at that time.
+struct Impact {
+  float toi;
+  Status status;
+  float separation;
+  Eigen::Vector3f normal;
+  Eigen::Vector3f arm_a;
+  Eigen::Vector3f arm_b;
+  uint32_t sub_a = 0;
+  uint32_t sub_b = 0;
+};
+
+// Every pair of parts is looked at.
+CAROM_EXPORT Impact time_of_impact(const Shape& shape_a, const Pose& pose_a, const Sweep& sweep_a,
+                                   const Shape& shape_b, const Pose& pose_b, const Sweep& sweep_b,
+                                   PositionType positions);
 
 // A body as the world sees it in one frame. bodies[i].id.index need not be i, but must ascend.
 struct Body {

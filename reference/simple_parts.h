@@ -1,0 +1,35 @@
+// What bodies are made of, as simple shapes in their places.
+#pragma once
+
+#include <vector>
+
+#include "carom/kernel/body.h"
+#include "kernel/part.h"
+
+namespace carom::reference {
+
+// A shape that has no parts.
+struct Simple {
+  Shape shape;
+  Part placed;                         // the same, as numbers
+  Double3 arm{};                       // from the body's position
+  uint64_t order = 0;                  // the child, and the triangle of a mesh
+  uint32_t sub = 0;                    // what it is called
+  const MeshGeometry* mesh = nullptr;  // of which it is this triangle
+  size_t triangle = 0;
+
+  Pose pose() const {
+    const Row& q = placed.orientation;
+    return {Eigen::Vector3d(placed.position[0], placed.position[1], placed.position[2]),
+            Eigen::Quaternionf(q[3], q[0], q[1], q[2])};
+  }
+  PlacedTriangle placed_triangle() const {
+    return {*mesh, triangle, placed.position, rotation_of(placed.orientation)};
+  }
+};
+
+// Of a simple shape itself alone. Triangles of a mesh that have no area are left out.
+std::vector<Simple> parts_of(const Shape& shape, const Double3& position,
+                             const Eigen::Quaternionf& orientation);
+
+}  // namespace carom::reference
