@@ -29,10 +29,6 @@ bool names_file(const OutputFile& output) {
   return !output.name.empty() && !(output.option == "--json" && output.name == "-");
 }
 
-Error not_yet(const std::string& what, const std::string& text, const std::string& available) {
-  return {what + " '" + text + "' does not exist in this version (there are: " + available + ")"};
-}
-
 Error unknown(const std::string& what, const std::string& text, const std::string& available) {
   return {"unknown " + what + " '" + text + "' (there are: " + available + ")"};
 }
@@ -208,13 +204,16 @@ Result<BroadphaseMethod> parse_broadphase(const std::string& text) {
 }
 
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known) {
-  constexpr std::array kPlanned = {"toi"sv};
+  constexpr std::array kOfPairs = {"distance"sv, "toi"sv};
   std::string names;
   for (const NamedDetail& entry : known) {
     if (text == entry.name) return entry.detail;
     names += (names.empty() ? "" : ", ") + std::string(entry.name);
   }
-  return contains(kPlanned, text) ? not_yet("detail", text, names) : unknown("detail", text, names);
+  if (contains(kOfPairs, text)) {
+    return Error{"detail '" + text + "' is for files of pairs only (carom pairs)"};
+  }
+  return unknown("detail", text, names);
 }
 
 Result<ForcedIsa> ForcedIsa::create(const std::string& name) {

@@ -57,7 +57,8 @@ struct NamedDetail {
   std::string_view name;
   Detail detail;
 };
-// Looks `text` up among what a command serves; a detail that is planned is refused as such.
+// Looks `text` up among what a command serves; a detail that only `carom pairs` has is refused as
+// such.
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known);
 
 // For options that name a file: an empty name (a script's unset variable) is refused.

@@ -41,7 +41,34 @@ BodyColumns columns_of(const io::PairSide& side, const std::vector<Shape>& shape
   return columns;
 }
 
+Motions motions_of(io::PairSide& side) {
+  return {std::move(side.displacement), std::move(side.rotation)};
+}
+
+const float* first_of(const std::vector<std::array<float, 3>>& rows) {
+  return rows.empty() ? nullptr : rows.front().data();
+}
+
+Eigen::Vector3f vector_of(const std::vector<std::array<float, 3>>& rows, size_t index) {
+  return rows.empty() ? Eigen::Vector3f::Zero() : Eigen::Vector3f(rows[index].data());
+}
+
 }  // namespace
+
+void Motions::push(const Sweep& sweep) {
+  const Eigen::Vector3f& d = sweep.displacement;
+  const Eigen::Vector3f& r = sweep.rotation;
+  displacement.push_back({d.x(), d.y(), d.z()});
+  rotation.push_back({r.x(), r.y(), r.z()});
+}
+
+SweepView Motions::view() const {
+  return {.displacement = first_of(displacement), .rotation = first_of(rotation)};
+}
+
+Sweep Motions::sweep(size_t index) const {
+  return {vector_of(displacement, index), vector_of(rotation, index)};
+}
 
 Result<PairSet> read_pair_set(const std::string& path) {
   Result<io::PairsFile> file = io::read_pairs(path);
@@ -49,7 +76,27 @@ Result<PairSet> read_pair_set(const std::string& path) {
   Result<std::vector<Shape>> shapes = convert_shapes(file->shapes, path);
   if (!shapes) return shapes.error();
   PositionType positions = file->float64_positions ? PositionType::float64 : PositionType::float32;
-  return PairSet{columns_of(file->a, *shapes, positions), columns_of(file->b, *shapes, positions)};
+  return PairSet{columns_of(file->a, *shapes, positions), columns_of(file->b, *shapes, positions),
+                 motions_of(file->a), motions_of(file->b)};
+}
+
+std::vector<Pair> rows_in_order(size_t count) {
+  std::vector<Pair> rows;
+  rows.reserve(count);
+  for (uint32_t i = 0; i < count; ++i) rows.push_back({i, i});
+  return rows;
+}
+
+std::vector<Pair> rows_spread_out(size_t count) {
+  std::vector<Pair> rows;
+  rows.reserve(count);
+  const size_t stride = count / 3 + 1;
+  for (size_t first = 0; first < stride; ++first) {
+    for (size_t i = first; i < count; i += stride) {
+      rows.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(i)});
+    }
+  }
+  return rows;
 }
 
 PairColumns::PairColumns(const PairSet& pairs, Detail detail)

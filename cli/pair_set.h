@@ -7,17 +7,35 @@
 #include <vector>
 
 #include "carom/kernel/contact.h"
+#include "carom/kernel/pair.h"
 #include "carom/kernel/result.h"
+#include "carom/kernel/sweep.h"
 #include "cli/body_columns.h"
 #include "io/pairs_file.h"
 
 namespace carom::cli {
 
+// How the bodies of one side move. An array that is empty is zero for all.
+struct Motions {
+  std::vector<std::array<float, 3>> displacement;
+  std::vector<std::array<float, 3>> rotation;
+
+  void push(const Sweep& sweep);
+  SweepView view() const;
+  Sweep sweep(size_t index) const;
+};
+
 struct PairSet {
   BodyColumns a;
   BodyColumns b;
+  Motions motions_a{};
+  Motions motions_b{};
 
   size_t size() const { return a.size(); }
+  // Whether a side has displacements, without which there is no time of impact to ask for.
+  bool has_motions() const {
+    return !motions_a.displacement.empty() || !motions_b.displacement.empty();
+  }
   // Whether some body is a mesh or a compound.
   bool has_composites() const { return a.has_composites() || b.has_composites(); }
 };
@@ -26,6 +44,11 @@ struct PairSet {
 // invalid, whatever the kind: kernels do not read those of spheres and aabbs, so such a body gets a
 // NaN position.
 Result<PairSet> read_pair_set(const std::string& path);
+
+// Row i of A with row i of B, as a list: in the order of the rows, or with neighbours far apart, so
+// that they are in other lanes and other batches.
+std::vector<Pair> rows_in_order(size_t count);
+std::vector<Pair> rows_spread_out(size_t count);
 
 // Memory for the results of pairs at a detail, with sub-shapes if there can be any.
 class PairColumns {

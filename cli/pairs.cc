@@ -4,12 +4,15 @@
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "carom/kernel/thread_arena.h"
 #include "carom/narrowphase/collide.h"
+#include "carom/sweep/time_of_impact.h"
 #include "carom_build_info.h"
 #include "cli/commands.h"
+#include "cli/impact_arrays.h"
 #include "cli/json_output.h"
 #include "cli/options.h"
 #include "cli/pair_set.h"
@@ -20,11 +23,13 @@
 namespace carom::cli {
 namespace {
 
-// `distance` asks for nothing beyond what the contact kernels of these shapes give.
+// `distance` asks for nothing beyond what the contact kernels of these shapes give; `toi` has
+// contacts at the time of impact.
 constexpr NamedDetail kDetails[] = {{"overlap", Detail::overlap},
                                     {"contact", Detail::contact},
                                     {"manifold", Detail::manifold},
-                                    {"distance", Detail::contact}};
+                                    {"distance", Detail::contact},
+                                    {"toi", Detail::contact}};
 
 struct PairsOptions {
   std::string input;
@@ -34,15 +39,38 @@ struct PairsOptions {
   std::string json;
 };
 
-// Tests all pairs `repeat` times; returns the nanoseconds a pair that each run took.
-Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions& options,
-                                       Detail detail, const Accuracy& accuracy,
-                                       PairColumns& results, const Console& console) {
+bool finds_impacts(const PairsOptions& options) { return options.engine.detail == "toi"; }
+
+// Times of impact are found in double precision at every tier: there is nothing to prove or to
+// loosen.
+Result<void> check_tier_of_impacts(const Accuracy& accuracy, const std::string& tier) {
+  if (has_proofs(accuracy.tier)) {
+    return Error{"--detail toi has the tier standard alone (--tier " + tier + " was given)"};
+  }
+  const std::vector<std::string> knobs = names_of(accuracy.knobs);
+  if (knobs.empty()) return {};
+  return Error{"--detail toi has no knobs (--knobs " + knobs.front() + " was given)"};
+}
+
+Result<void> check_motions(const PairSet& pairs, const std::string& path) {
+  if (pairs.size() == 0 || pairs.has_motions()) return {};
+  return io::member_error(
+      path, "displacement_a",
+      "is missing, and displacement_b as well (--detail toi needs one of them)");
+}
+
+// Results of the last run, and the nanoseconds a pair that each run took.
+struct Tested {
+  io::PairResults results;
+  std::vector<double> ns_per_pair;
+};
+
+// Calls `test` with its parallelism `repeat` times, and takes the time.
+template <class Test>
+Result<std::vector<double>> time_runs(size_t pairs, const PairsOptions& options,
+                                      const Console& console, const Test& test) {
   using Clock = std::chrono::steady_clock;
   ThreadArena arena(options.engine.threads);
-  Collidables a = pairs.a.view();
-  Collidables b = pairs.b.view();
-  ResultColumns columns = results.columns();
   std::vector<double> ns_per_pair;
   Progress progress(console, "run", static_cast<uint64_t>(options.repeat));
   for (int run = 0; run < options.repeat; ++run) {
@@ -51,16 +79,53 @@ Result<std::vector<double>> test_pairs(const PairSet& pairs, const PairsOptions&
     Clock::time_point begin, end;
     arena.run([&] {
       begin = Clock::now();
-      tested = collide_rows(a, b, detail, columns, WitnessFrame::world, arena.parallelism(),
-                            Measured::all, accuracy);
+      tested = test(arena.parallelism());
       end = Clock::now();
     });
     if (!tested) return io::file_error(options.input, tested.error().message);
     double ns = std::chrono::duration<double, std::nano>(end - begin).count();
-    ns_per_pair.push_back(pairs.size() ? ns / static_cast<double>(pairs.size()) : 0);
+    ns_per_pair.push_back(pairs ? ns / static_cast<double>(pairs) : 0);
   }
   return ns_per_pair;
 }
+
+Result<Tested> test_pairs(const PairSet& pairs, const PairsOptions& options, Detail detail,
+                          const Accuracy& accuracy, const Console& console) {
+  PairColumns results(pairs, detail);
+  const ResultColumns columns = results.columns();
+  const Collidables a = pairs.a.view();
+  const Collidables b = pairs.b.view();
+  auto times = time_runs(pairs.size(), options, console, [&](Parallelism parallelism) {
+    return collide_rows(a, b, detail, columns, WitnessFrame::world, parallelism, Measured::all,
+                        accuracy);
+  });
+  if (!times) return times.error();
+  return Tested{results.results(), std::move(*times)};
+}
+
+Result<Tested> find_impacts(const PairSet& pairs, const PairsOptions& options,
+                            const Console& console) {
+  Result<void> motions = check_motions(pairs, options.input);
+  if (!motions) return motions.error();
+  ImpactArrays results(pairs);
+  const ImpactColumns columns = results.columns();
+  const Collidables a = pairs.a.view();
+  const Collidables b = pairs.b.view();
+  const SweepView sweep_a = pairs.motions_a.view();
+  const SweepView sweep_b = pairs.motions_b.view();
+  const std::vector<Pair> rows = rows_in_order(pairs.size());
+  auto times = time_runs(pairs.size(), options, console, [&](Parallelism parallelism) {
+    return time_of_impact(a, sweep_a, b, sweep_b, rows, columns, WitnessFrame::world, parallelism);
+  });
+  if (!times) return times.error();
+  return Tested{results.results(), std::move(*times)};
+}
+
+struct ImpactCounts {
+  uint64_t impacts = 0;
+  uint64_t at_start = 0;
+  uint64_t budget = 0;
+};
 
 struct PairsReport {
   uint64_t pairs;
@@ -69,18 +134,30 @@ struct PairsReport {
   uint64_t undecided;
   uint64_t invalid;
   double ns_per_pair;
+  std::optional<ImpactCounts> impacts;  // at detail toi
 };
 
-PairsReport summarize(const io::PairResults& results, const Accuracy& accuracy,
-                      std::vector<double> ns_per_pair) {
-  PairsReport report{results.pairs, accuracy, 0, 0, 0, median(std::move(ns_per_pair))};
+bool has_status(uint8_t status, Status of) { return status == static_cast<uint8_t>(of); }
+
+ImpactCounts count_impacts(const io::PairResults& results) {
+  ImpactCounts counts;
+  for (float toi : results.toi) {
+    counts.impacts += meets(toi);
+    counts.at_start += toi == 0;
+  }
+  for (uint8_t status : results.status) counts.budget += has_status(status, Status::budget);
+  return counts;
+}
+
+PairsReport summarize(const Tested& tested, const Accuracy& accuracy, const PairsOptions& options) {
+  const io::PairResults& results = tested.results;
+  PairsReport report{results.pairs, accuracy, 0, 0, 0, median(tested.ns_per_pair), {}};
   for (uint8_t overlap : results.overlap) {
     report.overlaps += overlap == 1;
     report.undecided += overlap == kUndecided;
   }
-  for (uint8_t status : results.status) {
-    report.invalid += status == static_cast<uint8_t>(Status::invalid);
-  }
+  for (uint8_t status : results.status) report.invalid += has_status(status, Status::invalid);
+  if (finds_impacts(options)) report.impacts = count_impacts(results);
   return report;
 }
 
@@ -97,6 +174,11 @@ nlohmann::ordered_json to_json(const PairsReport& report, const PairsOptions& op
   json["repeat"] = options.repeat;
   json["overlaps"] = report.overlaps;
   json["undecided"] = report.undecided;
+  if (report.impacts) {
+    json["impacts"] = report.impacts->impacts;
+    json["at_start"] = report.impacts->at_start;
+    json["budget"] = report.impacts->budget;
+  }
   json["invalid"] = report.invalid;
   json["version"] = build_info::kVersion;
   json["commit"] = build_info::kCommit;
@@ -110,7 +192,13 @@ void print(const PairsReport& report, const PairsOptions& options, std::ostream&
   std::snprintf(time, sizeof time, "%.2f ns a pair, median of %d", report.ns_per_pair,
                 options.repeat);
   Table table({"pairs", std::to_string(report.pairs)});
-  table.add({"overlapping", std::to_string(report.overlaps)});
+  if (report.impacts) {
+    table.add({"impacts", std::to_string(report.impacts->impacts)});
+    table.add({"at the start", std::to_string(report.impacts->at_start)});
+    table.add({"ended early", std::to_string(report.impacts->budget)});
+  } else {
+    table.add({"overlapping", std::to_string(report.overlaps)});
+  }
   if (report.accuracy.tier == Tier::certified) {
     table.add({"undecided", std::to_string(report.undecided)});
   }
@@ -130,6 +218,10 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   if (!accuracy) return accuracy.error();
   Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
   if (!detail) return detail.error();
+  if (finds_impacts(options)) {
+    Result<void> served = check_tier_of_impacts(*accuracy, options.engine.tier);
+    if (!served) return served.error();
+  }
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
   if (!isa) return isa.error();
   Result<void> apart =
@@ -140,15 +232,14 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
 
   Result<PairSet> set = read_pair_set(options.input);
   if (!set) return set.error();
-  PairColumns columns(*set, *detail);
-  Result<std::vector<double>> times =
-      test_pairs(*set, options, *detail, *accuracy, columns, console);
-  if (!times) return times.error();
-  io::PairResults results = columns.results();
-  Result<void> written = io::write_pair_results(options.output, results);
+  Result<Tested> tested = finds_impacts(options)
+                              ? find_impacts(*set, options, console)
+                              : test_pairs(*set, options, *detail, *accuracy, console);
+  if (!tested) return tested.error();
+  Result<void> written = io::write_pair_results(options.output, tested->results);
   if (!written) return written.error();
 
-  PairsReport report = summarize(results, *accuracy, std::move(*times));
+  PairsReport report = summarize(*tested, *accuracy, options);
   if (!json->wanted()) {
     print(report, options, console.out);
     return 0;
@@ -167,7 +258,8 @@ void add_pairs_command(CLI::App& program, Action& action) {
       ->required()
       ->check(file_name());
   add_engine_options(command, options->engine);
-  command.add_option("--detail", options->engine.detail, "overlap, contact, manifold or distance")
+  command
+      .add_option("--detail", options->engine.detail, "overlap, contact, manifold, distance or toi")
       ->capture_default_str();
   command.add_option("--repeat", options->repeat, "Runs to take the median time of")
       ->check(CLI::Range(1, 1'000'000))

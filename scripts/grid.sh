@@ -14,7 +14,7 @@ steps=n=3000,frames=12,seed=1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# What every cell runs, at detail manifold.
+# What every cell runs, at detail manifold, but for the times of impact.
 scenes=(
   mixed.npz
   "brownian:$steps,density=0.3,shape=sphere,positions=float64"
@@ -25,6 +25,7 @@ scenes=(
 )
 scripts/mixed_scene.py "$scratch/mixed.npz"
 pairs=tests/data/pairs_sample.npz
+moving=tests/data/toi_sample.npz
 
 # The programs to run, "NAME PATH" each.
 columns=()
@@ -52,13 +53,15 @@ hash_of() { sha256sum "$1" | cut -c1-16; }
 
 # measure CAROM ISA THREADS: one line a source, its hash first.
 measure() {
-  local carom=$1 options=(--isa "$2" --threads "$3" --detail manifold) scene json
+  local carom=$1 options=(--isa "$2" --threads "$3") scene json
   for scene in "${scenes[@]}"; do
-    json=$(cd "$scratch" && "$carom" run "$scene" "${options[@]}" --json -)
+    json=$(cd "$scratch" && "$carom" run "$scene" "${options[@]}" --detail manifold --json -)
     printf '%s %s\n' "$(sed -n 's/.*"state_hash": "\(.*\)".*/\1/p' <<<"$json")" "$scene"
   done
-  "$carom" pairs "$pairs" -o "$scratch/results.npz" "${options[@]}" >/dev/null
+  "$carom" pairs "$pairs" -o "$scratch/results.npz" "${options[@]}" --detail manifold >/dev/null
   printf '%s %s\n' "$(hash_of "$scratch/results.npz")" "$pairs"
+  "$carom" pairs "$moving" -o "$scratch/results.npz" "${options[@]}" --detail toi >/dev/null
+  printf '%s %s\n' "$(hash_of "$scratch/results.npz")" "$moving"
 }
 
 rm -rf "$out"

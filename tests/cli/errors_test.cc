@@ -96,7 +96,8 @@ TEST_F(ErrorsTest, OptionsOfRun) {
   expect_error({"run", scene, "--isa", "neon"}, {"'neon' cannot be used here", "scalar"});
   expect_error({"run", scene, "--tier", "best"},
                {"unknown tier 'best'", "fast, standard, certified, exact"});
-  expect_error({"run", scene, "--detail", "toi"}, {"detail 'toi' does not exist"});
+  expect_error({"run", scene, "--detail", "toi"}, {"detail 'toi'", "carom pairs"});
+  expect_error({"run", scene, "--detail", "distance"}, {"detail 'distance'", "carom pairs"});
   expect_error({"run", scene, "--detail", "some"}, {"unknown detail 'some'"});
   expect_error({"run", scene, "--broadphase", "octree"}, {"unknown broadphase 'octree'", "sweep"});
   for (const char* margin : {"-1", "nan", "inf", "1e39", "-1e-9"}) {
@@ -126,9 +127,8 @@ TEST_F(ErrorsTest, OptionsOfPairs) {
                          const std::string& part) {
     expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), option, value}, {part});
   };
-  fails("--detail", "toi", "detail 'toi' does not exist");
-  fails("--detail", "toi", "(there are: overlap, contact, manifold, distance)");
   fails("--detail", "pairs", "unknown detail 'pairs'");
+  fails("--detail", "pairs", "(there are: overlap, contact, manifold, distance, toi)");
   fails("--tier", "best", "unknown tier 'best'");
   fails("--isa", "mmx", "unknown ISA");
   fails("--threads", "0", "--threads 0");
@@ -168,6 +168,43 @@ TEST_F(ErrorsTest, KnobsNeedTheFastTier) {
   pairs_fail("fast", "--knobs", "proxy-spheres", "knob 'proxy-spheres' is for scenes only");
   pairs_fail("fast", "--knobs", "magic", "(there are: single-precision, faces-only)");
   pairs_fail("fast", "--motion-tolerance", "1", "--motion-tolerance");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ErrorsTest, TimesOfImpactHaveOneTier) {
+  write_pairs(path("in.npz"), 2);
+  const auto fails = [&](std::vector<std::string> options, const std::string& part) {
+    options.insert(options.begin(),
+                   {"pairs", path("in.npz"), "-o", path("out.npz"), "--detail", "toi"});
+    expect_error(options, {"--detail toi", part});
+  };
+  fails({"--tier", "certified"}, "has the tier standard alone (--tier certified was given)");
+  fails({"--tier", "exact"}, "has the tier standard alone (--tier exact was given)");
+  fails({"--tier", "fast", "--knobs", "single-precision"},
+        "has no knobs (--knobs single-precision was given)");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ErrorsTest, Motions) {
+  io::PairsFile file;
+  file.pairs = 2;
+  file.shapes = shapes_with(2);
+  for (io::PairSide* side : {&file.a, &file.b}) {
+    side->shape = {0, 0};
+    side->position32 = {{0, 0, 0}, {0, 0, 0}};
+  }
+  const auto fails = [&](std::initializer_list<std::string> parts) {
+    ASSERT_TRUE(io::write_pairs(path("in.npz"), file));
+    expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), "--detail", "toi"}, parts);
+  };
+  fails({"in.npz: member displacement_a: is missing", "displacement_b", "--detail toi"});
+  file.a.rotation = {{0, 0, 0}, {0, 0, 0}};
+  fails({"member displacement_a: is missing"});
+  file.a.displacement = {{0, 0, 0}};
+  fails({"member displacement_a: has shape (1, 3)", "(2, 3)"});
+  file.a.displacement = {{0, 0, 0}, {0, 0, 0}};
+  file.b.rotation = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  fails({"member rotation_b: has shape (3, 3)", "(2, 3)"});
   EXPECT_EQ(files(), 1u);
 }
 
@@ -266,6 +303,12 @@ TEST_F(ErrorsTest, HalfspacesAgainstEachOther) {
   write_pairs(path("in.npz"), 8, 1);
   const std::string text = "no kernel for halfspace against halfspace";
   expect_error({"pairs", path("in.npz"), "-o", path("out.npz")}, {"in.npz: ", text});
+  expect_error({"verify", path("in.npz")}, {"in.npz: ", "pair 0: ", text});
+  io::PairsFile moving = *io::read_pairs(path("in.npz"));
+  moving.a.displacement = {{0, 0, 0}};
+  ASSERT_TRUE(io::write_pairs(path("in.npz"), moving));
+  expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), "--detail", "toi"},
+               {"in.npz: ", text});
   expect_error({"verify", path("in.npz")}, {"in.npz: ", "pair 0: ", text});
   EXPECT_EQ(files(), 1u);
 }

@@ -13,10 +13,11 @@ namespace carom::cli {
 // Lists of members that the file lacks are empty.
 struct PairResultsFile {
   std::vector<uint8_t> overlap, status, manifold_count;
-  std::vector<float> separation;
+  std::vector<float> separation, toi;
   std::vector<std::array<float, 3>> normal, point_a, point_b;
   std::vector<float> manifold_point;  // 12 a pair
   std::vector<std::array<float, 4>> manifold_separation;
+  std::vector<uint32_t> sub_a, sub_b;
 };
 
 inline PairResultsFile read_pair_results(const std::string& path, size_t pairs) {
@@ -39,6 +40,9 @@ inline PairResultsFile read_pair_results(const std::string& path, size_t pairs) 
   read("manifold_count", results.manifold_count, {pairs});
   read("manifold_point", results.manifold_point, {pairs, 4, 3});
   read("manifold_separation", results.manifold_separation, {pairs});
+  read("toi", results.toi, {pairs});
+  read("sub_a", results.sub_a, {pairs});
+  read("sub_b", results.sub_b, {pairs});
   return results;
 }
 
