@@ -12,6 +12,7 @@
 #include "cli/scene_source.h"
 #include "cli/table.h"
 #include "cli/verify_builtin.h"
+#include "cli/verify_impacts.h"
 #include "cli/verify_pairs.h"
 #include "cli/verify_scene.h"
 #include "io/npz.h"
@@ -44,7 +45,12 @@ class Verification {
     const std::string label = io::printable(source);
     if (names_pairs(source)) {
       Result<PairSet> pairs = read_pair_set(source);
-      note(pairs ? verify_pairs(system_, engines_, *pairs, label, console_) : pairs.error());
+      if (!note(pairs ? verify_pairs(system_, engines_, *pairs, label, console_) : pairs.error())) {
+        return;
+      }
+      if (pairs->has_motions()) {
+        note(verify_impacts(system_, engines_, *pairs, label, console_));
+      }
     } else {
       Result<std::unique_ptr<io::SceneReader>> scene = open_source(source);
       note(scene ? verify(**scene, label) : scene.error());
@@ -53,12 +59,13 @@ class Verification {
 
   void verify_builtin() {
     for (BuiltinScene& builtin : builtin_scenes()) {
-      note(verify(*builtin.scene, builtin.name));
-      if (difference_) return;
+      if (!note(verify(*builtin.scene, builtin.name))) return;
     }
     for (const BuiltinPairs& builtin : builtin_pairs()) {
-      note(verify_pairs(system_, engines_, builtin.pairs, builtin.name, console_));
-      if (difference_) return;
+      if (!note(verify_pairs(system_, engines_, builtin.pairs, builtin.name, console_))) return;
+    }
+    for (const BuiltinPairs& builtin : builtin_motions()) {
+      if (!note(verify_impacts(system_, engines_, builtin.pairs, builtin.name, console_))) return;
     }
   }
 
@@ -82,11 +89,12 @@ class Verification {
     return verify_scene(system_, engines_, scene, source, frames, console_);
   }
 
-  void note(Result<VerifyOutcome> outcome) {
+  // Whether it could be verified, and agrees.
+  bool note(Result<VerifyOutcome> outcome) {
     if (!outcome) {
       failed_ = true;
       console_.error(outcome.error());
-      return;
+      return false;
     }
     for (const VerifyRow& row : outcome->rows) {
       ++rows_;
@@ -95,9 +103,10 @@ class Verification {
                   std::to_string(row.pairs), std::to_string(row.overlaps),
                   row.differs ? "DIFFERS" : "same bits"});
     }
-    if (!outcome->difference) return;
+    if (!outcome->difference) return true;
     difference_ = std::move(outcome->difference);
     difference_->where = outcome->source + ": " + difference_->where;
+    return false;
   }
 
   System& system_;

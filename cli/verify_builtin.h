@@ -1,5 +1,5 @@
 // What `carom verify` checks without arguments: small scenes of every generator and random pairs of
-// every kind, ill-formed bodies included.
+// every kind, at rest and moving, ill-formed bodies included.
 #pragma once
 
 #include <memory>
@@ -22,5 +22,7 @@ struct BuiltinPairs {
   PairSet pairs;
 };
 std::vector<BuiltinPairs> builtin_pairs();
+// Pairs that move.
+std::vector<BuiltinPairs> builtin_motions();
 
 }  // namespace carom::cli

@@ -1,16 +1,14 @@
-// Random and special pairs of every two kinds that have a kernel.
+// Random and special pairs of every two kinds that have a kernel, at rest and moving.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/reference/reference.h"
 #include "cli/verify_builtin.h"
-#include "io/build_hull.h"
+#include "cli/verify_builtin_shapes.h"
 #include "io/generate/random.h"
 
 namespace carom::cli {
@@ -20,75 +18,10 @@ constexpr std::array kKinds = {ShapeKind::sphere,   ShapeKind::capsule,  ShapeKi
                                ShapeKind::box,      ShapeKind::dop,      ShapeKind::hull,
                                ShapeKind::mesh,     ShapeKind::compound, ShapeKind::triangle,
                                ShapeKind::halfspace};
-constexpr std::array kDopKinds = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
-
-// A cube of which the corners are cut off.
-Dop even_dop(float size) {
-  Dop dop{.kind = DopKind::k14};
-  dop.lower.fill(-size);
-  dop.upper.fill(size);
-  return dop;
-}
-
-// What cannot be made is not valid.
-Hull hull_of(const std::vector<Eigen::Vector3f>& points) {
-  Result<io::BuiltHull> hull = io::build_hull(points);
-  return hull ? Hull{std::move(hull->geometry)} : Hull{};
-}
-
-Mesh mesh_of(const std::vector<Eigen::Vector3f>& vertices,
-             const std::vector<std::array<uint32_t, 3>>& triangles, const MeshRules& rules) {
-  auto mesh = make_mesh(vertices, triangles, rules);
-  return mesh ? Mesh{std::move(*mesh)} : Mesh{};
-}
-
-Compound compound_of(const std::vector<CompoundChild>& children) {
-  auto compound = make_compound(children);
-  return compound ? Compound{std::move(*compound)} : Compound{};
-}
-
-Hull even_hull(float size) {
-  std::vector<Eigen::Vector3f> corners;
-  corners.reserve(8);
-  for (int i = 0; i < 8; ++i) {
-    corners.emplace_back(i & 1 ? size : -size, i & 2 ? size : -size, i & 4 ? size : -size);
-  }
-  return hull_of(corners);
-}
-
-// A shape whose numbers are all 0 or plus or minus `size`.
-Shape even_shape(ShapeKind kind, float size) {
-  const Eigen::Vector3f x(size, 0, 0);
-  const Eigen::Vector3f y(0, size, 0);
-  switch (kind) {
-    case ShapeKind::capsule:
-      return Capsule{-x, x, size};
-    case ShapeKind::aabb:
-      return Aabb::from_half_extents(Eigen::Vector3f::Constant(size));
-    case ShapeKind::box:
-      return Box{Eigen::Vector3f::Constant(size)};
-    case ShapeKind::triangle:
-      return Triangle{{x, y - x, -y - x}, size < 0 ? size : 0, false, 0};
-    case ShapeKind::halfspace:
-      return Halfspace{Eigen::Vector3f::Constant(size), size};
-    case ShapeKind::dop:
-      return even_dop(size);
-    case ShapeKind::hull:
-      return even_hull(size);
-    case ShapeKind::mesh:
-      return mesh_of({x, y, -x, -y}, {{0, 1, 2}, {2, 3, 0}},
-                     {.one_sided = false, .thickness = size < 0 ? size : 0});
-    case ShapeKind::compound:
-      return compound_of({{Sphere{size}, x, Eigen::Quaternionf::Identity()},
-                          {Box{Eigen::Vector3f::Constant(size)}, -x, {1, 0, 0, 1}}});
-    default:
-      return Sphere{size};
-  }
-}
 
 // Kinds that are tested one at a time, or by their parts.
 bool is_slow(ShapeKind a, ShapeKind b) {
@@ -104,23 +37,26 @@ class RandomPairs {
   }
 
   void add(ShapeKind a, ShapeKind b) {
-    const double size_a = sizes_.draw(random_);
-    const double size_b = size_a * random_.between(0.1, 1);
-    const Shape shape_a = shape(a, size_a);
-    const Shape shape_b = shape(b, size_b);
-    const Pose pose_a{in_ball(spread_), orientation()};
-    Pose pose_b{pose_a.position + in_ball(1.25 * (size_a + size_b)), orientation()};
-    switch (pairs_.size() % 4) {
-      case 0:
-        break;  // as it comes
-      case 1:
-        separate(shape_a, pose_a, shape_b, pose_b, 0);
-        break;
-      default:
-        separate(shape_a, pose_a, shape_b, pose_b,
-                 size_b * depth(a, b) * random_.between(-1, most_apart(a, b)));
+    const Placed pair = place(a, b);
+    push(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
+  }
+
+  // Bodies that come, turning or not, to where add() would have put them; some only after the
+  // interval, more of them where a half-space is hard to miss. Most of those that would begin with
+  // an overlap come from the opposite side.
+  void add_moving(ShapeKind a, ShapeKind b) {
+    const Placed pair = place(a, b);
+    const bool hard_to_miss = a == ShapeKind::halfspace || b == ShapeKind::halfspace;
+    const double time = random_.between(0, hard_to_miss ? 4 : 1.7);
+    Sweep sweep_a = sweep(pair.size);
+    Sweep sweep_b = sweep(pair.size);
+    Placed start = moved(pair, sweep_a, sweep_b, -time);
+    if (!shapes_.one_of(4) && collide(start).overlap) {
+      sweep_a = reversed(sweep_a);
+      sweep_b = reversed(sweep_b);
+      start = moved(pair, sweep_a, sweep_b, -time);
     }
-    push(shape_a, pose_a, shape_b, pose_b);
+    push(start.shape_a, start.pose_a, start.shape_b, start.pose_b, sweep_a, sweep_b);
   }
 
   // Coincident, touching, empty and ill-formed bodies; of slow kinds along one axis each.
@@ -139,9 +75,86 @@ class RandomPairs {
     add_orientations(a, b);
   }
 
+  // Motions to exact touch, tiny, huge and ill-formed ones.
+  void add_special_motions(ShapeKind a, ShapeKind b) {
+    const Eigen::Vector3f x = Eigen::Vector3f::UnitX();
+    const Eigen::Vector3f y = Eigen::Vector3f::UnitY();
+    const Eigen::Vector3f none = Eigen::Vector3f::Zero();
+    for (const Sweep& sweep : {Sweep{none, none},
+                               {-x, none},
+                               {-2 * x, none},
+                               {2 * x, none},
+                               {-4 * x, 3 * y},
+                               {none, 6 * y},
+                               {-1e9f * x, none},
+                               {kDenormal * x, kDenormal * y},
+                               {kNan * x, none},
+                               {kInfinity * y, none},
+                               {-4 * x, kNan * y},
+                               {-4 * x, -kInfinity * y}}) {
+      const Shape shape_a = even_shape(a, 1);
+      const Shape shape_b = even_shape(b, 1);
+      Pose beside;
+      beside.position.x() = 4;
+      push(shape_a, {}, shape_b, beside, {}, sweep);
+      push(shape_a, {}, shape_b, {}, sweep, {});
+    }
+  }
+
   PairSet take() { return std::move(pairs_); }
 
  private:
+  struct Placed {
+    Shape shape_a;
+    Shape shape_b;
+    Pose pose_a;
+    Pose pose_b;
+    double size;
+  };
+
+  Placed place(ShapeKind a, ShapeKind b) {
+    const double size_a = sizes_.draw(random_);
+    const double size_b = size_a * random_.between(0.1, 1);
+    Placed pair{shapes_.shape(a, size_a), shapes_.shape(b, size_b), {}, {}, size_a + size_b};
+    pair.pose_a = {shapes_.in_ball(spread_), shapes_.orientation()};
+    pair.pose_b.position = pair.pose_a.position + shapes_.in_ball(1.25 * pair.size);
+    pair.pose_b.orientation = shapes_.orientation();
+    switch (pairs_.size() % 4) {
+      case 0:
+        break;  // as it comes
+      case 1:
+        separate(pair, 0);
+        break;
+      default:
+        separate(pair, size_b * depth(a, b) * random_.between(-1, most_apart(a, b)));
+    }
+    return pair;
+  }
+
+  // Some do not move, and half do not turn.
+  Sweep sweep(double size) {
+    Sweep sweep;
+    if (!shapes_.one_of(8)) sweep.displacement = shapes_.in_ball(6 * size).cast<float>();
+    if (shapes_.one_of(2)) sweep.rotation = shapes_.in_ball(2).cast<float>();
+    return sweep;
+  }
+
+  static Sweep reversed(const Sweep& sweep) { return {-sweep.displacement, -sweep.rotation}; }
+
+  static Placed moved(Placed pair, const Sweep& sweep_a, const Sweep& sweep_b, double time) {
+    move(pair.pose_a, sweep_a, time);
+    move(pair.pose_b, sweep_b, time);
+    return pair;
+  }
+
+  static void move(Pose& pose, const Sweep& sweep, double time) {
+    pose.position += time * sweep.displacement.cast<double>();
+    const Eigen::Vector3d turn = time * sweep.rotation.cast<double>();
+    if (turn.isZero(0)) return;
+    const Eigen::Quaterniond by(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+    pose.orientation = (by * pose.orientation.cast<double>()).cast<float>();
+  }
+
   // Orientations that are hardly one, or none.
   void add_orientations(ShapeKind a, ShapeKind b) {
     const Eigen::Vector3d unit_y = Eigen::Vector3d::UnitY();
@@ -162,6 +175,13 @@ class RandomPairs {
     pairs_.b.push(shape_b, pose_b);
   }
 
+  void push(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, const Pose& pose_b,
+            const Sweep& sweep_a, const Sweep& sweep_b) {
+    push(shape_a, pose_a, shape_b, pose_b);
+    pairs_.motions_a.push(sweep_a);
+    pairs_.motions_b.push(sweep_b);
+  }
+
   // Compounds may be made of surfaces.
   static bool is_surface(ShapeKind kind) {
     return kind == ShapeKind::triangle || is_composite(kind);
@@ -178,142 +198,22 @@ class RandomPairs {
     return 0.5 - 0.25 * (is_surface(a) + is_surface(b));
   }
 
+  reference::PairResult collide(const Placed& pair) const {
+    return reference::collide(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b,
+                              pairs_.a.positions());
+  }
+
   // Moves B along the normal until it is about this far from A, unless it comes from behind a
   // one-sided triangle.
-  void separate(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b, Pose& pose_b,
-                double separation) const {
-    const reference::PairResult now =
-        reference::collide(shape_a, pose_a, shape_b, pose_b, pairs_.a.positions());
+  void separate(Placed& pair, double separation) const {
+    const reference::PairResult now = collide(pair);
     if (!std::isfinite(now.separation)) return;
-    pose_b.position += (separation - double{now.separation}) * now.normal.cast<double>();
-  }
-
-  Eigen::Vector3d in_ball(double radius) {
-    const io::Vec3 v = random_.in_ball(radius);
-    return {v[0], v[1], v[2]};
-  }
-  Eigen::Vector3f point(double radius) { return in_ball(radius).cast<float>(); }
-  bool one_of(uint32_t count) { return random_.below(count) == 0; }
-  float up_to(double limit) { return static_cast<float>(random_.between(0, limit)); }
-
-  // Most of them far from unit length.
-  Eigen::Quaternionf orientation() {
-    const double length = one_of(4) ? 1 : lengths_.draw(random_);
-    const auto number = [&] { return static_cast<float>(length * random_.between(-1, 1)); };
-    const float x = number(), y = number(), z = number(), w = number();
-    return {w, x, y, z};
-  }
-
-  // Each of the three flat at times.
-  Eigen::Vector3f half_extents(double size) {
-    const auto edge = [&] {
-      return one_of(16) ? 0 : static_cast<float>(size * random_.between(0.3, 1));
-    };
-    const float x = edge(), y = edge(), z = edge();
-    return {x, y, z};
-  }
-
-  Shape shape(ShapeKind kind, double size) {
-    switch (kind) {
-      case ShapeKind::capsule:
-        return capsule(size);
-      case ShapeKind::aabb: {
-        const Eigen::Vector3f lower = -half_extents(size);
-        return Aabb{lower, half_extents(size)};
-      }
-      case ShapeKind::box:
-        return Box{half_extents(size)};
-      case ShapeKind::triangle:
-        return triangle(size);
-      case ShapeKind::halfspace:
-        return halfspace(size);
-      case ShapeKind::dop:
-        return dop(size);
-      case ShapeKind::hull:
-        return hull(size);
-      case ShapeKind::mesh:
-        return mesh(size);
-      case ShapeKind::compound:
-        return compound(size);
-      default:
-        return Sphere{static_cast<float>(size)};
-    }
-  }
-
-  Capsule capsule(double size) {
-    Capsule capsule;
-    capsule.a = point(size);
-    capsule.b = one_of(8) ? capsule.a : point(size);
-    capsule.radius = one_of(8) ? 0 : up_to(0.5 * size);
-    return capsule;
-  }
-
-  std::vector<Eigen::Vector3f> some_points(size_t count, double size) {
-    std::vector<Eigen::Vector3f> points(count);
-    for (Eigen::Vector3f& p : points) p = point(size);
-    return points;
-  }
-
-  // Of a point and more.
-  Dop dop(double size) {
-    const std::vector<Eigen::Vector3f> points = some_points(1 + random_.below(12), size);
-    return Dop::of_points(points, kDopKinds[random_.below(kDopKinds.size())]);
-  }
-
-  // Of a point and more, flat at times.
-  Hull hull(double size) {
-    std::vector<Eigen::Vector3f> points = some_points(1 + random_.below(20), size);
-    if (one_of(8)) {
-      for (Eigen::Vector3f& p : points) p.z() = 0;
-    }
-    return hull_of(points);
-  }
-
-  // A strip of triangles that share edges.
-  Mesh mesh(double size) {
-    const std::vector<Eigen::Vector3f> vertices = some_points(4 + random_.below(4), size);
-    std::vector<std::array<uint32_t, 3>> triangles;
-    for (uint32_t i = 0; i + 2 < vertices.size(); ++i) {
-      triangles.push_back({i + i % 2, i + 1 - i % 2, i + 2});
-    }
-    if (one_of(8)) triangles[0][1] = triangles[0][0];
-    const float thickness = one_of(4) ? up_to(0.5 * size) : 0;
-    return mesh_of(vertices, triangles, {.one_sided = one_of(4), .thickness = thickness});
-  }
-
-  Compound compound(double size) {
-    constexpr std::array kParts = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
-                                   ShapeKind::box,    ShapeKind::dop,     ShapeKind::hull,
-                                   ShapeKind::mesh,   ShapeKind::triangle};
-    std::vector<CompoundChild> children(1 + random_.below(3));
-    for (CompoundChild& child : children) {
-      child.shape = shape(kParts[random_.below(kParts.size())], size / 2);
-      child.position = point(size / 2);
-      child.orientation = orientation();
-    }
-    return compound_of(children);
-  }
-
-  Triangle triangle(double size) {
-    Triangle triangle;
-    for (Eigen::Vector3f& corner : triangle.corners) corner = point(size);
-    if (one_of(16)) triangle.corners[2] = triangle.corners[0];
-    triangle.thickness = one_of(4) ? up_to(0.5 * size) : 0;
-    triangle.one_sided = one_of(4);
-    triangle.inner_edges = static_cast<uint8_t>(one_of(2) ? random_.below(8) : 0);
-    return triangle;
-  }
-
-  Halfspace halfspace(double size) {
-    Halfspace halfspace;
-    halfspace.normal = point(1);
-    halfspace.offset = static_cast<float>(size * random_.between(-1, 1));
-    return halfspace;
+    pair.pose_b.position += (separation - double{now.separation}) * now.normal.cast<double>();
   }
 
   io::Random random_;
+  RandomShapes shapes_{random_};
   io::LogUniform sizes_{1e-3, 1e3};
-  io::LogUniform lengths_{1e-15, 1e15};
   PairSet pairs_;
   double spread_;
 };
@@ -322,6 +222,8 @@ constexpr size_t kPairs = 2003;
 constexpr size_t kMixedPairs = 1009;
 constexpr size_t kSlowPairs = 83;
 constexpr size_t kPairsOfParts = 53;
+constexpr size_t kMovingPairs = 131;
+constexpr size_t kSlowMovingPairs = 29;
 
 size_t pair_count(ShapeKind a, ShapeKind b) {
   if (is_composite(a) || is_composite(b)) return kPairsOfParts;
@@ -335,17 +237,31 @@ BuiltinPairs pairs_of(ShapeKind a, ShapeKind b, PositionType positions, uint64_t
   return {std::string(name(a)) + "-" + name(b) + " pairs", pairs.take()};
 }
 
+BuiltinPairs moving_pairs_of(ShapeKind a, ShapeKind b) {
+  RandomPairs pairs(PositionType::float32, 1);
+  const size_t count = is_slow(a, b) ? kSlowMovingPairs : kMovingPairs;
+  for (size_t i = 0; i < count; ++i) pairs.add_moving(a, b);
+  pairs.add_special_motions(a, b);
+  return {std::string(name(a)) + "-" + name(b) + " moving pairs, float32", pairs.take()};
+}
+
 bool meets_all(ShapeKind a) {
   return std::all_of(kKinds.begin(), kKinds.end(), [&](ShapeKind b) { return supports(a, b); });
 }
 
-BuiltinPairs mixed_pairs(PositionType positions, uint64_t seed) {
+// Those that may all be in one set.
+std::vector<std::pair<ShapeKind, ShapeKind>> mixed_kinds() {
   std::vector<std::pair<ShapeKind, ShapeKind>> kinds;
   for (ShapeKind a : kKinds) {
     for (ShapeKind b : kKinds) {
       if (meets_all(a)) kinds.push_back({a, b});
     }
   }
+  return kinds;
+}
+
+BuiltinPairs mixed_pairs(PositionType positions, uint64_t seed) {
+  const auto kinds = mixed_kinds();
   RandomPairs pairs(positions, seed);
   for (const auto& [a, b] : kinds) {
     if (!is_slow(a, b)) pairs.add_special(a, b);
@@ -355,6 +271,16 @@ BuiltinPairs mixed_pairs(PositionType positions, uint64_t seed) {
     pairs.add(a, b);
   }
   return {"mixed pairs", pairs.take()};
+}
+
+BuiltinPairs mixed_moving_pairs() {
+  const auto kinds = mixed_kinds();
+  RandomPairs pairs(PositionType::float64, 1);
+  for (size_t i = 0; i < kMixedPairs; ++i) {
+    const auto& [a, b] = kinds[i % kinds.size()];
+    pairs.add_moving(a, b);
+  }
+  return {"mixed moving pairs, float64", pairs.take()};
 }
 
 }  // namespace
@@ -377,6 +303,17 @@ std::vector<BuiltinPairs> builtin_pairs() {
       sets[i].name += is_float64 ? ", float64" : ", float32";
     }
   }
+  return sets;
+}
+
+std::vector<BuiltinPairs> builtin_motions() {
+  std::vector<BuiltinPairs> sets;
+  for (auto a = kKinds.begin(); a != kKinds.end(); ++a) {
+    for (auto b = a; b != kKinds.end(); ++b) {
+      if (supports(*a, *b)) sets.push_back(moving_pairs_of(*a, *b));
+    }
+  }
+  sets.push_back(mixed_moving_pairs());
   return sets;
 }
 

@@ -112,18 +112,12 @@ class PairVerifier {
         pairs_(pairs),
         overlap_(pairs, Detail::overlap),
         contact_(pairs, Detail::contact),
-        manifold_(pairs, Detail::manifold) {
+        manifold_(pairs, Detail::manifold),
+        order_(rows_spread_out(pairs.size())) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       progress.update(i);
       expected_.push_back(reference_row(i));
       exact_.push_back(exact_decision(i));
-    }
-    // Neighbours of the file end up far apart, in other lanes and other batches.
-    uint64_t stride = pairs.size() / 3 + 1;
-    for (uint64_t first = 0; first < stride; ++first) {
-      for (uint64_t i = first; i < pairs.size(); i += stride) {
-        order_.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(i)});
-      }
     }
   }
 
@@ -251,9 +245,9 @@ class PairVerifier {
   PairColumns overlap_;
   PairColumns contact_;
   PairColumns manifold_;
+  std::vector<Pair> order_;
   std::vector<Row> expected_;
   std::vector<uint8_t> exact_;
-  std::vector<Pair> order_;
   uint64_t runs_ = 0;
   std::optional<Difference> difference_;
 };

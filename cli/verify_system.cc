@@ -45,4 +45,11 @@ Result<void> System::collide(const Collidables& a, const Collidables& b,
                         {.tier = tier});
 }
 
+Result<void> System::time_of_impact(const Collidables& a, const SweepView& sweep_a,
+                                    const Collidables& b, const SweepView& sweep_b,
+                                    std::span<const Pair> pairs, const ImpactColumns& out,
+                                    WitnessFrame frame, Parallelism parallelism) {
+  return carom::time_of_impact(a, sweep_a, b, sweep_b, pairs, out, frame, parallelism);
+}
+
 }  // namespace carom::cli

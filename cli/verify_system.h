@@ -6,6 +6,7 @@
 #include <span>
 
 #include "carom/narrowphase/collide.h"
+#include "carom/sweep/time_of_impact.h"
 #include "cli/player.h"
 
 namespace carom::cli {
@@ -39,6 +40,10 @@ class System {
   virtual Result<void> collide(const Collidables& a, const Collidables& b,
                                std::span<const Pair> pairs, Detail detail, const ResultColumns& out,
                                WitnessFrame frame, Parallelism parallelism, Tier tier);
+  virtual Result<void> time_of_impact(const Collidables& a, const SweepView& sweep_a,
+                                      const Collidables& b, const SweepView& sweep_b,
+                                      std::span<const Pair> pairs, const ImpactColumns& out,
+                                      WitnessFrame frame, Parallelism parallelism);
 };
 
 }  // namespace carom::cli

@@ -129,6 +129,10 @@ std::string text_of(const BodyDesc& body, PositionType positions) {
   return text + rest;
 }
 
+std::string text_of(const Sweep& sweep) {
+  return "displacement " + list(sweep.displacement) + " rotation " + list(sweep.rotation);
+}
+
 std::string text_of(const Contact& contact) {
   return "separation " + text_of(double{contact.separation}) + " normal " +
          text_of(contact.normal) + " arm_a " + text_of(contact.arm_a) + " arm_b " +

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "carom/kernel/contact.h"
+#include "carom/kernel/sweep.h"
 #include "carom/reference/reference.h"
 
 namespace carom::cli {
@@ -15,6 +16,7 @@ std::string text_of(const Eigen::Vector3d& v);
 // "box half (x, y, z) at (x, y, z) orientation (x, y, z, w) float32".
 std::string text_of(const Shape& shape, const Pose& pose, PositionType positions);
 std::string text_of(const BodyDesc& body, PositionType positions);
+std::string text_of(const Sweep& sweep);
 std::string text_of(const Contact& contact);
 std::string text_of(const ManifoldPoints& manifold);
 std::string text_of(const reference::Box& box);

@@ -114,6 +114,23 @@ TEST_F(VerifyTest, BuiltinPairsHitAndMiss) {
   }
 }
 
+// As many of the moving ones meet.
+TEST_F(VerifyTest, BuiltinMotionsHitAndMiss) {
+  for (const BuiltinPairs& set : builtin_motions()) {
+    size_t impacts = 0;
+    for (size_t i = 0; i < set.pairs.size(); ++i) {
+      impacts +=
+          std::isfinite(reference::time_of_impact(
+                            set.pairs.a.shape(i), set.pairs.a.pose(i), set.pairs.motions_a.sweep(i),
+                            set.pairs.b.shape(i), set.pairs.b.pose(i), set.pairs.motions_b.sweep(i),
+                            set.pairs.a.positions())
+                            .toi);
+    }
+    EXPECT_GT(impacts, set.pairs.size() * 3 / 10) << set.name;
+    EXPECT_LT(impacts, set.pairs.size() * 7 / 10) << set.name;
+  }
+}
+
 TEST_F(VerifyTest, OneBitOfAContact) {
   BrokenWorld system([](int frame, auto&, auto&, std::vector<Contact>& contacts, auto&, auto&) {
     if (frame == 2 && contacts.size() > 5) {
@@ -228,6 +245,58 @@ TEST_F(VerifyTest, DifferencesShowOrientedShapes) {
        "orientation (0x0p+0, 0x1p+1, 0x0p+0, 0x1p+0) float32",
        "  b: triangle (0x1p+2, 0x0p+0, 0x0p+0) (0x0p+0, 0x1p+3, 0x0p+0) (0x0p+0, 0x0p+0, "
        "0x1p+4) thickness 0x1p-2 one-sided inner edges 0"});
+}
+
+// A search for impacts that is wrong in one place.
+class BrokenImpacts : public System {
+ public:
+  using Break =
+      std::function<void(const ImpactColumns& out, Parallelism parallelism, bool shuffled)>;
+  explicit BrokenImpacts(Break damage) : break_(std::move(damage)) {}
+
+  Result<void> time_of_impact(const Collidables& a, const SweepView& sweep_a, const Collidables& b,
+                              const SweepView& sweep_b, std::span<const Pair> pairs,
+                              const ImpactColumns& out, WitnessFrame frame,
+                              Parallelism parallelism) override {
+    Result<void> done =
+        System::time_of_impact(a, sweep_a, b, sweep_b, pairs, out, frame, parallelism);
+    break_(out, parallelism, pairs[1].a != 1);
+    return done;
+  }
+
+ private:
+  Break break_;
+};
+
+TEST_F(VerifyTest, BrokenImpacts) {
+  const auto next = [](float& x) { x = std::nextafter(x, 2.0f); };
+  const std::pair<BrokenImpacts::Break, std::string> kCases[] = {
+      {[&](const ImpactColumns& out, auto, bool) { next(out.toi[20]); },
+       "times of impact: pair 20 differs"},
+      {[](const ImpactColumns& out, auto, bool) { out.status[20] ^= 1; },
+       "times of impact: pair 20 differs"},
+      {[&](const ImpactColumns& out, auto, bool) {
+         if (out.want_contacts()) next(out.point_b[2][20]);
+       },
+       "times of impact: pair 20 differs"},
+      {[&](const ImpactColumns& out, auto, bool shuffled) {
+         if (shuffled) next(out.separation[0]);
+       },
+       "impacts shuffled: pair 0 differs"},
+      {[&](const ImpactColumns& out, auto, bool) {
+         if (!out.want_contacts()) next(out.toi[20]);
+       },
+       "times alone: pair 20 differs"},
+      {[&](const ImpactColumns& out, Parallelism parallelism, bool) {
+         if (parallelism == Parallelism::arena) next(out.toi[20]);
+       },
+       "threads 2, times of impact: pair 20 differs"}};
+  for (const auto& [damage, text] : kCases) {
+    BrokenImpacts system(damage);
+    expect_found(verify_with(system, {test_data("toi_sample.npz")}),
+                 {"toi_sample.npz: ", text, "  a: ", " displacement (", " rotation (",
+                  "reference: toi 0x", "carom:     toi 0x"});
+  }
 }
 
 class SlowKernel : public System {
