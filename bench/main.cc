@@ -37,6 +37,7 @@ void register_all(const Options& options) {
   register_dop_bounds();
   register_find_pairs(options);
   register_narrowphase(options);
+  register_impacts(options);
   register_world(options);
 }
 

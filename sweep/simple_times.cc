@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "narrowphase/furthest.h"
 #include "sweep/gather_linear.h"
@@ -30,7 +32,13 @@ class SimpleTimes {
  public:
   SimpleTimes(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
               const TimeColumns& out, Scratch& scratch)
-      : a_{a}, b_{b}, pairs_(pairs), count_(count), out_(out), scratch_(scratch) {}
+      : a_{a},
+        b_{b},
+        shared_group_(group_of_all(a, b)),
+        pairs_(pairs),
+        count_(count),
+        out_(out),
+        scratch_(scratch) {}
 
   void run() {
     sort_rows();
@@ -73,8 +81,22 @@ class SimpleTimes {
 
   uint8_t group_of(Pair pair) const {
     if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) return kInvalid;
+    if (shared_group_) return *shared_group_;
     if (!a_.moves_in_a_line(pair.a) || !b_.moves_in_a_line(pair.b)) return kAdvanced;
-    const LinearKind a = kind_of(a_, pair.a), b = kind_of(b_, pair.b);
+    return group_of(kind_of(a_, pair.a), kind_of(b_, pair.b));
+  }
+
+  // Of all valid rows: where all bodies of a side are of one kind, and none turns.
+  static std::optional<uint8_t> group_of_all(const MovingSide& a, const MovingSide& b) {
+    const auto is_uniform = [](const MovingSide& side) {
+      const bool is_triangle = side.bodies.uniform_kind == ShapeKind::triangle;  // may be thick
+      return !side.bodies.kind && !side.sweep.rotation && !is_triangle;
+    };
+    if (!is_uniform(a) || !is_uniform(b)) return std::nullopt;
+    return group_of(linear_kind(a.bodies.uniform_kind), linear_kind(b.bodies.uniform_kind));
+  }
+
+  static uint8_t group_of(LinearKind a, LinearKind b) {
     const auto [low, high] = std::minmax(a, b);
     const bool has_kernel = high != LinearKind::none && low != LinearKind::triangle;
     if (!has_kernel && !(low == LinearKind::triangle && high == LinearKind::plane)) {
@@ -152,6 +174,7 @@ class SimpleTimes {
   }
 
   const MovingReader a_, b_;
+  const std::optional<uint8_t> shared_group_;
   const Pair* pairs_;
   const size_t count_;
   const TimeColumns out_;

@@ -14,6 +14,7 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
@@ -248,7 +249,42 @@ class DetectorPairs final : public PairPeer {
   Test test_;
 };
 
+// The cast that Bullet's continuous collision detection of convex bodies uses.
+class CastPairs final : public PairPeer {
+ public:
+  CastPairs(const PeerBodies& a, const PeerBodies& b,
+            std::vector<std::array<float, 3>> displacements)
+      : a_(a), b_(b), displacements_(std::move(displacements)) {}
+
+  size_t run(std::span<uint8_t> impacts) override {
+    size_t found = 0;
+    for (size_t i = 0; i < a_.count(); ++i) {
+      btTransform end = b_.transform(i);
+      end.setOrigin(end.getOrigin() + vector(displacements_[i].data()));
+      btGjkConvexCast cast(static_cast<btConvexShape*>(a_.shape(i)),
+                           static_cast<btConvexShape*>(b_.shape(i)), &simplex_);
+      btConvexCast::CastResult result;
+      const bool meets =
+          cast.calcTimeOfImpact(a_.transform(i), a_.transform(i), b_.transform(i), end, result);
+      impacts[i] = meets && result.m_fraction <= 1 ? 1 : 0;
+      found += impacts[i];
+    }
+    return found;
+  }
+
+ private:
+  Bodies a_;
+  Bodies b_;
+  const std::vector<std::array<float, 3>> displacements_;
+  btVoronoiSimplexSolver simplex_;
+};
+
 }  // namespace
+
+std::unique_ptr<PairPeer> make_bullet_casts(const PeerBodies& a, const PeerBodies& b,
+                                            std::vector<std::array<float, 3>> displacements) {
+  return std::make_unique<CastPairs>(a, b, std::move(displacements));
+}
 
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
                                             PeerDetail detail) {

@@ -20,6 +20,8 @@ struct PeerStreamSpec {
   Measured measured = Measured::overlapping;
   // The pairs of the last pass once more, a step further (bench/support/pair_stream.h).
   bool again = false;
+  // Times of impact of pairs of which one moves in a straight line, contacts included.
+  bool moving = false;
 
   // As TARGETS are called: "hull_hull_16".
   std::string name() const;

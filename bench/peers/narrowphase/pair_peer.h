@@ -45,4 +45,9 @@ class PairPeer {
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
                                             PeerDetail detail);
 
+// bullet.cc. B moves by a displacement; "overlaps" are impacts, and as many are returned. Convex
+// shapes alone.
+std::unique_ptr<PairPeer> make_bullet_casts(const PeerBodies& a, const PeerBodies& b,
+                                            std::vector<std::array<float, 3>> displacements);
+
 }  // namespace carom::bench

@@ -1,0 +1,75 @@
+// Streams of moving pairs of one pair of kinds, with a given share of impacts, and what the
+// reference says of each.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/support/bodies.h"
+#include "carom/kernel/pair.h"
+#include "carom/kernel/result.h"
+#include "carom/reference/reference.h"
+#include "carom/sweep/time_of_impact.h"
+
+namespace carom::bench {
+
+struct MotionSpec {
+  ShapeKind kind_a;
+  ShapeKind kind_b;
+  bool turning = false;  // both bodies turn as well, by up to a radian
+  int hit_percent = 50;
+  size_t count = 0;
+
+  friend bool operator==(const MotionSpec&, const MotionSpec&) = default;
+};
+
+// Room for all columns of `count` impacts.
+class ImpactArrays {
+ public:
+  explicit ImpactArrays(size_t count);
+
+  const ImpactColumns& columns() const { return columns_; }
+  ImpactColumns times_alone() const { return {.toi = columns_.toi, .status = columns_.status}; }
+
+ private:
+  std::vector<uint8_t> status_;
+  std::vector<float> floats_;
+  ImpactColumns columns_;
+};
+
+// Body B comes from a few sizes away, by up to twice as far.
+class MotionStream {
+ public:
+  explicit MotionStream(const MotionSpec& spec);
+
+  const MotionSpec& spec() const { return spec_; }
+  const std::vector<PlacedShape>& bodies_a() const { return bodies_a_; }
+  const std::vector<PlacedShape>& bodies_b() const { return bodies_b_; }
+  // Of B; A does not move, but for turning.
+  const std::vector<Eigen::Vector3f>& displacements() const { return displacement_; }
+  const reference::Impact& expected(size_t i) const { return expected_[i]; }
+  double hit_percent() const;
+  double reference_seconds() const { return reference_seconds_; }
+
+  // One pass, points relative to the bodies.
+  Result<void> run(const ImpactColumns& out) const;
+  void run_reference(std::vector<reference::Impact>& out) const;
+  // The first row that does not have the bits of the reference, as a message.
+  std::optional<std::string> difference(const ImpactColumns& out) const;
+
+ private:
+  void draw();
+  reference::Impact reference_impact(size_t i) const;
+
+  MotionSpec spec_;
+  std::vector<PlacedShape> bodies_a_, bodies_b_;
+  std::vector<Eigen::Vector3f> displacement_, rotation_a_, rotation_b_;
+  std::unique_ptr<DenseBodies> a_, b_;
+  std::vector<Pair> pairs_;
+  std::vector<reference::Impact> expected_;
+  double reference_seconds_ = 0;
+};
+
+}  // namespace carom::bench
