@@ -61,6 +61,10 @@ class BoxTree {
   // Item i is boxes[i]; empty ones are left out. At most kMostItems.
   explicit BoxTree(std::span<const TreeBox> boxes);
 
+  // The same by sorting: made some twenty times as fast, and for searches not quite as good. For
+  // boxes that change all the time. The same nodes for any number of threads.
+  static BoxTree packed(std::span<const TreeBox> boxes, Parallelism parallelism);
+
   bool is_empty() const { return nodes_.empty(); }
   std::span<const Node> nodes() const { return nodes_; }  // the first is the root
   size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
@@ -79,6 +83,8 @@ class BoxTree {
   uint32_t low_item(const Double3& normal) const;
 
  private:
+  BoxTree() = default;
+
   std::vector<Node> nodes_;
 };
 

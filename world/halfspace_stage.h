@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "broadphase/halfspace_pairs.h"
@@ -17,6 +18,7 @@ class HalfspaceStage {
   void set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds);
 
   bool has_any() const { return !halfspaces_.empty(); }
+  std::span<const WorldHalfspace> all() const { return halfspaces_; }  // by body index
 
   // Where the pairs of all other bodies go to, if there are half-spaces.
   std::vector<Pair>& other_pairs() { return other_pairs_; }

@@ -240,7 +240,8 @@ WorldMemory World::State::memory() const {
   WorldMemory memory;
   memory.bodies = bodies.bytes() + changes.bytes() + proxies.bytes() + motion_tolerance.bytes() +
                   bytes_of(quarantined);
-  memory.bounds = fat_bounds.bytes() + dops.record_bytes() + bounding_radii.bytes();
+  memory.bounds =
+      fat_bounds.bytes() + dops.record_bytes() + bounding_radii.bytes() + query_index.bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
   memory.broadphase = finder.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +

@@ -20,6 +20,7 @@
 #include "world/pair_changes.h"
 #include "world/pair_history.h"
 #include "world/proxy_spheres.h"
+#include "world/query_index.h"
 #include "world/rest_watch.h"
 
 namespace carom {
@@ -36,6 +37,7 @@ struct World::State {
   StepReport report;
 
   HalfspaceStage halfspaces;
+  QueryIndex query_index;
   PairHistory now;
   PairChanges pair_changes;
   std::vector<Event> events;

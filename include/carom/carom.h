@@ -20,6 +20,8 @@
 #include "carom/kernel/views.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/simd/isa.h"
+#include "carom/sweep/cast.h"
+#include "carom/sweep/queries.h"
 #include "carom/sweep/time_of_impact.h"
 #include "carom/world/step_report.h"
 #include "carom/world/world.h"

@@ -17,6 +17,8 @@
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
 #include "carom/kernel/tier.h"
+#include "carom/sweep/cast.h"
+#include "carom/sweep/queries.h"
 #include "carom/world/step_report.h"
 
 namespace carom {
@@ -185,6 +187,17 @@ class CAROM_EXPORT World {
   // Points that are not finite are in no body. Works in memory of its own, unlike step().
   void find_points(const float* xyz, size_t count, size_t stride,
                    std::vector<PointHit>& hits) const;
+
+  // cast(), find_overlaps() and find_nearest() (carom/sweep/cast.h, carom/sweep/queries.h) against
+  // the bodies whose layer has a bit of `mask`, sensors included. They ask the bounds of the last
+  // step as well: bodies must not have changed since. The first call after a step sorts the bodies
+  // into a tree, which is kept until the next step; a call costs little more than its queries then.
+  void cast(const Collidables& queries, const SweepView& sweep, CastHits which,
+            std::vector<CastHit>& hits, uint32_t mask = ~0u) const;
+  void find_overlaps(const Collidables& queries, std::vector<OverlapHit>& hits,
+                     uint32_t mask = ~0u) const;
+  void find_nearest(const Collidables& queries, float within, std::vector<NearestHit>& hits,
+                    uint32_t mask = ~0u) const;
 
   // Memory held, in bytes.
   WorldMemory memory() const;

@@ -1,0 +1,28 @@
+// The bodies of the last step as queries search them; made by the first query after it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "sweep/body_index.h"
+
+namespace carom {
+
+class QueryIndex {
+ public:
+  const BodyIndex& of_step(uint64_t step, const BoundsView& bounds,
+                           std::span<const WorldHalfspace> halfspaces, Parallelism parallelism) {
+    if (!index_ || step_ != step) index_ = index_bodies(bounds, halfspaces, parallelism);
+    step_ = step;
+    return *index_;
+  }
+
+  size_t bytes() const { return index_ ? index_->bytes() : 0; }
+
+ private:
+  std::optional<BodyIndex> index_;
+  uint64_t step_ = 0;
+};
+
+}  // namespace carom
