@@ -43,7 +43,7 @@ class PlaceKeys {
     widest_ = *std::max_element(width.begin(), width.end());
     share_bits(width);
     for (size_t axis = 0; axis < 3; ++axis) {
-      const float cells = std::ldexp(1.0f, cell_bits_[axis]);
+      const float cells = std::ldexp(1.0f, static_cast<int>(cell_bits_[axis]));
       most_[axis] = std::nextafter(cells, 0.0f);
       scale_[axis] = width[axis] > 0 ? std::min(cells / width[axis], FLT_MAX) : 0;
     }
@@ -86,9 +86,8 @@ class PlaceKeys {
     for (size_t bit = kBits; bit-- > 0;) {
       const size_t axis =
           static_cast<size_t>(std::max_element(cell.begin(), cell.end()) - cell.begin());
-      axis_of_bit_[bit] = static_cast<uint8_t>(axis);
       cell[axis] /= 2;
-      ++cell_bits_[axis];
+      place_of_bit_[axis][cell_bits_[axis]++] = static_cast<uint8_t>(bit);
     }
   }
 
@@ -97,20 +96,21 @@ class PlaceKeys {
     return extent > widest_ / 32 ? 1 : 2;
   }
 
-  uint32_t interleaved(std::array<uint32_t, 3> cell) const {
+  uint32_t interleaved(const std::array<uint32_t, 3>& cell) const {
     uint32_t key = 0;
-    for (size_t bit = 0; bit < kBits; ++bit) {
-      uint32_t& from = cell[axis_of_bit_[bit]];
-      key |= (from & 1) << bit;
-      from >>= 1;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const size_t bits = cell_bits_[axis];
+      for (size_t i = 0; i < bits; ++i) {
+        key |= (cell[axis] >> (bits - 1 - i) & 1) << place_of_bit_[axis][i];
+      }
     }
     return key;
   }
 
   std::array<float, 3> low_{}, scale_{}, most_{};
   float widest_ = 0;
-  std::array<uint8_t, kBits> axis_of_bit_{};
-  std::array<int, 3> cell_bits_{};
+  std::array<size_t, 3> cell_bits_{};
+  std::array<std::array<uint8_t, kBits>, 3> place_of_bit_{};  // the highest bit of a cell first
 };
 
 // Boxes that are not empty, in the order of the keys: key << 32 | item.
@@ -140,8 +140,9 @@ TreeBox box_of(const BoxTree::Node& node) {
   TreeBox box = node.box(0);
   for (size_t i = 1; i < BoxTree::kChildren; ++i) {  // NaN of places without a child is ignored
     for (size_t axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = std::fmin(box.lower[axis], node.lower[axis][i]);
-      box.upper[axis] = std::fmax(box.upper[axis], node.upper[axis][i]);
+      const float lower = node.lower[axis][i], upper = node.upper[axis][i];
+      if (lower < box.lower[axis]) box.lower[axis] = lower;
+      if (upper > box.upper[axis]) box.upper[axis] = upper;
     }
   }
   return box;

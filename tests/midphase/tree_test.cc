@@ -91,13 +91,17 @@ TEST(BoxTree, FindsWhatBruteForceFinds) {
       SCOPED_TRACE(count);
       const std::vector<TreeBox> boxes = make_boxes(style, count, random);
       const BoxTree tree(boxes);
+      const BoxTree packed = BoxTree::packed(boxes, Parallelism::none);
       std::vector<TreeBox> queries = make_boxes(style, 20, random);
       queries.push_back({{-FLT_MAX, -FLT_MAX, -FLT_MAX}, {FLT_MAX, FLT_MAX, FLT_MAX}});
       if (count > 0) queries.push_back(boxes[count / 2]);
       for (const TreeBox& query : queries) {
         if (is_empty(query)) continue;
         const Items expected = brute_force(boxes, query);
-        for_each_isa([&] { EXPECT_EQ(found_in(tree, query), expected); });
+        for_each_isa([&] {
+          EXPECT_EQ(found_in(tree, query), expected);
+          EXPECT_EQ(found_in(packed, query), expected);
+        });
       }
     }
   }
