@@ -43,7 +43,7 @@ TEST(Cast, OfBodiesOfAllKindsAtBodiesOfAllKinds) {
   for_each_isa([] {
     for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
       for (const bool turn : {false, true}) {
-        const BodiesSpec spec = {.count = 40, .positions = positions};
+        const BodiesSpec spec = {.count = 40, .side = 3, .positions = positions};
         const size_t hits = expect_hits(make_bodies(spec, 1), make_sweeps(40, 5, turn, 3),
                                         make_bodies(spec, 2), positions);
         EXPECT_GT(hits, 40u);
@@ -178,14 +178,14 @@ TEST(Cast, OfEqualTimesTheLowestBody) {
 // --- How it is called ---
 
 TEST(Cast, IsTheSameOnThreadsAndInAnyOrder) {
-  const BodiesSpec spec = {.count = 5000, .side = 35, .composites = false, .halfspaces = 0.0005};
+  const BodiesSpec spec = {.count = 4500, .side = 45, .composites = false, .halfspaces = 0.0005};
   const std::vector<PlacedShape> bodies = make_bodies(spec, 5);
   std::vector<PlacedShape> queries = make_bodies(spec, 6);
   Sweeps sweeps = make_sweeps(queries.size(), 10, false, 7);
   const LaidOut a(queries, {}), b(bodies, {});
   for (const CastHits which : {CastHits::all, CastHits::closest}) {
     const std::vector<CastHit> expected = cast_all(a.view(), sweeps.view(), b.view(), which);
-    EXPECT_GT(expected.size(), 1000u);
+    EXPECT_GT(expected.size(), 500u);
     for (const int threads : {1, 2, 4}) {
       ThreadArena arena(threads);
       arena.run([&] {
