@@ -14,7 +14,7 @@ namespace carom {
 namespace {
 
 // Few candidates at first, since the first ones are mostly the ones that are met.
-constexpr RoundSizes kForClosest = {.first = 2, .most = 32};
+constexpr RoundSizes kForClosest = {.first = 2, .most = 8};
 constexpr RoundSizes kForAll = {.first = 64, .most = 64};
 
 // Results of time_of_impact(), a row a candidate.

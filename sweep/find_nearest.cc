@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-constexpr RoundSizes kRounds = {.first = 2, .most = 32};
+constexpr RoundSizes kRounds = {.first = 2, .most = 4};
 constexpr uint32_t kNone = 0xffffffffu;
 
 // Results of collide(), a row a candidate.
