@@ -39,6 +39,7 @@ void register_all(const Options& options) {
   register_narrowphase(options);
   register_impacts(options);
   register_world(options);
+  register_casts(options);
 }
 
 }  // namespace

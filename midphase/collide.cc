@@ -31,10 +31,12 @@ Error no_kernel(ShapeKind a, ShapeKind b) {
   return {std::string("no kernel for ") + name(a) + " against " + name(b)};
 }
 
-// By the kinds that are there; only if some of them do not meet, by every pair.
-template <class PairAt>
-Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t count,
-                         const PairAt& pair_at) {
+// Whether it is cheaper to look at the pairs than at all bodies.
+bool is_short(const Collidables& a, const Collidables& b, size_t pairs) {
+  return pairs < (a.count + b.count) / 8;
+}
+
+bool do_all_kinds_meet(const Collidables& a, const Collidables& b) {
   const KindSet in_a = kinds_in(a);
   const KindSet in_b = kinds_in(b);
   bool all_meet = true;
@@ -44,7 +46,14 @@ Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t coun
       all_meet = all_meet && supports(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
     }
   }
-  if (all_meet) return {};
+  return all_meet;
+}
+
+// By the kinds that are there; if some of them do not meet, or there are few pairs, by every pair.
+template <class PairAt>
+Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t count,
+                         const PairAt& pair_at) {
+  if (!is_short(a, b, count) && do_all_kinds_meet(a, b)) return {};
   const BodyReader reader_a{a};
   const BodyReader reader_b{b};
   for (size_t i = 0; i < count; ++i) {
@@ -63,6 +72,16 @@ bool has_composites(const Collidables& bodies) {
   return found;
 }
 
+// No pairs: (0, 0), (1, 1), ...
+bool may_have_composites(const Collidables& a, const Collidables& b, const Pair* pairs,
+                         size_t count) {
+  if (!pairs || !is_short(a, b, count)) return has_composites(a) || has_composites(b);
+  const BodyReader reader_a{a}, reader_b{b};
+  return std::any_of(pairs, pairs + count, [&](const Pair& pair) {
+    return is_composite(reader_a.kind(pair.a)) || is_composite(reader_b.kind(pair.b));
+  });
+}
+
 void fill_sub_shapes(const ResultColumns& out, size_t begin, size_t end) {
   for (uint32_t* column : {out.sub_a, out.sub_b}) {
     if (column) std::fill(column + begin, column + end, 0u);
@@ -73,7 +92,7 @@ void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pair
                     Detail detail, const ResultColumns& out, WitnessFrame frame, Measured measured,
                     uint32_t* direction, Parallelism parallelism, const Accuracy& accuracy) {
   if (detail == Detail::pairs || count == 0) return;
-  const bool composites = has_composites(a) || has_composites(b);
+  const bool composites = may_have_composites(a, b, pairs, count);
   for_each_block(count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     if (has_contacts(detail)) fill_sub_shapes(out, begin, end);
     const auto run = composites ? run_mixed_block : run_pair_block;

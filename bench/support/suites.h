@@ -16,5 +16,6 @@ void register_find_pairs(const Options& options);
 void register_narrowphase(const Options& options);
 void register_impacts(const Options& options);
 void register_world(const Options& options);
+void register_casts(const Options& options);
 
 }  // namespace carom::bench

@@ -1,0 +1,200 @@
+// Casts and queries of 10,000 in a world of 10,000 bodies: cast/BODIES/WHAT/THREADS/ISA. Rays start
+// anywhere, and are as long as the world is wide. The first query of a world, which makes its tree,
+// is cast/BODIES/tree.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "bench/support/cached.h"
+#include "bench/support/measure.h"
+#include "bench/support/suites.h"
+#include "carom/kernel/thread_arena.h"
+#include "carom/world/world.h"
+#include "oracle/random.h"
+
+namespace carom::bench {
+namespace {
+
+constexpr size_t kQueries = 10'000;
+constexpr size_t kChecked = 20;  // queries against every body
+
+enum class What { closest, all, spheres, overlaps, nearest };
+constexpr What kEverything[] = {What::closest, What::all, What::spheres, What::overlaps,
+                                What::nearest};
+
+const char* name(What what) {
+  constexpr const char* kNames[] = {"closest", "all", "spheres_closest", "overlaps", "nearest"};
+  return kNames[static_cast<int>(what)];
+}
+
+// Bodies of several kinds, a fifth of the volume full.
+std::vector<BodyDesc> draw_yard(size_t count, double side, oracle::Random& random) {
+  std::vector<BodyDesc> bodies(count);
+  for (BodyDesc& body : bodies) {
+    const auto size = [&] { return static_cast<float>(random.uniform(0.2, 0.7)); };
+    body.position = {random.uniform(0, side), random.uniform(0, side), random.uniform(0, side)};
+    const double angle = random.uniform(0, 6);
+    body.orientation =
+        Eigen::AngleAxisf(static_cast<float>(angle), random.direction().cast<float>());
+    switch (random.below(4)) {
+      case 0:
+        body.shape = Sphere{size()};
+        break;
+      case 1:
+        body.shape = Aabb::from_half_extents({size(), size(), size()});
+        break;
+      case 2:
+        body.shape = Box{{size(), size(), size()}};
+        break;
+      default:
+        body.shape = Capsule{{0, -size(), 0}, {0, size(), 0}, size() / 2};
+    }
+  }
+  return bodies;
+}
+
+struct Yard {
+  explicit Yard(size_t count) : side(2 * std::cbrt(static_cast<double>(count))) {
+    oracle::Random random(1);
+    bodies = draw_yard(count, side, random);
+    for (size_t i = 0; i < kQueries; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        records.push_back(static_cast<float>(random.uniform(0, side)));
+      }
+      records.push_back(0.25f);
+      directions.push_back(random.direction().cast<float>());
+    }
+  }
+
+  double side;
+  std::vector<BodyDesc> bodies;
+  std::vector<float> records;  // x, y, z, radius a query
+  std::vector<Eigen::Vector3f> directions;
+};
+
+World make_world(const Yard& yard, Parallelism parallelism) {
+  World world({.detail = Detail::pairs, .parallelism = parallelism});
+  std::vector<BodyId> ids;
+  world.add(yard.bodies, ids);
+  world.step();
+  return world;
+}
+
+class Queries {
+ public:
+  Queries(const Yard& yard, const World& world)
+      : world_(world),
+        rays_(yard.records.data(), yard.directions[0].data(), kQueries,
+              static_cast<float>(yard.side), 4 * sizeof(float)),
+        spheres_(sphere_records(yard.records.data(), kQueries)) {}
+
+  // Returns the number of hits.
+  size_t run(What what) {
+    switch (what) {
+      case What::closest:
+      case What::all:
+        world_.cast(rays_.queries(), rays_.sweep(),
+                    what == What::all ? CastHits::all : CastHits::closest, hits_);
+        return hits_.size();
+      case What::spheres:
+        world_.cast(spheres_, rays_.sweep(), CastHits::closest, hits_);
+        return hits_.size();
+      case What::overlaps:
+        world_.find_overlaps(spheres_, overlaps_);
+        return overlaps_.size();
+      default:
+        world_.find_nearest(spheres_, std::numeric_limits<float>::infinity(), nearest_);
+        return nearest_.size();
+    }
+  }
+
+ private:
+  const World& world_;
+  const Rays rays_;
+  const Collidables spheres_;
+  std::vector<CastHit> hits_;
+  std::vector<OverlapHit> overlaps_;
+  std::vector<NearestHit> nearest_;
+};
+
+using HitList = std::vector<std::tuple<uint32_t, float, uint32_t>>;  // query, time, body
+
+HitList hits_of_first(const Yard& yard, const World& world) {
+  const Rays rays(yard.records.data(), yard.directions[0].data(), kChecked,
+                  static_cast<float>(yard.side), 4 * sizeof(float));
+  std::vector<CastHit> hits;
+  world.cast(rays.queries(), rays.sweep(), CastHits::all, hits);
+  HitList list;
+  for (const CastHit& hit : hits) list.emplace_back(hit.query, hit.toi, hit.body);
+  return list;
+}
+
+// The same by casts at one body after the other.
+HitList plain_hits(const Yard& yard) {
+  HitList all;
+  for (uint32_t i = 0; i < yard.bodies.size(); ++i) {
+    World alone({.detail = Detail::pairs});
+    alone.add(yard.bodies[i]);
+    alone.step();
+    for (const auto& [query, toi, body] : hits_of_first(yard, alone)) {
+      all.emplace_back(query, toi, i);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+void measure(benchmark::State& state, size_t bodies, What what, const Setup& setup) {
+  const auto& yard = cached<Yard>(bodies);
+  ThreadArena arena(setup.threads);
+  if (!use_isa(state, setup.isa)) return;
+  arena.run([&] {
+    const World world = make_world(yard, arena.parallelism());
+    if (hits_of_first(yard, world) != plain_hits(yard)) return fail(state, "hits are missing");
+    Queries queries(yard, world);
+    PassTimes times;
+    size_t hits = 0;
+    for (auto _ : state) times.measure([&] { hits = queries.run(what); });
+    report(state, "query", kQueries, times);
+    state.counters["hits"] = static_cast<double>(hits);
+    state.counters["queries_per_s"] = kQueries / times.median();
+  });
+}
+
+void measure_tree(benchmark::State& state, size_t bodies) {
+  const auto& yard = cached<Yard>(bodies);
+  if (!use_isa(state, usable_isas().back())) return;
+  World world = make_world(yard, Parallelism::none);
+  std::vector<OverlapHit> hits;
+  PassTimes times;
+  for (auto _ : state) {
+    state.PauseTiming();
+    world.step();
+    state.ResumeTiming();
+    times.measure([&] { world.find_overlaps({}, hits); });
+  }
+  report(state, "body", bodies, times);
+}
+
+}  // namespace
+
+void register_casts(const Options& options) {
+  for (const size_t bodies : {size_t{10'000}, size_t{100'000}}) {
+    if (bodies > options.max_bodies) continue;
+    const std::string scene = "cast/" + short_count(bodies) + "/";
+    for (const What what : kEverything) {
+      for (const Setup& setup : bodies == 10'000 ? all_setups() : strongest_setups()) {
+        const auto body = [=](benchmark::State& state) { measure(state, bodies, what, setup); };
+        benchmark::RegisterBenchmark((scene + name(what) + "/" + setup.name()).c_str(), body)
+            ->Unit(benchmark::kMillisecond);
+      }
+    }
+    benchmark::RegisterBenchmark((scene + "tree").c_str(), [bodies](benchmark::State& state) {
+      measure_tree(state, bodies);
+    })->Unit(benchmark::kMillisecond);
+  }
+}
+
+}  // namespace carom::bench
