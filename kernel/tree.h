@@ -61,7 +61,7 @@ class BoxTree {
   // Item i is boxes[i]; empty ones are left out. At most kMostItems.
   explicit BoxTree(std::span<const TreeBox> boxes);
 
-  // The same by sorting: made some twenty times as fast, and for searches not quite as good. For
+  // The same by sorting: made some ten times as fast, and for searches not quite as good. For
   // boxes that change all the time. The same nodes for any number of threads.
   static BoxTree packed(std::span<const TreeBox> boxes, Parallelism parallelism);
 

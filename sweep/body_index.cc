@@ -26,14 +26,15 @@ TreeBox box_at(const BoundsView& bounds, size_t i) {
 
 }  // namespace
 
-BodyIndex index_bodies(const BoundsView& bounds, std::span<const WorldHalfspace> halfspaces,
+BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds, std::span<const WorldHalfspace> halfspaces,
                        Parallelism parallelism) {
   constexpr TreeBox kEmpty = {{kInfinity, kInfinity, kInfinity},
                               {-kInfinity, -kInfinity, -kInfinity}};
+  const BodyReader reader{bodies};
   std::vector<TreeBox> boxes(bounds.count);
   for_each_block(bounds.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      boxes[i] = takes_part(bounds, i) ? grown(box_at(bounds, i)) : kEmpty;
+      boxes[i] = takes_part(bounds, i) ? grown(box_at(bounds, i), reader.position<double>(i)) : kEmpty;
     }
   });
   return {BoxTree::packed(boxes, parallelism), {halfspaces.begin(), halfspaces.end()}};
@@ -44,14 +45,14 @@ BodyIndex index_bodies(const Collidables& bodies, Parallelism parallelism) {
   std::vector<WorldHalfspace> halfspaces;
   const BodyReader reader{bodies};
   if (!bodies.kind && bodies.uniform_kind != ShapeKind::halfspace) {
-    return index_bodies(bounds.view(), halfspaces, parallelism);
+    return index_bodies(bodies, bounds.view(), halfspaces, parallelism);
   }
   for (uint32_t i = 0; i < bodies.count; ++i) {
     if (reader.kind(i) != ShapeKind::halfspace || !takes_part(bounds.view(), i)) continue;
     halfspaces.push_back(world_halfspace(bodies, i));
     bounds.empty(i);
   }
-  return index_bodies(bounds.view(), halfspaces, parallelism);
+  return index_bodies(bodies, bounds.view(), halfspaces, parallelism);
 }
 
 }  // namespace carom

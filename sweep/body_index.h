@@ -19,7 +19,7 @@ struct BodyIndex {
 };
 
 // Of bodies with these bounds, which are empty for half-spaces and what takes no part.
-BodyIndex index_bodies(const BoundsView& bounds, std::span<const WorldHalfspace> halfspaces,
+BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds, std::span<const WorldHalfspace> halfspaces,
                        Parallelism parallelism);
 
 // Of all valid bodies of the view.

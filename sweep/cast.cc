@@ -72,7 +72,10 @@ class Caster {
     for (size_t first = 0; first < boxes_.count(); first += kQueriesAtOnce) {
       const size_t count = std::min(kQueriesAtOnce, boxes_.count() - first);
       Result<void> done = which == CastHits::all ? find_all(first, count) : find_closest(first, count);
-      if (!done) return done;
+      if (!done) {
+        hits_.clear();
+        return done;
+      }
     }
     return {};
   }

@@ -72,7 +72,10 @@ class NearestSearch {
       const auto test = [this](std::span<const Pair> candidates) { return measure(candidates); };
       Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::near, kRounds, first,
                                             limit_, parallelism_, test);
-      if (!found) return found;
+      if (!found) {
+        hits.clear();
+        return found;
+      }
       for (const NearestHit& best : best_) {
         if (best.body != kNone) hits.push_back(best);
       }

@@ -40,7 +40,10 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
     const auto before = static_cast<ptrdiff_t>(hits.size());
     Result<void> found = search_in_rounds(boxes, bodies, SearchFor::met, kRounds, first, limit,
                                           parallelism, test);
-    if (!found) return found;
+    if (!found) {
+      hits.clear();
+      return found;
+    }
     std::sort(hits.begin() + before, hits.end(), is_before);
   }
   return {};

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 
+#include "kernel/body_reader.h"
 #include "kernel/outward.h"
 #include "kernel/tolerances.h"
 #include "kernel/tree.h"
@@ -12,18 +14,21 @@
 namespace carom {
 
 // Of a distance that is travelled; kImpactSlack is a twentieth of it.
-inline constexpr float kTravelSlack = 0x1p-32f;
+inline constexpr double kTravelSlack = 0x1p-32;
 
-// Grows the box by a share of its size, and a smaller one of the way that its shape goes.
-inline TreeBox grown(const TreeBox& box, float travel = 0) {
-  float size = 0;
-  for (size_t axis = 0; axis < 3; ++axis) size = std::max(size, box.upper[axis] - box.lower[axis]);
-  const float margin =
-      (static_cast<float>(kSearchSlack) * size + kTravelSlack * travel) + FLT_TRUE_MIN;
+// Grows the box of a body by a share of how far it reaches from the body's position, which is what
+// tests compute with, and a smaller one of the way that it goes.
+inline TreeBox grown(const TreeBox& box, const Position<double>& position, double travel = 0) {
+  const std::array<double, 3> origin = {position.x, position.y, position.z};
+  double reach = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    reach = std::max({reach, origin[axis] - box.lower[axis], box.upper[axis] - origin[axis]});
+  }
+  const double margin = (kSearchSlack * reach + kTravelSlack * travel) + FLT_TRUE_MIN;
   TreeBox result;
   for (size_t axis = 0; axis < 3; ++axis) {
-    result.lower[axis] = sum_downwards(box.lower[axis], -margin);
-    result.upper[axis] = sum_upwards(box.upper[axis], margin);
+    result.lower[axis] = sum_downwards(double{box.lower[axis]}, -margin);
+    result.upper[axis] = sum_upwards(double{box.upper[axis]}, margin);
   }
   return result;
 }

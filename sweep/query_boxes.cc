@@ -69,8 +69,7 @@ std::optional<MovingBox> QueryBoxes::box(size_t query) const {
       at_start.upper[axis] = value_at(bounds, bounds.upper[axis], query);
     }
   }
-  return MovingBox(grown(at_start, static_cast<float>(std::min(travel, double{FLT_MAX}))),
-                   displacement);
+  return MovingBox(grown(at_start, reader.position<double>(query), travel), displacement);
 }
 
 }  // namespace carom

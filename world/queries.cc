@@ -10,8 +10,9 @@ template <class State, class Search>
 void search_world(State& state, uint32_t mask, const Search& search) {
   const FloatEnvironment environment;
   const Collidables bodies = state.bodies.view();
-  const BodyIndex& index = state.query_index.of_step(
-      state.report.step, state.bounds_view(), state.halfspaces.all(), state.settings.parallelism);
+  const BodyIndex& index =
+      state.query_index.of_step(state.report.step, bodies, state.bounds_view(),
+                                state.halfspaces.all(), state.settings.parallelism);
   // Every kind of a world meets every kind, except half-spaces each other, which are no candidates.
   (void)search(SearchedBodies{bodies, index, state.bodies.filter().layer, mask});
 }

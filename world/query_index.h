@@ -11,9 +11,9 @@ namespace carom {
 
 class QueryIndex {
  public:
-  const BodyIndex& of_step(uint64_t step, const BoundsView& bounds,
+  const BodyIndex& of_step(uint64_t step, const Collidables& bodies, const BoundsView& bounds,
                            std::span<const WorldHalfspace> halfspaces, Parallelism parallelism) {
-    if (!index_ || step_ != step) index_ = index_bodies(bounds, halfspaces, parallelism);
+    if (!index_ || step_ != step) index_ = index_bodies(bodies, bounds, halfspaces, parallelism);
     step_ = step;
     return *index_;
   }

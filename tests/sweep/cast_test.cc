@@ -160,6 +160,32 @@ TEST(Cast, ARayMeetsEveryBoxOfARow) {
               bits_of(closest_of(all)));
 }
 
+TEST(Cast, AmongSubnormals) {
+  const double unit = 0x1p-149;
+  std::vector<PlacedShape> bodies, queries;
+  for (int i = 0; i < 40; ++i) {
+    bodies.push_back(sphere(10 * i * unit, 0, 3 * (i % 3) * unit, 3 * unit));
+    queries.push_back(sphere(-20 * unit, 0, (i - 20) * unit, (i % 2) * unit));
+  }
+  Sweeps sweeps;
+  for (int i = 0; i < 40; ++i)
+    sweeps.displacement.push_back({static_cast<float>(300 * unit), 0, 0});
+  EXPECT_GT(expect_hits(queries, sweeps, bodies), 100u);
+}
+
+TEST(Cast, FailsForAKindThatIsNone) {
+  const LaidOut bodies(std::vector<PlacedShape>{sphere(1, 2, 3, 1)}, {});
+  std::vector<float> record = {1, 2, 3, 100};
+  Collidables query = sphere_records(record.data(), 1);
+  std::vector<CastHit> hits(2);
+  query.uniform_kind = static_cast<ShapeKind>(77);
+  for (const CastHits which : {CastHits::all, CastHits::closest}) {
+    const Result<void> done = cast(query, {}, bodies.view(), which, hits);
+    EXPECT_TRUE(hits.empty());
+    EXPECT_FALSE(bool(done));
+  }
+}
+
 TEST(Cast, OfEqualTimesTheLowestBody) {
   std::vector<PlacedShape> bodies;
   for (int i = 0; i < 50; ++i) bodies.push_back(box({0, 0.01 * i, 0}, {0.5f, 2, 2}));

@@ -25,7 +25,7 @@ struct CastHit {
   Eigen::Vector3f normal;  // unit, world frame, from the query to the body
   Eigen::Vector3f point;   // on the body, world axes, relative to the body's position
   float separation;        // about zero, or minus the depth of what overlaps at the start
-  Status status;
+  Status status;           // as of time_of_impact(); budget: the hit may be later, or none
 };
 
 enum class CastHits : uint8_t {
@@ -43,7 +43,8 @@ enum class CastHits : uint8_t {
 // threads, and a query's hits do not depend on the other queries.
 //
 // Bodies are sorted into a tree in every call (World::cast() keeps it): many queries at once cost
-// far less than as many calls. Fails, and changes nothing, if a kind is none of ShapeKind.
+// far less than as many calls. Fails, and leaves no hits, if a pair to test is of a kind that is
+// none of ShapeKind.
 CAROM_EXPORT Result<void> cast(const Collidables& queries, const SweepView& sweep,
                                const Collidables& bodies, CastHits which,
                                std::vector<CastHit>& hits,

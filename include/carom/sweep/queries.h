@@ -23,7 +23,8 @@ struct OverlapHit {
 // Replaces `hits` by all pairs of a query and a body that overlap, as collide() decides, sorted by
 // (query, body). Queries are bodies of any kind; two half-spaces do not meet. Bodies and queries
 // that are not valid are in no pair. The same bits on every instruction set and for any number of
-// threads. Fails, and changes nothing, if a kind is none of ShapeKind.
+// threads. Fails, and leaves no hits, if a pair to test is of a kind that is
+// none of ShapeKind.
 CAROM_EXPORT Result<void> find_overlaps(const Collidables& queries, const Collidables& bodies,
                                         std::vector<OverlapHit>& hits,
                                         Parallelism parallelism = Parallelism::none);
