@@ -26,15 +26,16 @@ TreeBox box_at(const BoundsView& bounds, size_t i) {
 
 }  // namespace
 
-BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds, std::span<const WorldHalfspace> halfspaces,
-                       Parallelism parallelism) {
+BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds,
+                       std::span<const WorldHalfspace> halfspaces, Parallelism parallelism) {
   constexpr TreeBox kEmpty = {{kInfinity, kInfinity, kInfinity},
                               {-kInfinity, -kInfinity, -kInfinity}};
   const BodyReader reader{bodies};
   std::vector<TreeBox> boxes(bounds.count);
   for_each_block(bounds.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      boxes[i] = takes_part(bounds, i) ? grown(box_at(bounds, i), reader.position<double>(i)) : kEmpty;
+      boxes[i] =
+          takes_part(bounds, i) ? grown(box_at(bounds, i), reader.position<double>(i)) : kEmpty;
     }
   });
   return {BoxTree::packed(boxes, parallelism), {halfspaces.begin(), halfspaces.end()}};

@@ -19,8 +19,8 @@ struct BodyIndex {
 };
 
 // Of bodies with these bounds, which are empty for half-spaces and what takes no part.
-BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds, std::span<const WorldHalfspace> halfspaces,
-                       Parallelism parallelism);
+BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds,
+                       std::span<const WorldHalfspace> halfspaces, Parallelism parallelism);
 
 // Of all valid bodies of the view.
 BodyIndex index_bodies(const Collidables& bodies, Parallelism parallelism);

@@ -14,16 +14,15 @@ class BoundsOf {
   BoundsOf(const Collidables& bodies, Parallelism parallelism) {
     for (std::vector<float>& column : columns_) column.resize(bodies.count);
     const auto column = [this](size_t i) { return columns_[i].data(); };
-    (void)compute_bounds(
-        bodies, {{column(0), column(1), column(2)}, {column(3), column(4), column(5)}},
-        parallelism);
+    (void)compute_bounds(bodies,
+                         {{column(0), column(1), column(2)}, {column(3), column(4), column(5)}},
+                         parallelism);
   }
 
   BoundsView view() const {
     const auto column = [this](size_t i) { return columns_[i].data(); };
-    return {{column(0), column(1), column(2)},
-            {column(3), column(4), column(5)},
-            columns_[0].size()};
+    return {
+        {column(0), column(1), column(2)}, {column(3), column(4), column(5)}, columns_[0].size()};
   }
 
   // Body i takes no part any more.

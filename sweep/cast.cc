@@ -71,7 +71,8 @@ class Caster {
   Result<void> run(CastHits which) {
     for (size_t first = 0; first < boxes_.count(); first += kQueriesAtOnce) {
       const size_t count = std::min(kQueriesAtOnce, boxes_.count() - first);
-      Result<void> done = which == CastHits::all ? find_all(first, count) : find_closest(first, count);
+      Result<void> done =
+          which == CastHits::all ? find_all(first, count) : find_closest(first, count);
       if (!done) {
         hits_.clear();
         return done;

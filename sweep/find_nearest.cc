@@ -92,8 +92,8 @@ class NearestSearch {
       const Pair pair = candidates[i];
       NearestHit& best = best_[pair.a - first_];
       const float separation = distances_.separation(i);
-      const bool is_nearer = separation < best.separation ||
-                             (separation == best.separation && pair.b < best.body);
+      const bool is_nearer =
+          separation < best.separation || (separation == best.separation && pair.b < best.body);
       if (!is_nearer || separation == kInfinity) continue;
       best = distances_.hit(pair, i);
       limit_[pair.a - first_] = std::max(separation, 0.0f);

@@ -75,7 +75,8 @@ class Rounds {
     if (reader.kind(search.query) == ShapeKind::halfspace) return;
     for (const WorldHalfspace& halfspace : bodies_.index.halfspaces) {
       const bool reaches = what_ == SearchFor::near || may_reach(search.box, halfspace);
-      if (reaches && bodies_.is_met(halfspace.body)) found.push_back({search.query, halfspace.body});
+      if (reaches && bodies_.is_met(halfspace.body))
+        found.push_back({search.query, halfspace.body});
     }
   }
 
