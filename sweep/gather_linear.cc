@@ -112,7 +112,8 @@ double put_plane(const MovingReader& halfspace, size_t i, const reference::Linea
 }
 
 template <LinearKind kA, LinearKind kB>
-void gather(const MovingReader& a, const MovingReader& b, Pair pair, LinearRows& rows, size_t row) {
+bool gather_pair(const MovingReader& a, const MovingReader& b, Pair pair, LinearRows& rows,
+                 size_t row) {
   using NumbersOfA = Numbers<kA>;
   constexpr size_t kFirstOfA = LinearRows::kPairColumns;
   Eigen::Vector3d from = position_from(a, b, pair);
@@ -133,6 +134,19 @@ void gather(const MovingReader& a, const MovingReader& b, Pair pair, LinearRows&
   out.put3(from);
   out.put3(way);
   out.put(kSweepSlack * lengths);
+  return a.is_valid(pair.a) && b.is_valid(pair.b);
+}
+
+// Views are copied, so that what is written cannot be taken for a part of them.
+template <LinearKind kA, LinearKind kB>
+void gather(const MovingSide& side_a, const MovingSide& side_b, const LinearPairs& pairs,
+            LinearRows& rows, bool* valid) {
+  const Collidables bodies_a = side_a.bodies, bodies_b = side_b.bodies;
+  const MovingSide a{bodies_a, side_a.sweep, side_a.arm}, b{bodies_b, side_b.sweep, side_b.arm};
+  const LinearPairs list = pairs;
+  for (size_t i = 0; i < list.rows.size(); ++i) {
+    valid[i] = gather_pair<kA, kB>({a}, {b}, list.pair(i), rows, i);
+  }
 }
 
 template <LinearKind kA>

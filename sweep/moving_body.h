@@ -27,7 +27,7 @@ struct MovingReader {
   bool is_valid(size_t i) const {
     return body().is_valid(i) && is_finite(displacement(i)) && is_finite(rotation(i));
   }
-  // A valid one.
+  // False of one whose rotation is not a number.
   bool moves_in_a_line(size_t i) const {
     const Position<float> w = rotation(i);
     if (w.x == 0 && w.y == 0 && w.z == 0) return true;

@@ -17,8 +17,8 @@ using reference::kNever;
 
 constexpr size_t kRowsPerBlock = 1024;
 constexpr size_t kKinds = 6;  // of LinearKind
-constexpr uint8_t kAdvanced = kKinds * kKinds, kInvalid = kAdvanced + 1;
-constexpr size_t kGroups = kInvalid + 1;
+constexpr uint8_t kAdvanced = kKinds * kKinds;
+constexpr size_t kGroups = kAdvanced + 1;
 
 // The rows of a block, sorted by how they are tested.
 struct Scratch {
@@ -26,6 +26,7 @@ struct Scratch {
   std::array<uint16_t, kRowsPerBlock> row;
   std::array<size_t, kGroups + 1> first;  // of each group in `row`
   LinearRows rows;
+  std::array<bool, LinearRows::kMost> valid;
 };
 
 class SimpleTimes {
@@ -46,9 +47,6 @@ class SimpleTimes {
       if (!rows_of(group).empty()) run_linear(group);
     }
     if (!rows_of(kAdvanced).empty()) advance();
-    for (const uint16_t row : rows_of(kInvalid)) {
-      write(row, std::numeric_limits<double>::quiet_NaN(), Status::invalid);
-    }
     leave_out_what_passes();
   }
 
@@ -61,6 +59,10 @@ class SimpleTimes {
   void write(size_t row, double time, Status status) {
     out_.time[row] = time;
     out_.status[row] = static_cast<uint8_t>(status);
+  }
+
+  void write_invalid(size_t row) {
+    write(row, std::numeric_limits<double>::quiet_NaN(), Status::invalid);
   }
 
   void sort_rows() {
@@ -80,13 +82,12 @@ class SimpleTimes {
   }
 
   uint8_t group_of(Pair pair) const {
-    if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) return kInvalid;
     if (shared_group_) return *shared_group_;
     if (!a_.moves_in_a_line(pair.a) || !b_.moves_in_a_line(pair.b)) return kAdvanced;
     return group_of(kind_of(a_, pair.a), kind_of(b_, pair.b));
   }
 
-  // Of all valid rows: where all bodies of a side are of one kind, and none turns.
+  // Of all rows: where all bodies of a side are of one kind, and none turns.
   static std::optional<uint8_t> group_of_all(const MovingSide& a, const MovingSide& b) {
     const auto is_uniform = [](const MovingSide& side) {
       const bool is_triangle = side.bodies.uniform_kind == ShapeKind::triangle;  // may be thick
@@ -119,21 +120,20 @@ class SimpleTimes {
     const GatherLinear gather = gather_linear(low, high);
     const LinearKernel kernel = linear_kernel(low, high);
     const size_t columns = LinearRows::kPairColumns + number_count(low) + number_count(high);
+    const MovingSide& side_a = flipped ? b_.side : a_.side;
+    const MovingSide& side_b = flipped ? a_.side : b_.side;
     const std::span<const uint16_t> rows = rows_of(group);
     for (size_t begin = 0; begin < rows.size(); begin += LinearRows::kMost) {
-      const size_t count = std::min(rows.size() - begin, LinearRows::kMost);
-      for (size_t i = 0; i < count; ++i) {
-        const Pair pair = pairs_[rows[begin + i]];
-        if (flipped) {
-          gather(b_, a_, {pair.b, pair.a}, scratch_.rows, i);
+      const auto chunk = rows.subspan(begin, std::min(rows.size() - begin, LinearRows::kMost));
+      gather(side_a, side_b, {pairs_, chunk, flipped}, scratch_.rows, scratch_.valid.data());
+      scratch_.rows.pad(columns, chunk.size());
+      kernel(scratch_.rows, chunk.size());
+      for (size_t i = 0; i < chunk.size(); ++i) {
+        if (scratch_.valid[i]) {
+          write(chunk[i], scratch_.rows.times()[i], Status::ok);
         } else {
-          gather(a_, b_, pair, scratch_.rows, i);
+          write_invalid(chunk[i]);
         }
-      }
-      scratch_.rows.pad(columns, count);
-      kernel(scratch_.rows, count);
-      for (size_t i = 0; i < count; ++i) {
-        write(rows[begin + i], scratch_.rows.times()[i], Status::ok);
       }
     }
   }
@@ -142,6 +142,10 @@ class SimpleTimes {
     const FurthestPoint furthest = furthest_point_in_lanes();
     for (const uint16_t row : rows_of(kAdvanced)) {
       const Pair pair = pairs_[row];
+      if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) {
+        write_invalid(row);
+        continue;
+      }
       const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
       const reference::AdvancementResult result = reference::advancement_time(
           a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), position_from(a_, b_, pair),
