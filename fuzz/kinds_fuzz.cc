@@ -14,78 +14,12 @@
 #include "carom/narrowphase/collide.h"
 #include "carom/reference/reference.h"
 #include "carom/simd/isa.h"
-#include "fuzz/kinds_input.h"
+#include "fuzz/kinds_bodies.h"
 
 namespace {
 
 using namespace carom;
 using namespace carom::fuzz;
-
-Shape shape_of(ShapeKind kind, const Body& body) {
-  const auto& rows = body.rows;
-  switch (kind) {
-    case ShapeKind::sphere:
-      return Sphere{rows[0][0]};
-    case ShapeKind::aabb:
-      return Aabb{{rows[0][0], rows[0][1], rows[0][2]}, {rows[1][0], rows[1][1], rows[1][2]}};
-    default:
-      return shape_from_rows(kind, rows.data());
-  }
-}
-
-Pose pose_of(const Body& body) {
-  const auto& q = body.orientation;
-  const auto& p = body.position;
-  return {{p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]}};
-}
-
-// A set of one kind: the body, and another beside it in the same vector. Positions are of the type
-// that is asked for.
-class View {
- public:
-  static constexpr size_t kBodies = 2;
-
-  View(ShapeKind kind, const Body& body, const Body& neighbour, PositionType type)
-      : rows_{body.rows, neighbour.rows},
-        orientations_{body.orientation, neighbour.orientation},
-        positions_{body.position, neighbour.position} {
-    for (size_t i = 0; i < kBodies; ++i) {
-      for (size_t axis = 0; axis < 3; ++axis) {
-        positions32_[i][axis] = static_cast<float>(positions_[i][axis]);
-      }
-    }
-    const bool is_float64 = type == PositionType::float64;
-    view_.count = kBodies;
-    view_.uniform_kind = kind;
-    view_.position = {.data = is_float64 ? static_cast<const void*>(positions_[0].data())
-                                         : positions32_[0].data(),
-                      .stride = is_float64 ? sizeof positions_[0] : sizeof positions32_[0],
-                      .type = type,
-                      .radius_layout = RadiusLayout::column,
-                      .radius = rows_[0][0].data(),
-                      .radius_stride = sizeof rows_[0]};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      view_.boxes.lower[axis] = &rows_[0][0][axis];
-      view_.boxes.upper[axis] = &rows_[0][1][axis];
-    }
-    view_.boxes.stride = sizeof rows_[0];
-    view_.orientation.data = orientations_[0].data();
-    view_.rows = {rows_[0][0].data(), kFirstRows.data()};
-  }
-  View(const View&) = delete;
-  View& operator=(const View&) = delete;
-
-  const Collidables& operator*() const { return view_; }
-
- private:
-  static constexpr std::array<uint32_t, kBodies> kFirstRows = {0, kMostRows};
-
-  const std::array<decltype(Body::rows), kBodies> rows_;
-  const std::array<decltype(Body::orientation), kBodies> orientations_;
-  const std::array<decltype(Body::position), kBodies> positions_;
-  std::array<std::array<float, 3>, kBodies> positions32_;
-  Collidables view_;
-};
 
 struct Row {
   uint8_t overlap = 0, status = 0, manifold_count = 0, unused = 0;
@@ -136,22 +70,6 @@ Row kernel_row(const Collidables& a, const Collidables& b, Detail detail) {
   for (size_t i = 0; i < contact.size(); ++i) row.contact[i] = contact[i][0];
   row.manifold = manifold[0];
   return row;
-}
-
-// Rows of bytes are no address of a hull.
-Body with_hull(ShapeKind kind, Body body, const Hull& hull) {
-  if (kind == ShapeKind::hull) body.rows = shape_rows(hull);
-  return body;
-}
-
-// Without numbers that no shape has, a flag of 0.3 say.
-Body without_excess(ShapeKind kind, Body body) {
-  if (row_count(kind) > 0) body.rows = shape_rows(shape_of(kind, body));
-  return body;
-}
-
-Hull take_hull_of(ShapeKind kind, Data& data) {
-  return kind == ShapeKind::hull ? take_hull(data) : Hull{};
 }
 
 bool same_bits(const Row& x, const Row& y) { return std::memcmp(&x, &y, sizeof x) == 0; }

@@ -130,23 +130,39 @@ void write_hulls(std::ofstream& file) {
   file.put(static_cast<char>(carom::fuzz::kRandomHull)).put(kOneMetre);
 }
 
-bool write_kinds(const std::string& path, uint8_t pair) {
+void write_kinds(std::ofstream& file, uint8_t pair, uint8_t flags,
+                 const std::array<double, 3>& way) {
   const auto& kinds = carom::fuzz::kPairs[pair];
   std::array<carom::fuzz::Body, 2> bodies = {ordinary_body(kinds.a), ordinary_body(kinds.b)};
-  bodies[1].position = {0.7, 0.9, -0.4};
-  std::ofstream file(path, std::ios::binary);
-  file.put(static_cast<char>(pair)).put(pair % 4);
+  bodies[1].position = way;
+  file.put(static_cast<char>(pair)).put(static_cast<char>(flags));
   file.write(reinterpret_cast<const char*>(bodies.data()), sizeof bodies);
   const bool has_hull = kinds.a == carom::ShapeKind::hull || kinds.b == carom::ShapeKind::hull;
   if (has_hull) write_hulls(file);
-  return bool(file.flush());
 }
 
-bool write_all_kinds(const std::string& folder) {
+// write(file, pair) for a file of every pair of kinds.
+template <class Write>
+bool write_all_kinds(const std::string& folder, const Write& write) {
   for (uint8_t pair = 0; pair < std::size(carom::fuzz::kPairs); ++pair) {
-    if (!write_kinds(folder + carom::fuzz::kPairs[pair].name, pair)) return false;
+    std::ofstream file(folder + carom::fuzz::kPairs[pair].name, std::ios::binary);
+    write(file, pair);
+    if (!file.flush()) return false;
   }
   return true;
+}
+
+void write_pair(std::ofstream& file, uint8_t pair) {
+  write_kinds(file, pair, pair % 4, {0.7, 0.9, -0.4});
+}
+
+// B comes from some metres away, and turns; every other pair of kinds turns.
+void write_motion(std::ofstream& file, uint8_t pair) {
+  write_kinds(file, pair, pair % 8, {3.5, 4.5, -2});
+  const std::array<int16_t, 6> stays = {0, 0, 0, 2000, 0, 0};
+  const std::array<int16_t, 6> comes = {-13000, -16000, 7000, 0, 5000, -3000};
+  file.write(reinterpret_cast<const char*>(stays.data()), sizeof stays);
+  file.write(reinterpret_cast<const char*>(comes.data()), sizeof comes);
 }
 
 // Numbers of a metre or less.
@@ -242,8 +258,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string folder = std::string(argv[1]) + "/";
-  for (const char* kind : {"recording_fuzz", "scene_fuzz", "pairs_fuzz", "kinds_fuzz", "hull_fuzz",
-                           "composites_fuzz"}) {
+  for (const char* kind : {"recording_fuzz", "scene_fuzz", "pairs_fuzz", "kinds_fuzz",
+                           "motions_fuzz", "hull_fuzz", "composites_fuzz"}) {
     std::filesystem::create_directories(folder + kind);
   }
   const bool done = write_scene(folder + "scene_fuzz/small.npz", false, Compression::kStored) &&
@@ -253,7 +269,8 @@ int main(int argc, char** argv) {
                     write_recording(folder + "recording_fuzz/three.aabb", 3) &&
                     write_seed_pairs(folder + "pairs_fuzz/small.npz", false) &&
                     write_seed_pairs(folder + "pairs_fuzz/full.npz", true) &&
-                    write_all_kinds(folder + "kinds_fuzz/") &&
+                    write_all_kinds(folder + "kinds_fuzz/", write_pair) &&
+                    write_all_kinds(folder + "motions_fuzz/", write_motion) &&
                     write_all_hulls(folder + "hull_fuzz/") &&
                     write_all_composites(folder + "composites_fuzz/");
   if (!done) std::fprintf(stderr, "the corpus could not be written\n");
