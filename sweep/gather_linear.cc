@@ -1,6 +1,5 @@
 #include "sweep/gather_linear.h"
 
-#include <algorithm>
 #include <array>
 
 namespace carom {
@@ -27,10 +26,14 @@ class RowWriter {
   double* next_;
 };
 
+bool is_rotation(const Row& q) {
+  return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0);
+}
+
 constexpr Row kIdentity = {0, 0, 0, 1};
 
-// put() writes the numbers of a body and returns its greatest coordinate; offset() is where they
-// are about, from the body's position.
+// put() writes the numbers of a body, and says whether they are valid; offset() is where they are
+// about, from the body's position.
 template <LinearKind kKind>
 struct Numbers;
 
@@ -40,42 +43,32 @@ struct AboutPosition {
 
 template <>
 struct Numbers<LinearKind::sphere> : AboutPosition {
-  static double put(const BodyReader& body, size_t i, RowWriter out) {
-    const double radius = body.radius(i);
+  static bool put(const BodyReader& body, size_t i, RowWriter out) {
+    const float radius = body.radius(i);
     out.put(radius);
-    return radius;
+    return is_valid_radius(radius);
   }
 };
 
 template <>
 struct Numbers<LinearKind::capsule> : AboutPosition {
-  static double put(const BodyReader& body, size_t i, RowWriter out) {
-    const Row a = body.row(i, 0), b = body.row(i, 1);
-    const double radius = a[3];
-    out.put3(a);
-    out.put3(b);
-    out.put(radius);
-    out.put4(body.orientation(i));
-    return std::max({greatest(vector_of(a)), greatest(vector_of(b)), radius});
+  static bool put(const BodyReader& body, size_t i, RowWriter out) {
+    const std::array<Row, 2> rows = {body.row(i, 0), body.row(i, 1)};
+    const Row q = body.orientation(i);
+    out.put3(rows[0]);
+    out.put3(rows[1]);
+    out.put(rows[0][3]);
+    out.put4(q);
+    return are_valid_rows(ShapeKind::capsule, rows.data()) && is_rotation(q);
   }
 };
 
 template <>
 struct Numbers<LinearKind::box> {
-  static bool is_turned(const BodyReader& body, size_t i) { return body.kind(i) == ShapeKind::box; }
-  static double put(const BodyReader& body, size_t i, RowWriter out) {
-    Double3 half;
-    if (is_turned(body, i)) {
-      half = vector_of(body.row(i, 0));
-    } else {
-      for (size_t axis = 0; axis < 3; ++axis) {
-        half[axis] = (double{body.upper(axis, i)} - double{body.lower(axis, i)}) * 0.5;
-      }
-    }
-    out.put3(half);
-    out.put4(is_turned(body, i) ? body.orientation(i) : kIdentity);
-    return greatest(half);
+  static bool put(const BodyReader& body, size_t i, RowWriter out) {
+    return is_turned(body, i) ? put_box(body, i, out) : put_aabb(body, i, out);
   }
+
   static Eigen::Vector3d offset(const BodyReader& body, size_t i) {
     if (is_turned(body, i)) return Eigen::Vector3d::Zero();
     const auto middle = [&](size_t axis) {
@@ -83,32 +76,51 @@ struct Numbers<LinearKind::box> {
     };
     return {middle(0), middle(1), middle(2)};
   }
+
+ private:
+  static bool is_turned(const BodyReader& body, size_t i) { return body.kind(i) == ShapeKind::box; }
+
+  static bool put_box(const BodyReader& body, size_t i, RowWriter out) {
+    const Row half = body.row(i, 0), q = body.orientation(i);
+    out.put3(half);
+    out.put4(q);
+    return are_valid_rows(ShapeKind::box, &half) && is_rotation(q);
+  }
+
+  static bool put_aabb(const BodyReader& body, size_t i, RowWriter out) {
+    bool is_valid = true;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float lower = body.lower(axis, i), upper = body.upper(axis, i);
+      out.put((double{upper} - double{lower}) * 0.5);
+      is_valid = is_valid && is_valid_box_axis(lower, upper);
+    }
+    out.put4(kIdentity);
+    return is_valid;
+  }
 };
 
 template <>
 struct Numbers<LinearKind::triangle> : AboutPosition {
-  static double put(const BodyReader& body, size_t i, RowWriter out) {
-    double size = 0;
-    for (size_t corner = 0; corner < 3; ++corner) {
-      const Row row = body.row(i, corner);
-      out.put3(row);
-      size = std::max(size, greatest(vector_of(row)));
-    }
-    out.put4(body.orientation(i));
-    return size;
+  static bool put(const BodyReader& body, size_t i, RowWriter out) {
+    const std::array<Row, 3> rows = {body.row(i, 0), body.row(i, 1), body.row(i, 2)};
+    const Row q = body.orientation(i);
+    for (const Row& row : rows) out.put3(row);
+    out.put4(q);
+    return are_valid_rows(ShapeKind::triangle, rows.data()) && is_rotation(q);
   }
 };
 
 // Of a half-space seen from the other body, at -from.
-double put_plane(const MovingReader& halfspace, size_t i, const reference::LinearPose& pose,
-                 RowWriter out) {
-  const Row row = halfspace.body().row(i, 0);
+bool put_plane(const MovingReader& halfspace, size_t i, const reference::LinearPose& pose,
+               RowWriter out) {
+  const Row row = halfspace.body().row(i, 0), q = halfspace.body().orientation(i);
   const auto shape = reference::shape_as<double>(Halfspace{{row[0], row[1], row[2]}, row[3]});
   const reference::LinearPlane plane(shape, pose);
   out.put3(plane.normal);
   out.put(plane.height);
   out.put(plane.rate);
-  return shape.size();
+  out.put(shape.size());
+  return are_valid_rows(ShapeKind::halfspace, &row) && is_rotation(q);
 }
 
 template <LinearKind kA, LinearKind kB>
@@ -118,23 +130,20 @@ bool gather_pair(const MovingReader& a, const MovingReader& b, Pair pair, Linear
   constexpr size_t kFirstOfA = LinearRows::kPairColumns;
   Eigen::Vector3d from = position_from(a, b, pair);
   const Eigen::Vector3d way = way_from(a, b, pair);
-  double sizes = NumbersOfA::put(a.body(), pair.a, {rows, kFirstOfA, row});
   const RowWriter out_b(rows, kFirstOfA + number_count(kA), row);
+  bool is_valid = NumbersOfA::put(a.body(), pair.a, {rows, kFirstOfA, row});
   if constexpr (kB == LinearKind::plane) {
     from -= NumbersOfA::offset(a.body(), pair.a);
     const reference::LinearPose pose{from, way, {}, b.orientation(pair.b), 0};
-    sizes += put_plane(b, pair.b, pose, out_b);
+    is_valid = put_plane(b, pair.b, pose, out_b) && is_valid;
   } else {
     from = (from + Numbers<kB>::offset(b.body(), pair.b)) - NumbersOfA::offset(a.body(), pair.a);
-    sizes += Numbers<kB>::put(b.body(), pair.b, out_b);
+    is_valid = Numbers<kB>::put(b.body(), pair.b, out_b) && is_valid;
   }
-  const double lengths =
-      (reference::largest_component(from) + reference::largest_component(way)) + sizes;
   RowWriter out(rows, 0, row);
   out.put3(from);
   out.put3(way);
-  out.put(kSweepSlack * lengths);
-  return a.is_valid(pair.a) && b.is_valid(pair.b);
+  return is_valid && a.has_valid_motion(pair.a) && b.has_valid_motion(pair.b);
 }
 
 // Views are copied, so that what is written cannot be taken for a part of them.

@@ -8,6 +8,7 @@
 
 #include "simd/rotation-inl.h"
 #include "sweep/linear_rows.h"
+#include "sweep/slack.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -38,42 +39,51 @@ class RowReader {
 
 struct LinearPair {
   D3 from, way;
-  D slack;
+  D slack;  // what all lengths may be off by
 };
 
+// Bodies; `size` is their greatest coordinate.
 struct LinearSphere {
   D radius;
+
+  HWY_INLINE D size() const { return radius; }
 };
 
 // The core in world axes.
 struct LinearCapsule {
   D3 start, edge;
   D radius;
+  D greatest;
+
+  HWY_INLINE D size() const { return greatest; }
 };
 
 struct LinearBox {
   D3 half;
   RotationOf<D> turn;
+
+  HWY_INLINE D size() const { return largest_component(half); }
 };
 
 // In world axes.
 struct LinearTriangle {
   D3 corner[3];
+  D greatest;
+
+  HWY_INLINE D size() const { return greatest; }
 };
 
 struct LinearPlane {
   D3 normal;
   D height, rate;
+  D offset;
+
+  HWY_INLINE D size() const { return offset; }
 };
 
 template <class Body>
 HWY_INLINE Body load(RowReader in);
 
-template <>
-HWY_INLINE LinearPair load(RowReader in) {
-  const D3 from = in.vector(), way = in.vector();
-  return {from, way, in.number()};
-}
 template <>
 HWY_INLINE LinearSphere load(RowReader in) {
   return {in.number()};
@@ -84,7 +94,8 @@ HWY_INLINE LinearCapsule load(RowReader in) {
   const D radius = in.number();
   const RotationOf<D> turn = in.rotation();
   const D3 start = rotate(turn, a);
-  return {start, rotate(turn, b) - start, radius};
+  const D greatest = max(max(largest_component(a), largest_component(b)), radius);
+  return {start, rotate(turn, b) - start, radius, greatest};
 }
 template <>
 HWY_INLINE LinearBox load(RowReader in) {
@@ -95,13 +106,20 @@ template <>
 HWY_INLINE LinearTriangle load(RowReader in) {
   const D3 a = in.vector(), b = in.vector(), c = in.vector();
   const RotationOf<D> turn = in.rotation();
-  return {{rotate(turn, a), rotate(turn, b), rotate(turn, c)}};
+  const D greatest = max(max(largest_component(a), largest_component(b)), largest_component(c));
+  return {{rotate(turn, a), rotate(turn, b), rotate(turn, c)}, greatest};
 }
 template <>
 HWY_INLINE LinearPlane load(RowReader in) {
   const D3 normal = in.vector();
-  const D height = in.number();
-  return {normal, height, in.number()};
+  const D height = in.number(), rate = in.number();
+  return {normal, height, rate, in.number()};
+}
+
+HWY_INLINE LinearPair load_pair(RowReader in, D sizes) {
+  const D3 from = in.vector(), way = in.vector();
+  const D lengths = hn::Add(hn::Add(largest_component(from), largest_component(way)), sizes);
+  return {from, way, hn::Mul(splat_double(kSweepSlack), lengths)};
 }
 
 // Kernel: A, B and kKindA, whose numbers come first; time(pair, a, b).
@@ -111,10 +129,10 @@ void run_rows(LinearRows& rows, size_t count) {
   using B = typename Kernel::B;
   constexpr size_t kFirstOfB = LinearRows::kPairColumns + number_count(Kernel::kKindA);
   for (size_t row = 0; row < count; row += kDoubleLanes) {
-    const D time = Kernel::time(load<LinearPair>(RowReader(rows, 0, row)),
-                                load<A>(RowReader(rows, LinearRows::kPairColumns, row)),
-                                load<B>(RowReader(rows, kFirstOfB, row)));
-    hn::Store(time, DoubleTag(), rows.times() + row);
+    const A a = load<A>(RowReader(rows, LinearRows::kPairColumns, row));
+    const B b = load<B>(RowReader(rows, kFirstOfB, row));
+    const LinearPair pair = load_pair(RowReader(rows, 0, row), hn::Add(a.size(), b.size()));
+    hn::Store(Kernel::time(pair, a, b), DoubleTag(), rows.times() + row);
   }
 }
 

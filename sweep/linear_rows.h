@@ -38,16 +38,16 @@ constexpr LinearKind linear_kind(ShapeKind kind) {
 //   box       half extents (3), quaternion (4)
 //   triangle  three corners (9), quaternion (4)
 //   plane     unit normal in world axes (3); then, of its pair, the height of the other body's
-//             position over it, and the rate of that
+//             position over it, the rate of that, and the magnitude of the offset
 constexpr size_t number_count(LinearKind kind) {
-  constexpr std::array<size_t, 6> kCount = {1, 11, 7, 13, 5, 0};
+  constexpr std::array<size_t, 6> kCount = {1, 11, 7, 13, 6, 0};
   return kCount[static_cast<size_t>(kind)];
 }
 
 class LinearRows {
  public:
   static constexpr size_t kMost = 256;       // rows; a multiple of all vectors
-  static constexpr size_t kPairColumns = 7;  // from (3), way (3), slack
+  static constexpr size_t kPairColumns = 6;  // from (3), way (3)
   static constexpr size_t kMostColumns = kPairColumns + 11 + 13;
 
   double* column(size_t c) { return values_.data() + c * kMost; }

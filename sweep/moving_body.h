@@ -24,8 +24,10 @@ struct MovingReader {
   }
   Double3 arm(size_t i) const { return side.arm ? side.arm[i] : Double3{}; }
 
-  bool is_valid(size_t i) const {
-    return body().is_valid(i) && is_finite(displacement(i)) && is_finite(rotation(i));
+  bool is_valid(size_t i) const { return body().is_valid(i) && has_valid_motion(i); }
+  bool has_valid_motion(size_t i) const {
+    return is_finite(body().position<double>(i)) && is_finite(displacement(i)) &&
+           is_finite(rotation(i));
   }
   // False of one whose rotation is not a number.
   bool moves_in_a_line(size_t i) const {
