@@ -107,8 +107,7 @@ PlacedBodies::PlacedBodies(const MovingSide& side_a, const MovingSide& side_b, P
       part_b(body_part({side_b.bodies}, pair.b)),
       a(part_a, {}),
       b(part_b, {}) {
-  const Eigen::Vector3d from = position_from({side_a}, {side_b}, pair);
-  b.position = {from.x(), from.y(), from.z()};
+  b.position = place_between({side_a}, {side_b}, pair);
 }
 
 void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,

@@ -53,7 +53,7 @@ struct MovingReader {
 // of distances between float64 positions would overflow.)
 inline constexpr double kFurthestApart = 1e40;
 
-inline Eigen::Vector3d position_from(const MovingReader& a, const MovingReader& b, Pair pair) {
+inline Double3 place_between(const MovingReader& a, const MovingReader& b, Pair pair) {
   const auto at_a = a.body().position<double>(pair.a), at_b = b.body().position<double>(pair.b);
   const auto apart = [](double from, double to) {
     return std::clamp(to - from, -kFurthestApart, kFurthestApart);
@@ -61,10 +61,12 @@ inline Eigen::Vector3d position_from(const MovingReader& a, const MovingReader& 
   return {apart(at_a.x, at_b.x), apart(at_a.y, at_b.y), apart(at_a.z, at_b.z)};
 }
 
-inline Eigen::Vector3d way_from(const MovingReader& a, const MovingReader& b, Pair pair) {
+inline Double3 way_between(const MovingReader& a, const MovingReader& b, Pair pair) {
   const Position<float> of_a = a.displacement(pair.a), of_b = b.displacement(pair.b);
   return {double{of_b.x} - double{of_a.x}, double{of_b.y} - double{of_a.y},
           double{of_b.z} - double{of_a.z}};
 }
+
+inline Eigen::Vector3d eigen(const Double3& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace carom

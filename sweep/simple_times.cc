@@ -148,8 +148,8 @@ class SimpleTimes {
       }
       const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
       const reference::AdvancementResult result = reference::advancement_time(
-          a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), position_from(a_, b_, pair),
-          way_from(a_, b_, pair), furthest);
+          a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b),
+          eigen(place_between(a_, b_, pair)), eigen(way_between(a_, b_, pair)), furthest);
       write(row, result.t, result.status);
     }
   }
@@ -163,8 +163,8 @@ class SimpleTimes {
       if (!is_triangle(a_, pair.a) && !is_triangle(b_, pair.b)) continue;
       const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
       const bool passes = reference::passes_one_sided(
-          a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), position_from(a_, b_, pair),
-          way_from(a_, b_, pair), out_.time[row]);
+          a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b),
+          eigen(place_between(a_, b_, pair)), eigen(way_between(a_, b_, pair)), out_.time[row]);
       if (passes) write(row, kNever, Status::ok);
     }
   }
