@@ -33,6 +33,21 @@ struct Rotation {
     for (Vec3<R>& c : column) c = c * s;
   }
 
+  // By an angle about a unit vector; without an axis (zero) there is no rotation.
+  Rotation(const Vec3<R>& axis, const R& angle) {
+    using std::cos, std::sin;
+    const R half_sine = sin(angle / 2), s = sin(angle), k = 2 * half_sine * half_sine;
+    const Vec3<R> unit[3] = {{R(1), R(0), R(0)}, {R(0), R(1), R(0)}, {R(0), R(0), R(1)}};
+    for (size_t i = 0; i < 3; ++i) {
+      column[i] = unit[i] + cross(axis, unit[i]) * s + cross(axis, cross(axis, unit[i])) * k;
+    }
+  }
+
+  // The other way round.
+  Vec3<R> back(const Vec3<R>& v) const {
+    return {dot(column[0], v), dot(column[1], v), dot(column[2], v)};
+  }
+
   Vec3<R> operator()(const Vec3<R>& v) const {
     return column[0] * v.x + column[1] * v.y + column[2] * v.z;
   }
@@ -125,6 +140,21 @@ struct ConvexShape {
     for (auto& edge : edges) edge.start = edge.start + by;
     for (auto& face : faces) face.origin = face.origin + by;
     offset += dot(normal, by);
+  }
+
+  // About the origin. Directions stay as good as those of the body's own numbers.
+  void rotate(const Rotation<R>& rotation) {
+    const auto turn = [&](Vec& v) { v = rotation(v); };
+    std::for_each(points.begin(), points.end(), turn);
+    std::for_each(directions.begin(), directions.end(), turn);
+    std::for_each(normals.begin(), normals.end(), turn);
+    for (auto& edge : edges) {
+      for (Vec* v : {&edge.start, &edge.direction}) turn(*v);
+    }
+    for (auto& face : faces) {
+      for (Vec* v : {&face.origin, &face.u, &face.v, &face.normal}) turn(*v);
+    }
+    turn(normal);
   }
 
  private:
@@ -282,21 +312,6 @@ struct ConvexShape {
   void add_quad(size_t i, size_t j, size_t k, size_t l) {
     add_face(i, j, k);
     add_face(i, k, l);
-  }
-
-  // From the body's frame: directions stay as good as those of the body's own numbers.
-  void rotate(const Rotation<R>& rotation) {
-    const auto turn = [&](Vec& v) { v = rotation(v); };
-    std::for_each(points.begin(), points.end(), turn);
-    std::for_each(directions.begin(), directions.end(), turn);
-    std::for_each(normals.begin(), normals.end(), turn);
-    for (auto& edge : edges) {
-      for (Vec* v : {&edge.start, &edge.direction}) turn(*v);
-    }
-    for (auto& face : faces) {
-      for (Vec* v : {&face.origin, &face.u, &face.v, &face.normal}) turn(*v);
-    }
-    turn(normal);
   }
 
   std::vector<Vec> ways_;  // of a hull: its directions as differences of points

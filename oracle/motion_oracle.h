@@ -1,0 +1,171 @@
+// Judges times of impact, and finds them. Half-proofs are enough to judge: that two shapes stay
+// apart is shown by directions along which they do, that they meet by points of both.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "oracle/moving_pair.h"
+
+namespace carom::oracle {
+
+enum class Meeting : uint8_t { none, found, unknown };
+
+// The first time at which a separation is not above a floor.
+template <class R>
+struct MeetingTime {
+  Meeting meeting;
+  R time;  // until there it is above; not "none": there it is not
+};
+
+// Goes from one end to the other in steps that are proven to be free: conservative advancement along
+// the normal, which for shapes that do not turn is Newton's method on a convex function.
+template <class R>
+MeetingTime<R> first_meeting(const MovingPair<R>& pair, R from, const R& to, const R& floor) {
+  constexpr int kMostSteps = 5000;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const MotionMoment<R> moment(pair, from, floor);
+    if (moment.is_below(floor)) return {Meeting::found, from};
+    const R next = from + moment.free_span(to - from, floor);
+    if (next >= to) return {Meeting::none, to};
+    if (!(next > from)) break;
+    from = next;
+  }
+  return {Meeting::unknown, from};
+}
+
+// The first time of impact: apart until `low` for certain, overlapping at `high`. Shapes that graze
+// each other within rounding have only the first (high = +infinity).
+template <class R>
+struct ImpactBracket {
+  Meeting meeting;
+  R low;
+  R high;
+};
+
+template <class R>
+ImpactBracket<R> bracket_impact(const MovingPair<R>& pair) {
+  const R infinity = std::numeric_limits<R>::infinity();
+  const MeetingTime<R> touch = first_meeting<R>(pair, R(0), R(1), pair.rounding());
+  if (touch.meeting != Meeting::found) return {touch.meeting, touch.time, infinity};
+  const MeetingTime<R> overlap = first_meeting<R>(pair, touch.time, R(1), -pair.rounding());
+  const bool is_found = overlap.meeting == Meeting::found;
+  return {touch.meeting, touch.time, is_found ? overlap.time : infinity};
+}
+
+template <class R>
+struct LeastSeparation {
+  R time;
+  R value;  // signed
+  Vec3<R> normal;  // of the pair as the oracle has it: a half-space is B
+};
+
+// By golden section: of shapes that do not turn the least of all, of others one that is hardly
+// greater than its neighbours.
+template <class R>
+LeastSeparation<R> least_separation(const MovingPair<R>& pair, R from, R to) {
+  const R ratio = (std::sqrt(R(5)) - 1) / 2;
+  const auto at = [&](const R& t) { return MotionMoment<R>(pair, t, -pair.rounding()); };
+  R left = to - (to - from) * ratio, right = from + (to - from) * ratio;
+  R gap_left = at(left).upper(), gap_right = at(right).upper();
+  for (int i = 0; i < 60; ++i) {
+    if (gap_left <= gap_right) {
+      to = std::exchange(right, left);
+      gap_right = gap_left;
+      left = to - (to - from) * ratio;
+      gap_left = at(left).upper();
+    } else {
+      from = std::exchange(left, right);
+      gap_left = gap_right;
+      right = from + (to - from) * ratio;
+      gap_right = at(right).upper();
+    }
+  }
+  const MotionMoment<R> best = at(gap_left <= gap_right ? left : right);
+  return {best.time(), best.upper(), best.normal()};
+}
+
+enum class Fault : uint8_t {
+  none,
+  late,       // they overlap before the time that was claimed
+  early,      // at that time, and until the next float, they are further apart than is allowed
+  malformed,  // no time and not "never"
+  unknown,    // the oracle could not tell
+};
+
+inline const char* name(Fault fault) {
+  constexpr const char* kNames[] = {"none", "late", "early", "malformed", "unknown"};
+  return kNames[static_cast<size_t>(fault)];
+}
+
+// A fault, and where.
+struct Judgement {
+  Fault fault = Fault::none;
+  double time = 0;
+  double separation = 0;
+};
+
+inline constexpr double kAllowedGap = 1e-11;  // of the size and the travel
+
+template <class R>
+class ImpactJudge {
+ public:
+  explicit ImpactJudge(const MovingPair<R>& pair) : pair_(pair) {}
+
+  // Shapes overlap by more than rounding before `end`.
+  Judgement late(const R& end) const {
+    const R floor = -pair_.rounding();
+    const MotionMoment<R> last(pair_, end, floor);
+    if (end > 0 && last.is_below(floor)) return at(Fault::late, last);
+    const R rest = end + last.free_span(-end, floor);
+    if (!(rest > 0)) return {};
+    const MeetingTime<R> meeting = first_meeting<R>(pair_, R(0), rest, floor);
+    if (meeting.meeting == Meeting::none) return {};
+    const Fault fault = meeting.meeting == Meeting::found ? Fault::late : Fault::unknown;
+    return at(fault, MotionMoment<R>(pair_, meeting.time, floor));
+  }
+
+  // There is no time in [from, to] at which they are as near as is allowed.
+  Judgement early(const R& from, const R& to) const {
+    const R allowed = R(kAllowedGap) * (pair_.size() + pair_.travel()) + pair_.rounding();
+    const MotionMoment<R> last(pair_, to, allowed);
+    if (last.is_below(allowed)) return {};
+    const MeetingTime<R> meeting = first_meeting<R>(pair_, from, to, allowed);
+    if (meeting.meeting == Meeting::found) return {};
+    const Fault fault = meeting.meeting == Meeting::none ? Fault::early : Fault::unknown;
+    return at(fault, last);
+  }
+
+ private:
+  static Judgement at(Fault fault, const MotionMoment<R>& moment) {
+    return {fault, static_cast<double>(moment.time()), static_cast<double>(moment.upper())};
+  }
+
+  const MovingPair<R>& pair_;
+};
+
+// Of a time that was rounded down to float32; +infinity: they never meet. Touching within rounding
+// of double precision may count as a meeting or not.
+template <class R>
+Judgement judge_impact(const MovingPair<R>& pair, float toi) {
+  const bool is_never = toi == std::numeric_limits<float>::infinity();
+  if (!is_never && !(toi >= 0 && toi <= 1)) return {Fault::malformed, toi, 0};
+  const ImpactJudge<R> judge(pair);
+  const Judgement late = judge.late(is_never ? R(1) : R(toi));
+  if (is_never || late.fault != Fault::none) return late;
+  return judge.early(R(toi), R(std::min(std::nextafter(toi, 2.0f), 1.0f)));
+}
+
+// In double precision first, which nearly always is enough to acquit; in long double what is left.
+inline Judgement judge_impact(const Shape& shape_a, const Pose& pose_a, const Sweep& sweep_a,
+                              const Shape& shape_b, const Pose& pose_b, const Sweep& sweep_b,
+                              float toi) {
+  const MovingPair<double> quick(shape_a, pose_a, sweep_a, shape_b, pose_b, sweep_b);
+  if (judge_impact(quick, toi).fault == Fault::none) return {};
+  const MovingPair<long double> wide(shape_a, pose_a, sweep_a, shape_b, pose_b, sweep_b);
+  return judge_impact(wide, toi);
+}
+
+}  // namespace carom::oracle

@@ -1,0 +1,140 @@
+// The distance of a convex set from the origin by its support points, with a proof: a direction
+// along which all of the set is that far away, and a point of the set that is no further.
+// E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure for computing the distance between
+// complex objects in three-dimensional space, IEEE J. Robotics and Automation 4(2), 1988.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "oracle/vec3.h"
+
+namespace carom::oracle {
+
+// Up to four points; the point of their hull that is nearest to the origin, by trying all corners,
+// edges and faces.
+template <class R>
+class SearchSimplex {
+ public:
+  using Vec = Vec3<R>;
+
+  void add(const Vec& point) { points_[count_++] = point; }
+  bool holds(const Vec& point) const {
+    for (size_t i = 0; i < count_; ++i) {
+      const Vec d = points_[i] - point;
+      if (d.x == 0 && d.y == 0 && d.z == 0) return true;
+    }
+    return false;
+  }
+
+  // Drops the points that do not count. The result is zero only if the hull holds the origin.
+  Vec reduce() {
+    least_ = std::numeric_limits<R>::infinity();
+    for (size_t i = 0; i < count_; ++i) try_corner(i);
+    for (size_t i = 0; i < count_; ++i) {
+      for (size_t j = i + 1; j < count_; ++j) try_edge(i, j);
+    }
+    for (size_t i = 0; i < count_; ++i) {
+      for (size_t j = i + 1; j < count_; ++j) {
+        for (size_t k = j + 1; k < count_; ++k) try_face(i, j, k);
+      }
+    }
+    if (count_ == 4 && holds_origin()) return {};
+    const std::array<Vec, 4> before = points_;
+    count_ = 0;
+    for (const size_t i : kept_) {
+      if (i < before.size()) points_[count_++] = before[i];
+    }
+    return nearest_;
+  }
+
+ private:
+  static constexpr size_t kNone = 4;
+
+  void keep(const Vec& point, const std::array<size_t, 3>& corners) {
+    const R squared = dot(point, point);
+    if (!(squared < least_)) return;
+    least_ = squared;
+    nearest_ = point;
+    kept_ = corners;
+  }
+
+  void try_corner(size_t i) { keep(points_[i], {i, kNone, kNone}); }
+
+  void try_edge(size_t i, size_t j) {
+    const Vec way = points_[j] - points_[i];
+    const R squared = dot(way, way);
+    const R along = -dot(points_[i], way);
+    if (!(along > 0 && along < squared)) return;
+    const Vec unit = normalized(way);
+    keep(across(across(points_[i], unit), unit), {i, j, kNone});
+  }
+
+  void try_face(size_t i, size_t j, size_t k) {
+    const Vec &a = points_[i], &b = points_[j], &c = points_[k];
+    const Vec normal = normalized(cross(b - a, c - a));
+    if (!(dot(normal, normal) > 0)) return;
+    const bool is_over = dot(cross(a, b), normal) > 0 && dot(cross(b, c), normal) > 0 &&
+                         dot(cross(c, a), normal) > 0;
+    if (is_over) keep(normal * dot(a, normal), {i, j, k});
+  }
+
+  // On the inner side of all four faces.
+  bool holds_origin() const {
+    for (size_t i = 0; i < 4; ++i) {
+      const Vec& a = points_[(i + 1) % 4];
+      const Vec normal = cross(points_[(i + 2) % 4] - a, points_[(i + 3) % 4] - a);
+      const R inside = dot(points_[i] - a, normal), origin = -dot(a, normal);
+      if (!((inside > 0 && origin >= 0) || (inside < 0 && origin <= 0))) return false;
+    }
+    return true;
+  }
+
+  std::array<Vec, 4> points_;
+  size_t count_ = 0;
+  R least_{0};
+  Vec nearest_;
+  std::array<size_t, 3> kept_{};
+};
+
+// What is proven about a distance: at least `lower`, along the unit vector `normal`; at most
+// `upper`.
+template <class R>
+struct DistanceProof {
+  Vec3<R> normal;
+  R lower;
+  R upper;
+};
+
+// `support` gives the point of the set that is furthest along a direction. Ends when the bounds are
+// within `enough(lower)` of each other, or rounding lets them come no closer. Where the set holds
+// the origin `upper` is zero.
+template <class R, class Support, class Enough>
+DistanceProof<R> distance_from_origin(const Support& support, const Enough& enough) {
+  using Vec = Vec3<R>;
+  constexpr int kMostSteps = 60;
+  const R infinity = std::numeric_limits<R>::infinity();
+  DistanceProof<R> proof{Vec{}, -infinity, infinity};
+  SearchSimplex<R> simplex;
+  simplex.add(support(Vec{R(1), R(0), R(0)}));
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Vec nearest = simplex.reduce();
+    const R distance = length(nearest);
+    if (!(distance < proof.upper)) break;
+    proof.upper = distance;
+    if (!(distance > 0)) break;
+    const Vec normal = nearest * (1 / distance);
+    const Vec corner = support(-normal);
+    const R lower = dot(corner, normal);
+    if (lower > proof.lower) {
+      proof.lower = lower;
+      proof.normal = normal;
+    }
+    if (proof.upper - proof.lower <= enough(proof.lower) || simplex.holds(corner)) break;
+    simplex.add(corner);
+  }
+  return proof;
+}
+
+}  // namespace carom::oracle

@@ -1,0 +1,338 @@
+// Random pairs of moving bodies, for every two kinds, and the ways in which motions are hard.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "oracle/convex_random.h"
+#include "oracle/motion_oracle.h"
+#include "tests/support/kind_pairs.h"
+
+namespace carom::test {
+
+struct MovedPair {
+  TestPair bodies;
+  Sweep sweep_a;
+  Sweep sweep_b;
+};
+
+inline MovedPair swapped(const MovedPair& pair) {
+  return {swapped(pair.bodies), pair.sweep_b, pair.sweep_a};
+}
+
+template <class R>
+MovingPair<R> moving_pair(const MovedPair& pair) {
+  const auto& [a, b] = pair.bodies;
+  return {a.shape, a.pose(), pair.sweep_a, b.shape, b.pose(), pair.sweep_b};
+}
+
+inline std::string show(const MovedPair& pair) {
+  const auto text = [](const PlacedShape& body, const Sweep& sweep) {
+    return show(body) + "\n  moves by " + hex3(sweep.displacement) + " turns by " +
+           hex3(sweep.rotation);
+  };
+  return text(pair.bodies.a, pair.sweep_a) + "\n" + text(pair.bodies.b, pair.sweep_b);
+}
+
+enum class MotionPlan {
+  aimed,       // at each other, or past each other
+  grazing,     // least separation within 1e-12 to 1e-3 of the size of zero
+  sliding,     // starts as near as that, and moves nearly along the surface
+  touching,    // starts that near to touching, and moves anywhere
+  parting,     // starts apart, and moves away
+  coincident,  // starts in the same position
+};
+
+struct MotionFamily {
+  const char* name;
+  MotionPlan plan = MotionPlan::aimed;
+  PositionType positions = PositionType::float32;
+  double smallest = 0.5;  // sizes, log-uniform
+  double largest = 2;
+  double ratio = 1;          // of the sizes of the two
+  double aspect = 4;         // of lengths, radii and halves
+  double least_travel = 1;   // displacements in sizes, log-uniform
+  double most_travel = 10;   // 0: none
+  double most_turn = 0;      // radians, of each
+  double distance = 0;       // of A from the origin, in sizes
+  bool degenerate = false;   // zero radii, zero lengths, flat boxes, triangles without area
+  bool near_parallel = false;    // rotations that differ by 0, 1e-8 or 1e-4
+  bool through_contact = false;  // B turns about an axis through where it is nearest to A
+};
+
+// Aimed motions that tests of hit rates can rely on.
+inline std::vector<MotionFamily> plain_motions() {
+  using enum PositionType;
+  return {
+      {.name = "plain"},
+      {.name = "turning", .positions = float64, .most_turn = 2},
+  };
+}
+
+inline std::vector<MotionFamily> hard_motions() {
+  using enum MotionPlan;
+  using enum PositionType;
+  return {
+      {.name = "turning often", .most_turn = 50},
+      {.name = "far", .positions = float64, .most_turn = 1, .distance = 1e9},
+      {.name = "far in float32", .distance = 1e4},
+      {.name = "tiny", .smallest = 1e-30, .largest = 1e-28, .most_turn = 1},
+      {.name = "huge", .positions = float64, .smallest = 1e17, .largest = 1e18, .most_turn = 1},
+      {.name = "sizes", .positions = float64, .smallest = 1e-30, .largest = 1e18},
+      {.name = "ratio", .positions = float64, .ratio = 1e6, .most_turn = 1},
+      {.name = "thin", .positions = float64, .aspect = 1e6, .most_turn = 1},
+      {.name = "degenerate", .positions = float64, .most_turn = 1, .degenerate = true},
+      {.name = "fast", .positions = float64, .least_travel = 1e5, .most_travel = 1e6},
+      {.name = "beyond bounds", .least_travel = 1e17, .most_travel = 1e18, .most_turn = 1},
+      {.name = "slow", .plan = touching, .least_travel = 1e-9, .most_travel = 1e-3},
+      {.name = "subnormal", .plan = touching, .least_travel = 1e-45, .most_travel = 1e-38},
+      {.name = "still", .most_travel = 0},
+      {.name = "still and touching", .plan = touching, .positions = float64, .most_travel = 0},
+      {.name = "grazing", .plan = grazing, .positions = float64},
+      {.name = "grazing and turning", .plan = grazing, .positions = float64, .most_turn = 2},
+      {.name = "grazing flat", .plan = grazing, .positions = float64, .near_parallel = true},
+      {.name = "sliding", .plan = sliding, .positions = float64},
+      {.name = "sliding flat", .plan = sliding, .positions = float64, .near_parallel = true},
+      {.name = "sliding and turning", .plan = sliding, .positions = float64, .most_turn = 1},
+      {.name = "touching", .plan = touching, .positions = float64, .most_turn = 1},
+      {.name = "touching in float32", .plan = touching, .distance = 10},
+      {.name = "parting", .plan = parting, .positions = float64},
+      {.name = "coincident", .plan = coincident, .most_turn = 1},
+      {.name = "coincident and still", .plan = coincident, .most_travel = 0},
+      {.name = "parallel", .positions = float64, .near_parallel = true},
+      {.name = "turning alone", .plan = touching, .most_travel = 0, .most_turn = 2},
+      {.name = "spinning alone", .plan = touching, .most_travel = 0, .most_turn = 50},
+      {.name = "turning on the contact",
+       .plan = touching,
+       .positions = float64,
+       .most_travel = 0,
+       .most_turn = 6,
+       .through_contact = true},
+  };
+}
+
+class MotionMaker {
+ public:
+  MotionMaker(const MotionFamily& family, KindPair kinds, uint64_t seed)
+      : family_(family),
+        kinds_(kinds),
+        random_(seed),
+        shapes_({.aspect = family.aspect,
+                 .degenerate = family.degenerate,
+                 .aligned = family.near_parallel},
+                random_) {}
+  MotionMaker(const MotionMaker&) = delete;
+  MotionMaker& operator=(const MotionMaker&) = delete;
+
+  MovedPair next() {
+    make_bodies();
+    make_sweeps();
+    switch (family_.plan) {
+      case MotionPlan::aimed:
+        aim(random_.chance(0.35) ? 0 : 1.4);
+        break;
+      case MotionPlan::grazing:
+        aim(1);
+        graze();
+        break;
+      case MotionPlan::sliding:
+        place_near(near_gap());
+        move(tangent() + normal() * sign() * random_.log_uniform(1e-9, 1e-2));
+        break;
+      case MotionPlan::touching:
+        place_near(near_gap());
+        break;
+      case MotionPlan::parting:
+        place_near(random_.log_uniform(1e-6, 1));
+        move(tangent() + normal() * random_.log_uniform(1e-6, 10));
+        break;
+      case MotionPlan::coincident:
+        break;
+    }
+    if (family_.through_contact) turn_on_contact();
+    return pair_;
+  }
+
+ private:
+  using Vec = Eigen::Vector3d;
+
+  PlacedShape& a() { return pair_.bodies.a; }
+  PlacedShape& b() { return pair_.bodies.b; }
+  bool is_plane(const PlacedShape& body) const {
+    return std::holds_alternative<Halfspace>(body.shape);
+  }
+  static Vec eigen(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+  double sign() { return random_.chance(0.5) ? 1 : -1; }
+
+  Vec stored(const Vec& position) const { return test::stored(position, family_.positions); }
+
+  // ---- bodies and sweeps
+
+  void make_bodies() {
+    size_ = random_.log_uniform(family_.smallest, family_.largest);
+    const double size_b = size_ * random_.log_uniform(1 / family_.ratio, family_.ratio);
+    pair_ = {};
+    a().shape = shapes_.shape(kinds_.a, size_);
+    b().shape = shapes_.shape(kinds_.b, size_b);
+    a().orientation = shapes_.orientation();
+    b().orientation = family_.near_parallel ? turned_a_little(a().orientation)
+                                            : shapes_.orientation();
+    a().position = stored(random_.direction() * family_.distance * size_);
+    b().position = a().position;
+    size_ = std::max(size_, size_b);
+  }
+
+  Eigen::Quaternionf turned_a_little(const Eigen::Quaternionf& q) {
+    constexpr double kAngles[] = {0, 1e-8, 1e-4};
+    const Vec v = random_.direction() * (kAngles[random_.below(3)] / 2);
+    const Eigen::Quaterniond little(1, v.x(), v.y(), v.z());
+    return (q.cast<double>() * little).cast<float>();
+  }
+
+  void make_sweeps() {
+    for (Sweep* sweep : {&pair_.sweep_a, &pair_.sweep_b}) {
+      if (random_.chance(0.7)) sweep->rotation = turn().cast<float>();
+    }
+    if (family_.most_travel == 0) return;
+    move(random_.direction() * random_.log_uniform(family_.least_travel, family_.most_travel));
+  }
+
+  Vec turn() { return random_.direction() * random_.uniform(0, family_.most_turn); }
+
+  // As seen from A, in sizes. A moves in one of two pairs.
+  void move(const Vec& way) {
+    const double share = random_.chance(0.5) ? 0 : random_.uniform(-1, 1);
+    const Vec both = random_.direction() * way.norm() * share * size_;
+    pair_.sweep_a.displacement = both.cast<float>();
+    pair_.sweep_b.displacement = (both + way * size_).cast<float>();
+  }
+
+  Vec velocity() const {
+    return (pair_.sweep_b.displacement.cast<double>() - pair_.sweep_a.displacement.cast<double>());
+  }
+
+  // ---- placing B
+
+  // A point of each meets at some time, or passes by as far as `miss` times both sizes.
+  void aim(double miss) {
+    const double t = family_.most_travel == 0 ? 0 : random_.uniform(0.02, 1);
+    const Vec on_a = point_in(a(), pair_.sweep_a, t), on_b = point_in(b(), pair_.sweep_b, t);
+    const Vec beside = random_.direction() * random_.uniform(0, miss) * reach();
+    b().position = stored(a().position + on_a - on_b - velocity() * t + beside);
+  }
+
+  // How far both reach from their positions; of half-spaces it does not count.
+  double reach() const {
+    double sum = 0;
+    for (const PlacedShape* body : {&pair_.bodies.a, &pair_.bodies.b}) {
+      const MovingShape<double> shape(body->shape, body->pose(), Sweep{});
+      if (!shape.is_halfspace()) sum += shape.bounding_radius();
+    }
+    return sum;
+  }
+
+  // Of the core, or of the plane, at a time; relative to the position.
+  Vec point_in(const PlacedShape& body, const Sweep& sweep, double t) {
+    const MovingShape<double> shape(body.shape, body.pose(), sweep);
+    Vec point = random_.direction() * size_;
+    if (shape.is_halfspace()) {
+      const Vec n = eigen(shape.normal());
+      point += n * (shape.offset() - n.dot(point));
+    } else {
+      const auto corner = [&] { return eigen(shape.points()[random_.below(shape.points().size())]); };
+      const Vec from = corner();
+      point = from + (corner() - from) * random_.uniform(0, 1);
+    }
+    return eigen(shape.turn(t)({point.x(), point.y(), point.z()}));
+  }
+
+  // The separation that some positions near to touching have.
+  double near_gap() {
+    if (random_.chance(0.2)) return 0;
+    const double size = random_.chance(0.3) ? 1e-6 : random_.log_uniform(1e-12, 1e-3);
+    return random_.chance(0.8) ? size : -size;
+  }
+
+  // B beside A, this far from it in sizes.
+  void place_near(double gap) {
+    b().position = a().position + way_out() * (3 * reach() + 3 * size_);
+    Sweep sweep_a = pair_.sweep_a, sweep_b = pair_.sweep_b;
+    pull(0, 0, gap);
+    pair_.sweep_a = sweep_a;
+    pair_.sweep_b = sweep_b;
+  }
+
+  // Moves B by the least separation, which is to be positive, in a part of the interval.
+  void pull(double from, double to, double gap) {
+    const MovingPair<double> moving = moving_pair<double>(pair_);
+    const LeastSeparation<double> least = least_separation<double>(moving, from, to);
+    normal_ = eigen(least.normal) * (moving.is_swapped() ? -1 : 1);
+    b().position = stored(b().position - normal_ * (least.value - gap * size_));
+  }
+
+  // Where B has room beside A.
+  Vec way_out() {
+    const Vec any = random_.direction();
+    if (is_plane(a())) return (plane_normal(a()) + 0.9 * any).normalized() * plane_factor(a());
+    if (is_plane(b())) return (0.9 * any - plane_normal(b())).normalized() * plane_factor(b());
+    return any;
+  }
+  static Vec plane_normal(const PlacedShape& plane) {
+    return eigen(MovingShape<double>(plane.shape, plane.pose(), Sweep{}).normal());
+  }
+  // Far enough for planes that are not where their body is.
+  static double plane_factor(const PlacedShape& plane) {
+    return 20 + 0 * plane.position.x();
+  }
+
+  // As far from the way as it takes to pass by, and back again.
+  void graze() {
+    Vec way = way_out();
+    const Vec v = velocity();
+    if (!is_plane(a()) && !is_plane(b()) && v.norm() > 0) {
+      way -= v.normalized() * v.normalized().dot(way);
+      way.normalize();
+    }
+    b().position += way * (2 * reach() + v.norm());
+    const double gap = sign() * random_.log_uniform(1e-12, 1e-3);
+    pull(0, 1, 0);
+    pull(0, 1, gap);
+  }
+
+  Vec normal() const { return normal_; }
+  Vec tangent() {
+    const Vec any = random_.direction() * random_.log_uniform(family_.least_travel, family_.most_travel);
+    return any - normal_ * normal_.dot(any);
+  }
+
+  void turn_on_contact() {
+    const MovingShape<double> shape(b().shape, b().pose(), Sweep{});
+    const TurnedShape<double> turned(shape, 0.0);
+    if (shape.is_halfspace()) return;
+    const Vec contact = eigen(turned.corner({-normal_.x(), -normal_.y(), -normal_.z()}));
+    const Vec arm = contact - normal_ * shape.radius();
+    if (!(arm.norm() > 0)) return;
+    pair_.sweep_a.rotation.setZero();
+    pair_.sweep_b.rotation = (arm.normalized() * family_.most_turn).cast<float>();
+  }
+
+  MotionFamily family_;
+  KindPair kinds_;
+  Random random_;
+  ConvexRandom shapes_;
+  MovedPair pair_;
+  double size_ = 1;
+  Vec normal_ = Vec::UnitX();  // from A to B, where B was placed beside it
+};
+
+inline std::vector<MovedPair> make_motions(const MotionFamily& family, const KindPair& kinds,
+                                           size_t count, uint64_t seed = 1) {
+  MotionMaker maker(family, kinds, seed);
+  std::vector<MovedPair> pairs;
+  for (size_t i = 0; i < count; ++i) pairs.push_back(maker.next());
+  return pairs;
+}
+
+}  // namespace carom::test
