@@ -20,11 +20,11 @@ struct MeetingTime {
   R time;  // until there it is above; not "none": there it is not
 };
 
-// Goes from one end to the other in steps that are proven to be free: conservative advancement along
-// the normal, which for shapes that do not turn is Newton's method on a convex function.
+// Goes from one end to the other in steps that are proven to be free: conservative advancement
+// along the normal, which for shapes that do not turn is Newton's method on a convex function.
 template <class R>
 MeetingTime<R> first_meeting(const MovingPair<R>& pair, R from, const R& to, const R& floor) {
-  constexpr int kMostSteps = 5000;
+  constexpr int kMostSteps = 1000;
   for (int step = 0; step < kMostSteps; ++step) {
     const MotionMoment<R> moment(pair, from, floor);
     if (moment.is_below(floor)) return {Meeting::found, from};
@@ -58,7 +58,7 @@ ImpactBracket<R> bracket_impact(const MovingPair<R>& pair) {
 template <class R>
 struct LeastSeparation {
   R time;
-  R value;  // signed
+  R value;         // signed
   Vec3<R> normal;  // of the pair as the oracle has it: a half-space is B
 };
 
@@ -67,10 +67,10 @@ struct LeastSeparation {
 template <class R>
 LeastSeparation<R> least_separation(const MovingPair<R>& pair, R from, R to) {
   const R ratio = (std::sqrt(R(5)) - 1) / 2;
-  const auto at = [&](const R& t) { return MotionMoment<R>(pair, t, -pair.rounding()); };
+  const auto at = [&](const R& t) { return MotionMoment<R>(pair, t, -pair.rounding(), R(0)); };
   R left = to - (to - from) * ratio, right = from + (to - from) * ratio;
   R gap_left = at(left).upper(), gap_right = at(right).upper();
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 60 && to > from; ++i) {
     if (gap_left <= gap_right) {
       to = std::exchange(right, left);
       gap_right = gap_left;
@@ -112,6 +112,7 @@ inline constexpr double kAllowedGap = 1e-11;  // of the size and the travel
 template <class R>
 class ImpactJudge {
  public:
+  // The pair is to outlive the judge.
   explicit ImpactJudge(const MovingPair<R>& pair) : pair_(pair) {}
 
   // Shapes overlap by more than rounding before `end`.

@@ -47,13 +47,10 @@ class MovingPair {
   const R& travel() const { return travel_; }
   // What double precision may lose of a separation.
   R rounding() const { return 64 * R(0x1p-52) * (size_ + travel_ + reach_); }
-  // By how much points of both, seen along a direction that turns by `spin` over the interval, may
-  // bend off a straight way: half of this times the square of the time.
-  R bend(const Vec& spin) const {
-    const R angle = length(spin);
-    const R way = angle * (angle * distance_ + 2 * length(velocity_));
-    return way + bend(a_, spin, angle) + bend(b_, spin, angle);
-  }
+  // By how much the way from one position to the other, seen along a direction that turns by
+  // `angle` over the interval, may bend off a straight one: half of this times the square of the
+  // time.
+  R bend(const R& angle) const { return angle * (angle * distance_ + 2 * length(velocity_)); }
 
  private:
   void measure() {
@@ -70,13 +67,6 @@ class MovingPair {
     }
   }
 
-  // Nothing of a shape bends that turns with the direction.
-  static R bend(const MovingShape<R>& shape, const Vec& spin, const R& angle) {
-    const Vec apart = shape.spin() - spin;
-    if (dot(apart, apart) == 0) return R(0);
-    return (shape.angle() + angle) * (shape.angle() + angle) * shape.core_reach();
-  }
-
   bool is_swapped_;
   MovingShape<R> a_, b_;
   Vec between_, velocity_;
@@ -91,15 +81,16 @@ class MotionMoment {
  public:
   using Vec = Vec3<R>;
 
-  // `floor`: the separation need not be known better than to say which side of it it is on.
-  MotionMoment(const MovingPair<R>& pair, const R& t, const R& floor)
+  // `floor`: shapes that are above it for certain are not measured by trying everything; those that
+  // are far above only up to `share` of their separation.
+  MotionMoment(const MovingPair<R>& pair, const R& t, const R& floor, const R& share = R(1) / 1024)
       : pair_(pair), time_(t), a_(pair.a(), t), b_(pair.b(), t), between_(pair.between(t)) {
     if (pair.is_halfspace()) {
       look_along(-b_.normal());
       upper_ = lower_;
       return;
     }
-    search();
+    search(share);
     if (!is_above(floor) && !is_below(floor)) try_everything();
   }
 
@@ -120,13 +111,13 @@ class MotionMoment {
   R free_span(const R& delta, const R& floor) const {
     if (!(lower_ > floor)) return R(0);
     const Vec spin_a = pair_.a().spin(), spin_b = pair_.b().spin();
-    if (pair_.is_halfspace()) return longer_span(R(0), delta, floor, spin_b);
-    R span = longer_span(R(0), delta, floor, Vec{});
+    if (pair_.is_halfspace()) return longer_span(R(0), delta, floor, View(spin_b));
+    R span = longer_span(R(0), delta, floor, View(Vec{}));
     if (!(pair_.a().angle() > 0 || pair_.b().angle() > 0)) return span;
     const Vec edge_a = edge(a_, R(1)), edge_b = edge(b_, R(-1));
     for (const Vec& spin : {spin_a, spin_b, spin_with(edge_a, Vec{}), spin_with(Vec{}, edge_b),
                             spin_with(edge_a, edge_b)}) {
-      span = longer_span(span, delta, floor, spin);
+      span = longer_span(span, delta, floor, View(spin));
     }
     return span;
   }
@@ -154,25 +145,41 @@ class MotionMoment {
     return cross(normal_, tilt);
   }
 
-  // A lower bound of the separation at the time later by `delta`: what the points do along the
-  // normal, each taken to go on straight, less their bend. Concave in `delta`.
-  R lower_after(const R& delta, const Vec& spin, const R& bend) const {
-    const Vec tilt = cross(spin, normal_);
-    const auto towards = [&](const MovingShape<R>& shape) {
-      return normal_ + (tilt + cross(normal_, shape.spin())) * delta;
-    };
+  // A direction that starts as the normal and turns with constant velocity.
+  struct View {
+    Vec spin;
+    R angle;
+
+    explicit View(const Vec& turn) : spin(turn), angle(length(turn)) {}
+  };
+
+  // A lower bound of the separation at the time later by `delta`, seen along such a direction: all
+  // points are taken to go on straight, and to bend off towards each other as they may. Concave in
+  // `delta`.
+  R lower_after(const R& delta, const View& view) const {
+    const Vec tilt = cross(view.spin, normal_);
     const R speed = dot(normal_, pair_.velocity()) + dot(tilt, between_);
-    R gap = dot(normal_, between_) + speed * delta - bend * delta * delta / 2;
-    gap = gap - a_.reach(towards(pair_.a())) - pair_.radii();
+    R gap = dot(normal_, between_) + speed * delta - pair_.bend(view.angle) * delta * delta / 2;
+    gap = gap - pair_.radii() - reach_after(delta, view, pair_.a(), a_, R(1));
     if (pair_.is_halfspace()) return gap - pair_.b().offset();
-    return gap - b_.reach(-towards(pair_.b()));
+    return gap - reach_after(delta, view, pair_.b(), b_, R(-1));
   }
 
-  // At least `inner`, more if the normal that turns shows it: false position (Illinois) on a concave
-  // function, aimed a little above the floor, as rounding might deny a span that ends there.
-  R longer_span(R inner, const R& delta, const R& floor, const Vec& spin) const {
-    const R bend = pair_.bend(spin);
-    const auto gap_after = [&](const R& t) { return lower_after(t, spin, bend) - floor; };
+  // Nothing of a shape bends if the direction turns with it.
+  R reach_after(const R& delta, const View& view, const MovingShape<R>& shape,
+                const TurnedShape<R>& turned, const R& side) const {
+    const Vec apart = shape.spin() - view.spin;
+    const Vec way = (normal_ - cross(apart, normal_) * delta) * side;
+    const bool is_bent = dot(apart, apart) > 0;
+    const R turn = is_bent ? (shape.angle() + view.angle) * delta : R(0);
+    return turned.reach(way, turn * turn / 2, view.angle == 0);
+  }
+
+  // At least `inner`, more if the normal that turns shows it: false position (Illinois) on a
+  // concave function, aimed a little above the floor, as rounding might deny a span that ends
+  // there.
+  R longer_span(R inner, const R& delta, const R& floor, const View& view) const {
+    const auto gap_after = [&](const R& t) { return lower_after(t, view) - floor; };
     R outer = delta, outer_gap = gap_after(delta);
     if (outer_gap > 0) return delta;
     R inner_gap = gap_after(inner);
@@ -197,13 +204,15 @@ class MotionMoment {
 
   void look_along(const Vec& normal) {
     normal_ = normal;
-    lower_ = lower_after(R(0), Vec{}, R(0));
+    lower_ = lower_after(R(0), View(Vec{}));
   }
 
-  void search() {
+  void search(const R& share) {
     const R radii = pair_.radii(), exact = pair_.rounding() / 1024;
-    const auto support = [&](const Vec& way) { return between_ + b_.corner(way) - a_.corner(-way); };
-    const auto enough = [&](const R& lower) { return std::max<R>(exact, (lower - radii) / 1024); };
+    const auto support = [&](const Vec& way) {
+      return between_ + b_.corner(way) - a_.corner(-way);
+    };
+    const auto enough = [&](const R& lower) { return std::max<R>(exact, (lower - radii) * share); };
     const DistanceProof<R> proof = distance_from_origin<R>(support, enough);
     normal_ = proof.normal;
     lower_ = proof.lower - radii;

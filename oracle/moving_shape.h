@@ -12,8 +12,8 @@
 
 namespace carom::oracle {
 
-// In coordinates relative to the body's position, which moves: what is left is the rotation. Not for
-// several threads at once.
+// In coordinates relative to the body's position, which moves: what is left is the rotation. Not
+// for several threads at once.
 template <class R>
 class MovingShape {
  public:
@@ -26,12 +26,12 @@ class MovingShape {
     } else {
       place(all());
     }
-    for (const Vec& p : points_) core_reach_ = std::max<R>(core_reach_, length(p));
-    if (!is_halfspace_) bounding_radius_ = core_reach_ + radius_;
-    if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Aabb>(shape)) return;
-    spin_ = vec3_as<R>(sweep.rotation);
+    if (!std::holds_alternative<Sphere>(shape) && !std::holds_alternative<Aabb>(shape)) {
+      spin_ = vec3_as<R>(sweep.rotation);
+    }
     axis_ = normalized(spin_);
     angle_ = length(spin_);
+    measure();
   }
 
   // At the start: the core's points, and what is around them.
@@ -56,6 +56,9 @@ class MovingShape {
   // The rotation vector over the interval; zero for what does not turn.
   const Vec& spin() const { return spin_; }
   const R& angle() const { return angle_; }
+  // Of the points, from the position and from the axis (zero for what does not turn).
+  const std::vector<R>& arms() const { return arms_; }
+  const std::vector<R>& axis_arms() const { return axis_arms_; }
   Rotation<R> turn(const R& t) const { return {axis_, angle_ * t}; }
 
   // With all its features, at a time.
@@ -86,12 +89,22 @@ class MovingShape {
     for (const Eigen::Vector3f& p : points) points_.push_back(turn(vec3_as<R>(p)));
   }
 
+  void measure() {
+    for (const Vec& p : points_) {
+      arms_.push_back(length(p));
+      axis_arms_.push_back(length(cross(axis_, p)));
+      core_reach_ = std::max<R>(core_reach_, arms_.back());
+    }
+    if (!is_halfspace_) bounding_radius_ = core_reach_ + radius_;
+  }
+
   carom::Shape shape_;
   Pose pose_;
   std::vector<Vec> points_;
   R radius_{0}, offset_{0}, bounding_radius_{0}, core_reach_{0}, angle_{0};
   bool is_halfspace_ = false;
   Vec normal_, spin_, axis_;
+  std::vector<R> arms_, axis_arms_;
   mutable std::optional<ConvexShape<R>> all_;
 };
 
@@ -106,8 +119,18 @@ class TurnedShape {
 
   // The core's point that is furthest along a direction.
   Vec corner(const Vec& way) const { return is_turned_ ? turn_(best(way)) : best(way); }
-  // How far that is, times the length of the direction.
-  R reach(const Vec& way) const { return dot(corner(way), way); }
+  // How far any point is along a direction, times the length of that, and `bend` times its arm
+  // (from the axis, or from the position if the direction turns as well).
+  R reach(const Vec& way, const R& bend, bool is_from_axis) const {
+    const auto& arms = is_from_axis ? shape_.axis_arms() : shape_.arms();
+    const Vec local = is_turned_ ? turn_.back(way) : way;
+    R most = -std::numeric_limits<R>::infinity();
+    for (size_t i = 0; i < shape_.points().size(); ++i) {
+      const R x = dot(shape_.points()[i], local) + (bend > 0 ? bend * arms[i] : R(0));
+      if (x > most) most = x;
+    }
+    return most;
+  }
   // From the point that is furthest along a direction to the next one; zero if there is none.
   Vec ridge(const Vec& way) const {
     const Vec local = is_turned_ ? turn_.back(way) : way;

@@ -34,8 +34,13 @@ KnownMotions read_known(const std::string& path) {
   EXPECT_TRUE(reader) << reader.error().message;
   if (!reader) return {};
   const auto numbers = [&](const char* name) { return read_column<double>(*reader, name); };
-  return {numbers("toi_lo"), numbers("toi_hi"),  numbers("min_separation"),          numbers("L"),
-          numbers("travel"), numbers("closing"), read_column<uint8_t>(*reader, "state")};
+  return {numbers("toi_lo"),
+          numbers("toi_hi"),
+          numbers("min_separation"),
+          numbers("L"),
+          numbers("travel"),
+          numbers("closing"),
+          read_column<uint8_t>(*reader, "state")};
 }
 
 struct MovingBody {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "oracle/convex_random.h"
 #include "oracle/motion_oracle.h"
 #include "tests/support/kind_pairs.h"
+#include "tests/support/show.h"
 
 namespace carom::test {
 
@@ -26,6 +28,25 @@ template <class R>
 MovingPair<R> moving_pair(const MovedPair& pair) {
   const auto& [a, b] = pair.bodies;
   return {a.shape, a.pose(), pair.sweep_a, b.shape, b.pose(), pair.sweep_b};
+}
+
+inline Judgement judge(const MovedPair& pair, float toi) {
+  const auto& [a, b] = pair.bodies;
+  return judge_impact(a.shape, a.pose(), pair.sweep_a, b.shape, b.pose(), pair.sweep_b, toi);
+}
+
+// Whether they meet before a time that may be any earlier one.
+inline Judgement judge_bound(const MovedPair& pair, float toi) {
+  const auto moving = moving_pair<long double>(pair);
+  return ImpactJudge<long double>(moving).late(toi);
+}
+
+// When they meet first; in long double where double does not tell.
+inline ImpactBracket<double> impact(const MovedPair& pair) {
+  const ImpactBracket<double> found = bracket_impact(moving_pair<double>(pair));
+  if (found.meeting != Meeting::unknown) return found;
+  const auto wide = bracket_impact(moving_pair<long double>(pair));
+  return {wide.meeting, static_cast<double>(wide.low), static_cast<double>(wide.high)};
 }
 
 inline std::string show(const MovedPair& pair) {
@@ -51,16 +72,19 @@ struct MotionFamily {
   PositionType positions = PositionType::float32;
   double smallest = 0.5;  // sizes, log-uniform
   double largest = 2;
-  double ratio = 1;          // of the sizes of the two
-  double aspect = 4;         // of lengths, radii and halves
-  double least_travel = 1;   // displacements in sizes, log-uniform
-  double most_travel = 10;   // 0: none
-  double most_turn = 0;      // radians, of each
-  double distance = 0;       // of A from the origin, in sizes
-  bool degenerate = false;   // zero radii, zero lengths, flat boxes, triangles without area
+  double ratio = 1;              // of the sizes of the two
+  double aspect = 4;             // of lengths, radii and halves
+  double least_travel = 4;       // displacements in sizes, log-uniform
+  double most_travel = 20;       // 0: none
+  double most_turn = 0;          // radians, of each
+  double distance = 0;           // of A from the origin, in sizes
+  bool degenerate = false;       // zero radii, zero lengths, flat boxes, triangles without area
   bool near_parallel = false;    // rotations that differ by 0, 1e-8 or 1e-4
   bool through_contact = false;  // B turns about an axis through where it is nearest to A
 };
+
+// Names tests that fail.
+inline void PrintTo(const MotionFamily& family, std::ostream* out) { *out << family.name; }
 
 // Aimed motions that tests of hit rates can rely on.
 inline std::vector<MotionFamily> plain_motions() {
@@ -131,7 +155,7 @@ class MotionMaker {
     make_sweeps();
     switch (family_.plan) {
       case MotionPlan::aimed:
-        aim(random_.chance(0.35) ? 0 : 1.4);
+        aim(random_.chance(0.25) ? 0 : most_miss());
         break;
       case MotionPlan::grazing:
         aim(1);
@@ -177,8 +201,8 @@ class MotionMaker {
     a().shape = shapes_.shape(kinds_.a, size_);
     b().shape = shapes_.shape(kinds_.b, size_b);
     a().orientation = shapes_.orientation();
-    b().orientation = family_.near_parallel ? turned_a_little(a().orientation)
-                                            : shapes_.orientation();
+    b().orientation =
+        family_.near_parallel ? turned_a_little(a().orientation) : shapes_.orientation();
     a().position = stored(random_.direction() * family_.distance * size_);
     b().position = a().position;
     size_ = std::max(size_, size_b);
@@ -215,12 +239,25 @@ class MotionMaker {
 
   // ---- placing B
 
-  // A point of each meets at some time, or passes by as far as `miss` times both sizes.
+  // Round shapes fill what they reach.
+  double most_miss() const {
+    return kinds_.a == ShapeKind::sphere || kinds_.b == ShapeKind::sphere ? 2.5 : 1.5;
+  }
+
+  // A point of each meets at some time, or passes by as far as `miss` times both sizes. What moves
+  // into a half-space may reach it after the end.
   void aim(double miss) {
-    const double t = family_.most_travel == 0 ? 0 : random_.uniform(0.02, 1);
+    const bool has_plane = is_plane(a()) || is_plane(b());
+    if (has_plane) move_inwards();
+    const double t = family_.most_travel == 0 ? 0 : random_.uniform(0.1, has_plane ? 2.5 : 1);
     const Vec on_a = point_in(a(), pair_.sweep_a, t), on_b = point_in(b(), pair_.sweep_b, t);
     const Vec beside = random_.direction() * random_.uniform(0, miss) * reach();
     b().position = stored(a().position + on_a - on_b - velocity() * t + beside);
+  }
+
+  void move_inwards() {
+    const Vec out = is_plane(a()) ? plane_normal(a()) : -plane_normal(b());
+    if (out.dot(velocity()) > 0) std::swap(pair_.sweep_a.displacement, pair_.sweep_b.displacement);
   }
 
   // How far both reach from their positions; of half-spaces it does not count.
@@ -241,7 +278,9 @@ class MotionMaker {
       const Vec n = eigen(shape.normal());
       point += n * (shape.offset() - n.dot(point));
     } else {
-      const auto corner = [&] { return eigen(shape.points()[random_.below(shape.points().size())]); };
+      const auto corner = [&] {
+        return eigen(shape.points()[random_.below(shape.points().size())]);
+      };
       const Vec from = corner();
       point = from + (corner() - from) * random_.uniform(0, 1);
     }
@@ -257,53 +296,51 @@ class MotionMaker {
 
   // B beside A, this far from it in sizes.
   void place_near(double gap) {
-    b().position = a().position + way_out() * (3 * reach() + 3 * size_);
-    Sweep sweep_a = pair_.sweep_a, sweep_b = pair_.sweep_b;
-    pull(0, 0, gap);
-    pair_.sweep_a = sweep_a;
-    pair_.sweep_b = sweep_b;
+    b().position = a().position + way_out(2 * reach() + size_);
+    pull(0, gap);
   }
 
-  // Moves B by the least separation, which is to be positive, in a part of the interval.
-  void pull(double from, double to, double gap) {
+  // Moves B by the least separation until a time, which is to be positive.
+  void pull(double until, double gap) {
     const MovingPair<double> moving = moving_pair<double>(pair_);
-    const LeastSeparation<double> least = least_separation<double>(moving, from, to);
+    const LeastSeparation<double> least = least_separation<double>(moving, 0, until);
     normal_ = eigen(least.normal) * (moving.is_swapped() ? -1 : 1);
     b().position = stored(b().position - normal_ * (least.value - gap * size_));
   }
 
-  // Where B has room beside A.
-  Vec way_out() {
-    const Vec any = random_.direction();
-    if (is_plane(a())) return (plane_normal(a()) + 0.9 * any).normalized() * plane_factor(a());
-    if (is_plane(b())) return (0.9 * any - plane_normal(b())).normalized() * plane_factor(b());
+  // From A to where B is clear of it, if both reach as far as this.
+  Vec way_out(double reach) {
+    const Vec any = random_.direction() * reach;
+    if (is_plane(a())) return any * 0.9 + out_of(a(), 2 * reach);
+    if (is_plane(b())) return any * 0.9 - out_of(b(), 2 * reach);
     return any;
+  }
+  static Vec out_of(const PlacedShape& plane, double height) {
+    const MovingShape<double> shape(plane.shape, plane.pose(), Sweep{});
+    return plane_normal(plane) * (shape.offset() + height);
   }
   static Vec plane_normal(const PlacedShape& plane) {
     return eigen(MovingShape<double>(plane.shape, plane.pose(), Sweep{}).normal());
   }
-  // Far enough for planes that are not where their body is.
-  static double plane_factor(const PlacedShape& plane) {
-    return 20 + 0 * plane.position.x();
-  }
 
-  // As far from the way as it takes to pass by, and back again.
+  // As far from its way as it takes to pass by, and back again.
   void graze() {
-    Vec way = way_out();
     const Vec v = velocity();
-    if (!is_plane(a()) && !is_plane(b()) && v.norm() > 0) {
-      way -= v.normalized() * v.normalized().dot(way);
-      way.normalize();
+    Vec way = way_out(2 * reach() + v.norm());
+    if (is_plane(a()) || is_plane(b())) {
+      b().position = a().position + way;
+    } else {
+      if (v.norm() > 0) way -= v.normalized() * v.normalized().dot(way);
+      b().position += way;
     }
-    b().position += way * (2 * reach() + v.norm());
-    const double gap = sign() * random_.log_uniform(1e-12, 1e-3);
-    pull(0, 1, 0);
-    pull(0, 1, gap);
+    pull(1, 0);
+    pull(1, sign() * random_.log_uniform(1e-12, 1e-3));
   }
 
   Vec normal() const { return normal_; }
   Vec tangent() {
-    const Vec any = random_.direction() * random_.log_uniform(family_.least_travel, family_.most_travel);
+    const double travel = random_.log_uniform(family_.least_travel, family_.most_travel);
+    const Vec any = random_.direction() * travel;
     return any - normal_ * normal_.dot(any);
   }
 

@@ -1,0 +1,96 @@
+// One-sided triangles are met by what first touches them with its middle in front.
+#include <gtest/gtest.h>
+
+#include "tests/support/impacts.h"
+
+namespace carom::test {
+namespace {
+
+// Of a triangle's back, at a time, how far the other one's middle is in front; of a half-space, how
+// much its normal looks to the back. Zero for triangles without area.
+double in_front(const MovedPair& pair, double time) {
+  const auto& [a, b] = pair.bodies;
+  const auto& triangle = std::get<Triangle>(a.shape);
+  const MovingShape<double> sheet(a.shape, a.pose(), pair.sweep_a);
+  const MovingShape<double> other(b.shape, b.pose(), pair.sweep_b);
+  const auto& corners = sheet.points();
+  const Vec3<double> front =
+      sheet.turn(time)(normalized(cross(corners[1] - corners[0], corners[2] - corners[0])));
+  if (other.is_halfspace()) return -dot(front, other.turn(time)(other.normal()));
+  const Vec3<double> between = moving_pair<double>(pair).between(time);
+  const Vec3<double> way =
+      between + other.turn(time)(other.middle()) - sheet.turn(time)(corners[0]);
+  return dot(front, way) + triangle.thickness;
+}
+
+// Triangle, and anything but a triangle; what the other one does at the first touch is plain.
+struct Approach {
+  MovedPair pair;
+  bool is_impact;
+};
+
+std::vector<Approach> approaches(ShapeKind other, size_t count) {
+  std::vector<Approach> all;
+  MotionMaker maker(plain_motions()[1], {ShapeKind::triangle, other}, 1);
+  while (all.size() < count) {
+    MovedPair pair = maker.next();
+    std::get<Triangle>(pair.bodies.a.shape).one_sided = true;
+    const ImpactBracket<double> touch = impact(pair);
+    if (touch.meeting == Meeting::none) {
+      all.push_back({pair, false});
+      continue;
+    }
+    const double size = moving_pair<double>(pair).size();
+    const double height = in_front(pair, touch.low);
+    if (std::fabs(height) > 1e-6 * size) all.push_back({pair, height > 0});
+  }
+  return all;
+}
+
+TEST(OneSidedTriangles, AreMetFromTheFrontAlone) {
+  for (const ShapeKind other : kConvexKinds) {
+    if (other == ShapeKind::triangle) continue;
+    SCOPED_TRACE(name(other));
+    size_t impacts = 0, count = 0;
+    for (const Approach& approach : approaches(other, 100)) {
+      SCOPED_TRACE(show(approach.pair));
+      const ImpactRow row = impact_of(approach.pair);
+      EXPECT_EQ(row.is_impact(), approach.is_impact) << show(row);
+      EXPECT_EQ(impact_of(swapped(approach.pair)).toi, row.toi);
+      if (approach.is_impact) {
+        EXPECT_EQ(judge(approach.pair, row.toi).fault, Fault::none) << show(row);
+      }
+      if (HasFailure()) return;
+      impacts += row.is_impact();
+      ++count;
+    }
+    EXPECT_GE(impacts, count / 8);
+    EXPECT_LE(impacts, count * 7 / 8);
+  }
+}
+
+// Through the back and out of the front: it has passed.
+TEST(OneSidedTriangles, LetPassWhatComesFromBehind) {
+  MovedPair pair{{triangle({0, 0, 0}, {Eigen::Vector3f(-2, -2, 0), Eigen::Vector3f(2, -2, 0),
+                                       Eigen::Vector3f(0, 2, 0)}),
+                  sphere(0, 0, -4, 1)},
+                 {},
+                 {}};
+  std::get<Triangle>(pair.bodies.a.shape).one_sided = true;
+  pair.sweep_b.displacement = {0, 0, 8};
+  for (const float thickness : {0.0f, 0.5f}) {
+    std::get<Triangle>(pair.bodies.a.shape).thickness = thickness;
+    EXPECT_EQ(impact_of(pair).toi, kNever);
+    EXPECT_EQ(impact_of(swapped(pair)).toi, kNever);
+  }
+  pair.bodies.b.position.z() = 4;
+  pair.sweep_b.displacement = {0, 0, -8};
+  EXPECT_NEAR(impact_of(pair).toi, 0.375, 1e-6);
+  // It has its middle behind at the start, and leaves to the front.
+  pair.bodies.b.position.z() = -0.75;
+  pair.sweep_b.displacement = {0, 0, 8};
+  EXPECT_EQ(impact_of(pair).toi, kNever);
+}
+
+}  // namespace
+}  // namespace carom::test
