@@ -1,11 +1,12 @@
-// Judges times of impact, and finds them. Half-proofs are enough to judge: that two shapes stay
-// apart is shown by directions along which they do, that they meet by points of both.
+// Judges times of impact, and finds them, with proof up to rounding: that two shapes stay apart is
+// shown by directions along which they do, that they meet by points of both.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "oracle/moving_pair.h"
 
@@ -17,7 +18,7 @@ enum class Meeting : uint8_t { none, found, unknown };
 template <class R>
 struct MeetingTime {
   Meeting meeting;
-  R time;  // until there it is above; not "none": there it is not
+  R time;  // until then it is above; where it was found, not then
 };
 
 // Goes from one end to the other in steps that are proven to be free: conservative advancement

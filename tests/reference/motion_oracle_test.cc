@@ -52,7 +52,7 @@ TEST(MotionOracleTest, JudgesWhatItFinds) {
   for (const MotionFamily& family : families) {
     for (const KindPair& kinds : convex_kind_pairs()) {
       SCOPED_TRACE(std::string(family.name) + " " + name(kinds));
-      for (const MovedPair& pair : make_motions(family, kinds, rounds(8), ++seed)) {
+      for (const MovedPair& pair : make_motions(family, kinds, rounds(5), ++seed)) {
         SCOPED_TRACE(show(pair));
         check_judgement(pair, family.through_contact);
         if (testing::Test::HasFailure()) return;

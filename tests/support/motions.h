@@ -182,6 +182,11 @@ class MotionMaker {
  private:
   using Vec = Eigen::Vector3d;
 
+  struct Shapes {
+    Shape a, b;
+    double size;  // of the larger one
+  };
+
   PlacedShape& a() { return pair_.bodies.a; }
   PlacedShape& b() { return pair_.bodies.b; }
   bool is_plane(const PlacedShape& body) const {
@@ -195,17 +200,30 @@ class MotionMaker {
   // ---- bodies and sweeps
 
   void make_bodies() {
-    size_ = random_.log_uniform(family_.smallest, family_.largest);
-    const double size_b = size_ * random_.log_uniform(1 / family_.ratio, family_.ratio);
+    const Shapes& shapes = some_shapes();
+    size_ = shapes.size;
     pair_ = {};
-    a().shape = shapes_.shape(kinds_.a, size_);
-    b().shape = shapes_.shape(kinds_.b, size_b);
+    a().shape = shapes.a;
+    b().shape = shapes.b;
     a().orientation = shapes_.orientation();
     b().orientation =
         family_.near_parallel ? turned_a_little(a().orientation) : shapes_.orientation();
     a().position = stored(random_.direction() * family_.distance * size_);
     b().position = a().position;
-    size_ = std::max(size_, size_b);
+  }
+
+  // New ones mostly at first, then known ones mostly: hulls take long to make.
+  const Shapes& some_shapes() {
+    constexpr size_t kEnough = 256;
+    const bool is_full = stock_.size() == kEnough;
+    if (is_full && random_.chance(0.95)) return stock_[random_.below(kEnough)];
+    if (!is_full) stock_.emplace_back();
+    Shapes& shapes = is_full ? stock_[random_.below(kEnough)] : stock_.back();
+    const double size_a = random_.log_uniform(family_.smallest, family_.largest);
+    const double size_b = size_a * random_.log_uniform(1 / family_.ratio, family_.ratio);
+    shapes = {shapes_.shape(kinds_.a, size_a), shapes_.shape(kinds_.b, size_b),
+              std::max(size_a, size_b)};
+    return shapes;
   }
 
   Eigen::Quaternionf turned_a_little(const Eigen::Quaternionf& q) {
@@ -359,6 +377,7 @@ class MotionMaker {
   KindPair kinds_;
   Random random_;
   ConvexRandom shapes_;
+  std::vector<Shapes> stock_;
   MovedPair pair_;
   double size_ = 1;
   Vec normal_ = Vec::UnitX();  // from A to B, where B was placed beside it
