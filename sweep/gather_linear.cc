@@ -12,7 +12,7 @@ class RowWriter {
 
   void put(double value) {
     *next_ = value;
-    next_ += LinearRows::kMost;
+    next_ += LinearRows::kStride;
   }
   template <class Vector>
   void put3(const Vector& v) {
@@ -128,8 +128,6 @@ bool gather_pair(const MovingReader& a, const MovingReader& b, Pair pair, Linear
                  size_t row) {
   using NumbersOfA = Numbers<kA>;
   constexpr size_t kFirstOfA = LinearRows::kPairColumns;
-  // No vectors of Eigen here: what is stored as numbers and loaded as vectors waits for the stores
-  // (capsules: 40 ns a pair).
   const Double3 way = way_between(a, b, pair);
   Double3 from = place_between(a, b, pair);
   const Double3 offset_a = NumbersOfA::offset(a.body(), pair.a);

@@ -21,7 +21,7 @@ class RowReader {
 
   HWY_INLINE D number() {
     const D value = hn::Load(DoubleTag(), next_);
-    next_ += LinearRows::kMost;
+    next_ += LinearRows::kStride;
     return value;
   }
   HWY_INLINE D3 vector() {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/reference/reference.h"
 #include "carom/sweep/time_of_impact.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
@@ -195,12 +196,32 @@ inline std::vector<ImpactRow> run_impacts(std::span<const MovedPair> pairs,
   return rows;
 }
 
-// What every way of calling has to write, to the bit: each pair by itself, without vectors.
+inline ImpactRow row_of(const reference::Impact& impact) {
+  const auto numbers = [](const Eigen::Vector3f& v) { return std::array{v.x(), v.y(), v.z()}; };
+  return {impact.toi,
+          impact.separation,
+          numbers(impact.normal),
+          numbers(impact.arm_a),
+          numbers(impact.arm_b),
+          impact.sub_a,
+          impact.sub_b,
+          static_cast<uint32_t>(impact.status)};
+}
+
+// What every way of calling has to write, to the bit: the reference's answers; in world
+// coordinates, which it does not have, those of each pair by itself, without vectors.
 inline std::vector<ImpactRow> expected_impacts(std::span<const MovedPair> pairs,
                                                const ImpactCall& call) {
   const ForcedIsa scalar(Isa::scalar);
   std::vector<ImpactRow> rows;
-  for (const MovedPair& pair : pairs) rows.push_back(run_impacts({&pair, 1}, call)[0]);
+  for (const MovedPair& pair : pairs) {
+    const auto& [a, b] = pair.bodies;
+    rows.push_back(
+        call.frame == WitnessFrame::world
+            ? run_impacts({&pair, 1}, call)[0]
+            : row_of(reference::time_of_impact(a.shape, a.pose(), pair.sweep_a, b.shape, b.pose(),
+                                               pair.sweep_b, call.layout.positions)));
+  }
   return rows;
 }
 
