@@ -43,7 +43,7 @@ class Recorder {
 
  private:
   void note_events() {
-    std::array<uint64_t, 3> counts{};
+    std::array<uint64_t, kEventKindCount> counts{};
     for (const Event& event : world_.events()) ++counts[static_cast<size_t>(event.kind)];
     for (size_t kind = 0; kind < counts.size(); ++kind) {
       record_.events[kind].push_back(counts[kind]);

@@ -26,11 +26,11 @@ struct RunRecord {
   std::vector<uint64_t> kept;
   std::vector<uint64_t> dropped;
   std::vector<uint64_t> quarantined;
-  std::array<std::vector<uint64_t>, 3> events;  // by EventKind
-  std::vector<uint32_t> quarantined_bodies;     // in any frame, ascending
-  std::vector<uint64_t> searched;               // bodies whose pairs were searched
-  PairSearch search;                            // of the last frame
-  uint32_t stages_run = 0;                      // in any frame
+  std::array<std::vector<uint64_t>, kEventKindCount> events;  // by EventKind
+  std::vector<uint32_t> quarantined_bodies;                   // in any frame, ascending
+  std::vector<uint64_t> searched;                             // bodies whose pairs were searched
+  PairSearch search;                                          // of the last frame
+  uint32_t stages_run = 0;                                    // in any frame
   StateHash hash;
 };
 

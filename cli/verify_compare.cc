@@ -61,7 +61,7 @@ const T* find(std::span<const T> list, Pair pair) {
 }
 
 std::string event_text(const Event& event) {
-  constexpr const char* kKinds[] = {"begin", "persist", "end"};
+  constexpr const char* kKinds[kEventKindCount] = {"begin", "persist", "end", "impact"};
   return std::string(kKinds[static_cast<size_t>(event.kind)]) +
          (event.sensor ? " of a sensor" : "") + ", contact " +
          (event.contact == kNoContact ? "none" : std::to_string(event.contact));

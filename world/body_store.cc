@@ -52,11 +52,14 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   visit(self.kind_, true, 1, ShapeKind::sphere);
   visit(self.records32_, !is_float64, 4, 0.0f);
   visit(self.records64_, is_float64, 4, 0.0);
-  visit(self.velocity_, self.has_velocities_, 1, Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  const Eigen::Vector3f at_rest = Eigen::Vector3f::Zero();
+  visit(self.velocity_, self.has_velocities_, 1, at_rest);
+  visit(self.angular_velocity_, self.has_angular_velocities_, 1, at_rest);
   optional(self.box_slot_, 0u);
   optional(self.first_row_, 0u);
   optional(self.orientation_, kIdentity);
   optional(self.motion_, Motion::dynamic);
+  optional(self.detection_, Detection::discrete);
   optional(self.layer_, kEverything);
   optional(self.mask_, kEverything);
   optional(self.owner_, 0u);
@@ -96,6 +99,10 @@ BodyId BodyStore::add(const BodyDesc& body) {
   if (has_velocities_ || !body.linear_velocity.isZero(0)) {
     set_linear_velocity(index, body.linear_velocity);
   }
+  if (has_angular_velocities_ || !body.angular_velocity.isZero(0)) {
+    set_angular_velocity(index, body.angular_velocity);
+  }
+  store_detection(index, body.detection);
   touch(index, kReplaced);
   return id_of(index);
 }
@@ -103,6 +110,7 @@ BodyId BodyStore::add(const BodyDesc& body) {
 void BodyStore::remove(BodyId id) {
   const uint32_t index = id.index;
   touch(index, kReplaced);
+  store_detection(index, Detection::discrete);
   count_kind(index, -1);
   change_kind(index, ShapeKind::sphere);
   if (!geometry_.empty()) geometry_[index].reset();
@@ -313,6 +321,35 @@ std::span<Eigen::Vector3f> BodyStore::linear_velocities() {
   has_velocities_ = true;
   velocity_.resize(rows(), Eigen::Vector3f::Zero());
   return velocity_;
+}
+
+Eigen::Vector3f BodyStore::angular_velocity(uint32_t index) const {
+  return !has_angular_velocities_ ? Eigen::Vector3f::Zero().eval() : angular_velocity_[index];
+}
+
+void BodyStore::set_angular_velocity(uint32_t index, const Eigen::Vector3f& velocity) {
+  angular_velocities()[index] = velocity;
+}
+
+std::span<Eigen::Vector3f> BodyStore::angular_velocities() {
+  has_angular_velocities_ = true;
+  angular_velocity_.resize(rows(), Eigen::Vector3f::Zero());
+  return angular_velocity_;
+}
+
+Detection BodyStore::detection(uint32_t index) const {
+  return detection_.empty() ? Detection::discrete : detection_[index];
+}
+
+void BodyStore::set_detection(uint32_t index, Detection detection) {
+  store_detection(index, detection);
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::store_detection(uint32_t index, Detection detection) {
+  detected_ -= this->detection(index) != Detection::discrete;
+  detected_ += detection != Detection::discrete;
+  set_row(detection_, rows(), index, detection, Detection::discrete);
 }
 
 Collidables BodyStore::view() const {

@@ -52,6 +52,10 @@ class BodyStore {
   void set_user(uint32_t index, uint64_t user);
   Eigen::Vector3f linear_velocity(uint32_t index) const;
   void set_linear_velocity(uint32_t index, const Eigen::Vector3f& velocity);
+  Eigen::Vector3f angular_velocity(uint32_t index) const;
+  void set_angular_velocity(uint32_t index, const Eigen::Vector3f& velocity);
+  Detection detection(uint32_t index) const;
+  void set_detection(uint32_t index, Detection detection);
 
   // The arrays themselves.
   std::vector<float>& records32() { return records32_; }
@@ -64,6 +68,10 @@ class BodyStore {
   std::span<const Row> shape_rows() const { return {rows_.data(), row_pool_.end()}; }
   std::span<Eigen::Vector3f> linear_velocities();
   bool has_velocities() const { return has_velocities_; }
+  std::span<Eigen::Vector3f> angular_velocities();
+  bool has_angular_velocities() const { return has_angular_velocities_; }
+  // Some body has a detection that is not discrete.
+  bool has_detections() const { return detected_ > 0; }
 
   // What the stages read.
   bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
@@ -101,6 +109,7 @@ class BodyStore {
   void add_halfspace(uint32_t index);
   void remove_halfspace(uint32_t index);
   void resize_rows();
+  void store_detection(uint32_t index, Detection detection);
   float radius(uint32_t index) const;
   void set_radius(uint32_t index, float radius);
 
@@ -138,8 +147,11 @@ class BodyStore {
   std::vector<uint32_t> layer_, mask_, owner_;
   std::vector<uint8_t> sensor_;
   std::vector<uint64_t> user_;
-  std::vector<Eigen::Vector3f> velocity_;
+  std::vector<Detection> detection_;
+  size_t detected_ = 0;  // living bodies of which it is not discrete
+  std::vector<Eigen::Vector3f> velocity_, angular_velocity_;
   bool has_velocities_ = false;
+  bool has_angular_velocities_ = false;
 };
 
 }  // namespace carom

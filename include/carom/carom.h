@@ -9,6 +9,7 @@
 #include "carom/kernel/dop.h"
 #include "carom/kernel/dop_bounds.h"
 #include "carom/kernel/event.h"
+#include "carom/kernel/impact.h"
 #include "carom/kernel/mesh_geometry.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"

@@ -21,6 +21,15 @@ struct BodyId {
 
 enum class Motion : uint8_t { fixed = 0, kinematic = 1, dynamic = 2 };
 
+// How a body is looked after between this step and the next, by World. The interval that a step
+// looks ahead over is WorldSettings::dt, and a body's motion in it is velocity x dt.
+enum class Detection : uint8_t {
+  discrete,    // as it is now, and no other way
+  swept,       // a candidate with everything it may reach; near ones are speculative contacts
+  continuous,  // and when it meets each of them is found: impacts
+  automatic,   // each step continuous if it moves far for its size, otherwise discrete
+};
+
 // Storage of positions, chosen once a world (or a call) from what the scene needs.
 enum class PositionType : uint8_t { float32, float64 };
 
@@ -38,7 +47,9 @@ struct BodyDesc {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               // world frame, metres
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();  // as in Pose
   Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();        // world frame, metres a second
+  Eigen::Vector3f angular_velocity = Eigen::Vector3f::Zero();       // world frame, radians a second
   Motion motion = Motion::dynamic;
+  Detection detection = Detection::discrete;
   uint32_t layer = 0xffffffffu;
   uint32_t mask = 0xffffffffu;
   uint32_t owner = 0;   // 0: none
