@@ -1,8 +1,4 @@
 // Bodies -> world bounds.
-//
-// Source of the exact sum: D. E. Knuth, The Art of Computer Programming, volume 2, section 4.2.2,
-// theorem B (TwoSum): the rounding error of a sum of two floats is itself a float, and six
-// operations yield it.
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -10,49 +6,13 @@
 #include "carom/reference/reference.h"
 #include "kernel/dop_polytope.h"
 #include "kernel/float_environment.h"
+#include "reference/exact_sum.h"
 #include "reference/turned_extent.h"
 
 namespace carom::reference {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kLargest = std::numeric_limits<float>::max();
-
-float step_down(float x) { return std::nextafter(x, -kInfinity); }
-float step_up(float x) { return std::nextafter(x, kInfinity); }
-
-template <class Real>
-struct ExactSum {
-  Real sum;    // rounded
-  Real error;  // sum + error = a + b without rounding
-};
-
-template <class Real>
-ExactSum<Real> two_sum(Real a, Real b) {
-  const Real sum = a + b;
-  const Real rounded_b = sum - a;
-  const Real rounded_a = sum - rounded_b;
-  return {sum, (a - rounded_a) + (b - rounded_b)};
-}
-
-// The largest float that is not above the exact sum. (Where it is not a float, the error is at most
-// half a unit: the next float below the rounded sum is the one.)
-float round_down(const ExactSum<float>& s) { return s.error < 0 ? step_down(s.sum) : s.sum; }
-
-float round_down(const ExactSum<double>& s) {
-  const float rounded = static_cast<float>(s.sum);
-  const bool is_above = rounded > s.sum || (rounded == s.sum && s.error < 0);
-  return is_above ? step_down(rounded) : rounded;
-}
-
-// The smallest float that is not below the exact sum.
-float round_up(const ExactSum<float>& s) { return s.error > 0 ? step_up(s.sum) : s.sum; }
-
-float round_up(const ExactSum<double>& s) {
-  const float rounded = static_cast<float>(s.sum);
-  const bool is_below = rounded < s.sum || (rounded == s.sum && s.error > 0);
-  return is_below ? step_up(rounded) : rounded;
-}
 
 // Corners relative to the position.
 Aabb extent(const Sphere& sphere, const Eigen::Quaternionf&) {
@@ -64,17 +24,12 @@ Aabb extent(const Turned& shape, const Eigen::Quaternionf& orientation) {
   return turned_extent(shape, orientation);
 }
 
-// Sums beyond the range of float32 round to infinity, which is not below them (or above): the
-// largest float is.
-float lower_corner(float x) { return x == kInfinity ? kLargest : x; }
-float upper_corner(float x) { return x == -kInfinity ? -kLargest : x; }
-
 template <class Real>
 Box bounds_at(const Aabb& extent, const Eigen::Vector3<Real>& position) {
   Box box;
   for (int i = 0; i < 3; ++i) {
-    box.lower[i] = lower_corner(round_down(two_sum<Real>(position[i], extent.lower[i])));
-    box.upper[i] = upper_corner(round_up(two_sum<Real>(position[i], extent.upper[i])));
+    box.lower[i] = sum_down<Real>(position[i], extent.lower[i]);
+    box.upper[i] = sum_up<Real>(position[i], extent.upper[i]);
   }
   return box;
 }

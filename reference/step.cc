@@ -7,6 +7,8 @@
 #include "kernel/float_environment.h"
 #include "narrowphase/length_ref.h"
 #include "reference/events.h"
+#include "reference/impacts.h"
+#include "reference/motion.h"
 #include "reference/pairs.h"
 
 namespace carom::reference {
@@ -14,27 +16,43 @@ namespace {
 
 Pose pose_of(const BodyDesc& desc) { return {desc.position, desc.orientation}; }
 
-// The bodies that take part: those that have bounds, and half-spaces.
-struct Participants {
-  std::vector<const Body*> bodies;
-  std::vector<Box> boxes;
-  std::vector<const Body*> halfspaces;
-  std::vector<Plane> planes;
+// A body that has bounds, with those of now and of the interval ahead.
+struct Participant {
+  const Body* body;
+  BodyMotion motion;
+  Box now;
+  Box ahead;
 };
 
-Participants participants(std::span<const Body> bodies, PositionType positions,
+struct HalfspaceParticipant {
+  const Body* body;
+  BodyMotion motion;
+  Plane now;
+  Plane ahead;
+};
+
+struct Participants {
+  std::vector<Participant> bodies;
+  std::vector<HalfspaceParticipant> halfspaces;
+};
+
+Participants participants(std::span<const Body> bodies, PositionType positions, const Ahead& ahead,
                           std::vector<BodyId>& quarantined) {
   Participants result;
   for (const Body& body : bodies) {
     const Pose pose = pose_of(body.desc);
     if (!is_valid(body.desc.shape, pose, positions)) {
       quarantined.push_back(body.id);
-    } else if (const auto* halfspace = std::get_if<Halfspace>(&body.desc.shape)) {
-      result.halfspaces.push_back(&body);
-      result.planes.push_back(world_plane(*halfspace, pose, positions));
+      continue;
+    }
+    const BodyMotion motion = motion_of(body.desc, ahead);
+    if (const auto* halfspace = std::get_if<Halfspace>(&body.desc.shape)) {
+      const Plane plane = world_plane(*halfspace, pose, positions);
+      result.halfspaces.push_back({&body, motion, plane, plane_over(plane, motion.sweep)});
     } else {
-      result.bodies.push_back(&body);
-      result.boxes.push_back(bounds(body.desc.shape, pose, positions));
+      const Box box = bounds(body.desc.shape, pose, positions);
+      result.bodies.push_back(
+          {&body, motion, box, box_over(box, body.desc, motion.sweep, positions)});
     }
   }
   return result;
@@ -44,23 +62,41 @@ Participants participants(std::span<const Body> bodies, PositionType positions,
 struct Candidate {
   const Body* a;
   const Body* b;
+  const BodyMotion* motion_a;
+  const BodyMotion* motion_b;
+  bool meet_now;  // their bounds do
 };
 
-Candidate in_order(const Body* a, const Body* b) {
-  return a->id.index < b->id.index ? Candidate{a, b} : Candidate{b, a};
+// Two bodies, not in order.
+Candidate in_order(const Body* x, const BodyMotion& of_x, const Body* y, const BodyMotion& of_y,
+                   bool meet_now) {
+  if (x->id.index < y->id.index) return {x, y, &of_x, &of_y, meet_now};
+  return {y, x, &of_y, &of_x, meet_now};
 }
 
-// Bodies whose bounds overlap, and those that reach into half-spaces; sorted.
+// If one of the bodies looks ahead, what meets on the way is a candidate.
+bool is_candidate(const Candidate& pair) {
+  return pair.meet_now || pair.motion_a->looks_ahead() || pair.motion_b->looks_ahead();
+}
+
+// Bodies whose bounds meet, and those that reach into half-spaces; sorted.
 std::vector<Candidate> candidates(const Participants& all) {
   std::vector<Candidate> result;
-  for (const Pair& rows : overlapping_pairs(all.boxes)) {
-    result.push_back({all.bodies[rows.a], all.bodies[rows.b]});
+  const auto add = [&](const Candidate& pair) {
+    if (is_candidate(pair)) result.push_back(pair);
+  };
+  std::vector<Box> boxes;
+  for (const Participant& p : all.bodies) boxes.push_back(p.ahead);
+  for (const Pair& rows : overlapping_pairs(boxes)) {
+    const Participant& a = all.bodies[rows.a];
+    const Participant& b = all.bodies[rows.b];
+    add({a.body, b.body, &a.motion, &b.motion, overlap(a.now, b.now)});
   }
   if (all.halfspaces.empty()) return result;
-  for (size_t h = 0; h < all.halfspaces.size(); ++h) {
-    for (size_t i = 0; i < all.bodies.size(); ++i) {
-      if (!may_reach(all.boxes[i], all.planes[h])) continue;
-      result.push_back(in_order(all.halfspaces[h], all.bodies[i]));
+  for (const HalfspaceParticipant& h : all.halfspaces) {
+    for (const Participant& p : all.bodies) {
+      if (!may_reach(p.ahead, h.ahead)) continue;
+      add(in_order(h.body, h.motion, p.body, p.motion, may_reach(p.now, h.now)));
     }
   }
   std::sort(result.begin(), result.end(), [](const Candidate& x, const Candidate& y) {
@@ -88,20 +124,22 @@ Contact contact_between(const Body& a, const Body& b, const PairResult& result, 
   return contact;
 }
 
-// Tests one pair and records what it yields.
-void test_pair(const Body& a, const Body& b, PositionType positions, Detail detail, bool velocities,
-               Frame& frame) {
-  const PairResult result =
-      collide(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc), positions);
-  frame.overlaps.push_back(result.overlap ? 1 : 0);
-  if (!result.overlap) return;
+// What of a frame does not depend on the pair.
+struct Settings {
+  PositionType positions;
+  Detail detail;
+  bool velocities;
+  Ahead ahead;
+};
 
+void add_overlap(const Body& a, const Body& b, const PairResult& result, const Settings& settings,
+                 Frame& frame) {
   const bool sensor = a.desc.sensor || b.desc.sensor;
   Event touch{a.id, b.id, kNoContact, EventKind::begin, sensor};
-  if (has_contacts(detail) && !sensor) {
+  if (has_contacts(settings.detail) && !sensor) {
     touch.contact = static_cast<uint32_t>(frame.contacts.size());
-    frame.contacts.push_back(contact_between(a, b, result, velocities));
-    if (detail == Detail::manifold) {
+    frame.contacts.push_back(contact_between(a, b, result, settings.velocities));
+    if (settings.detail == Detail::manifold) {
       frame.contacts.back().manifold_count = result.manifold_count;
       frame.manifolds.push_back(result.manifold);
     }
@@ -109,20 +147,52 @@ void test_pair(const Body& a, const Body& b, PositionType positions, Detail deta
   frame.touching.push_back(touch);
 }
 
+// Tests one pair and records what it yields. Bounds that lie apart are believed.
+void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
+  const Body& a = *pair.a;
+  const Body& b = *pair.b;
+  const PairResult result =
+      collide(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc), settings.positions);
+  const bool overlap = result.overlap && pair.meet_now;
+  frame.overlaps.push_back(overlap ? 1 : 0);
+  if (overlap) add_overlap(a, b, result, settings, frame);
+  if (!pair.motion_a->looks_ahead() && !pair.motion_b->looks_ahead()) return;
+  look_ahead({a, b, *pair.motion_a, *pair.motion_b}, result, overlap, settings.positions,
+             settings.detail, settings.ahead.dt, frame);
+}
+
+void add_impact_events(std::span<const Body> bodies, Frame& frame) {
+  const auto id_of = [&](uint32_t index) {
+    const auto body = std::lower_bound(
+        bodies.begin(), bodies.end(), index,
+        [](const Body& candidate, uint32_t wanted) { return candidate.id.index < wanted; });
+    return body->id;
+  };
+  for (size_t i = 0; i < frame.impacts.size(); ++i) {
+    const carom::Impact& impact = frame.impacts[i];
+    frame.events.push_back({id_of(impact.a), id_of(impact.b), static_cast<uint32_t>(i),
+                            EventKind::impact, impact.sensor});
+  }
+}
+
 }  // namespace
 
 Frame step(std::span<const Body> bodies, PositionType positions, Detail detail, bool velocities,
-           const Frame* previous) {
+           const Frame* previous, const Ahead& ahead) {
   const FloatEnvironment environment;
   Frame frame;
-  const Participants all = participants(bodies, positions, frame.quarantined);
-  for (const auto& [a, b] : candidates(all)) {
-    if (!may_meet(a->desc, b->desc)) continue;
-    frame.pairs.push_back({a->id.index, b->id.index});
-    if (detail != Detail::pairs) test_pair(*a, *b, positions, detail, velocities, frame);
+  const Participants all = participants(bodies, positions, ahead, frame.quarantined);
+  for (const Candidate& pair : candidates(all)) {
+    if (!may_meet(pair.a->desc, pair.b->desc)) continue;
+    frame.pairs.push_back({pair.a->id.index, pair.b->id.index});
+    if (detail != Detail::pairs) {
+      test_pair(pair, {positions, detail, velocities, ahead}, frame);
+    }
   }
+  settle(ahead.impacts, frame.impacts);
   const std::vector<Event> none;
   frame.events = events(previous ? previous->touching : none, frame.touching);
+  add_impact_events(bodies, frame);
   return frame;
 }
 

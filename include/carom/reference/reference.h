@@ -10,6 +10,7 @@
 #include "carom/kernel/bounds.h"
 #include "carom/kernel/contact.h"
 #include "carom/kernel/event.h"
+#include "carom/kernel/impact.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/sweep.h"
 #include "carom/kernel/views.h"
@@ -84,14 +85,23 @@ struct Frame {
   std::vector<uint8_t> overlaps;
   std::vector<Contact> contacts;
   std::vector<ManifoldPoints> manifolds;  // at Detail::manifold one a contact, else none
+  std::vector<carom::Impact> impacts;
+  std::vector<Contact> speculative;
   std::vector<Event> events;
   std::vector<BodyId> quarantined;
   std::vector<Event> touching;  // what the next frame needs of this one: the overlaps with ids
 };
 
+// What a frame looks ahead by: as WorldSettings say.
+struct Ahead {
+  double dt = 1.0 / 60;
+  float fast_share = 0.5f;
+  Impacts impacts = Impacts::earliest;
+};
+
 // `previous` is the frame before; nullptr: there was none. `velocities`: contacts carry normal
 // velocities. Every pair of boxes is looked at: O(n^2).
 CAROM_EXPORT Frame step(std::span<const Body> bodies, PositionType positions, Detail detail,
-                        bool velocities, const Frame* previous);
+                        bool velocities, const Frame* previous, const Ahead& ahead = {});
 
 }  // namespace carom::reference

@@ -1,0 +1,114 @@
+#include "reference/shape_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "carom/kernel/compound_geometry.h"
+#include "carom/kernel/mesh_geometry.h"
+#include "kernel/dop_polytope.h"
+#include "kernel/hull_features.h"
+
+namespace carom::reference {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kLargest = std::numeric_limits<float>::max();
+
+double length(const Vector3d& v) {
+  return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
+}
+double length(const Vector3f& v) { return length(v.cast<double>().eval()); }
+
+// Of the furthest corner of a box.
+double reach_of_box(const Vector3f& lower, const Vector3f& upper) {
+  return length(lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).eval());
+}
+
+double reach(const Sphere& sphere) { return sphere.radius; }
+double reach(const Aabb& box) { return reach_of_box(box.lower, box.upper); }
+double reach(const Capsule& c) { return std::max(length(c.a), length(c.b)) + c.radius; }
+double reach(const carom::Box& box) { return length(box.half); }
+double reach(const Triangle& t) {
+  const auto& c = t.corners;
+  return std::max({length(c[0]), length(c[1]), length(c[2])}) + t.thickness;
+}
+double reach(const Halfspace&) { return kInfinity; }
+double reach(const Dop& dop) {
+  const DopSlabs slabs(dop);
+  const DopPolytope polytope(slabs);
+  double furthest = 0;
+  for (const Double3& p : polytope.points()) {
+    furthest = std::max(furthest, length(Vector3d(p[0], p[1], p[2])));
+  }
+  return furthest + kDopRounding * slabs.with_tight_axes().size();
+}
+double reach(const Hull& hull) {
+  double furthest = 0;
+  for (const Vector3f& p : hull.geometry->points()) furthest = std::max(furthest, length(p));
+  return furthest;
+}
+double reach(const Mesh& mesh) {
+  return reach_of_box(mesh.geometry->lower(), mesh.geometry->upper());
+}
+double reach(const Compound& compound) {
+  return reach_of_box(compound.geometry->lower(), compound.geometry->upper());
+}
+
+double diameter(const Sphere& sphere) { return 2 * double{sphere.radius}; }
+double diameter(const Aabb& box) {
+  return (box.upper.cast<double>() - box.lower.cast<double>()).minCoeff();
+}
+double diameter(const Capsule& capsule) { return 2 * double{capsule.radius}; }
+double diameter(const carom::Box& box) { return 2 * double{box.half.minCoeff()}; }
+double diameter(const Triangle&) { return 0; }
+double diameter(const Halfspace&) { return kInfinity; }
+// Of a ball around the middle of the first three slabs.
+double diameter(const Dop& dop) {
+  const auto middle_of = [&](size_t slab) {
+    return (double{dop.lower[slab]} + double{dop.upper[slab]}) / 2;
+  };
+  const Vector3d middle(middle_of(0), middle_of(1), middle_of(2));
+  double radius = kInfinity;
+  const auto directions = slab_directions(dop.kind);
+  for (size_t slab = 0; slab < directions.size(); ++slab) {
+    const auto& [x, y, z] = directions[slab];
+    const double height = x * middle.x() + y * middle.y() + z * middle.z();
+    const double room = std::min(dop.upper[slab] - height, height - dop.lower[slab]);
+    radius = std::min(radius, room / std::sqrt(x * x + y * y + z * z));
+  }
+  return 2 * std::max(radius, 0.0);
+}
+double diameter(const Hull& hull) {
+  const HullFeatures* features = hull.geometry->features();
+  return features ? 2 * double{features->inner_radius()} : 0;
+}
+double diameter(const Mesh&) { return 0; }
+double diameter(const Compound& compound) {
+  double least = kInfinity;
+  for (const CompoundChild& child : compound.geometry->children()) {
+    least = std::min(least, inner_diameter(child.shape));
+  }
+  return least;
+}
+
+}  // namespace
+
+// One float further than the nearest from above, which covers what is rounded above.
+float bounding_radius(const Shape& shape) {
+  const double exact =
+      std::min(std::visit([](const auto& s) { return reach(s); }, shape), double{kLargest});
+  const auto nearest = static_cast<float>(exact);
+  const float above = nearest < exact ? std::nextafter(nearest, kLargest) : nearest;
+  return std::nextafter(above, kLargest);
+}
+
+double inner_diameter(const Shape& shape) {
+  return std::visit([](const auto& s) { return diameter(s); }, shape);
+}
+
+}  // namespace carom::reference
