@@ -30,14 +30,18 @@ inline float next_down(float v) {
 }
 inline float next_up(float v) { return -next_down(-v); }
 
-// The largest float32 <= x; x is not beyond the range of float32. Without a branch that depends on
-// how x rounds, which it does at random.
+// next_down(v) or v. How sums round is anybody's guess: no branch depends on it.
+inline float step_down_if(bool is_above, float v) {
+  if (v == 0) return is_above ? next_down(0) : v;
+  const auto bits = std::bit_cast<int32_t>(v);
+  const int32_t step = is_above ? 1 : 0;
+  return std::bit_cast<float>(bits + (bits < 0 ? step : -step));
+}
+
+// The largest float32 <= x; x is not beyond the range of float32.
 inline float round_downwards(double x) {
   const auto rounded = static_cast<float>(x);
-  if (rounded == 0) return x < 0 ? next_down(0) : rounded;
-  const auto bits = std::bit_cast<int32_t>(rounded);
-  const int32_t step = rounded > x ? 1 : 0;
-  return std::bit_cast<float>(bits + (bits < 0 ? step : -step));
+  return step_down_if(rounded > x, rounded);
 }
 
 // The largest float32 <= a + b. In float64, first the exact sum, then its rounding.
@@ -46,8 +50,9 @@ float sum_downwards(T a, T b) {
   const TwoSum<T> exact(a, b);
   const float rounded = static_cast<float>(exact.sum);
   const T back = static_cast<T>(rounded);
-  const bool above = back > exact.sum || (back == exact.sum && exact.error < 0);
-  return std::fmin(above ? next_down(rounded) : rounded, FLT_MAX);
+  const bool is_above = (back > exact.sum) | ((back == exact.sum) & (exact.error < 0));
+  const float sum = step_down_if(is_above, rounded);
+  return sum < FLT_MAX ? sum : FLT_MAX;
 }
 
 // The smallest float32 >= a + b.
@@ -56,8 +61,9 @@ float sum_upwards(T a, T b) {
   const TwoSum<T> exact(a, b);
   const float rounded = static_cast<float>(exact.sum);
   const T back = static_cast<T>(rounded);
-  const bool below = back < exact.sum || (back == exact.sum && exact.error > 0);
-  return std::fmax(below ? next_up(rounded) : rounded, -FLT_MAX);
+  const bool is_below = (back < exact.sum) | ((back == exact.sum) & (exact.error > 0));
+  const float sum = -step_down_if(is_below, -rounded);
+  return sum > -FLT_MAX ? sum : -FLT_MAX;
 }
 
 }  // namespace carom
