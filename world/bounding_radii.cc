@@ -83,6 +83,8 @@ float round_upwards(double reach) {
   return std::min(next_up(above), FLT_MAX);
 }
 
+}  // namespace
+
 float bounding_radius(const BodyReader& reader, size_t i) {
   const ShapeKind kind = reader.kind(i);
   if (kind == ShapeKind::sphere) return reader.radius(i);
@@ -94,8 +96,6 @@ float bounding_radius(const BodyReader& reader, size_t i) {
   const std::array<Row, kMostRows> rows = reader.rows(i);
   return are_valid_rows(kind, rows.data()) ? round_upwards(rows_reach(kind, rows)) : 0;
 }
-
-}  // namespace
 
 void BoundingRadii::update(const BodyStore& bodies, const ChangeTracker* changes,
                            Parallelism parallelism) {

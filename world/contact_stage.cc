@@ -12,21 +12,6 @@ namespace {
 
 constexpr size_t kFloatColumns = 10;
 
-bool is_empty(const BoundsView& bounds, uint32_t body) {
-  return bounds.lower[0][body] > bounds.upper[0][body];
-}
-
-// Empty bounds are those of half-spaces.
-bool bounds_may_overlap(const BoundsView& bounds, Pair pair) {
-  if (is_empty(bounds, pair.a) || is_empty(bounds, pair.b)) return true;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const float* lower = bounds.lower[axis];
-    const float* upper = bounds.upper[axis];
-    if (!(lower[pair.a] <= upper[pair.b] && lower[pair.b] <= upper[pair.a])) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail, bool sub_shapes) {
@@ -55,11 +40,11 @@ ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail, bool sub_shapes
   return columns;
 }
 
-void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const BoundsView& bounds,
+void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
                                 Parallelism parallelism) {
   for_each_block(rows_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      if (overlap_[i] && !bounds_may_overlap(bounds, pairs[i])) overlap_[i] = 0;
+      if (overlap_[i] && !bounds.meet(pairs[i])) overlap_[i] = 0;
     }
   });
 }

@@ -8,6 +8,7 @@
 #include "carom/kernel/parallelism.h"
 #include "world/body_store.h"
 #include "world/pair_history.h"
+#include "world/present_bounds.h"
 
 namespace carom {
 
@@ -19,8 +20,8 @@ class ResultBuffer {
   ResultColumns prepare(size_t pairs, Detail detail, bool sub_shapes);
 
   // Bounds are exact, tests are not: pairs whose bounds lie apart do not overlap, even where the
-  // rounded result of the test touches. Pairs of half-spaces, whose boxes are empty, stay.
-  void reject_apart(const std::vector<Pair>& pairs, const BoundsView& bounds,
+  // rounded result of the test touches.
+  void reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
                     Parallelism parallelism);
 
   uint8_t overlap(size_t row) const { return overlap_[row]; }

@@ -53,6 +53,17 @@ void EventStage::run(const PairHistory& last, const PairHistory& now, const Body
   lists_.concatenate(events, parallelism);
 }
 
+void EventStage::add_impacts(std::span<const Impact> impacts, const BodyStore& bodies,
+                             std::vector<Event>& events) {
+  for (size_t i = 0; i < impacts.size(); ++i) {
+    events.push_back({.a = bodies.id_of(impacts[i].a),
+                      .b = bodies.id_of(impacts[i].b),
+                      .contact = static_cast<uint32_t>(i),
+                      .kind = EventKind::impact,
+                      .sensor = impacts[i].sensor});
+  }
+}
+
 void EventStage::remember(const BodyStore& bodies) {
   resize_and_give_back(generation_, bodies.rows());  // new rows are touched
   for (const uint32_t index : bodies.touched_indices()) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "carom/kernel/event.h"
+#include "carom/kernel/impact.h"
 #include "carom/kernel/parallelism.h"
 #include "kernel/block_lists.h"
 #include "world/body_store.h"
@@ -18,6 +20,10 @@ class EventStage {
   // `last` may be `now` itself: nothing changed, and every overlap persists.
   void run(const PairHistory& last, const PairHistory& now, const BodyStore& bodies,
            Parallelism parallelism, std::vector<Event>& events);
+
+  // Adds one event for each impact, in their order.
+  static void add_impacts(std::span<const Impact> impacts, const BodyStore& bodies,
+                          std::vector<Event>& events);
 
   // Remembers the generations of all bodies, which name the bodies of ended overlaps next time.
   void remember(const BodyStore& bodies);

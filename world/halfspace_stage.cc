@@ -1,6 +1,7 @@
 #include "world/halfspace_stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "broadphase/merge_pairs.h"
@@ -8,6 +9,26 @@
 #include "world/columns.h"
 
 namespace carom {
+namespace {
+
+// Everything that the half-space covers at some time. One that turns sweeps over all that is far
+// enough away.
+WorldHalfspace covered(WorldHalfspace halfspace, const Sweep& sweep) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!sweep.rotation.isZero(0)) {
+    halfspace.limit = kInfinity;
+    return halfspace;
+  }
+  const Eigen::Vector3d d = sweep.displacement.cast<double>();
+  if (d.isZero(0)) return halfspace;
+  const auto& n = halfspace.normal;
+  const double along = (n[0] * d.x() + n[1] * d.y()) + n[2] * d.z();
+  const double error = halfspace.slack * ((std::abs(d.x()) + std::abs(d.y())) + std::abs(d.z()));
+  halfspace.limit = std::nextafter(halfspace.limit + std::max(along + error, 0.0), kInfinity);
+  return halfspace;
+}
+
+}  // namespace
 
 void HalfspaceStage::set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds) {
   halfspaces_.clear();
@@ -23,9 +44,30 @@ void HalfspaceStage::set_aside(const BodyStore& bodies, std::array<std::vector<f
   }
 }
 
+void HalfspaceStage::sweep(const Sweeps& sweeps) {
+  swept_.clear();
+  for (const WorldHalfspace& halfspace : halfspaces_) {
+    swept_.push_back(covered(halfspace, sweeps.sweep(halfspace.body)));
+  }
+}
+
+void HalfspaceStage::stay() { swept_.clear(); }
+
+bool HalfspaceStage::reaches(uint32_t body, const BoundsView& bounds, uint32_t other) const {
+  const auto halfspace =
+      std::lower_bound(halfspaces_.begin(), halfspaces_.end(), body,
+                       [](const WorldHalfspace& h, uint32_t index) { return h.body < index; });
+  double corner[3];  // the lowest along the normal
+  for (size_t axis = 0; axis < 3; ++axis) {
+    corner[axis] = (halfspace->normal[axis] >= 0 ? bounds.lower : bounds.upper)[axis][other];
+  }
+  return may_hold(*halfspace, corner[0], corner[1], corner[2]);
+}
+
 void HalfspaceStage::drop_all() {
   if (bytes() == 0) return;
   halfspaces_ = {};
+  swept_ = {};
   search_.reset();
   other_pairs_ = {};
   own_pairs_ = {};
@@ -35,7 +77,8 @@ void HalfspaceStage::add_pairs(const BoundsView& bounds, const PairFilter& filte
                                size_t most_pairs, Parallelism parallelism, std::vector<Pair>& pairs,
                                PairSearch& search) {
   if (!search_) search_.emplace();
-  search.pairs += search_->find(halfspaces_, bounds, filter, most_pairs, parallelism, own_pairs_);
+  search.pairs += search_->find(swept_.empty() ? halfspaces_ : swept_, bounds, filter, most_pairs,
+                                parallelism, own_pairs_);
   search.complete = search.complete && search.pairs <= most_pairs;
   if (search.complete) {
     merge_pairs(other_pairs_, own_pairs_, parallelism, pairs);
@@ -64,8 +107,8 @@ void HalfspaceStage::give_back_beyond(size_t pairs) {
 }
 
 size_t HalfspaceStage::bytes() const {
-  return bytes_of(halfspaces_) + (search_ ? search_->bytes() : 0) + bytes_of(other_pairs_) +
-         bytes_of(own_pairs_);
+  return bytes_of(halfspaces_) + bytes_of(swept_) + (search_ ? search_->bytes() : 0) +
+         bytes_of(other_pairs_) + bytes_of(own_pairs_);
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include "broadphase/halfspace_pairs.h"
 #include "carom/broadphase/find_pairs.h"
 #include "world/body_store.h"
+#include "world/sweeps.h"
 
 namespace carom {
 
@@ -19,6 +20,13 @@ class HalfspaceStage {
 
   bool has_any() const { return !halfspaces_.empty(); }
   std::span<const WorldHalfspace> all() const { return halfspaces_; }  // by body index
+
+  // For a step that looks ahead: pairs are those that half-spaces and bodies may make on their way.
+  void sweep(const Sweeps& sweeps);
+  void stay();  // for one that does not
+
+  // Whether a box, that of `other`, reaches into the valid half-space of `body`, as they are now.
+  bool reaches(uint32_t body, const BoundsView& bounds, uint32_t other) const;
 
   // Where the pairs of all other bodies go to, if there are half-spaces.
   std::vector<Pair>& other_pairs() { return other_pairs_; }
@@ -39,6 +47,7 @@ class HalfspaceStage {
   void drop_all();
 
   std::vector<WorldHalfspace> halfspaces_;  // by body index
+  std::vector<WorldHalfspace> swept_;       // what each covers on its way; empty if they stay
   std::optional<HalfspaceSearch> search_;   // made on first use
   std::vector<Pair> other_pairs_, own_pairs_;
 };

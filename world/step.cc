@@ -41,6 +41,7 @@ const StepReport& World::State::step() {
   if (has_events() && !(still && was_still)) {  // otherwise all persists once more
     run(Stage::events, [&] {
       event_stage.run(still ? now : last, now, bodies, parallelism, events);
+      EventStage::add_impacts(impacts.impacts(), bodies, events);
       event_stage.remember(bodies);
     });
   }
@@ -54,9 +55,19 @@ const StepReport& World::State::step() {
 
 // Whether the step repeats the last one.
 bool World::State::is_still() {
-  if (!carries() && !(watches_rest() && rest_watch.is_on())) return false;
-  run(Stage::changes, [&] { find_changes(); });
-  return changes.all_unchanged();
+  const bool compares = compares_bodies();
+  if (compares || bodies.has_detections()) {
+    run(Stage::changes, [&] {
+      if (compares) find_changes();
+      if (bodies.has_detections()) find_sweeps();
+    });
+  }
+  if (!bodies.has_detections()) stop_looking_ahead();
+  return compares && changes.all_unchanged() && !sweeps.changed();
+}
+
+void World::State::find_sweeps() {
+  sweeps.update(bodies, settings.dt, settings.fast_share, settings.parallelism);
 }
 
 void World::State::find_changes() {
@@ -77,9 +88,14 @@ void World::State::find_all() {
     find_bounds();
     if (!carries()) update_radii(nullptr);
   });
+  if (looks_ahead()) {
+    run(Stage::sweeps, [&] { sweep_bounds(); });
+  } else {
+    forget_ahead();
+  }
   if (has_margin()) {
     run(Stage::margins,
-        [&] { fat_bounds.update(bounds_view(), settings.margin, settings.parallelism); });
+        [&] { fat_bounds.update(reach_view(), settings.margin, settings.parallelism); });
   }
   run(Stage::broadphase, [&] { find_pairs(); });
   if (settings.pair_changes || has_narrowphase()) run(Stage::pairs, [&] { compare_pairs(); });
@@ -89,6 +105,7 @@ void World::State::find_all() {
   run(Stage::results, [&] {
     contact_stage.run(plan, last, results, bodies, settings.detail, settings.parallelism, now);
   });
+  if (looks_ahead()) run(Stage::impacts, [&] { find_impacts(); });
 }
 
 // The broadphase knows what changed where it keeps something; a sample of the bodies tells the
@@ -113,8 +130,11 @@ void World::State::give_back_memory(size_t last_pairs) {
   directions.give_back_beyond(pairs);
   results.give_back_beyond(pairs);
   halfspaces.give_back_beyond(pairs);
+  sieve.give_back_beyond(pairs);
+  impacts.give_back_beyond(pairs);
+  speculative.give_back_beyond(pairs);
   event_stage.give_back_beyond(pairs);
-  give_back(events, pairs);
+  give_back(events, pairs + impacts.impacts().size());
 }
 
 void World::State::fill_report() {
@@ -127,6 +147,10 @@ void World::State::fill_report() {
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
   report.contacts = now.contacts.size();
   report.undecided = has_narrowphase() ? contact_stage.undecided() : 0;
+  report.swept = sweeps.swept();
+  report.unswept = sweeps.unswept();
+  report.impacts = impacts.impacts().size();
+  report.speculative = speculative.contacts().size();
   report.search = search;
 }
 
@@ -161,15 +185,24 @@ void World::State::find_quarantined() {
   }
 }
 
+void World::State::sweep_bounds() {
+  swept_bounds.update(bodies.view(), sweeps, bounds_view(), settings.parallelism);
+  halfspaces.sweep(sweeps);
+}
+
 void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
   finder.set_most_pairs(settings.most_pairs);
-  const BoundsView searched = has_margin() ? fat_bounds.view() : bounds_view();
+  const BoundsView searched = has_margin() ? fat_bounds.view() : reach_view();
   std::vector<Pair>& found = halfspaces.has_any() ? halfspaces.other_pairs() : now.pairs;
   search = finder.find(searched, bodies.filter(), found, settings.broadphase, settings.parallelism);
-  if (!halfspaces.has_any()) return;
-  halfspaces.add_pairs(bounds_view(), bodies.filter(), settings.most_pairs, settings.parallelism,
-                       now.pairs, search);
+  if (halfspaces.has_any()) {
+    halfspaces.add_pairs(reach_view(), bodies.filter(), settings.most_pairs, settings.parallelism,
+                         now.pairs, search);
+  }
+  if (!looks_ahead()) return;
+  sieve.run(sweeps, present_bounds(), settings.parallelism, now.pairs);
+  if (search.complete) search.pairs = now.pairs.size();
 }
 
 // The bodies whose pairs are to be tested again: one byte an index.
@@ -220,7 +253,7 @@ void World::State::test_pairs() {
   const bool remembers = uses_directions();
   uint32_t* const direction =
       remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
-  const Collidables view = has_proxies() ? proxies.view(bodies) : bodies.view();
+  const Collidables view = tested_shapes();
   const bool sub_shapes =
       !has_proxies() && (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
   collide_pairs(view, plan.pairs_to_test(now.pairs), settings.detail,
@@ -231,22 +264,49 @@ void World::State::test_pairs() {
   } else {
     now.direction.clear();
   }
-  if (has_margin()) {
-    results.reject_apart(plan.pairs_to_test(now.pairs), bounds_view(), settings.parallelism);
+  if (has_margin() || looks_ahead()) {
+    results.reject_apart(plan.pairs_to_test(now.pairs), present_bounds(), settings.parallelism);
   }
+}
+
+void World::State::find_impacts() {
+  const Collidables shapes = tested_shapes();
+  const BoundsView swept = swept_bounds.view();
+  const LookAhead ahead{settings, bodies, shapes, sweeps, swept, now};
+  impacts.run(ahead);
+  speculative.run(ahead);
+}
+
+// What was ahead of the last step. Memory is kept: bodies may be fast and slow in turns.
+void World::State::forget_ahead() {
+  halfspaces.stay();
+  impacts.clear();
+  speculative.clear();
+}
+
+// The last body with a detection went, or lost it.
+void World::State::stop_looking_ahead() {
+  if (sweeps.bytes() == 0) return;
+  forget_ahead();
+  sweeps = {};
+  swept_bounds = {};
+  sieve = {};
+  impacts = {};
+  speculative = {};
 }
 
 WorldMemory World::State::memory() const {
   WorldMemory memory;
   memory.bodies = bodies.bytes() + changes.bytes() + proxies.bytes() + motion_tolerance.bytes() +
-                  bytes_of(quarantined);
-  memory.bounds =
-      fat_bounds.bytes() + dops.record_bytes() + bounding_radii.bytes() + query_index.bytes();
+                  sweeps.bytes() + bytes_of(quarantined);
+  memory.bounds = swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
+                  bounding_radii.bytes() + query_index.bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
   memory.broadphase = finder.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              dops.pair_bytes() + directions.bytes() + results.bytes() +
-                             contact_stage.bytes() + event_stage.bytes() + bytes_of(events);
+                             contact_stage.bytes() + sieve.bytes() + impacts.bytes() +
+                             speculative.bytes() + event_stage.bytes() + bytes_of(events);
   return memory;
 }
 

@@ -11,8 +11,8 @@ namespace carom {
 
 const char* name(Stage stage) {
   static constexpr std::array<const char*, kStageCount> kNames = {
-      "changes", "bounds",      "margins", "broadphase", "pairs",
-      "dops",    "narrowphase", "results", "velocities", "events"};
+      "changes", "bounds",      "sweeps",  "margins", "broadphase", "pairs",
+      "dops",    "narrowphase", "results", "impacts", "velocities", "events"};
   return kNames[static_cast<size_t>(stage)];
 }
 
@@ -20,6 +20,7 @@ World::World(const WorldSettings& settings) : state_(std::make_unique<State>(set
   assert(std::isfinite(settings.margin) && settings.margin >= 0);
   [[maybe_unused]] const float tolerance = settings.accuracy.knobs.motion_tolerance;
   assert(std::isfinite(tolerance) && tolerance >= 0);
+  assert(std::isfinite(settings.dt) && settings.dt >= 0);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -108,6 +109,26 @@ void World::set_linear_velocity(BodyId id, const Eigen::Vector3f& velocity) {
   state_->bodies.set_linear_velocity(id.index, velocity);
 }
 
+Eigen::Vector3f World::angular_velocity(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.angular_velocity(id.index);
+}
+
+void World::set_angular_velocity(BodyId id, const Eigen::Vector3f& velocity) {
+  assert(contains(id));
+  state_->bodies.set_angular_velocity(id.index, velocity);
+}
+
+Detection World::detection(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.detection(id.index);
+}
+
+void World::set_detection(BodyId id, Detection detection) {
+  assert(contains(id));
+  state_->bodies.set_detection(id.index, detection);
+}
+
 Motion World::motion(BodyId id) const {
   assert(contains(id));
   return state_->bodies.motion(id.index);
@@ -179,6 +200,15 @@ uint32_t World::first_row(BodyId id) const {
 
 std::span<Eigen::Vector3f> World::linear_velocities() { return state_->bodies.linear_velocities(); }
 
+std::span<Eigen::Vector3f> World::angular_velocities() {
+  return state_->bodies.angular_velocities();
+}
+
+void World::set_dt(double dt) {
+  assert(std::isfinite(dt) && dt >= 0);
+  state_->settings.dt = dt;
+}
+
 const StepReport& World::step() { return state_->step(); }
 
 std::span<const Pair> World::pairs() const { return state_->now.pairs; }
@@ -186,6 +216,18 @@ std::span<const uint8_t> World::overlaps() const { return state_->now.overlaps; 
 std::span<const Contact> World::contacts() const { return state_->now.contacts; }
 std::span<const ManifoldPoints> World::manifolds() const { return state_->now.manifolds; }
 std::span<const Event> World::events() const { return state_->events; }
+std::span<const Impact> World::impacts() const { return state_->impacts.impacts(); }
+std::span<const Contact> World::speculative_contacts() const {
+  return state_->speculative.contacts();
+}
+
+// Another body may have got the index since the step.
+const Impact* World::first_impact(BodyId id) const {
+  assert(contains(id));
+  const bool is_new = (state_->bodies.touched(id.index) & BodyStore::kReplaced) != 0;
+  return is_new ? nullptr : state_->impacts.first_of(id.index);
+}
+
 std::span<const BodyId> World::quarantined() const { return state_->quarantined; }
 const StepReport& World::report() const { return state_->report; }
 

@@ -16,12 +16,19 @@
 #include "world/event_stage.h"
 #include "world/fat_bounds.h"
 #include "world/halfspace_stage.h"
+#include "world/impact_stage.h"
+#include "world/look_ahead.h"
 #include "world/motion_tolerance.h"
 #include "world/pair_changes.h"
 #include "world/pair_history.h"
+#include "world/pair_sieve.h"
+#include "world/present_bounds.h"
 #include "world/proxy_spheres.h"
 #include "world/query_index.h"
 #include "world/rest_watch.h"
+#include "world/speculative_stage.h"
+#include "world/sweeps.h"
+#include "world/swept_bounds.h"
 
 namespace carom {
 
@@ -40,6 +47,8 @@ struct World::State {
   QueryIndex query_index;
   PairHistory now;
   PairChanges pair_changes;
+  ImpactStage impacts;
+  SpeculativeStage speculative;
   std::vector<Event> events;
   std::vector<BodyId> quarantined;
 
@@ -60,6 +69,12 @@ struct World::State {
   bool carries() const { return settings.carry_results && has_narrowphase(); }
   // Without results to carry, comparing all bodies pays only where none of them moves.
   bool watches_rest() const { return settings.carry_results && !has_narrowphase(); }
+  bool compares_bodies() const { return carries() || (watches_rest() && rest_watch.is_on()); }
+  bool looks_ahead() const { return sweeps.any(); }
+  PresentBounds present_bounds() const { return {bounds_view(), halfspaces}; }
+  // What pairs are made of, but for margins.
+  BoundsView reach_view() const { return looks_ahead() ? swept_bounds.view() : bounds_view(); }
+  Collidables tested_shapes() const { return has_proxies() ? proxies.view(bodies) : bodies.view(); }
   bool uses_directions() const;
   bool needs_last() const { return carries() || has_events() || settings.pair_changes; }
 
@@ -67,6 +82,7 @@ struct World::State {
   void run(Stage stage, const Work& work);
   bool is_still();
   void find_changes();
+  void find_sweeps();
   void update_radii(const ChangeTracker* reshaped);
   void find_all();
   void watch_rest(bool still);
@@ -74,11 +90,15 @@ struct World::State {
   void fill_report();
   void find_bounds();
   void find_quarantined();
+  void sweep_bounds();
   void find_pairs();
   std::span<const uint8_t> changed_for_tests();
   void compare_pairs();
   void drop_pairs();
   void test_pairs();
+  void find_impacts();
+  void forget_ahead();
+  void stop_looking_ahead();
 
   bool was_still = false;  // the last step repeated the one before
   ChangeTracker changes;
@@ -88,9 +108,12 @@ struct World::State {
   ProxySpheres proxies;
   MotionTolerance motion_tolerance;
   std::array<std::vector<float>, 6> bounds;
+  Sweeps sweeps;
+  SweptBounds swept_bounds;
   FatBounds fat_bounds;
   PairFinder finder;
   PairSearch search;
+  PairSieve sieve;
   PairHistory last;
   CarryPlan plan;
   DopStage dops;

@@ -22,6 +22,7 @@ struct CrowdSpec {
   size_t halfspaces = 0;  // through the middle, and the first bodies of the crowd
   bool filters = false;   // layers, owners, sensors, static bodies
   bool velocities = false;
+  bool looks_ahead = false;  // every second body has a detection, and all go far in a step
   uint64_t seed = 1;
 };
 
@@ -99,6 +100,11 @@ inline std::vector<BodyDesc> make_crowd(const CrowdSpec& spec) {
       body.position = Eigen::Vector3d::Constant(spec.side / 2);
     }
     if (spec.velocities) body.linear_velocity = random.direction().cast<float>();
+    if (spec.looks_ahead) {
+      body.linear_velocity = (random.direction() * random.uniform(0, 60)).cast<float>();
+      body.angular_velocity = (random.direction() * random.uniform(0, 20)).cast<float>();
+      if (random.chance(0.5)) body.detection = static_cast<Detection>(1 + random.below(3));
+    }
     if (!spec.filters) continue;
     if (random.chance(0.3)) body.motion = Motion::fixed;
     body.layer = 1u << random.below(3);
@@ -136,13 +142,15 @@ std::string as_bytes(std::span<const T> items) {
 }
 
 struct Results {
-  std::string pairs, overlaps, contacts, manifolds, events, quarantined;
+  std::string pairs, overlaps, contacts, manifolds, events, quarantined, impacts, speculative;
   bool operator==(const Results&) const = default;
 };
 
 inline Results results(const World& world) {
-  return {as_bytes(world.pairs()),     as_bytes(world.overlaps()), as_bytes(world.contacts()),
-          as_bytes(world.manifolds()), as_bytes(world.events()),   as_bytes(world.quarantined())};
+  return {as_bytes(world.pairs()),    as_bytes(world.overlaps()),
+          as_bytes(world.contacts()), as_bytes(world.manifolds()),
+          as_bytes(world.events()),   as_bytes(world.quarantined()),
+          as_bytes(world.impacts()),  as_bytes(world.speculative_contacts())};
 }
 
 }  // namespace carom::test

@@ -34,9 +34,11 @@ template <class T>
 struct Coverage {
   size_t tested = 0, kept = 0, dropped = 0, overlapping = 0, pairs = 0, quarantined = 0,
          sensors = 0;
-  size_t events[3] = {};
+  size_t events[kEventKindCount] = {};
   size_t with_halfspaces = 0, halfspace_overlaps = 0;  // pairs
   size_t manifolds[5] = {};                            // by number of points
+  size_t impacts = 0, overlaps_ahead = 0, impacts_of_sensors = 0, speculative = 0;
+  size_t swept = 0, unswept = 0;
 };
 
 enum class Kinds { spheres_and_aabbs, all };
@@ -57,6 +59,10 @@ class History {
   }
   bool chance(double probability) { return uniform(0, 1) < probability; }
 
+  // Bodies that are new, or change their motion, have detections and velocities that take them far
+  // in a step.
+  void look_ahead() { looks_ahead_ = true; }
+
   // A body in a box of side `side`; `filters`: with layers, owners, sensors, static ones.
   BodyDesc random_body(double side, bool filters) {
     BodyDesc body;
@@ -69,6 +75,7 @@ class History {
     }
     if (kinds_ == Kinds::all && chance(0.7)) make_oriented(body, filters);
     body.linear_velocity = Eigen::Vector3f::Random();
+    if (looks_ahead_) set_in_motion(body, filters);
     if (!filters) return body;
     if (chance(0.3)) body.motion = Motion::fixed;
     if (chance(0.3)) body.layer = 1u << static_cast<int>(uniform(0, 3));
@@ -141,6 +148,22 @@ class History {
     }
   }
 
+  // Of about `share` of the bodies, half of them in the arrays.
+  void change_motions(double share) {
+    for (auto& [index, body] : bodies_) {
+      if (!chance(share)) continue;
+      set_in_motion(body.desc, true);
+      world_.set_detection(body.id, body.desc.detection);
+      if (chance(0.5)) {
+        world_.set_linear_velocity(body.id, body.desc.linear_velocity);
+        world_.set_angular_velocity(body.id, body.desc.angular_velocity);
+      } else {
+        world_.linear_velocities()[index] = body.desc.linear_velocity;
+        world_.angular_velocities()[index] = body.desc.angular_velocity;
+      }
+    }
+  }
+
   void change_random_body(double side, bool filters) {
     if (bodies_.empty()) return;
     reference::Body& body = pick()->second;
@@ -174,11 +197,14 @@ class History {
     for (const auto& [index, body] : bodies_) list.push_back(body);
     const WorldSettings& settings = world_.settings();
     reference::Frame frame = reference::step(list, settings.positions, settings.detail, true,
-                                             report.step == 1 ? nullptr : &frame_);
+                                             report.step == 1 ? nullptr : &frame_,
+                                             {settings.dt, settings.fast_share, settings.impacts});
     EXPECT_TRUE(same_bytes<Pair>(world_.pairs(), frame.pairs)) << "pairs";
     EXPECT_TRUE(same_bytes<uint8_t>(world_.overlaps(), frame.overlaps)) << "overlaps";
     EXPECT_TRUE(same_bytes<Contact>(world_.contacts(), frame.contacts)) << "contacts";
     EXPECT_TRUE(same_bytes<ManifoldPoints>(world_.manifolds(), frame.manifolds)) << "manifolds";
+    EXPECT_TRUE(same_bytes<Impact>(world_.impacts(), frame.impacts)) << "impacts";
+    EXPECT_TRUE(same_bytes<Contact>(world_.speculative_contacts(), frame.speculative));
     if (settings.events) {
       EXPECT_TRUE(same_bytes<Event>(world_.events(), frame.events)) << "events";
     }
@@ -198,6 +224,7 @@ class History {
       coverage.sensors += event.sensor;
     }
     cover_halfspaces();
+    cover_ahead(report);
     for (const Contact& contact : world_.contacts()) ++coverage.manifolds[contact.manifold_count];
     frame_ = std::move(frame);
   }
@@ -220,6 +247,31 @@ class History {
     if (chance(0.01)) body.shape = Halfspace{{0, 0, 0}, 1};
     if (chance(0.01)) body.shape = Capsule{{0, 0, 1}, {0, NAN, 0}, 1};
     if (chance(0.01)) body.shape = Box{{1, -1, 1}};
+  }
+
+  // Most go a way of about a metre in a step, or less; some rest.
+  void set_in_motion(BodyDesc& body, bool spoil) {
+    constexpr Detection kDetections[] = {Detection::discrete, Detection::swept,
+                                         Detection::continuous, Detection::automatic};
+    body.detection = kDetections[shapes_.below(4)];
+    body.linear_velocity = (shapes_.direction() * shapes_.uniform(0, 80)).cast<float>();
+    body.angular_velocity = (shapes_.direction() * shapes_.uniform(0, 40)).cast<float>();
+    if (shapes_.chance(0.3)) body.linear_velocity.setZero();
+    if (shapes_.chance(0.5)) body.angular_velocity.setZero();
+    if (!spoil || !shapes_.chance(0.02)) return;
+    (shapes_.chance(0.5) ? body.linear_velocity : body.angular_velocity).y() =
+        shapes_.chance(0.5) ? NAN : INFINITY;
+  }
+
+  void cover_ahead(const StepReport& report) {
+    coverage.swept += report.swept;
+    coverage.unswept += report.unswept;
+    coverage.speculative += report.speculative;
+    coverage.impacts += report.impacts;
+    for (const Impact& impact : world_.impacts()) {
+      coverage.overlaps_ahead += impact.overlap;
+      coverage.impacts_of_sensors += impact.sensor;
+    }
   }
 
   void cover_halfspaces() {
@@ -255,6 +307,7 @@ class History {
   std::mt19937 random_;
   Random shapes_;
   Kinds kinds_;
+  bool looks_ahead_ = false;
   std::map<uint32_t, reference::Body> bodies_;
   reference::Frame frame_;
 };

@@ -8,11 +8,11 @@
 
 namespace carom {
 
-// Which impacts of a step are kept. Bodies are stopped by what they meet, except by sensors and by
-// what they overlap now.
+// Which impacts of a step are kept. What a body meets stops it, except for sensors and for what
+// overlaps it now.
 enum class Impacts : uint8_t {
-  // Those before which one of the two bodies is not stopped by another one, both of them of a pair
-  // with a sensor; and all overlaps of now.
+  // Not those that come after both bodies were stopped by others, nor those with a sensor that come
+  // after one of them was.
   earliest,
   all,  // of every pair, as if the others were not there
 };

@@ -12,17 +12,19 @@ namespace carom {
 enum class Stage : uint8_t {
   changes,      // which bodies changed since the last step
   bounds,       // world bounds of every body
+  sweeps,       // bounds over the interval ahead, where a body is looked after
   margins,      // bounds fattened, of bodies that left those they had
   broadphase,   // pairs of overlapping bounds
   pairs,        // merge with the last step's pairs: what is carried, what is to be tested
   dops,         // k-DOPs of bodies, and which pairs of theirs are apart
   narrowphase,  // tests, batch by batch
   results,      // overlaps and contacts in order, carried ones included
+  impacts,      // what bodies that are looked after will meet
   velocities,   // relative velocity along the normals
   events,       // begin, persist, end
 };
 
-inline constexpr int kStageCount = 10;
+inline constexpr int kStageCount = 12;
 
 // "changes", "bounds", ...
 CAROM_EXPORT const char* name(Stage stage);
@@ -38,7 +40,11 @@ struct StepReport {
   size_t overlaps = 0;  // overlapping pairs, sensors included
   size_t contacts = 0;
   size_t undecided = 0;  // pairs that Tier::certified could not decide
-  PairSearch search;     // of the last broadphase that ran; incomplete: too many pairs, none given
+  size_t swept = 0;      // bodies that are looked after in this step, swept or continuous
+  size_t unswept = 0;    // bodies whose motion is not finite, in steps that may look ahead
+  size_t impacts = 0;
+  size_t speculative = 0;  // speculative contacts
+  PairSearch search;  // of the last broadphase that ran; incomplete: too many pairs, none given
   uint32_t stages_run = 0;              // bit s: Stage(s) ran
   uint64_t stage_ns[kStageCount] = {};  // 0 where it did not
 

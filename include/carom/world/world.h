@@ -14,6 +14,7 @@
 #include "carom/kernel/contact.h"
 #include "carom/kernel/dop.h"
 #include "carom/kernel/event.h"
+#include "carom/kernel/impact.h"
 #include "carom/kernel/pair.h"
 #include "carom/kernel/parallelism.h"
 #include "carom/kernel/tier.h"
@@ -61,6 +62,18 @@ struct WorldSettings {
   // A step that finds more is incomplete (StepReport::search): it has no pairs, like a step in
   // which nothing meets. What overlapped before ends, and begins again in the next complete step.
   size_t most_pairs = PairFinder::kMostPairs;
+
+  // Looking ahead, for bodies with a Detection; without any, nothing below costs or changes
+  // anything. A step looks at the interval from now to dt seconds later, in which every body moves
+  // with its velocities, whether it is looked after itself or not: displacement and rotation are
+  // velocity x dt, rounded to float32. Finite, >= 0.
+  double dt = 1.0 / 60;
+  // Detection::automatic: a body is fast, and continuous, if its points move by more than this
+  // share of the diameter of a ball that fits into it (of triangles and meshes none does). A point
+  // moves by the displacement, and by the angle times the distance of the farthest one. Half-spaces
+  // are never fast.
+  float fast_share = 0.5f;
+  Impacts impacts = Impacts::earliest;
 };
 
 // Writable arrays of a world, indexed by BodyId::index. They move when bodies are added or
@@ -102,7 +115,7 @@ struct PointHit {
 // Memory of a world, in bytes.
 struct WorldMemory {
   size_t bodies = 0;             // bodies, and the copies that say what changed
-  size_t bounds = 0;             // fat ones and k-DOPs included
+  size_t bounds = 0;             // swept and fat ones and k-DOPs included
   size_t broadphase = 0;         // search structures and what they keep
   size_t pairs_and_results = 0;  // of this step and the last one; contacts and events, too
 
@@ -142,6 +155,11 @@ class CAROM_EXPORT World {
   void set_shape(BodyId id, const Shape& shape);
   Eigen::Vector3f linear_velocity(BodyId id) const;
   void set_linear_velocity(BodyId id, const Eigen::Vector3f& velocity);
+  // Spheres and aabbs do not turn, whatever it is.
+  Eigen::Vector3f angular_velocity(BodyId id) const;
+  void set_angular_velocity(BodyId id, const Eigen::Vector3f& velocity);
+  Detection detection(BodyId id) const;
+  void set_detection(BodyId id, Detection detection);
   Motion motion(BodyId id) const;
   void set_motion(BodyId id, Motion motion);
   void set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner);
@@ -159,6 +177,11 @@ class CAROM_EXPORT World {
   // One a body index; made on first use, and contacts carry normal velocities from then on. The
   // span moves when bodies are added or removed.
   std::span<Eigen::Vector3f> linear_velocities();
+  // Likewise; normal velocities of contacts are those of the linear ones alone.
+  std::span<Eigen::Vector3f> angular_velocities();
+
+  // WorldSettings::dt of the next step and those that follow.
+  void set_dt(double dt);
 
   // Finds pairs, contacts and events for the bodies as they are now. Memory grows as needed and is
   // kept: a step like the last one allocates nothing.
@@ -166,13 +189,33 @@ class CAROM_EXPORT World {
 
   // Results of the last step, sorted by (a, b); valid until the next one.
   // Bodies whose bounds (fat ones, if any) overlap; half-spaces with those whose bounds (never fat
-  // ones) reach into them. Two half-spaces are no pair.
+  // ones) reach into them. Two half-spaces are no pair. In a step that looks ahead, pairs of which
+  // one body is looked after are those whose bounds over the interval do so, and the others those
+  // whose bounds do so now; overlaps, contacts and manifolds are of now in any case.
   std::span<const Pair> pairs() const;
   std::span<const uint8_t> overlaps() const;  // one a pair: 1 overlap, 0 separate, or kUndecided
   std::span<const Contact> contacts() const;  // overlapping pairs without sensors
   // At Detail::manifold one a contact, else none; points are relative to the position of body A.
   std::span<const ManifoldPoints> manifolds() const;
   std::span<const Event> events() const;
+
+  // The pairs with a continuous body that meet in the interval ahead, if all bodies go on as they
+  // are, and those that overlap now; sorted by (toi, a, b). At details with a narrow phase. None is
+  // missed, and none is late (time_of_impact()), but for bodies whose motion is not finite: they
+  // are where they are, and have no impacts (StepReport::unswept). With FastKnobs::proxy_spheres
+  // these are impacts of the balls.
+  std::span<const Impact> impacts() const;
+  // The first of them that stops the body: with no sensor, and nothing that overlaps it now, which
+  // contacts() are about. nullptr: there is none.
+  const Impact* first_impact(BodyId id) const;
+  // Contacts of swept bodies that are not there yet and may be before the interval ends, sorted by
+  // (a, b): the bodies do not overlap, and their witness points, going on straight at the velocity
+  // that they have, close the gap in time: separation + normal_velocity x dt <= 0. Here the normal
+  // velocity is that of the points, rotation included. At details with contacts; no manifolds, and
+  // no pairs with sensors or continuous bodies. They promise nothing: bodies that turn, or pass
+  // each other by, may meet elsewhere, or not at all.
+  std::span<const Contact> speculative_contacts() const;
+
   // Bodies left out: NaN, infinite or negative size, a quaternion or a plane's normal of zero.
   std::span<const BodyId> quarantined() const;
   const StepReport& report() const;
