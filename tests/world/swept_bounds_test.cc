@@ -43,6 +43,16 @@ Skeleton corners_with(const Vector3f& lower, const Vector3f& upper) {
   return skeleton;
 }
 
+// Of the triangles that take part.
+Skeleton skeleton_of(const MeshGeometry& mesh) {
+  std::vector<Vector3f> corners;
+  for (size_t i = 0; i < mesh.triangles().size(); ++i) {
+    if (mesh.is_degenerate(i)) continue;
+    for (const uint32_t corner : mesh.triangles()[i]) corners.push_back(mesh.vertices()[corner]);
+  }
+  return points_with(corners);
+}
+
 // Balls of children are covered by the corners of boxes that lie inside of them.
 Skeleton skeleton_of(const Compound& compound) {
   Skeleton all;
@@ -73,7 +83,7 @@ Skeleton skeleton_of(const Shape& shape) {
   if (const auto* s = std::get_if<Box>(&shape)) return corners_with(-s->half, s->half);
   if (const auto* s = std::get_if<Triangle>(&shape)) return points_with(s->corners);
   if (const auto* s = std::get_if<Hull>(&shape)) return points_with(s->geometry->points());
-  if (const auto* s = std::get_if<Mesh>(&shape)) return points_with(s->geometry->vertices());
+  if (const auto* s = std::get_if<Mesh>(&shape)) return skeleton_of(*s->geometry);
   if (const auto* s = std::get_if<Compound>(&shape)) return skeleton_of(*s);
   Skeleton skeleton;
   const DopPolytope polytope(DopSlabs(std::get<Dop>(shape)));
