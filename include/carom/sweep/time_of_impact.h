@@ -19,8 +19,7 @@ namespace carom {
 //   toi      in [0, 1]; 0: they touch or overlap at the start; +infinity: they do not meet; NaN:
 //            there is no answer
 //   status   ok; budget: the search ended early, and they may meet later, or not at all, but not
-//            sooner; degenerate: the normal is a convention; invalid: a body is not valid, or its
-//            sweep is not finite
+//            sooner; invalid: a body is not valid, or its sweep is not finite
 // The other columns are of the contact at the time of impact, with names and signs as in Contact:
 // a separation of about zero, or the depth of what overlaps at the start. NaN where nothing meets,
 // sub-shapes 0.
@@ -42,15 +41,18 @@ struct ImpactColumns {
 //
 // Never late, never missed: before `toi` the bodies, as they are stored, do not touch (toi is
 // rounded downwards to float32). At `toi`, before that rounding, they are no further apart than
-// kImpactSlack x (size + travel), where the size is that of the two shapes (a half-space's does not
-// count) and the travel the length of the relative displacement plus, for bodies that turn, the
-// angle times the distance of their farthest point. So bodies that graze each other within that
-// distance may be found to meet.
+// kImpactSlack x (size + travel), so bodies that graze each other within that distance may be found
+// to meet. The size is the sum of the distances of both shapes' furthest points from their bodies'
+// positions (a half-space has none); the travel is the length of the relative displacement plus, of
+// bodies that turn, the angle times that distance (of a half-space: of the furthest that the other
+// body gets from its position).
 //
-// Half-spaces, and bodies further apart than their travel, cost what they need and no more. Of
-// meshes and compounds the parts that the swept bounds reach are tested. A one-sided triangle is
-// met by what first touches it with its middle in front: what comes from behind passes. Inner edges
-// do not matter to the time.
+// Points and arms are those of the bodies where they are at the time of impact.
+//
+// Of meshes and compounds the parts that the swept bounds reach are tested. A one-sided triangle is
+// met by what first touches it with its middle in front of the triangle's back: what comes from
+// behind passes for the whole interval, and so does what overlaps it from behind at the start.
+// Inner edges do not matter to the time.
 //
 // Bits are the same on every instruction set and for any number of threads, and do not depend on a
 // pair's place in the list. Fails if a pair is of kinds that never meet (supports()); nothing is
