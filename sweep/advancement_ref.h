@@ -37,9 +37,10 @@ struct MovingCore {
   }
 };
 
+inline constexpr double kSpeedUpwards = 1 + 0x1p-40;  // more than lengths round
+
 inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vector3d& rotation,
                               bool turns) {
-  constexpr double kUpwards = 1 + 0x1p-40;
   double greatest = 0;
   for (size_t i = 0; i < core.size(); ++i) {
     const CoreVector p = core.point(i);
@@ -48,7 +49,15 @@ inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vecto
   const double reach = (turns ? std::sqrt(greatest) : 0.0) + std::sqrt(dot(arm, arm));
   const bool is_round_about_pivot = !(reach > 0);
   const Vector3d turning = is_round_about_pivot ? Vector3d(Vector3d::Zero()) : rotation;
-  return {&core, arm, turning, turns, angle_of(turning) * kUpwards, reach * kUpwards};
+  return {&core, arm, turning, turns, angle_of(turning) * kSpeedUpwards, reach * kSpeedUpwards};
+}
+
+// The plane of a half-space as one of its points: it turns even if that is where it turns about.
+inline MovingCore turning_plane(const Core& point, const Vector3d& rotation) {
+  MovingCore plane = moving_core(point, Vector3d::Zero(), rotation, true);
+  plane.rotation = rotation;
+  plane.speed = angle_of(rotation) * kSpeedUpwards;
+  return plane;
 }
 
 // Two moving cores, B at `from` + t * `way`.

@@ -169,14 +169,16 @@ class ImpactContacts {
     const size_t i = scratch_.parts.count();
     PlacedPart a = part_at(bodies.a, first_[row].parts[0]);
     PlacedPart b = part_at(bodies.b, first_[row].parts[1]);
-    scratch_.arms[i] = {place(a, a_, pairs_[row].a, row), place(b, b_, pairs_[row].b, row)};
+    scratch_.arms[i] = {place(a, bodies.a.position, a_, pairs_[row].a, row),
+                        place(b, bodies.b.position, b_, pairs_[row].b, row)};
     scratch_.parts.add(row, a, b);
   }
 
-  // Returns its arm then.
-  Double3 place(PlacedPart& part, const MovingReader& side, size_t body, size_t row) {
-    const PlaceInTime place = place_at(minus(part.position, part.arm), part.arm, part.orientation,
-                                       side, body, first_[row].time);
+  // A part of a body at `pivot`; returns its arm then.
+  Double3 place(PlacedPart& part, const Double3& pivot, const MovingReader& side, size_t body,
+                size_t row) {
+    const PlaceInTime place =
+        place_at(pivot, part.arm, part.orientation, side, body, first_[row].time);
     part.position = place.position;
     part.orientation = place.orientation;
     part.turn = part.part->is_turned() ? rotation_of(place.orientation) : kNotTurned;

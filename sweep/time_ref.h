@@ -158,7 +158,7 @@ inline AdvancementResult advancement_time(const MovingShape& a, const MovingShap
     const Vector3d normal = rotate(rotation_of(b.q), half.normal);
     make_core_of_points(std::array{Vector3d(normal * (half.offset * scale))}, Vector3d::Zero(),
                         scratch.b);
-    pair.a = moving_core(scratch.b, Vector3d::Zero(), b.rotation, true);
+    pair.a = turning_plane(scratch.b, b.rotation);
     pair.b = moving_core(a, scale, scratch.a);
     pair.radii = scratch.a.radius;
     return time_over_plane(pair, normal, meeting_distance(pair));
@@ -181,7 +181,7 @@ inline Vector3d middle_of(const MovingShape& moving, double scale) {
   if (const auto* triangle = std::get_if<Triangle>(&moving.shape)) {
     return polytope_of(shape_as<double>(*triangle).scaled(scale), moving.q).middle;
   }
-  Core core;
+  Core& core = core_scratch_of_thread().placed_a;
   make_core(moving, scale, core);
   return eigen_vector(core.middle);
 }

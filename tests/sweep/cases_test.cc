@@ -181,5 +181,18 @@ TEST(ImpactCases, WhatTouchesAtTheEndMeets) {
   }
 }
 
+// A half-space that turns about a point of its own plane, as floors do (it was taken for one that
+// does not turn).
+TEST(ImpactCases, PlanesThatTurnAboutTheirOwnPointMeet) {
+  for (const double away : {10.0, 100.0}) {
+    const PlacedShape ball{Sphere{1}, {away, 0, 11}};
+    MovedPair pair = moved(ball, {0, 0, 0}, halfspace({0, 0, 0}, {0, 0, 1}, 0), {0, 0, 0});
+    pair.sweep_b.rotation = {0, -1.5f, 0};
+    // The height over the plane is 11 cos(angle) - away sin(angle), and the ball's radius 1.
+    const double angle = std::acos(1 / std::hypot(11, away)) - std::atan2(away, 11);
+    EXPECT_NEAR(toi_everywhere(pair), angle / 1.5, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace carom::test

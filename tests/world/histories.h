@@ -30,20 +30,6 @@ template <class T>
   return ::testing::AssertionSuccess();
 }
 
-// What is left of a gap of about zero is noise; everything else is the same to the bit.
-inline ::testing::AssertionResult same_impacts(std::span<const Impact> got,
-                                               std::span<const Impact> expected) {
-  std::vector<Impact> without_gaps[2];
-  const std::span<const Impact> both[] = {got, expected};
-  for (size_t side = 0; side < 2; ++side) {
-    for (Impact impact : both[side]) {
-      if (!impact.overlap && std::abs(impact.separation) < 1e-9f) impact.separation = 0;
-      without_gaps[side].push_back(impact);
-    }
-  }
-  return same_bytes<Impact>(without_gaps[0], without_gaps[1]);
-}
-
 // What happened in all histories of a test: a guard against tests of nothing.
 struct Coverage {
   size_t tested = 0, kept = 0, dropped = 0, overlapping = 0, pairs = 0, quarantined = 0,
@@ -217,7 +203,7 @@ class History {
     EXPECT_TRUE(same_bytes<uint8_t>(world_.overlaps(), frame.overlaps)) << "overlaps";
     EXPECT_TRUE(same_bytes<Contact>(world_.contacts(), frame.contacts)) << "contacts";
     EXPECT_TRUE(same_bytes<ManifoldPoints>(world_.manifolds(), frame.manifolds)) << "manifolds";
-    EXPECT_TRUE(same_impacts(world_.impacts(), frame.impacts)) << "impacts";
+    EXPECT_TRUE(same_bytes<Impact>(world_.impacts(), frame.impacts)) << "impacts";
     EXPECT_TRUE(same_bytes<Contact>(world_.speculative_contacts(), frame.speculative));
     if (settings.events) {
       EXPECT_TRUE(same_bytes<Event>(world_.events(), frame.events)) << "events";
