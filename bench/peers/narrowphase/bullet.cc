@@ -14,6 +14,7 @@
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleMesh.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -249,7 +250,29 @@ class DetectorPairs final : public PairPeer {
   Test test_;
 };
 
-// The cast that Bullet's continuous collision detection of convex bodies uses.
+// Bullet's casts, made anew for every pair as its world makes them.
+class ContinuousCast {
+ public:
+  btContinuousConvexCollision operator()(const btConvexShape* a, const btConvexShape* b) {
+    return {a, b, &simplex_, &depth_};
+  }
+
+ private:
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver depth_;
+};
+
+class GjkCast {
+ public:
+  btGjkConvexCast operator()(const btConvexShape* a, const btConvexShape* b) {
+    return {a, b, &simplex_};
+  }
+
+ private:
+  btVoronoiSimplexSolver simplex_;
+};
+
+template <class MakeCast>
 class CastPairs final : public PairPeer {
  public:
   CastPairs(const PeerBodies& a, const PeerBodies& b,
@@ -261,8 +284,8 @@ class CastPairs final : public PairPeer {
     for (size_t i = 0; i < a_.count(); ++i) {
       btTransform end = b_.transform(i);
       end.setOrigin(end.getOrigin() + vector(displacements_[i].data()));
-      btGjkConvexCast cast(static_cast<btConvexShape*>(a_.shape(i)),
-                           static_cast<btConvexShape*>(b_.shape(i)), &simplex_);
+      auto cast =
+          make_(static_cast<btConvexShape*>(a_.shape(i)), static_cast<btConvexShape*>(b_.shape(i)));
       btConvexCast::CastResult result;
       const bool meets =
           cast.calcTimeOfImpact(a_.transform(i), a_.transform(i), b_.transform(i), end, result);
@@ -276,14 +299,18 @@ class CastPairs final : public PairPeer {
   Bodies a_;
   Bodies b_;
   const std::vector<std::array<float, 3>> displacements_;
-  btVoronoiSimplexSolver simplex_;
+  MakeCast make_;
 };
 
 }  // namespace
 
 std::unique_ptr<PairPeer> make_bullet_casts(const PeerBodies& a, const PeerBodies& b,
-                                            std::vector<std::array<float, 3>> displacements) {
-  return std::make_unique<CastPairs>(a, b, std::move(displacements));
+                                            std::vector<std::array<float, 3>> displacements,
+                                            PeerCast cast) {
+  if (cast == PeerCast::gjk) {
+    return std::make_unique<CastPairs<GjkCast>>(a, b, std::move(displacements));
+  }
+  return std::make_unique<CastPairs<ContinuousCast>>(a, b, std::move(displacements));
 }
 
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,

@@ -11,6 +11,8 @@
 
 namespace carom::bench {
 
+enum class Moving { no, times, contacts };
+
 struct PeerStreamSpec {
   const char* pair;  // as narrowphase/pair_list.inc calls it; "sphere_mesh"
   ShapeKind a;
@@ -20,8 +22,8 @@ struct PeerStreamSpec {
   Measured measured = Measured::overlapping;
   // The pairs of the last pass once more, a step further (bench/support/pair_stream.h).
   bool again = false;
-  // Times of impact of pairs of which one moves in a straight line, contacts included.
-  bool moving = false;
+  // Times of impact of pairs of which one moves in a straight line; with contacts, or alone.
+  Moving moving = Moving::no;
 
   // As TARGETS are called: "hull_hull_16".
   std::string name() const;

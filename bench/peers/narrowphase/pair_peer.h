@@ -45,9 +45,14 @@ class PairPeer {
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
                                             PeerDetail detail);
 
+// Which of Bullet's casts: the one that its world's sweep test runs, or the one without turning,
+// which is faster.
+enum class PeerCast { continuous, gjk };
+
 // bullet.cc. B moves by a displacement; "overlaps" are impacts, and as many are returned. Convex
 // shapes alone.
 std::unique_ptr<PairPeer> make_bullet_casts(const PeerBodies& a, const PeerBodies& b,
-                                            std::vector<std::array<float, 3>> displacements);
+                                            std::vector<std::array<float, 3>> displacements,
+                                            PeerCast cast);
 
 }  // namespace carom::bench
