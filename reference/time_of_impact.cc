@@ -51,9 +51,8 @@ FirstTime time_of(const Simple& part_a, const Sweep& sweep_a, const Simple& part
   const MovingShape a = moving(part_a, sweep_a), b = moving(part_b, sweep_b);
   const Vector3d from = vector_of(part_b.placed.position) - vector_of(part_a.placed.position);
   const Vector3d way = sweep_b.displacement.cast<double>() - sweep_a.displacement.cast<double>();
-  constexpr double kNone = -1;
-  FirstTime found{.t = linear_time(a, b, from, way, kNone), .a = &part_a, .b = &part_b};
-  if (found.t == kNone) {
+  FirstTime found{.t = linear_time(a, b, from, way), .a = &part_a, .b = &part_b};
+  if (found.t == kNoClosedForm) {
     const AdvancementResult advanced = advancement_time(a, b, from, way, &furthest_point);
     found.t = advanced.t;
     found.status = advanced.status;
@@ -113,10 +112,7 @@ Impact time_of_impact(const Shape& shape_a, const Pose& pose_a, const Sweep& swe
   }
   if (!(first.t <= 1)) return without_contact(static_cast<float>(first.t), first.status);
 
-  // Simple bodies are placed in the world, parts of bodies as seen from A at the start.
-  const bool with_parts = is_composite(kind_of(shape_a)) || is_composite(kind_of(shape_b));
-  const Vector3d pivot_a = with_parts ? Vector3d(Vector3d::Zero()) : at_a;
-  const Vector3d pivot_b = with_parts ? vector_of(seen_from(at_a, at_b)) : at_b;
+  const Vector3d pivot_a = Vector3d::Zero(), pivot_b = vector_of(seen_from(at_a, at_b));
   const PlacedInTime a = place_at(*first.a, pivot_a, sweep_a, first.t);
   const PlacedInTime b = place_at(*first.b, pivot_b, sweep_b, first.t);
   const PairResult contact =

@@ -27,8 +27,9 @@ struct MovingCore {
   Vector3d arm = Vector3d::Zero();
   Vector3d rotation = Vector3d::Zero();
   bool turns = true;
-  double speed = 0;  // of turning, radians
-  double reach = 0;  // the furthest point from where the body turns
+  double speed = 0;   // of turning, radians
+  double reach = 0;   // from where the body turns the furthest point that turns
+  double extent = 0;  // and the furthest of all
 
   // World axes at time t.
   Rotation<double> turn(double t) const {
@@ -46,10 +47,17 @@ inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vecto
     const CoreVector p = core.point(i);
     greatest = max(greatest, dot(p, p));
   }
-  const double reach = (turns ? std::sqrt(greatest) : 0.0) + std::sqrt(dot(arm, arm));
+  const double size = std::sqrt(greatest), arm_length = std::sqrt(dot(arm, arm));
+  const double reach = (turns ? size : 0.0) + arm_length;
   const bool is_round_about_pivot = !(reach > 0);
   const Vector3d turning = is_round_about_pivot ? Vector3d(Vector3d::Zero()) : rotation;
-  return {&core, arm, turning, turns, angle_of(turning) * kSpeedUpwards, reach * kSpeedUpwards};
+  return {&core,
+          arm,
+          turning,
+          turns,
+          angle_of(turning) * kSpeedUpwards,
+          reach * kSpeedUpwards,
+          (size + arm_length) * kSpeedUpwards};
 }
 
 // The plane of a half-space as one of its points: it turns even if that is where it turns about.
@@ -142,7 +150,7 @@ class DirectionGap {
     const MovingCore& frame = fixed_ == FixedTo::a ? a : b;
     const MovingCore& other = fixed_ == FixedTo::a ? b : a;
     const double start = length(pair_.from + pair_.way * t), end = length(pair_.from + pair_.way);
-    const double furthest = max(start, end) + other.reach;
+    const double furthest = max(start, end) + other.extent;
     const double fastest = length(pair_.way) + other.speed * other.reach;
     most_closing_ = frame.speed * furthest + fastest;
     most_curved_ = frame.speed * (frame.speed * furthest + 2 * fastest) +

@@ -81,7 +81,6 @@ HWY_INLINE D3 corner_of_box(const D3& half, int corner) {
           with_sign(half.z, corner & 4)};
 }
 
-// `side`: twice the half extent of the box along the axis.
 HWY_INLINE D meets_swept_edges(const MovingPoint& point, const D3& half, const Face& face, int axis,
                                D reach, D slack) {
   D first = never();
@@ -118,7 +117,9 @@ HWY_INLINE D meets_box(const MovingPoint& point, const D3& edge, const D3& half,
                           meets_swept_edges(point, half, along_z, 2, reach, slack)));
   const D corners = meets_swept_corners(point, half, depth, edge_reach);
   const D first = min(ends, min(faces, corners));
-  return hn::IfThenZeroElse(passes_through_box(point.from, edge, half), first);
+  const D time = hn::IfThenZeroElse(passes_through_box(point.from, edge, half), first);
+  return unless_slanted(hn::Or(along_x.is_slanted, hn::Or(along_y.is_slanted, along_z.is_slanted)),
+                        time);
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -99,11 +99,15 @@ inline double meets_box(const MovingPoint& point, const Vector3d& edge, const Ve
                         double reach, double slack) {
   const Vector3d depth = -edge;
   double width = 0;
+  bool is_slanted = false;
   for (int axis = 0; axis < 3; ++axis) {
     Vector3d side = Vector3d::Zero();
     side[axis] = 2 * half[axis];
-    width = max(width, Face(side, depth).width());
+    const Face face(side, depth);
+    width = max(width, face.width());
+    is_slanted = is_slanted || face.is_slanted;
   }
+  if (is_slanted) return kNoClosedForm;
   const double edge_reach = reach + width;
   double first =
       min(meets_box(point, half, edge_reach), meets_box(point.seen_from(depth), half, edge_reach));

@@ -81,11 +81,14 @@ struct Face {
   D squared;
   D sides;
   DoubleMask is_thin;
+  DoubleMask is_slanted;
 
   HWY_INLINE Face(const D3& side_u, const D3& side_v)
       : u(side_u), v(side_v), normal(cross(side_u, side_v)), squared(dot(normal, normal)) {
     sides = hn::Mul(dot(u, u), dot(v, v));
     is_thin = hn::Not(hn::Gt(squared, hn::Mul(splat_double(kThinFace * kThinFace), sides)));
+    is_slanted = hn::AndNot(
+        is_thin, hn::Lt(squared, hn::Mul(splat_double(kSlantedFace * kSlantedFace), sides)));
   }
 
   HWY_INLINE D width() const {
@@ -99,8 +102,8 @@ enum class FaceKind { parallelogram, triangle };
 template <FaceKind kKind>
 HWY_INLINE D meets_face(const MovingPoint& point, const Face& face, D reach, D slack) {
   const D height = dot(face.normal, point.from), rate = dot(face.normal, point.way);
-  const D limit =
-      hn::Add(hn::Mul(reach, hn::Sqrt(face.squared)), hn::Mul(slack, hn::Sqrt(face.sides)));
+  const D limit = hn::Add(hn::Mul(reach, hn::Sqrt(face.squared)),
+                          hn::Mul(hn::Mul(splat_double(kFaceSlack), slack), hn::Sqrt(face.sides)));
   const DoubleMask stands = hn::Eq(rate, zero());
   const D inverse = hn::IfThenZeroElse(stands, hn::Div(splat_double(1), rate));
   const D middle = hn::Neg(hn::Mul(height, inverse)), half = hn::Mul(limit, hn::Abs(inverse));
@@ -117,6 +120,11 @@ HWY_INLINE D meets_face(const MovingPoint& point, const Face& face, D reach, D s
   const DoubleMask is_in = hn::And(hn::And(hn::Ge(along_u, least), hn::Ge(along_v, least)),
                                    hn::Le(most, splat_double(1 + kSeam)));
   return hn::IfThenElse(is_in, t, never());
+}
+
+// Pairs with a slanted face have no closed form that is exact enough.
+HWY_INLINE D unless_slanted(DoubleMask is_slanted, D time) {
+  return hn::IfThenElse(is_slanted, splat_double(kNoClosedForm), time);
 }
 
 }  // namespace carom::HWY_NAMESPACE

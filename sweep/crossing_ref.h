@@ -78,11 +78,13 @@ struct Face {
   double squared;   // of the normal
   double sides;     // square of both sides, multiplied
   bool is_thin;
+  bool is_slanted;  // neither thin nor of a good normal
 
   Face(const Vector3d& side_u, const Vector3d& side_v)
       : u(side_u), v(side_v), normal(cross(side_u, side_v)), squared(dot(normal, normal)) {
     sides = dot(u, u) * dot(v, v);
     is_thin = !(squared > (kThinFace * kThinFace) * sides);
+    is_slanted = !is_thin && squared < (kSlantedFace * kSlantedFace) * sides;
   }
 
   // What its edges must be grown by if it is thin, since it is not met itself.
@@ -97,7 +99,7 @@ enum class FaceKind { parallelogram, triangle };
 inline double meets_face(const MovingPoint& point, const Face& face, FaceKind kind, double reach,
                          double slack) {
   const double height = dot(face.normal, point.from), rate = dot(face.normal, point.way);
-  const double limit = reach * std::sqrt(face.squared) + slack * std::sqrt(face.sides);
+  const double limit = reach * std::sqrt(face.squared) + kFaceSlack * slack * std::sqrt(face.sides);
   const bool stands = rate == 0;
   const double inverse = stands ? 0 : 1 / rate;
   const double middle = -(height * inverse), half = limit * std::fabs(inverse);

@@ -41,11 +41,10 @@ class PlacedSide {
  public:
   void clear() { count_ = 0; }
 
-  void put(const MovingReader& side, size_t body, double t) {
+  // At `position` at the start.
+  void put(const MovingReader& side, size_t body, const Double3& position, double t) {
     const BodyReader reader = side.body();
-    const Position<double> p = reader.position<double>(body);
-    const PlaceInTime place =
-        place_at({p.x, p.y, p.z}, {}, reader.orientation(body), side, body, t);
+    const PlaceInTime place = place_at(position, {}, reader.orientation(body), side, body, t);
     kind_[count_] = reader.kind(body);
     const bool is_sphere = kind_[count_] == ShapeKind::sphere;
     record_[count_] = {place.position[0], place.position[1], place.position[2],
@@ -143,8 +142,10 @@ class ImpactContacts {
 
   void add_bodies(size_t row) {
     scratch_.row[scratch_.count++] = static_cast<uint16_t>(row);
-    scratch_.a.put(a_, pairs_[row].a, first_[row].time);
-    scratch_.b.put(b_, pairs_[row].b, first_[row].time);
+    // Seen from A, so that the contact does not depend on where both are.
+    const Pair pair = pairs_[row];
+    scratch_.a.put(a_, pair.a, {}, first_[row].time);
+    scratch_.b.put(b_, pair.b, place_between(a_, b_, pair), first_[row].time);
   }
 
   void run_bodies() {
@@ -157,10 +158,10 @@ class ImpactContacts {
                     .first = 0,
                     .count = scratch_.count,
                     .detail = Detail::contact,
-                    .frame = frame_,
+                    .frame = WitnessFrame::body,
                     .accuracy = {},
                     .out = found});
-    for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {}, {});
+    for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {});
   }
 
   // The parts that meet, placed in the frame of A at the start.
@@ -188,34 +189,25 @@ class ImpactContacts {
   void run_parts() {
     scratch_.parts.run({});
     for (size_t i = 0; i < scratch_.parts.count(); ++i) {
-      const size_t row = scratch_.parts.owner(i);
-      if (frame_ == WitnessFrame::body) {
-        write(row, scratch_.parts.results(), i, scratch_.arms[i][0], scratch_.arms[i][1]);
-      } else {
-        write_in_world(row, i);
-      }
+      write(scratch_.parts.owner(i), scratch_.parts.results(), i, scratch_.arms[i]);
     }
   }
 
-  // From the parts' own positions, `arm_a` and `arm_b` from where points are to be seen.
-  void write(size_t row, const ResultColumns& found, size_t i, const Double3& arm_a,
-             const Double3& arm_b) {
+  // `arms`: from the bodies' positions then to those that the points were found from.
+  void write(size_t row, const ResultColumns& found, size_t i, std::array<Double3, 2> arms) {
+    if (frame_ == WitnessFrame::world) {
+      arms[0] = plus(position_then(a_, pairs_[row].a, first_[row].time), arms[0]);
+      arms[1] = plus(position_then(b_, pairs_[row].b, first_[row].time), arms[1]);
+    }
     if (out_.separation) out_.separation[row] = found.separation[i];
     for (size_t axis = 0; axis < 3; ++axis) {
       if (out_.normal[axis]) out_.normal[axis][row] = found.normal[axis][i];
       const auto seen = [&](const std::array<float*, 3>& points, double arm) {
         return static_cast<float>(points[axis][i] + arm);
       };
-      if (out_.point_a[axis]) out_.point_a[axis][row] = seen(found.point_a, arm_a[axis]);
-      if (out_.point_b[axis]) out_.point_b[axis][row] = seen(found.point_b, arm_b[axis]);
+      if (out_.point_a[axis]) out_.point_a[axis][row] = seen(found.point_a, arms[0][axis]);
+      if (out_.point_b[axis]) out_.point_b[axis][row] = seen(found.point_b, arms[1][axis]);
     }
-  }
-
-  void write_in_world(size_t row, size_t i) {
-    const std::array<Double3, 2>& arms = scratch_.arms[i];
-    write(row, scratch_.parts.results(), i,
-          plus(position_then(a_, pairs_[row].a, first_[row].time), arms[0]),
-          plus(position_then(b_, pairs_[row].b, first_[row].time), arms[1]));
   }
 
   static Double3 position_then(const MovingReader& side, size_t body, double t) {

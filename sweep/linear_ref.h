@@ -89,7 +89,8 @@ inline double linear_time(const SphereShape<double>& a, const TriangleShape<doub
   const MovingPoint point(-(pose.from + core.corner), -pose.way);
   const Face face(core.u, core.v);
   const double reach = a.radius + pose.slack;
-  return meets_triangle(point, face, reach, reach + face.width(), pose.slack);
+  const double time = meets_triangle(point, face, reach, reach + face.width(), pose.slack);
+  return face.is_slanted ? kNoClosedForm : time;
 }
 
 inline double linear_time(const CapsuleShape<double>& a, const TriangleShape<double>& b,

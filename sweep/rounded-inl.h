@@ -25,7 +25,8 @@ HWY_INLINE D meets_parallelogram(const MovingPoint& point, const D3& u, const D3
       min(meets_edge(point, v, edge_reach), meets_edge(seen_from(point, u), v, edge_reach));
   const D ends =
       min(meets_segment(point, u, edge_reach), meets_segment(seen_from(point, v), u, edge_reach));
-  return min(meets_face<FaceKind::parallelogram>(point, face, reach, slack), min(sides, ends));
+  const D inside = meets_face<FaceKind::parallelogram>(point, face, reach, slack);
+  return unless_slanted(face.is_slanted, min(inside, min(sides, ends)));
 }
 
 HWY_INLINE D meets_triangle(const MovingPoint& point, const Face& face, D reach, D edge_reach,
@@ -65,7 +66,10 @@ HWY_INLINE D meets_prism(const MovingPoint& point, const Face& face, const D3& d
   const D front = meets_triangle(point, face, reach, edge_reach, slack);
   const D back = meets_triangle(seen_from(point, depth), face, reach, edge_reach, slack);
   const D first = min(min(faces, edges), min(front, back));
-  return hn::IfThenZeroElse(pierces(point.from, -depth, face), first);
+  const DoubleMask is_slanted = hn::Or(hn::Or(face.is_slanted, side_u.is_slanted),
+                                       hn::Or(side_v.is_slanted, side_w.is_slanted));
+  const D time = hn::IfThenZeroElse(pierces(point.from, -depth, face), first);
+  return unless_slanted(is_slanted, time);
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -56,7 +56,8 @@ struct SphereTriangle {
     const MovingPoint point = moving_point(-(pair.from + b.corner[0]), -pair.way);
     const Face face(b.corner[1] - b.corner[0], b.corner[2] - b.corner[0]);
     const D reach = hn::Add(a.radius, pair.slack);
-    return meets_triangle(point, face, reach, hn::Add(reach, face.width()), pair.slack);
+    const D time = meets_triangle(point, face, reach, hn::Add(reach, face.width()), pair.slack);
+    return unless_slanted(face.is_slanted, time);
   }
 };
 

@@ -20,10 +20,11 @@ inline double meets_parallelogram(const MovingPoint& point, const Vector3d& u, c
       min(meets_edge(point, v, edge_reach), meets_edge(point.seen_from(u), v, edge_reach));
   const double ends =
       min(meets_segment(point, u, edge_reach), meets_segment(point.seen_from(v), u, edge_reach));
-  return min(meets_face(point, face, FaceKind::parallelogram, reach, slack), min(sides, ends));
+  const double inside = meets_face(point, face, FaceKind::parallelogram, reach, slack);
+  return face.is_slanted ? kNoClosedForm : min(inside, min(sides, ends));
 }
 
-// The corners are 0, u and v; the edges are grown by edge_reach.
+// Whatever its face is like. The corners are 0, u and v; the edges are grown by edge_reach.
 inline double meets_triangle(const MovingPoint& point, const Face& face, double reach,
                              double edge_reach, double slack) {
   const MovingPoint from_u = point.seen_from(face.u);
@@ -61,6 +62,9 @@ inline double meets_prism(const MovingPoint& point, const Face& face, const Vect
   const double front = meets_triangle(point, face, reach, edge_reach, slack);
   const double back = meets_triangle(point.seen_from(depth), face, reach, edge_reach, slack);
   const double first = min(min(faces, edges), min(front, back));
+  if (face.is_slanted || side_u.is_slanted || side_v.is_slanted || side_w.is_slanted) {
+    return kNoClosedForm;
+  }
   return pierces(point.from, -depth, face) ? 0.0 : first;
 }
 

@@ -129,29 +129,36 @@ class SimpleTimes {
       scratch_.rows.pad(columns, chunk.size());
       kernel(scratch_.rows, chunk.size());
       for (size_t i = 0; i < chunk.size(); ++i) {
-        if (scratch_.valid[i]) {
-          write(chunk[i], scratch_.rows.times()[i], Status::ok);
-        } else {
+        const double time = scratch_.rows.times()[i];
+        if (!scratch_.valid[i]) {
           write_invalid(chunk[i]);
+        } else if (time == kNoClosedForm) {
+          advance(chunk[i]);
+        } else {
+          write(chunk[i], time, Status::ok);
         }
       }
     }
   }
 
   void advance() {
-    const FurthestPoint furthest = furthest_point_in_lanes();
     for (const uint16_t row : rows_of(kAdvanced)) {
       const Pair pair = pairs_[row];
-      if (!a_.is_valid(pair.a) || !b_.is_valid(pair.b)) {
+      if (a_.is_valid(pair.a) && b_.is_valid(pair.b)) {
+        advance(row);
+      } else {
         write_invalid(row);
-        continue;
       }
-      const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
-      const reference::AdvancementResult result = reference::advancement_time(
-          a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b),
-          eigen(place_between(a_, b_, pair)), eigen(way_between(a_, b_, pair)), furthest);
-      write(row, result.t, result.status);
     }
+  }
+
+  void advance(size_t row) {
+    const Pair pair = pairs_[row];
+    const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
+    const reference::AdvancementResult result = reference::advancement_time(
+        a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), eigen(place_between(a_, b_, pair)),
+        eigen(way_between(a_, b_, pair)), furthest_point_in_lanes());
+    write(row, result.t, result.status);
   }
 
   // One-sided triangles do not meet what comes from behind.

@@ -14,6 +14,14 @@ inline constexpr double kSeam = 0x1p-40;
 
 // A face whose sides have a sine below this is no wider than that: its edges, grown by its width,
 // do for it.
-inline constexpr double kThinFace = 0x1p-27;
+inline constexpr double kThinFace = 0x1p-40;
+
+// Below this, and not thin, its normal is too rounded: the pair is left to advancement. Faces are
+// grown by so much of the slack, over the sine.
+inline constexpr double kSlantedFace = 0x1p-10;
+inline constexpr double kFaceSlack = 0.25;
+
+// In place of a time: there is no closed form for this pair, or it would not be exact enough.
+inline constexpr double kNoClosedForm = -1;
 
 }  // namespace carom

@@ -76,11 +76,11 @@ concept HasLinearTime = requires(A a, B b, LinearPose pose) {
   linear_time(a, b, pose);
 };
 
-// `none`: there is no closed form.
+// Or kNoClosedForm.
 inline double linear_time(const MovingShape& a, const MovingShape& b, const Vector3d& from,
-                          const Vector3d& way, double none) {
+                          const Vector3d& way) {
   if (!moves_in_a_line(a) || !moves_in_a_line(b) || is_thick(a.shape) || is_thick(b.shape)) {
-    return none;
+    return kNoClosedForm;
   }
   const Vector3d between = (from + linear_offset(b.shape)) - linear_offset(a.shape);
   const double lengths = (largest_component(between) + largest_component(way)) +
@@ -96,7 +96,7 @@ inline double linear_time(const MovingShape& a, const MovingShape& b, const Vect
         } else if constexpr (HasLinearTime<decltype(y), decltype(x)>) {
           return linear_time(y, x, flipped_pose);
         } else {
-          return none;
+          return kNoClosedForm;
         }
       },
       a.shape, b.shape);
