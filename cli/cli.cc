@@ -48,6 +48,7 @@ int run_program(std::span<const std::string> arguments, const Console& console) 
   add_verify_command(program, action);
   add_advise_command(program, action);
   add_accuracy_command(program, action);
+  add_tunnelling_command(program, action);
   add_check_command(program, action);
   add_generate_command(program, action);
   add_info_command(program, action);

@@ -21,6 +21,7 @@ void add_pairs_command(CLI::App& program, Action& action);
 void add_verify_command(CLI::App& program, Action& action);
 void add_advise_command(CLI::App& program, Action& action);
 void add_accuracy_command(CLI::App& program, Action& action);
+void add_tunnelling_command(CLI::App& program, Action& action);
 void add_check_command(CLI::App& program, Action& action);
 void add_generate_command(CLI::App& program, Action& action);
 void add_info_command(CLI::App& program, Action& action);

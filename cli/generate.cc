@@ -72,6 +72,9 @@ Result<int> generate(const GenerateOptions& options, const Console& console) {
   Progress progress(console, "frame", scene->info().frames);
   bool recording =
       io::has_extension(options.output, ".aabb") || io::has_extension(options.output, ".aabbs");
+  if (recording && spec->kind == io::GeneratorKind::bullets) {
+    return Error{options.output + ": bullets are of several kinds: only a scene (.npz) holds them"};
+  }
   Result<void> written = recording ? write_recording(*scene, options.output, progress)
                                    : write_scene(*scene, options.output, progress);
   return written ? Result<int>(0) : written.error();

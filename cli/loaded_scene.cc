@@ -15,17 +15,18 @@ size_t bytes_of(const std::vector<T>& list) {
 
 size_t bytes_of_frame(const io::SceneFrame& frame) {
   return bytes_of(frame.position32) + bytes_of(frame.position64) + bytes_of(frame.orientation) +
-         bytes_of(frame.linear_velocity) + bytes_of(frame.boxes);
+         bytes_of(frame.linear_velocity) + bytes_of(frame.angular_velocity) + bytes_of(frame.boxes);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<LoadedScene>> LoadedScene::open(const std::string& source) {
+Result<std::unique_ptr<LoadedScene>> LoadedScene::open(const std::string& source,
+                                                       bool looks_ahead) {
   Result<std::unique_ptr<io::SceneReader>> scene = open_source(source);
   if (!scene) return scene.error();
   Result<Player> player = Player::create((*scene)->info(), source);
   if (!player) return player.error();
-  (*scene)->want(player->wanted(Detail::contact));
+  (*scene)->want(player->wanted(Detail::contact, looks_ahead));
   std::unique_ptr<LoadedScene> loaded(
       new LoadedScene(source, std::move(*scene), std::move(*player)));
   if (Result<void> read = loaded->load(1); !read) return read.error();

@@ -13,8 +13,10 @@ namespace carom::cli {
 
 class LoadedScene : public accuracy::Playback {
  public:
-  // A scene as the command line names it, with its first frame.
-  static Result<std::unique_ptr<LoadedScene>> open(const std::string& source);
+  // A scene as the command line names it, with its first frame; for worlds that look ahead with all
+  // velocities.
+  static Result<std::unique_ptr<LoadedScene>> open(const std::string& source,
+                                                   bool looks_ahead = false);
 
   // Reads on until `frames` frames are held, or all that the scene has, or about `bytes` bytes.
   Result<void> load(size_t frames, size_t bytes = size_t{1} << 28);

@@ -203,6 +203,21 @@ Result<BroadphaseMethod> parse_broadphase(const std::string& text) {
   return unknown("broadphase", text, names);
 }
 
+const char* name_of(Detection detection) {
+  constexpr const char* kNames[] = {"discrete", "swept", "continuous", "automatic"};
+  return kNames[static_cast<size_t>(detection)];
+}
+
+Result<Detection> parse_detection(const std::string& text) {
+  std::string names;
+  for (auto detection :
+       {Detection::discrete, Detection::swept, Detection::continuous, Detection::automatic}) {
+    if (text == name_of(detection)) return detection;
+    names += (names.empty() ? "" : ", ") + std::string(name_of(detection));
+  }
+  return unknown("detection", text, names);
+}
+
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known) {
   constexpr std::array kOfPairs = {"distance"sv, "toi"sv};
   std::string names;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "carom/broadphase/find_pairs.h"
+#include "carom/kernel/body.h"
 #include "carom/kernel/contact.h"
 #include "carom/kernel/dop.h"
 #include "carom/kernel/result.h"
@@ -52,6 +53,10 @@ Result<void> check_margin(double margin);
 // Directions of k-DOPs; 0: none.
 Result<std::optional<DopKind>> parse_dop_bounds(int directions);
 Result<BroadphaseMethod> parse_broadphase(const std::string& text);
+
+// "discrete", "swept", "continuous", "automatic".
+const char* name_of(Detection detection);
+Result<Detection> parse_detection(const std::string& text);
 
 struct NamedDetail {
   std::string_view name;

@@ -18,6 +18,12 @@ void write_positions(const std::vector<T>& rows, T* records) {
   }
 }
 
+void write(const std::vector<float>& rows, std::span<Eigen::Vector3f> vectors) {
+  for (size_t i = 0; i < rows.size() / 3; ++i) {
+    vectors[i] = Eigen::Map<const Eigen::Vector3f>(&rows[3 * i]);
+  }
+}
+
 // Spheres and aabbs are the same however they are turned.
 bool reads_orientations(const io::SceneInfo& info, const std::vector<Shape>& shapes) {
   return info.has_orientation &&
@@ -47,10 +53,10 @@ BodiesOfKind Player::bodies_of_kind() const {
   return bodies;
 }
 
-io::SceneArrays Player::wanted(Detail detail) const {
+io::SceneArrays Player::wanted(Detail detail, bool looks_ahead) const {
   return {.orientation = oriented_,
-          .linear_velocity = detail >= Detail::contact,
-          .angular_velocity = false};
+          .linear_velocity = detail >= Detail::contact || looks_ahead,
+          .angular_velocity = looks_ahead};
 }
 
 Shape Player::shape(const io::SceneFrame& frame, size_t index) const {
@@ -71,6 +77,9 @@ BodyDesc Player::body(const io::SceneFrame& frame, size_t index) const {
   if (!frame.linear_velocity.empty()) {
     desc.linear_velocity = Eigen::Map<const Eigen::Vector3f>(&frame.linear_velocity[3 * index]);
   }
+  if (!frame.angular_velocity.empty()) {
+    desc.angular_velocity = Eigen::Map<const Eigen::Vector3f>(&frame.angular_velocity[3 * index]);
+  }
   if (!info_->body_motion.empty()) desc.motion = static_cast<Motion>(info_->body_motion[index]);
   if (!info_->layer.empty()) desc.layer = info_->layer[index];
   if (!info_->mask.empty()) desc.mask = info_->mask[index];
@@ -80,7 +89,7 @@ BodyDesc Player::body(const io::SceneFrame& frame, size_t index) const {
   return desc;
 }
 
-void Player::start(const io::SceneFrame& frame, World& world) const {
+void Player::start(const io::SceneFrame& frame, World& world, Detection detection) const {
   constexpr size_t kChunk = 4096;
   std::vector<BodyDesc> bodies;
   std::vector<BodyId> ids;
@@ -88,7 +97,10 @@ void Player::start(const io::SceneFrame& frame, World& world) const {
     bodies.clear();
     ids.clear();
     size_t end = std::min<size_t>(first + kChunk, info_->bodies);
-    for (size_t i = first; i < end; ++i) bodies.push_back(body(frame, i));
+    for (size_t i = first; i < end; ++i) {
+      bodies.push_back(body(frame, i));
+      if (bodies.back().motion == Motion::dynamic) bodies.back().detection = detection;
+    }
     world.add(bodies, ids);
   }
   write_velocities(frame, world);
@@ -127,11 +139,8 @@ void Player::write_orientations(const io::SceneFrame& frame, World& world) const
 }
 
 void Player::write_velocities(const io::SceneFrame& frame, World& world) const {
-  if (frame.linear_velocity.empty()) return;
-  std::span<Eigen::Vector3f> velocities = world.linear_velocities();
-  for (size_t i = 0; i < info_->bodies; ++i) {
-    velocities[i] = Eigen::Map<const Eigen::Vector3f>(&frame.linear_velocity[3 * i]);
-  }
+  if (!frame.linear_velocity.empty()) write(frame.linear_velocity, world.linear_velocities());
+  if (!frame.angular_velocity.empty()) write(frame.angular_velocity, world.angular_velocities());
 }
 
 }  // namespace carom::cli

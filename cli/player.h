@@ -20,12 +20,13 @@ class Player {
   PositionType positions() const;
   // How many bodies have which kind.
   BodiesOfKind bodies_of_kind() const;
-  // The arrays of a frame that are read at this detail.
-  io::SceneArrays wanted(Detail detail) const;
+  // The arrays of a frame that are read at this detail, by worlds that look ahead or do not.
+  io::SceneArrays wanted(Detail detail, bool looks_ahead = false) const;
 
   // The first frame of a world: adds all bodies in the order of the file, so that the index of a
-  // body is its index in the file.
-  void start(const io::SceneFrame& frame, World& world) const;
+  // body is its index in the file. Dynamic ones are looked after as `detection` says.
+  void start(const io::SceneFrame& frame, World& world,
+             Detection detection = Detection::discrete) const;
   // Any later frame: writes poses, and boxes of recordings, straight into the arrays.
   void move(const io::SceneFrame& frame, World& world) const;
 

@@ -7,7 +7,8 @@ namespace {
 
 class Recorder {
  public:
-  Recorder(const World& world, uint64_t bodies) : world_(world), was_quarantined_(bodies) {}
+  Recorder(const World& world, uint64_t bodies, bool looks_ahead)
+      : world_(world), looks_ahead_(looks_ahead), was_quarantined_(bodies) {}
 
   void note(const StepReport& report, double frame_ms) {
     record_.frame_ms.push_back(frame_ms);
@@ -32,6 +33,7 @@ class Recorder {
     record_.hash.add(world_.overlaps());
     record_.hash.add(world_.contacts());
     if (detail == Detail::manifold) record_.hash.add(world_.manifolds());
+    if (looks_ahead_) note_what_is_ahead(report);
   }
 
   RunRecord finish() {
@@ -42,6 +44,14 @@ class Recorder {
   }
 
  private:
+  void note_what_is_ahead(const StepReport& report) {
+    record_.swept.push_back(report.swept);
+    record_.impacts.push_back(report.impacts);
+    record_.speculative.push_back(report.speculative);
+    record_.hash.add(world_.impacts());
+    record_.hash.add(world_.speculative_contacts());
+  }
+
   void note_events() {
     std::array<uint64_t, kEventKindCount> counts{};
     for (const Event& event : world_.events()) ++counts[static_cast<size_t>(event.kind)];
@@ -51,6 +61,7 @@ class Recorder {
   }
 
   const World& world_;
+  bool looks_ahead_;
   std::vector<bool> was_quarantined_;
   RunRecord record_;
 };
@@ -58,16 +69,16 @@ class Recorder {
 }  // namespace
 
 Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
-                         uint64_t frames, std::optional<PairsOutput>& pairs_out,
-                         Progress& progress) {
+                         uint64_t frames, std::optional<PairsOutput>& pairs_out, Progress& progress,
+                         Detection detection) {
   using Clock = std::chrono::steady_clock;
-  Recorder recorder(world, scene.info().bodies);
+  Recorder recorder(world, scene.info().bodies, detection != Detection::discrete);
   io::SceneFrame frame;
   for (uint64_t i = 0; i < frames; ++i) {
     progress.update(i);
     if (Result<void> read = scene.read_frame(frame); !read) return read.error();
     if (i == 0) {
-      player.start(frame, world);
+      player.start(frame, world, detection);
     } else {
       player.move(frame, world);
     }

@@ -26,6 +26,10 @@ struct RunRecord {
   std::vector<uint64_t> kept;
   std::vector<uint64_t> dropped;
   std::vector<uint64_t> quarantined;
+  // Of runs that look ahead; otherwise empty.
+  std::vector<uint64_t> swept;
+  std::vector<uint64_t> impacts;
+  std::vector<uint64_t> speculative;
   std::array<std::vector<uint64_t>, kEventKindCount> events;  // by EventKind
   std::vector<uint32_t> quarantined_bodies;                   // in any frame, ascending
   std::vector<uint64_t> searched;                             // bodies whose pairs were searched
@@ -34,9 +38,10 @@ struct RunRecord {
   StateHash hash;
 };
 
-// Replays `frames` frames into an empty world; `pairs_out` may be absent.
+// Replays `frames` frames into an empty world, its dynamic bodies looked after as `detection` says;
+// `pairs_out` may be absent.
 Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
-                         uint64_t frames, std::optional<PairsOutput>& pairs_out,
-                         Progress& progress);
+                         uint64_t frames, std::optional<PairsOutput>& pairs_out, Progress& progress,
+                         Detection detection = Detection::discrete);
 
 }  // namespace carom::cli

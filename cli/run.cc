@@ -28,6 +28,7 @@ struct RunOptions {
   std::string broadphase = "auto";
   double margin = 0;
   int dop_bounds = 0;  // directions; 0: none
+  std::string detection = "discrete";
   bool no_cache = false;
   std::string json;
   std::string pairs_out;
@@ -88,18 +89,33 @@ Result<Outputs> open_outputs(const RunOptions& options) {
   return outputs;
 }
 
+// A scene that says how its bodies move, if that counts.
+Result<void> check_velocities(const io::SceneInfo& info, const RunOptions& options,
+                              Detection detection) {
+  if (detection == Detection::discrete) return {};
+  if (info.has_linear_velocity || info.has_angular_velocity) return {};
+  return Error{options.scene + ": has no velocities: --detection " + options.detection +
+               " needs them"};
+}
+
 Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings, Outputs& outputs,
                             const Console& console) {
+  const Result<Detection> detection = parse_detection(options.detection);
+  if (!detection) return detection.error();
   Result<std::unique_ptr<io::SceneReader>> scene = open_source(options.scene);
   if (!scene) return scene.error();
   const io::SceneInfo& info = (*scene)->info();
   Result<Player> player = Player::create(info, options.scene);
   if (!player) return player.error();
-  (*scene)->want(player->wanted(settings.detail));
+  if (Result<void> known = check_velocities(info, options, *detection); !known) {
+    return known.error();
+  }
+  (*scene)->want(player->wanted(settings.detail, *detection != Detection::discrete));
 
   ThreadArena arena(options.engine.threads);
   settings.positions = player->positions();
   settings.parallelism = arena.parallelism();
+  settings.dt = info.dt;
   World world(settings);
   RunReport report{.scene = options.scene,
                    .bodies = info.bodies,
@@ -109,6 +125,7 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings, O
                    .tier = options.engine.tier,
                    .accuracy = settings.accuracy,
                    .detail = options.engine.detail,
+                   .detection = options.detection,
                    .pair_kinds = pair_kinds(player->bodies_of_kind()),
                    .margin = settings.margin,
                    .dop_bounds = options.dop_bounds,
@@ -117,7 +134,8 @@ Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings, O
   Progress progress(console, "frame", report.frames);
   std::optional<Error> failure;
   arena.run([&] {
-    auto record = replay(**scene, *player, world, report.frames, outputs.pairs, progress);
+    auto record =
+        replay(**scene, *player, world, report.frames, outputs.pairs, progress, *detection);
     if (record) {
       report.record = std::move(*record);
     } else {
@@ -197,6 +215,11 @@ void add_run_command(CLI::App& program, Action& action) {
   command
       .add_option("--dop-bounds", options->dop_bounds,
                   "Drop pairs whose k-DOPs of 6, 14, 18 or 26 directions are apart; 0: none")
+      ->capture_default_str();
+  command
+      .add_option("--detection", options->detection,
+                  "How dynamic bodies are looked after between frames: discrete, swept, continuous "
+                  "or automatic")
       ->capture_default_str();
   command.add_flag("--no-cache", options->no_cache,
                    "Test every pair anew and drop the sort order between frames");

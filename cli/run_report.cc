@@ -65,6 +65,8 @@ void add_knobs(const FastKnobs& knobs, Json& json) {
 
 bool is_certified(const RunReport& report) { return report.accuracy.tier == Tier::certified; }
 
+bool looks_ahead(const RunReport& report) { return !report.record.swept.empty(); }
+
 std::string number(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
@@ -99,6 +101,7 @@ Json to_json(const RunReport& report) {
   json["tier"] = report.tier;
   add_knobs(report.accuracy.knobs, json);
   json["detail"] = report.detail;
+  json["detection"] = report.detection;
   json["broadphase"] = name(record.search.method);
   json["broadphase_reason"] = record.search.reason;
   json["margin"] = report.margin;
@@ -117,6 +120,11 @@ Json to_json(const RunReport& report) {
   json["tested_pairs_per_frame"] = record.tested;
   json["kept_pairs_per_frame"] = record.kept;
   json["dropped_pairs_per_frame"] = record.dropped;
+  if (looks_ahead(report)) {
+    json["swept_per_frame"] = record.swept;
+    json["impacts_per_frame"] = record.impacts;
+    json["speculative_per_frame"] = record.speculative;
+  }
   json["searched_bodies_per_frame"] = record.searched;
   json["events_per_frame"] = events_json(record);
   json["quarantined_per_frame"] = record.quarantined;
@@ -154,6 +162,11 @@ void print(const RunReport& report, std::ostream& out) {
   table.add({"pairs", extent(record.pairs)});
   table.add({report.detail == "overlap" ? "overlaps" : "contacts", extent(record.contacts)});
   if (is_certified(report)) table.add({"undecided", extent(record.undecided)});
+  if (looks_ahead(report)) {
+    table.add({"bodies looked after", report.detection + ", " + extent(record.swept)});
+    table.add({"impacts", extent(record.impacts)});
+    table.add({"speculative contacts", extent(record.speculative)});
+  }
   table.add({"kept pairs", extent(record.kept)});
   if (report.dop_bounds > 0) table.add({"dropped pairs", extent(record.dropped)});
   table.add({"state hash", record.hash.text()});

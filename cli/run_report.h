@@ -20,6 +20,7 @@ struct RunReport {
   std::string tier;
   Accuracy accuracy;
   std::string detail;
+  std::string detection;
   std::vector<std::string> pair_kinds;  // that the bodies of the scene can make
   float margin = 0;                     // metres
   int dop_bounds = 0;                   // directions; 0: none

@@ -24,8 +24,9 @@ struct Rotation {
   std::array<Vec3<R>, 3> column;
 
   // M(q) / |q|^2
-  explicit Rotation(const Eigen::Quaternionf& q) {
-    const R x(q.x()), y(q.y()), z(q.z()), w(q.w());
+  explicit Rotation(const Eigen::Quaternionf& q)
+      : Rotation(R(q.x()), R(q.y()), R(q.z()), R(q.w())) {}
+  Rotation(const R& x, const R& y, const R& z, const R& w) {
     const R s = 1 / (x * x + y * y + z * z + w * w);
     column[0] = Vec3<R>{w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)};
     column[1] = Vec3<R>{2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)};
@@ -110,11 +111,16 @@ struct ConvexShape {
   // A point.
   explicit ConvexShape(const Vec& point) : points{point} {}
 
-  ConvexShape(const Shape& shape, const Pose& pose,
-              const Eigen::Vector3d& relative_to = Eigen::Vector3d::Zero()) {
+  // In its own frame.
+  explicit ConvexShape(const Shape& shape) {
     std::visit([this](const auto& s) { this->build(s); }, shape);
     for (const Vec& p : points) bounding_radius = std::max<R>(bounding_radius, length(p));
     bounding_radius += radius;
+  }
+
+  ConvexShape(const Shape& shape, const Pose& pose,
+              const Eigen::Vector3d& relative_to = Eigen::Vector3d::Zero())
+      : ConvexShape(shape) {
     if (!std::holds_alternative<Sphere>(shape) && !std::holds_alternative<Aabb>(shape)) {
       rotate(Rotation<R>(pose.orientation));
     }
@@ -142,7 +148,8 @@ struct ConvexShape {
     offset += dot(normal, by);
   }
 
-  // About the origin. Directions stay as good as those of the body's own numbers.
+  // About the origin. Turned from the body's frame, directions stay as good as those of the body's
+  // own numbers.
   void rotate(const Rotation<R>& rotation) {
     const auto turn = [&](Vec& v) { v = rotation(v); };
     std::for_each(points.begin(), points.end(), turn);

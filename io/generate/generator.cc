@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
+#include "io/generate/bullets.h"
 #include "io/generate/made_shapes.h"
+#include "io/generate/motion.h"
 #include "io/generate/population.h"
-#include "io/generate/rotation.h"
 
 namespace carom::io {
 namespace {
@@ -78,14 +78,6 @@ SceneInfo scene_info(const GeneratorSpec& spec, const Population& population) {
   return info;
 }
 
-// Mirrors a coordinate that has passed a wall.
-void bounce(double lower, double upper, double& x, double& velocity) {
-  if (x >= lower && x <= upper) return;
-  double wall = x < lower ? lower : upper;
-  velocity = x < lower ? std::fabs(velocity) : -std::fabs(velocity);
-  x = std::fmin(std::fmax(wall + (wall - x), lower), upper);
-}
-
 class GeneratedScene : public SceneReader {
  public:
   explicit GeneratedScene(const GeneratorSpec& spec)
@@ -134,10 +126,8 @@ class GeneratedScene : public SceneReader {
   }
 
   void turn(uint64_t body) {
-    const Vec3& velocity = population_.angular_velocity[body];
-    Quaternion& orientation = population_.orientation[body];
-    Vec3 angle = {velocity[0] * spec_.dt, velocity[1] * spec_.dt, velocity[2] * spec_.dt};
-    orientation = normalized(product(rotation_by(angle), orientation));
+    population_.orientation[body] =
+        turned(population_.orientation[body], population_.angular_velocity[body], spec_.dt);
   }
 
   // A new velocity for a mover drawn at random; one may be drawn twice.
@@ -157,16 +147,6 @@ class GeneratedScene : public SceneReader {
     frame.boxes.clear();
   }
 
-  template <class Row, class T>
-  static void store_rows(bool wanted, const std::vector<Row>& rows, std::vector<T>& out) {
-    out.resize(wanted ? rows.size() * std::tuple_size_v<Row> : 0);
-    if (!wanted) return;
-    T* next = out.data();
-    for (const Row& row : rows) {
-      for (double value : row) *next++ = static_cast<T>(value);
-    }
-  }
-
   GeneratorSpec spec_;
   Population population_;
   SceneInfo info_;
@@ -178,6 +158,7 @@ class GeneratedScene : public SceneReader {
 }  // namespace
 
 std::unique_ptr<SceneReader> open_generator(const GeneratorSpec& spec) {
+  if (spec.kind == GeneratorKind::bullets) return open_bullets(spec);
   return std::make_unique<GeneratedScene>(spec);
 }
 

@@ -86,6 +86,7 @@ double default_speed(const GeneratorSpec& spec, double side) {
     case GeneratorKind::level:
       return 6;
     case GeneratorKind::still:
+    case GeneratorKind::bullets:
       return 0;
   }
   return 0;

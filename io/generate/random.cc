@@ -13,6 +13,16 @@ Vec3 Random::in_ball(double radius) {
   }
 }
 
+Vec3 Random::in_shell(double inner, double outer) {
+  for (;;) {
+    const Vec3 v = in_ball(1);
+    const double norm = std::sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
+    if (!(norm > 0x1p-5)) continue;
+    const double scale = between(inner, outer) / norm;
+    return {v[0] * scale, v[1] * scale, v[2] * scale};
+  }
+}
+
 Vec3 Random::in_disc(double radius) {
   for (;;) {
     double x = between(-1, 1);

@@ -33,6 +33,8 @@ class Random {
 
   // Uniform in the ball of that radius.
   Vec3 in_ball(double radius);
+  // Uniform among directions; its length between the two.
+  Vec3 in_shell(double inner, double outer);
   // Uniform in the disc of that radius: x and z, y is 0.
   Vec3 in_disc(double radius);
   // Uniform among all rotations; not a unit quaternion.

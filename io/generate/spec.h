@@ -16,12 +16,13 @@ enum class GeneratorKind : uint8_t {
   varied,    // cubes of sizes over 2.5 decades, moving freely
   level,     // "static": nine of ten boxes never move
   still,     // brownian without motion
+  bullets,   // small and fast, of several kinds, in a room of what is thin
 };
 
 struct GeneratorSpec {
   std::string text;  // as it was given
   GeneratorKind kind = GeneratorKind::brownian;
-  uint64_t bodies = 10000;
+  uint64_t bodies = 10000;  // bullets: those that move
   uint64_t frames = 60;
   uint64_t seed = 1;
   std::optional<double> density;  // sum of volumes / world volume; static: bodies a square metre
@@ -32,10 +33,10 @@ struct GeneratorSpec {
   bool float64_positions = false;
   bool mark_static = false;  // static: bodies that never move are static bodies
 
-  bool has_orientation() const { return row_count(shape) > 0; }
+  bool has_orientation() const { return kind == GeneratorKind::bullets || row_count(shape) > 0; }
 };
 
-// The kinds, "brownian, varied, static, still".
+// The kinds, "brownian, varied, static, still, bullets".
 extern const char kGeneratorKinds[];
 
 // Whether the text is meant for a generator rather than for a file: one word, then the end or ':'.

@@ -217,7 +217,7 @@ TEST_F(ErrorsTest, Generators) {
   const auto fails = [&](const std::string& spec, std::initializer_list<std::string> parts) {
     expect_error({"generate", spec, "-o", path("out.npz")}, parts);
   };
-  fails("tornado", {"unknown generator 'tornado'", "brownian, varied, static, still"});
+  fails("tornado", {"unknown generator 'tornado'", "brownian, varied, static, still, bullets"});
   fails("tornado:n=5", {"unknown generator 'tornado'"});
   fails("brownian:", {"'' is not key=value"});
   fails("brownian:n", {"'n' is not key=value"});
