@@ -33,7 +33,8 @@ class PartMeeting {
  public:
   PartMeeting(const MovingPart& a, const MovingPart& b, const Vector3d& from, const Vector3d& way)
       : a_(a), b_(b), from_(from), way_(way), solid_a_(a.own()), solid_b_(b.own()) {
-    travel_ = way.norm() + a.turned_way() + b.turned_way();
+    turned_ = a.turned_way() + b.turned_way();
+    travel_ = way.norm() + turned_;
     const double extent = from.norm() + travel_ + a.own().bounding_radius + b.own().bounding_radius;
     rounding_ = kRounding * extent;
     fine_ = kFine * extent;
@@ -56,18 +57,23 @@ class PartMeeting {
   size_t poses() const { return poses_; }
 
  private:
-  // A time, and how far apart the parts are then.
+  // A time, how far apart the parts are then, and how fast they may come together after it and have
+  // come apart before it. (On the way from one to the other they are never nearer than what lies
+  // between them along the normal of this time; rotation changes that by the way of their points.)
   struct Look {
     double t;
     double gap;
+    double closing;
+    double opening;
   };
 
   Look look(double t) {
     ++poses_;
     place(t);
-    const double gap = oracle::exact_separation(solid_a_, solid_b_);
-    found_.least = std::min(found_.least, gap);
-    return {t, gap};
+    const auto separation = oracle::separation_with_normal(solid_a_, solid_b_);
+    found_.least = std::min(found_.least, separation.value);
+    const double along = dot(separation.normal, oracle::vec3_as<double>(way_));
+    return {t, separation.value, std::max(-along, 0.0) + turned_, std::max(along, 0.0) + turned_};
   }
 
   void place(double t) {
@@ -76,14 +82,17 @@ class PartMeeting {
     solid_b_.translate(oracle::vec3_as<double>(Vector3d(from_ + way_ * t)));
   }
 
-  // No separation between the two times is less than this: it changes by the travel at most.
-  double least_between(const Look& from, const Look& to) const {
-    return (from.gap + to.gap - travel_ * (to.t - from.t)) / 2;
+  // No separation between the two times is less than this.
+  static double least_between(const Look& from, const Look& to) {
+    const double closing = from.closing, opening = to.opening;
+    if (!(closing + opening > 0)) return std::max(from.gap, to.gap);
+    const double way = closing * opening * (to.t - from.t);
+    return (from.gap * opening + to.gap * closing - way) / (closing + opening);
   }
 
   // The first substep after `now` at which the gap may have come down to `goal`.
   Look next(const Look& now, double goal) {
-    const double substep = travel_ / substeps_;
+    const double substep = now.closing / substeps_;
     const double all = substeps_;
     const double begun = std::floor(now.t * all + kSameSubstep);
     const double ahead = (now.gap - goal) / substep;  // infinite if nothing moves
@@ -106,7 +115,9 @@ class PartMeeting {
   }
 
   bool find_first_between(const Look& from, const Look& to) {
-    if (least_between(from, to) > graze_) return false;
+    // Once they graze, only an overlap is news.
+    const double goal = found_.least <= graze_ ? -rounding_ : graze_;
+    if (least_between(from, to) > goal) return false;
     const bool is_over = to.gap < -rounding_;
     const double reach = travel_ * (to.t - from.t);
     if (!is_over && reach <= graze_ / 8) return false;
@@ -159,6 +170,7 @@ class PartMeeting {
   Vector3d from_;
   Vector3d way_;
   Solid solid_a_, solid_b_;  // at the time of the last look, about the position of A then
+  double turned_;            // the most that points move by turning
   double travel_;            // the most that a point of one moves against the other
   double graze_;
   double rounding_;

@@ -238,6 +238,9 @@ TEST_F(ErrorsTest, Generators) {
   fails("varied:spin=2,shape=sphere", {"'spin' needs a shape that turns"});
   fails("still:shape=box,spin=2", {"unknown key 'spin'", "shape, positions"});
   fails("brownian:positions=float16", {"float32"});
+  fails("bullets:shape=box", {"unknown key 'shape'", "n, frames, seed, speed, dt, spin"});
+  fails("bullets:density=1", {"unknown key 'density'"});
+  expect_error({"generate", "bullets:n=4", "-o", path("out.aabb")}, {"out.aabb", "(.npz)"});
   expect_error({"run", "tornado:n=5"}, {"unknown generator 'tornado'"});
   expect_error({"generate", "still:n=3,frames=1", "-o", path("no/such/folder.npz")},
                {"folder.npz"});

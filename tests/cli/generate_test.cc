@@ -56,6 +56,7 @@ TEST_F(GenerateTest, ScenesNeverChange) {
   EXPECT_EQ(hash_of("brownian:n=1000,shape=hull", 5), "29a92da234824389");
   EXPECT_EQ(hash_of("varied:n=100,shape=mesh", 5), "7ab2230ef1b09553");
   EXPECT_EQ(hash_of("static:n=100,shape=compound", 5), "366c7bfa31cda38e");
+  EXPECT_EQ(hash_of("bullets:n=100", 5), "b4df9e541f34af8e");
 }
 
 TEST_F(GenerateTest, SeedsDiffer) {
