@@ -67,8 +67,8 @@ void print_failures(const std::vector<NotedPair>& failures, std::ostream& out) {
   for (size_t i = 0; i < failures.size() && i < kShown; ++i) {
     const NotedPair& failure = failures[i];
     out << "continuous: frame " << failure.frame << ", bodies " << failure.pair.a << " and "
-        << failure.pair.b << ": the impact " << failure.what << " (deepest "
-        << number("%.3g m", -failure.least) << ")\n";
+        << failure.pair.b << ": the impact " << failure.what << " (they overlap by "
+        << number("%.3g m", -failure.least) << " or more)\n";
   }
   if (failures.size() > kShown) out << "... " << failures.size() << " failures in all\n";
 }
