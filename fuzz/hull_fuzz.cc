@@ -70,7 +70,7 @@ using Cloud = oracle::ConvexShape<Number>;
 // Points alone: that suffices for projections.
 Cloud placed_points(const test::PlacedShape& body, PositionType positions) {
   const oracle::Rotation<Number> turn(body.orientation);
-  Cloud cloud({});
+  Cloud cloud(oracle::Vec3<Number>{});
   cloud.points.clear();
   for (const Eigen::Vector3f& p : std::get<Hull>(body.shape).geometry->points()) {
     cloud.points.push_back(turn(oracle::vec3_as<Number>(p)));
