@@ -67,7 +67,8 @@ void write_pairs(const std::string& path, uint8_t kind, uint32_t shape = 0) {
 }
 
 TEST_F(ErrorsTest, Commands) {
-  expect_error({}, {"no command", "run, pairs, verify, advise, accuracy, tunnelling, check, generate, info"});
+  expect_error({}, {"no command",
+                    "run, pairs, verify, advise, accuracy, tunnelling, check, generate, info"});
   expect_error({"frobnicate"}, {"unknown command 'frobnicate'", "run, pairs"});
   expect_error({"check", path("absent.obj")}, {"absent.obj"});
   expect_error({"--bogus"}, {"unknown command '--bogus'"});
