@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <utility>
 
 #include "carom/kernel/body.h"
 #include "fuzz/kinds_input.h"
@@ -89,6 +92,31 @@ inline Body without_excess(ShapeKind kind, Body body) {
 
 inline Hull take_hull_of(ShapeKind kind, Data& data) {
   return kind == ShapeKind::hull ? take_hull(data) : Hull{};
+}
+
+// Two bodies, and beside each another one of its kind.
+struct TwoBodies {
+  KindPair kinds;
+  uint8_t flags;
+  PositionType type;
+  Hull hull_a, hull_b;  // kept for as long as the bodies
+  Body a, b, beside_a, beside_b;
+};
+
+inline TwoBodies take_two_bodies(Data& data) {
+  TwoBodies two;
+  two.kinds = kPairs[take<uint8_t>(data) % std::size(kPairs)];
+  two.flags = take<uint8_t>(data);
+  if (two.flags & kExchanged) std::swap(two.kinds.a, two.kinds.b);
+  two.type = two.flags & kFloat64 ? PositionType::float64 : PositionType::float32;
+  const auto bodies = take<std::array<Body, 2>>(data);
+  two.hull_a = take_hull_of(two.kinds.a, data);
+  two.hull_b = take_hull_of(two.kinds.b, data);
+  two.beside_a = with_hull(two.kinds.a, bodies[0], two.hull_a);
+  two.beside_b = with_hull(two.kinds.b, bodies[0], two.hull_b);
+  two.a = without_excess(two.kinds.a, two.beside_a);
+  two.b = without_excess(two.kinds.b, with_hull(two.kinds.b, bodies[1], two.hull_b));
+  return two;
 }
 
 }  // namespace carom::fuzz

@@ -97,20 +97,12 @@ void print(const char* who, const Row& row) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2) return 0;
   Data rest(data, size);
-  KindPair kinds = kPairs[take<uint8_t>(rest) % std::size(kPairs)];
-  const auto flags = take<uint8_t>(rest);
-  if (flags & kExchanged) std::swap(kinds.a, kinds.b);
-  const PositionType type = flags & kFloat64 ? PositionType::float64 : PositionType::float32;
-  const auto bodies = take<std::array<Body, 2>>(rest);
-  const Hull hull_a = take_hull_of(kinds.a, rest), hull_b = take_hull_of(kinds.b, rest);
-  const Body beside_a = with_hull(kinds.a, bodies[0], hull_a);
-  const Body beside_b = with_hull(kinds.b, bodies[0], hull_b);
-  const Body body_a = without_excess(kinds.a, beside_a);
-  const Body body_b = without_excess(kinds.b, with_hull(kinds.b, bodies[1], hull_b));
+  const TwoBodies two = take_two_bodies(rest);
+  const KindPair& kinds = two.kinds;
 
-  const View a(kinds.a, body_a, beside_a, type), b(kinds.b, body_b, beside_b, type);
+  const View a(kinds.a, two.a, two.beside_a, two.type), b(kinds.b, two.b, two.beside_b, two.type);
   const reference::PairResult expected = reference::collide(
-      shape_of(kinds.a, body_a), pose_of(body_a), shape_of(kinds.b, body_b), pose_of(body_b), type);
+      shape_of(kinds.a, two.a), pose_of(two.a), shape_of(kinds.b, two.b), pose_of(two.b), two.type);
   for (const Isa isa : usable_isas()) {
     force_isa(isa);
     for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {

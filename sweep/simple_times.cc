@@ -185,6 +185,7 @@ class SimpleTimes {
   }
 
   const MovingReader a_, b_;
+  const FurthestPoint furthest_ = furthest_point_in_lanes();  // looked up once a block
   const std::optional<uint8_t> shared_group_;
   const Pair* pairs_;
   const size_t count_;
