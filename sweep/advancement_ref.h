@@ -248,8 +248,9 @@ inline double advance_along(const MovingPair& pair, const Vector3d& n, double t,
   return next;
 }
 
-inline constexpr int kMostRounds = 256;  // grazing halves the gap at each; most pairs need three to seven
-inline constexpr int kEasyRounds = 6;    // most have met by then: spinning directions cost more
+inline constexpr int kMostRounds =
+    256;  // grazing halves the gap at each; most pairs need three to seven
+inline constexpr int kEasyRounds = 6;  // most have met by then: spinning directions cost more
 
 // The unit vector along which the cores are nearest. Of a way to the inside of an edge what
 // rounding has left along that edge is taken out: of cores that all but touch it is most of what is
