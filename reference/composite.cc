@@ -75,7 +75,7 @@ struct Best {
   const Simple* b = nullptr;
   std::array<uint8_t, 2> closed{};  // edges, of either side
 
-  bool is_over_edge() const { return closed[0] != 0 || closed[1] != 0; }
+  bool is_over_edge() const { return a != nullptr && (closed[0] != 0 || closed[1] != 0); }
 };
 
 // Again with no way over inner edges. That the two overlap stays as it was: where this test finds
