@@ -1,3 +1,4 @@
+// Column by column, so that what a view looks like is asked once a column and not once a body.
 #include "sweep/gather_linear.h"
 
 #include <array>
@@ -5,7 +6,32 @@
 namespace carom {
 namespace {
 
-// The next column of a row.
+// Element i of an array with a stride; zero if there is no array.
+template <class T>
+class Strided {
+ public:
+  Strided(const void* data, size_t stride)
+      : data_(static_cast<const char*>(data ? data : &kNone)), stride_(data ? stride : 0) {}
+
+  T operator[](size_t i) const { return load_strided<T>(data_, stride_, i); }
+
+ private:
+  static constexpr T kNone{};
+  const char* data_;
+  size_t stride_;
+};
+
+// Without a branch: of finite numbers the differences are zero, of others they are not numbers.
+template <class T>
+bool are_finite(const Position<T>& p) {
+  return ((p.x - p.x) + (p.y - p.y)) + (p.z - p.z) == 0;
+}
+
+bool is_rotation(const Row& q) {
+  return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0);
+}
+
+// The numbers of one body, from column to column.
 class RowWriter {
  public:
   RowWriter(LinearRows& rows, size_t column, size_t row) : next_(rows.column(column) + row) {}
@@ -26,160 +52,230 @@ class RowWriter {
   double* next_;
 };
 
-bool is_rotation(const Row& q) {
-  return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0);
-}
+// The bodies of a side; the view is copied, so that what is written cannot be a part of it.
+struct Side {
+  const Collidables bodies;
+  const SweepView sweep;
+  const LinearKind kind;
+  const uint32_t* const body;
 
-constexpr Row kIdentity = {0, 0, 0, 1};
+  explicit Side(const LinearSide& side)
+      : bodies(side.side.bodies), sweep(side.side.sweep), kind(side.kind), body(side.body) {}
 
-// put() writes the numbers of a body, and says whether they are valid; offset() is where they are
-// about, from the body's position.
-template <LinearKind kKind>
-struct Numbers;
+  BodyReader reader() const { return {bodies}; }
 
-struct AboutPosition {
-  static Double3 offset(const BodyReader&, size_t) { return {}; }
-};
-
-template <>
-struct Numbers<LinearKind::sphere> : AboutPosition {
-  static bool put(const BodyReader& body, size_t i, RowWriter out) {
-    const float radius = body.radius(i);
-    out.put(radius);
-    return is_valid_radius(radius);
+  Strided<Position<float>> displacement() const {
+    return {sweep.displacement, sweep.displacement_stride};
   }
-};
+  Strided<Position<float>> rotation() const { return {sweep.rotation, sweep.rotation_stride}; }
 
-template <>
-struct Numbers<LinearKind::capsule> : AboutPosition {
-  static bool put(const BodyReader& body, size_t i, RowWriter out) {
-    const std::array<Row, 2> rows = {body.row(i, 0), body.row(i, 1)};
-    const Row q = body.orientation(i);
-    out.put3(rows[0]);
-    out.put3(rows[1]);
-    out.put(rows[0][3]);
-    out.put4(q);
-    return are_valid_rows(ShapeKind::capsule, rows.data()) && is_rotation(q);
-  }
-};
-
-template <>
-struct Numbers<LinearKind::box> {
-  static bool put(const BodyReader& body, size_t i, RowWriter out) {
-    return is_turned(body, i) ? put_box(body, i, out) : put_aabb(body, i, out);
+  // Calls use(positions).
+  template <class Use>
+  void with_positions(const Use& use) const {
+    const PositionView& view = bodies.position;
+    if (reader().is_float64()) return use(Strided<Position<double>>(view.data, view.stride));
+    use(Strided<Position<float>>(view.data, view.stride));
   }
 
-  static Double3 offset(const BodyReader& body, size_t i) {
-    if (is_turned(body, i)) return {};
-    const auto middle = [&](size_t axis) {
-      return (double{body.lower(axis, i)} + double{body.upper(axis, i)}) * 0.5;
-    };
-    return {middle(0), middle(1), middle(2)};
+  // Calls use(radii).
+  template <class Use>
+  void with_radii(const Use& use) const {
+    const PositionView& view = bodies.position;
+    const char* base = static_cast<const char*>(view.data);
+    switch (view.radius_layout) {
+      case RadiusLayout::none:
+        return use(Strided<float>(nullptr, 0));
+      case RadiusLayout::column:
+        return use(Strided<float>(view.radius, view.radius_stride));
+      case RadiusLayout::fourth:
+        if (reader().is_float64()) {
+          return use(Strided<double>(base + sizeof(Position<double>), view.stride));
+        }
+        return use(Strided<float>(base + sizeof(Position<float>), view.stride));
+    }
+  }
+
+  bool is_turned_box(size_t i) const { return reader().kind(i) == ShapeKind::box; }
+};
+
+class LinearGather {
+ public:
+  LinearGather(size_t count, LinearRows& rows, bool* valid)
+      : count_(count), rows_(rows), valid_(valid) {}
+
+  void run(const Side& a, const Side& b) {
+    const size_t first_of_a = LinearRows::kPairColumns;
+    const size_t first_of_b = first_of_a + number_count(a.kind);
+    put_places(a, b);
+    put_ways(a, b);
+    check_rotations(a);
+    check_rotations(b);
+    add_middles(b, 1);
+    add_middles(a, -1);
+    put_bodies(a, first_of_a);
+    if (b.kind == LinearKind::plane) {
+      put_planes(b, first_of_b);
+    } else {
+      put_bodies(b, first_of_b);
+    }
   }
 
  private:
-  static bool is_turned(const BodyReader& body, size_t i) { return body.kind(i) == ShapeKind::box; }
+  void check(size_t row, bool is_valid) { valid_[row] = valid_[row] & is_valid; }
 
-  static bool put_box(const BodyReader& body, size_t i, RowWriter out) {
-    const Row half = body.row(i, 0), q = body.orientation(i);
+  // `place(position of A, position of B)` of every row, in three columns.
+  template <class OfA, class OfB, class Between>
+  void put_between(const OfA& of_a, const uint32_t* a, const OfB& of_b, const uint32_t* b,
+                   size_t column, const Between& between) {
+    double *const x = rows_.column(column), *const y = rows_.column(column + 1),
+                  *const z = rows_.column(column + 2);
+    for (size_t i = 0; i < count_; ++i) {
+      const auto p = of_a[a[i]];
+      const auto q = of_b[b[i]];
+      x[i] = between(p.x, q.x);
+      y[i] = between(p.y, q.y);
+      z[i] = between(p.z, q.z);
+      check(i, are_finite(p) & are_finite(q));
+    }
+  }
+
+  void put_places(const Side& a, const Side& b) {
+    std::fill_n(valid_, count_, true);
+    a.with_positions([&](const auto& of_a) {
+      b.with_positions([&](const auto& of_b) {
+        // Plus zero, as if every kind had a middle: no zero is negative.
+        put_between(of_a, a.body, of_b, b.body, 0,
+                    [](double from, double to) { return apart(from, to) + 0.0; });
+      });
+    });
+  }
+
+  void put_ways(const Side& a, const Side& b) {
+    put_between(a.displacement(), a.body, b.displacement(), b.body, 3,
+                [](double of_a, double of_b) { return of_b - of_a; });
+  }
+
+  // Of bodies that do not turn, whatever their rotation.
+  void check_rotations(const Side& side) {
+    if (!side.sweep.rotation) return;
+    const Strided<Position<float>> rotation = side.rotation();
+    for (size_t i = 0; i < count_; ++i) check(i, are_finite(rotation[side.body[i]]));
+  }
+
+  // An aabb is a box about its middle.
+  void add_middles(const Side& side, double sign) {
+    if (side.kind != LinearKind::box) return;
+    const BodyReader reader = side.reader();
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t body = side.body[i];
+      if (side.is_turned_box(body)) continue;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double ends = double{reader.lower(axis, body)} + double{reader.upper(axis, body)};
+        rows_.column(axis)[i] += sign * (ends * 0.5);
+      }
+    }
+  }
+
+  void put_bodies(const Side& side, size_t column) {
+    switch (side.kind) {
+      case LinearKind::sphere:
+        return put_spheres(side, column);
+      case LinearKind::capsule:
+        return put_turned<ShapeKind::capsule>(side, column);
+      case LinearKind::triangle:
+        return put_turned<ShapeKind::triangle>(side, column);
+      default:
+        return put_boxes(side, column);
+    }
+  }
+
+  void put_spheres(const Side& side, size_t column) {
+    double* const out = rows_.column(column);
+    side.with_radii([&](const auto& radii) {
+      for (size_t i = 0; i < count_; ++i) {
+        const auto radius = static_cast<float>(radii[side.body[i]]);
+        out[i] = radius;
+        check(i, is_valid_radius(radius));
+      }
+    });
+  }
+
+  // Points, the radius of a capsule, and a quaternion.
+  template <ShapeKind kKind>
+  void put_turned(const Side& side, size_t column) {
+    const BodyReader reader = side.reader();
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t body = side.body[i];
+      std::array<Row, row_count(kKind)> rows;
+      for (size_t k = 0; k < rows.size(); ++k) rows[k] = reader.row(body, k);
+      const Row q = reader.orientation(body);
+      RowWriter out(rows_, column, i);
+      for (const Row& row : rows) out.put3(row);
+      if (kKind == ShapeKind::capsule) out.put(rows[0][3]);
+      out.put4(q);
+      check(i, are_valid_rows(kKind, rows.data()) && is_rotation(q));
+    }
+  }
+
+  void put_boxes(const Side& side, size_t column) {
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t body = side.body[i];
+      const RowWriter out(rows_, column, i);
+      check(i, side.is_turned_box(body) ? put_box(side.reader(), body, out)
+                                        : put_aabb(side.reader(), body, out));
+    }
+  }
+
+  static bool put_box(const BodyReader& reader, uint32_t body, RowWriter out) {
+    const Row half = reader.row(body, 0), q = reader.orientation(body);
     out.put3(half);
     out.put4(q);
     return are_valid_rows(ShapeKind::box, &half) && is_rotation(q);
   }
 
-  static bool put_aabb(const BodyReader& body, size_t i, RowWriter out) {
+  static bool put_aabb(const BodyReader& reader, uint32_t body, RowWriter out) {
     bool is_valid = true;
     for (size_t axis = 0; axis < 3; ++axis) {
-      const float lower = body.lower(axis, i), upper = body.upper(axis, i);
+      const float lower = reader.lower(axis, body), upper = reader.upper(axis, body);
       out.put((double{upper} - double{lower}) * 0.5);
       is_valid = is_valid && is_valid_box_axis(lower, upper);
     }
-    out.put4(kIdentity);
+    out.put4({0, 0, 0, 1});
     return is_valid;
   }
-};
 
-template <>
-struct Numbers<LinearKind::triangle> : AboutPosition {
-  static bool put(const BodyReader& body, size_t i, RowWriter out) {
-    const std::array<Row, 3> rows = {body.row(i, 0), body.row(i, 1), body.row(i, 2)};
-    const Row q = body.orientation(i);
-    for (const Row& row : rows) out.put3(row);
-    out.put4(q);
-    return are_valid_rows(ShapeKind::triangle, rows.data()) && is_rotation(q);
-  }
-};
-
-// Of a half-space seen from the other body, at -from.
-bool put_plane(const MovingReader& halfspace, size_t i, const reference::LinearPose& pose,
-               RowWriter out) {
-  const Row row = halfspace.body().row(i, 0), q = halfspace.body().orientation(i);
-  const auto shape = reference::shape_as<double>(Halfspace{{row[0], row[1], row[2]}, row[3]});
-  const reference::LinearPlane plane(shape, pose);
-  out.put3(Double3{plane.normal.x(), plane.normal.y(), plane.normal.z()});
-  out.put(plane.height);
-  out.put(plane.rate);
-  out.put(shape.size());
-  return are_valid_rows(ShapeKind::halfspace, &row) && is_rotation(q);
-}
-
-template <LinearKind kA, LinearKind kB>
-bool gather_pair(const MovingReader& a, const MovingReader& b, Pair pair, LinearRows& rows,
-                 size_t row) {
-  using NumbersOfA = Numbers<kA>;
-  constexpr size_t kFirstOfA = LinearRows::kPairColumns;
-  const Double3 way = way_between(a, b, pair);
-  Double3 from = place_between(a, b, pair);
-  const Double3 offset_a = NumbersOfA::offset(a.body(), pair.a);
-  const RowWriter out_b(rows, kFirstOfA + number_count(kA), row);
-  bool is_valid = NumbersOfA::put(a.body(), pair.a, {rows, kFirstOfA, row});
-  if constexpr (kB == LinearKind::plane) {
-    for (size_t axis = 0; axis < 3; ++axis) from[axis] -= offset_a[axis];
-    const reference::LinearPose pose{eigen(from), eigen(way), {}, b.orientation(pair.b), 0};
-    is_valid = put_plane(b, pair.b, pose, out_b) && is_valid;
-  } else {
-    const Double3 offset_b = Numbers<kB>::offset(b.body(), pair.b);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      from[axis] = (from[axis] + offset_b[axis]) - offset_a[axis];
+  // Half-spaces seen from the other bodies, whose places are in the first columns.
+  void put_planes(const Side& side, size_t column) {
+    const BodyReader reader = side.reader();
+    const auto vector_at = [&](size_t first, size_t i) {
+      return Eigen::Vector3d{rows_.column(first)[i], rows_.column(first + 1)[i],
+                             rows_.column(first + 2)[i]};
+    };
+    for (size_t i = 0; i < count_; ++i) {
+      const Row row = reader.row(side.body[i], 0), q = reader.orientation(side.body[i]);
+      const auto shape = reference::shape_as<double>(Halfspace{{row[0], row[1], row[2]}, row[3]});
+      const reference::LinearPose pose{
+          vector_at(0, i), vector_at(3, i), {}, {{q[0], q[1], q[2]}, q[3]}, 0};
+      const reference::LinearPlane plane(shape, pose);
+      RowWriter out(rows_, column, i);
+      out.put3(plane.normal);
+      out.put(plane.height);
+      out.put(plane.rate);
+      out.put(shape.size());
+      check(i, are_valid_rows(ShapeKind::halfspace, &row) && is_rotation(q));
     }
-    is_valid = Numbers<kB>::put(b.body(), pair.b, out_b) && is_valid;
   }
-  RowWriter out(rows, 0, row);
-  out.put3(from);
-  out.put3(way);
-  return is_valid && a.has_valid_motion(pair.a) && b.has_valid_motion(pair.b);
-}
 
-// Views are copied, so that what is written cannot be taken for a part of them.
-template <LinearKind kA, LinearKind kB>
-void gather(const MovingSide& side_a, const MovingSide& side_b, const LinearPairs& pairs,
-            LinearRows& rows, bool* valid) {
-  const Collidables bodies_a = side_a.bodies, bodies_b = side_b.bodies;
-  const MovingSide a{bodies_a, side_a.sweep, side_a.arm}, b{bodies_b, side_b.sweep, side_b.arm};
-  const LinearPairs list = pairs;
-  for (size_t i = 0; i < list.rows.size(); ++i) {
-    valid[i] = gather_pair<kA, kB>({a}, {b}, list.pair(i), rows, i);
-  }
-}
-
-template <LinearKind kA>
-GatherLinear gather_with(LinearKind b) {
-  using enum LinearKind;
-  if (b == capsule) return gather<kA, capsule>;
-  if (b == box) return gather<kA, box>;
-  if (b == triangle) return gather<kA, triangle>;
-  if (b == plane) return gather<kA, plane>;
-  return gather<kA, sphere>;
-}
+  const size_t count_;
+  LinearRows& rows_;
+  bool* const valid_;
+};
 
 }  // namespace
 
-GatherLinear gather_linear(LinearKind a, LinearKind b) {
-  using enum LinearKind;
-  if (a == capsule) return gather_with<capsule>(b);
-  if (a == box) return gather_with<box>(b);
-  if (a == triangle) return gather_with<triangle>(b);
-  return gather_with<sphere>(b);
+void gather_linear(const LinearSide& a, const LinearSide& b, size_t count, LinearRows& rows,
+                   bool* valid) {
+  LinearGather(count, rows, valid).run(Side(a), Side(b));
 }
 
 }  // namespace carom

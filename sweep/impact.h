@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "carom/kernel/contact.h"
@@ -13,6 +14,13 @@ struct FirstTime {
   double time;  // infinite: never; NaN: no answer
   Status status = Status::ok;
   std::array<uint64_t, 2> parts{};  // that meet (PlacedPart::order()); zero for simple shapes
+};
+
+// Of the pairs of a block; parts of those alone that have any.
+struct FirstTimes {
+  const double* time;
+  const std::array<uint64_t, 2>* parts;
+  size_t count;
 };
 
 // The part of a body with this order.

@@ -90,7 +90,7 @@ struct Scratch {
 class ImpactContacts {
  public:
   ImpactContacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
-                 std::span<const FirstTime> first, WitnessFrame frame, const ImpactColumns& out,
+                 const FirstTimes& first, WitnessFrame frame, const ImpactColumns& out,
                  Scratch& scratch)
       : side_a_(a),
         side_b_(b),
@@ -104,8 +104,8 @@ class ImpactContacts {
 
   void run() {
     clear();
-    for (size_t row = 0; row < first_.size(); ++row) {
-      const bool meets = first_[row].time <= 1;
+    for (size_t row = 0; row < first_.count; ++row) {
+      const bool meets = first_.time[row] <= 1;
       if (!meets) {
         write_nothing(row);
       } else if (is_composite(row)) {
@@ -144,8 +144,8 @@ class ImpactContacts {
     scratch_.row[scratch_.count++] = static_cast<uint16_t>(row);
     // Seen from A, so that the contact does not depend on where both are.
     const Pair pair = pairs_[row];
-    scratch_.a.put(a_, pair.a, {}, first_[row].time);
-    scratch_.b.put(b_, pair.b, place_between(a_, b_, pair), first_[row].time);
+    scratch_.a.put(a_, pair.a, {}, first_.time[row]);
+    scratch_.b.put(b_, pair.b, place_between(a_, b_, pair), first_.time[row]);
   }
 
   void run_bodies() {
@@ -168,8 +168,8 @@ class ImpactContacts {
   void add_parts(size_t row) {
     const PlacedBodies bodies(side_a_, side_b_, pairs_[row]);
     const size_t i = scratch_.parts.count();
-    PlacedPart a = part_at(bodies.a, first_[row].parts[0]);
-    PlacedPart b = part_at(bodies.b, first_[row].parts[1]);
+    PlacedPart a = part_at(bodies.a, first_.parts[row][0]);
+    PlacedPart b = part_at(bodies.b, first_.parts[row][1]);
     scratch_.arms[i] = {place(a, bodies.a.position, a_, pairs_[row].a, row),
                         place(b, bodies.b.position, b_, pairs_[row].b, row)};
     scratch_.parts.add(row, a, b);
@@ -179,7 +179,7 @@ class ImpactContacts {
   Double3 place(PlacedPart& part, const Double3& pivot, const MovingReader& side, size_t body,
                 size_t row) {
     const PlaceInTime place =
-        place_at(pivot, part.arm, part.orientation, side, body, first_[row].time);
+        place_at(pivot, part.arm, part.orientation, side, body, first_.time[row]);
     part.position = place.position;
     part.orientation = place.orientation;
     part.turn = part.part->is_turned() ? rotation_of(place.orientation) : kNotTurned;
@@ -196,8 +196,8 @@ class ImpactContacts {
   // `arms`: from the bodies' positions then to those that the points were found from.
   void write(size_t row, const ResultColumns& found, size_t i, std::array<Double3, 2> arms) {
     if (frame_ == WitnessFrame::world) {
-      arms[0] = plus(position_then(a_, pairs_[row].a, first_[row].time), arms[0]);
-      arms[1] = plus(position_then(b_, pairs_[row].b, first_[row].time), arms[1]);
+      arms[0] = plus(position_then(a_, pairs_[row].a, first_.time[row]), arms[0]);
+      arms[1] = plus(position_then(b_, pairs_[row].b, first_.time[row]), arms[1]);
     }
     if (out_.separation) out_.separation[row] = found.separation[i];
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -219,7 +219,7 @@ class ImpactContacts {
   const MovingSide &side_a_, &side_b_;
   const MovingReader a_, b_;
   const Pair* pairs_;
-  const std::span<const FirstTime> first_;
+  const FirstTimes first_;
   const WitnessFrame frame_;
   const ImpactColumns& out_;
   Scratch& scratch_;
@@ -228,8 +228,7 @@ class ImpactContacts {
 }  // namespace
 
 void find_impact_contacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
-                          std::span<const FirstTime> first, WitnessFrame frame,
-                          const ImpactColumns& out) {
+                          const FirstTimes& first, WitnessFrame frame, const ImpactColumns& out) {
   static thread_local const auto scratch = std::make_unique<Scratch>();
   ImpactContacts(a, b, pairs, first, frame, out, *scratch).run();
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "carom/sweep/time_of_impact.h"
 #include "sweep/impact.h"
@@ -10,11 +9,10 @@
 
 namespace carom {
 
-// Fills the contact columns of `out` for all rows: those of `first` that have a time in [0, 1], and
-// not a number for the others. The contact is that of the bodies (of composites: of the two parts)
+// Fills the contact columns of `out` for all rows: those that have a time in [0, 1], and not a
+// number for the others. The contact is that of the bodies (of composites: of the two parts)
 // placed where they are then, by the kernels of the narrow phase.
 void find_impact_contacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
-                          std::span<const FirstTime> first, WitnessFrame frame,
-                          const ImpactColumns& out);
+                          const FirstTimes& first, WitnessFrame frame, const ImpactColumns& out);
 
 }  // namespace carom

@@ -1,6 +1,7 @@
 // Single bodies of a view with their sweeps.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernel/body_reader.h"
@@ -53,11 +54,12 @@ struct MovingReader {
 // of distances between float64 positions would overflow.)
 inline constexpr double kFurthestApart = 1e40;
 
+inline double apart(double from, double to) {
+  return std::clamp(to - from, -kFurthestApart, kFurthestApart);
+}
+
 inline Double3 place_between(const MovingReader& a, const MovingReader& b, Pair pair) {
   const auto at_a = a.body().position<double>(pair.a), at_b = b.body().position<double>(pair.b);
-  const auto apart = [](double from, double to) {
-    return std::clamp(to - from, -kFurthestApart, kFurthestApart);
-  };
   return {apart(at_a.x, at_b.x), apart(at_a.y, at_b.y), apart(at_a.z, at_b.z)};
 }
 

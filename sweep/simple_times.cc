@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -25,6 +26,7 @@ struct Scratch {
   std::array<uint8_t, kRowsPerBlock> group;
   std::array<uint16_t, kRowsPerBlock> row;
   std::array<size_t, kGroups + 1> first;  // of each group in `row`
+  std::array<uint32_t, LinearRows::kMost> body_a, body_b;
   LinearRows rows;
   std::array<bool, LinearRows::kMost> valid;
 };
@@ -67,6 +69,10 @@ class SimpleTimes {
 
   void sort_rows() {
     scratch_.first.fill(0);
+    if (shared_group_) {
+      std::fill(scratch_.first.begin() + *shared_group_ + 1, scratch_.first.end(), count_);
+      return std::iota(scratch_.row.begin(), scratch_.row.begin() + count_, uint16_t{0});
+    }
     for (size_t row = 0; row < count_; ++row) {
       scratch_.group[row] = group_of(pairs_[row]);
       ++scratch_.first[scratch_.group[row] + 1];
@@ -82,7 +88,6 @@ class SimpleTimes {
   }
 
   uint8_t group_of(Pair pair) const {
-    if (shared_group_) return *shared_group_;
     if (!a_.moves_in_a_line(pair.a) || !b_.moves_in_a_line(pair.b)) return kAdvanced;
     return group_of(kind_of(a_, pair.a), kind_of(b_, pair.b));
   }
@@ -117,26 +122,34 @@ class SimpleTimes {
     const auto kind_b = static_cast<LinearKind>(group % kKinds);
     const bool flipped = kind_a > kind_b;
     const LinearKind low = flipped ? kind_b : kind_a, high = flipped ? kind_a : kind_b;
-    const GatherLinear gather = gather_linear(low, high);
     const LinearKernel kernel = linear_kernel(low, high);
     const size_t columns = LinearRows::kPairColumns + number_count(low) + number_count(high);
-    const MovingSide& side_a = flipped ? b_.side : a_.side;
-    const MovingSide& side_b = flipped ? a_.side : b_.side;
+    const LinearSide a{a_.side, kind_a, scratch_.body_a.data()},
+        b{b_.side, kind_b, scratch_.body_b.data()};
     const std::span<const uint16_t> rows = rows_of(group);
     for (size_t begin = 0; begin < rows.size(); begin += LinearRows::kMost) {
       const auto chunk = rows.subspan(begin, std::min(rows.size() - begin, LinearRows::kMost));
-      gather(side_a, side_b, {pairs_, chunk, flipped}, scratch_.rows, scratch_.valid.data());
+      for (size_t i = 0; i < chunk.size(); ++i) {
+        scratch_.body_a[i] = pairs_[chunk[i]].a;
+        scratch_.body_b[i] = pairs_[chunk[i]].b;
+      }
+      gather_linear(flipped ? b : a, flipped ? a : b, chunk.size(), scratch_.rows,
+                    scratch_.valid.data());
       scratch_.rows.pad(columns, chunk.size());
       kernel(scratch_.rows, chunk.size());
-      for (size_t i = 0; i < chunk.size(); ++i) {
-        const double time = scratch_.rows.times()[i];
-        if (!scratch_.valid[i]) {
-          write_invalid(chunk[i]);
-        } else if (time == kNoClosedForm) {
-          advance(chunk[i]);
-        } else {
-          write(chunk[i], time, Status::ok);
-        }
+      write_times(chunk);
+    }
+  }
+
+  void write_times(std::span<const uint16_t> chunk) {
+    for (size_t i = 0; i < chunk.size(); ++i) {
+      const double time = scratch_.rows.times()[i];
+      if (!scratch_.valid[i]) {
+        write_invalid(chunk[i]);
+      } else if (time == kNoClosedForm) {
+        advance(chunk[i]);
+      } else {
+        write(chunk[i], time, Status::ok);
       }
     }
   }
@@ -157,7 +170,7 @@ class SimpleTimes {
     const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
     const reference::AdvancementResult result = reference::advancement_time(
         a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), eigen(place_between(a_, b_, pair)),
-        eigen(way_between(a_, b_, pair)), furthest_point_in_lanes());
+        eigen(way_between(a_, b_, pair)), furthest_);
     write(row, result.t, result.status);
   }
 

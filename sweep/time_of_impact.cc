@@ -1,5 +1,6 @@
 #include "carom/sweep/time_of_impact.h"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -16,10 +17,18 @@ namespace {
 struct Scratch {
   std::array<double, kPairsPerBlock> time;
   std::array<uint8_t, kPairsPerBlock> status;
-  std::array<Pair, kPairsPerBlock> pairs;
-  std::array<uint16_t, kPairsPerBlock> simple, composite;  // rows
-  std::array<FirstTime, kPairsPerBlock> first, found;
+  std::array<std::array<uint64_t, 2>, kPairsPerBlock> parts;  // of rows with composites
+  // Rows of two kinds, where both occur.
+  std::array<uint16_t, kPairsPerBlock> simple, composite;
+  std::array<Pair, kPairsPerBlock> simple_pairs;
+  std::array<double, kPairsPerBlock> simple_time;
+  std::array<uint8_t, kPairsPerBlock> simple_status;
+  std::array<FirstTime, kPairsPerBlock> found;
 };
+
+bool may_have_parts(const Collidables& bodies) {
+  return bodies.kind || is_composite(bodies.uniform_kind);
+}
 
 // A block of pairs.
 class ImpactBlock {
@@ -29,56 +38,77 @@ class ImpactBlock {
       : a_(a), b_(b), pairs_(pairs), out_(out), frame_(frame), scratch_(scratch) {}
 
   void run() {
-    sort_out();
-    find_simple();
-    find_composites();
-    const auto first = std::span(scratch_.first).first(pairs_.size());
-    for (size_t row = 0; row < pairs_.size(); ++row) write(row, first[row]);
-    if (out_.want_contacts()) find_impact_contacts(a_, b_, pairs_.data(), first, frame_, out_);
+    if (may_have_parts(a_.bodies) || may_have_parts(b_.bodies)) {
+      sort_out();
+      find_sorted();
+    } else {
+      find_simple_times(a_, b_, pairs_.data(), pairs_.size(),
+                        {scratch_.time.data(), scratch_.status.data()});
+    }
+    write_times();
+    write_parts(out_.sub_a, a_, 0);
+    write_parts(out_.sub_b, b_, 1);
+    if (!out_.want_contacts()) return;
+    find_impact_contacts(a_, b_, pairs_.data(),
+                         {scratch_.time.data(), scratch_.parts.data(), pairs_.size()}, frame_,
+                         out_);
   }
 
  private:
+  bool has_parts(Pair pair) const {
+    return is_composite(BodyReader{a_.bodies}.kind(pair.a)) ||
+           is_composite(BodyReader{b_.bodies}.kind(pair.b));
+  }
+
   void sort_out() {
-    const BodyReader a{a_.bodies}, b{b_.bodies};
     for (size_t row = 0; row < pairs_.size(); ++row) {
-      const Pair pair = pairs_[row];
-      const bool has_parts = is_composite(a.kind(pair.a)) || is_composite(b.kind(pair.b));
-      if (has_parts) {
+      if (has_parts(pairs_[row])) {
         scratch_.composite[composite_count_++] = static_cast<uint16_t>(row);
       } else {
-        scratch_.pairs[simple_count_] = pair;
+        scratch_.simple_pairs[simple_count_] = pairs_[row];
         scratch_.simple[simple_count_++] = static_cast<uint16_t>(row);
       }
     }
   }
 
-  void find_simple() {
-    find_simple_times(a_, b_, scratch_.pairs.data(), simple_count_,
-                      {scratch_.time.data(), scratch_.status.data()});
+  void find_sorted() {
+    find_simple_times(a_, b_, scratch_.simple_pairs.data(), simple_count_,
+                      {scratch_.simple_time.data(), scratch_.simple_status.data()});
     for (size_t i = 0; i < simple_count_; ++i) {
-      scratch_.first[scratch_.simple[i]] = {scratch_.time[i],
-                                            static_cast<Status>(scratch_.status[i])};
+      const size_t row = scratch_.simple[i];
+      scratch_.time[row] = scratch_.simple_time[i];
+      scratch_.status[row] = scratch_.simple_status[i];
     }
-  }
-
-  void find_composites() {
     if (composite_count_ == 0) return;
     const auto rows = std::span(scratch_.composite).first(composite_count_);
     find_composite_times(a_, b_, pairs_.data(), rows, std::span(scratch_.found));
-    for (size_t i = 0; i < rows.size(); ++i) scratch_.first[rows[i]] = scratch_.found[i];
+    for (size_t i = 0; i < composite_count_; ++i) {
+      const FirstTime& found = scratch_.found[i];
+      scratch_.time[rows[i]] = found.time;
+      scratch_.status[rows[i]] = static_cast<uint8_t>(found.status);
+      scratch_.parts[rows[i]] = found.parts;
+    }
   }
 
-  void write(size_t row, const FirstTime& first) {
-    const bool meets = first.time <= 1;
-    const auto as_float = static_cast<float>(first.time);  // infinite, or not a number
-    if (out_.toi) out_.toi[row] = meets ? round_downwards(first.time) : as_float;
-    if (out_.status) out_.status[row] = static_cast<uint8_t>(first.status);
-    const Pair pair = pairs_[row];
-    if (out_.sub_a) {
-      out_.sub_a[row] = meets ? sub_shape(BodyReader{a_.bodies}.kind(pair.a), first.parts[0]) : 0;
+  void write_times() {
+    if (out_.status) std::copy_n(scratch_.status.begin(), pairs_.size(), out_.status);
+    if (!out_.toi) return;
+    for (size_t row = 0; row < pairs_.size(); ++row) {
+      const double time = scratch_.time[row];
+      const auto as_float = static_cast<float>(time);  // infinite, or not a number
+      out_.toi[row] = time <= 1 ? round_downwards(time) : as_float;
     }
-    if (out_.sub_b) {
-      out_.sub_b[row] = meets ? sub_shape(BodyReader{b_.bodies}.kind(pair.b), first.parts[1]) : 0;
+  }
+
+  void write_parts(uint32_t* out, const MovingSide& side, size_t of) {
+    if (!out) return;
+    std::fill_n(out, pairs_.size(), 0);
+    const BodyReader bodies{side.bodies};
+    for (const uint16_t row : std::span(scratch_.composite).first(composite_count_)) {
+      if (!(scratch_.time[row] <= 1)) continue;
+      const Pair pair = pairs_[row];
+      const size_t body = of == 0 ? pair.a : pair.b;
+      out[row] = sub_shape(bodies.kind(body), scratch_.parts[row][of]);
     }
   }
 
