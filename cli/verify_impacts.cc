@@ -8,6 +8,7 @@
 #include "carom/reference/reference.h"
 #include "cli/impact_arrays.h"
 #include "cli/progress.h"
+#include "cli/verify_engines.h"
 #include "cli/verify_text.h"
 
 namespace carom::cli {
@@ -24,14 +25,6 @@ struct Variant {
 constexpr std::array kVariants = {Variant{"times of impact", false, true},
                                   Variant{"impacts shuffled", true, true},
                                   Variant{"times alone", false, false}};
-
-std::string compared_text() {
-  std::string text;
-  for (const Variant& variant : kVariants) {
-    text += (text.empty() ? "" : ", ") + std::string(variant.name);
-  }
-  return text;
-}
 
 // Points of a body frame are arms.
 Impact impact_of(const ImpactArrays::Row& row) {
@@ -168,18 +161,8 @@ class ImpactVerifier {
 
 Result<VerifyOutcome> verify_impacts(System& system, const Engines& engines, const PairSet& pairs,
                                      const std::string& source, const Console& console) {
-  VerifyOutcome outcome{source, compared_text(), {}, {}};
   ImpactVerifier verifier(system, pairs, Progress(console, source + ": motion", pairs.size()));
-  Progress progress(console, source + ": run", engines.list().size() * kVariants.size());
-  for (const Engine& engine : engines.list()) {
-    outcome.rows.push_back({.engine = engine, .frames = 1});
-    Result<bool> same = verifier.verify(outcome.rows.back(), progress);
-    unforce_isa();
-    if (!same) return Error{source + ": " + same.error().message};
-    if (!*same) break;
-  }
-  outcome.difference = verifier.take_difference();
-  return outcome;
+  return verify_engines(std::move(verifier), kVariants, engines, source, console);
 }
 
 }  // namespace carom::cli

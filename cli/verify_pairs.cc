@@ -8,6 +8,7 @@
 #include "carom/reference/reference.h"
 #include "cli/exact_decision.h"
 #include "cli/progress.h"
+#include "cli/verify_engines.h"
 #include "cli/verify_text.h"
 #include "narrowphase/stated_body.h"
 
@@ -45,14 +46,6 @@ Result<void> check_kernels(const PairSet& pairs) {
                  name(b)};
   }
   return {};
-}
-
-std::string compared_text() {
-  std::string text;
-  for (const Variant& variant : kVariants) {
-    text += (text.empty() ? "" : ", ") + std::string(variant.name);
-  }
-  return text;
 }
 
 template <class T>
@@ -259,18 +252,8 @@ Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const
   if (Result<void> kernels = check_kernels(pairs); !kernels) {
     return Error{source + ": " + kernels.error().message};
   }
-  VerifyOutcome outcome{source, compared_text(), {}, {}};
   PairVerifier verifier(system, pairs, Progress(console, source + ": pair", pairs.size()));
-  Progress progress(console, source + ": run", engines.list().size() * kVariants.size());
-  for (const Engine& engine : engines.list()) {
-    outcome.rows.push_back({.engine = engine, .frames = 1});
-    Result<bool> same = verifier.verify(outcome.rows.back(), progress);
-    unforce_isa();
-    if (!same) return Error{source + ": " + same.error().message};
-    if (!*same) break;
-  }
-  outcome.difference = verifier.take_difference();
-  return outcome;
+  return verify_engines(std::move(verifier), kVariants, engines, source, console);
 }
 
 }  // namespace carom::cli

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cfloat>
-#include <cmath>
 #include <cstring>
 
 #include "carom/kernel/views.h"
@@ -31,19 +30,23 @@ struct Position {
   T x, y, z;
 };
 
-template <class T>
-bool is_finite(const Position<T>& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 using Row = std::array<float, 4>;
 
+// Without a branch: of finite numbers the differences are zero, of others they are not numbers.
+template <class T>
+bool is_finite(const Position<T>& p) {
+  return ((p.x - p.x) + (p.y - p.y)) + (p.z - p.z) == 0;
+}
 inline bool is_finite(const Row& row) {
-  return std::isfinite(row[0]) && std::isfinite(row[1]) && std::isfinite(row[2]) &&
-         std::isfinite(row[3]);
+  return ((row[0] - row[0]) + (row[1] - row[1])) + ((row[2] - row[2]) + (row[3] - row[3])) == 0;
 }
 
-inline bool is_direction(float x, float y, float z) { return x != 0 || y != 0 || z != 0; }
+inline bool is_direction(float x, float y, float z) { return (x != 0) | (y != 0) | (z != 0); }
+
+// A quaternion that is not zero.
+inline bool is_rotation(const Row& q) {
+  return is_finite(q) & (is_direction(q[0], q[1], q[2]) | (q[3] != 0));
+}
 
 // Its number of planes, and slabs that are finite, in order, and have a point in common.
 bool is_valid_dop(const Dop& dop);
@@ -146,9 +149,7 @@ struct BodyReader {
 
   // Orientation and rows of a kind that has them.
   bool has_valid_parameters(size_t i) const {
-    const Row q = orientation(i);
-    return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0) &&
-           are_valid_rows(kind(i), rows(i).data());
+    return is_rotation(orientation(i)) && are_valid_rows(kind(i), rows(i).data());
   }
 
  private:

@@ -1,7 +1,9 @@
 // Column by column, so that what a view looks like is asked once a column and not once a body.
 #include "sweep/gather_linear.h"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace carom {
 namespace {
@@ -13,23 +15,17 @@ class Strided {
   Strided(const void* data, size_t stride)
       : data_(static_cast<const char*>(data ? data : &kNone)), stride_(data ? stride : 0) {}
 
-  T operator[](size_t i) const { return load_strided<T>(data_, stride_, i); }
+  T operator[](size_t i) const {
+    T value;
+    std::memcpy(&value, data_ + i * stride_, sizeof(T));
+    return value;
+  }
 
  private:
   static constexpr T kNone{};
   const char* data_;
   size_t stride_;
 };
-
-// Without a branch: of finite numbers the differences are zero, of others they are not numbers.
-template <class T>
-bool are_finite(const Position<T>& p) {
-  return ((p.x - p.x) + (p.y - p.y)) + (p.z - p.z) == 0;
-}
-
-bool is_rotation(const Row& q) {
-  return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0);
-}
 
 // The numbers of one body, from column to column.
 class RowWriter {
@@ -135,7 +131,7 @@ class LinearGather {
       x[i] = between(p.x, q.x);
       y[i] = between(p.y, q.y);
       z[i] = between(p.z, q.z);
-      check(i, are_finite(p) & are_finite(q));
+      check(i, is_finite(p) & is_finite(q));
     }
   }
 
@@ -159,7 +155,7 @@ class LinearGather {
   void check_rotations(const Side& side) {
     if (!side.sweep.rotation) return;
     const Strided<Position<float>> rotation = side.rotation();
-    for (size_t i = 0; i < count_; ++i) check(i, are_finite(rotation[side.body[i]]));
+    for (size_t i = 0; i < count_; ++i) check(i, is_finite(rotation[side.body[i]]));
   }
 
   // An aabb is a box about its middle.

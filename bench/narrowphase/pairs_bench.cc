@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/support/cached.h"
+#include "bench/support/kind_pairs.h"
 #include "bench/support/measure.h"
 #include "bench/support/mesh_stream.h"
 #include "bench/support/pair_stream.h"
@@ -11,18 +12,6 @@
 
 namespace carom::bench {
 namespace {
-
-struct KindPair {
-  const char* name;
-  ShapeKind a;
-  ShapeKind b;
-};
-
-constexpr KindPair kKindPairs[] = {
-#define CAROM_PAIR(name, kind_a, kind_b, passes) {#name, ShapeKind::kind_a, ShapeKind::kind_b},
-#include "narrowphase/pair_list.inc"
-#undef CAROM_PAIR
-};
 
 // These are measured with float64 positions and other hit rates as well.
 constexpr const char* kInDepth[] = {"sphere_sphere", "sphere_aabb", "aabb_aabb", "box_box"};

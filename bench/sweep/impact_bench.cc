@@ -2,24 +2,13 @@
 #include <string>
 
 #include "bench/support/cached.h"
+#include "bench/support/kind_pairs.h"
 #include "bench/support/measure.h"
 #include "bench/support/motion_stream.h"
 #include "bench/support/suites.h"
 
 namespace carom::bench {
 namespace {
-
-struct KindPair {
-  const char* name;
-  ShapeKind a;
-  ShapeKind b;
-};
-
-constexpr KindPair kKindPairs[] = {
-#define CAROM_PAIR(name, kind_a, kind_b, passes) {#name, ShapeKind::kind_a, ShapeKind::kind_b},
-#include "narrowphase/pair_list.inc"
-#undef CAROM_PAIR
-};
 
 void measure_kernel(benchmark::State& state, const MotionStream& stream, bool contacts, Isa isa) {
   ImpactArrays results(stream.spec().count);
