@@ -267,7 +267,8 @@ inline Vector3d direction_of(const NearestWay& nearest) {
   return way / std::sqrt(dot(way, way));
 }
 
-// When the balls meet in which the cores turn; they do not before. (A third of all rounds is saved.)
+// When the balls meet in which the cores turn; they do not before. (A third of all rounds is
+// saved.)
 inline double time_of_balls(const MovingPair& pair, double tolerance) {
   const double reach = (pair.a.extent + pair.b.extent) + (pair.radii + tolerance);
   return meets_ball(MovingPoint(pair.from, pair.way), reach);

@@ -65,6 +65,14 @@ struct Side {
   }
   Strided<Position<float>> rotation() const { return {sweep.rotation, sweep.rotation_stride}; }
 
+  Row row(size_t i, size_t k) const {
+    return row_at(bodies.rows.data, sizeof(Row), reader().first_row(i) + k);
+  }
+  Row orientation(size_t i) const {
+    if (!bodies.orientation.data) return {0, 0, 0, 1};
+    return row_at(bodies.orientation.data, bodies.orientation.stride, i);
+  }
+
   // Calls use(positions).
   template <class Use>
   void with_positions(const Use& use) const {
@@ -92,6 +100,14 @@ struct Side {
   }
 
   bool is_turned_box(size_t i) const { return reader().kind(i) == ShapeKind::box; }
+
+ private:
+  // A number at a time: rows that are copied whole are taken apart by shifts.
+  static Row row_at(const float* data, size_t stride, size_t i) {
+    const char* row = reinterpret_cast<const char*>(data) + i * stride;
+    const auto number = [&](size_t k) { return load_strided<float>(row, sizeof(float), k); };
+    return {number(0), number(1), number(2), number(3)};
+  }
 };
 
 class LinearGather {
@@ -199,17 +215,20 @@ class LinearGather {
   // Points, the radius of a capsule, and a quaternion.
   template <ShapeKind kKind>
   void put_turned(const Side& side, size_t column) {
-    const BodyReader reader = side.reader();
     for (size_t i = 0; i < count_; ++i) {
       const uint32_t body = side.body[i];
       std::array<Row, row_count(kKind)> rows;
-      for (size_t k = 0; k < rows.size(); ++k) rows[k] = reader.row(body, k);
-      const Row q = reader.orientation(body);
+      bool is_valid = true;
+      for (size_t k = 0; k < rows.size(); ++k) {
+        rows[k] = side.row(body, k);
+        is_valid = is_valid & is_finite(rows[k]);
+      }
+      const Row q = side.orientation(body);
       RowWriter out(rows_, column, i);
       for (const Row& row : rows) out.put3(row);
       if (kKind == ShapeKind::capsule) out.put(rows[0][3]);
       out.put4(q);
-      check(i, are_valid_rows(kKind, rows.data()) && is_rotation(q));
+      check(i, is_valid & has_valid_sizes(kKind, rows.data()) & is_rotation(q));
     }
   }
 
@@ -217,16 +236,16 @@ class LinearGather {
     for (size_t i = 0; i < count_; ++i) {
       const uint32_t body = side.body[i];
       const RowWriter out(rows_, column, i);
-      check(i, side.is_turned_box(body) ? put_box(side.reader(), body, out)
+      check(i, side.is_turned_box(body) ? put_box(side, body, out)
                                         : put_aabb(side.reader(), body, out));
     }
   }
 
-  static bool put_box(const BodyReader& reader, uint32_t body, RowWriter out) {
-    const Row half = reader.row(body, 0), q = reader.orientation(body);
+  static bool put_box(const Side& side, uint32_t body, RowWriter out) {
+    const Row half = side.row(body, 0), q = side.orientation(body);
     out.put3(half);
     out.put4(q);
-    return are_valid_rows(ShapeKind::box, &half) && is_rotation(q);
+    return is_finite(half) & has_valid_sizes(ShapeKind::box, &half) & is_rotation(q);
   }
 
   static bool put_aabb(const BodyReader& reader, uint32_t body, RowWriter out) {
@@ -236,19 +255,18 @@ class LinearGather {
       out.put((double{upper} - double{lower}) * 0.5);
       is_valid = is_valid && is_valid_box_axis(lower, upper);
     }
-    out.put4({0, 0, 0, 1});
+    out.put4(Row{0, 0, 0, 1});
     return is_valid;
   }
 
   // Half-spaces seen from the other bodies, whose places are in the first columns.
   void put_planes(const Side& side, size_t column) {
-    const BodyReader reader = side.reader();
     const auto vector_at = [&](size_t first, size_t i) {
       return Eigen::Vector3d{rows_.column(first)[i], rows_.column(first + 1)[i],
                              rows_.column(first + 2)[i]};
     };
     for (size_t i = 0; i < count_; ++i) {
-      const Row row = reader.row(side.body[i], 0), q = reader.orientation(side.body[i]);
+      const Row row = side.row(side.body[i], 0), q = side.orientation(side.body[i]);
       const auto shape = reference::shape_as<double>(Halfspace{{row[0], row[1], row[2]}, row[3]});
       const reference::LinearPose pose{
           vector_at(0, i), vector_at(3, i), {}, {{q[0], q[1], q[2]}, q[3]}, 0};
@@ -258,7 +276,7 @@ class LinearGather {
       out.put(plane.height);
       out.put(plane.rate);
       out.put(shape.size());
-      check(i, are_valid_rows(ShapeKind::halfspace, &row) && is_rotation(q));
+      check(i, is_finite(row) & has_valid_sizes(ShapeKind::halfspace, &row) & is_rotation(q));
     }
   }
 
