@@ -45,28 +45,11 @@ inline bool is_direction(float x, float y, float z) { return (x != 0) | (y != 0)
 
 // A quaternion that is not zero.
 inline bool is_rotation(const Row& q) {
-  return is_finite(q) & (is_direction(q[0], q[1], q[2]) | (q[3] != 0));
+  return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0);
 }
 
 // Its number of planes, and slabs that are finite, in order, and have a point in common.
 bool is_valid_dop(const Dop& dop);
-
-// Sizes and flags among finite parameters. AnyRow: four floats.
-template <class AnyRow>
-bool has_valid_sizes(ShapeKind kind, const AnyRow* rows) {
-  switch (kind) {
-    case ShapeKind::capsule:
-      return rows[0][3] >= 0;
-    case ShapeKind::triangle:  // thickness and the bits of inner edges
-      return (rows[0][3] >= 0) & (rows[2][3] >= 0) & (rows[2][3] <= 7);
-    case ShapeKind::box:
-      return (rows[0][0] >= 0) & (rows[0][1] >= 0) & (rows[0][2] >= 0);
-    case ShapeKind::halfspace:
-      return is_direction(rows[0][0], rows[0][1], rows[0][2]);
-    default:
-      return true;
-  }
-}
 
 // Of all kinds but spheres and aabbs: their parameters. A geometry is valid if it is there.
 inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
@@ -75,7 +58,18 @@ inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
   for (uint32_t i = 0; i < row_count(kind); ++i) {
     if (!is_finite(rows[i])) return false;
   }
-  return has_valid_sizes(kind, rows);
+  switch (kind) {
+    case ShapeKind::capsule:
+      return rows[0][3] >= 0;
+    case ShapeKind::triangle:  // thickness and the bits of inner edges
+      return rows[0][3] >= 0 && rows[2][3] >= 0 && rows[2][3] <= 7;
+    case ShapeKind::box:
+      return rows[0][0] >= 0 && rows[0][1] >= 0 && rows[0][2] >= 0;
+    case ShapeKind::halfspace:
+      return is_direction(rows[0][0], rows[0][1], rows[0][2]);
+    default:
+      return true;
+  }
 }
 
 // Reads single bodies of a view: for rare paths, scalar stages and set-up.

@@ -147,7 +147,7 @@ class LinearGather {
       x[i] = between(p.x, q.x);
       y[i] = between(p.y, q.y);
       z[i] = between(p.z, q.z);
-      check(i, is_finite(p) & is_finite(q));
+      check(i, is_finite(p) && is_finite(q));
     }
   }
 
@@ -218,17 +218,13 @@ class LinearGather {
     for (size_t i = 0; i < count_; ++i) {
       const uint32_t body = side.body[i];
       std::array<Row, row_count(kKind)> rows;
-      bool is_valid = true;
-      for (size_t k = 0; k < rows.size(); ++k) {
-        rows[k] = side.row(body, k);
-        is_valid = is_valid & is_finite(rows[k]);
-      }
+      for (size_t k = 0; k < rows.size(); ++k) rows[k] = side.row(body, k);
       const Row q = side.orientation(body);
       RowWriter out(rows_, column, i);
       for (const Row& row : rows) out.put3(row);
       if (kKind == ShapeKind::capsule) out.put(rows[0][3]);
       out.put4(q);
-      check(i, is_valid & has_valid_sizes(kKind, rows.data()) & is_rotation(q));
+      check(i, are_valid_rows(kKind, rows.data()) && is_rotation(q));
     }
   }
 
@@ -245,7 +241,7 @@ class LinearGather {
     const Row half = side.row(body, 0), q = side.orientation(body);
     out.put3(half);
     out.put4(q);
-    return is_finite(half) & has_valid_sizes(ShapeKind::box, &half) & is_rotation(q);
+    return are_valid_rows(ShapeKind::box, &half) && is_rotation(q);
   }
 
   static bool put_aabb(const BodyReader& reader, uint32_t body, RowWriter out) {
@@ -276,7 +272,7 @@ class LinearGather {
       out.put(plane.height);
       out.put(plane.rate);
       out.put(shape.size());
-      check(i, is_finite(row) & has_valid_sizes(ShapeKind::halfspace, &row) & is_rotation(q));
+      check(i, are_valid_rows(ShapeKind::halfspace, &row) && is_rotation(q));
     }
   }
 

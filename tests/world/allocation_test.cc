@@ -183,6 +183,8 @@ TEST(Allocations, NoneWhenLookingAhead) {
     expect_no_allocations({.detail = Detail::overlap}, spec, movers);
     expect_no_allocations({.margin = 0.2f, .pair_changes = true}, spec, movers, true);
   }
+  const CrowdSpec oriented{.oriented = true, .velocities = true, .looks_ahead = true};
+  for (const size_t movers : {0, 40}) expect_no_allocations({}, oriented, movers, true);
 }
 
 // Automatic bodies that are fast every now and then.
