@@ -2,7 +2,9 @@
 # library versions. It is looked at in every build and written only when something changed.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type_upper)
 list(JOIN CAROM_MATH_FLAGS " " math_flags)
-set(build_info_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type_upper}} ${math_flags}")
+list(JOIN CAROM_COPY_FLAGS " " copy_flags)
+set(build_info_flags
+    "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type_upper}} ${math_flags} ${copy_flags}")
 if(CAROM_SANITIZE)
   string(APPEND build_info_flags " -fsanitize=${CAROM_SANITIZE}")
 endif()

@@ -106,6 +106,45 @@ TEST(ImpactBits, DoNotDependOnStrides) {
   });
 }
 
+// Bodies of one kind that do not turn, in views of all layouts. Arrays end at guard pages.
+TEST(ImpactBits, DoNotDependOnLayouts) {
+  using enum RadiusLayout;
+  const Layout layouts[] = {
+      {},
+      {.stride = 40, .box_stride = 24, .box_slots = true, .always_kinds = true},
+      {.radius = column, .stride = 12, .radius_stride = 8, .rows = RowOrder::backwards},
+      {.radius = column, .stride = 44, .orientation_stride = 20, .rows = RowOrder::shared}};
+  for (const PositionType positions : kPositionTypes) {
+    MotionFamily family = plain_motions()[0];
+    family.positions = positions;
+    for (const KindPair& kinds : convex_kind_pairs()) {
+      const auto pairs = make_motions(family, kinds, 19);
+      const auto expected = expected_impacts(pairs, impact_call(positions));
+      for (Layout layout : layouts) {
+        layout.positions = positions;
+        if (layout.stride != 0) layout.stride *= layout.component() / sizeof(float);
+        const ImpactCall call{.layout = layout, .sweep_stride = 0};
+        SCOPED_TRACE(name(kinds) + ", " + show(layout));
+        for_each_isa([&] { EXPECT_TRUE(same_impacts(expected, run_impacts(pairs, call), pairs)); });
+      }
+    }
+  }
+}
+
+// Points are spheres without a radius.
+TEST(ImpactBits, PointsHaveNoRadius) {
+  MovedPair pair{{sphere(1, 2, 3, 0), sphere(1, 4, 3, 0)}, {}, {}};
+  pair.sweep_a.displacement = {0, 4, 0};
+  const std::vector<MovedPair> pairs(33, pair);
+  for (const PositionType positions : kPositionTypes) {
+    ImpactCall call = impact_call(positions);
+    const auto expected = expected_impacts(pairs, call);
+    EXPECT_TRUE(expected[0].is_impact());
+    call.layout.radius = RadiusLayout::none;
+    for_each_isa([&] { EXPECT_TRUE(same_impacts(expected, run_impacts(pairs, call), pairs)); });
+  }
+}
+
 // Sweeps that are not there are zero.
 TEST(ImpactBits, AbsentSweepsAreZero) {
   auto pairs = mixed_motions(100);
