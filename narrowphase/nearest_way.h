@@ -61,11 +61,25 @@ class NearestPoint {
     if (along > 0 && along < length) keep(last_ + side * (along / length), others);
   }
 
+  struct Plane {
+    CoreVector point, normal;
+  };
+  static Plane plane_from(const CoreVector& a, const CoreVector& b, const CoreVector& c) {
+    return {a, cross(b - a, c - a)};
+  }
+  // Seen from the corner nearest to zero, rounding moves the plane of a sliver least where zero is.
+  static Plane plane_of(const CoreVector& a, const CoreVector& b, const CoreVector& c) {
+    const double of_a = dot(a, a), of_b = dot(b, b), of_c = dot(c, c);
+    if (of_a <= of_b && of_a <= of_c) return plane_from(a, b, c);
+    return of_b <= of_c ? plane_from(b, c, a) : plane_from(c, a, b);
+  }
+
   void try_triangle(const CoreVector& p, const CoreVector& q, unsigned others) {
-    const CoreVector n = cross(p - last_, q - last_);
+    const Plane plane = plane_of(last_, p, q);
+    const CoreVector& n = plane.normal;
     const bool is_over =
         dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 && dot(n, cross(last_, p)) > 0;
-    if (is_over) keep(n * (dot(n, last_) / dot(n, n)), others);
+    if (is_over) keep(n * (dot(n, plane.point) / dot(n, n)), others);
   }
 
   // Zero is inside if it is on the side of every face on which the fourth corner is. Of corners in
@@ -77,10 +91,11 @@ class NearestPoint {
   }
   static bool is_beside(const CoreVector& a, const CoreVector& b, const CoreVector& c,
                         const CoreVector& fourth) {
-    const CoreVector u = b - a, v = c - a, w = fourth - a, n = cross(u, v);
-    const double volume = dot(n, w);
+    const Plane plane = plane_of(a, b, c);
+    const CoreVector u = b - a, v = c - a, w = fourth - plane.point;
+    const double volume = dot(plane.normal, w);
     if (!(std::fabs(volume) > kWithoutVolume * (size(u) * size(v) * size(w)))) return false;
-    return volume * -dot(n, a) > 0;
+    return volume * -dot(plane.normal, plane.point) > 0;
   }
   static double size(const CoreVector& v) {
     return std::max(std::max(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z));

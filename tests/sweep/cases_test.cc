@@ -194,5 +194,66 @@ TEST(ImpactCases, PlanesThatTurnAboutTheirOwnPointMeet) {
   }
 }
 
+PlacedShape dop(DopKind kind, std::initializer_list<float> lower,
+                std::initializer_list<float> upper, const Eigen::Vector3d& at,
+                const Eigen::Quaternionf& orientation) {
+  Dop dop;
+  dop.kind = kind;
+  std::copy(lower.begin(), lower.end(), dop.lower.begin());
+  std::copy(upper.begin(), upper.end(), dop.upper.begin());
+  return {dop, at, orientation};
+}
+
+// Corners of k-DOPs may lie 1e-8 apart: GJK took tetrahedra with two of them for ones around zero.
+TEST(ImpactCases, CornersThatAlmostCoincide) {
+  const MovedPair pairs[] = {
+      moved(dop(DopKind::k14,
+                {-0x1.c93ffp-1f, -0x1.eb0fd6p-2f, -0x1.365cc8p-2f, -0x1.acfb2p+0f, -0x1.0a8ffcp+0f,
+                 -0x1.11ccbcp+0f, -0x1.3013c4p+0f},
+                {0x1.56630cp+0f, 0x1.7dc396p-1f, 0x1.23565p-2f, 0x1.12b32ap+0f, 0x1.809ffp+0f,
+                 0x1.2c2628p+0f, 0x1.9a12eep+0f},
+                {0x0p+0, -0x0p+0, 0x0p+0},
+                {0x1.f2dd18p-1f, -0x1.588a82p-3f, -0x1.efddf2p-4f, -0x1.675cccp-4f}),
+            {-0x1.6eaa62p-18f, 0x1.919892p-17f, -0x1.2c9p-15f},
+            PlacedShape{Box{{0x1.c2ec18p-2f, 0x1.789906p-1f, 0x1.138f5ep+0f}},
+                        {-0x1.0a6e92p+1, -0x1.134f96p+0, -0x1.419b88p-1},
+                        {0x1.c98104p-5f, -0x1.0dd482p-1f, 0x1.04d9d4p-3f, -0x1.ad42eep-1f}},
+            {0x1.95dea6p-14f, -0x1.fc0ab4p-16f, -0x1.244bc4p-15f}),
+      moved(dop(DopKind::k14,
+                {-0x1.586c36p-2f, -0x1.22242p-1f, -0x1.08bbd4p-1f, -0x1.4d0048p+0f, -0x1.9fc69ep-2f,
+                 -0x1.4cef54p-1f, -0x1.724cc2p-1f},
+                {0x1.d5d6c6p-2f, 0x1.45c654p-1f, 0x1.acfde6p-2f, 0x1.5bf05ep+0f, 0x1.e1310cp-1f,
+                 0x1.a982bp-1f, 0x1.6a85fcp-1f},
+                {0x0p+0, -0x0p+0, -0x0p+0},
+                {0x1.b6d52cp-2f, -0x1.f9237ep-3f, 0x1.817e16p-1f, -0x1.bcbd26p-2f}),
+            {0x1.01c7f6p+0f, -0x1.3d17d6p+0f, 0x1.221206p+1f},
+            PlacedShape{Box{{0x1.d50288p-2f, 0x1.698fc2p-2f, 0x1.01ed32p-2f}},
+                        {0x1.9cda37f2c7adcp-1, -0x1.3e6059b83296dp-2, 0x1.096c3639b1984p+1},
+                        {0x1.71253ap-3f, 0x1.fc771ep-2f, -0x1.486a3cp-1f, 0x1.1cd848p-1f}},
+            {-0x1.9e2798p+0f, 0x1.3f7924p-2f, 0x1.5e6bfap-2f}),
+      moved(PlacedShape{Box{{0x1.4cd754p-1f, 0x1.8e0cc8p-1f, 0x1.be8ae8p-1f}},
+                        {-0x0p+0, -0x0p+0, -0x0p+0},
+                        {0x1.8d8ec2p-1f, 0x1.008c76p-6f, -0x1.6df34p-2f, -0x1.099bb8p-1f}},
+            {-0x0p+0f, 0x0p+0f, 0x0p+0f},
+            dop(DopKind::k26,
+                {-0x1.a6dd76p-1f, -0x1.001118p-2f, -0x1.ee4ff2p-1f, -0x1.054d7cp+1f,
+                 -0x1.054d7cp+1f, -0x1.054d7cp+1f, -0x1.054d7cp+1f, -0x1.1373p+0f, -0x1.ca96b4p+0f,
+                 -0x1.372c4p+0f, -0x1.1373p+0f, -0x1.ca96b4p+0f, -0x1.372c4p+0f},
+                {0x1.a6dd76p-1f, 0x1.001118p-2f, 0x1.ee4ff2p-1f, 0x1.054d7cp+1f, 0x1.054d7cp+1f,
+                 0x1.054d7cp+1f, 0x1.054d7cp+1f, 0x1.1373p+0f, 0x1.ca96b4p+0f, 0x1.372c4p+0f,
+                 0x1.1373p+0f, 0x1.ca96b4p+0f, 0x1.372c4p+0f},
+                {0x1.8682ea2558dcap-1, -0x1.0c5eb50f22ed6p+1, 0x1.8d9ef67e44da9p+1},
+                {0x1.8d8ec2p-1f, 0x1.008c7p-6f, -0x1.6df34p-2f, -0x1.099bb8p-1f}),
+            {-0x1.70e5d6p+0f, 0x1.3b81e2p+2f, -0x1.cfa962p+0f})};
+  for_each_isa([&] {
+    for (const MovedPair& pair : pairs) {
+      for (const MovedPair& motion : {pair, swapped(pair)}) {
+        const Judgement judgement = judge(motion, impact_of(motion).toi);
+        EXPECT_EQ(judgement.fault, Fault::none) << name(judgement.fault) << show(motion);
+      }
+    }
+  });
+}
+
 }  // namespace
 }  // namespace carom::test
