@@ -28,8 +28,8 @@ inline SinCos sin_cos(double angle) {
   constexpr int kDoublings = 4;
   const bool is_within_turn = std::abs(angle) <= kTurn;  // std::remainder is slow
   const double x = (is_within_turn ? angle : std::remainder(angle, kTurn)) / (1 << kDoublings);
-  // Taylor's series for |x| < 0.4; the terms left out are below 2^-56 of the result. No divisions,
-  // which took most of the time.
+  // Taylor's series for |x| < 0.4; the terms left out are below 2^-56 of the result. Without
+  // divisions: 82 to 23 ns, and a turning pair asks forty times.
   const double square = x * x;
   double sin = 0, cos = 0;
   for (int k = 7; k >= 0; --k) {
