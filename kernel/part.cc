@@ -94,7 +94,8 @@ Row product(const Row& q, const Row& p) {
       ((w * p[2] + z * p[3]) + x * p[1]) - y * p[0], ((w * p[3] - x * p[0]) - y * p[1]) - z * p[2]};
   double largest = 0;
   for (const double c : r) largest = std::max(largest, std::fabs(c));
-  const int exponent = std::ilogb(largest);
+  // Spheres and aabbs may have a quaternion of zero: they do not turn.
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
   Row result;
   for (size_t i = 0; i < 4; ++i) result[i] = static_cast<float>(std::ldexp(r[i], -exponent));
   return result;
