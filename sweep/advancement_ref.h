@@ -252,7 +252,7 @@ inline double advance_along(const MovingPair& pair, const Vector3d& n, double t,
 }
 
 inline constexpr int kMostRounds =
-    256;  // grazing halves the gap at each; most pairs need three to seven
+    256;  // grazing halves the gap at each; most pairs need one to five
 inline constexpr int kEasyRounds = 6;  // most have met by then: spinning directions cost more
 
 // The unit vector along which the cores are nearest. Of a way to the inside of an edge what

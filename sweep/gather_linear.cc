@@ -135,7 +135,7 @@ class LinearGather {
  private:
   void check(size_t row, bool is_valid) { valid_[row] = valid_[row] & is_valid; }
 
-  // `place(position of A, position of B)` of every row, in three columns.
+  // between(component of A, component of B) of every row, in three columns.
   template <class OfA, class OfB, class Between>
   void put_between(const OfA& of_a, const uint32_t* a, const OfB& of_b, const uint32_t* b,
                    size_t column, const Between& between) {
