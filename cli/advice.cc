@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
+#include "cli/number_text.h"
 #include "cli/options.h"
 
 namespace carom::cli {
@@ -12,12 +12,6 @@ namespace {
 
 using accuracy::Deviation;
 using accuracy::Trial;
-
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
 
 // The shortest that reads back as this float; without an exponent where that is readable.
 std::string shortest(float value) {
@@ -27,8 +21,8 @@ std::string shortest(float value) {
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format).ptr};
 }
 
-std::string metres(double value) { return text("%.3g m", value); }
-std::string percent(double share) { return text("%.3g %%", 100 * share); }
+std::string metres(double value) { return number("%.3g m", value); }
+std::string percent(double share) { return number("%.3g %%", 100 * share); }
 
 std::string quoted(const std::string& word) {
   constexpr char kPlain[] =
@@ -53,7 +47,7 @@ std::string counts_of(const Deviation& deviation) {
 // "0.71 of the time; 0 overlaps lost, ...".
 std::string outcome(const TriedSettings& tried) {
   if (!tried.result) return tried.name + ": no time was left to try it";
-  const std::string time = tried.name + ": " + text("%.2f of the time", tried.ratio());
+  const std::string time = tried.name + ": " + number("%.2f of the time", tried.ratio());
   const Deviation& deviation = tried.result->deviation;
   if (deviation.worst() == 0 && deviation.lost + deviation.gained == 0) return time;
   return time + ", " + counts_of(deviation);

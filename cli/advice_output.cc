@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "carom_build_info.h"
 #include "cli/advice.h"
+#include "cli/number_text.h"
 #include "cli/table.h"
 #include "io/file.h"
 
@@ -13,17 +13,7 @@ namespace {
 using accuracy::Deviation;
 using Json = nlohmann::ordered_json;
 
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, format, value);
-  return buffer;
-}
-
-double share(uint64_t part, uint64_t all) {
-  return all == 0 ? 0 : static_cast<double>(part) / static_cast<double>(all);
-}
-
-std::string percent(double part) { return text("%.3g %%", 100 * part); }
+std::string percent(double part) { return number("%.3g %%", 100 * part); }
 
 Json to_json(const Spread& spread) {
   return {
@@ -104,8 +94,8 @@ Json to_json(const std::vector<AdviceRow>& rows) {
 }
 
 std::string four(const Spread& spread) {
-  return text("%.3g min", spread.least) + text(", %.3g median", spread.median) +
-         text(", %.3g p99", spread.p99) + text(", %.3g max", spread.most);
+  return number("%.3g min", spread.least) + number(", %.3g median", spread.median) +
+         number(", %.3g p99", spread.p99) + number(", %.3g max", spread.most);
 }
 
 std::string kinds_text(const BodiesOfKind& kinds) {
@@ -148,16 +138,16 @@ void print_survey(const Advice& advice, std::ostream& out) {
   table.add({"radius", four(survey.radius) + " m"});
   table.add({"aspect", four(survey.aspect)});
   table.add({"positions", std::string(survey.float64 ? "float64" : "float32") +
-                              text(", up to %.4g m from the origin", survey.farthest)});
+                              number(", up to %.4g m from the origin", survey.farthest)});
   table.add({"motion", percent(survey.moving_share) + " of the bodies in a frame, by " +
                            four(survey.displacement) + " m"});
-  table.add(
-      {"pairs", text("%.6g a frame; ", share(pairs.pairs, pairs.frames)) + pair_kinds_text(pairs)});
+  table.add({"pairs",
+             number("%.6g a frame; ", share(pairs.pairs, pairs.frames)) + pair_kinds_text(pairs)});
   table.add({"  overlapping", percent(share(pairs.overlaps, pairs.pairs))});
   table.add(
       {"  near touching", percent(share(pairs.near, pairs.pairs)) + " within 2^-17 of their size"});
   if (pairs.error_bound > 0) {
-    table.add({"  standard error", text("%.3g m at most", pairs.error_bound)});
+    table.add({"  standard error", number("%.3g m at most", pairs.error_bound)});
   }
   table.print(out);
 }
@@ -168,11 +158,11 @@ std::vector<std::string> tried_row(const TriedSettings& tried) {
   std::string verdict = tried.meets ? "yes" : "no";
   if (deviation.undecided > 0) verdict += ", " + std::to_string(deviation.undecided) + " undecided";
   return {tried.name,
-          text("%.3f", tried.result->frame_ms),
-          tried.frame_ms_beside > 0 ? text("%.2f", tried.ratio()) : "",
+          number("%.3f", tried.result->frame_ms),
+          tried.frame_ms_beside > 0 ? number("%.2f", tried.ratio()) : "",
           std::to_string(deviation.lost),
           std::to_string(deviation.gained),
-          text("%.2g", deviation.worst()),
+          number("%.2g", deviation.worst()),
           verdict};
 }
 
@@ -221,16 +211,16 @@ void print(const Advice& advice, std::ostream& out) {
   print_survey(advice, out);
   out << '\n';
   print_trials(choice, out);
-  print_rows(("Settings for errors below " + text("%g", advice.tolerance) + " m").c_str(),
+  print_rows(("Settings for errors below " + number("%g", advice.tolerance) + " m").c_str(),
              advice.settings, out);
   print_rows("Not needed here", advice.not_needed, out);
   out << '\n'
-      << text("%.3f ms a frame, ", choice.frame_ms)
-      << text("%.3f ms with what a world does by default", choice.frame_ms_standard)
-      << text("; error %.2g m at most in these frames\n", choice.deviation.worst());
+      << number("%.3f ms a frame, ", choice.frame_ms)
+      << number("%.3f ms with what a world does by default", choice.frame_ms_standard)
+      << number("; error %.2g m at most in these frames\n", choice.deviation.worst());
   if (!advice.meets) {
     out << "No settings keep errors below the tolerance: the standard tier itself may be off by "
-        << text("%.2g m\n", advice.survey.pairs.error_bound);
+        << number("%.2g m\n", advice.survey.pairs.error_bound);
   }
   out << io::printable(advice.command) << '\n';
 }

@@ -3,10 +3,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "carom_build_info.h"
+#include "cli/number_text.h"
 #include "cli/options.h"
 #include "cli/statistics.h"
 #include "cli/table.h"
@@ -32,10 +32,6 @@ std::vector<Stage> stages_run(const RunRecord& record) {
 
 double stage_median(const RunRecord& record, Stage stage) {
   return median(steady(record.stage_ms[static_cast<size_t>(stage)]));
-}
-
-double share(size_t bytes, uint64_t count) {
-  return count == 0 ? 0 : static_cast<double>(bytes) / static_cast<double>(count);
 }
 
 double bytes_per_body(const RunReport& report) {
@@ -66,12 +62,6 @@ void add_knobs(const FastKnobs& knobs, Json& json) {
 bool is_certified(const RunReport& report) { return report.accuracy.tier == Tier::certified; }
 
 bool looks_ahead(const RunReport& report) { return !report.record.swept.empty(); }
-
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 // First, least, greatest and last of a list.
 std::string extent(const std::vector<uint64_t>& list) {

@@ -1,9 +1,9 @@
 #include "cli/tunnelling_output.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "carom_build_info.h"
+#include "cli/number_text.h"
 #include "cli/options.h"
 #include "cli/table.h"
 #include "io/cpu_name.h"
@@ -15,16 +15,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using accuracy::NotedPair;
 using accuracy::TunnellingRow;
-
-std::string number(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-double share(uint64_t part, uint64_t whole) {
-  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
-}
 
 Json to_json(const TunnellingRow& row, uint64_t meetings) {
   Json json = {{"detection", name_of(row.detection)},
