@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "carom/kernel/views.h"
+#include "carom/shapes/views.h"
 
 namespace carom {
 

@@ -4,13 +4,13 @@
 #include <array>
 #include <limits>
 
-#include "broadphase/box_columns.h"
-#include "broadphase/cell_search.h"
-#include "broadphase/resting_boxes.h"
-#include "broadphase/scan.h"
-#include "broadphase/sort_pairs.h"
-#include "broadphase/sweep_order.h"
-#include "kernel/float_environment.h"
+#include "base/float_environment.h"
+#include "broadphase/grid/cell_search.h"
+#include "broadphase/resting/resting_boxes.h"
+#include "broadphase/sort/sort_pairs.h"
+#include "broadphase/sweep/box_columns.h"
+#include "broadphase/sweep/scan.h"
+#include "broadphase/sweep/sweep_order.h"
 
 namespace carom {
 namespace {

@@ -75,10 +75,10 @@ HWY_AFTER_NAMESPACE();
 #include <cfloat>
 #include <numeric>
 
-#include "broadphase/merge_pairs.h"
-#include "broadphase/pair_list.h"
-#include "kernel/body_reader.h"
-#include "kernel/parallel.h"
+#include "base/parallel.h"
+#include "broadphase/sort/merge_pairs.h"
+#include "broadphase/sort/pair_list.h"
+#include "shapes/body_reader.h"
 #include "simd/dispatch.h"
 
 namespace carom {

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "carom/base/parallelism.h"
 #include "carom/broadphase/find_pairs.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/parallelism.h"
-#include "carom/kernel/views.h"
+#include "carom/results/pair.h"
+#include "carom/shapes/views.h"
 
 namespace carom {
 

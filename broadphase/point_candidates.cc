@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "broadphase/box_columns.h"
-#include "broadphase/scan.h"
-#include "broadphase/sort_pairs.h"
-#include "broadphase/sweep_order.h"
+#include "broadphase/sort/sort_pairs.h"
+#include "broadphase/sweep/box_columns.h"
+#include "broadphase/sweep/scan.h"
+#include "broadphase/sweep/sweep_order.h"
 
 namespace carom {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "carom/kernel/pair.h"
-#include "carom/kernel/parallelism.h"
-#include "carom/kernel/views.h"
+#include "carom/base/parallelism.h"
+#include "carom/results/pair.h"
+#include "carom/shapes/views.h"
 
 namespace carom {
 

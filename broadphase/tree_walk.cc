@@ -164,7 +164,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 #include <cmath>
 
-#include "kernel/outward.h"
+#include "base/outward.h"
 #include "simd/dispatch.h"
 
 namespace carom {

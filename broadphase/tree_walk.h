@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernel/tree.h"
+#include "trees/tree.h"
 
 namespace carom {
 

@@ -10,7 +10,7 @@
 
 #include "carom_build_info.h"
 #include "cli/commands.h"
-#include "cli/options.h"
+#include "cli/support/options.h"
 
 namespace carom::cli {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "carom/kernel/result.h"
-#include "cli/console.h"
+#include "carom/base/result.h"
+#include "cli/support/console.h"
 
 namespace CLI {
 class App;

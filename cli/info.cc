@@ -5,9 +5,9 @@
 
 #include "carom_build_info.h"
 #include "cli/commands.h"
-#include "cli/options.h"
-#include "cli/pair_kinds.h"
-#include "cli/table.h"
+#include "cli/support/options.h"
+#include "cli/support/pair_kinds.h"
+#include "cli/support/table.h"
 
 namespace carom::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cli/cli.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 
 namespace {
 

@@ -1,11 +1,11 @@
-# carom_glob(OUT PATTERN...): the files of this folder that match; new files are picked up by the
-# next build.
+# carom_glob(OUT PATTERN...): the files of this folder and those below it that match; new files are
+# picked up by the next build.
 function(carom_glob out)
-  file(GLOB files CONFIGURE_DEPENDS ${ARGN})
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${ARGN})
   set(${out} ${files} PARENT_SCOPE)
 endfunction()
 
-# carom_add_objects(NAME): the sources of this folder as an object library.
+# carom_add_objects(NAME): the sources of this folder and those below it as an object library.
 function(carom_add_objects name)
   carom_glob(sources *.cc)
   add_library(${name} OBJECT ${sources})

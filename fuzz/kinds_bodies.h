@@ -7,7 +7,7 @@
 #include <iterator>
 #include <utility>
 
-#include "carom/kernel/body.h"
+#include "carom/shapes/body.h"
 #include "fuzz/kinds_input.h"
 
 namespace carom::fuzz {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/kernel/views.h"
+#include "carom/shapes/views.h"
 #include "fuzz/random_shape.h"
 
 namespace carom::fuzz {
@@ -21,7 +21,7 @@ struct KindPair {
 // Every pair of kinds that has a kernel.
 inline constexpr KindPair kPairs[] = {
 #define CAROM_PAIR(name, a, b, passes) {#name, ShapeKind::a, ShapeKind::b},
-#include "narrowphase/pair_list.inc"
+#include "narrowphase/pairs/pair_list.inc"
 #undef CAROM_PAIR
 };
 

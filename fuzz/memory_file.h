@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "io/file.h"
+#include "io/files/file.h"
 
 namespace carom::fuzz {
 

@@ -11,9 +11,9 @@
 #include <tuple>
 #include <utility>
 
+#include "carom/impacts/time_of_impact.h"
 #include "carom/reference/reference.h"
 #include "carom/simd/isa.h"
-#include "carom/sweep/time_of_impact.h"
 #include "fuzz/kinds_bodies.h"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
-#include "carom/kernel/hull.h"
-#include "carom/kernel/result.h"
+#include "carom/base/result.h"
+#include "carom/shapes/hull.h"
 
 namespace carom::io {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "carom/kernel/result.h"
+#include "carom/base/result.h"
 #include "io/shape_arrays.h"
 
 namespace carom::io {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "carom/kernel/result.h"
-#include "io/atomic_file.h"
-#include "io/file.h"
+#include "carom/base/result.h"
+#include "io/files/atomic_file.h"
+#include "io/files/file.h"
 
 namespace carom::io {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/kernel/result.h"
-#include "carom/kernel/shape.h"
-#include "io/npz.h"
+#include "carom/base/result.h"
+#include "carom/shapes/shape.h"
+#include "io/files/npz.h"
 
 namespace carom::io {
 

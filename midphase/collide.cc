@@ -5,12 +5,12 @@
 #include <cassert>
 #include <string>
 
-#include "kernel/body_reader.h"
-#include "kernel/parallel.h"
+#include "base/parallel.h"
 #include "midphase/collide_pairs.h"
 #include "midphase/mixed_block.h"
-#include "narrowphase/pair_block.h"
-#include "narrowphase/pair_kinds.h"
+#include "narrowphase/blocks/pair_block.h"
+#include "narrowphase/pairs/pair_kinds.h"
+#include "shapes/body_reader.h"
 
 namespace carom {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <span>
 
-#include "carom/kernel/contact.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/parallelism.h"
-#include "carom/kernel/result.h"
-#include "carom/kernel/tier.h"
-#include "carom/kernel/views.h"
-#include "narrowphase/packed_direction.h"
+#include "carom/base/parallelism.h"
+#include "carom/base/result.h"
+#include "carom/results/contact.h"
+#include "carom/results/pair.h"
+#include "carom/results/tier.h"
+#include "carom/shapes/views.h"
+#include "narrowphase/batch/packed_direction.h"
 
 namespace carom {
 

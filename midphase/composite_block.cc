@@ -6,13 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include "kernel/body_reader.h"
 #include "midphase/contact_runs.h"
 #include "midphase/part_batch.h"
 #include "midphase/part_search.h"
-#include "narrowphase/merge_ref.h"
-#include "narrowphase/pair_kinds.h"
-#include "narrowphase/world_point.h"
+#include "narrowphase/batch/world_point.h"
+#include "narrowphase/manifolds/merge.h"
+#include "narrowphase/pairs/pair_kinds.h"
+#include "shapes/body_reader.h"
 
 namespace carom {
 namespace {

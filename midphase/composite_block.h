@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "narrowphase/pair_block.h"
+#include "narrowphase/blocks/pair_block.h"
 
 namespace carom {
 

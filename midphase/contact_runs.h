@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "narrowphase/merge_ref.h"
+#include "narrowphase/manifolds/merge.h"
 
 namespace carom {
 

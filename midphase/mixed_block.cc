@@ -4,8 +4,8 @@
 #include <memory>
 #include <span>
 
-#include "kernel/body_reader.h"
 #include "midphase/composite_block.h"
+#include "shapes/body_reader.h"
 
 namespace carom {
 namespace {

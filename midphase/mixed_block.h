@@ -1,7 +1,7 @@
 // A block of pairs among which there may be meshes and compounds.
 #pragma once
 
-#include "narrowphase/pair_block.h"
+#include "narrowphase/blocks/pair_block.h"
 
 namespace carom {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "narrowphase/pair_block.h"
+#include "narrowphase/blocks/pair_block.h"
 
 namespace carom {
 

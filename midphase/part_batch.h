@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "carom/kernel/tier.h"
+#include "carom/results/tier.h"
 #include "midphase/placed_part.h"
-#include "narrowphase/passes.h"
+#include "narrowphase/batch/scratch_columns.h"
 
 namespace carom {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "kernel/few_of.h"
+#include "base/few_of.h"
 
 namespace carom {
 namespace {

@@ -2,7 +2,7 @@
 // other.
 #pragma once
 
-#include "kernel/parallel.h"
+#include "base/parallel.h"
 #include "midphase/placed_part.h"
 
 namespace carom {

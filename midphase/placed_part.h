@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "carom/kernel/compound_geometry.h"
-#include "kernel/part.h"
-#include "kernel/tree.h"
+#include "carom/shapes/compound_geometry.h"
+#include "geometries/part.h"
+#include "trees/tree.h"
 
 namespace carom {
 

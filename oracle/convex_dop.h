@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "carom/kernel/dop.h"
+#include "carom/shapes/dop.h"
 #include "oracle/vec3.h"
 
 namespace carom::oracle {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "carom/kernel/body.h"
+#include "carom/shapes/body.h"
 #include "oracle/hull_faces.h"
 #include "oracle/random.h"
 

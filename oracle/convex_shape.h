@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "carom/kernel/body.h"
+#include "carom/shapes/body.h"
 #include "oracle/convex_dop.h"
 #include "oracle/hull_faces.h"
 #include "oracle/vec3.h"

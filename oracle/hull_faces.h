@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "carom/kernel/hull.h"
-#include "kernel/dyadic.h"
+#include "base/dyadic.h"
+#include "carom/shapes/hull.h"
 
 namespace carom::oracle {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "carom/kernel/sweep.h"
+#include "carom/results/sweep.h"
 #include "oracle/convex_shape.h"
 
 namespace carom::oracle {

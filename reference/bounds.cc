@@ -3,11 +3,11 @@
 #include <limits>
 #include <variant>
 
+#include "base/float_environment.h"
 #include "carom/reference/reference.h"
-#include "kernel/dop_polytope.h"
-#include "kernel/float_environment.h"
 #include "reference/exact_sum.h"
 #include "reference/turned_extent.h"
+#include "shapes/dop_polytope.h"
 
 namespace carom::reference {
 namespace {

@@ -2,12 +2,13 @@
 #include <limits>
 #include <variant>
 
+#include "base/float_environment.h"
 #include "carom/reference/reference.h"
-#include "kernel/body_reader.h"
-#include "kernel/float_environment.h"
-#include "narrowphase/any_pair_ref.h"
-#include "narrowphase/manifold_ref.h"
+#include "narrowphase/manifolds/manifold_scalar.h"
+#include "narrowphase/pairs/any_pair.h"
 #include "reference/composite.h"
+#include "reference/scalar.h"
+#include "shapes/body_reader.h"
 
 namespace carom::reference {
 namespace {

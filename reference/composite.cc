@@ -4,7 +4,8 @@
 #include <limits>
 #include <tuple>
 
-#include "narrowphase/merge_ref.h"
+#include "narrowphase/manifolds/merge.h"
+#include "reference/scalar.h"
 #include "reference/simple_parts.h"
 
 namespace carom::reference {

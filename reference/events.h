@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "carom/kernel/event.h"
+#include "carom/results/event.h"
 
 namespace carom::reference {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernel/float_environment.h"
+#include "base/float_environment.h"
 #include "reference/exact_sum.h"
 #include "reference/shape_sizes.h"
 

@@ -1,8 +1,8 @@
 // How a body moves in the interval ahead, and what it covers on its way.
 #pragma once
 
-#include "carom/kernel/sweep.h"
 #include "carom/reference/reference.h"
+#include "carom/results/sweep.h"
 #include "reference/pairs.h"
 
 namespace carom::reference {

@@ -10,7 +10,7 @@
 #include <cfloat>
 #include <cmath>
 
-#include "kernel/float_environment.h"
+#include "base/float_environment.h"
 
 namespace carom::reference {
 namespace {

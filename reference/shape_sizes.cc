@@ -5,10 +5,10 @@
 #include <limits>
 #include <variant>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
-#include "kernel/dop_polytope.h"
-#include "kernel/hull_features.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
+#include "shapes/dop_polytope.h"
+#include "shapes/hull_features.h"
 
 namespace carom::reference {
 namespace {

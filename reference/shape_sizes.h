@@ -1,7 +1,7 @@
 // How far shapes reach, and how large a ball fits into them.
 #pragma once
 
-#include "carom/kernel/shape.h"
+#include "carom/shapes/shape.h"
 
 namespace carom::reference {
 

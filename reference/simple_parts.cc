@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
 
 namespace carom::reference {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "carom/kernel/body.h"
-#include "kernel/part.h"
+#include "carom/shapes/body.h"
+#include "geometries/part.h"
 
 namespace carom::reference {
 

@@ -3,13 +3,14 @@
 #include <utility>
 #include <variant>
 
+#include "base/float_environment.h"
 #include "carom/reference/reference.h"
-#include "kernel/float_environment.h"
-#include "narrowphase/length_ref.h"
+#include "narrowphase/scalar/length.h"
 #include "reference/events.h"
 #include "reference/impacts.h"
 #include "reference/motion.h"
 #include "reference/pairs.h"
+#include "reference/scalar.h"
 
 namespace carom::reference {
 namespace {

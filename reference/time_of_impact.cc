@@ -2,12 +2,13 @@
 #include <limits>
 #include <tuple>
 
+#include "base/float_environment.h"
+#include "base/outward.h"
 #include "carom/reference/reference.h"
-#include "kernel/float_environment.h"
-#include "kernel/outward.h"
-#include "narrowphase/furthest_ref.h"
+#include "impacts/first_time.h"
+#include "narrowphase/doubles/furthest_scalar.h"
+#include "reference/scalar.h"
 #include "reference/simple_parts.h"
-#include "sweep/time_ref.h"
 
 namespace carom::reference {
 namespace {

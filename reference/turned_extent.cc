@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
-#include "kernel/dop_polytope.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
+#include "shapes/dop_polytope.h"
 
 namespace carom::reference {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "carom/kernel/shape.h"
+#include "carom/shapes/shape.h"
 
 namespace carom::reference {
 

@@ -16,7 +16,7 @@ ln -sfn /usr/include/oneapi $out/include/oneapi
 generated=build/release/generated
 [ -d $generated ] || cmake --preset release >/dev/null
 
-find simd kernel broadphase narrowphase midphase sweep world -name '*.cc' | sort |
+find simd base shapes trees bounds geometries broadphase narrowphase midphase impacts queries world -name '*.cc' | sort |
   xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O0 -c {} -o /dev/null \
     -march=armv8-a+crypto -I . -I include -I $generated -isystem $out/include \
     -ffp-contract=off -fno-tree-slp-vectorize -Wall -Wextra

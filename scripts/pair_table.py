@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/pair_kinds.md from narrowphase/pair_list.inc and the files that it names; --check:
+"""Writes docs/pair_kinds.md from narrowphase/pairs/pair_list.inc and the files that it names; --check:
 fails if that would change it."""
 import pathlib
 import re
@@ -11,7 +11,7 @@ DOCUMENT = ROOT / "docs" / "pair_kinds.md"
 HEAD = """# Pair kinds
 
 Every pair of kinds that has a kernel; meshes and compounds are tested part by part. Written by `scripts/pair_table.py` from
-`narrowphase/pair_list.inc` and the files that it names; a test says if it is out of date.
+`narrowphase/pairs/pair_list.inc` and the files that it names; a test says if it is out of date.
 
 - **in lanes**: a vector of pairs at a time; `points`: one pair at a time in double precision, whose
   furthest points are found in lanes; otherwise one pair at a time.
@@ -34,21 +34,22 @@ def first_sentence(path):
 
 
 def row(name, a, b, passes):
-    kernel = (ROOT / "narrowphase" / f"{name}.cc").read_text()
+    files = ROOT / "narrowphase" / "pairs" / name.split("_")[0]
+    kernel = (files / f"{name}.cc").read_text()
     lanes = "points" if "run_core_batch" in kernel else "" if "run_scalar_batch" in kernel else "yes"
     marks = [
         passes not in ("none", "manifold"),
         passes != "none",
     ]
     cells = [a, b, lanes] + ["yes" if mark else "" for mark in marks]
-    cells.append(first_sentence(ROOT / "narrowphase" / f"{name}_ref.h"))
+    cells.append(first_sentence(files / f"{name}_scalar.h"))
     return "| " + " | ".join(cells) + " |\n"
 
 
 def main():
     pairs = re.findall(
         r"^CAROM_PAIR\((\w+), (\w+), (\w+), (\w+)\)",
-        (ROOT / "narrowphase" / "pair_list.inc").read_text(),
+        (ROOT / "narrowphase" / "pairs" / "pair_list.inc").read_text(),
         re.MULTILINE,
     )
     text = HEAD + "".join(row(*pair) for pair in pairs)

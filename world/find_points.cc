@@ -1,6 +1,6 @@
+#include "base/float_environment.h"
 #include "broadphase/point_candidates.h"
 #include "carom/narrowphase/collide.h"
-#include "kernel/float_environment.h"
 #include "world/world_state.h"
 
 namespace carom {

@@ -1,5 +1,5 @@
-#include "kernel/float_environment.h"
-#include "sweep/searches.h"
+#include "base/float_environment.h"
+#include "queries/searches.h"
 #include "world/world_state.h"
 
 namespace carom {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "sweep/body_index.h"
+#include "queries/body_index.h"
 
 namespace carom {
 

@@ -2,8 +2,8 @@
 #include <chrono>
 #include <limits>
 
-#include "carom/kernel/bounds.h"
-#include "kernel/float_environment.h"
+#include "base/float_environment.h"
+#include "carom/bounds/bounds.h"
 #include "midphase/collide_pairs.h"
 #include "world/world_state.h"
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "kernel/float_environment.h"
+#include "base/float_environment.h"
 #include "world/world_state.h"
 
 namespace carom {

@@ -11,7 +11,7 @@
 #include "bench/peers/narrowphase/report.h"
 #include "bench/support/context.h"
 #include "carom/simd/isa.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
 
 namespace carom::bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bench/peers/broadphase/comparison.h"
 #include "bench/peers/narrowphase/comparison.h"
-#include "carom/kernel/result.h"
+#include "carom/base/result.h"
 
 namespace carom::bench {
 

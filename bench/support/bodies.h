@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "carom/kernel/views.h"
+#include "carom/shapes/views.h"
 #include "oracle/random.h"
 #include "tests/support/pairs.h"
 

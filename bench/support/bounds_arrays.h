@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "carom/kernel/bounds.h"
+#include "carom/bounds/bounds.h"
 
 namespace carom::bench {
 

@@ -1,7 +1,7 @@
 // The pairs of kinds that have a kernel.
 #pragma once
 
-#include "carom/kernel/shape.h"
+#include "carom/shapes/shape.h"
 
 namespace carom::bench {
 
@@ -13,7 +13,7 @@ struct KindPair {
 
 inline constexpr KindPair kKindPairs[] = {
 #define CAROM_PAIR(name, kind_a, kind_b, passes) {#name, ShapeKind::kind_a, ShapeKind::kind_b},
-#include "narrowphase/pair_list.inc"
+#include "narrowphase/pairs/pair_list.inc"
 #undef CAROM_PAIR
 };
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bench/support/measure.h"
-#include "carom/kernel/mesh_geometry.h"
 #include "carom/narrowphase/collide.h"
+#include "carom/shapes/mesh_geometry.h"
 
 namespace carom::bench {
 namespace {

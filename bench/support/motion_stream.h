@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "bench/support/bodies.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/result.h"
+#include "carom/base/result.h"
+#include "carom/impacts/time_of_impact.h"
 #include "carom/reference/reference.h"
-#include "carom/sweep/time_of_impact.h"
+#include "carom/results/pair.h"
 
 namespace carom::bench {
 

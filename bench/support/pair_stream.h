@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "bench/support/bodies.h"
-#include "carom/kernel/contact.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/result.h"
+#include "carom/base/result.h"
 #include "carom/reference/reference.h"
+#include "carom/results/contact.h"
+#include "carom/results/pair.h"
 
 namespace carom::bench {
 

@@ -10,7 +10,7 @@
 #include "bench/support/cached.h"
 #include "bench/support/measure.h"
 #include "bench/support/suites.h"
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "carom/world/world.h"
 #include "oracle/random.h"
 

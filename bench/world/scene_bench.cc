@@ -9,7 +9,7 @@
 #include "bench/support/frames.h"
 #include "bench/support/measure.h"
 #include "bench/support/suites.h"
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "carom/reference/reference.h"
 #include "carom/world/world.h"
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "carom/kernel/result.h"
+#include "carom/base/result.h"
 #include "io/generate/spec.h"
 #include "io/scene.h"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "carom/kernel/shape.h"
+#include "carom/shapes/shape.h"
 #include "io/generate/random.h"
 #include "io/shape_arrays.h"
 

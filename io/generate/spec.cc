@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-#include "io/file.h"
+#include "io/files/file.h"
 
 namespace carom::io {
 namespace {

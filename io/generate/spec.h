@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "carom/kernel/result.h"
-#include "carom/kernel/shape.h"
-#include "carom/kernel/views.h"
+#include "carom/base/result.h"
+#include "carom/shapes/shape.h"
+#include "carom/shapes/views.h"
 
 namespace carom::io {
 

@@ -1,5 +1,5 @@
 // What the judge takes for the truth.
-#include "accuracy/exact_pair.h"
+#include "accuracy/pairs/exact_pair.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A small run of everything that `carom accuracy` measures.
-#include "accuracy/measure.h"
+#include "accuracy/tiers/measure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "accuracy/atlas.h"
-#include "accuracy/judge.h"
 #include "accuracy/page.h"
-#include "accuracy/samples.h"
-#include "accuracy/sweeps.h"
-#include "accuracy/tradeoff.h"
-#include "accuracy/undecided.h"
+#include "accuracy/pairs/samples.h"
+#include "accuracy/pairs/undecided.h"
+#include "accuracy/tiers/atlas.h"
+#include "accuracy/tiers/judge.h"
+#include "accuracy/tiers/sweeps.h"
+#include "accuracy/tiers/tradeoff.h"
 
 namespace carom::accuracy {
 namespace {

@@ -1,13 +1,13 @@
 // The reference of carom tunnelling: against times known by hand, and against every pose of many.
-#include "accuracy/meeting.h"
+#include "accuracy/tunnelling/meeting.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "accuracy/meetings.h"
-#include "carom/kernel/mesh_geometry.h"
+#include "accuracy/tunnelling/meetings.h"
+#include "carom/shapes/mesh_geometry.h"
 #include "oracle/convex_oracle.h"
 #include "oracle/convex_random.h"
 

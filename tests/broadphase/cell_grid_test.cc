@@ -1,5 +1,5 @@
 // The cells that boxes are sorted into: what searches through them rely on.
-#include "broadphase/cell_grid.h"
+#include "broadphase/grid/cell_grid.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "broadphase/cell_rows.h"
-#include "carom/kernel/thread_arena.h"
+#include "broadphase/grid/cell_rows.h"
+#include "carom/base/thread_arena.h"
 #include "tests/broadphase/boxes.h"
 #include "tests/support/isas.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "tests/broadphase/boxes.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "carom/base/thread_arena.h"
 #include "carom/broadphase/find_pairs.h"
-#include "carom/kernel/thread_arena.h"
 #include "tests/broadphase/boxes.h"
 #include "tests/support/isas.h"
 

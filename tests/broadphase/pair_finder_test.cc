@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "broadphase/sweep_order.h"
-#include "carom/kernel/thread_arena.h"
+#include "broadphase/sweep/sweep_order.h"
+#include "carom/base/thread_arena.h"
 #include "tests/broadphase/boxes.h"
 
 namespace carom::test {

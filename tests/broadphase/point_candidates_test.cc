@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "tests/broadphase/boxes.h"
 #include "tests/support/isas.h"
 

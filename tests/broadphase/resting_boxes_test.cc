@@ -1,12 +1,12 @@
 // Histories: a finder that keeps what rests finds what a plain search finds, frame after frame.
-#include "broadphase/resting_boxes.h"
+#include "broadphase/resting/resting_boxes.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "tests/broadphase/boxes.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"

@@ -1,5 +1,5 @@
 // Sorting of pairs as searches find them, against std::sort.
-#include "broadphase/sort_pairs.h"
+#include "broadphase/sort/sort_pairs.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "broadphase/merge_pairs.h"
-#include "carom/kernel/thread_arena.h"
+#include "broadphase/sort/merge_pairs.h"
+#include "carom/base/thread_arena.h"
 #include "oracle/random.h"
 #include "tests/support/isas.h"
 

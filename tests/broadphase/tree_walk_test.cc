@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "kernel/outward.h"
+#include "base/outward.h"
 #include "tests/broadphase/boxes.h"
 #include "tests/support/isas.h"
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "cli/cli.h"
-#include "cli/verify_builtin.h"
+#include "cli/verify/verify_builtin.h"
 
 namespace carom::cli {
 

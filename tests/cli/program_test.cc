@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "carom/simd/isa.h"
-#include "cli/state_hash.h"
-#include "cli/statistics.h"
+#include "cli/run/state_hash.h"
+#include "cli/support/statistics.h"
 #include "io/pairs_file.h"
 #include "tests/cli/cli_test_util.h"
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/npz.h"
+#include "io/files/npz.h"
 
 namespace carom::io {
 

@@ -1,4 +1,4 @@
-#include "io/npz.h"
+#include "io/files/npz.h"
 
 #include <sys/stat.h>
 

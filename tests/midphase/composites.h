@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
 #include "carom/narrowphase/collide.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
 #include "oracle/convex_random.h"
 #include "tests/support/isas.h"
 #include "tests/support/run.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "carom/kernel/bounds.h"
+#include "carom/bounds/bounds.h"
 #include "carom/reference/reference.h"
 #include "tests/support/guarded.h"
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
 #include "oracle/convex_oracle.h"
 #include "tests/support/inner_edges.h"
 #include "tests/support/pairs.h"

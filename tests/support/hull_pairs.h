@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "kernel/hull_features.h"
-#include "kernel/tolerances.h"
+#include "base/tolerances.h"
+#include "shapes/hull_features.h"
 #include "tests/support/hulls.h"
 #include "tests/support/kind_pairs.h"
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "carom/impacts/time_of_impact.h"
 #include "carom/reference/reference.h"
-#include "carom/sweep/time_of_impact.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
 #include "tests/support/layouts.h"

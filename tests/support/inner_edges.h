@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "carom/kernel/mesh_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
 #include "oracle/convex_shape.h"
 
 namespace carom::test {

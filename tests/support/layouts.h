@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "carom/kernel/views.h"
+#include "carom/shapes/views.h"
 #include "tests/support/guarded.h"
 #include "tests/support/pairs.h"
 

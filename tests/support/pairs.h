@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "carom/kernel/body.h"
-#include "carom/kernel/views.h"
 #include "carom/reference/reference.h"
+#include "carom/shapes/body.h"
+#include "carom/shapes/views.h"
 
 namespace carom::test {
 

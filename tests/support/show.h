@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <string>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
 #include "tests/support/pairs.h"
 
 namespace carom::test {

@@ -1,8 +1,8 @@
 // Bodies for what is proven of single pairs.
 #pragma once
 
-#include "carom/kernel/body.h"
-#include "narrowphase/stated_body.h"
+#include "carom/shapes/body.h"
+#include "narrowphase/batch/stated_body.h"
 
 namespace carom::test {
 

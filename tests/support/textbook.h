@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "carom/kernel/compound_geometry.h"
-#include "carom/kernel/mesh_geometry.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
 #include "tests/support/pairs.h"
 
 namespace carom::test {

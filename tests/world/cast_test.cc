@@ -1,8 +1,8 @@
 // Casts, overlaps and nearest bodies in a world: those of all its bodies as arrays.
 #include <gtest/gtest.h>
 
-#include "carom/kernel/thread_arena.h"
-#include "tests/sweep/cast_checks.h"
+#include "carom/base/thread_arena.h"
+#include "tests/queries/cast_checks.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {

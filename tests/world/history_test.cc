@@ -1,6 +1,6 @@
 #include "tests/world/histories.h"
 
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "carom/simd/isa.h"
 #include "tests/support/rounds.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "carom/reference/reference.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"

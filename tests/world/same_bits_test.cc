@@ -1,7 +1,7 @@
 // One history of a world, many circumstances: the same bytes after every step.
 #include <gtest/gtest.h>
 
-#include "carom/kernel/thread_arena.h"
+#include "carom/base/thread_arena.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
 #include "tests/world/crowds.h"

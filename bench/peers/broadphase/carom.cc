@@ -1,7 +1,7 @@
 // Carom's PairFinder, with the method it chooses itself.
 #include "bench/peers/broadphase/peer.h"
+#include "carom/base/thread_arena.h"
 #include "carom/broadphase/find_pairs.h"
-#include "carom/kernel/thread_arena.h"
 
 namespace carom::bench {
 namespace {

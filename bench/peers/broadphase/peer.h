@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "carom/kernel/pair.h"
+#include "carom/results/pair.h"
 
 namespace carom::bench {
 

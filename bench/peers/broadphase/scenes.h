@@ -7,7 +7,7 @@
 #include "bench/peers/broadphase/peer.h"
 #include "bench/support/bounds_arrays.h"
 #include "bench/support/frames.h"
-#include "carom/kernel/result.h"
+#include "carom/base/result.h"
 
 namespace carom::bench {
 

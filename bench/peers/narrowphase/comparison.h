@@ -6,15 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "carom/kernel/contact.h"
-#include "carom/kernel/shape.h"
+#include "carom/results/contact.h"
+#include "carom/shapes/shape.h"
 
 namespace carom::bench {
 
 enum class Moving { no, times, contacts };
 
 struct PeerStreamSpec {
-  const char* pair;  // as narrowphase/pair_list.inc calls it; "sphere_mesh"
+  const char* pair;  // as narrowphase/pairs/pair_list.inc calls it; "sphere_mesh"
   ShapeKind a;
   ShapeKind b;
   Detail detail;

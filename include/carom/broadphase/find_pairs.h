@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "carom/base/parallelism.h"
 #include "carom/export.h"
-#include "carom/kernel/body.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/parallelism.h"
-#include "carom/kernel/views.h"
+#include "carom/results/pair.h"
+#include "carom/shapes/body.h"
+#include "carom/shapes/views.h"
 
 namespace carom {
 

@@ -3,13 +3,13 @@
 
 #include <span>
 
+#include "carom/base/parallelism.h"
+#include "carom/base/result.h"
 #include "carom/export.h"
-#include "carom/kernel/contact.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/parallelism.h"
-#include "carom/kernel/result.h"
-#include "carom/kernel/tier.h"
-#include "carom/kernel/views.h"
+#include "carom/results/contact.h"
+#include "carom/results/pair.h"
+#include "carom/results/tier.h"
+#include "carom/shapes/views.h"
 
 namespace carom {
 
@@ -35,7 +35,7 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 // count as the largest float at most: shapes of about that size may be found to overlap from
 // further away.
 // At Tier::certified and Tier::exact `overlap` is right for the shapes as they are stored
-// (carom/kernel/tier.h), and the sign of the separation goes with it: 0 or less of overlapping
+// (carom/results/tier.h), and the sign of the separation goes with it: 0 or less of overlapping
 // pairs, more than 0 of separate ones. Of undecided pairs the separation is the standard one, and
 // there are no manifold points.
 // Fails if a pair is of kinds that no kernel exists for; nothing is written then.

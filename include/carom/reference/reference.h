@@ -5,15 +5,15 @@
 #include <span>
 #include <vector>
 
+#include "carom/bounds/bounds.h"
 #include "carom/export.h"
-#include "carom/kernel/body.h"
-#include "carom/kernel/bounds.h"
-#include "carom/kernel/contact.h"
-#include "carom/kernel/event.h"
-#include "carom/kernel/impact.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/sweep.h"
-#include "carom/kernel/views.h"
+#include "carom/results/contact.h"
+#include "carom/results/event.h"
+#include "carom/results/impact.h"
+#include "carom/results/pair.h"
+#include "carom/results/sweep.h"
+#include "carom/shapes/body.h"
+#include "carom/shapes/views.h"
 
 namespace carom::reference {
 

@@ -8,18 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "carom/base/parallelism.h"
 #include "carom/broadphase/find_pairs.h"
 #include "carom/export.h"
-#include "carom/kernel/body.h"
-#include "carom/kernel/contact.h"
-#include "carom/kernel/dop.h"
-#include "carom/kernel/event.h"
-#include "carom/kernel/impact.h"
-#include "carom/kernel/pair.h"
-#include "carom/kernel/parallelism.h"
-#include "carom/kernel/tier.h"
-#include "carom/sweep/cast.h"
-#include "carom/sweep/queries.h"
+#include "carom/queries/cast.h"
+#include "carom/queries/queries.h"
+#include "carom/results/contact.h"
+#include "carom/results/event.h"
+#include "carom/results/impact.h"
+#include "carom/results/pair.h"
+#include "carom/results/tier.h"
+#include "carom/shapes/body.h"
+#include "carom/shapes/dop.h"
 #include "carom/world/step_report.h"
 
 namespace carom {
@@ -231,10 +231,11 @@ class CAROM_EXPORT World {
   void find_points(const float* xyz, size_t count, size_t stride,
                    std::vector<PointHit>& hits) const;
 
-  // cast(), find_overlaps() and find_nearest() (carom/sweep/cast.h, carom/sweep/queries.h) against
-  // the bodies whose layer has a bit of `mask`, sensors included. They ask the bounds of the last
-  // step as well: bodies must not have changed since. The first call after a step sorts the bodies
-  // into a tree, which is kept until the next step; a call costs little more than its queries then.
+  // cast(), find_overlaps() and find_nearest() (carom/queries/cast.h, carom/queries/queries.h)
+  // against the bodies whose layer has a bit of `mask`, sensors included. They ask the bounds of
+  // the last step as well: bodies must not have changed since. The first call after a step sorts
+  // the bodies into a tree, which is kept until the next step; a call costs little more than its
+  // queries then.
   void cast(const Collidables& queries, const SweepView& sweep, CastHits which,
             std::vector<CastHit>& hits, uint32_t mask = ~0u) const;
   void find_overlaps(const Collidables& queries, std::vector<OverlapHit>& hits,

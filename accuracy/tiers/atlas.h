@@ -1,0 +1,22 @@
+// The families of hard pairs.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <vector>
+
+#include "accuracy/tiers/contenders.h"
+#include "accuracy/tiers/effort.h"
+#include "accuracy/tiers/failures.h"
+
+namespace carom::accuracy {
+
+// Adds the rows of the standard setting at every detail, for each family and type of positions;
+// certified and exact are held to their promise as well. Returns what each contender makes of all
+// of these pairs at detail contact.
+std::vector<Tally> judge_families(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
+                                  std::span<const std::unique_ptr<Contender>> contenders,
+                                  nlohmann::ordered_json& rows, Failures& failures);
+
+}  // namespace carom::accuracy

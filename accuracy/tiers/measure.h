@@ -1,0 +1,28 @@
+// carom accuracy: all of it, as one document.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "accuracy/pairs/oracle_pairs.h"
+
+namespace carom::accuracy {
+
+struct MeasureOptions {
+  std::vector<NamedKinds> kinds;
+  bool is_long = false;
+  uint64_t seed = 1;
+};
+
+// How many steps of all are done.
+using MeasureProgress = std::function<void(size_t done, size_t all)>;
+
+// The document of the page (accuracy/page.html); `failures` lists what broke a promise. "undecided"
+// is empty unless all kinds are measured, "reuse" and "fidelity" in any case: those take scenes
+// (fidelity_json.h).
+nlohmann::ordered_json measure(const MeasureOptions& options, const MeasureProgress& progress);
+
+}  // namespace carom::accuracy

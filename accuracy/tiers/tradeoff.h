@@ -1,0 +1,22 @@
+// One pair of kinds with every setting: how fast on random pairs, and how accurate on these and on
+// all families of hard ones.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "accuracy/tiers/effort.h"
+#include "accuracy/tiers/failures.h"
+
+namespace carom::accuracy {
+
+struct TradeoffRows {
+  nlohmann::ordered_json& tradeoff;
+  nlohmann::ordered_json& matrix;
+  nlohmann::ordered_json& atlas;
+};
+
+// Adds to the arrays.
+void measure_tradeoff(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
+                      const TradeoffRows& rows, Failures& failures);
+
+}  // namespace carom::accuracy

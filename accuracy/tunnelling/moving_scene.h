@@ -1,0 +1,24 @@
+// A scene whose bodies say how they go on from every frame.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "carom/shapes/body.h"
+
+namespace carom::accuracy {
+
+class MovingScene {
+ public:
+  virtual ~MovingScene() = default;
+
+  virtual const std::string& name() const = 0;
+  virtual size_t frames() const = 0;
+  virtual PositionType positions() const = 0;
+  virtual double dt() const = 0;
+  // As many in every frame, in the same order, with velocities.
+  virtual std::vector<BodyDesc> bodies(size_t frame) const = 0;
+};
+
+}  // namespace carom::accuracy

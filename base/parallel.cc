@@ -1,0 +1,97 @@
+// The one place where oneTBB is used.
+#include "base/parallel.h"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <mutex>
+
+#include "carom/base/thread_arena.h"
+
+// oneTBB's synchronisation is invisible to ThreadSanitizer; here it is stated.
+#if defined(CAROM_THREAD_SANITIZER)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
+namespace carom {
+namespace {
+
+void happens_before(void* event) {
+#if defined(CAROM_THREAD_SANITIZER)
+  __tsan_release(event);
+#else
+  (void)event;
+#endif
+}
+
+void happens_after(void* event) {
+#if defined(CAROM_THREAD_SANITIZER)
+  __tsan_acquire(event);
+#else
+  (void)event;
+#endif
+}
+
+}  // namespace
+
+bool uses_threads(Parallelism parallelism) {
+  return parallelism == Parallelism::arena && tbb::this_task_arena::max_concurrency() > 1;
+}
+
+void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
+  char started, finished;
+  happens_before(&started);
+  tbb::parallel_for(size_t{0}, count, [&](size_t i) {
+    happens_after(&started);
+    task(i);
+    happens_before(&finished);
+  });
+  happens_after(&finished);
+}
+
+namespace {
+
+// oneTBB has as many threads as cores unless told otherwise, and takes the least of what it is
+// told. So there is one such limit in the process: the most that any arena asked for beyond the
+// cores.
+void allow_threads(int threads) {
+  static std::mutex mutex;
+  static int allowed = tbb::info::default_concurrency();
+  static tbb::global_control* limit = nullptr;  // stays: arenas may outlive every scope
+  const std::lock_guard lock(mutex);
+  if (threads <= allowed) return;
+  delete limit;
+  allowed = threads;
+  limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<size_t>(allowed));
+}
+
+}  // namespace
+
+struct ThreadArena::State {
+  tbb::task_arena arena;
+};
+
+ThreadArena::ThreadArena(int threads) {
+  if (threads <= 1) return;
+  allow_threads(threads);
+  state_.reset(new State{tbb::task_arena(threads)});
+}
+ThreadArena::~ThreadArena() = default;
+
+Parallelism ThreadArena::parallelism() const {
+  return state_ ? Parallelism::arena : Parallelism::none;
+}
+
+void ThreadArena::run(const std::function<void()>& work) {
+  if (state_) {
+    state_->arena.execute(work);
+  } else {
+    work();
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+// Loops over fixed blocks. The blocks depend on the count alone, never on the number of threads, so
+// that results which are put together block by block do not either.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "base/float_environment.h"
+#include "carom/base/parallelism.h"
+
+namespace carom {
+
+// A non-owning reference to a callable: no allocation, unlike std::function.
+template <class Signature>
+class FunctionRef;
+
+template <class R, class... Args>
+class FunctionRef<R(Args...)> {
+ public:
+  template <class F>
+  FunctionRef(const F& f)
+      : object_(&f), call_([](const void* object, Args... args) -> R {
+          return (*static_cast<const F*>(object))(args...);
+        }) {}
+  R operator()(Args... args) const { return call_(object_, args...); }
+
+ private:
+  const void* object_;
+  R (*call_)(const void*, Args...);
+};
+
+// True if the caller's arena has more than one thread and may be used.
+bool uses_threads(Parallelism parallelism);
+
+// Runs task(i) for i in [0, count), on the caller's arena, in no particular order.
+void run_tasks(size_t count, FunctionRef<void(size_t)> task);
+
+inline size_t block_count(size_t count, size_t block_size) {
+  return (count + block_size - 1) / block_size;
+}
+
+// body(block, begin, end) for every block of [0, count), each in Carom's floating-point mode.
+template <class Body>
+void for_each_block(size_t count, size_t block_size, Parallelism parallelism, const Body& body) {
+  const size_t blocks = block_count(count, block_size);
+  const auto run = [&](size_t block) {
+    const FloatEnvironment environment;
+    const size_t begin = block * block_size;
+    body(block, begin, std::min(begin + block_size, count));
+  };
+  if (blocks > 1 && uses_threads(parallelism)) {
+    run_tasks(blocks, run);
+  } else {
+    for (size_t block = 0; block < blocks; ++block) run(block);
+  }
+}
+
+}  // namespace carom

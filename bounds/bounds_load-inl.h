@@ -1,0 +1,230 @@
+// Bodies of a view in lanes: positions and fourth components (`w`, a sphere's radius) from one
+// source, extents relative to the position from another.
+#if defined(CAROM_BOUNDS_BOUNDS_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_BOUNDS_BOUNDS_LOAD_INL_H_
+#undef CAROM_BOUNDS_BOUNDS_LOAD_INL_H_
+#else
+#define CAROM_BOUNDS_BOUNDS_LOAD_INL_H_
+#endif
+
+#include <type_traits>
+
+#include "bounds/bounds_sums-inl.h"
+#include "bounds/extent.h"
+#include "shapes/body_reader.h"
+#include "simd/gather-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// --- Positions: load(i, position, w) yields bodies i, i + 1, ... ---
+
+// Boxes in world coordinates.
+struct NoPositions {
+  struct Position {
+    Origin x, y, z;
+  };
+
+  HWY_INLINE void load(size_t, Position&, F& w) const { w = splat(0); }
+};
+
+struct ConsecutiveRecords {
+  const char* base;
+  size_t stride;
+
+  HWY_INLINE const float* record(size_t i) const {
+    return reinterpret_cast<const float*>(base + i * stride);
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), record(i)); }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const { return record(i)[c]; }
+};
+
+// Records of x, y, z, w in float32.
+struct FloatRecords {
+  using Position = F3;
+
+  const char* base;
+  size_t stride;
+
+  explicit FloatRecords(const PositionView& view)
+      : base(static_cast<const char*>(view.data)), stride(view.stride) {}
+
+  HWY_INLINE void load(size_t i, F3& position, F& w) const {
+    transpose_records(ConsecutiveRecords{base + i * stride, stride}, position, w);
+  }
+};
+
+// Records of x, y, z, w in float64.
+struct DoubleRecords {
+  using Position = Wide3;
+
+  const char* base;
+  size_t stride;
+
+  explicit DoubleRecords(const PositionView& view)
+      : base(static_cast<const char*>(view.data)), stride(view.stride) {}
+
+  HWY_INLINE const double* record(size_t i) const {
+    return reinterpret_cast<const double*>(base + i * stride);
+  }
+
+#if HWY_TARGET == HWY_SCALAR
+  HWY_INLINE void load(size_t i, Wide3& position, F& w) const {
+    const double* r = record(i);
+    position = {load_wide(r), load_wide(r + 1), load_wide(r + 2)};
+    w = demote(load_wide(r + 3));
+  }
+#else
+  // A vector whose 128-bit block j is components c and c + 1 of record i + 2 j.
+  template <class Tag>
+  HWY_INLINE hn::Vec<Tag> interleaved_pairs(Tag tag, size_t i, size_t c) const {
+    if constexpr (hn::MaxLanes(Tag()) == 2) {
+      return hn::LoadU(tag, record(i) + c);
+    } else {
+      const hn::Half<Tag> half;
+      return hn::Combine(tag, interleaved_pairs(half, i + hn::MaxLanes(half), c),
+                         interleaved_pairs(half, i, c));
+    }
+  }
+
+  // Components c and c + 1 of as many records as a vector has doubles.
+  HWY_INLINE void load_pairs(size_t i, size_t c, D& first, D& second) const {
+    const DoubleTag tag;
+    const D even = interleaved_pairs(tag, i, c);
+    const D odd = interleaved_pairs(tag, i + 1, c);
+    first = hn::InterleaveLower(tag, even, odd);
+    second = hn::InterleaveUpper(tag, even, odd);
+  }
+
+  HWY_INLINE void load(size_t i, Wide3& position, F& w) const {
+    const size_t high = i + kLanes / 2;
+    D low_w, high_w;
+    load_pairs(i, 0, position.x.low, position.y.low);
+    load_pairs(high, 0, position.x.high, position.y.high);
+    load_pairs(i, 2, position.z.low, low_w);
+    load_pairs(high, 2, position.z.high, high_w);
+    w = demote(Wide{low_w, high_w});
+  }
+#endif
+};
+
+// Any other layout, one by one; T: float or double.
+HWY_INLINE F load_scalars(const float* values) { return hn::Load(FloatTag(), values); }
+HWY_INLINE Wide load_scalars(const double* values) { return load_wide(values); }
+
+template <class T>
+struct AnyPositions {
+  using Position = std::conditional_t<std::is_same_v<T, float>, F3, Wide3>;
+
+  const BodyReader& reader;
+
+  HWY_INLINE void load(size_t first, Position& position, F& w) const {
+    HWY_ALIGN T x[kLanes], y[kLanes], z[kLanes];
+    for (size_t i = 0; i < kLanes; ++i) {
+      const auto p = reader.position<T>(first + i);
+      x[i] = p.x;
+      y[i] = p.y;
+      z[i] = p.z;
+    }
+    position = {load_scalars(x), load_scalars(y), load_scalars(z)};
+    w = lanes_from([&](size_t i) HWY_ATTR {
+      const bool is_sphere = reader.kind(first + i) == ShapeKind::sphere;
+      return is_sphere ? reader.radius(first + i) : 0;
+    });
+  }
+};
+
+// --- Extents: load(i, w, lower, upper), relative to the positions ---
+
+struct SphereExtents {
+  HWY_INLINE void load(size_t, F radius, F3& lower, F3& upper) const {
+    const F negative = hn::Neg(radius);
+    lower = {negative, negative, negative};
+    upper = {radius, radius, radius};
+  }
+};
+
+struct BoxExtents {
+  AabbColumns boxes;
+  const uint32_t* slot;
+
+  explicit BoxExtents(const Collidables& bodies) : boxes(bodies.boxes), slot(bodies.box_slot) {}
+
+  HWY_INLINE size_t row(size_t i) const { return slot ? slot[i] : i; }
+
+  HWY_INLINE void load(size_t i, F, F3& lower, F3& upper) const {
+    if (are_consecutive(i)) {
+      load_rows(row(i), lower, upper);
+      return;
+    }
+    size_t rows[kLanes];
+    for (size_t k = 0; k < kLanes; ++k) rows[k] = row(i + k);
+    gather_rows(rows, lower, upper);
+  }
+
+  // Boxes in the order of their bodies: the rule where nothing was ever removed.
+  HWY_INLINE bool are_consecutive(size_t i) const {
+    if (boxes.stride != sizeof(float)) return false;
+    if (!slot) return true;
+    const hn::RebindToUnsigned<FloatTag> integers;
+    const auto expected = hn::Add(hn::Set(integers, slot[i]), hn::Iota(integers, 0));
+    return hn::AllTrue(integers, hn::Eq(hn::LoadU(integers, slot + i), expected));
+  }
+
+  HWY_INLINE void load_rows(size_t first, F3& lower, F3& upper) const {
+    const FloatTag tag;
+    lower = {hn::LoadU(tag, boxes.lower[0] + first), hn::LoadU(tag, boxes.lower[1] + first),
+             hn::LoadU(tag, boxes.lower[2] + first)};
+    upper = {hn::LoadU(tag, boxes.upper[0] + first), hn::LoadU(tag, boxes.upper[1] + first),
+             hn::LoadU(tag, boxes.upper[2] + first)};
+  }
+
+  HWY_INLINE void gather_rows(const size_t* rows, F3& lower, F3& upper) const {
+    const auto column = [&](const float* first) HWY_ATTR {
+      return lanes_from([&](size_t k)
+                            HWY_ATTR { return load_strided<float>(first, boxes.stride, rows[k]); });
+    };
+    lower = {column(boxes.lower[0]), column(boxes.lower[1]), column(boxes.lower[2])};
+    upper = {column(boxes.upper[0]), column(boxes.upper[1]), column(boxes.upper[2])};
+  }
+};
+
+// Any kinds side by side.
+struct MixedExtents {
+  const BodyReader& reader;
+  BoxExtents boxes;
+
+  explicit MixedExtents(const BodyReader& bodies) : reader(bodies), boxes(bodies.bodies) {}
+
+  HWY_INLINE void load(size_t first, F radius, F3& lower, F3& upper) const {
+    size_t spheres = 0;
+    size_t aabbs = 0;
+    for (size_t i = 0; i < kLanes; ++i) {
+      spheres += reader.kind(first + i) == ShapeKind::sphere;
+      aabbs += reader.kind(first + i) == ShapeKind::aabb;
+    }
+    if (spheres == kLanes) return SphereExtents().load(first, radius, lower, upper);
+    if (aabbs == kLanes) return boxes.load(first, radius, lower, upper);
+    load_singly(first, lower, upper);
+  }
+
+  void load_singly(size_t first, F3& lower, F3& upper) const {
+    HWY_ALIGN float corners[6][kLanes];
+    for (size_t i = 0; i < kLanes; ++i) {
+      const Extent extent = extent_of(reader, first + i);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        corners[axis][i] = extent.lower[axis];
+        corners[3 + axis][i] = extent.upper[axis];
+      }
+    }
+    lower = {load_scalars(corners[0]), load_scalars(corners[1]), load_scalars(corners[2])};
+    upper = {load_scalars(corners[3]), load_scalars(corners[4]), load_scalars(corners[5])};
+  }
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_BOUNDS_BOUNDS_LOAD_INL_H_

@@ -1,0 +1,190 @@
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "broadphase/grid/cell_join.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <algorithm>
+
+#include "broadphase/grid/cell_join.h"
+#include "simd/compress-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+// Columns of the rows that are searched, at equal distances: so few pointers fit the registers.
+struct Columns {
+  const float* lower;
+  size_t stride;
+  const uint32_t* body;
+
+  explicit HWY_INLINE Columns(const CellRows& rows)
+      : lower(rows.lower(0)), stride(rows.column_stride()), body(rows.body.data()) {}
+};
+
+// One box in every lane.
+struct BoxLanes {
+  F lower[3], upper[3];
+  Indices body;
+};
+
+HWY_INLINE void load_box(const Columns& columns, size_t row, BoxLanes& box) {
+  const float* lower = columns.lower + row;
+  const float* upper = lower + 3 * columns.stride;
+  box.body = hn::Set(IndexTag(), columns.body[row]);
+  for (size_t k = 0; k < 3; ++k) {
+    box.lower[k] = splat(lower[k * columns.stride]);
+    box.upper[k] = splat(upper[k * columns.stride]);
+  }
+}
+
+HWY_INLINE Mask overlaps(const Columns& columns, const BoxLanes& box, size_t row) {
+  const FloatTag tag;
+  const float* lower = columns.lower + row;
+  const float* upper = lower + 3 * columns.stride;
+  Mask all = hn::And(hn::Le(hn::LoadU(tag, lower), box.upper[0]),
+                     hn::Ge(hn::LoadU(tag, upper), box.lower[0]));
+  for (size_t k = 1; k < 3; ++k) {
+    const size_t column = k * columns.stride;
+    all = hn::And(all, hn::And(hn::Le(hn::LoadU(tag, lower + column), box.upper[k]),
+                               hn::Ge(hn::LoadU(tag, upper + column), box.lower[k])));
+  }
+  return all;
+}
+
+// Appends the pairs of the box and rows [begin, end) that overlap it. At least one vector is
+// tested, whether there are rows or not: a loop that mostly runs once is predicted well.
+HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin, size_t end,
+                      Pair* hits) {
+  const FloatTag tag;
+  const IntTag index_tag;
+  size_t row = begin;
+  do {
+    const auto left = hn::Set(index_tag, static_cast<int32_t>(end) - static_cast<int32_t>(row));
+    const Mask in_range = hn::RebindMask(tag, hn::Lt(hn::Iota(index_tag, 0), left));
+    const Mask hit = hn::And(overlaps(columns, box, row), in_range);
+    const Indices others = hn::LoadU(IndexTag(), columns.body + row);
+    hits += store_pairs(box.body, others, hit, &hits->a);
+    row += kLanes;
+  } while (HWY_UNLIKELY(row < end));
+  return hits;
+}
+
+void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const PairFilter& filter,
+               PairList& out) {
+  const Columns columns(rows);
+  const CellGrid& grid = rows.grids().grid[g];
+  const CellGrid::RowsAhead ahead = grid.rows_ahead();
+  const ptrdiff_t behind = -static_cast<ptrdiff_t>(grid.reach[0]);
+  const bool filters = !lets_all_meet(filter);
+  for (size_t i = begin; i < end; ++i) {
+    const CellKey key = rows.key[i];
+    const uint32_t* first = rows.first_row() + key.cell();
+    // The rest of its own cell, and those that it reaches into.
+    const size_t to_cell = key.cells_along_row() + 1;
+    const size_t row_end = first[to_cell];
+    size_t candidates = row_end - (i + 1);
+    // In the rows ahead the cells before, too. Boxes much smaller than their cells reach few.
+    const size_t r_begin = key.reaches_next_row() ? 0 : ahead.in_slab;
+    const size_t r_end = key.reaches_next_slab() ? ahead.count : ahead.in_slab;
+    for (size_t r = r_begin; r < r_end; ++r) {
+      const uint32_t* in_row = first + ahead.offset[r];
+      candidates += in_row[to_cell] - in_row[behind];
+    }
+    Pair* const room = out.reserve(candidates + kLanes);
+    BoxLanes box;
+    load_box(columns, i, box);
+    Pair* hits = scan(columns, box, i + 1, row_end, room);
+    for (size_t r = r_begin; r < r_end; ++r) {
+      const uint32_t* in_row = first + ahead.offset[r];
+      hits = scan(columns, box, in_row[behind], in_row[to_cell], hits);
+    }
+    const auto count = static_cast<size_t>(hits - room);
+    if (filters) {
+      out.commit(count, filter);
+    } else {
+      out.commit(count);
+    }
+  }
+}
+
+struct CellRange {
+  uint32_t begin, end;
+};
+
+// The cells along axis k with the lower corners of all boxes that can overlap [lower, upper].
+HWY_INLINE CellRange reachable_cells(const CellGrid& grid, size_t k, float lower, float upper) {
+  const uint32_t first = cell_along(grid, k, lower);
+  return {first - std::min(first, grid.reach[k]), cell_along(grid, k, upper) + 1};
+}
+
+void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
+                 const PairFilter& filter, PairList& out) {
+  const Columns columns(rows);
+  const CellGrid& grid = rows.grids().grid[g];
+  // Axis k of `rows` among the axes of `queries`.
+  size_t axis[3];
+  for (size_t k = 0; k < 3; ++k) {
+    const auto& axes = queries.grids().axis;
+    axis[k] = static_cast<size_t>(std::find(axes.begin(), axes.end(), rows.grids().axis[k]) -
+                                  axes.begin());
+  }
+  const bool filters = !lets_all_meet(filter);
+  for (size_t i = begin; i < end; ++i) {
+    BoxLanes box;
+    box.body = hn::Set(IndexTag(), queries.body[i]);
+    CellRange cells[3];
+    for (size_t k = 0; k < 3; ++k) {
+      const float lower = queries.lower(axis[k])[i];
+      const float upper = queries.upper(axis[k])[i];
+      box.lower[k] = splat(lower);
+      box.upper[k] = splat(upper);
+      cells[k] = reachable_cells(grid, k, lower, upper);
+    }
+    size_t count = 0;
+    Pair* room = out.reserve(0);
+    for (uint32_t z = cells[2].begin; z < cells[2].end; ++z) {
+      for (uint32_t y = cells[1].begin; y < cells[1].end; ++y) {
+        const uint32_t* row = rows.first_row() + grid.cell_at(0, y, z);
+        const size_t first = row[cells[0].begin];
+        const size_t last = row[cells[0].end];
+        room = out.reserve(count + (last - first) + kLanes);
+        count = static_cast<size_t>(scan(columns, box, first, last, room + count) - room);
+      }
+    }
+    if (filters) {
+      out.commit(count, filter);
+    } else {
+      out.commit(count);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(join_grid);
+HWY_EXPORT(join_across);
+
+}  // namespace
+
+void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const PairFilter& filter,
+               PairList& out) {
+  CAROM_DISPATCH(join_grid)(rows, g, begin, end, filter, out);
+}
+
+void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
+                 const PairFilter& filter, PairList& out) {
+  CAROM_DISPATCH(join_across)(queries, begin, end, rows, g, filter, out);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

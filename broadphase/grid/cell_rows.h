@@ -1,0 +1,76 @@
+// Boxes sorted by cell: the structure that searches run through.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/scratch.h"
+#include "broadphase/grid/box_records.h"
+#include "broadphase/grid/cell_grid.h"
+#include "broadphase/grid/cell_keys.h"
+
+namespace carom {
+
+class CellRows {
+ public:
+  // Rows behind the last can be read, up to this number.
+  static constexpr size_t kPadding = 32;
+
+  // Replaces the contents by the boxes of `source` that take part.
+  void build(const BoxSource& source, Parallelism parallelism, Scratch& scratch);
+
+  // Empties the box of a row: nothing meets it any more.
+  void clear_row(size_t row);
+
+  const CellGrids& grids() const { return grids_; }
+  size_t count() const { return count_; }
+
+  // Corners, by axis k of grids().axis; one column begins column_stride() behind the other.
+  const float* lower(size_t k) const { return corners_.data() + k * stride_; }
+  const float* upper(size_t k) const { return lower(3 + k); }
+  size_t column_stride() const { return stride_; }
+  std::vector<uint32_t> body;
+  std::vector<CellKey> key;
+
+  // The first row of a cell; of the next one: where the cell ends.
+  const uint32_t* first_row() const { return first_.data(); }
+
+  struct Range {
+    size_t begin, end;
+  };
+  Range rows_of_grid(size_t g) const;
+
+  // Boxes in the cell of a box, on the average of a sample of all boxes whose cells are much larger
+  // than they: many where boxes lie in a few dense places far apart.
+  double crowding() const;
+
+  size_t bytes() const;
+
+ private:
+  bool find_cells_of(const BoxSource& source, Parallelism parallelism,
+                     std::array<float, 3>& cell_scale);
+  void fill_buckets(const BoxSource& source, Parallelism parallelism);
+  void sort_bucket(size_t bucket);
+
+  CellGrids grids_;
+  size_t count_ = 0;
+  size_t stride_ = 0;
+  std::vector<float> corners_;
+  std::vector<uint32_t> first_;
+
+  Surveyor surveyor_;
+  std::vector<CellReach> reach_;
+  std::vector<uint32_t> offsets_;  // a task and bucket
+  std::vector<uint32_t> bucket_begin_;
+  // In scratch memory, while the rows are built.
+  std::span<CellKey> keys_;       // a box of the source
+  std::span<uint32_t> order_;     // of the records of a bucket
+  std::span<BoxRecord> records_;  // by bucket
+  int bucket_shift_ = 0;
+  size_t buckets_ = 0;
+};
+
+}  // namespace carom

@@ -1,0 +1,52 @@
+// What a search learns about the boxes of a frame before it lays out its cells.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel.h"
+#include "broadphase/box_source.h"
+
+namespace carom {
+
+// Size classes: two an octave of the longest edge, by the upper bits of the float.
+inline constexpr int kSizeClassShift = 22;
+inline constexpr size_t kSizeClasses = 512;
+
+inline size_t size_class(float longest_edge) {
+  return std::bit_cast<uint32_t>(longest_edge) >> kSizeClassShift;
+}
+
+// The largest float of a class; infinite where edges are too long for a float.
+inline float largest_of_class(size_t index) {
+  constexpr uint32_t kInfinite = 0x7f800000;
+  const auto next = static_cast<uint32_t>((index + 1) << kSizeClassShift);
+  return std::bit_cast<float>(std::min(next - 1, kInfinite));
+}
+
+// Of boxes that take part. Edges are rounded to nearest.
+struct Survey {
+  std::array<float, 3> lowest, highest;  // of the lower corners
+  std::array<float, 3> longest_edge;
+  std::array<uint32_t, kSizeClasses> boxes_of_class;
+  size_t count;  // boxes that take part
+
+  void clear();
+  void add(const Survey& other);
+};
+
+class Surveyor {
+ public:
+  const Survey& run(const BoxSource& source, Parallelism parallelism);
+  size_t bytes() const { return blocks_.capacity() * sizeof(Survey); }
+
+ private:
+  Survey total_;
+  std::vector<Survey> blocks_;
+};
+
+}  // namespace carom

@@ -1,0 +1,119 @@
+#include "broadphase/resting/box_memory.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace carom {
+namespace {
+
+constexpr size_t kBoxesPerTask = 8192;
+
+using Flags = std::array<uint8_t, BoxBlock::kBoxes>;
+
+// Marks where `now` and `last` differ, and makes `last` equal.
+template <class T>
+bool compare_and_copy(const T* now, T* last, size_t count, Flags& differs) {
+  static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float>);
+  if (std::memcmp(now, last, count * sizeof(T)) == 0) return false;
+  if constexpr (std::is_same_v<T, float>) {
+    for (size_t i = 0; i < count; ++i) {
+      differs[i] |= std::bit_cast<uint32_t>(now[i]) != std::bit_cast<uint32_t>(last[i]);
+    }
+  } else {
+    for (size_t i = 0; i < count; ++i) differs[i] |= now[i] != last[i];
+  }
+  std::copy_n(now, count, last);
+  return true;
+}
+
+template <class T>
+bool compare_column(const T* now, std::vector<T>& last, size_t begin, size_t count,
+                    Flags& differs) {
+  return now && compare_and_copy(now + begin, last.data() + begin, count, differs);
+}
+
+// Absent columns are empty; false if the column came or went.
+template <class T>
+bool resize_column(const T* now, size_t count, size_t known, std::vector<T>& copy) {
+  const bool same = known == 0 || copy.empty() == (now == nullptr);
+  copy.resize(now ? count : 0);
+  return same;
+}
+
+}  // namespace
+
+void BoxMemory::update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
+                       std::vector<uint32_t>& changed) {
+  resize(bounds, filter);
+  const BoxSource source(bounds);
+  lists_.reset(block_count(count_, kBoxesPerTask));
+  for_each_block(count_, kBoxesPerTask, parallelism, [&](size_t task, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
+      update_block(source, filter, i, std::min(end, i + BoxBlock::kBoxes), lists_[task]);
+    }
+  });
+  lists_.concatenate(changed, parallelism);
+}
+
+void BoxMemory::resize(const BoundsView& bounds, const PairFilter& filter) {
+  known_ = std::min(count_, bounds.count);
+  count_ = bounds.count;
+  for (std::vector<float>& column : columns_) column.resize(count_);
+  bool same_columns = resize_column(filter.layer, count_, known_, filter_.layer);
+  same_columns &= resize_column(filter.mask, count_, known_, filter_.mask);
+  same_columns &= resize_column(filter.owner, count_, known_, filter_.owner);
+  same_columns &= resize_column(filter.motion, count_, known_, filter_.motion);
+  if (!same_columns) known_ = 0;
+}
+
+void BoxMemory::update_block(const BoxSource& source, const PairFilter& filter, size_t begin,
+                             size_t end, std::vector<uint32_t>& changed) {
+  BlockBuffer buffer;
+  const BoxBlock block = buffer.load(source, begin, end);
+  Flags differs{};
+  bool any = false;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    any |= compare_and_copy(block.lower[axis], columns_[axis].data() + begin, block.count, differs);
+    any |= compare_and_copy(block.upper[axis], columns_[3 + axis].data() + begin, block.count,
+                            differs);
+  }
+  any |= compare_column(filter.layer, filter_.layer, begin, block.count, differs);
+  any |= compare_column(filter.mask, filter_.mask, begin, block.count, differs);
+  any |= compare_column(filter.owner, filter_.owner, begin, block.count, differs);
+  any |= compare_column(filter.motion, filter_.motion, begin, block.count, differs);
+  if (!any && end <= known_) return;
+  for (size_t i = begin; i < end; ++i) {
+    if (differs[i - begin] || i >= known_) changed.push_back(static_cast<uint32_t>(i));
+  }
+}
+
+size_t BoxMemory::bytes() const {
+  size_t sum = lists_.bytes() + filter_.motion.capacity() * sizeof(Motion);
+  for (const std::vector<float>& column : columns_) sum += column.capacity() * sizeof(float);
+  for (const std::vector<uint32_t>* column : {&filter_.layer, &filter_.mask, &filter_.owner}) {
+    sum += column->capacity() * sizeof(uint32_t);
+  }
+  return sum;
+}
+
+double BoxSample::changed_share(const BoundsView& bounds) {
+  const size_t step = std::max<size_t>(1, bounds.count / kBoxes);
+  const size_t samples = std::min(kBoxes, bounds.count / step);
+  const bool comparable = count_ == bounds.count && samples > 0;
+  count_ = bounds.count;
+  size_t changed = 0;
+  for (size_t i = 0; i < samples; ++i) {
+    // One somewhere in every stretch: bodies at regular indices may be of one kind.
+    const size_t box = i * step + i * 2654435761u % step;
+    std::array<float, 6> now;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      now[axis] = value_at(bounds, bounds.lower[axis], box);
+      now[3 + axis] = value_at(bounds, bounds.upper[axis], box);
+    }
+    changed += std::memcmp(now.data(), boxes_[i].data(), sizeof(now)) != 0;
+    boxes_[i] = now;
+  }
+  return comparable ? static_cast<double>(changed) / static_cast<double>(samples) : 1;
+}
+
+}  // namespace carom

@@ -1,0 +1,76 @@
+// Temporal coherence: boxes that rest are sorted into cells once, and their pairs are kept; only
+// those that moved are searched for.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "broadphase/grid/cell_rows.h"
+#include "broadphase/resting/box_memory.h"
+#include "broadphase/sort/pair_list.h"
+#include "broadphase/sort/sort_pairs.h"
+
+namespace carom {
+
+class RestingBoxes {
+ public:
+  // Working memory that is shared with other searches.
+  struct Workspace {
+    CellRows& moving;
+    FoundPairs& found;
+    PairSorter& sorter;
+    Scratch& scratch;
+    size_t most_pairs;
+    double most_crowded;  // CellRows::crowding()
+  };
+
+  enum class Outcome {
+    found,     // `out` holds all pairs
+    too_many,  // there are more pairs than wanted; nothing is remembered
+    restless,  // so many boxes moved that a search from scratch costs less
+    crowded,   // cells would hold too many boxes; nothing is remembered
+  };
+
+  bool is_empty() const { return !holds_any_; }
+
+  // All boxes rest from now on. Finds their pairs, unless they are too many.
+  Outcome settle(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
+                 Workspace work, std::vector<Pair>& out);
+
+  // The pairs of boxes of which some moved, came or went.
+  Outcome update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
+                 Workspace work, std::vector<Pair>& out);
+
+  void forget();
+
+  size_t pairs() const { return pair_count_; }        // of the last search, too many or not
+  size_t changed() const { return changed_.size(); }  // boxes that differed in the last update
+  size_t grids() const { return rows_.grids().count; }
+  size_t searched() const { return searched_; }  // boxes whose pairs the last search found
+  size_t bytes() const;
+
+ private:
+  static constexpr uint32_t kNoRow = 0xffffffffu;
+
+  Outcome settle_rest(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
+                      Workspace work);
+  void wake(size_t count_before);
+  void drop_pairs_of_moving();
+  Outcome find_pairs_of_moving(const BoundsView& bounds, const PairFilter& filter,
+                               Parallelism parallelism, Workspace work, std::vector<Pair>& out);
+
+  bool holds_any_ = false;
+  BoxMemory memory_;
+  CellRows rows_;                   // of resting boxes
+  std::vector<uint32_t> row_of_;    // a body; kNoRow: it moves, or takes no part
+  std::vector<uint8_t> is_moving_;  // a body
+  std::vector<uint32_t> moving_;    // ascending
+  std::vector<Pair> pairs_;         // among resting boxes, sorted
+  std::vector<Pair> moving_pairs_;  // all others
+  std::vector<uint32_t> changed_, resting_, merged_;
+  size_t pair_count_ = 0;
+  size_t searched_ = 0;
+  size_t idle_ = 0;  // boxes searched for although they rested, summed since the last settlement
+};
+
+}  // namespace carom

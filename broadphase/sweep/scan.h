@@ -1,0 +1,37 @@
+// One box against a run of boxes: the inner loop of every search.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "broadphase/sweep/box_columns.h"
+
+namespace carom {
+
+struct SearchBox {
+  float lower[3];
+  float upper[3];
+};
+
+// Receives the rows that overlap one box, in ascending order; at most kMaxHits at a time.
+class HitSink {
+ public:
+  static constexpr size_t kMaxHits = 512;
+  virtual void add(size_t box_row, const uint32_t* rows, size_t count) = 0;
+
+ protected:
+  ~HitSink() = default;
+};
+
+// Rows [begin, end) of `columns` against every later row. Rows ascend by lower[0], so that a row
+// need not look further than its upper[0].
+void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
+
+// The same for rows in any order: every row against all later ones.
+void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
+
+// `box` against the rows from `first_row` on, which ascend by lower[0].
+void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,
+               HitSink& sink);
+
+}  // namespace carom

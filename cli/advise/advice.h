@@ -1,0 +1,42 @@
+// What `carom advise` says about a scene: settings, each with its measured reason.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "cli/advise/scene_survey.h"
+#include "cli/advise/settings_trial.h"
+
+namespace carom::cli {
+
+struct AdviceRow {
+  std::string what;
+  std::string value;  // of a setting; empty for what a scene does not need
+  std::string reason;
+};
+
+struct Advice {
+  std::string scene;
+  double tolerance = 0;
+  std::string isa;
+  SceneSurvey survey;
+  SettingsChoice choice;
+  // Made of these two:
+  bool meets = false;  // the choice, with what the standard tier itself may be off
+  std::vector<AdviceRow> settings;
+  std::vector<AdviceRow> not_needed;
+  std::string command;  // that runs the scene like this
+};
+
+Advice advise(const std::string& scene, double tolerance, SceneSurvey survey,
+              SettingsChoice choice);
+
+// "carom run SCENE --tier ...", for a shell.
+std::string run_command(const std::string& scene, const accuracy::Trial& trial);
+
+nlohmann::ordered_json to_json(const Advice& advice);
+void print(const Advice& advice, std::ostream& out);
+
+}  // namespace carom::cli

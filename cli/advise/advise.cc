@@ -1,0 +1,111 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/advise/advice.h"
+#include "cli/commands.h"
+#include "cli/support/json_output.h"
+#include "cli/support/options.h"
+#include "cli/support/progress.h"
+
+namespace carom::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of all trials together.
+constexpr std::chrono::seconds kBudget(20);
+constexpr size_t kFirstFrames = 3;
+constexpr int kMostRounds = 8;
+
+struct AdviseOptions {
+  std::string scene;
+  double tolerance = 0;
+  uint64_t frames = 30;
+  int threads = 0;  // 0: those of the machine
+  std::string json;
+};
+
+Result<void> check(const AdviseOptions& options) {
+  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", options.tolerance);
+    return Error{"--tolerance " + std::string(text) + ": not a number of metres above 0"};
+  }
+  return options.threads == 0 ? Result<void>() : check_threads(options.threads);
+}
+
+int threads_of(const AdviseOptions& options) {
+  if (options.threads > 0) return options.threads;
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMaxThreads);
+}
+
+Result<Advice> advise_scene(const AdviseOptions& options, const Console& console) {
+  const Clock::time_point begin = Clock::now();
+  Progress progress(console, options.scene + ": second", kBudget.count());
+  Result<std::unique_ptr<LoadedScene>> scene = LoadedScene::open(options.scene);
+  if (!scene) return scene.error();
+  LoadedScene& loaded = **scene;
+  if (Result<void> read = loaded.load(std::min(kFirstFrames, options.frames)); !read) {
+    return read.error();
+  }
+  const Result<size_t> frames = affordable_frames(loaded, kBudget, options.frames);
+  if (!frames) return frames.error();
+  if (Result<void> read = loaded.load(*frames); !read) return read.error();
+
+  Result<SceneSurvey> surveyed = survey(loaded);
+  if (!surveyed) return surveyed.error();
+  TrialLimits limits{.tolerance = options.tolerance, .threads = threads_of(options), .plan = {}};
+  limits.plan.rounds = kMostRounds;
+  limits.plan.deadline = Clock::now() + kBudget;
+  limits.plan.before_run = [&] {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - begin);
+    progress.update(static_cast<uint64_t>(seconds.count()));
+  };
+  Result<SettingsChoice> choice = choose_settings(loaded, *surveyed, limits);
+  if (!choice) return choice.error();
+  return advise(options.scene, options.tolerance, std::move(*surveyed), std::move(*choice));
+}
+
+Result<int> run_advise(const AdviseOptions& options, const Console& console) {
+  if (Result<void> checked = check(options); !checked) return checked.error();
+  Result<JsonOutput> json = JsonOutput::open(options.json);
+  if (!json) return json.error();
+  Result<Advice> advice = advise_scene(options, console);
+  if (!advice) return advice.error();
+  if (!json->wanted()) {
+    print(*advice, console.out);
+    return 0;
+  }
+  Result<void> written = json->write(to_json(*advice), console);
+  return written ? Result<int>(0) : written.error();
+}
+
+}  // namespace
+
+void add_advise_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<AdviseOptions>();
+  CLI::App& command =
+      *program.add_subcommand("advise", "Measure a scene and name the cheapest settings for it");
+  command.add_option("SCENE", options->scene, "A .npz or .aabb file, or a generator")->required();
+  command
+      .add_option("--tolerance", options->tolerance,
+                  "Metres by which separations and decisions may be off")
+      ->required();
+  command.add_option("--frames", options->frames, "Frames to look at, at most")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}))
+      ->capture_default_str();
+  command.add_option("--threads", options->threads,
+                     "Threads to try, beside one; those of the machine if not given");
+  add_json_option(command, options->json);
+  command.callback([options, &action] {
+    action = [options](const Console& console) { return run_advise(*options, console); };
+  });
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,297 @@
+#include "cli/advise/settings_trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+
+namespace carom::cli {
+namespace {
+
+using accuracy::Trial;
+using accuracy::TrialResult;
+using Clock = std::chrono::steady_clock;
+using Apply = std::function<void(Trial&)>;
+
+constexpr double kRunsOfAScene = 50;  // about as many as all trials together make
+constexpr size_t kLeastFrames = 4;
+constexpr uint64_t kMostForBrute = 5000;  // bodies
+
+// A change of settings that may pay.
+struct Candidate {
+  SettingGroup group;
+  std::string name;
+  Apply apply;
+};
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+bool has_pairs_of(const SceneSurvey& survey, const std::function<bool(const std::string&)>& is) {
+  return std::any_of(survey.pairs.kinds.begin(), survey.pairs.kinds.end(),
+                     [&](const PairSurvey::Kinds& kinds) { return is(kinds.name); });
+}
+
+bool has_box_pairs(const SceneSurvey& survey) {
+  return has_pairs_of(
+      survey, [](const std::string& name) { return name == "box-box" || name == "aabb-box"; });
+}
+
+// Whether some pair is of kinds that are no balls already.
+bool has_other_than_spheres(const SceneSurvey& survey) {
+  return has_pairs_of(survey, [](const std::string& name) {
+    return name != "sphere-sphere" && name != "sphere-halfspace";
+  });
+}
+
+// Shapes that fill little of their boxes.
+bool has_slanted_shapes(const SceneSurvey& survey) {
+  const auto is_there = [&](ShapeKind kind) { return survey.kinds[static_cast<size_t>(kind)] > 0; };
+  return is_there(ShapeKind::box) || is_there(ShapeKind::capsule) ||
+         is_there(ShapeKind::triangle) || is_there(ShapeKind::hull);
+}
+
+bool moves(const SceneSurvey& survey) { return survey.frames > 1 && survey.moving_share > 0; }
+
+void add_broadphases(const SceneSurvey& survey, BroadphaseMethod automatic,
+                     std::vector<Candidate>& candidates) {
+  for (const BroadphaseMethod method :
+       {BroadphaseMethod::grid, BroadphaseMethod::sweep, BroadphaseMethod::brute}) {
+    const bool is_too_slow = method == BroadphaseMethod::brute && survey.bodies > kMostForBrute;
+    if (method == automatic || is_too_slow) continue;
+    candidates.push_back({SettingGroup::broadphase, std::string("broadphase ") + name(method),
+                          [=](Trial& trial) { trial.settings.broadphase = method; }});
+  }
+}
+
+// Margins that a body needs some frames to cross, not larger than bodies are.
+void add_margins(const SceneSurvey& survey, std::vector<Candidate>& candidates) {
+  if (!moves(survey)) return;
+  for (const double frames : {8.0, 32.0}) {
+    const std::string metres = text("%.2g", frames * survey.displacement.median);
+    const float margin = std::strtof(metres.c_str(), nullptr);
+    if (!(margin > 0) || margin > survey.radius.median) continue;
+    candidates.push_back({SettingGroup::margin, "margin " + metres,
+                          [=](Trial& trial) { trial.settings.margin = margin; }});
+  }
+}
+
+// What leaves all results as they are.
+std::vector<Candidate> lossless_candidates(const SceneSurvey& survey, BroadphaseMethod automatic,
+                                           int threads) {
+  std::vector<Candidate> candidates;
+  if (survey.frames > 1) {
+    candidates.push_back({SettingGroup::cache, "no cache",
+                          [](Trial& trial) { trial.settings.carry_results = false; }});
+  }
+  add_broadphases(survey, automatic, candidates);
+  add_margins(survey, candidates);
+  if (has_slanted_shapes(survey) && survey.pairs.pairs > 0) {
+    candidates.push_back({SettingGroup::dops, "14-DOPs as bounds",
+                          [](Trial& trial) { trial.settings.dop_bounds = DopKind::k14; }});
+  }
+  if (threads > 1) {
+    candidates.push_back({SettingGroup::threads, std::to_string(threads) + " threads",
+                          [=](Trial& trial) { trial.threads = threads; }});
+  }
+  return candidates;
+}
+
+Candidate knob(const std::string& name, const std::function<void(FastKnobs&)>& set) {
+  return {SettingGroup::knob, name, [=](Trial& trial) {
+            trial.settings.accuracy.tier = Tier::fast;
+            set(trial.settings.accuracy.knobs);
+          }};
+}
+
+Candidate tier(const std::string& name, Tier tier) {
+  return {SettingGroup::tier, name, [=](Trial& trial) { trial.settings.accuracy.tier = tier; }};
+}
+
+std::vector<Candidate> tier_candidates(const SceneSurvey& survey, double tolerance) {
+  std::vector<Candidate> candidates;
+  if (survey.pairs.pairs == 0) return candidates;
+  candidates.push_back(
+      knob("single precision", [](FastKnobs& knobs) { knobs.single_precision = true; }));
+  if (has_box_pairs(survey)) {
+    candidates.push_back(knob("faces only", [](FastKnobs& knobs) { knobs.faces_only = true; }));
+  }
+  if (has_other_than_spheres(survey)) {
+    candidates.push_back(
+        knob("proxy spheres", [](FastKnobs& knobs) { knobs.proxy_spheres = true; }));
+  }
+  // Separations are off by up to twice the tolerance of motion.
+  const auto motion = static_cast<float>(tolerance / 2);
+  if (moves(survey) && motion > 0 && std::isfinite(motion)) {
+    candidates.push_back(
+        {SettingGroup::motion, text("motion tolerance %.3g", motion), [=](Trial& trial) {
+           trial.settings.carry_results = true;  // or there is nothing to keep
+           trial.settings.accuracy.tier = Tier::fast;
+           trial.settings.accuracy.knobs.motion_tolerance = motion;
+         }});
+  }
+  candidates.push_back(tier("certified", Tier::certified));
+  candidates.push_back(tier("exact", Tier::exact));
+  return candidates;
+}
+
+class SettingsSearch {
+ public:
+  SettingsSearch(const LoadedScene& scene, const SceneSurvey& survey, const TrialLimits& limits)
+      : scene_(scene), survey_(survey), limits_(limits), begin_(Clock::now()) {}
+
+  Result<SettingsChoice> run() {
+    Result<accuracy::StandardRun> standard = accuracy::run_standard(scene_);
+    if (!standard) return standard.error();
+    choice_.standard = std::move(*standard);
+    choice_.chosen = {.name = "standard", .settings = {}};
+    choice_.tried.push_back({SettingGroup::standard, "standard", choice_.chosen, {}, 0, 0, true});
+
+    const auto lossless =
+        lossless_candidates(survey_, choice_.standard.search.method, limits_.threads);
+    if (Result<void> done = improve(lossless, 0.4); !done) return done.error();
+    const auto tiers = tier_candidates(survey_, limits_.tolerance);
+    if (Result<void> done = improve(tiers, 0.8); !done) return done.error();
+    if (Result<void> done = settle(); !done) return done.error();
+    return std::move(choice_);
+  }
+
+ private:
+  // The time at which `part` of what there was is over.
+  Clock::time_point deadline(double part) const {
+    const std::chrono::duration<double> all = limits_.plan.deadline - begin_;
+    return begin_ + std::chrono::duration_cast<Clock::duration>(part * all);
+  }
+
+  Result<std::vector<std::optional<TrialResult>>> run(const std::vector<Trial>& trials,
+                                                      double until) {
+    accuracy::TrialPlan plan = limits_.plan;
+    plan.deadline = deadline(until);
+    return accuracy::run_trials(scene_, choice_.standard, trials, plan);
+  }
+
+  // Tries the candidates beside the present choice, and adds the best of each group to it.
+  Result<void> improve(const std::vector<Candidate>& candidates, double until) {
+    std::vector<Trial> trials = {choice_.chosen};
+    for (const Candidate& candidate : candidates) {
+      trials.push_back(choice_.chosen);
+      trials.back().name = candidate.name;
+      candidate.apply(trials.back());
+    }
+    auto results = run(trials, until);
+    if (!results) return results.error();
+    const std::optional<TrialResult>& present = results->front();
+    if (!choice_.tried.front().result) choice_.tried.front().result = present;
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      note(candidates[i], trials[i + 1], (*results)[i + 1], present.value_or(TrialResult{}));
+    }
+    return combine(candidates, until + 0.1);
+  }
+
+  void note(const Candidate& candidate, const Trial& trial,
+            const std::optional<TrialResult>& result, const TrialResult& beside) {
+    const bool meets = result && result->deviation.worst() <= limits_.tolerance;
+    choice_.tried.push_back(
+        {candidate.group, candidate.name, trial, result, beside.frame_ms, beside.tested, meets});
+  }
+
+  static bool pays(const TriedSettings& tried) {
+    if (tried.group == SettingGroup::tier || !tried.result || !tried.meets) return false;
+    const bool keeps_nothing = tried.result->tested >= tried.tested_beside;
+    if (tried.group == SettingGroup::motion && keeps_nothing) return false;
+    const double saved = tried.frame_ms_beside - tried.result->frame_ms;
+    return saved > kWorthwhile * tried.frame_ms_beside && saved > kWorthwhileMs;
+  }
+
+  // Knobs go together; of other groups one excludes the others.
+  const TriedSettings* rival(const TriedSettings& tried, size_t first) const {
+    const auto is_better = [&](const TriedSettings& other) {
+      return &other != &tried && other.group == tried.group && pays(other) &&
+             other.ratio() < tried.ratio();
+    };
+    if (tried.group == SettingGroup::knob) return nullptr;
+    const auto begin = choice_.tried.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto found = std::find_if(begin, choice_.tried.end(), is_better);
+    return found == choice_.tried.end() ? nullptr : &*found;
+  }
+
+  // The last candidates.size() of what was tried: all that pay together, if that meets the
+  // tolerance and is faster than the fastest of them alone, which is the choice otherwise.
+  Result<void> combine(const std::vector<Candidate>& candidates, double until) {
+    const size_t first = choice_.tried.size() - candidates.size();
+    const TriedSettings* fastest = nullptr;
+    Trial together = choice_.chosen;
+    std::string names;
+    size_t count = 0;
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      const TriedSettings& tried = choice_.tried[first + i];
+      if (!pays(tried) || rival(tried, first)) continue;
+      candidates[i].apply(together);
+      names += (count++ ? ", " : "") + tried.name;
+      if (!fastest || tried.ratio() < fastest->ratio()) fastest = &tried;
+    }
+    if (!fastest) return {};
+    const Trial best = fastest->trial;
+    choice_.chosen = best;
+    if (count == 1) return {};
+    together.name = names;
+    const std::vector<Trial> trials = {best, together};
+    auto results = run(trials, until);
+    if (!results) return results.error();
+    if (!(*results)[0]) return {};
+    note({SettingGroup::together, names, {}}, together, (*results)[1], *(*results)[0]);
+    const TriedSettings& both = choice_.tried.back();
+    if (both.result && both.meets && both.ratio() < 1) choice_.chosen = together;
+    return {};
+  }
+
+  // The choice beside the default, whatever time it takes; it has to be faster.
+  Result<void> settle() {
+    const std::vector<Trial> trials = {choice_.tried.front().trial, choice_.chosen};
+    accuracy::TrialPlan plan = limits_.plan;
+    if (Clock::now() > plan.deadline) plan.rounds = 1;
+    plan.deadline = Clock::time_point::max();
+    auto results = accuracy::run_trials(scene_, choice_.standard, trials, plan);
+    if (!results) return results.error();
+    const TrialResult& standard = *(*results)[0];
+    const TrialResult& chosen = *(*results)[1];
+    const bool pays = chosen.frame_ms < standard.frame_ms;
+    if (!pays) choice_.chosen = trials.front();
+    choice_.frame_ms_standard = standard.frame_ms;
+    choice_.frame_ms = pays ? chosen.frame_ms : standard.frame_ms;
+    choice_.deviation = pays ? chosen.deviation : standard.deviation;
+    if (!choice_.tried.front().result) choice_.tried.front().result = standard;
+    return {};
+  }
+
+  const LoadedScene& scene_;
+  const SceneSurvey& survey_;
+  TrialLimits limits_;
+  Clock::time_point begin_;
+  SettingsChoice choice_;
+};
+
+}  // namespace
+
+Result<size_t> affordable_frames(const LoadedScene& scene, std::chrono::duration<double> budget,
+                                 size_t most) {
+  const Clock::time_point begin = Clock::now();
+  const auto run = accuracy::run_standard(scene);
+  if (!run) return run.error();
+  const std::chrono::duration<double> each =
+      (Clock::now() - begin) / static_cast<double>(scene.frames());
+  const auto affordable =
+      static_cast<size_t>(std::min(budget / (kRunsOfAScene * each), static_cast<double>(most)));
+  return std::clamp(affordable, std::min(kLeastFrames, most), most);
+}
+
+Result<SettingsChoice> choose_settings(const LoadedScene& scene, const SceneSurvey& survey,
+                                       const TrialLimits& limits) {
+  return SettingsSearch(scene, survey, limits).run();
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,169 @@
+// carom check: reads shapes and says what is wrong with them.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "carom/reference/reference.h"
+#include "cli/check/check_report.h"
+#include "cli/check/mesh_file.h"
+#include "cli/commands.h"
+#include "cli/scenes/shapes.h"
+#include "cli/support/json_output.h"
+#include "cli/support/options.h"
+#include "cli/support/progress.h"
+#include "io/files/npz.h"
+
+namespace carom::cli {
+namespace {
+
+struct CheckOptions {
+  std::string input;
+  std::string json;
+};
+
+void add_vertices(const io::SceneShapes& shapes, ShapeReport& report) {
+  const auto [first, count] = shapes.vertex_range[report.index];
+  for (size_t i = first; i < size_t{first} + count; ++i) {
+    report.vertices.push_back(Eigen::Map<const Eigen::Vector3f>(shapes.vertices[i].data()));
+  }
+}
+
+void check_hull(ShapeReport& report) {
+  Result<io::BuiltHull> hull = io::build_hull(report.vertices);
+  if (hull) report.hull = std::move(*hull);
+}
+
+void check_triangles(ShapeReport& report) {
+  report.mesh = check_mesh(report.vertices, report.triangles);
+}
+
+void check_compound(const io::SceneShapes& shapes, ShapeReport& report) {
+  const auto [first, count] = shapes.child_range[report.index];
+  report.children = count;
+  if (count == 0) report.problem = "it has no children";
+  for (size_t i = first; i < size_t{first} + count; ++i) {
+    if (shapes.kind[shapes.child_shape[i]] == static_cast<uint8_t>(ShapeKind::halfspace)) {
+      report.problem = "child " + std::to_string(i - first) + " is a halfspace";
+    }
+  }
+}
+
+// Why a shape that is no compound is not a valid one; empty if it is.
+std::string problem_of(const io::SceneShapes& shapes, size_t index) {
+  const Result<Shape> shape = convert_simple_shape(shapes, index);
+  if (!shape) return "it is " + shape.error().message;
+  if (reference::is_valid(*shape, Pose(), PositionType::float32)) return "";
+  return "a number is not finite, or a size is negative";
+}
+
+ShapeReport report_of(const io::SceneShapes& shapes, size_t index) {
+  ShapeReport report;
+  report.index = index;
+  report.kind = static_cast<ShapeKind>(shapes.kind[index]);
+  if (report.kind == ShapeKind::compound) {
+    check_compound(shapes, report);
+    return report;
+  }
+  report.problem = problem_of(shapes, index);
+  if (report.kind == ShapeKind::hull) {
+    add_vertices(shapes, report);
+    check_hull(report);
+  } else if (report.kind == ShapeKind::mesh) {
+    add_vertices(shapes, report);
+    const auto [first, count] = shapes.triangle_range[index];
+    const auto begin = shapes.triangles.begin() + first;
+    report.triangles.assign(begin, begin + count);
+    check_triangles(report);
+  }
+  return report;
+}
+
+ShapeReport report_of(MeshPart part, size_t index) {
+  ShapeReport report;
+  report.index = index;
+  report.name = std::move(part.name);
+  report.vertices = std::move(part.vertices);
+  report.triangles = std::move(part.triangles);
+  check_triangles(report);
+  if (report.mesh->not_finite.count > 0) report.problem = "a vertex is not finite";
+  return report;
+}
+
+// Where reports go, one after the other.
+class Sink {
+ public:
+  Sink(bool is_json, const Console& console) : is_json_(is_json), console_(console) {}
+
+  void add(const ShapeReport& report) {
+    if (is_json_) {
+      shapes_.push_back(to_json(report));
+    } else {
+      print(report, console_.out);
+    }
+  }
+
+  nlohmann::ordered_json take() { return std::move(shapes_); }
+
+ private:
+  bool is_json_;
+  const Console& console_;
+  nlohmann::ordered_json shapes_ = nlohmann::ordered_json::array();
+};
+
+Result<void> check_mesh_file(const std::string& path, Sink& sink, const Console& console) {
+  Result<std::vector<MeshPart>> parts = read_mesh_file(path);
+  if (!parts) return parts.error();
+  Progress progress(console, "mesh", parts->size());
+  for (size_t i = 0; i < parts->size(); ++i) {
+    progress.update(i);
+    sink.add(report_of(std::move((*parts)[i]), i));
+  }
+  return {};
+}
+
+Result<void> check_archive(const std::string& path, Sink& sink, const Console& console) {
+  Result<io::NpzReader> reader = io::NpzReader::open(path);
+  if (!reader) return reader.error();
+  Result<io::SceneShapes> shapes = io::read_shapes(*reader);
+  if (!shapes) return shapes.error();
+  Progress progress(console, "shape", shapes->kind.size());
+  for (size_t i = 0; i < shapes->kind.size(); ++i) {
+    progress.update(i);
+    sink.add(report_of(*shapes, i));
+  }
+  return {};
+}
+
+Result<int> check(const CheckOptions& options, const Console& console) {
+  Result<JsonOutput> json = JsonOutput::open(options.json);
+  if (!json) return json.error();
+  Sink sink(json->wanted(), console);
+  const Result<void> done = names_mesh(options.input)
+                                ? check_mesh_file(options.input, sink, console)
+                                : check_archive(options.input, sink, console);
+  if (!done) return done.error();
+  if (!json->wanted()) return 0;
+  const Result<void> written =
+      json->write({{"file", options.input}, {"shapes", sink.take()}}, console);
+  return written ? Result<int>(0) : written.error();
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App& command =
+      *program.add_subcommand("check", "Say what is wrong with shapes: convex, watertight, ...");
+  command
+      .add_option("FILE", options->input,
+                  "A mesh (.obj, .stl, .gltf, .glb), a scene or pairs (.npz)")
+      ->required();
+  add_json_option(command, options->json);
+  command.callback([options, &action] {
+    action = [options](const Console& console) { return check(*options, console); };
+  });
+}
+
+}  // namespace carom::cli

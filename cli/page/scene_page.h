@@ -1,0 +1,26 @@
+// The target of --page: a page that shows the last frame of a run in 3D.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "carom/world/world.h"
+#include "io/files/atomic_file.h"
+
+namespace carom::cli {
+
+class ScenePage {
+ public:
+  static Result<ScenePage> create(const std::string& path);
+
+  // Writes the world as it is after its last step. To be called once.
+  Result<void> add_frame(const World& world, const std::string& scene, uint64_t frame);
+  Result<void> finish() { return file_.commit(); }
+
+ private:
+  explicit ScenePage(io::AtomicFile file) : file_(std::move(file)) {}
+
+  io::AtomicFile file_;
+};
+
+}  // namespace carom::cli

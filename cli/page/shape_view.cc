@@ -1,0 +1,166 @@
+#include "cli/page/shape_view.h"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
+#include "shapes/dop_polytope.h"
+
+namespace carom::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json numbers(const Eigen::Vector3f& v) {
+  return {shortest(v.x()), shortest(v.y()), shortest(v.z())};
+}
+
+Json numbers(const Eigen::Quaternionf& q) {
+  return {shortest(q.x()), shortest(q.y()), shortest(q.z()), shortest(q.w())};
+}
+
+// Corners and the outlines of faces.
+class Faces {
+ public:
+  size_t add_point(double x, double y, double z) {
+    for (const double coordinate : {x, y, z}) points_.push_back(coordinate);
+    return points_.size() / 3 - 1;
+  }
+  size_t add_point(const Eigen::Vector3f& p) {
+    return add_point(shortest(p.x()), shortest(p.y()), shortest(p.z()));
+  }
+  void add_face(Json outline) { faces_.push_back(std::move(outline)); }
+
+  // Reaches behind its front by the thickness.
+  void add_prism(const std::array<Eigen::Vector3f, 3>& corners, float thickness) {
+    std::array<size_t, 3> front{}, back{};
+    const Eigen::Vector3d depth = double{thickness} * front_normal(corners);
+    for (size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d behind = corners[i].cast<double>() - depth;
+      front[i] = add_point(corners[i]);
+      back[i] = add_point(behind.x(), behind.y(), behind.z());
+    }
+    add_face(front);
+    add_face({back[0], back[2], back[1]});
+    for (size_t i = 0; i < 3; ++i) {
+      const size_t next = (i + 1) % 3;
+      add_face({front[next], front[i], back[i], back[next]});
+    }
+  }
+
+  Json json() && { return {{"points", std::move(points_)}, {"faces", std::move(faces_)}}; }
+
+ private:
+  static Eigen::Vector3d front_normal(const std::array<Eigen::Vector3f, 3>& corners) {
+    const Eigen::Vector3d a = corners[0].cast<double>();
+    return (corners[1].cast<double>() - a).cross(corners[2].cast<double>() - a).normalized();
+  }
+
+  Json points_ = Json::array();
+  Json faces_ = Json::array();
+};
+
+// Each view but for its kind.
+struct Viewer {
+  ShapeTable& shapes;
+
+  Json operator()(const Sphere& sphere) const { return {{"radius", shortest(sphere.radius)}}; }
+
+  Json operator()(const Capsule& capsule) const {
+    return {
+        {"a", numbers(capsule.a)}, {"b", numbers(capsule.b)}, {"radius", shortest(capsule.radius)}};
+  }
+
+  Json operator()(const Aabb& box) const {
+    return {{"lower", numbers(box.lower)}, {"upper", numbers(box.upper)}};
+  }
+
+  Json operator()(const Box& box) const {
+    return {{"lower", numbers(-box.half)}, {"upper", numbers(box.half)}};
+  }
+
+  Json operator()(const Halfspace& halfspace) const {
+    return {{"normal", numbers(halfspace.normal)}, {"offset", shortest(halfspace.offset)}};
+  }
+
+  Json operator()(const Triangle& triangle) const {
+    Faces faces;
+    if (triangle.thickness > 0) {
+      faces.add_prism(triangle.corners, triangle.thickness);
+    } else {
+      for (const Eigen::Vector3f& corner : triangle.corners) faces.add_point(corner);
+      faces.add_face({0, 1, 2});
+    }
+    return std::move(faces).json();
+  }
+
+  Json operator()(const Dop& dop) const {
+    const DopPolytope polytope{DopSlabs(dop)};
+    Faces faces;
+    for (const DopFace& face : polytope.faces()) {
+      Json outline = Json::array();
+      for (const DopCorner& corner : face.corners) {
+        outline.push_back(faces.add_point(corner.point[0], corner.point[1], corner.point[2]));
+      }
+      if (outline.size() > 2) faces.add_face(std::move(outline));
+    }
+    return std::move(faces).json();
+  }
+
+  Json operator()(const Hull& hull) const {
+    Faces faces;
+    for (const Eigen::Vector3f& point : hull.geometry->points()) faces.add_point(point);
+    for (const HullGeometry::Face& face : hull.geometry->faces()) {
+      const auto corners = hull.geometry->corners(face);
+      faces.add_face(Json(std::vector<uint32_t>(corners.begin(), corners.end())));
+    }
+    return std::move(faces).json();
+  }
+
+  Json operator()(const Mesh& mesh) const {
+    const auto vertices = mesh.geometry->vertices();
+    const float thickness = mesh.geometry->rules().thickness;
+    Faces faces;
+    if (!(thickness > 0)) {
+      for (const Eigen::Vector3f& vertex : vertices) faces.add_point(vertex);
+    }
+    for (const auto& triangle : mesh.geometry->triangles()) {
+      if (thickness > 0) {
+        faces.add_prism({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]},
+                        thickness);
+      } else {
+        faces.add_face(triangle);
+      }
+    }
+    return std::move(faces).json();
+  }
+
+  Json operator()(const Compound& compound) const {
+    Json children = Json::array();
+    for (const CompoundChild& child : compound.geometry->children()) {
+      children.push_back({{"shape", shapes.add(child.shape)},
+                          {"position", numbers(child.position)},
+                          {"orientation", numbers(child.orientation)}});
+    }
+    return {{"children", std::move(children)}};
+  }
+};
+
+}  // namespace
+
+double shortest(float value) {
+  std::array<char, 32> text;
+  const char* end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  double number = 0;
+  std::from_chars(text.data(), end, number);
+  return number;
+}
+
+Json view_of(const Shape& shape, ShapeTable& shapes) {
+  Json view = {{"kind", name(kind_of(shape))}};
+  view.update(std::visit(Viewer{shapes}, shape));
+  return view;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,160 @@
+#include "cli/page/surface_check.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
+#include "carom/shapes/views.h"
+#include "oracle/convex_oracle.h"
+
+namespace carom::cli {
+namespace {
+
+using Vec = oracle::Vec3<long double>;
+using oracle::vec3_as;
+
+// Finding the faces of a hull takes the oracle time with the cube of this.
+constexpr size_t kMostCorners = 256;
+
+// From the frame of a body to that of what is turned in it.
+Vec turned_back(const Vec& v, const Eigen::Quaternionf& q) {
+  return oracle::Rotation<long double>(q.conjugate())(v);
+}
+
+Shape triangle_of(const MeshGeometry& mesh, size_t index) {
+  Triangle triangle;
+  for (size_t i = 0; i < 3; ++i) {
+    triangle.corners[i] = mesh.vertices()[mesh.triangles()[index][i]];
+  }
+  triangle.thickness = mesh.rules().thickness;
+  return triangle;
+}
+
+bool is_too_large(const Shape& shape) {
+  const Hull* hull = std::get_if<Hull>(&shape);
+  return hull != nullptr && hull->geometry->points().size() > kMostCorners;
+}
+
+// How far the point is from the box around a triangle, which is no more than from the triangle.
+double distance_to_box(const MeshGeometry& mesh, size_t index, const Vec& point) {
+  const auto& [i, j, k] = mesh.triangles()[index];
+  const auto vertices = mesh.vertices();
+  const Eigen::Vector3d p(double(point.x), double(point.y), double(point.z));
+  const Eigen::Vector3d lower =
+      vertices[i].cwiseMin(vertices[j]).cwiseMin(vertices[k]).cast<double>();
+  const Eigen::Vector3d upper =
+      vertices[i].cwiseMax(vertices[j]).cwiseMax(vertices[k]).cast<double>();
+  const Eigen::Vector3d beyond = (lower - p).cwiseMax(p - upper).cwiseMax(0);
+  return beyond.norm() - mesh.rules().thickness;
+}
+
+// Distances of points from surfaces, in the frame of the shape. Hulls are kept.
+class Surfaces {
+ public:
+  // From the nearest part; nothing if a hull is too large.
+  std::optional<double> distance(const Shape& shape, const Vec& point) {
+    if (const Compound* compound = std::get_if<Compound>(&shape)) {
+      return to_children(*compound->geometry, point);
+    }
+    if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return to_triangles(*mesh->geometry, point);
+    if (is_too_large(shape)) return std::nullopt;
+    return to_simple(shape, point);
+  }
+
+ private:
+  std::optional<double> to_children(const CompoundGeometry& compound, const Vec& point) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const CompoundChild& child : compound.children()) {
+      Vec in_child = point - vec3_as<long double>(child.position);
+      if (row_count(kind_of(child.shape)) > 0) in_child = turned_back(in_child, child.orientation);
+      const std::optional<double> distance_to_child = distance(child.shape, in_child);
+      if (!distance_to_child) return std::nullopt;
+      nearest = std::min(nearest, *distance_to_child);
+    }
+    return nearest;
+  }
+
+  double to_triangles(const MeshGeometry& mesh, const Vec& point) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < mesh.triangles().size(); ++i) {
+      if (mesh.is_degenerate(i) || distance_to_box(mesh, i, point) >= nearest) continue;
+      nearest = std::min(nearest, to_simple(triangle_of(mesh, i), point));
+    }
+    return nearest;
+  }
+
+  double to_simple(const Shape& shape, const Vec& point) {
+    return static_cast<double>(oracle::surface_distance(convex(shape), point));
+  }
+
+  const oracle::ConvexShape<>& convex(const Shape& shape) {
+    const Hull* hull = std::get_if<Hull>(&shape);
+    if (hull == nullptr) return other_.emplace(shape, Pose{});
+    return hulls_.try_emplace(hull->geometry.get(), shape, Pose{}).first->second;
+  }
+
+  std::map<const HullGeometry*, oracle::ConvexShape<>> hulls_;
+  std::optional<oracle::ConvexShape<>> other_;
+};
+
+class Checker {
+ public:
+  explicit Checker(const World& world) : world_(world) {}
+
+  SurfaceCheck run() {
+    const bool has_manifolds = !world_.manifolds().empty();
+    for (contact_ = 0; contact_ < world_.contacts().size(); ++contact_) {
+      const Contact& contact = world_.contacts()[contact_];
+      note(contact.a, contact.arm_a.cast<double>(), check_.on);
+      note(contact.b, contact.arm_b.cast<double>(), check_.on);
+      if (has_manifolds) add_manifold(contact, world_.manifolds()[contact_]);
+    }
+    return std::move(check_);
+  }
+
+ private:
+  void add_manifold(const Contact& contact, const ManifoldPoints& manifold) {
+    const Eigen::Vector3d from_b_to_a = position(contact.a) - position(contact.b);
+    for (size_t i = 0; i < contact.manifold_count; ++i) {
+      const Eigen::Vector3d arm = Eigen::Vector3f(manifold.point[i].data()).cast<double>();
+      const Eigen::Vector3d way = double{manifold.separation[i]} * contact.normal.cast<double>();
+      note(contact.a, arm, check_.on);
+      note(contact.b, from_b_to_a + arm + way, check_.across);
+    }
+  }
+
+  Eigen::Vector3d position(uint32_t body) const { return world_.position(world_.id_of(body)); }
+
+  void note(uint32_t body, const Eigen::Vector3d& arm, SurfaceDistances& distances) {
+    const BodyId id = world_.id_of(body);
+    const Vec point = turned_back(vec3_as<long double>(arm), world_.orientation(id));
+    if (const auto distance = surfaces_.distance(world_.shape(id), point)) {
+      distances.add(*distance, contact_);
+    } else {
+      ++check_.left_out;
+    }
+  }
+
+  const World& world_;
+  Surfaces surfaces_;
+  SurfaceCheck check_;
+  size_t contact_ = 0;
+};
+
+}  // namespace
+
+void SurfaceDistances::add(double distance, size_t contact) {
+  if (metres.empty() || distance > greatest) {
+    greatest = distance;
+    furthest_contact = contact;
+  }
+  metres.push_back(distance);
+}
+
+SurfaceCheck check_surfaces(const World& world) { return Checker(world).run(); }
+
+}  // namespace carom::cli

@@ -1,0 +1,34 @@
+// Columns for times of impact, and for the contacts then.
+#pragma once
+
+#include <vector>
+
+#include "carom/impacts/time_of_impact.h"
+#include "cli/pairs/pair_set.h"
+
+namespace carom::cli {
+
+class ImpactArrays {
+ public:
+  explicit ImpactArrays(const PairSet& pairs);
+
+  // To write to; sub-shapes only if there can be any.
+  ImpactColumns columns();
+
+  struct Row {
+    float toi;
+    PairColumns::Row contact;  // `overlap`: whether they meet
+  };
+  Row row(size_t index) const;
+
+  io::PairResults results() const;
+
+ private:
+  std::vector<float> toi_;
+  PairColumns contact_;
+};
+
+// Whether a time says that there is an impact.
+bool meets(float toi);
+
+}  // namespace carom::cli

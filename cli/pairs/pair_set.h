@@ -1,0 +1,97 @@
+// Pairs to test, A[i] against B[i], and columns for their results.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "carom/base/result.h"
+#include "carom/results/contact.h"
+#include "carom/results/pair.h"
+#include "carom/results/sweep.h"
+#include "cli/pairs/body_columns.h"
+#include "io/pairs_file.h"
+
+namespace carom::cli {
+
+// How the bodies of one side move. An array that is empty is zero for all.
+struct Motions {
+  std::vector<std::array<float, 3>> displacement;
+  std::vector<std::array<float, 3>> rotation;
+
+  void push(const Sweep& sweep);
+  SweepView view() const;
+  Sweep sweep(size_t index) const;
+};
+
+struct PairSet {
+  BodyColumns a;
+  BodyColumns b;
+  Motions motions_a{};
+  Motions motions_b{};
+
+  size_t size() const { return a.size(); }
+  // Whether a side has displacements, without which there is no time of impact to ask for.
+  bool has_motions() const {
+    return !motions_a.displacement.empty() || !motions_b.displacement.empty();
+  }
+  // Whether some body is a mesh or a compound.
+  bool has_composites() const { return a.has_composites() || b.has_composites(); }
+};
+
+// Reads a file of pairs. An orientation that is no rotation (NaN, infinite or zero) makes its body
+// invalid, whatever the kind: kernels do not read those of spheres and aabbs, so such a body gets a
+// NaN position.
+Result<PairSet> read_pair_set(const std::string& path);
+
+// Row i of A with row i of B, as a list: in the order of the rows, or with neighbours far apart, so
+// that they are in other lanes and other batches.
+std::vector<Pair> rows_in_order(size_t count);
+std::vector<Pair> rows_spread_out(size_t count);
+
+// Memory for the results of pairs at a detail, with sub-shapes if there can be any.
+class PairColumns {
+ public:
+  PairColumns(const PairSet& pairs, Detail detail);
+
+  // To write to; columns that the detail lacks are nullptr.
+  ResultColumns columns();
+
+  struct Row {
+    uint8_t overlap;
+    uint8_t status;
+    uint8_t manifold_count;
+    float separation;
+    std::array<float, 3> normal;
+    std::array<float, 3> point_a;
+    std::array<float, 3> point_b;
+    ManifoldPoints manifold;
+    uint32_t sub_a = 0;
+    uint32_t sub_b = 0;
+  };
+  // Zero where the detail lacks it.
+  Row row(size_t index) const;
+
+  // As the file holds them: places of a manifold that hold no point are NaN.
+  io::PairResults results() const;
+
+ private:
+  using Column3 = std::array<std::vector<float>, 3>;
+  static std::vector<std::array<float, 3>> rows_of(const Column3& column);
+  void add_manifolds(io::PairResults& results) const;
+
+  Detail detail_;
+  std::vector<uint8_t> overlap_;
+  std::vector<uint8_t> status_;
+  std::vector<float> separation_;
+  Column3 normal_;
+  Column3 point_a_;
+  Column3 point_b_;
+  std::vector<uint8_t> manifold_count_;
+  std::vector<ManifoldPoints> manifold_;
+  std::vector<uint32_t> sub_a_;  // empty without composites
+  std::vector<uint32_t> sub_b_;
+};
+
+}  // namespace carom::cli

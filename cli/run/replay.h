@@ -1,0 +1,47 @@
+// Runs a world through the frames of a scene and notes what happened.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "carom/world/world.h"
+#include "cli/run/pairs_out.h"
+#include "cli/run/state_hash.h"
+#include "cli/scenes/player.h"
+#include "cli/support/progress.h"
+#include "io/scene.h"
+
+namespace carom::cli {
+
+// One entry a frame in every list.
+struct RunRecord {
+  std::vector<double> frame_ms;  // World::step() alone: reading and copying poses is left out
+  std::array<std::vector<double>, kStageCount> stage_ms;
+  std::vector<uint64_t> pairs;
+  std::vector<uint64_t> contacts;  // at detail overlap: overlapping pairs; at pairs: empty
+  std::vector<uint64_t> undecided;
+  std::vector<uint64_t> tested;
+  std::vector<uint64_t> kept;
+  std::vector<uint64_t> dropped;
+  std::vector<uint64_t> quarantined;
+  // Of runs that look ahead; otherwise empty.
+  std::vector<uint64_t> swept;
+  std::vector<uint64_t> impacts;
+  std::vector<uint64_t> speculative;
+  std::array<std::vector<uint64_t>, kEventKindCount> events;  // by EventKind
+  std::vector<uint32_t> quarantined_bodies;                   // in any frame, ascending
+  std::vector<uint64_t> searched;                             // bodies whose pairs were searched
+  PairSearch search;                                          // of the last frame
+  uint32_t stages_run = 0;                                    // in any frame
+  StateHash hash;
+};
+
+// Replays `frames` frames into an empty world, its dynamic bodies looked after as `detection` says;
+// `pairs_out` may be absent.
+Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
+                         uint64_t frames, std::optional<PairsOutput>& pairs_out, Progress& progress,
+                         Detection detection = Detection::discrete);
+
+}  // namespace carom::cli

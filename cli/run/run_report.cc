@@ -1,0 +1,169 @@
+#include "cli/run/run_report.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "carom_build_info.h"
+#include "cli/support/number_text.h"
+#include "cli/support/options.h"
+#include "cli/support/statistics.h"
+#include "cli/support/table.h"
+#include "io/files/file.h"
+
+namespace carom::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Frame 0 builds everything for the first time and is left out, unless there is no other.
+std::vector<double> steady(const std::vector<double>& frames) {
+  return {frames.begin() + (frames.size() > 1), frames.end()};
+}
+
+std::vector<Stage> stages_run(const RunRecord& record) {
+  std::vector<Stage> stages;
+  for (int i = 0; i < kStageCount; ++i) {
+    if (record.stages_run >> i & 1) stages.push_back(static_cast<Stage>(i));
+  }
+  return stages;
+}
+
+double stage_median(const RunRecord& record, Stage stage) {
+  return median(steady(record.stage_ms[static_cast<size_t>(stage)]));
+}
+
+double bytes_per_body(const RunReport& report) {
+  return share(report.memory.total(), report.bodies);
+}
+
+// Of the pairs of the last frame.
+double bytes_per_pair(const RunReport& report) {
+  const std::vector<uint64_t>& pairs = report.record.pairs;
+  return share(report.memory.pairs_and_results, pairs.empty() ? 0 : pairs.back());
+}
+
+Json events_json(const RunRecord& record) {
+  Json events;
+  events["begin"] = record.events[static_cast<size_t>(EventKind::begin)];
+  events["persist"] = record.events[static_cast<size_t>(EventKind::persist)];
+  events["end"] = record.events[static_cast<size_t>(EventKind::end)];
+  return events;
+}
+
+// What is not set is left out.
+void add_knobs(const FastKnobs& knobs, Json& json) {
+  const std::vector<std::string> names = names_of(knobs);
+  if (!names.empty()) json["knobs"] = names;
+  if (knobs.motion_tolerance > 0) json["motion_tolerance"] = knobs.motion_tolerance;
+}
+
+bool is_certified(const RunReport& report) { return report.accuracy.tier == Tier::certified; }
+
+bool looks_ahead(const RunReport& report) { return !report.record.swept.empty(); }
+
+// First, least, greatest and last of a list.
+std::string extent(const std::vector<uint64_t>& list) {
+  if (list.empty()) return "-";
+  auto [least, greatest] = std::minmax_element(list.begin(), list.end());
+  return std::to_string(list.front()) + " in the first frame, " + std::to_string(list.back()) +
+         " in the last; " + std::to_string(*least) + " to " + std::to_string(*greatest);
+}
+
+}  // namespace
+
+uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json to_json(const RunReport& report) {
+  const RunRecord& record = report.record;
+  Summary frame = summarize(steady(record.frame_ms));
+  Json json;
+  json["scene"] = report.scene;
+  json["bodies"] = report.bodies;
+  json["frames"] = report.frames;
+  json["threads"] = report.threads;
+  json["isa"] = report.isa;
+  json["tier"] = report.tier;
+  add_knobs(report.accuracy.knobs, json);
+  json["detail"] = report.detail;
+  json["detection"] = report.detection;
+  json["broadphase"] = name(record.search.method);
+  json["broadphase_reason"] = record.search.reason;
+  json["margin"] = report.margin;
+  json["dop_bounds"] = report.dop_bounds;
+  json["pipeline"] = Json::array();
+  for (Stage stage : stages_run(record)) json["pipeline"].push_back(name(stage));
+  json["pair_kinds"] = report.pair_kinds;
+  json["frame_ms"] = {
+      {"median", frame.median}, {"min", frame.min}, {"p99", frame.p99}, {"mean", frame.mean}};
+  json["stage_ms"] = Json::object();
+  for (Stage stage : stages_run(record))
+    json["stage_ms"][name(stage)] = stage_median(record, stage);
+  json["pairs_per_frame"] = record.pairs;
+  json["contacts_per_frame"] = record.contacts;
+  if (is_certified(report)) json["undecided_per_frame"] = record.undecided;
+  json["tested_pairs_per_frame"] = record.tested;
+  json["kept_pairs_per_frame"] = record.kept;
+  json["dropped_pairs_per_frame"] = record.dropped;
+  if (looks_ahead(report)) {
+    json["swept_per_frame"] = record.swept;
+    json["impacts_per_frame"] = record.impacts;
+    json["speculative_per_frame"] = record.speculative;
+  }
+  json["searched_bodies_per_frame"] = record.searched;
+  json["events_per_frame"] = events_json(record);
+  json["quarantined_per_frame"] = record.quarantined;
+  json["state_hash"] = record.hash.text();
+  json["bytes_per_body"] = bytes_per_body(report);
+  json["broadphase_bytes_per_body"] = share(report.memory.broadphase, report.bodies);
+  json["bytes_per_pair"] = bytes_per_pair(report);
+  json["memory"] = {{"bodies", report.memory.bodies},
+                    {"bounds", report.memory.bounds},
+                    {"broadphase", report.memory.broadphase},
+                    {"pairs_and_results", report.memory.pairs_and_results}};
+  json["peak_rss_bytes"] = report.peak_rss_bytes;
+  json["version"] = build_info::kVersion;
+  json["commit"] = build_info::kCommit;
+  json["compiler"] = build_info::kCompiler;
+  json["flags"] = build_info::kFlags;
+  return json;
+}
+
+void print(const RunReport& report, std::ostream& out) {
+  const RunRecord& record = report.record;
+  Summary frame = summarize(steady(record.frame_ms));
+  Table table({"scene", io::printable(report.scene)});
+  table.add({"bodies", std::to_string(report.bodies)});
+  table.add({"frames", std::to_string(report.frames)});
+  table.add({"threads, ISA", std::to_string(report.threads) + ", " + report.isa});
+  if (report.accuracy.tier != Tier::standard) table.add({"tier", describe(report.accuracy)});
+  table.add({"detail, broadphase", report.detail + ", " + name(record.search.method) + " (" +
+                                       record.search.reason + ")"});
+  table.add({"frame", number("%.3f ms median", frame.median) + number(", %.3f min", frame.min) +
+                          number(", %.3f p99", frame.p99) + number(", %.3f mean", frame.mean)});
+  for (Stage stage : stages_run(record)) {
+    table.add({std::string("  ") + name(stage), number("%.3f ms", stage_median(record, stage))});
+  }
+  table.add({"pairs", extent(record.pairs)});
+  table.add({report.detail == "overlap" ? "overlaps" : "contacts", extent(record.contacts)});
+  if (is_certified(report)) table.add({"undecided", extent(record.undecided)});
+  if (looks_ahead(report)) {
+    table.add({"bodies looked after", report.detection + ", " + extent(record.swept)});
+    table.add({"impacts", extent(record.impacts)});
+    table.add({"speculative contacts", extent(record.speculative)});
+  }
+  table.add({"kept pairs", extent(record.kept)});
+  if (report.dop_bounds > 0) table.add({"dropped pairs", extent(record.dropped)});
+  table.add({"state hash", record.hash.text()});
+  table.add({"memory", number("%.1f bytes a body, ", bytes_per_body(report)) +
+                           number("%.1f bytes a pair, ", bytes_per_pair(report)) +
+                           number("%.1f MB at the peak", 1e-6 * report.peak_rss_bytes)});
+  table.print(out);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,38 @@
+// What `carom run` reports, as JSON and as text.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "cli/run/replay.h"
+
+namespace carom::cli {
+
+struct RunReport {
+  std::string scene;
+  uint64_t bodies = 0;
+  uint64_t frames = 0;
+  int threads = 1;
+  std::string isa;
+  std::string tier;
+  Accuracy accuracy;
+  std::string detail;
+  std::string detection;
+  std::vector<std::string> pair_kinds;  // that the bodies of the scene can make
+  float margin = 0;                     // metres
+  int dop_bounds = 0;                   // directions; 0: none
+  WorldMemory memory;                   // at the end
+  uint64_t peak_rss_bytes = 0;
+  RunRecord record;
+};
+
+// Memory of this process at its peak.
+uint64_t peak_rss_bytes();
+
+nlohmann::ordered_json to_json(const RunReport& report);
+void print(const RunReport& report, std::ostream& out);
+
+}  // namespace carom::cli

@@ -1,0 +1,146 @@
+#include "cli/scenes/player.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "cli/scenes/shapes.h"
+#include "io/recording.h"
+
+namespace carom::cli {
+namespace {
+
+// Rows of 3 -> records of 4; the fourth stays as it is.
+template <class T>
+void write_positions(const std::vector<T>& rows, T* records) {
+  for (size_t i = 0; i < rows.size() / 3; ++i) {
+    for (size_t axis = 0; axis < 3; ++axis) records[4 * i + axis] = rows[3 * i + axis];
+  }
+}
+
+void write(const std::vector<float>& rows, std::span<Eigen::Vector3f> vectors) {
+  for (size_t i = 0; i < rows.size() / 3; ++i) {
+    vectors[i] = Eigen::Map<const Eigen::Vector3f>(&rows[3 * i]);
+  }
+}
+
+// Spheres and aabbs are the same however they are turned.
+bool reads_orientations(const io::SceneInfo& info, const std::vector<Shape>& shapes) {
+  return info.has_orientation &&
+         std::any_of(info.body_shape.begin(), info.body_shape.end(),
+                     [&](uint32_t shape) { return row_count(kind_of(shapes[shape])) > 0; });
+}
+
+}  // namespace
+
+Player::Player(const io::SceneInfo& info, std::vector<Shape> shapes)
+    : info_(&info), shapes_(std::move(shapes)), oriented_(reads_orientations(*info_, shapes_)) {}
+
+Result<Player> Player::create(const io::SceneInfo& info, const std::string& source) {
+  Result<std::vector<Shape>> shapes = convert_shapes(info.shapes, source);
+  if (!shapes) return shapes.error();
+  return Player(info, std::move(*shapes));
+}
+
+PositionType Player::positions() const {
+  return info_->float64_positions ? PositionType::float64 : PositionType::float32;
+}
+
+BodiesOfKind Player::bodies_of_kind() const {
+  BodiesOfKind bodies{};
+  if (info_->bounds_recording) bodies[static_cast<size_t>(ShapeKind::aabb)] = info_->bodies;
+  for (uint32_t shape : info_->body_shape) ++bodies[static_cast<size_t>(kind_of(shapes_[shape]))];
+  return bodies;
+}
+
+io::SceneArrays Player::wanted(Detail detail, bool looks_ahead) const {
+  return {.orientation = oriented_,
+          .linear_velocity = detail >= Detail::contact || looks_ahead,
+          .angular_velocity = looks_ahead};
+}
+
+Shape Player::shape(const io::SceneFrame& frame, size_t index) const {
+  if (!info_->bounds_recording) return shapes_[info_->body_shape[index]];
+  const float* box = &frame.boxes[io::kFloatsPerBox * index];
+  return Aabb{{box[0], box[1], box[2]}, {box[4], box[5], box[6]}};
+}
+
+BodyDesc Player::body(const io::SceneFrame& frame, size_t index) const {
+  BodyDesc desc;
+  desc.shape = shape(frame, index);
+  if (!frame.position32.empty()) {
+    desc.position = Eigen::Map<const Eigen::Vector3f>(&frame.position32[3 * index]).cast<double>();
+  } else if (!frame.position64.empty()) {
+    desc.position = Eigen::Map<const Eigen::Vector3d>(&frame.position64[3 * index]);
+  }
+  if (oriented_) desc.orientation = Eigen::Quaternionf(&frame.orientation[4 * index]);
+  if (!frame.linear_velocity.empty()) {
+    desc.linear_velocity = Eigen::Map<const Eigen::Vector3f>(&frame.linear_velocity[3 * index]);
+  }
+  if (!frame.angular_velocity.empty()) {
+    desc.angular_velocity = Eigen::Map<const Eigen::Vector3f>(&frame.angular_velocity[3 * index]);
+  }
+  if (!info_->body_motion.empty()) desc.motion = static_cast<Motion>(info_->body_motion[index]);
+  if (!info_->layer.empty()) desc.layer = info_->layer[index];
+  if (!info_->mask.empty()) desc.mask = info_->mask[index];
+  if (!info_->owner.empty()) desc.owner = info_->owner[index];
+  if (!info_->sensor.empty()) desc.sensor = info_->sensor[index] != 0;
+  desc.user = index;
+  return desc;
+}
+
+void Player::start(const io::SceneFrame& frame, World& world, Detection detection) const {
+  constexpr size_t kChunk = 4096;
+  std::vector<BodyDesc> bodies;
+  std::vector<BodyId> ids;
+  for (size_t first = 0; first < info_->bodies; first += kChunk) {
+    bodies.clear();
+    ids.clear();
+    size_t end = std::min<size_t>(first + kChunk, info_->bodies);
+    for (size_t i = first; i < end; ++i) {
+      bodies.push_back(body(frame, i));
+      if (bodies.back().motion == Motion::dynamic) bodies.back().detection = detection;
+    }
+    world.add(bodies, ids);
+  }
+  write_velocities(frame, world);
+}
+
+void Player::move(const io::SceneFrame& frame, World& world) const {
+  if (info_->bounds_recording) {
+    write_boxes(frame, world);
+    return;
+  }
+  BodyArrays arrays = world.arrays();
+  if (info_->float64_positions) {
+    write_positions(frame.position64, arrays.record64);
+  } else {
+    write_positions(frame.position32, arrays.record32);
+  }
+  write_orientations(frame, world);
+  write_velocities(frame, world);
+}
+
+void Player::write_boxes(const io::SceneFrame& frame, World& world) const {
+  BoxArrays boxes = world.boxes();
+  for (size_t i = 0; i < info_->bodies; ++i) {
+    uint32_t slot = world.box_slot(world.id_of(static_cast<uint32_t>(i)));
+    const float* box = &frame.boxes[io::kFloatsPerBox * i];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      boxes.lower[axis][slot] = box[axis];
+      boxes.upper[axis][slot] = box[4 + axis];
+    }
+  }
+}
+
+void Player::write_orientations(const io::SceneFrame& frame, World& world) const {
+  if (!oriented_) return;
+  std::copy(frame.orientation.begin(), frame.orientation.end(), world.arrays().orientation);
+}
+
+void Player::write_velocities(const io::SceneFrame& frame, World& world) const {
+  if (!frame.linear_velocity.empty()) write(frame.linear_velocity, world.linear_velocities());
+  if (!frame.angular_velocity.empty()) write(frame.angular_velocity, world.angular_velocities());
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,143 @@
+#include "cli/scenes/shapes.h"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
+#include "io/build_hull.h"
+#include "io/files/file.h"
+
+namespace carom::cli {
+namespace {
+
+Eigen::Vector3f vector(const float* xyz) { return Eigen::Map<const Eigen::Vector3f>(xyz); }
+
+// The triangle's indices are relative to the mesh's vertices.
+Triangle only_triangle(const io::SceneShapes& shapes, size_t index) {
+  const std::array<float, 8>& params = shapes.params[index];
+  const std::array<uint32_t, 3>& indices = shapes.triangles[shapes.triangle_range[index][0]];
+  Triangle triangle;
+  for (size_t corner = 0; corner < 3; ++corner) {
+    size_t vertex = size_t{shapes.vertex_range[index][0]} + indices[corner];
+    triangle.corners[corner] = vector(shapes.vertices[vertex].data());
+  }
+  triangle.one_sided = params[0] != 0;
+  triangle.thickness = params[1];
+  return triangle;
+}
+
+// A shape's own vertices.
+std::vector<Eigen::Vector3f> vertices_of(const io::SceneShapes& shapes, size_t index) {
+  const auto [first, count] = shapes.vertex_range[index];
+  std::vector<Eigen::Vector3f> points;
+  points.reserve(count);
+  for (size_t i = first; i < size_t{first} + count; ++i) {
+    points.push_back(vector(shapes.vertices[i].data()));
+  }
+  return points;
+}
+
+Result<Shape> convert_mesh(const io::SceneShapes& shapes, size_t index) {
+  const auto [first, count] = shapes.triangle_range[index];
+  if (count == 0) return Error{"a mesh without triangles"};
+  if (count == 1) return Shape(only_triangle(shapes, index));
+  const std::array<float, 8>& params = shapes.params[index];
+  Result<std::shared_ptr<const MeshGeometry>> mesh =
+      make_mesh(vertices_of(shapes, index), std::span(shapes.triangles).subspan(first, count),
+                {.one_sided = params[0] != 0, .thickness = params[1]});
+  return Shape(mesh ? Mesh{std::move(*mesh)} : Mesh{});
+}
+
+Result<Shape> convert_hull(const io::SceneShapes& shapes, size_t index) {
+  const std::vector<Eigen::Vector3f> points = vertices_of(shapes, index);
+  if (points.empty()) return Error{"a hull without vertices"};
+  Result<io::BuiltHull> hull = io::build_hull(points);
+  return Shape(hull ? Hull{std::move(hull->geometry)} : Hull{});
+}
+
+Result<Shape> convert_dop(const io::SceneShapes& shapes, size_t index) {
+  const float k = shapes.params[index][0];
+  const std::vector<Eigen::Vector3f> points = vertices_of(shapes, index);
+  if (points.empty()) return Error{"a dop without vertices"};
+  for (const DopKind kind : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
+    if (k == static_cast<float>(kind)) return Shape(Dop::of_points(points, kind));
+  }
+  char number[32];
+  std::snprintf(number, sizeof number, "%g", double{k});
+  return Error{std::string("a dop of k = ") + number + " (6, 14, 18 or 26 was expected)"};
+}
+
+// `converted` holds all shapes but compounds.
+Result<Shape> convert_compound(const io::SceneShapes& shapes, size_t index,
+                               const std::vector<Shape>& converted) {
+  const auto [first, count] = shapes.child_range[index];
+  if (count == 0) return Error{"a compound without children"};
+  std::vector<CompoundChild> children;
+  children.reserve(count);
+  for (size_t i = first; i < size_t{first} + count; ++i) {
+    const Shape& child = converted[shapes.child_shape[i]];
+    if (kind_of(child) == ShapeKind::halfspace) {
+      return Error{"a compound with a halfspace as a child"};
+    }
+    children.push_back({child, vector(shapes.child_position[i].data()),
+                        Eigen::Quaternionf(shapes.child_orientation[i].data())});
+  }
+  Result<std::shared_ptr<const CompoundGeometry>> compound = make_compound(children);
+  return Shape(compound ? Compound{std::move(*compound)} : Compound{});
+}
+
+bool is_compound(const io::SceneShapes& shapes, size_t index) {
+  return shapes.kind[index] == static_cast<uint8_t>(ShapeKind::compound);
+}
+
+Error shape_error(const std::string& source, size_t index, const Error& what) {
+  return io::file_error(source,
+                        "shape_kind: shape " + std::to_string(index) + " is " + what.message);
+}
+
+}  // namespace
+
+Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) {
+  const std::array<float, 8>& params = shapes.params[index];
+  auto kind = static_cast<ShapeKind>(shapes.kind[index]);
+  switch (kind) {
+    case ShapeKind::capsule:
+      return Shape(Capsule{vector(&params[0]), vector(&params[3]), params[6]});
+    case ShapeKind::aabb:
+      return Shape(Aabb::from_half_extents(vector(&params[0])));
+    case ShapeKind::box:
+      return Shape(Box{vector(&params[0])});
+    case ShapeKind::dop:
+      return convert_dop(shapes, index);
+    case ShapeKind::hull:
+      return convert_hull(shapes, index);
+    case ShapeKind::mesh:
+      return convert_mesh(shapes, index);
+    case ShapeKind::halfspace:
+      return Shape(Halfspace{vector(&params[0]), params[3]});
+    default:
+      return Shape(Sphere{params[0]});
+  }
+}
+
+Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes,
+                                          const std::string& source) {
+  std::vector<Shape> converted(shapes.kind.size(), Compound{});
+  for (size_t i = 0; i < converted.size(); ++i) {
+    if (is_compound(shapes, i)) continue;
+    Result<Shape> shape = convert_simple_shape(shapes, i);
+    if (!shape) return shape_error(source, i, shape.error());
+    converted[i] = std::move(*shape);
+  }
+  for (size_t i = 0; i < converted.size(); ++i) {
+    if (!is_compound(shapes, i)) continue;
+    Result<Shape> shape = convert_compound(shapes, i, converted);
+    if (!shape) return shape_error(source, i, shape.error());
+    converted[i] = std::move(*shape);
+  }
+  return converted;
+}
+
+}  // namespace carom::cli

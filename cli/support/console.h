@@ -1,0 +1,24 @@
+// Where a command writes: results to `out`; errors, warnings and progress to `err`.
+#pragma once
+
+#include <ostream>
+#include <string>
+
+#include "carom/base/result.h"
+#include "io/files/file.h"
+
+namespace carom::cli {
+
+struct Console {
+  std::ostream& out;
+  std::ostream& err;
+  bool terminal = false;  // err is one: progress may be shown
+
+  // One line each, whatever names from outside are in it.
+  void error(const Error& error) const { err << "carom: " << io::printable(error.message) << '\n'; }
+  void warning(const std::string& text) const {
+    err << "carom: warning: " << io::printable(text) << '\n';
+  }
+};
+
+}  // namespace carom::cli

@@ -1,0 +1,30 @@
+#include "cli/support/json_output.h"
+
+#include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+
+namespace carom::cli {
+
+Result<JsonOutput> JsonOutput::open(const std::string& target) {
+  JsonOutput output;
+  if (target == "-") {
+    output.standard_output_ = true;
+  } else if (!target.empty()) {
+    Result<io::AtomicFile> file = io::AtomicFile::create(target);
+    if (!file) return file.error();
+    output.file_.emplace(std::move(*file));
+  }
+  return output;
+}
+
+Result<void> JsonOutput::write(const nlohmann::ordered_json& json, const Console& console) {
+  // Names come from files and may hold anything: bytes that are no UTF-8 are replaced.
+  std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  if (standard_output_) console.out << text;
+  if (!file_) return {};
+  Result<void> written = file_->write(std::as_bytes(std::span(text)));
+  return written ? file_->commit() : written;
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,100 @@
+// Options that several commands share: their text, and what it means.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "carom/base/result.h"
+#include "carom/broadphase/find_pairs.h"
+#include "carom/results/contact.h"
+#include "carom/results/tier.h"
+#include "carom/shapes/body.h"
+#include "carom/shapes/dop.h"
+#include "carom/simd/isa.h"
+
+namespace CLI {
+class App;
+class Validator;
+}  // namespace CLI
+
+namespace carom::cli {
+
+struct EngineOptions {
+  std::string isa = "auto";
+  std::string tier = "standard";
+  std::string knobs;            // names, separated by commas
+  double motion_tolerance = 0;  // metres
+  std::string detail = "contact";
+  int threads = 1;
+};
+
+void add_engine_options(CLI::App& command, EngineOptions& options);
+void add_threads_option(CLI::App& command, int& threads);
+void add_json_option(CLI::App& command, std::string& json);
+
+inline constexpr int kMaxThreads = 1024;
+Result<void> check_threads(int threads);
+
+// What a command serves of the knobs of the fast tier: those of collide(), or those of worlds, too.
+enum class KnobsOf { pairs, worlds };
+// Tier, knobs and tolerance; knobs go with the fast tier alone.
+Result<Accuracy> parse_accuracy(const EngineOptions& options, KnobsOf served);
+// Those that are set, as --knobs calls them; the tolerance is none of them.
+std::vector<std::string> names_of(const FastKnobs& knobs);
+// "fast: faces-only, motion tolerance 0.01 m", for people.
+std::string describe(const Accuracy& accuracy);
+
+// Metres, finite and not negative.
+Result<void> check_margin(double margin);
+// Directions of k-DOPs; 0: none.
+Result<std::optional<DopKind>> parse_dop_bounds(int directions);
+Result<BroadphaseMethod> parse_broadphase(const std::string& text);
+
+// "discrete", "swept", "continuous", "automatic".
+const char* name_of(Detection detection);
+Result<Detection> parse_detection(const std::string& text);
+
+struct NamedDetail {
+  std::string_view name;
+  Detail detail;
+};
+// Looks `text` up among what a command serves; a detail that only `carom pairs` has is refused as
+// such.
+Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known);
+
+// For options that name a file: an empty name (a script's unset variable) is refused.
+const CLI::Validator& file_name();
+
+struct OutputFile {
+  std::string option;
+  std::string name;  // empty: not given
+};
+// Refuses outputs that name the same file, however they are spelled. "-" of --json is no file.
+Result<void> check_apart(std::span<const OutputFile> outputs);
+
+// The library ignores a CAROM_ISA that it cannot use; whoever runs the program wants to know.
+Result<void> check_isa_variable();
+
+// Forces an instruction set for as long as it lives; "auto" forces none.
+class ForcedIsa {
+ public:
+  static Result<ForcedIsa> create(const std::string& name);
+  ForcedIsa(ForcedIsa&& other) noexcept : forced_(std::exchange(other.forced_, false)) {}
+  ForcedIsa& operator=(ForcedIsa&&) = delete;
+  ~ForcedIsa() {
+    if (forced_) unforce_isa();
+  }
+
+ private:
+  explicit ForcedIsa(bool forced) : forced_(forced) {}
+  bool forced_;
+};
+
+// "scalar, sse4, avx2".
+std::string join_names(std::span<const Isa> isas);
+
+}  // namespace carom::cli

@@ -1,0 +1,54 @@
+// What was verified, with whom, and what was found.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "carom/base/thread_arena.h"
+#include "carom/simd/isa.h"
+
+namespace carom::cli {
+
+// Everything is run by every instruction set with every number of threads.
+struct Engine {
+  Isa isa;
+  int threads;
+  ThreadArena* arena;
+};
+
+class Engines {
+ public:
+  // All usable instruction sets, 1 to `threads` threads.
+  explicit Engines(int threads);
+  const std::vector<Engine>& list() const { return engines_; }
+
+ private:
+  std::vector<std::unique_ptr<ThreadArena>> arenas_;
+  std::vector<Engine> engines_;
+};
+
+// One line of the table.
+struct VerifyRow {
+  Engine engine;
+  uint64_t frames = 0;
+  uint64_t pairs = 0;
+  uint64_t overlaps = 0;
+  bool differs = false;
+};
+
+struct Difference {
+  std::string where;  // one line
+  std::string text;   // the pair, its inputs and both results
+};
+
+struct VerifyOutcome {
+  std::string source;
+  std::string compared;
+  std::vector<VerifyRow> rows;
+  std::optional<Difference> difference;  // the first
+};
+
+}  // namespace carom::cli

@@ -1,0 +1,259 @@
+#include "cli/verify/verify_pairs.h"
+
+#include <array>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "carom/reference/reference.h"
+#include "cli/support/progress.h"
+#include "cli/verify/exact_decision.h"
+#include "cli/verify/verify_engines.h"
+#include "cli/verify/verify_text.h"
+#include "narrowphase/batch/stated_body.h"
+
+namespace carom::cli {
+namespace {
+
+using Row = PairColumns::Row;
+
+struct Variant {
+  const char* name;
+  bool shuffled;  // collide() with a list in another order; otherwise collide_rows()
+  Detail detail;
+  WitnessFrame frame;
+  Tier tier = Tier::standard;
+};
+
+constexpr std::array kVariants = {
+    Variant{"rows", false, Detail::contact, WitnessFrame::body},
+    Variant{"world frame", false, Detail::contact, WitnessFrame::world},
+    Variant{"shuffled", true, Detail::contact, WitnessFrame::body},
+    Variant{"detail overlap", false, Detail::overlap, WitnessFrame::body},
+    Variant{"detail manifold", false, Detail::manifold, WitnessFrame::body},
+    Variant{"manifold shuffled in the world", true, Detail::manifold, WitnessFrame::world},
+    Variant{"certified", false, Detail::overlap, WitnessFrame::body, Tier::certified},
+    Variant{"exact", false, Detail::overlap, WitnessFrame::body, Tier::exact},
+};
+
+// The reference takes only pairs that have a kernel.
+Result<void> check_kernels(const PairSet& pairs) {
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    ShapeKind a = kind_of(pairs.a.shape(i));
+    ShapeKind b = kind_of(pairs.b.shape(i));
+    if (supports(a, b)) continue;
+    return Error{"pair " + std::to_string(i) + ": no kernel for " + name(a) + " against " +
+                 name(b)};
+  }
+  return {};
+}
+
+template <class T>
+bool same_bits(const T& x, const T& y) {
+  return std::memcmp(&x, &y, sizeof(T)) == 0;
+}
+
+bool same_bits(const Row& x, const Row& y) {
+  return x.overlap == y.overlap && x.status == y.status && same_bits(x.separation, y.separation) &&
+         same_bits(x.normal, y.normal) && same_bits(x.point_a, y.point_a) &&
+         same_bits(x.point_b, y.point_b) && x.manifold_count == y.manifold_count &&
+         same_bits(x.manifold, y.manifold) && x.sub_a == y.sub_a && x.sub_b == y.sub_b;
+}
+
+bool is_invalid(const Row& row) { return row.status == static_cast<uint8_t>(Status::invalid); }
+
+std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+// position + arm as the library rounds it: a float64 position is a float32 and what that leaves.
+std::array<float, 3> in_world(const std::array<float, 3>& arm, const Eigen::Vector3d& position,
+                              PositionType positions) {
+  std::array<float, 3> point{};
+  for (int axis = 0; axis < 3; ++axis) {
+    float high = static_cast<float>(position[axis]);
+    float low = static_cast<float>(position[axis] - double{high});
+    point[axis] = positions == PositionType::float32 ? high + arm[axis] : high + (low + arm[axis]);
+  }
+  return point;
+}
+
+// The unused places of a manifold are zero in any frame.
+ManifoldPoints in_world(ManifoldPoints manifold, size_t count, const Eigen::Vector3d& position,
+                        PositionType positions) {
+  for (size_t i = 0; i < count; ++i) {
+    manifold.point[i] = in_world(manifold.point[i], position, positions);
+  }
+  return manifold;
+}
+
+std::string text_of(const std::array<float, 3>& v) {
+  return cli::text_of(Eigen::Vector3f(v[0], v[1], v[2]));
+}
+
+std::string text_of(const Row& row) {
+  return "overlap " + std::to_string(row.overlap) + " status " + std::to_string(row.status) +
+         " separation " + cli::text_of(double{row.separation}) + " normal " + text_of(row.normal) +
+         " point_a " + text_of(row.point_a) + " point_b " + text_of(row.point_b) + " manifold of " +
+         std::to_string(row.manifold_count) + ": " + cli::text_of(row.manifold) + " sub-shapes " +
+         std::to_string(row.sub_a) + ", " + std::to_string(row.sub_b);
+}
+
+class PairVerifier {
+ public:
+  // The reference tests the pairs here; `progress` counts them.
+  PairVerifier(System& system, const PairSet& pairs, Progress progress)
+      : system_(system),
+        pairs_(pairs),
+        overlap_(pairs, Detail::overlap),
+        contact_(pairs, Detail::contact),
+        manifold_(pairs, Detail::manifold),
+        order_(rows_spread_out(pairs.size())) {
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      progress.update(i);
+      expected_.push_back(reference_row(i));
+      exact_.push_back(exact_decision(i));
+    }
+  }
+
+  // False if there is a difference. `progress` counts the runs.
+  Result<bool> verify(VerifyRow& row, Progress& progress) {
+    force_isa(row.engine.isa);
+    for (const Variant& variant : kVariants) {
+      progress.update(runs_++);
+      if (Result<void> done = test(row.engine, variant); !done) return done.error();
+      if (!compare(row, variant)) return false;
+    }
+    row.pairs = pairs_.size();
+    for (const Row& expected : expected_) row.overlaps += expected.overlap;
+    return true;
+  }
+
+  std::optional<Difference> take_difference() { return std::move(difference_); }
+
+ private:
+  Row reference_row(size_t index) const {
+    const reference::PairResult result =
+        reference::collide(pairs_.a.shape(index), pairs_.a.pose(index), pairs_.b.shape(index),
+                           pairs_.b.pose(index), pairs_.a.positions());
+    return {static_cast<uint8_t>(result.overlap),
+            static_cast<uint8_t>(result.status),
+            result.manifold_count,
+            result.separation,
+            array_of(result.normal),
+            array_of(result.arm_a),
+            array_of(result.arm_b),
+            result.manifold,
+            result.sub_a,
+            result.sub_b};
+  }
+
+  // In exact arithmetic where double precision proves nothing; 0 for invalid pairs.
+  uint8_t exact_decision(size_t index) const {
+    if (is_invalid(expected_[index])) return 0;
+    const StatedBody a = stated_body(pairs_.a.view(), index);
+    const StatedBody b = stated_body(pairs_.b.view(), index);
+    return cli::exact_decision(a, b);
+  }
+
+  static StatedBody stated_body(const Collidables& bodies, size_t index) {
+    return carom::stated_body(BodyReader{bodies}, index);
+  }
+
+  // What a tier may say of a pair is what the exact decision is, or nothing. A proof about bodies
+  // with parts ends at the first part that overlaps, which need not be the one whose status the
+  // reference has.
+  bool is_as_promised(const Row& want, const Row& got, Tier tier) const {
+    if (same_bits(want, got)) return true;
+    if (!has_proofs(tier) || is_invalid(want) || is_invalid(got)) return false;
+    const bool abstains = tier == Tier::certified && got.overlap == kUndecided;
+    if (pairs_.has_composites()) return abstains || want.overlap == got.overlap;
+    return abstains && want.status == got.status;
+  }
+
+  // The reference's result of a pair, as a variant gives it.
+  Row expected(size_t index, const Variant& variant) const {
+    Row row = expected_[index];
+    if (has_proofs(variant.tier)) row.overlap = exact_[index];
+    if (variant.detail == Detail::overlap) return {row.overlap, row.status, 0, 0, {}, {}, {}, {}};
+    if (variant.detail == Detail::contact) {
+      row.manifold_count = 0;
+      row.manifold = {};
+    }
+    if (variant.frame == WitnessFrame::body || is_invalid(row)) return row;
+    const Eigen::Vector3d position_a = pairs_.a.pose(index).position;
+    const PositionType positions = pairs_.a.positions();
+    row.point_a = in_world(row.point_a, position_a, positions);
+    row.point_b = in_world(row.point_b, pairs_.b.pose(index).position, positions);
+    row.manifold = in_world(row.manifold, row.manifold_count, position_a, positions);
+    return row;
+  }
+
+  PairColumns& columns(const Variant& variant) {
+    if (variant.detail == Detail::overlap) return overlap_;
+    return variant.detail == Detail::contact ? contact_ : manifold_;
+  }
+
+  Result<void> test(const Engine& engine, const Variant& variant) {
+    Collidables a = pairs_.a.view();
+    Collidables b = pairs_.b.view();
+    ResultColumns out = columns(variant).columns();
+    Parallelism parallelism = engine.arena->parallelism();
+    Result<void> done;
+    engine.arena->run([&] {
+      done = variant.shuffled ? system_.collide(a, b, order_, variant.detail, out, variant.frame,
+                                                parallelism, variant.tier)
+                              : system_.collide_rows(a, b, variant.detail, out, variant.frame,
+                                                     parallelism, variant.tier);
+    });
+    return done;
+  }
+
+  bool compare(VerifyRow& row, const Variant& variant) {
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+      size_t index = variant.shuffled ? order_[i].a : i;
+      Row want = expected(index, variant);
+      Row got = columns(variant).row(i);
+      if (is_as_promised(want, got, variant.tier)) continue;
+      row.differs = true;
+      difference_ = describe(row.engine, variant, index, want, got);
+      return false;
+    }
+    return true;
+  }
+
+  Difference describe(const Engine& engine, const Variant& variant, size_t index, const Row& want,
+                      const Row& got) const {
+    PositionType positions = pairs_.a.positions();
+    std::string text;
+    text += "  a: " + cli::text_of(pairs_.a.shape(index), pairs_.a.pose(index), positions) + '\n';
+    text += "  b: " + cli::text_of(pairs_.b.shape(index), pairs_.b.pose(index), positions) + '\n';
+    text += "  reference: " + text_of(want) + '\n';
+    text += "  carom:     " + text_of(got) + '\n';
+    return {std::string(name(engine.isa)) + ", threads " + std::to_string(engine.threads) + ", " +
+                variant.name + ": pair " + std::to_string(index) + " differs",
+            text};
+  }
+
+  System& system_;
+  const PairSet& pairs_;
+  PairColumns overlap_;
+  PairColumns contact_;
+  PairColumns manifold_;
+  std::vector<Pair> order_;
+  std::vector<Row> expected_;
+  std::vector<uint8_t> exact_;
+  uint64_t runs_ = 0;
+  std::optional<Difference> difference_;
+};
+
+}  // namespace
+
+Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
+                                   const std::string& source, const Console& console) {
+  if (Result<void> kernels = check_kernels(pairs); !kernels) {
+    return Error{source + ": " + kernels.error().message};
+  }
+  PairVerifier verifier(system, pairs, Progress(console, source + ": pair", pairs.size()));
+  return verify_engines(std::move(verifier), kVariants, engines, source, console);
+}
+
+}  // namespace carom::cli

@@ -1,0 +1,175 @@
+#include "cli/verify/verify_scene.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "carom/reference/reference.h"
+#include "cli/verify/verify_compare.h"
+
+namespace carom::cli {
+namespace {
+
+struct Variant {
+  const char* name;
+  BroadphaseMethod broadphase;
+  bool carry_results;
+  Detail detail;
+};
+
+constexpr std::array kVariants = {
+    Variant{"grid", BroadphaseMethod::grid, true, Detail::contact},
+    Variant{"grid without cache", BroadphaseMethod::grid, false, Detail::contact},
+    Variant{"sweep", BroadphaseMethod::sweep, true, Detail::contact},
+    Variant{"sweep without cache", BroadphaseMethod::sweep, false, Detail::contact},
+    Variant{"brute", BroadphaseMethod::brute, true, Detail::contact},
+    Variant{"sweep at detail overlap", BroadphaseMethod::sweep, true, Detail::overlap},
+    Variant{"grid at detail manifold", BroadphaseMethod::grid, true, Detail::manifold},
+    Variant{"grid at detail manifold without cache", BroadphaseMethod::grid, false,
+            Detail::manifold},
+};
+
+// Above this, comparing all boxes with all others on every engine would take minutes a frame. The
+// reference still does.
+constexpr uint64_t kMaxBruteBodies = 20'000;
+
+std::vector<Variant> variants_for(uint64_t bodies) {
+  std::vector<Variant> variants;
+  for (const Variant& variant : kVariants) {
+    bool brute = variant.broadphase == BroadphaseMethod::brute;
+    if (!brute || bodies <= kMaxBruteBodies) variants.push_back(variant);
+  }
+  return variants;
+}
+
+std::string names_of(const std::vector<Variant>& variants) {
+  std::string text;
+  for (const Variant& variant : variants) {
+    text += (text.empty() ? "" : ", ") + std::string(variant.name);
+  }
+  return text;
+}
+
+// What the reference says at detail contact, where it has said it at detail manifold.
+reference::Frame without_manifolds(reference::Frame frame) {
+  frame.manifolds.clear();
+  for (Contact& contact : frame.contacts) contact.manifold_count = 0;
+  return frame;
+}
+
+// And at detail overlap.
+reference::Frame without_contacts(reference::Frame frame) {
+  frame.contacts.clear();
+  for (Event& event : frame.events) event.contact = kNoContact;
+  return frame;
+}
+
+class SceneVerifier {
+ public:
+  SceneVerifier(System& system, const Engines& engines, const Player& player)
+      : player_(player), variants_(variants_for(player.info().bodies)) {
+    for (const Engine& engine : engines.list()) {
+      rows_.push_back({.engine = engine});
+      for (const Variant& variant : variants_) {
+        steppers_.push_back(system.make_stepper(player, settings(engine, variant)));
+      }
+    }
+  }
+
+  // False if there is a difference.
+  bool verify_frame(const io::SceneFrame& frame) {
+    step_reference(frame);
+    size_t next = 0;
+    for (VerifyRow& row : rows_) {
+      for (const Variant& variant : variants_) {
+        if (!verify_engine(row, variant, *steppers_[next++], frame)) return false;
+      }
+      ++row.frames;
+      row.pairs += expected_.pairs.size();
+      row.overlaps += expected_.touching.size();
+    }
+    ++frame_;
+    return true;
+  }
+
+  VerifyOutcome finish(const std::string& source) {
+    return {source, names_of(variants_), std::move(rows_), std::move(difference_)};
+  }
+
+ private:
+  WorldSettings settings(const Engine& engine, const Variant& variant) const {
+    return {.positions = player_.positions(),
+            .detail = variant.detail,
+            .broadphase = variant.broadphase,
+            .parallelism = engine.arena->parallelism(),
+            .carry_results = variant.carry_results};
+  }
+
+  void step_reference(const io::SceneFrame& frame) {
+    bodies_.resize(player_.info().bodies);
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+      bodies_[i] = {BodyId{static_cast<uint32_t>(i), 0}, player_.body(frame, i)};
+    }
+    expected_ =
+        reference::step(bodies_, player_.positions(), Detail::manifold,
+                        player_.info().has_linear_velocity, frame_ == 0 ? nullptr : &expected_);
+    expected_contact_ = without_manifolds(expected_);
+    expected_overlap_ = without_contacts(expected_contact_);
+  }
+
+  const reference::Frame& expected_at(Detail detail) const {
+    if (detail == Detail::overlap) return expected_overlap_;
+    return detail == Detail::contact ? expected_contact_ : expected_;
+  }
+
+  bool verify_engine(VerifyRow& row, const Variant& variant, Stepper& stepper,
+                     const io::SceneFrame& frame) {
+    force_isa(row.engine.isa);
+    FrameView actual;
+    row.engine.arena->run([&] { actual = stepper.step(frame); });
+    FrameView expected = view_of(expected_at(variant.detail));
+    std::optional<Mismatch> mismatch = compare(expected, actual);
+    if (!mismatch) return true;
+    row.differs = true;
+    difference_ = Difference{std::string(name(row.engine.isa)) + ", threads " +
+                                 std::to_string(row.engine.threads) + ", " + variant.name +
+                                 ", frame " + std::to_string(frame_) + ": " + mismatch->what +
+                                 " differ at pair (" + std::to_string(mismatch->pair.a) + ", " +
+                                 std::to_string(mismatch->pair.b) + ")",
+                             describe(*mismatch, bodies_, player_.positions(), expected, actual)};
+    return false;
+  }
+
+  const Player& player_;
+  std::vector<Variant> variants_;
+  std::vector<VerifyRow> rows_;
+  std::vector<std::unique_ptr<Stepper>> steppers_;  // variants_.size() a row
+  std::vector<reference::Body> bodies_;
+  reference::Frame expected_;  // at detail manifold
+  reference::Frame expected_contact_;
+  reference::Frame expected_overlap_;
+  uint64_t frame_ = 0;
+  std::optional<Difference> difference_;
+};
+
+}  // namespace
+
+Result<VerifyOutcome> verify_scene(System& system, const Engines& engines, io::SceneReader& scene,
+                                   const std::string& source, uint64_t frames,
+                                   const Console& console) {
+  Result<Player> player = Player::create(scene.info(), source);
+  if (!player) return player.error();
+  scene.want(player->wanted(Detail::manifold));
+  SceneVerifier verifier(system, engines, *player);
+  Progress progress(console, source + ": frame", frames);
+  io::SceneFrame frame;
+  for (uint64_t i = 0; i < frames; ++i) {
+    progress.update(i);
+    if (Result<void> read = scene.read_frame(frame); !read) return read.error();
+    if (!verifier.verify_frame(frame)) break;
+  }
+  unforce_isa();
+  return verifier.finish(source);
+}
+
+}  // namespace carom::cli

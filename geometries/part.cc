@@ -1,0 +1,104 @@
+#include "geometries/part.h"
+
+#include <algorithm>
+
+#include "shapes/dop_polytope.h"
+
+namespace carom {
+namespace {
+
+// Of points that are added one by one.
+class GrowingBox {
+ public:
+  void add(const Double3& point) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      lower_[axis] = std::min(lower_[axis], point[axis]);
+      upper_[axis] = std::max(upper_[axis], point[axis]);
+    }
+  }
+
+  PartBox box(double radius) const {
+    PartBox box;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box.middle[axis] = (lower_[axis] + upper_[axis]) / 2;
+      box.half[axis] = (upper_[axis] - lower_[axis]) / 2 + radius;
+    }
+    return box;
+  }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  Double3 lower_ = {kInfinity, kInfinity, kInfinity};
+  Double3 upper_ = {-kInfinity, -kInfinity, -kInfinity};
+};
+
+Double3 vector_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+
+template <class Point>
+PartBox box_around(const Point& lower, const Point& upper, double radius = 0) {
+  GrowingBox box;
+  box.add({lower[0], lower[1], lower[2]});
+  box.add({upper[0], upper[1], upper[2]});
+  return box.box(radius);
+}
+
+PartBox dop_box(const Part& part) {
+  const DopSlabs slabs =
+      DopSlabs(std::get<Dop>(shape_from_rows(part.kind, part.rows.data()))).with_tight_axes();
+  return box_around(slabs.lower, slabs.upper);
+}
+
+PartBox hull_box(const HullGeometry& hull) {
+  GrowingBox box;
+  for (const Eigen::Vector3f& point : hull.points()) box.add(vector_of(point));
+  return box.box(0);
+}
+
+}  // namespace
+
+PartBox box_of(const Part& part) {
+  const std::array<Row, kMostRows>& rows = part.rows;
+  switch (part.kind) {
+    case ShapeKind::sphere:
+      return {{}, {part.radius, part.radius, part.radius}};
+    case ShapeKind::aabb:
+      return box_around(part.lower, part.upper);
+    case ShapeKind::capsule:
+      return box_around(rows[0], rows[1], rows[0][3]);
+    case ShapeKind::box:
+      return {{}, {rows[0][0], rows[0][1], rows[0][2]}};
+    case ShapeKind::dop:
+      return dop_box(part);
+    case ShapeKind::hull:
+      return hull_box(*geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::mesh: {
+      const auto& mesh = *geometry_at<MeshGeometry>(rows[0]);
+      return box_around(mesh.lower(), mesh.upper());
+    }
+    case ShapeKind::triangle: {
+      GrowingBox box;
+      for (size_t i = 0; i < 3; ++i) box.add({rows[i][0], rows[i][1], rows[i][2]});
+      return box.box(rows[0][3]);
+    }
+    default:
+      return {};
+  }
+}
+
+// Hamilton's product; the scale keeps numbers where their squares neither vanish nor overflow.
+Row product(const Row& q, const Row& p) {
+  const double x = q[0], y = q[1], z = q[2], w = q[3];
+  const std::array<double, 4> r = {
+      ((w * p[0] + x * p[3]) + y * p[2]) - z * p[1], ((w * p[1] + y * p[3]) + z * p[0]) - x * p[2],
+      ((w * p[2] + z * p[3]) + x * p[1]) - y * p[0], ((w * p[3] - x * p[0]) - y * p[1]) - z * p[2]};
+  double largest = 0;
+  for (const double c : r) largest = std::max(largest, std::fabs(c));
+  // Spheres and aabbs may have a quaternion of zero: they do not turn.
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  Row result;
+  for (size_t i = 0; i < 4; ++i) result[i] = static_cast<float>(std::ldexp(r[i], -exponent));
+  return result;
+}
+
+}  // namespace carom

@@ -1,0 +1,135 @@
+#include "impacts/composite_times.h"
+
+#include <limits>
+#include <memory>
+#include <tuple>
+
+#include "impacts/moving_body.h"
+#include "impacts/part_sweep.h"
+#include "midphase/part_batch.h"
+
+namespace carom {
+namespace {
+
+using Float3 = std::array<float, 3>;
+
+// One side of the pairs of parts, and how each of its bodies moves.
+struct MovingParts {
+  PartColumns columns;
+  std::array<Float3, kPairsPerBlock> displacement, rotation;
+  std::array<Double3, kPairsPerBlock> arm;
+
+  uint32_t put(size_t owner, const PlacedPart& part, const BodySweep& sweep) {
+    const uint32_t body = columns.put(owner, part);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      displacement[body][axis] = static_cast<float>(sweep.displacement[axis]);
+      rotation[body][axis] = static_cast<float>(sweep.rotation[axis]);
+    }
+    arm[body] = part.arm;
+    return body;
+  }
+
+  SweepView sweep() const {
+    return {.displacement = displacement[0].data(), .rotation = rotation[0].data()};
+  }
+};
+
+struct Scratch {
+  MovingParts a, b;
+  size_t count;
+  std::array<Pair, kPairsPerBlock> pairs;
+  std::array<uint16_t, kPairsPerBlock> owner;
+  std::array<double, kPairsPerBlock> time;
+  std::array<uint8_t, kPairsPerBlock> status;
+
+  void clear() {
+    a.columns.clear();
+    b.columns.clear();
+    count = 0;
+  }
+};
+
+BodySweep sweep_of(const MovingReader& side, size_t i) {
+  const Position<float> d = side.displacement(i), w = side.rotation(i);
+  return {{d.x, d.y, d.z}, {w.x, w.y, w.z}};
+}
+
+// The first of the pairs of parts of each pair of bodies; those of many bodies share a batch.
+class CompositeTimes {
+ public:
+  CompositeTimes(std::span<FirstTime> times, Scratch& scratch) : times_(times), scratch_(scratch) {
+    scratch_.clear();
+  }
+
+  void add(size_t owner, const PlacedPart& a, const BodySweep& sweep_a, const PlacedPart& b,
+           const BodySweep& sweep_b) {
+    if (scratch_.count == kPairsPerBlock) run();
+    scratch_.owner[scratch_.count] = static_cast<uint16_t>(owner);
+    scratch_.pairs[scratch_.count++] = {scratch_.a.put(owner, a, sweep_a),
+                                        scratch_.b.put(owner, b, sweep_b)};
+  }
+
+  void run() {
+    if (scratch_.count > 0) find_times();
+    for (size_t i = 0; i < scratch_.count; ++i) {
+      const Pair pair = scratch_.pairs[i];
+      keep(scratch_.owner[i],
+           {scratch_.time[i],
+            static_cast<Status>(scratch_.status[i]),
+            {scratch_.a.columns.order(pair.a), scratch_.b.columns.order(pair.b)}});
+    }
+    scratch_.clear();
+  }
+
+ private:
+  void find_times() {
+    const Collidables a = scratch_.a.columns.view(), b = scratch_.b.columns.view();
+    find_simple_times({a, scratch_.a.sweep(), scratch_.a.arm.data()},
+                      {b, scratch_.b.sweep(), scratch_.b.arm.data()}, scratch_.pairs.data(),
+                      scratch_.count, {scratch_.time.data(), scratch_.status.data()});
+  }
+
+  // Of equal times the first by the indices of the parts, whatever the order of the search.
+  void keep(size_t owner, const FirstTime& found) {
+    FirstTime& first = times_[owner];
+    const auto order = [](const FirstTime& t) { return std::tuple(t.time, t.parts); };
+    if (order(found) < order(first)) first = found;
+  }
+
+  const std::span<FirstTime> times_;
+  Scratch& scratch_;
+};
+
+}  // namespace
+
+PlacedBodies::PlacedBodies(const MovingSide& side_a, const MovingSide& side_b, Pair pair)
+    : part_a(body_part({side_a.bodies}, pair.a)),
+      part_b(body_part({side_b.bodies}, pair.b)),
+      a(part_a, {}),
+      b(part_b, {}) {
+  b.position = place_between({side_a}, {side_b}, pair);
+}
+
+void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
+                          std::span<const uint16_t> rows, std::span<FirstTime> times) {
+  static thread_local const auto scratch = std::make_unique<Scratch>();
+  const MovingReader reader_a{a}, reader_b{b};
+  CompositeTimes run(times, *scratch);
+  for (size_t owner = 0; owner < rows.size(); ++owner) {
+    const Pair pair = pairs[rows[owner]];
+    if (!reader_a.is_valid(pair.a) || !reader_b.is_valid(pair.b)) {
+      times[owner] = {std::numeric_limits<double>::quiet_NaN(), Status::invalid};
+      continue;
+    }
+    times[owner] = {scalar::kNever};
+    const PlacedBodies bodies(a, b, pair);
+    const BodySweep sweep_a = sweep_of(reader_a, pair.a), sweep_b = sweep_of(reader_b, pair.b);
+    find_swept_part_pairs(bodies.a, sweep_a, bodies.b, sweep_b,
+                          [&](const PlacedPart& part_a, const PlacedPart& part_b) {
+                            run.add(owner, part_a, sweep_a, part_b, sweep_b);
+                          });
+  }
+  run.run();
+}
+
+}  // namespace carom

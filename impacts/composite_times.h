@@ -1,0 +1,26 @@
+// Times of impact of pairs with a mesh or a compound.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "impacts/impact.h"
+#include "impacts/simple_times.h"
+
+namespace carom {
+
+// Two bodies as they are at the start, B seen from A; with parts where they have them.
+struct PlacedBodies {
+  Part part_a, part_b;
+  PlacedPart a, b;
+
+  PlacedBodies(const MovingSide& side_a, const MovingSide& side_b, Pair pair);
+  PlacedBodies(const PlacedBodies&) = delete;
+  PlacedBodies& operator=(const PlacedBodies&) = delete;
+};
+
+// Element i of `times` is that of row rows[i] of the pairs.
+void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
+                          std::span<const uint16_t> rows, std::span<FirstTime> times);
+
+}  // namespace carom

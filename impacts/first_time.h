@@ -1,0 +1,218 @@
+// When two simple shapes on their way meet for the first time, whatever their kinds: by a closed
+// form where there is one, by advancement otherwise.
+#pragma once
+
+#include <variant>
+
+#include "impacts/advancement.h"
+#include "impacts/linear/linear.h"
+#include "narrowphase/scalar/scaled.h"
+
+namespace carom::scalar {
+
+// A body, or a part of one, at t = 0.
+struct MovingShape {
+  const Shape& shape;
+  Quaternion<double> q;
+  Vector3d arm;       // from the body's position to the part's
+  Vector3d rotation;  // over the interval
+};
+
+// Kinds whose orientation does not count.
+inline bool turns(ShapeKind kind) { return kind != ShapeKind::sphere && kind != ShapeKind::aabb; }
+
+inline bool moves_in_a_line(const MovingShape& moving) {
+  return moving.rotation.isZero(0) || (!turns(kind_of(moving.shape)) && moving.arm.isZero(0));
+}
+
+// What has a closed form: an aabb as a box about its middle, nothing that is thick.
+struct NotLinear {};
+inline SphereShape<double> linear_shape(const Sphere& s) { return shape_as<double>(s); }
+inline CapsuleShape<double> linear_shape(const Capsule& c) { return shape_as<double>(c); }
+inline BoxShape<double> linear_shape(const carom::Box& b) { return shape_as<double>(b); }
+inline TriangleShape<double> linear_shape(const Triangle& t) { return shape_as<double>(t); }
+inline HalfspaceShape<double> linear_shape(const Halfspace& h) { return shape_as<double>(h); }
+inline BoxShape<double> linear_shape(const Aabb& box) {
+  return {(box.upper.cast<double>() - box.lower.cast<double>()) * 0.5};
+}
+template <class Other>
+NotLinear linear_shape(const Other&) {
+  return {};
+}
+
+inline bool is_thick(const Shape& shape) {
+  const auto* triangle = std::get_if<Triangle>(&shape);
+  return triangle && triangle->thickness > 0;
+}
+
+// From the body's position to the middle about which the linear shape lies.
+inline Vector3d linear_offset(const Shape& shape) {
+  const auto* box = std::get_if<Aabb>(&shape);
+  if (!box) return Vector3d::Zero();
+  return (box->lower.cast<double>() + box->upper.cast<double>()) * 0.5;
+}
+
+// The identity for kinds whose orientation does not count.
+inline Quaternion<double> linear_turn(const MovingShape& moving) {
+  return turns(kind_of(moving.shape)) ? moving.q : Quaternion<double>{Vector3d::Zero(), 1};
+}
+
+// The greatest coordinate of a shape; of a half-space its offset, of an aabb that of the box.
+inline double linear_size(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) -> double {
+        const auto linear = linear_shape(s);
+        if constexpr (std::is_same_v<decltype(linear), const NotLinear>) {
+          return 0;
+        } else {
+          return linear.size();
+        }
+      },
+      shape);
+}
+
+template <class A, class B>
+concept HasLinearTime = requires(A a, B b, LinearPose pose) {
+  linear_time(a, b, pose);
+};
+
+// Or kNoClosedForm.
+inline double linear_time(const MovingShape& a, const MovingShape& b, const Vector3d& from,
+                          const Vector3d& way) {
+  if (!moves_in_a_line(a) || !moves_in_a_line(b) || is_thick(a.shape) || is_thick(b.shape)) {
+    return kNoClosedForm;
+  }
+  const Vector3d between = (from + linear_offset(b.shape)) - linear_offset(a.shape);
+  const double lengths = (largest_component(between) + largest_component(way)) +
+                         (linear_size(a.shape) + linear_size(b.shape));
+  const LinearPose pose{between, way, linear_turn(a), linear_turn(b), kSweepSlack * lengths};
+  const LinearPose flipped_pose{-between, -way, pose.b, pose.a, pose.slack};
+  return std::visit(
+      [&](const auto& shape_a, const auto& shape_b) -> double {
+        const auto x = linear_shape(shape_a);
+        const auto y = linear_shape(shape_b);
+        if constexpr (HasLinearTime<decltype(x), decltype(y)>) {
+          return linear_time(x, y, pose);
+        } else if constexpr (HasLinearTime<decltype(y), decltype(x)>) {
+          return linear_time(y, x, flipped_pose);
+        } else {
+          return kNoClosedForm;
+        }
+      },
+      a.shape, b.shape);
+}
+
+// --- Everything else, in units in which the greatest coordinate lies between one and two ---
+
+inline double size_of_shape(const Shape& shape) {
+  return std::visit([](const auto& s) { return shape_as<double>(s).size(); }, shape);
+}
+
+// Without radius the core of a body, about its own position.
+inline void make_core(const MovingShape& moving, double scale, Core& core) {
+  std::visit(
+      [&](const auto& s) {
+        using Scaled = decltype(shape_as<double>(s));
+        if constexpr (!std::is_same_v<Scaled, HalfspaceShape<double>> &&
+                      !std::is_same_v<Scaled, CompositeShape<double>>) {
+          make_core(shape_as<double>(s).scaled(scale), moving.q, Vector3d::Zero(), core);
+        }
+      },
+      moving.shape);
+}
+
+inline MovingCore moving_core(const MovingShape& moving, double scale, Core& core) {
+  make_core(moving, scale, core);
+  return moving_core(core, moving.arm * scale, moving.rotation, turns(kind_of(moving.shape)));
+}
+
+// The distance at which shapes have met, in these units: above what GJK takes for touching, and
+// what the arithmetic rounds.
+inline double meeting_distance(const MovingPair& pair) {
+  const double lengths = largest_component(pair.from) + largest_component(pair.way) +
+                         (pair.a.reach + pair.b.reach) + pair.radii;
+  return 0x1p-38 + 4 * kSweepSlack * lengths;
+}
+
+inline AdvancementResult advancement_time(const MovingShape& a, const MovingShape& b,
+                                          const Vector3d& from, const Vector3d& way,
+                                          FurthestPoint furthest) {
+  if (kind_of(a.shape) == ShapeKind::halfspace) {
+    return advancement_time(b, a, -from, -way, furthest);
+  }
+  CoreScratch& scratch = core_scratch_of_thread();
+  const auto* plane = std::get_if<Halfspace>(&b.shape);
+  double size = max(size_of_shape(a.shape), largest_component(a.arm));
+  if (!plane) size = max(size, max(size_of_shape(b.shape), largest_component(b.arm)));
+  if (!(size > 0)) size = max(largest_component(from), largest_component(way));
+  const double scale = scale_of(size).down;
+  MovingPair pair;
+  pair.from = (from + (a.arm - b.arm)) * scale;
+  pair.way = way * scale;
+  pair.furthest = furthest;
+  if (plane) {
+    // Seen from the half-space.
+    pair.from = -pair.from;
+    pair.way = -pair.way;
+    const HalfspaceShape<double> half = shape_as<double>(*plane);
+    const Vector3d normal = rotate(rotation_of(b.q), half.normal);
+    make_core_of_points(std::array{Vector3d(normal * (half.offset * scale))}, Vector3d::Zero(),
+                        scratch.b);
+    pair.a = turning_plane(scratch.b, b.rotation);
+    pair.b = moving_core(a, scale, scratch.a);
+    pair.radii = scratch.a.radius;
+    return time_over_plane(pair, normal, meeting_distance(pair));
+  }
+  pair.a = moving_core(a, scale, scratch.a);
+  pair.b = moving_core(b, scale, scratch.b);
+  pair.radii = scratch.a.radius + scratch.b.radius;
+  return time_of_cores(pair, meeting_distance(pair), scratch);
+}
+
+// --- Triangles that are one-sided ---
+
+inline bool is_one_sided(const Shape& shape) {
+  const auto* triangle = std::get_if<Triangle>(&shape);
+  return triangle && triangle->one_sided;
+}
+
+// The middle of a shape, turned, from its position.
+inline Vector3d middle_of(const MovingShape& moving, double scale) {
+  if (const auto* triangle = std::get_if<Triangle>(&moving.shape)) {
+    return polytope_of(shape_as<double>(*triangle).scaled(scale), moving.q).middle;
+  }
+  Core& core = core_scratch_of_thread().placed_a;
+  make_core(moving, scale, core);
+  return eigen_vector(core.middle);
+}
+
+// At the time of impact, B at `from`: whether B comes from behind the triangle A.
+inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const Vector3d& from) {
+  if (!is_one_sided(a.shape)) return false;
+  const auto triangle = shape_as<double>(std::get<Triangle>(a.shape));
+  if (const auto* plane = std::get_if<Halfspace>(&b.shape)) {
+    const Vector3d n = rotate(rotation_of(b.q), shape_as<double>(*plane).normal);
+    const double scale = scale_of(triangle.size()).down;
+    return dot(polytope_of(triangle.scaled(scale), a.q).rules.front, n) > kInPlane;
+  }
+  const double scale = scale_of(max(triangle.size(), size_of_shape(b.shape))).down;
+  const FrontRules rules = polytope_of(triangle.scaled(scale), a.q).rules;
+  return comes_from_behind(rules, middle_of(b, scale) + from * scale);
+}
+
+// The shape where it is at time t, from where it turns.
+inline MovingShape at_time(const MovingShape& moving, double t) {
+  const Quaternion<double> turn = turn_by(moving.rotation, t);
+  return {moving.shape, product(turn, moving.q), rotate(rotation_of(turn), moving.arm),
+          Vector3d::Zero()};
+}
+
+inline bool passes_one_sided(const MovingShape& a, const MovingShape& b, const Vector3d& from,
+                             const Vector3d& way, double t) {
+  if (!is_one_sided(a.shape) && !is_one_sided(b.shape)) return false;
+  const MovingShape then_a = at_time(a, t), then_b = at_time(b, t);
+  const Vector3d moved = (from + way * t) + ((then_b.arm - b.arm) - (then_a.arm - a.arm));
+  return passes_from_behind(then_a, then_b, moved) || passes_from_behind(then_b, then_a, -moved);
+}
+
+}  // namespace carom::scalar

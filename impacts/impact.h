@@ -1,0 +1,40 @@
+// What is known of a pair of bodies before its contact is found.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "carom/results/contact.h"
+#include "midphase/placed_part.h"
+
+namespace carom {
+
+struct FirstTime {
+  double time;  // infinite: never; NaN: no answer
+  Status status = Status::ok;
+  std::array<uint64_t, 2> parts{};  // that meet (PlacedPart::order()); zero for simple shapes
+};
+
+// Of the pairs of a block; parts of those alone that have any.
+struct FirstTimes {
+  const double* time;
+  const std::array<uint64_t, 2>* parts;
+  size_t count;
+};
+
+// The part of a body with this order.
+inline PlacedPart part_at(const PlacedPart& body, uint64_t order) {
+  PlacedPart result = body;
+  if (result.kind() == ShapeKind::compound)
+    result = result.item(static_cast<uint32_t>(order >> 32));
+  if (result.kind() == ShapeKind::mesh) result = result.item(static_cast<uint32_t>(order));
+  return result;
+}
+
+// As results name it: the child of a compound, the triangle of a mesh.
+inline uint32_t sub_shape(ShapeKind kind, uint64_t order) {
+  return static_cast<uint32_t>(kind == ShapeKind::compound ? order >> 32 : order);
+}
+
+}  // namespace carom

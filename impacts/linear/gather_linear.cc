@@ -1,0 +1,291 @@
+// Column by column, so that what a view looks like is asked once a column and not once a body.
+#include "impacts/linear/gather_linear.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace carom {
+namespace {
+
+// Element i of an array with a stride; zero if there is no array.
+template <class T>
+class Strided {
+ public:
+  Strided(const void* data, size_t stride)
+      : data_(static_cast<const char*>(data ? data : &kNone)), stride_(data ? stride : 0) {}
+
+  T operator[](size_t i) const {
+    T value;
+    std::memcpy(&value, data_ + i * stride_, sizeof(T));
+    return value;
+  }
+
+ private:
+  static constexpr T kNone{};
+  const char* data_;
+  size_t stride_;
+};
+
+// The numbers of one body, from column to column.
+class RowWriter {
+ public:
+  RowWriter(LinearRows& rows, size_t column, size_t row) : next_(rows.column(column) + row) {}
+
+  void put(double value) {
+    *next_ = value;
+    next_ += LinearRows::kStride;
+  }
+  template <class Vector>
+  void put3(const Vector& v) {
+    for (size_t axis = 0; axis < 3; ++axis) put(v[axis]);
+  }
+  void put4(const Row& q) {
+    for (const float x : q) put(x);
+  }
+
+ private:
+  double* next_;
+};
+
+// The bodies of a side; the view is copied, so that what is written cannot be a part of it.
+struct Side {
+  const Collidables bodies;
+  const SweepView sweep;
+  const LinearKind kind;
+  const uint32_t* const body;
+
+  explicit Side(const LinearSide& side)
+      : bodies(side.side.bodies), sweep(side.side.sweep), kind(side.kind), body(side.body) {}
+
+  BodyReader reader() const { return {bodies}; }
+
+  Strided<Position<float>> displacement() const {
+    return {sweep.displacement, sweep.displacement_stride};
+  }
+  Strided<Position<float>> rotation() const { return {sweep.rotation, sweep.rotation_stride}; }
+
+  Row row(size_t i, size_t k) const {
+    return row_at(bodies.rows.data, sizeof(Row), reader().first_row(i) + k);
+  }
+  Row orientation(size_t i) const {
+    if (!bodies.orientation.data) return {0, 0, 0, 1};
+    return row_at(bodies.orientation.data, bodies.orientation.stride, i);
+  }
+
+  // Calls use(positions).
+  template <class Use>
+  void with_positions(const Use& use) const {
+    const PositionView& view = bodies.position;
+    if (reader().is_float64()) return use(Strided<Position<double>>(view.data, view.stride));
+    use(Strided<Position<float>>(view.data, view.stride));
+  }
+
+  // Calls use(radii).
+  template <class Use>
+  void with_radii(const Use& use) const {
+    const PositionView& view = bodies.position;
+    const char* base = static_cast<const char*>(view.data);
+    switch (view.radius_layout) {
+      case RadiusLayout::none:
+        return use(Strided<float>(nullptr, 0));
+      case RadiusLayout::column:
+        return use(Strided<float>(view.radius, view.radius_stride));
+      case RadiusLayout::fourth:
+        if (reader().is_float64()) {
+          return use(Strided<double>(base + sizeof(Position<double>), view.stride));
+        }
+        return use(Strided<float>(base + sizeof(Position<float>), view.stride));
+    }
+  }
+
+  bool is_turned_box(size_t i) const { return reader().kind(i) == ShapeKind::box; }
+
+ private:
+  // A number at a time: rows that are copied whole are taken apart by shifts.
+  static Row row_at(const float* data, size_t stride, size_t i) {
+    const char* row = reinterpret_cast<const char*>(data) + i * stride;
+    const auto number = [&](size_t k) { return load_strided<float>(row, sizeof(float), k); };
+    return {number(0), number(1), number(2), number(3)};
+  }
+};
+
+class LinearGather {
+ public:
+  LinearGather(size_t count, LinearRows& rows, bool* valid)
+      : count_(count), rows_(rows), valid_(valid) {}
+
+  void run(const Side& a, const Side& b) {
+    const size_t first_of_a = LinearRows::kPairColumns;
+    const size_t first_of_b = first_of_a + number_count(a.kind);
+    put_places(a, b);
+    put_ways(a, b);
+    check_rotations(a);
+    check_rotations(b);
+    add_middles(b, 1);
+    add_middles(a, -1);
+    put_bodies(a, first_of_a);
+    if (b.kind == LinearKind::plane) {
+      put_planes(b, first_of_b);
+    } else {
+      put_bodies(b, first_of_b);
+    }
+  }
+
+ private:
+  void check(size_t row, bool is_valid) { valid_[row] = valid_[row] & is_valid; }
+
+  // between(component of A, component of B) of every row, in three columns.
+  template <class OfA, class OfB, class Between>
+  void put_between(const OfA& of_a, const uint32_t* a, const OfB& of_b, const uint32_t* b,
+                   size_t column, const Between& between) {
+    double *const x = rows_.column(column), *const y = rows_.column(column + 1),
+                  *const z = rows_.column(column + 2);
+    for (size_t i = 0; i < count_; ++i) {
+      const auto p = of_a[a[i]];
+      const auto q = of_b[b[i]];
+      x[i] = between(p.x, q.x);
+      y[i] = between(p.y, q.y);
+      z[i] = between(p.z, q.z);
+      check(i, is_finite(p) && is_finite(q));
+    }
+  }
+
+  void put_places(const Side& a, const Side& b) {
+    std::fill_n(valid_, count_, true);
+    a.with_positions([&](const auto& of_a) {
+      b.with_positions([&](const auto& of_b) {
+        // Plus zero, as if every kind had a middle: no zero is negative.
+        put_between(of_a, a.body, of_b, b.body, 0,
+                    [](double from, double to) { return apart(from, to) + 0.0; });
+      });
+    });
+  }
+
+  void put_ways(const Side& a, const Side& b) {
+    put_between(a.displacement(), a.body, b.displacement(), b.body, 3,
+                [](double of_a, double of_b) { return of_b - of_a; });
+  }
+
+  // Of bodies that do not turn, whatever their rotation.
+  void check_rotations(const Side& side) {
+    if (!side.sweep.rotation) return;
+    const Strided<Position<float>> rotation = side.rotation();
+    for (size_t i = 0; i < count_; ++i) check(i, is_finite(rotation[side.body[i]]));
+  }
+
+  // An aabb is a box about its middle.
+  void add_middles(const Side& side, double sign) {
+    if (side.kind != LinearKind::box) return;
+    const BodyReader reader = side.reader();
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t body = side.body[i];
+      if (side.is_turned_box(body)) continue;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double ends = double{reader.lower(axis, body)} + double{reader.upper(axis, body)};
+        rows_.column(axis)[i] += sign * (ends * 0.5);
+      }
+    }
+  }
+
+  void put_bodies(const Side& side, size_t column) {
+    switch (side.kind) {
+      case LinearKind::sphere:
+        return put_spheres(side, column);
+      case LinearKind::capsule:
+        return put_turned<ShapeKind::capsule>(side, column);
+      case LinearKind::triangle:
+        return put_turned<ShapeKind::triangle>(side, column);
+      default:
+        return put_boxes(side, column);
+    }
+  }
+
+  void put_spheres(const Side& side, size_t column) {
+    double* const out = rows_.column(column);
+    side.with_radii([&](const auto& radii) {
+      for (size_t i = 0; i < count_; ++i) {
+        const auto radius = static_cast<float>(radii[side.body[i]]);
+        out[i] = radius;
+        check(i, is_valid_radius(radius));
+      }
+    });
+  }
+
+  // Points, the radius of a capsule, and a quaternion.
+  template <ShapeKind kKind>
+  void put_turned(const Side& side, size_t column) {
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t body = side.body[i];
+      std::array<Row, row_count(kKind)> rows;
+      for (size_t k = 0; k < rows.size(); ++k) rows[k] = side.row(body, k);
+      const Row q = side.orientation(body);
+      RowWriter out(rows_, column, i);
+      for (const Row& row : rows) out.put3(row);
+      if (kKind == ShapeKind::capsule) out.put(rows[0][3]);
+      out.put4(q);
+      check(i, are_valid_rows(kKind, rows.data()) && is_rotation(q));
+    }
+  }
+
+  void put_boxes(const Side& side, size_t column) {
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t body = side.body[i];
+      const RowWriter out(rows_, column, i);
+      check(i, side.is_turned_box(body) ? put_box(side, body, out)
+                                        : put_aabb(side.reader(), body, out));
+    }
+  }
+
+  static bool put_box(const Side& side, uint32_t body, RowWriter out) {
+    const Row half = side.row(body, 0), q = side.orientation(body);
+    out.put3(half);
+    out.put4(q);
+    return are_valid_rows(ShapeKind::box, &half) && is_rotation(q);
+  }
+
+  static bool put_aabb(const BodyReader& reader, uint32_t body, RowWriter out) {
+    bool is_valid = true;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float lower = reader.lower(axis, body), upper = reader.upper(axis, body);
+      out.put((double{upper} - double{lower}) * 0.5);
+      is_valid = is_valid && is_valid_box_axis(lower, upper);
+    }
+    out.put4(Row{0, 0, 0, 1});
+    return is_valid;
+  }
+
+  // Half-spaces seen from the other bodies, whose places are in the first columns.
+  void put_planes(const Side& side, size_t column) {
+    const auto vector_at = [&](size_t first, size_t i) {
+      return Eigen::Vector3d{rows_.column(first)[i], rows_.column(first + 1)[i],
+                             rows_.column(first + 2)[i]};
+    };
+    for (size_t i = 0; i < count_; ++i) {
+      const Row row = side.row(side.body[i], 0), q = side.orientation(side.body[i]);
+      const auto shape = scalar::shape_as<double>(Halfspace{{row[0], row[1], row[2]}, row[3]});
+      const scalar::LinearPose pose{
+          vector_at(0, i), vector_at(3, i), {}, {{q[0], q[1], q[2]}, q[3]}, 0};
+      const scalar::LinearPlane plane(shape, pose);
+      RowWriter out(rows_, column, i);
+      out.put3(plane.normal);
+      out.put(plane.height);
+      out.put(plane.rate);
+      out.put(shape.size());
+      check(i, are_valid_rows(ShapeKind::halfspace, &row) && is_rotation(q));
+    }
+  }
+
+  const size_t count_;
+  LinearRows& rows_;
+  bool* const valid_;
+};
+
+}  // namespace
+
+void gather_linear(const LinearSide& a, const LinearSide& b, size_t count, LinearRows& rows,
+                   bool* valid) {
+  LinearGather(count, rows, valid).run(Side(a), Side(b));
+}
+
+}  // namespace carom

@@ -1,0 +1,91 @@
+// Pairs that move in a straight line, as columns of doubles: what the kernels of linear times of
+// impact read, one vector of rows after the other.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "carom/shapes/shape.h"
+
+namespace carom {
+
+// Kinds of bodies by their numbers. An aabb is a box that is not turned, about its middle.
+enum class LinearKind : uint8_t { sphere, capsule, box, triangle, plane, none };
+
+constexpr LinearKind linear_kind(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::sphere:
+      return LinearKind::sphere;
+    case ShapeKind::capsule:
+      return LinearKind::capsule;
+    case ShapeKind::aabb:
+    case ShapeKind::box:
+      return LinearKind::box;
+    case ShapeKind::triangle:
+      return LinearKind::triangle;
+    case ShapeKind::halfspace:
+      return LinearKind::plane;
+    default:
+      return LinearKind::none;
+  }
+}
+
+// How many numbers a body has.
+//   sphere    radius
+//   capsule   a (3), b (3), radius, quaternion (4)
+//   box       half extents (3), quaternion (4)
+//   triangle  three corners (9), quaternion (4)
+//   plane     unit normal in world axes (3); then, of its pair, the height of the other body's
+//             position over it, the rate of that, and the magnitude of the offset
+constexpr size_t number_count(LinearKind kind) {
+  constexpr std::array<size_t, 6> kCount = {1, 11, 7, 13, 6, 0};
+  return kCount[static_cast<size_t>(kind)];
+}
+
+class LinearRows {
+ public:
+  static constexpr size_t kMost = 256;  // rows; a multiple of all vectors
+  // From column to column, in numbers: a power of two would put all of a row into a few sets of the
+  // cache (capsules: 100 to 59 ns a pair).
+  static constexpr size_t kStride = kMost + 8;
+  static constexpr size_t kPairColumns = 6;  // from (3), way (3)
+  static constexpr size_t kMostColumns = kPairColumns + 11 + 13;
+
+  double* column(size_t c) { return values_.data() + c * kStride; }
+  const double* column(size_t c) const { return values_.data() + c * kStride; }
+
+  // Fills the last vector with copies of the last row.
+  void pad(size_t columns, size_t count) {
+    const size_t padded = (count + 7) / 8 * 8;
+    for (size_t c = 0; c < columns; ++c) {
+      std::fill(column(c) + count, column(c) + padded, column(c)[count - 1]);
+    }
+  }
+
+  double* times() { return times_.data(); }
+  const double* times() const { return times_.data(); }
+
+ private:
+  alignas(64) std::array<double, kMostColumns * kStride> values_;
+  alignas(64) std::array<double, kMost> times_;
+};
+
+// Writes the times of `count` rows, and may write behind them up to a multiple of eight, whose
+// columns must hold numbers.
+using LinearKernel = void (*)(LinearRows& rows, size_t count);
+
+// By method, on the ISA in use; nullptr: not by this one.
+LinearKernel rounded_kernel(LinearKind a, LinearKind b);
+LinearKernel box_kernel(LinearKind a, LinearKind b);
+LinearKernel plane_kernel(LinearKind a);
+
+// The kernel for A and B in this order; nullptr: there is none.
+inline LinearKernel linear_kernel(LinearKind a, LinearKind b) {
+  if (b == LinearKind::plane) return plane_kernel(a);
+  const LinearKernel rounded = rounded_kernel(a, b);
+  return rounded ? rounded : box_kernel(a, b);
+}
+
+}  // namespace carom

@@ -1,0 +1,151 @@
+#include "impacts/part_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "impacts/slack.h"
+
+namespace carom {
+namespace {
+
+double length(const Double3& v) { return std::sqrt(dot(v, v)); }
+
+Double3 scaled(const Double3& v, double s) { return {v[0] * s, v[1] * s, v[2] * s}; }
+
+template <class Parts>
+PartBox box_around(const Parts& parts) {
+  const Double3 lower = vector_of({parts.lower().x(), parts.lower().y(), parts.lower().z(), 0});
+  const Double3 upper = vector_of({parts.upper().x(), parts.upper().y(), parts.upper().z(), 0});
+  return {scaled(plus(lower, upper), 0.5), scaled(minus(upper, lower), 0.5)};
+}
+
+// In the part's own frame; of the triangle of a mesh that triangle's.
+PartBox own_box(const PlacedPart& placed) {
+  if (placed.kind() == ShapeKind::compound) return box_around(placed.compound());
+  if (placed.triangle == PlacedPart::kWhole) return box_of(*placed.part);
+  Part triangle;
+  triangle.kind = ShapeKind::triangle;
+  put_triangle_rows(placed.mesh(), placed.triangle, triangle.rows.data());
+  return box_of(triangle);
+}
+
+// A part on its way.
+struct SweptPart {
+  const PlacedPart& placed;
+  const BodySweep& sweep;
+
+  Double3 pivot() const { return minus(placed.position, placed.arm); }
+};
+
+// Where a part is, seen from another one, over the whole interval: a box in the other's frame.
+class SweptRegion {
+ public:
+  SweptRegion(const SweptPart& tree, const SweptPart& part)
+      : frame_(tree.placed.turn), way_(minus(part.sweep.displacement, tree.sweep.displacement)) {
+    if (tree.sweep.is_turning() || part.sweep.is_turning()) {
+      see_ball(tree, part);
+    } else {
+      see_box(tree, part);
+    }
+    sweep();
+  }
+
+  TreeBox box() const { return rounded_outwards(middle_, half_); }
+
+ private:
+  void see_box(const SweptPart& tree, const SweptPart& part) {
+    const PartBox own = own_box(part.placed);
+    const Double3 at = plus(part.placed.position, turned(part.placed.turn, own.middle));
+    middle_ = turned_back(frame_, minus(at, tree.placed.position));
+    half_ = {};
+    for (size_t i = 0; i < 3; ++i) {
+      const Turn& turn = part.placed.turn;
+      const Double3 axis = turned_back(frame_, {turn[0][i], turn[1][i], turn[2][i]});
+      for (size_t k = 0; k < 3; ++k) half_[k] += std::fabs(axis[k]) * own.half[i];
+    }
+  }
+
+  // A part that turns stays in a ball about where it turns. Seen from a tree that turns by an angle
+  // all is moved by that times its distance from where the tree turns, at most.
+  void see_ball(const SweptPart& tree, const SweptPart& part) {
+    const PartBox own = own_box(part.placed);
+    const double own_reach = length(part.placed.arm) + (length(own.middle) + length(own.half));
+    const Double3 from = minus(part.pivot(), tree.pivot());
+    const double furthest = std::max(length(from), length(plus(from, way_))) + own_reach;
+    const double turning = std::min(length(tree.sweep.rotation), 2.0) * furthest;
+    middle_ = turned_back(frame_, minus(from, tree.placed.arm));
+    half_ = {own_reach + turning, own_reach + turning, own_reach + turning};
+  }
+
+  void sweep() {
+    const Double3 way = turned_back(frame_, way_);
+    middle_ = plus(middle_, scaled(way, 0.5));
+    const double slack = kSearchSlack * (greatest(middle_) + greatest(half_) + greatest(way));
+    for (size_t k = 0; k < 3; ++k) half_[k] += std::fabs(way[k]) * 0.5 + slack;
+  }
+
+  const Turn& frame_;
+  const Double3 way_;
+  Double3 middle_, half_;
+};
+
+// Which parts of a tree a half-space may reach: those with a corner below a plane.
+template <class Use>
+void for_each_below(const SweptPart& tree, const SweptPart& halfspace, const Use& use) {
+  constexpr double kEverything = HUGE_VAL;
+  const Row& row = halfspace.placed.part->rows[0];
+  const Double3 direction = vector_of(row);
+  const double scale = 1 / length(direction);
+  const Double3 normal = scaled(turned(halfspace.placed.turn, direction), scale);
+  const Double3 from = minus(halfspace.placed.position, tree.placed.position);
+  const Double3 way = minus(halfspace.sweep.displacement, tree.sweep.displacement);
+  const double offset = row[3] * scale;
+  const double lengths = greatest(from) + greatest(way) + std::fabs(offset);
+  double limit = (dot(normal, from) + std::max(dot(normal, way), 0.0)) + offset;
+  limit += kSearchSlack * (lengths + greatest(own_box(tree.placed).half));
+  if (tree.sweep.is_turning() || halfspace.sweep.is_turning()) limit = kEverything;
+  tree.placed.tree().find_below(turned_back(tree.placed.turn, normal), limit, use);
+}
+
+class PartSweep {
+ public:
+  explicit PartSweep(PartPairMet met) : met_(met) {}
+
+  void run(const SweptPart& a, const SweptPart& b) const {
+    if (takes_apart(a, b)) {
+      for_each_met(a, b, [&](const PlacedPart& item) { run({item, a.sweep}, b); });
+    } else if (b.placed.has_parts()) {
+      for_each_met(b, a, [&](const PlacedPart& item) { run(a, {item, b.sweep}); });
+    } else {
+      met_(a.placed, b.placed);
+    }
+  }
+
+ private:
+  // Compounds before meshes, whose triangles are many; of equals A.
+  static bool takes_apart(const SweptPart& a, const SweptPart& b) {
+    if (!a.placed.has_parts()) return false;
+    return !b.placed.has_parts() || a.placed.kind() >= b.placed.kind();
+  }
+
+  template <class Use>
+  static void for_each_met(const SweptPart& tree, const SweptPart& other, const Use& use) {
+    const auto met = [&](uint32_t item) { use(tree.placed.item(item)); };
+    if (other.placed.kind() == ShapeKind::halfspace) {
+      for_each_below(tree, other, met);
+    } else {
+      tree.placed.tree().find_touching({SweptRegion(tree, other).box()}, met);
+    }
+  }
+
+  const PartPairMet met_;
+};
+
+}  // namespace
+
+void find_swept_part_pairs(const PlacedPart& a, const BodySweep& sweep_a, const PlacedPart& b,
+                           const BodySweep& sweep_b, PartPairMet met) {
+  PartSweep(met).run({a, sweep_a}, {b, sweep_b});
+}
+
+}  // namespace carom

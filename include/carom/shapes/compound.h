@@ -1,0 +1,15 @@
+// Compounds: the union of other shapes, each with a pose in the compound's frame.
+#pragma once
+
+#include <memory>
+
+namespace carom {
+
+class CompoundGeometry;  // carom/shapes/compound_geometry.h: made by make_compound()
+
+// Turns with its body. Without geometry it is not valid.
+struct Compound {
+  std::shared_ptr<const CompoundGeometry> geometry;
+};
+
+}  // namespace carom

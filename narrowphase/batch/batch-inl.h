@@ -1,0 +1,225 @@
+// The loop over a batch, written once: loads, validity, the kernel, stores, the tail.
+//
+// A kernel is a policy:
+//   using A, using B   shape lanes of the two sides
+//   static void test(const PoseLanes& pose, const A&, const B&, Report& report)
+//   static constexpr Units kUnits
+//   static constexpr Unsure kUnsure
+// test() calls
+//   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
+// once; names, frames and signs as in Contact. It is branch-free, the same at every detail: what a
+// detail does not store, the compiler drops. Lanes in `unsure` are those that float32 cannot
+// decide.
+#if defined(CAROM_NARROWPHASE_BATCH_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
+#undef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
+#else
+#define CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
+#endif
+
+#include <type_traits>
+
+#include "base/tolerances.h"
+#include "narrowphase/batch/kernel_policy.h"
+#include "narrowphase/batch/load-inl.h"
+#include "narrowphase/batch/report-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// Changes the units and returns the metres a unit.
+template <Units kUnits, class A, class B>
+HWY_INLINE F to_units(PoseLanes& pose, A& a, B& b) {
+  if constexpr (kUnits == Units::metres) return splat(1);
+  F up, down;
+  power_of_two(max(largest_component(pose.d), max(a.extent(), b.extent())), up, down);
+  pose.d = pose.d * down;
+  a.scale(down);
+  b.scale(down);
+  return up;
+}
+
+HWY_INLINE Mask is_plain(const Quaternion& q) {
+  const F norm = squared_norm(q);
+  return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
+}
+
+// Scales those that are not plain, and no others: subnormal components would lose bits.
+HWY_INLINE void make_plain(Quaternion& q) {
+  F up, down;
+  power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
+  const F scale = hn::IfThenElse(is_plain(q), splat(1), down);
+  q.v = q.v * scale;
+  q.w = hn::Mul(q.w, scale);
+}
+
+// The identity in lanes that are not valid; elsewhere squares neither vanish nor overflow.
+HWY_INLINE void clear_unless(Mask valid, Quaternion& q) {
+  make_plain(q);
+  q.v = zero_unless(valid, q.v);
+  q.w = hn::IfThenElse(valid, q.w, splat(1));
+}
+
+// One comparison for everything that must be finite: NaN and infinity survive the sum.
+template <class A, class B>
+HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) {
+  const F sum = hn::Add(sum_of_sizes(pose.d), hn::Add(a.size(), b.size()));
+  Mask valid = hn::And(hn::Le(sum, splat(FLT_MAX)), hn::And(a.is_ordered(), b.is_ordered()));
+  if constexpr (A::kIsOriented) valid = hn::And(valid, is_plain(pose.a));
+  if constexpr (B::kIsOriented) valid = hn::And(valid, is_plain(pose.b));
+  return valid;
+}
+
+// Everything of a vector of pairs, in metres.
+template <class Records, class A, class B, class Bodies>
+HWY_INLINE void load_pairs(const Batch& batch, const Bodies& bodies, PositionLanes& positions,
+                           PoseLanes& pose, A& a, B& b) {
+  Records::load(batch, bodies, positions);
+  a = A::template load<Role::a>(batch.a, bodies, positions);
+  b = B::template load<Role::b>(batch.b, bodies, positions);
+  if constexpr (A::kIsOriented) load_orientation<Role::a>(batch.a, bodies, pose.a);
+  if constexpr (B::kIsOriented) load_orientation<Role::b>(batch.b, bodies, pose.b);
+  pose.d = positions.relative;
+}
+
+template <class Kernel, class Records, Detail kDetail>
+struct BatchLoop {
+  using A = typename Kernel::A;
+  using B = typename Kernel::B;
+  using Report = LaneReport<Kernel, Records::kHasLow, kDetail>;
+
+  static void run(const Batch& batch) {
+    const size_t whole = batch.count - batch.count % kLanes;
+    // A copy that nothing else can see: stores of bytes might change `batch`, for all the compiler
+    // knows, and would make it read every field again.
+    const Batch local = batch;
+    bool is_done = false;
+    if constexpr (Records::kHasDenseLoop) {
+      is_done = has_dense_rows(batch);
+      for (size_t row = 0; is_done && row < whole; row += kLanes) {
+        run_vector(local, batch, row, DenseRows{row});
+      }
+    }
+    for (size_t row = 0; !is_done && row < whole; row += kLanes) {
+      run_vector(local, batch, row, Listed{local.pairs + row});
+    }
+    if (whole < batch.count) run_tail(batch, whole);
+  }
+
+ private:
+  static bool has_dense_rows(const Batch& batch) {
+    constexpr size_t kStride = Records::kDenseStride;
+    const bool dense_records =
+        kStride == 0 || (batch.a.record_stride == kStride && batch.b.record_stride == kStride);
+    return batch.pairs_are_rows && dense_records && A::is_dense(batch.a) && B::is_dense(batch.b);
+  }
+
+  // `batch` is a private copy of `source`.
+  template <class Bodies>
+  static HWY_INLINE void run_vector(const Batch& batch, const Batch& source, size_t row,
+                                    const Bodies& bodies) {
+    PositionLanes positions;
+    PoseLanes pose;
+    A a;
+    B b;
+    load_pairs<Records>(batch, bodies, positions, pose, a, b);
+    const Mask plain = is_plainly_valid(pose, a, b);
+    Mask valid = plain;
+    // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
+    const bool is_odd = !hn::AllTrue(FloatTag(), plain);
+    if (HWY_UNLIKELY(is_odd)) {
+      valid = valid_lanes(source, row);
+      clear_unless(valid, positions, pose, a, b);
+    }
+    const F up = to_units<Kernel::kUnits>(pose, a, b);
+    Report report{batch, source, row, positions, up, plain, valid, is_odd};
+    Kernel::test(pose, a, b, report);
+  }
+
+  static HWY_INLINE void clear_unless(Mask valid, PositionLanes& positions, PoseLanes& pose, A& a,
+                                      B& b) {
+    a.clear_unless(valid);
+    b.clear_unless(valid);
+    if constexpr (A::kIsOriented) HWY_NAMESPACE::clear_unless(valid, pose.a);
+    if constexpr (B::kIsOriented) HWY_NAMESPACE::clear_unless(valid, pose.b);
+    pose.d = zero_unless(valid, clamp_to_finite(pose.d));
+    positions.a = zero_unless(valid, positions.a);
+    positions.b = zero_unless(valid, positions.b);
+    if constexpr (Records::kHasLow) {
+      positions.a_low = zero_unless(valid, positions.a_low);
+      positions.b_low = zero_unless(valid, positions.b_low);
+    }
+  }
+
+  // A batch of one whole vector, filled up by repeating the last pair.
+  static HWY_NOINLINE void run_tail(const Batch& batch, size_t first_row) {
+    const size_t count = batch.count - first_row;
+    Pair pairs[kLanes];
+    for (size_t i = 0; i < kLanes; ++i) {
+      pairs[i] = batch.pairs[first_row + (i < count ? i : count - 1)];
+    }
+    TailColumns results;
+    uint8_t unsure[kLanes] = {};
+    uint64_t features[kLanes] = {};
+    for (size_t i = 0; batch.features && i < count; ++i)
+      features[i] = batch.features[first_row + i];
+    Batch tail = batch;
+    tail.unsure = batch.unsure ? unsure : nullptr;
+    tail.features = batch.features ? features : nullptr;
+    tail.open = nullptr;
+    tail.pairs = pairs;
+    tail.pairs_are_rows = false;
+    tail.count = kLanes;
+    tail.out = results.columns();
+    run(tail);
+    results.copy_to(batch.out, first_row, count, kDetail);
+    for (size_t i = 0; batch.unsure && i < count; ++i) batch.unsure[first_row + i] = unsure[i];
+    for (size_t i = 0; batch.features && i < count; ++i)
+      batch.features[first_row + i] = features[i];
+  }
+
+  static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {
+    HWY_ALIGN float flags[kLanes];
+    for (size_t i = 0; i < kLanes; ++i) {
+      flags[i] = is_valid_pair(batch, A::kKind, B::kKind, row + i) ? 1.0f : 0.0f;
+    }
+    return hn::Gt(hn::Load(FloatTag(), flags), hn::Zero(FloatTag()));
+  }
+};
+
+template <class Kernel, class Records>
+void run_with_records(const Batch& batch) {
+  if (batch.detail == Detail::overlap) {
+    BatchLoop<Kernel, Records, Detail::overlap>::run(batch);
+  } else {
+    BatchLoop<Kernel, Records, Detail::contact>::run(batch);
+  }
+}
+
+// Kernels of a few operations are compiled for every layout; for the others looking at it in the
+// loop costs nothing that counts, and compiling them takes long.
+template <class Kernel>
+void run_batch(const Batch& batch) {
+  if constexpr (Kernel::kUnits == Units::scaled) {
+    run_with_records<Kernel, AnyRecords>(batch);
+  } else {
+    switch (batch.layout) {
+      case PositionLayout::none:
+        if constexpr (Kernel::A::kKind == ShapeKind::aabb && Kernel::B::kKind == ShapeKind::aabb) {
+          run_with_records<Kernel, NoRecords>(batch);
+        }
+        break;
+      case PositionLayout::records32:
+        run_with_records<Kernel, Records32>(batch);
+        break;
+      case PositionLayout::records64:
+        run_with_records<Kernel, Records64>(batch);
+        break;
+    }
+  }
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_BATCH_BATCH_INL_H_

@@ -1,0 +1,486 @@
+// Loads of a batch: bodies by index -> lanes.
+#if defined(CAROM_NARROWPHASE_BATCH_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_BATCH_LOAD_INL_H_
+#undef CAROM_NARROWPHASE_BATCH_LOAD_INL_H_
+#else
+#define CAROM_NARROWPHASE_BATCH_LOAD_INL_H_
+#endif
+
+#include <type_traits>
+
+#include "carom/shapes/hull.h"
+#include "narrowphase/batch/batch.h"
+#include "shapes/geometry_row.h"
+#include "simd/gather-inl.h"
+#include "simd/rotation-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+enum class Role { a, b };
+
+// Where the bodies of kLanes pairs are: by a list of pairs, or row after row.
+struct Listed {
+  const Pair* pairs;
+
+  template <Role kRole>
+  HWY_INLINE size_t body(size_t i) const {
+    return kRole == Role::a ? pairs[i].a : pairs[i].b;
+  }
+};
+
+// Records and columns are dense: every address is a constant away from the first.
+struct DenseRows {
+  size_t row;
+
+  template <Role>
+  HWY_INLINE size_t body(size_t i) const {
+    return row + i;
+  }
+};
+
+// Positions of the pairs in the lanes: b - a, subtracted in the type of the positions so that the
+// distance from the origin costs no accuracy, and each side's own position as high + low.
+struct PositionLanes {
+  F3 relative;
+  F3 a, b;
+  F3 a_low, b_low;       // float64 only: what rounding to float32 left
+  F radius_a, radius_b;  // of spheres; otherwise any finite value
+};
+
+// The records of one side.
+template <class T, Role kRole, class Bodies>
+struct RecordSource {
+  const BatchSide& side;
+  const Bodies& bodies;
+
+  HWY_INLINE const T* record(size_t i) const {
+    constexpr size_t kDenseStride = 4 * sizeof(T);
+    const size_t stride = std::is_same_v<Bodies, DenseRows> ? kDenseStride : side.record_stride;
+    return reinterpret_cast<const T*>(static_cast<const char*>(side.records) +
+                                      bodies.template body<kRole>(i) * stride);
+  }
+};
+
+template <Role kRole, class Bodies>
+struct Source32 : RecordSource<float, kRole, Bodies> {
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), this->record(i)); }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const { return this->record(i)[c]; }
+};
+
+// float64 records, rounded to float32.
+template <Role kRole, class Bodies>
+struct HighSource : RecordSource<double, kRole, Bodies> {
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
+    const DoublePair pair;
+    const double* p = this->record(i);
+    return demote_quad(hn::LoadU(pair, p), hn::LoadU(pair, p + 2));
+  }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const {
+    return static_cast<float>(this->record(i)[c]);
+  }
+};
+
+// What that rounding left.
+template <Role kRole, class Bodies>
+struct LowSource : RecordSource<double, kRole, Bodies> {
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
+    const double* p = this->record(i);
+    return demote_quad(low(p), low(p + 2));
+  }
+  static HWY_INLINE hn::Vec<DoublePair> low(const double* p) {
+    const hn::Rebind<float, DoublePair> narrow;
+    const auto v = hn::LoadU(DoublePair(), p);
+    return hn::Sub(v, hn::PromoteTo(DoublePair(), hn::DemoteTo(narrow, v)));
+  }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const {
+    const double v = this->record(i)[c];
+    return static_cast<float>(v - static_cast<double>(static_cast<float>(v)));
+  }
+};
+
+// b - a in float64, then rounded to float32.
+template <class Bodies>
+struct RelativeSource {
+  RecordSource<double, Role::a, Bodies> a;
+  RecordSource<double, Role::b, Bodies> b;
+
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
+    return demote_quad(difference(i, 0), difference(i, 2));
+  }
+  HWY_INLINE hn::Vec<DoublePair> difference(size_t i, size_t c) const {
+    const DoublePair pair;
+    return hn::Sub(hn::LoadU(pair, b.record(i) + c), hn::LoadU(pair, a.record(i) + c));
+  }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const {
+    return static_cast<float>(b.record(i)[c] - a.record(i)[c]);
+  }
+};
+
+// Boxes given in world coordinates.
+struct NoRecords {
+  static constexpr bool kHasDenseLoop = true;
+  static constexpr bool kHasLow = false;
+  static constexpr size_t kDenseStride = 0;
+
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch&, const Bodies&, PositionLanes& out) {
+    out.relative = out.a = out.b = splat3(0);
+  }
+};
+
+struct Records32 {
+  static constexpr bool kHasDenseLoop = true;
+  static constexpr bool kHasLow = false;
+  static constexpr size_t kDenseStride = 4 * sizeof(float);
+
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
+    transpose_records(Source32<Role::a, Bodies>{{batch.a, bodies}}, out.a, out.radius_a);
+    transpose_records(Source32<Role::b, Bodies>{{batch.b, bodies}}, out.b, out.radius_b);
+    out.relative = out.b - out.a;
+  }
+};
+
+struct Records64 {
+  static constexpr bool kHasDenseLoop = true;
+  static constexpr bool kHasLow = true;
+  static constexpr size_t kDenseStride = 4 * sizeof(double);
+
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
+    const RecordSource<double, Role::a, Bodies> a{batch.a, bodies};
+    const RecordSource<double, Role::b, Bodies> b{batch.b, bodies};
+    F unused;
+    transpose_records(HighSource<Role::a, Bodies>{a}, out.a, out.radius_a);
+    transpose_records(HighSource<Role::b, Bodies>{b}, out.b, out.radius_b);
+    transpose_records(LowSource<Role::a, Bodies>{a}, out.a_low, unused);
+    transpose_records(LowSource<Role::b, Bodies>{b}, out.b_low, unused);
+    transpose_records(RelativeSource<Bodies>{a, b}, out.relative, unused);
+  }
+};
+
+// Float32 or float64, as the batch says.
+struct AnyRecords {
+  static constexpr bool kHasDenseLoop = false;
+  static constexpr bool kHasLow = true;
+
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
+    if (batch.layout == PositionLayout::records64) {
+      Records64::load(batch, bodies, out);
+    } else {
+      Records32::load(batch, bodies, out);
+      out.a_low = out.b_low = splat3(-0.0f);  // which changes no sum, not even of zeros
+    }
+  }
+};
+
+// Row k of the shapes' parameters, `kRows` rows a shape.
+template <Role kRole, uint32_t kRows, class Bodies>
+struct RowSource {
+  const BatchSide& side;
+  const Bodies& bodies;
+  size_t k;
+
+  HWY_INLINE const float* row(size_t i) const {
+    const size_t body = bodies.template body<kRole>(i);
+    const size_t first = side.rows.first ? side.rows.first[body] : body * kRows;
+    return side.rows.data + 4 * (first + k);
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), row(i)); }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const { return row(i)[c]; }
+};
+
+template <Role kRole, uint32_t kRows, class Bodies>
+HWY_INLINE void load_row(const BatchSide& side, const Bodies& bodies, size_t k, F3& xyz, F& w) {
+  transpose_records(RowSource<kRole, kRows, Bodies>{side, bodies, k}, xyz, w);
+}
+
+template <Role kRole, class Bodies>
+struct OrientationSource {
+  const BatchSide& side;
+  const Bodies& bodies;
+
+  HWY_INLINE const float* quaternion(size_t i) const {
+    const size_t offset = bodies.template body<kRole>(i) * side.orientation.stride;
+    return reinterpret_cast<const float*>(reinterpret_cast<const char*>(side.orientation.data) +
+                                          offset);
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), quaternion(i)); }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const { return quaternion(i)[c]; }
+};
+
+template <Role kRole, class Bodies>
+HWY_INLINE void load_orientation(const BatchSide& side, const Bodies& bodies, Quaternion& q) {
+  transpose_records(OrientationSource<kRole, Bodies>{side, bodies}, q.v, q.w);
+}
+
+HWY_INLINE F sum_of_sizes(const F3& v) {
+  return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
+}
+
+// Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite; it may
+// be valid without, if its size overflows. Kernels that work in scaled units use
+//   extent()    the greatest coordinate
+//   scale(F s)  makes the shape s times as large
+struct SphereLanes {
+  static constexpr ShapeKind kKind = ShapeKind::sphere;
+  static constexpr bool kIsOriented = false;
+  F radius;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE SphereLanes load(const BatchSide&, const Bodies&, const PositionLanes& p) {
+    return {kRole == Role::a ? p.radius_a : p.radius_b};
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
+  HWY_INLINE F size() const { return radius; }
+  HWY_INLINE void clear_unless(Mask keep) { radius = hn::IfThenElseZero(keep, radius); }
+  HWY_INLINE F extent() const { return radius; }
+  HWY_INLINE void scale(F s) { radius = hn::Mul(radius, s); }
+};
+
+struct AabbLanes {
+  static constexpr ShapeKind kKind = ShapeKind::aabb;
+  static constexpr bool kIsOriented = false;
+  F3 lower, upper;
+
+  static bool is_dense(const BatchSide& side) {
+    return !side.box_slot && side.boxes.stride == sizeof(float);
+  }
+
+  template <Role kRole>
+  static HWY_INLINE AabbLanes load(const BatchSide& side, const Listed& bodies,
+                                   const PositionLanes&) {
+    size_t offsets[kLanes];  // in bytes
+    for (size_t i = 0; i < kLanes; ++i) {
+      const size_t body = bodies.template body<kRole>(i);
+      offsets[i] = (side.box_slot ? side.box_slot[body] : body) * side.boxes.stride;
+    }
+    const auto column = [&](const float* first) HWY_ATTR {
+      return lanes_from([&](size_t i) HWY_ATTR {
+        return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(first) + offsets[i]);
+      });
+    };
+    const AabbColumns& boxes = side.boxes;
+    return {{column(boxes.lower[0]), column(boxes.lower[1]), column(boxes.lower[2])},
+            {column(boxes.upper[0]), column(boxes.upper[1]), column(boxes.upper[2])}};
+  }
+
+  template <Role>
+  static HWY_INLINE AabbLanes load(const BatchSide& side, const DenseRows& rows,
+                                   const PositionLanes&) {
+    const FloatTag tag;
+    const AabbColumns& boxes = side.boxes;
+    const size_t row = rows.row;
+    return {{hn::LoadU(tag, boxes.lower[0] + row), hn::LoadU(tag, boxes.lower[1] + row),
+             hn::LoadU(tag, boxes.lower[2] + row)},
+            {hn::LoadU(tag, boxes.upper[0] + row), hn::LoadU(tag, boxes.upper[1] + row),
+             hn::LoadU(tag, boxes.upper[2] + row)}};
+  }
+
+  HWY_INLINE Mask is_ordered() const {
+    return hn::And(hn::And(hn::Le(lower.x, upper.x), hn::Le(lower.y, upper.y)),
+                   hn::Le(lower.z, upper.z));
+  }
+  HWY_INLINE F size() const {
+    const F3 extent = upper - lower;
+    return hn::Add(hn::Add(extent.x, extent.y), extent.z);
+  }
+  HWY_INLINE void clear_unless(Mask keep) {
+    lower = zero_unless(keep, lower);
+    upper = zero_unless(keep, upper);
+  }
+  HWY_INLINE F extent() const { return max(largest_component(lower), largest_component(upper)); }
+  HWY_INLINE void scale(F s) {
+    lower = lower * s;
+    upper = upper * s;
+  }
+};
+
+struct CapsuleLanes {
+  static constexpr ShapeKind kKind = ShapeKind::capsule;
+  static constexpr bool kIsOriented = true;
+  F3 a, b;
+  F radius;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE CapsuleLanes load(const BatchSide& side, const Bodies& bodies,
+                                      const PositionLanes&) {
+    CapsuleLanes capsule;
+    F unused;
+    load_row<kRole, 2>(side, bodies, 0, capsule.a, capsule.radius);
+    load_row<kRole, 2>(side, bodies, 1, capsule.b, unused);
+    return capsule;
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
+  HWY_INLINE F size() const { return hn::Add(hn::Add(sum_of_sizes(a), sum_of_sizes(b)), radius); }
+  HWY_INLINE void clear_unless(Mask keep) {
+    a = zero_unless(keep, a);
+    b = zero_unless(keep, b);
+    radius = hn::IfThenElseZero(keep, radius);
+  }
+  HWY_INLINE F extent() const {
+    return max(max(largest_component(a), largest_component(b)), radius);
+  }
+  HWY_INLINE void scale(F s) {
+    a = a * s;
+    b = b * s;
+    radius = hn::Mul(radius, s);
+  }
+};
+
+struct BoxLanes {
+  static constexpr ShapeKind kKind = ShapeKind::box;
+  static constexpr bool kIsOriented = true;
+  F3 half;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE BoxLanes load(const BatchSide& side, const Bodies& bodies,
+                                  const PositionLanes&) {
+    BoxLanes box;
+    F unused;
+    load_row<kRole, 1>(side, bodies, 0, box.half, unused);
+    return box;
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(min(min(half.x, half.y), half.z), splat(0)); }
+  HWY_INLINE F size() const { return sum_of_sizes(half); }
+  HWY_INLINE void clear_unless(Mask keep) { half = zero_unless(keep, half); }
+  HWY_INLINE F extent() const { return max(max(half.x, half.y), half.z); }
+  HWY_INLINE void scale(F s) { half = half * s; }
+};
+
+struct TriangleLanes {
+  static constexpr ShapeKind kKind = ShapeKind::triangle;
+  static constexpr bool kIsOriented = true;
+  F3 a, b, c;
+  F thickness;
+  Mask is_special;  // thick, one-sided or with inner edges: tested in double precision
+  Mask has_valid_flags;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE TriangleLanes load(const BatchSide& side, const Bodies& bodies,
+                                       const PositionLanes&) {
+    TriangleLanes triangle;
+    F one_sided, inner_edges;
+    load_row<kRole, 3>(side, bodies, 0, triangle.a, triangle.thickness);
+    load_row<kRole, 3>(side, bodies, 1, triangle.b, one_sided);
+    load_row<kRole, 3>(side, bodies, 2, triangle.c, inner_edges);
+    const F zero = splat(0);
+    triangle.is_special = hn::Or(hn::Or(hn::Ne(triangle.thickness, zero), hn::Ne(one_sided, zero)),
+                                 hn::Ne(inner_edges, zero));
+    triangle.has_valid_flags =
+        hn::And(hn::Le(hn::Abs(one_sided), splat(FLT_MAX)),
+                hn::And(hn::Ge(inner_edges, zero), hn::Le(inner_edges, splat(7))));
+    return triangle;
+  }
+  HWY_INLINE Mask is_ordered() const {
+    return hn::And(hn::Ge(thickness, splat(0)), has_valid_flags);
+  }
+  HWY_INLINE F size() const {
+    return hn::Add(hn::Add(hn::Add(sum_of_sizes(a), sum_of_sizes(b)), sum_of_sizes(c)), thickness);
+  }
+  HWY_INLINE void clear_unless(Mask keep) {
+    a = zero_unless(keep, a);
+    b = zero_unless(keep, b);
+    c = zero_unless(keep, c);
+    thickness = hn::IfThenElseZero(keep, thickness);
+  }
+  HWY_INLINE F extent() const {
+    return max(max(largest_component(a), largest_component(b)),
+               max(largest_component(c), thickness));
+  }
+  HWY_INLINE void scale(F s) {
+    a = a * s;
+    b = b * s;
+    c = c * s;
+    thickness = hn::Mul(thickness, s);
+  }
+};
+
+// With a unit normal.
+struct HalfspaceLanes {
+  static constexpr ShapeKind kKind = ShapeKind::halfspace;
+  static constexpr bool kIsOriented = true;
+  F3 normal;
+  F offset;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE HalfspaceLanes load(const BatchSide& side, const Bodies& bodies,
+                                        const PositionLanes&) {
+    HalfspaceLanes plane;
+    load_row<kRole, 1>(side, bodies, 0, plane.normal, plane.offset);
+    F up, down;
+    power_of_two(largest_component(plane.normal), up, down);
+    const F3 n = plane.normal * down;
+    const F length = hn::Sqrt(dot(n, n));
+    plane.normal = n * hn::Div(splat(1), length);
+    plane.offset = hn::Div(hn::Mul(plane.offset, down), length);
+    return plane;
+  }
+  // A normal of zero gives an offset that is not a number, and one too far to count an infinite
+  // one.
+  HWY_INLINE Mask is_ordered() const { return hn::Eq(offset, offset); }
+  HWY_INLINE F size() const { return hn::Add(sum_of_sizes(normal), hn::Abs(offset)); }
+  HWY_INLINE void clear_unless(Mask keep) {
+    normal = zero_unless(keep, normal);
+    offset = hn::IfThenElseZero(keep, clamp_to_finite(offset));
+  }
+  HWY_INLINE F extent() const { return hn::Abs(offset); }
+  HWY_INLINE void scale(F s) { offset = hn::Mul(offset, s); }
+};
+
+// Points stay where they are until they are asked for.
+struct HullLanes {
+  static constexpr ShapeKind kKind = ShapeKind::hull;
+  static constexpr bool kIsOriented = true;
+  const HullGeometry* geometry[kLanes];  // nullptr in lanes that are not valid
+  F largest;                             // coordinate, not yet scaled
+  F scaling;
+
+  static bool is_dense(const BatchSide&) { return true; }
+
+  template <Role kRole, class Bodies>
+  static HWY_INLINE HullLanes load(const BatchSide& side, const Bodies& bodies,
+                                   const PositionLanes&) {
+    HullLanes hull;
+    const RowSource<kRole, 1, Bodies> rows{side, bodies, 0};
+    for (size_t i = 0; i < kLanes; ++i) hull.geometry[i] = geometry_at<HullGeometry>(rows.row(i));
+    hull.largest = lanes_from(
+        [&](size_t i) HWY_ATTR { return hull.geometry[i] ? hull.geometry[i]->size() : -1.0f; });
+    hull.scaling = splat(1);
+    return hull;
+  }
+  HWY_INLINE Mask is_ordered() const { return hn::Ge(largest, splat(0)); }
+  HWY_INLINE F size() const { return largest; }
+  HWY_INLINE void clear_unless(Mask keep) { largest = hn::IfThenElseZero(keep, largest); }
+  HWY_INLINE F extent() const { return hn::Mul(largest, scaling); }
+  HWY_INLINE void scale(F s) { scaling = hn::Mul(scaling, s); }
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_BATCH_LOAD_INL_H_

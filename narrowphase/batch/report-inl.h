@@ -1,0 +1,171 @@
+// What a kernel says of its lanes -> columns of results.
+#if defined(CAROM_NARROWPHASE_BATCH_REPORT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
+#undef CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
+#else
+#define CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
+#endif
+
+#include <limits>
+
+#include "narrowphase/batch/kernel_policy.h"
+#include "narrowphase/batch/load-inl.h"
+#include "narrowphase/batch/single_pair.h"
+#include "narrowphase/batch/store-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+struct AnswerLanes {
+  F separation;
+  F3 normal, arm_a, arm_b;
+};
+
+// Writes columns at Detail::overlap or Detail::contact. Kernels may report in other units than
+// metres.
+template <class Kernel, bool kHasLow, Detail kDetail>
+struct LaneReport {
+  using A = typename Kernel::A;
+  using B = typename Kernel::B;
+  // Whether more is stored than the decision.
+  static constexpr bool kHasContact = kDetail == Detail::contact;
+
+  const Batch& batch;   // a private copy
+  const Batch& source;  // of this one
+  size_t row;
+  const PositionLanes& positions;
+  F up;        // metres a unit
+  Mask plain;  // finite and of usual size
+  Mask valid;
+  bool is_odd;  // not all lanes are plain
+
+  // Whether somebody asks which lanes are unsure; those of kernels that are refined always count.
+  HWY_INLINE bool marks_unsure() const { return batch.unsure != nullptr; }
+
+  HWY_INLINE void operator()(Mask overlap, Mask unsure, Mask degenerate, F separation,
+                             const F3& normal, const F3& arm_a, const F3& arm_b) const {
+    AnswerLanes answer = in_metres(separation, normal, arm_a, arm_b);
+    // What is a gap in other units may be none in metres.
+    if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
+    unsure = hn::And(unsure, valid);
+    if (HWY_UNLIKELY(marks_unsure())) mark_unsure(unsure, answer.separation);
+    if constexpr (Kernel::kUnsure == Unsure::separation || Kernel::kUnsure == Unsure::everything) {
+      refine(unsure, answer, overlap, degenerate);
+    }
+    I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
+    if (HWY_UNLIKELY(is_odd)) blot_out_invalid(answer, overlap, status);
+    store_bytes(status, batch.out.status, row);
+    store_answer(overlap, answer);
+  }
+
+ private:
+  static HWY_INLINE F scaled(F v, F up) { return clamp_to_finite(hn::Mul(v, up)); }
+
+  HWY_INLINE AnswerLanes in_metres(F separation, const F3& normal, const F3& arm_a,
+                                   const F3& arm_b) const {
+    if constexpr (Kernel::kUnits == Units::metres) return {separation, normal, arm_a, arm_b};
+    return {scaled(separation, up), normal, arm_a * up, arm_b * up};
+  }
+
+  // Gaps that vanished in metres, and numbers so large that they were clamped, are unsure, too.
+  HWY_INLINE void mark_unsure(Mask unsure, F separation) const {
+    if constexpr (Kernel::kUnsure != Unsure::left) {
+      unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
+      unsure = hn::Or(unsure, hn::AndNot(plain, valid));
+    }
+    if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
+    store_bytes(bytes_where(unsure, 1), batch.unsure, row);
+  }
+
+  HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
+    if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
+    if (batch.single_precision) unsure = hn::AndNot(is_good_enough(answer), unsure);
+    if constexpr (Kernel::kUnsure == Unsure::separation) {
+      answer.separation = refined(unsure, answer.separation);
+    } else {
+      AnswerLanes in_memory = answer;  // `answer` itself stays in registers
+      refine_all(unsure, in_memory, degenerate);
+      answer = in_memory;
+    }
+    overlap = hn::Le(answer.separation, splat(0));
+  }
+
+  // NaN where there is no answer; in world coordinates, too, since 0 + NaN is that NaN.
+  HWY_INLINE void blot_out_invalid(AnswerLanes& answer, Mask& overlap, I& status) const {
+    const F3 nan = splat3(std::numeric_limits<float>::quiet_NaN());
+    overlap = hn::And(overlap, valid);
+    const I invalid = bytes_where(hn::Not(valid), static_cast<int32_t>(Status::invalid));
+    status = hn::IfThenElse(hn::RebindMask(IntTag(), valid), status, invalid);
+    answer.separation = hn::IfThenElse(valid, answer.separation, nan.x);
+    answer.normal = select(valid, answer.normal, nan);
+    answer.arm_a = select(valid, answer.arm_a, nan);
+    answer.arm_b = select(valid, answer.arm_b, nan);
+  }
+
+  HWY_INLINE void store_answer(Mask overlap, const AnswerLanes& answer) const {
+    store_bytes(bytes_where(overlap, 1), batch.out.overlap, row);
+    if constexpr (kHasContact) {
+      store(answer.separation, batch.out.separation, row);
+      store(answer.normal, batch.out.normal, row);
+      store(witness(positions.a, positions.a_low, answer.arm_a), batch.out.point_a, row);
+      store(witness(positions.b, positions.b_low, answer.arm_b), batch.out.point_b, row);
+    }
+  }
+
+  // Of what float32 has found: not of triangles, which are unsure where the kernel does not know
+  // them, not of half-spaces, which may be far away, and not without a normal, where one is stored.
+  static HWY_INLINE Mask is_good_enough(const AnswerLanes& answer) {
+    constexpr auto kNeedsMore = [](ShapeKind kind) {
+      return kind == ShapeKind::triangle || kind == ShapeKind::halfspace;
+    };
+    if constexpr (kNeedsMore(A::kKind) || kNeedsMore(B::kKind)) return no_lanes();
+    if constexpr (!kHasContact) return hn::Not(no_lanes());
+    const F squared = dot(answer.normal, answer.normal);
+    return hn::And(hn::Ge(squared, splat(0.9f)), hn::Le(squared, splat(1.1f)));
+  }
+
+  HWY_NOINLINE F refined(Mask unsure, F separation) const {
+    HWY_ALIGN float values[kLanes];
+    hn::Store(separation, FloatTag(), values);
+    for_each_lane(unsure, [&](size_t i) {
+      values[i] = near_touch_separation(source, A::kKind, B::kKind, row + i);
+    });
+    return hn::Load(FloatTag(), values);
+  }
+
+  HWY_NOINLINE void refine_all(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
+    constexpr size_t kColumns = 11;
+    HWY_ALIGN float values[kColumns][kLanes];
+    F* const columns[kColumns - 1] = {
+        &answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z, &answer.arm_a.x,
+        &answer.arm_a.y,    &answer.arm_a.z,  &answer.arm_b.x,  &answer.arm_b.y,  &answer.arm_b.z};
+    for (size_t c = 0; c + 1 < kColumns; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
+    hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kColumns - 1]);
+    for_each_lane(unsure, [&](size_t i) {
+      const std::array<float, kColumns> exact = exact_answer(source, A::kKind, B::kKind, row + i);
+      for (size_t c = 0; c < kColumns; ++c) values[c][i] = exact[c];
+    });
+    for (size_t c = 0; c + 1 < kColumns; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
+    degenerate = hn::Ne(hn::Load(FloatTag(), values[kColumns - 1]), splat(0));
+  }
+
+  template <class Body>
+  static HWY_INLINE void for_each_lane(Mask mask, const Body& body) {
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(hn::IfThenElseZero(mask, splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] != 0) body(i);
+    }
+  }
+
+  HWY_INLINE F3 witness(const F3& position, const F3& low, const F3& arm) const {
+    if (batch.frame == WitnessFrame::body) return arm;
+    if constexpr (kHasLow) return position + (low + arm);
+    return position + arm;
+  }
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_BATCH_REPORT_INL_H_

@@ -1,0 +1,92 @@
+// Some rows of a batch, as a batch of their own, which kernels may read in whole vectors.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "narrowphase/batch/batch.h"
+#include "narrowphase/batch/scratch_columns.h"
+
+namespace carom {
+
+class RowSelection {
+ public:
+  explicit RowSelection(const Batch& batch) : batch_(batch) {}
+
+  template <class Wanted>
+  void select(const Wanted& wanted) {
+    count_ = 0;
+    for (size_t row = 0; row < batch_.count; ++row) {
+      rows_[count_] = static_cast<uint16_t>(row);
+      pairs_[count_] = batch_.pairs[row];
+      count_ += wanted(row);
+    }
+    pad();
+  }
+
+  // Those in a list.
+  void select(const uint32_t* rows, size_t count) {
+    count_ = count;
+    for (size_t i = 0; i < count; ++i) {
+      rows_[i] = static_cast<uint16_t>(rows[i]);
+      pairs_[i] = batch_.pairs[rows[i]];
+    }
+    pad();
+  }
+
+  size_t count() const { return count_; }
+  // And the last row again, up to whole vectors.
+  size_t padded_count() const { return (count_ + kMostLanes - 1) / kMostLanes * kMostLanes; }
+
+  // Without unsure rows and features.
+  Batch batch(Pass pass) const {
+    Batch selected = batch_;
+    selected.pass = pass;
+    selected.unsure = nullptr;
+    selected.features = nullptr;
+    selected.pairs = pairs_.data();
+    selected.pairs_are_rows = false;
+    selected.count = count_;
+    return selected;
+  }
+
+  const uint16_t* rows() const { return rows_.data(); }
+
+  template <class T>
+  void gather(const T* from, T* to) const {
+    for (size_t i = 0; i < padded_count(); ++i) to[i] = from[rows_[i]];
+  }
+  template <class T>
+  void scatter(const T* from, T* to) const {
+    for (size_t i = 0; i < count_; ++i) to[rows_[i]] = from[i];
+  }
+  // The results at this detail.
+  void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail) const {
+    scatter(from.overlap, to.overlap);
+    scatter(from.status, to.status);
+    if (!has_contacts(detail)) return;
+    scatter(from.separation, to.separation);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      scatter(from.normal[axis], to.normal[axis]);
+      scatter(from.point_a[axis], to.point_a[axis]);
+      scatter(from.point_b[axis], to.point_b[axis]);
+    }
+  }
+
+ private:
+  void pad() {
+    for (size_t i = count_; i < padded_count(); ++i) {
+      rows_[i] = rows_[count_ - 1];
+      pairs_[i] = pairs_[count_ - 1];
+    }
+  }
+
+  const Batch& batch_;
+  size_t count_ = 0;
+  std::array<uint16_t, kPairsPerBlock + 1> rows_;
+  std::array<Pair, kPairsPerBlock + 1> pairs_;
+};
+static_assert(kPairsPerBlock % kMostLanes == 0);
+
+}  // namespace carom

@@ -1,0 +1,37 @@
+// The rare paths of a batch, one pair at a time: who is valid, and who touches.
+#pragma once
+
+#include <array>
+
+#include "base/tolerances.h"
+#include "carom/shapes/shape.h"
+#include "narrowphase/batch/batch.h"
+#include "narrowphase/scalar/vector.h"
+#include "shapes/body_reader.h"
+
+namespace carom {
+
+// One side as a set of bodies.
+Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind);
+
+// Where both are as the kernels see it: from one subtraction in the type of the positions.
+scalar::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair);
+
+// Whether both bodies of row `row` are valid.
+bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);
+
+// The separation of row `row` in double precision, from the positions as given, rounded once; its
+// sign is right unless the gap is below about 1e-15 of the pair's size. Both bodies are valid.
+float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);
+
+// The whole answer of row `row` in double precision, rounded once: separation, normal, arm_a,
+// arm_b, and 1 if the status is degenerate. Both bodies are valid.
+std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
+                                   size_t row);
+
+// How many points the manifold of row `row` has, and the points, relative to A; `batch.tested` has
+// the contact. Both bodies are valid and overlap.
+uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
+                        ManifoldPoints& points);
+
+}  // namespace carom

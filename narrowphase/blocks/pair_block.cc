@@ -1,0 +1,363 @@
+#include "narrowphase/blocks/pair_block.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "narrowphase/batch/world_point.h"
+#include "narrowphase/pairs/pair_kinds.h"
+#include "shapes/body_reader.h"
+
+namespace carom {
+namespace {
+
+// Layouts that kernels read in place.
+std::optional<PositionLayout> common_layout(const PositionView& a, const PositionView& b) {
+  if (!a.data && !b.data) return PositionLayout::none;
+  const bool records = a.data && b.data && a.type == b.type &&
+                       a.radius_layout == RadiusLayout::fourth &&
+                       b.radius_layout == RadiusLayout::fourth;
+  if (!records) return std::nullopt;
+  return a.type == PositionType::float64 ? PositionLayout::records64 : PositionLayout::records32;
+}
+
+// Of bodies that are not turned.
+constexpr float kIdentity[4] = {0, 0, 0, 1};
+
+OrientationView orientation_of(const Collidables& bodies) {
+  return bodies.orientation.data ? bodies.orientation : OrientationView{kIdentity, 0};
+}
+
+BatchSide side_of(const Collidables& bodies) {
+  return {bodies.position.data, bodies.position.stride, bodies.boxes,
+          bodies.box_slot,      orientation_of(bodies), bodies.rows};
+}
+
+// The side as seen from body `first` on; all bodies are of one kind.
+BatchSide from_body(BatchSide side, ShapeKind kind, size_t first) {
+  side.orientation.data += first * (side.orientation.stride / sizeof(float));
+  if (side.rows.first) {
+    side.rows.first += first;
+  } else if (side.rows.data) {
+    side.rows.data += first * row_count(kind) * std::tuple_size_v<Row>;
+  }
+  if (side.records) {
+    side.records = static_cast<const char*>(side.records) + first * side.record_stride;
+  }
+  if (side.box_slot) {
+    side.box_slot += first;
+    return side;
+  }
+  for (auto* corner : {&side.boxes.lower, &side.boxes.upper}) {
+    for (const float*& column : *corner) {
+      if (!column) continue;
+      const char* shifted = reinterpret_cast<const char*>(column) + first * side.boxes.stride;
+      column = reinterpret_cast<const float*>(shifted);
+    }
+  }
+  return side;
+}
+
+// (0, 0), (1, 1), ...: rows as a list of pairs.
+constexpr auto kRowPairs = [] {
+  std::array<Pair, kPairsPerBlock> pairs{};
+  for (uint32_t i = 0; i < pairs.size(); ++i) pairs[i] = {i, i};
+  return pairs;
+}();
+
+// Every column that the detail fills is there.
+bool is_complete(const ResultColumns& out, Detail detail) {
+  if (!out.overlap || !out.status) return false;
+  if (detail == Detail::overlap) return true;
+  bool complete = out.separation != nullptr;
+  if (detail == Detail::manifold) complete = complete && out.manifold_count && out.manifold;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    complete = complete && out.normal[axis] && out.point_a[axis] && out.point_b[axis];
+  }
+  return complete;
+}
+
+// Bodies copied out of a layout that kernels do not read.
+template <class T>
+struct PackedSide {
+  std::array<std::array<T, 4>, kPairsPerBlock> records;
+  std::array<uint32_t, kPairsPerBlock> box_slot;
+  std::array<Row, kPairsPerBlock> orientation;
+  std::array<uint32_t, kPairsPerBlock> first_row;
+
+  void put(size_t row, const Collidables& bodies, uint32_t index) {
+    const BodyReader reader{bodies};
+    const Position<T> p = reader.position<T>(index);
+    const ShapeKind kind = reader.kind(index);
+    records[row] = {p.x, p.y, p.z, kind == ShapeKind::sphere ? T{reader.radius(index)} : T{0}};
+    if (kind == ShapeKind::aabb) box_slot[row] = static_cast<uint32_t>(reader.box(index));
+    if (row_count(kind) == 0) return;
+    orientation[row] = reader.orientation(index);
+    first_row[row] = static_cast<uint32_t>(reader.first_row(index));
+  }
+
+  BatchSide side(const Collidables& bodies) const {
+    return {records.data(),
+            sizeof(records[0]),
+            bodies.boxes,
+            box_slot.data(),
+            {orientation[0].data(), sizeof(Row)},
+            {bodies.rows.data, first_row.data()}};
+  }
+};
+
+// The pairs of a block, sorted into one batch a pair of kinds and flip.
+class BlockRunner {
+ public:
+  explicit BlockRunner(const PairBlock& block)
+      : block_(block), layout_(common_layout(block.a.position, block.b.position)) {}
+
+  void run() {
+    if (!block_.a.kind && !block_.b.kind) {
+      const PairKindRef kind = find_pair_kind(block_.a.uniform_kind, block_.b.uniform_kind);
+      if (layout_ && !kind.flipped && is_complete(block_.out, block_.detail)) {
+        run_in_place(kind);
+        return move_points(block_.out, block_.count, [this](size_t row) { return pair(row); });
+      }
+    }
+    sort_by_kind();
+    for (uint8_t kind = 0; kind < kPairKinds.size(); ++kind) {
+      for (const bool flipped : {false, true}) {
+        if (counts_[slot({kind, flipped})] > 0) run_part({kind, flipped});
+      }
+    }
+  }
+
+ private:
+  // Manifolds are found relative to the bodies.
+  bool moves_points() const {
+    return block_.detail == Detail::manifold && block_.frame == WitnessFrame::world;
+  }
+
+  static size_t slot(PairKindRef kind) { return size_t{kind.index} * 2 + kind.flipped; }
+
+  Pair pair(size_t row) const {
+    if (block_.pairs) return block_.pairs[row];
+    const auto index = static_cast<uint32_t>(block_.first + row);
+    return {index, index};
+  }
+
+  Batch batch(PairKindRef kind) const {
+    const Collidables& a = kind.flipped ? block_.b : block_.a;
+    const Collidables& b = kind.flipped ? block_.a : block_.b;
+    Batch batch;
+    batch.a = side_of(a);
+    batch.b = side_of(b);
+    if (layout_) batch.layout = *layout_;
+    batch.detail = block_.detail;
+    batch.frame = moves_points() ? WitnessFrame::body : block_.frame;
+    return batch;
+  }
+
+  // All pairs of one kind, readable as they lie: no copies at all.
+  void run_in_place(PairKindRef kind) const {
+    Batch whole = batch(kind);
+    whole.pairs = block_.pairs;
+    if (!block_.pairs) {
+      whole.a = from_body(whole.a, kPairKinds[kind.index].a, block_.first);
+      whole.b = from_body(whole.b, kPairKinds[kind.index].b, block_.first);
+      whole.pairs = kRowPairs.data();
+      whole.pairs_are_rows = true;
+    }
+    whole.count = block_.count;
+    whole.out = block_.out;
+    run_passes(kPairKinds[kind.index], whole, block_.measured, block_.direction, block_.accuracy);
+  }
+
+  void sort_by_kind() {
+    const BodyReader a{block_.a};
+    const BodyReader b{block_.b};
+    for (size_t row = 0; row < block_.count; ++row) {
+      const Pair p = pair(row);
+      const PairKindRef kind = find_pair_kind(a.kind(p.a), b.kind(p.b));
+      slots_[row] = static_cast<uint8_t>(slot(kind));
+      ++counts_[slots_[row]];
+    }
+  }
+
+  void run_part(PairKindRef kind) {
+    size_t count = 0;
+    for (size_t row = 0; row < block_.count; ++row) {
+      if (slots_[row] != slot(kind)) continue;
+      const Pair p = pair(row);
+      pairs_[count] = kind.flipped ? Pair{p.b, p.a} : p;
+      rows_[count++] = static_cast<uint16_t>(row);
+    }
+    Batch part = batch(kind);
+    part.pairs = pairs_.data();
+    part.count = count;
+    part.out = scratch();
+    uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
+    for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
+    for (size_t i = 0; part.out.features && i < count; ++i) {
+      features_[i] = block_.out.features[rows_[i]];
+    }
+    if (layout_) {
+      run_passes(kPairKinds[kind.index], part, block_.measured, direction, block_.accuracy);
+    } else if (BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64()) {
+      run_packed<double>(kind, part, PositionLayout::records64);
+    } else {
+      run_packed<float>(kind, part, PositionLayout::records32);
+    }
+    scatter(kind, count);
+    if (direction) copy(direction, block_.direction, count);
+  }
+
+  template <class T>
+  void run_packed(PairKindRef kind, Batch part, PositionLayout layout) const {
+    const Collidables& a = kind.flipped ? block_.b : block_.a;
+    const Collidables& b = kind.flipped ? block_.a : block_.b;
+    PackedSide<T> packed_a, packed_b;
+    for (size_t i = 0; i < part.count; ++i) {
+      packed_a.put(i, a, pairs_[i].a);
+      packed_b.put(i, b, pairs_[i].b);
+    }
+    part.a = packed_a.side(a);
+    part.b = packed_b.side(b);
+    part.layout = layout;
+    part.pairs = kRowPairs.data();
+    run_passes(kPairKinds[kind.index], part, block_.measured, nullptr, block_.accuracy);
+  }
+
+  ResultColumns scratch() {
+    ResultColumns columns = scratch_.columns();
+    columns.manifold_count = manifold_count_.data();
+    columns.manifold = manifold_.data();
+    if (block_.out.separation_bound) columns.separation_bound = separation_bound_.data();
+    if (block_.out.features) columns.features = features_.data();
+    return columns;
+  }
+
+  // Back to the rows of the block; what was flipped is turned round.
+  void scatter(PairKindRef kind, size_t count) {
+    ResultColumns from = scratch();
+    const ResultColumns& to = block_.out;
+    copy(from.overlap, to.overlap, count);
+    copy(from.status, to.status, count);
+    copy(from.separation_bound, to.separation_bound, count);
+    copy(from.features, to.features, count);
+    if (!has_contacts(block_.detail)) return;
+    if (kind.flipped) flip(from, count);
+    move_points(from, count, [this](size_t i) { return pair(rows_[i]); });
+    copy(from.separation, to.separation, count);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      copy(from.normal[axis], to.normal[axis], count);
+      copy(from.point_a[axis], to.point_a[axis], count);
+      copy(from.point_b[axis], to.point_b[axis], count);
+    }
+    if (block_.detail != Detail::manifold) return;
+    copy(from.manifold_count, to.manifold_count, count);
+    copy(from.manifold, to.manifold, count);
+  }
+
+  void flip(ResultColumns& columns, size_t count) const {
+    for (size_t i = 0; block_.detail == Detail::manifold && i < count; ++i) {
+      for (size_t k = 0; k < columns.manifold_count[i]; ++k) move_to_other_side(columns, i, k);
+    }
+    for (float* column : columns.normal) negate(column, count);
+    std::swap(columns.point_a, columns.point_b);
+  }
+
+  // From the kernel's A to the point of its B that faces it, relative to B.
+  void move_to_other_side(const ResultColumns& columns, size_t i, size_t k) const {
+    const std::array<float, 3> d = relative_position(pair(rows_[i]));  // of A, seen from B
+    std::array<float, 3>& point = columns.manifold[i].point[k];
+    const float separation = columns.manifold[i].separation[k];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      point[axis] = (point[axis] + columns.normal[axis][i] * separation) + d[axis];
+    }
+  }
+
+  // The position of B less that of A, in float32.
+  std::array<float, 3> relative_position(Pair p) const {
+    const BodyReader a{block_.a};
+    const BodyReader b{block_.b};
+    const bool is_float64 = a.is_float64() || b.is_float64();
+    return is_float64 ? difference(a.position<double>(p.a), b.position<double>(p.b))
+                      : difference(a.position<float>(p.a), b.position<float>(p.b));
+  }
+
+  template <class T>
+  static std::array<float, 3> difference(const Position<T>& a, const Position<T>& b) {
+    const auto finite = [](T x) { return std::clamp(static_cast<float>(x), -FLT_MAX, FLT_MAX); };
+    return {finite(b.x - a.x), finite(b.y - a.y), finite(b.z - a.z)};
+  }
+
+  // From the bodies' frames to the world, if points are wanted there and are not there yet.
+  template <class PairAt>
+  void move_points(const ResultColumns& columns, size_t count, const PairAt& pair_at) const {
+    if (!moves_points()) return;
+    const bool is_float64 = BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64();
+    for (size_t i = 0; i < count; ++i) {
+      is_float64 ? move_points_of<double>(pair_at(i), columns, i)
+                 : move_points_of<float>(pair_at(i), columns, i);
+    }
+  }
+
+  template <class T>
+  void move_points_of(Pair p, const ResultColumns& columns, size_t i) const {
+    const Position<T> a = BodyReader{block_.a}.template position<T>(p.a);
+    const Position<T> b = BodyReader{block_.b}.template position<T>(p.b);
+    move(a, columns.point_a, i);
+    move(b, columns.point_b, i);
+    for (size_t k = 0; k < columns.manifold_count[i]; ++k) {
+      std::array<float, 3>& point = columns.manifold[i].point[k];
+      point = world_point(a, point);
+    }
+  }
+
+  template <class T>
+  static void move(const Position<T>& position, const std::array<float*, 3>& columns, size_t i) {
+    const auto moved = world_point(position, {columns[0][i], columns[1][i], columns[2][i]});
+    for (size_t axis = 0; axis < 3; ++axis) columns[axis][i] = moved[axis];
+  }
+
+  template <class T>
+  void copy(const T* from, T* to, size_t count) const {
+    if (!to) return;
+    for (size_t i = 0; i < count; ++i) to[rows_[i]] = from[i];
+  }
+
+  // NaN (no answer) stays the one NaN it is.
+  static void negate(float* column, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      if (column[i] == column[i]) column[i] = -column[i];
+    }
+  }
+
+  const PairBlock& block_;
+  const std::optional<PositionLayout> layout_;
+  std::array<size_t, 2 * kPairKinds.size()> counts_{};
+  std::array<uint8_t, kPairsPerBlock> slots_;
+  std::array<uint16_t, kPairsPerBlock> rows_;
+  std::array<Pair, kPairsPerBlock> pairs_;
+  ScratchColumns scratch_;
+  std::array<uint8_t, kPairsPerBlock> manifold_count_;
+  std::array<ManifoldPoints, kPairsPerBlock> manifold_;
+  std::array<float, kPairsPerBlock> separation_bound_;
+  std::array<uint32_t, kPairsPerBlock> directions_;
+  std::array<uint64_t, kPairsPerBlock> features_;
+};
+
+}  // namespace
+
+void run_pair_block(const PairBlock& block) { BlockRunner(block).run(); }
+
+ResultColumns from_row(const ResultColumns& columns, size_t row) {
+  const auto shift = [row](auto* column) { return column ? column + row : nullptr; };
+  const auto shift3 = [&shift](const std::array<float*, 3>& c) -> std::array<float*, 3> {
+    return {shift(c[0]), shift(c[1]), shift(c[2])};
+  };
+  return {shift(columns.overlap),        shift(columns.status),   shift(columns.separation),
+          shift3(columns.normal),        shift3(columns.point_a), shift3(columns.point_b),
+          shift(columns.manifold_count), shift(columns.manifold), shift(columns.separation_bound),
+          shift(columns.sub_a),          shift(columns.sub_b),    shift(columns.features)};
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+// A block of pairs of any kinds and layouts: the step between the public call and the kernels.
+#pragma once
+
+#include <cstddef>
+
+#include "carom/results/contact.h"
+#include "carom/results/pair.h"
+#include "carom/shapes/views.h"
+#include "narrowphase/blocks/passes.h"
+
+namespace carom {
+
+struct PairBlock {
+  const Collidables& a;
+  const Collidables& b;
+  const Pair* pairs;  // of the block; nullptr: row i is (a[first + i], b[first + i])
+  size_t first;
+  size_t count;  // <= kPairsPerBlock
+  Detail detail;
+  WitnessFrame frame;
+  Measured measured = Measured::all;
+  uint32_t* direction = nullptr;  // of the block's rows; see run_passes()
+  Accuracy accuracy;
+  ResultColumns out;  // of the block
+};
+
+// All pairs of kinds in the block must have a kernel.
+void run_pair_block(const PairBlock& block);
+
+// The columns from row `row` on.
+ResultColumns from_row(const ResultColumns& columns, size_t row);
+
+}  // namespace carom

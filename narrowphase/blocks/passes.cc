@@ -1,0 +1,201 @@
+#include "narrowphase/blocks/passes.h"
+
+#include <algorithm>
+
+#include "narrowphase/batch/packed_direction.h"
+#include "narrowphase/batch/row_selection.h"
+#include "narrowphase/hulls/features.h"
+#include "narrowphase/proof/decide_unsure.h"
+#include "narrowphase/proof/separation_bound.h"
+
+namespace carom {
+namespace {
+
+bool overlaps(const Batch& batch, size_t row) { return batch.out.overlap[row] == 1; }
+
+bool is_invalid(const Batch& batch, size_t row) {
+  return batch.out.status[row] == static_cast<uint8_t>(Status::invalid);
+}
+
+using RowFlags = std::array<uint8_t, kPairsPerBlock>;
+
+// Of the separate pairs. `of_invalid_pairs`: the columns of these as well.
+void run_distances(const PairKind& kind, const Batch& batch, bool of_invalid_pairs) {
+  RowSelection separate(batch);
+  separate.select([&](size_t row) {
+    return !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
+  });
+  if (separate.count() == 0) return;
+  ScratchColumns scratch;
+  Batch distances = separate.batch(Pass::distance);
+  distances.out = scratch.columns();
+  kind.run(distances);
+  separate.scatter(distances.out, batch.out, batch.detail);
+}
+
+// Writes to `open` which rows need a test.
+void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* direction,
+                    RowFlags& open) {
+  open.fill(1);
+  RowSelection known(batch);
+  known.select([&](size_t row) { return direction[row] != kNoDirection; });
+  if (known.count() == 0) return;
+  std::array<uint32_t, kPairsPerBlock> known_direction;
+  RowFlags known_open;
+  known.gather(direction, known_direction.data());
+  Batch directions = known.batch(Pass::direction);
+  directions.direction = known_direction.data();
+  directions.out.overlap = known_open.data();
+  kind.run(directions);
+  known.scatter(known_open.data(), open.data());
+}
+
+// Of the pairs that were tested; without branches, which would be taken at random.
+void remember_directions(const Batch& batch, const RowFlags& tested, uint32_t* direction) {
+  const ResultColumns& out = batch.out;
+  for (size_t row = 0; row < batch.count; ++row) {
+    const uint32_t found =
+        pack_direction({out.normal[0][row], out.normal[1][row], out.normal[2][row]});
+    const uint32_t apart = out.overlap[row] ? kNoDirection : found;
+    direction[row] = tested[row] ? apart : direction[row];
+  }
+}
+
+// Writes to `open` which rows need a test, and the results of the others. `finds_depths`: of
+// overlapping pairs there is more to find than that they are.
+void run_recall(const PairKind& kind, const Batch& batch, bool finds_depths, RowFlags& open) {
+  open.fill(1);
+  const size_t most = finds_depths ? kMostFeatures - 1 : kMostFeatures;
+  RowSelection known(batch);
+  known.select([&](size_t row) {
+    return batch.features[row] != kNoFeatures && feature_count(batch.features[row]) <= most;
+  });
+  if (known.count() == 0) return;
+  ScratchColumns scratch;
+  std::array<uint64_t, kPairsPerBlock> features;
+  RowFlags unsure{};
+  known.gather(batch.features, features.data());
+  Batch recall = known.batch(Pass::recall);
+  recall.features = features.data();
+  recall.unsure = unsure.data();
+  recall.out = scratch.columns();
+  kind.run(recall);
+  known.scatter(recall.out, batch.out, batch.detail);
+  known.scatter(unsure.data(), open.data());
+}
+
+// Tests the open rows and leaves the others as they are.
+void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
+  RowSelection tested(batch);
+  tested.select([&](size_t row) { return open[row] != 0; });
+  if (tested.count() == batch.count) return kind.run(batch);
+  if (tested.count() == 0) return;
+  ScratchColumns scratch;
+  RowFlags unsure{};
+  std::array<uint64_t, kPairsPerBlock> features;
+  Batch test = tested.batch(batch.pass);
+  test.out = scratch.columns();
+  if (batch.unsure) test.unsure = unsure.data();
+  if (batch.features) test.features = features.data();
+  kind.run(test);
+  if (batch.features) tested.scatter(features.data(), batch.features);
+  if (batch.unsure) tested.scatter(unsure.data(), batch.unsure);
+  tested.scatter(test.out, batch.out, batch.detail);
+}
+
+// The test, but for pairs that are still apart in a direction that is known.
+void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
+  RowFlags open;
+  run_directions(kind, batch, direction, open);
+  std::fill_n(batch.out.overlap, batch.count, uint8_t{0});
+  std::fill_n(batch.out.status, batch.count, static_cast<uint8_t>(Status::ok));
+  test_open(kind, batch, open);
+  remember_directions(batch, open, direction);
+}
+
+// One point: the witness. Without branches, since half of the pairs may overlap.
+void copy_witnesses(const Batch& batch) {
+  const ResultColumns& out = batch.out;
+  for (size_t row = 0; row < batch.count; ++row) {
+    const bool overlap = overlaps(batch, row);
+    const auto if_overlap = [=](float x) { return overlap ? x : 0; };
+    ManifoldPoints points{};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      points.point[0][axis] = if_overlap(out.point_a[axis][row]);
+    }
+    points.separation[0] = if_overlap(out.separation[row]);
+    out.manifold[row] = points;
+    out.manifold_count[row] = overlap;
+  }
+}
+
+void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pairs) {
+  std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
+  if (of_separate_pairs) std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
+  RowSelection overlapping(batch);
+  overlapping.select([&](size_t row) { return overlaps(batch, row); });
+  if (overlapping.count() == 0) return;
+  ScratchColumns contacts;
+  Batch manifolds = overlapping.batch(Pass::manifold);
+  manifolds.tested = contacts.columns();
+  manifolds.manifold_row = overlapping.rows();
+  overlapping.gather(batch.out.separation, manifolds.tested.separation);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    overlapping.gather(batch.out.normal[axis], manifolds.tested.normal[axis]);
+    overlapping.gather(batch.out.point_a[axis], manifolds.tested.point_a[axis]);
+  }
+  kind.run(manifolds);
+}
+
+}  // namespace
+
+void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint32_t* direction,
+                const Accuracy& accuracy) {
+  RowFlags unsure;
+  Batch batch = asked;
+  // A proof may find apart what rounding made overlap.
+  const bool is_proven = has_proofs(accuracy.tier);
+  const Measured measured = is_proven && wanted == Measured::separate ? Measured::all : wanted;
+  if (accuracy.tier == Tier::fast) {
+    batch.single_precision = accuracy.knobs.single_precision;
+    batch.faces_only = accuracy.knobs.faces_only;
+  }
+  if (is_proven) {
+    std::fill_n(unsure.begin(), batch.count, uint8_t{0});
+    batch.unsure = unsure.data();
+  }
+  const bool has_distances =
+      has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping;
+  const bool is_at_once = has_distances && kind.measures_at_once();
+  const bool recalls = is_at_once && batch.out.features && kind.has_recall_pass() && !is_proven;
+  if (recalls) batch.features = batch.out.features;
+  Batch test = batch;
+  if (is_at_once) {
+    test.pass = measured == Measured::separate ? Pass::clearance : Pass::distance;
+  } else if (kind.has_distance_pass() && measured == Measured::separate) {
+    test.detail = Detail::overlap;
+  }
+  if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
+    run_test(kind, batch, direction);
+  } else if (recalls) {
+    RowFlags open;
+    run_recall(kind, batch, measured == Measured::all, open);
+    test_open(kind, test, open);
+  } else {
+    kind.run(test);
+  }
+  if (has_distances && !is_at_once) run_distances(kind, batch, measured == Measured::separate);
+  if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
+  if (batch.out.separation_bound) bound_separations(kind, batch);
+  if (batch.detail != Detail::manifold) return;
+  if (measured == Measured::separate) {
+    std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
+    std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
+  } else if (kind.has_manifold_pass()) {
+    run_manifolds(kind, batch, measured == Measured::all);
+  } else {
+    copy_witnesses(batch);
+  }
+}
+
+}  // namespace carom

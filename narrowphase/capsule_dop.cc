@@ -1,8 +1,0 @@
-// Capsule against k-DOP: searches over any two cores.
-#include "narrowphase/core_batch.h"
-
-namespace carom {
-
-void run_capsule_dop(const Batch& batch) { run_core_batch<Capsule, Dop>(batch, nullptr); }
-
-}  // namespace carom

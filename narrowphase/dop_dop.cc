@@ -1,8 +1,0 @@
-// K-DOP against k-DOP: searches over any two cores.
-#include "narrowphase/core_batch.h"
-
-namespace carom {
-
-void run_dop_dop(const Batch& batch) { run_core_batch<Dop, Dop>(batch, nullptr); }
-
-}  // namespace carom

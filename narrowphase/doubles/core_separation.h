@@ -1,0 +1,176 @@
+// Any two convex shapes as cores, in double precision: distances by GJK, depths by the way out.
+#pragma once
+
+#include <type_traits>
+
+#include "narrowphase/doubles/convex.h"
+#include "narrowphase/doubles/furthest_scalar.h"
+#include "narrowphase/doubles/make_core.h"
+#include "narrowphase/doubles/penetration_search.h"
+#include "narrowphase/features/contact_location.h"
+#include "narrowphase/scalar/separation.h"
+
+namespace carom::scalar {
+
+// How to test: with which furthest points, and whether the decision alone is wanted.
+struct CoreTest {
+  FurthestPoint furthest = &furthest_point;
+  bool decides_only = false;
+};
+
+// How far the cores are apart along a unit vector from A to B, radii left out.
+struct CoreGap {
+  double size;
+  CoreVector normal;
+  bool is_flat = false;
+  bool is_proven = false;  // that they are apart, or overlap by more than rounding
+  bool has_ended = true;
+  bool is_at_corners = false;  // that face each other, up to rounding far below kFacing
+};
+
+// How far zero is inside of the tetrahedron, or less than zero.
+inline double depth_of_zero(const NearestPoint::Corners& y) {
+  double least = HUGE_VAL;
+  for (size_t i = 0; i < 4; ++i) {
+    const CoreVector &apex = y[i], &a = y[(i + 1) % 4], &b = y[(i + 2) % 4], &c = y[(i + 3) % 4];
+    const CoreVector n = cross(b - a, c - a);
+    const double to_zero = -dot(n, a), to_apex = dot(n, apex - a);
+    least = min(least, (to_apex < 0 ? -to_zero : to_zero) / std::sqrt(dot(n, n)));
+  }
+  return least;
+}
+
+inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
+  const FurthestPoint furthest = test.furthest;
+  const NearestWay nearest = nearest_way(a, b, furthest);
+  if (test.decides_only && nearest.corners.size() == 4) {
+    const double depth = depth_of_zero(nearest.corners);
+    if (depth > kProvenGap) return {.size = -depth, .normal = {1, 0, 0}, .is_proven = true};
+  }
+  const double distance = std::sqrt(dot(nearest.way, nearest.way));
+  const double parted = distance > kTouchingCores ? nearest.gap / distance : -HUGE_VAL;
+  // Rounding may have ended GJK too early, at corners of shapes that are all but flat.
+  const bool is_distance = distance - parted <= kSameGap;
+  if (is_distance && distance > kTouchingWay) {
+    return {.size = distance,
+            .normal = nearest.way * (1 / distance),
+            .is_proven = true,
+            .is_at_corners = distance > kFarFromTouching};
+  }
+  WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
+  // Of a difference without volume no more than one way out is tried.
+  if (parted - out.gap > kSameWayOut) {
+    out = {.normal = nearest.way * (1 / distance), .gap = parted};
+  }
+  const bool is_close = out.gap <= 0 || distance - out.gap <= kTouchingWay;
+  return {.size = is_distance ? distance : out.gap,
+          .normal = out.normal,
+          .is_flat = out.is_flat,
+          .is_proven = std::fabs(out.gap) > kProvenGap,
+          .has_ended = out.has_ended && is_close};
+}
+
+// The points of a core that are furthest along n, up to a slack; some of them where there are many.
+inline Meeting::Points furthest_points(const Core& core, const CoreVector& n, double slack,
+                                       FurthestPoint furthest) {
+  const double least = dot(n, core.point(furthest(core, n))) - slack;
+  size_t count = 0;
+  for (size_t i = 0; i < core.size(); ++i) count += dot(n, core.point(i)) >= least;
+  const size_t step = (count + Meeting::Points::kCapacity - 1) / Meeting::Points::kCapacity;
+  Meeting::Points points;
+  size_t found = 0;
+  for (size_t i = 0; found < count; ++i) {
+    if (dot(n, core.point(i)) >= least && found++ % step == 0) {
+      points.push_back(eigen_vector(core.point(i)));
+    }
+  }
+  return points;
+}
+
+// Of two edges seen along n: the point of the first where they cross. None if they do not cross
+// well inside.
+inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, const Vector3d& n,
+                          Vector3d& point) {
+  const Vector3d u = a[1] - a[0], v = b[1] - b[0], between = b[0] - a[0];
+  const double slope = dot(n, cross(u, v));
+  const double t = dot(n, cross(between, v)) / slope, s = dot(n, cross(between, u)) / slope;
+  constexpr double kInside = 0x1p-20;
+  if (!(t > kInside && t < 1 - kInside && s > kInside && s < 1 - kInside)) return false;
+  point = a[0] + u * t;
+  return slope * slope > kParallelEdges * (dot(u, u) * dot(v, v));
+}
+
+// Where they meet, on A. The normal is rounded, most of all between shapes that are close: points
+// that should face each other need not be the furthest by a little, so that the slack grows until
+// they are.
+inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
+                              FurthestPoint furthest) {
+  const Vector3d n = eigen_vector(gap.normal);
+  Vector3d best;
+  double least = HUGE_VAL;
+  for (double slack = kInPlane; slack <= kMostSlack; slack *= 256) {
+    const Meeting::Points on_a = furthest_points(a, gap.normal, slack, furthest);
+    const Meeting::Points on_b = furthest_points(b, -gap.normal, slack, furthest);
+    // Most pairs meet at a corner, or where two edges cross.
+    if (gap.is_at_corners && on_a.size() == 1) return on_a[0];
+    if (gap.is_at_corners && on_b.size() == 1) return on_b[0] - n * gap.size;
+    if (on_a.size() == 2 && on_b.size() == 2 && find_crossing(on_a, on_b, n, best)) return best;
+    const Meeting meeting(on_a, on_b, n);
+    if (meeting.distance() < least) {
+      least = meeting.distance();
+      best = meeting.point();
+    }
+    if (least <= kFacing) break;
+  }
+  return best;
+}
+
+// B is placed at d.
+inline SeparationAs<double> core_separation(const Core& a, const Core& b, const CoreGap& gap,
+                                            const Vector3d& d, const CoreTest& test) {
+  const Vector3d n = eigen_vector(gap.normal);
+  SeparationAs<double> result;
+  result.separation = gap.size - (a.radius + b.radius);
+  result.normal = n;
+  result.status = !gap.has_ended ? Status::budget : gap.is_flat ? Status::degenerate : Status::ok;
+  result.is_unsure = !gap.is_proven || std::fabs(result.separation) <= kProvenGap;
+  if (test.decides_only) {
+    result.arm_a = result.arm_b = Vector3d::Zero();
+    return result;
+  }
+  result.arm_a = meeting_point(a, b, gap, test.furthest) + n * a.radius;
+  result.arm_b = (result.arm_a + n * result.separation) - d;
+  return result;
+}
+
+// Memory for the cores of one pair, used again for the next.
+struct CorePair {
+  Core a, b;
+};
+
+inline CorePair& core_pair_of_thread() {
+  thread_local CorePair pair;
+  return pair;
+}
+
+template <class A, class B>
+SeparationAs<double> core_separation(const A& a, const B& b, const PairPose<double>& pose,
+                                     const CoreTest& test) {
+  CorePair& cores = core_pair_of_thread();
+  make_core(a, pose.a, Vector3d::Zero(), cores.a);
+  make_core(b, pose.b, pose.d, cores.b);
+  const CoreGap gap = find_gap(cores.a, cores.b, test);
+  return core_separation(cores.a, cores.b, gap, pose.d, test);
+}
+
+// Nothing in float but that it is unsure.
+template <class Real, class A, class B>
+SeparationAs<Real> separation_of_cores(const A& a, const B& b, const PairPose<Real>& pose) {
+  if constexpr (std::is_same_v<Real, float>) {
+    return not_in_float<float>();
+  } else {
+    return core_separation(a, b, pose, CoreTest());
+  }
+}
+
+}  // namespace carom::scalar

@@ -1,0 +1,146 @@
+// How far the hulls of two cores are apart, and which way, in double precision: GJK.
+//
+// Sources: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A Fast Procedure for Computing the
+// Distance between Complex Objects in Three-Dimensional Space", IEEE J. Robotics and Automation
+// 4(2), 1988; C. Ericson, Real-Time Collision Detection, 2005, section 9.5.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/few_of.h"
+#include "base/tolerances.h"
+#include "narrowphase/doubles/core.h"
+
+namespace carom {
+
+// A point of the difference B - A of two cores.
+inline CoreVector difference_point(const Core& a, const Core& b, const CoreVector& way,
+                                   FurthestPoint furthest) {
+  return b.point(furthest(b, -way)) - a.point(furthest(a, way));
+}
+
+// Of a simplex of up to four points: its point nearest to zero, and the corners that span it. The
+// last corner is one of these: without it nothing would be nearer than before.
+class NearestPoint {
+ public:
+  using Corners = FewOf<CoreVector, 4>;
+
+  explicit NearestPoint(const Corners& corners) : last_(corners[corners.size() - 1]) {
+    const size_t others = corners.size() - 1;
+    keep(last_, 0);
+    for (size_t i = 0; i < others; ++i) try_segment(corners[i], 1u << i);
+    for (size_t i = 1; i < others; ++i) {
+      for (size_t j = 0; j < i; ++j) try_triangle(corners[i], corners[j], 1u << i | 1u << j);
+    }
+    if (others == 3) try_tetrahedron(corners[0], corners[1], corners[2]);
+    for (size_t i = 0; i < others; ++i) {
+      if (kept_ >> i & 1) corners_.push_back(corners[i]);
+    }
+    corners_.push_back(last_);
+  }
+
+  const CoreVector& point() const { return point_; }
+  double squared() const { return squared_; }
+  const Corners& corners() const { return corners_; }
+  bool is_around_zero() const { return corners_.size() == 4; }
+
+ private:
+  // `others`: which corners beside the last span the point, as bits.
+  void keep(const CoreVector& point, unsigned others) {
+    const double squared = dot(point, point);
+    if (!(squared < squared_)) return;
+    squared_ = squared;
+    point_ = point;
+    kept_ = others;
+  }
+
+  void try_segment(const CoreVector& p, unsigned others) {
+    const CoreVector side = p - last_;
+    const double along = -dot(last_, side), length = dot(side, side);
+    if (along > 0 && along < length) keep(last_ + side * (along / length), others);
+  }
+
+  struct Plane {
+    CoreVector point, normal;
+  };
+  static Plane plane_from(const CoreVector& a, const CoreVector& b, const CoreVector& c) {
+    return {a, cross(b - a, c - a)};
+  }
+  // Seen from the corner nearest to zero, rounding moves the plane of a sliver least where zero is.
+  static Plane plane_of(const CoreVector& a, const CoreVector& b, const CoreVector& c) {
+    const double of_a = dot(a, a), of_b = dot(b, b), of_c = dot(c, c);
+    if (of_a <= of_b && of_a <= of_c) return plane_from(a, b, c);
+    return of_b <= of_c ? plane_from(b, c, a) : plane_from(c, a, b);
+  }
+
+  void try_triangle(const CoreVector& p, const CoreVector& q, unsigned others) {
+    const Plane plane = plane_of(last_, p, q);
+    const CoreVector& n = plane.normal;
+    const bool is_over =
+        dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 && dot(n, cross(last_, p)) > 0;
+    if (is_over) keep(n * (dot(n, plane.point) / dot(n, n)), others);
+  }
+
+  // Zero is inside if it is on the side of every face on which the fourth corner is. Of corners in
+  // one plane rounding would say anything.
+  void try_tetrahedron(const CoreVector& p, const CoreVector& q, const CoreVector& r) {
+    const bool is_inside = is_beside(p, q, r, last_) && is_beside(q, r, last_, p) &&
+                           is_beside(r, last_, p, q) && is_beside(last_, p, q, r);
+    if (is_inside) keep({0, 0, 0}, 0b111);
+  }
+  static bool is_beside(const CoreVector& a, const CoreVector& b, const CoreVector& c,
+                        const CoreVector& fourth) {
+    const Plane plane = plane_of(a, b, c);
+    const CoreVector u = b - a, v = c - a, w = fourth - plane.point;
+    const double volume = dot(plane.normal, w);
+    if (!(std::fabs(volume) > kWithoutVolume * (size(u) * size(v) * size(w)))) return false;
+    return volume * -dot(plane.normal, plane.point) > 0;
+  }
+  static double size(const CoreVector& v) {
+    return std::max(std::max(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z));
+  }
+
+  CoreVector last_;
+  double squared_ = HUGE_VAL;
+  CoreVector point_;
+  unsigned kept_ = 0;
+  Corners corners_;
+};
+
+inline bool holds(const NearestPoint::Corners& corners, const CoreVector& point) {
+  return std::any_of(corners.begin(), corners.end(), [&](const CoreVector& corner) {
+    return corner.x == point.x && corner.y == point.y && corner.z == point.z;
+  });
+}
+
+// What GJK found. `way` leads from A to B; its length is never less than their distance, and about
+// zero if they touch or overlap.
+struct NearestWay {
+  CoreVector way;
+  NearestPoint::Corners corners;  // of B - A, that span it; four: zero lies among them
+  double gap = 0;  // of the projections on the way, times its length; 0 if they touch
+};
+
+inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
+  constexpr int kMostRounds = 128;  // a dozen will do
+  NearestPoint nearest({difference_point(a, b, b.middle - a.middle, furthest)});
+  for (int round = 0;; ++round) {
+    const CoreVector& way = nearest.point();
+    if (nearest.squared() <= kTouchingSquared || nearest.is_around_zero()) {
+      return {way, nearest.corners()};
+    }
+    const CoreVector next = difference_point(a, b, way, furthest);
+    const double gap = dot(way, next);
+    // To the very last point: the way is as good as the corners it ends at.
+    const bool has_ended = gap >= nearest.squared() || holds(nearest.corners(), next);
+    if (has_ended || round == kMostRounds) return {way, nearest.corners(), gap};
+    NearestPoint::Corners corners = nearest.corners();
+    corners.push_back(next);
+    const NearestPoint nearer(corners);
+    if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners(), gap};
+    nearest = nearer;
+  }
+}
+
+}  // namespace carom

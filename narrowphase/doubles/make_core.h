@@ -1,0 +1,121 @@
+// Shapes as cores: points in world axes, relative to the body's position.
+#pragma once
+
+#include "narrowphase/doubles/core.h"
+#include "narrowphase/scalar/polytope.h"
+
+namespace carom::scalar {
+
+inline CoreVector core_vector(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline Vector3d eigen_vector(const CoreVector& v) { return {v.x, v.y, v.z}; }
+
+// All at `offset`.
+inline void make_core(const SphereShape<double>& sphere, const Quaternion<double>&,
+                      const Vector3d& offset, Core& core) {
+  core.resize(1);
+  core.set(0, core_vector(offset));
+  core.pad();
+  core.radius = sphere.radius;
+  core.middle = core_vector(offset);
+}
+
+inline void make_core(const CapsuleShape<double>& capsule, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  const Rotation<double> turn = rotation_of(q);
+  const Vector3d a = rotate(turn, capsule.a) + offset, b = rotate(turn, capsule.b) + offset;
+  core.resize(2);
+  core.set(0, core_vector(a));
+  core.set(1, core_vector(b));
+  core.pad();
+  core.radius = capsule.radius;
+  core.middle = core_vector((a + b) / 2);
+}
+
+inline void make_core_of_box(const Vector3d& lower, const Vector3d& upper,
+                             const Rotation<double>& turn, const Vector3d& offset, Core& core) {
+  core.resize(8);
+  for (size_t i = 0; i < 8; ++i) {  // bit k of i: at the upper end of axis k
+    const Vector3d corner((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
+                          (i & 4 ? upper : lower).z());
+    core.set(i, core_vector(rotate(turn, corner) + offset));
+  }
+  core.radius = 0;
+  core.middle = core_vector(rotate(turn, Vector3d((lower + upper) / 2)) + offset);
+}
+
+inline void make_core(const AabbShape<double>& box, const Quaternion<double>&,
+                      const Vector3d& offset, Core& core) {
+  const Rotation<double> unturned{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  make_core_of_box(box.lower, box.upper, unturned, offset, core);
+}
+
+inline void make_core(const BoxShape<double>& box, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  make_core_of_box(-box.half, box.half, rotation_of(q), offset, core);
+}
+
+template <class Points>
+void make_core_of_points(const Points& points, const Vector3d& offset, Core& core) {
+  core.resize(points.size());
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 0; i < points.size(); ++i) {
+    core.set(i, core_vector(points[i] + offset));
+    sum += points[i];
+  }
+  core.pad();
+  core.radius = 0;
+  core.middle = core_vector(sum / static_cast<double>(points.size()) + offset);
+}
+
+inline void make_core(const TriangleShape<double>& triangle, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  if (triangle.thickness > 0) {
+    return make_core_of_points(polytope_of(triangle, q).points, offset, core);
+  }
+  const Rotation<double> turn = rotation_of(q);
+  std::array<Vector3d, 3> corners;
+  for (size_t i = 0; i < 3; ++i) corners[i] = rotate(turn, triangle.corners[i]);
+  make_core_of_points(corners, offset, core);
+}
+
+inline void make_core(const DopShape<double>& dop, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  const Rotation<double> turn = rotation_of(q);
+  const DopPolytope shape(dop.slabs);
+  FewOf<Vector3d, DopPolytope::kMostPoints> points;
+  for (const Double3& p : shape.points()) {
+    points.push_back(rotate(turn, Vector3d(p[0], p[1], p[2])));
+  }
+  make_core_of_points(points, offset, core);
+}
+
+// The compiler turns the loop into lanes: columns in, columns out.
+inline void make_core(const HullShape<double>& hull, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  const Rotation<double> turn = rotation_of(q);
+  const HullGeometry& geometry = *hull.geometry;
+  const double s = hull.scale;
+  const auto placed = [&](double x, double y, double z) -> CoreVector {
+    return {((turn.x.x() * x + turn.y.x() * y) + turn.z.x() * z) + offset.x(),
+            ((turn.x.y() * x + turn.y.y() * y) + turn.z.y() * z) + offset.y(),
+            ((turn.x.z() * x + turn.y.z() * y) + turn.z.z() * z) + offset.z()};
+  };
+  core.resize(geometry.points().size());
+  const float* const x = geometry.column(0);
+  const float* const y = geometry.column(1);
+  const float* const z = geometry.column(2);
+  double* const to_x = core.x();
+  double* const to_y = core.y();
+  double* const to_z = core.z();
+  for (size_t i = 0; i < core.padded_size(); ++i) {
+    const CoreVector p = placed(x[i] * s, y[i] * s, z[i] * s);
+    to_x[i] = p.x;
+    to_y[i] = p.y;
+    to_z[i] = p.z;
+  }
+  core.radius = 0;
+  const Eigen::Vector3d& middle = geometry.middle();
+  core.middle = placed(middle.x() * s, middle.y() * s, middle.z() * s);
+}
+
+}  // namespace carom::scalar

@@ -1,0 +1,261 @@
+// The shortest way out of each other of two cores that overlap or touch: the face of their
+// difference B - A that is nearest to zero, by a polytope inside it that grows where it is nearest.
+//
+// The polytope need not hold zero to begin with: a face that has zero in front of it is nearer than
+// all others, and grows first.
+//
+// Source: G. van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game
+// Objects", Game Developers Conference, 2001.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/few_of.h"
+#include "base/tolerances.h"
+#include "narrowphase/doubles/gjk.h"
+
+namespace carom {
+
+// `normal` is unit and leads from A to B; `gap` is how far the projections on it lie apart:
+// negative by the depth if they overlap.
+struct WayOut {
+  CoreVector normal{1, 0, 0};
+  double gap = -HUGE_VAL;
+  bool is_flat = false;   // B - A has no volume: the shapes leave both ways
+  bool has_ended = true;  // otherwise there may be a shorter way
+};
+
+class WayOutSearch {
+ public:
+  WayOutSearch(const Core& a, const Core& b, FurthestPoint furthest)
+      : a_(a), b_(b), furthest_(furthest) {}
+
+  // From what nearest_way() found.
+  WayOut run(const NearestPoint::Corners& known) {
+    for (const CoreVector& corner : known) add_if_beside(corner);
+    if (!complete_tetrahedron()) return best_;
+    make_faces();
+    while (true) {
+      const size_t nearest = nearest_face();
+      if (is_shortest(nearest)) return best_;
+      const CoreVector normal = faces_[nearest].normal;
+      const CoreVector point = try_way(normal);
+      if (is_shortest(nearest)) return best_;
+      if (is_corner(point)) {
+        // Rounding has put the face too low.
+        height_[nearest] = dot(normal, point);
+      } else if (corners_.is_full() || !grow(nearest, point)) {
+        best_.has_ended = false;
+        return best_;
+      }
+    }
+  }
+
+ private:
+  static constexpr size_t kMostCorners = 256;
+  // Of a polytope of triangles, and some on the way.
+  static constexpr size_t kMostFaces = 2 * kMostCorners + 64;
+
+  // An edge as a side of a face: from its corner `side` to the next.
+  struct Side {
+    uint16_t face;
+    uint8_t side;
+  };
+  struct Face {
+    CoreVector normal;               // unit, outwards; zero of a face without area
+    std::array<uint16_t, 3> corner;  // counter-clockwise seen from outside
+    std::array<Side, 3> across;      // what lies beyond its sides
+    bool is_seen;                    // from the point that is being added
+  };
+
+  static double length(const CoreVector& v) { return std::sqrt(dot(v, v)); }
+  static CoreVector unit(const CoreVector& v) { return v * (1 / length(v)); }
+
+  // Unit, across u.
+  static CoreVector perpendicular(const CoreVector& u) {
+    const double x = std::fabs(u.x), y = std::fabs(u.y), z = std::fabs(u.z);
+    const CoreVector least = x <= y && x <= z ? CoreVector{1, 0, 0}
+                             : y <= z         ? CoreVector{0, 1, 0}
+                                              : CoreVector{0, 0, 1};
+    return unit(cross(u, least));
+  }
+
+  // The point of B - A that is furthest along n; keeps the gap along -n.
+  CoreVector try_way(const CoreVector& n) {
+    const CoreVector point = difference_point(a_, b_, -n, furthest_);
+    const double gap = -dot(n, point);
+    if (gap > best_.gap) {
+      best_.normal = -n;
+      best_.gap = gap;
+    }
+    return point;
+  }
+
+  // No face can come nearer to zero than the nearest one inside.
+  bool is_shortest(size_t nearest) const { return -best_.gap - height_[nearest] <= kSameWayOut; }
+
+  bool is_corner(const CoreVector& point) const {
+    return std::any_of(corners_.begin(), corners_.end(), [&](const CoreVector& corner) {
+      return corner.x == point.x && corner.y == point.y && corner.z == point.z;
+    });
+  }
+
+  // --- The first tetrahedron ---
+
+  CoreVector edge(size_t i) const { return corners_[i] - corners_[0]; }
+
+  // Unless the point lies in the point, line or plane of the corners that there are.
+  bool add_if_beside(const CoreVector& point) {
+    if (distance_from_corners(point) <= kFlatDifference) return false;
+    corners_.push_back(point);
+    return true;
+  }
+
+  double distance_from_corners(const CoreVector& point) const {
+    if (corners_.empty()) return HUGE_VAL;
+    const CoreVector way = point - corners_[0];
+    if (corners_.size() == 1) return length(way);
+    if (corners_.size() == 2) return length(cross(unit(edge(1)), way));
+    return std::fabs(dot(unit(cross(edge(1), edge(2))), way));
+  }
+
+  // The furthest point of B - A that way, or the other way.
+  bool add_towards(const CoreVector& way) {
+    return add_if_beside(try_way(way)) || add_if_beside(try_way(-way));
+  }
+
+  bool complete_tetrahedron() {
+    if (corners_.size() == 1) {
+      const bool has_length =
+          add_towards({1, 0, 0}) || add_towards({0, 1, 0}) || add_towards({0, 0, 1});
+      if (!has_length) return flat_across({1, 0, 0});
+    }
+    if (corners_.size() == 2) {
+      const CoreVector u = perpendicular(edge(1));
+      if (!add_towards(u) && !add_towards(unit(cross(edge(1), u)))) return flat_across(u);
+    }
+    if (corners_.size() == 3) {
+      const CoreVector n = unit(cross(edge(1), edge(2)));
+      if (!add_towards(n)) return flat_across(n);
+    }
+    return true;
+  }
+
+  bool flat_across(const CoreVector& n) {
+    best_ = WayOut();
+    try_way(-n);
+    try_way(n);
+    best_.is_flat = true;
+    return false;
+  }
+
+  void make_faces() {
+    // The fourth corner lies behind the first three.
+    if (dot(cross(edge(1), edge(2)), edge(3)) > 0) std::swap(corners_[0], corners_[1]);
+    static constexpr std::array<std::array<uint16_t, 3>, 4> kFaces = {
+        {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+    for (const auto& corners : kFaces) set_face(new_face(), corners);
+    link({0, 0}, {1, 2});
+    link({0, 1}, {2, 2});
+    link({0, 2}, {3, 2});
+    link({1, 0}, {3, 1});
+    link({1, 1}, {2, 0});
+    link({2, 1}, {3, 0});
+  }
+
+  // --- The polytope ---
+
+  // A face without area is never the nearest, and nothing sees it.
+  void set_face(uint16_t face, const std::array<uint16_t, 3>& corner) {
+    const CoreVector &p = corners_[corner[0]], &q = corners_[corner[1]], &r = corners_[corner[2]];
+    const CoreVector u = q - p, v = r - p, n = cross(u, v);
+    const double area = length(n);
+    const bool has_area = area > kWithoutArea * (length(u) * length(v));
+    faces_[face].corner = corner;
+    faces_[face].is_seen = false;
+    faces_[face].normal = has_area ? n * (1 / area) : CoreVector{0, 0, 0};
+    height_[face] = has_area ? dot(faces_[face].normal, p) : HUGE_VAL;
+  }
+
+  size_t nearest_face() const {
+    return static_cast<size_t>(std::min_element(height_.begin(), height_.end()) - height_.begin());
+  }
+
+  // Replaces all faces that the point sees, `first` among them. False if there is no room, or the
+  // horizon is not one ring, which only rounding can do.
+  bool grow(size_t first, const CoreVector& point) {
+    seen_.clear();
+    horizon_.clear();
+    see(static_cast<uint16_t>(first));
+    for (const Side& beyond : faces_[first].across) look_across(beyond, point);
+    return !horizon_.is_full() && close_horizon(point);
+  }
+
+  void see(uint16_t face) {
+    faces_[face].is_seen = true;
+    seen_.push_back(face);
+  }
+
+  // From one seen face to the next, so that the horizon comes in its own order.
+  void look_across(const Side& into, const CoreVector& point) {
+    const Face& face = faces_[into.face];
+    if (face.is_seen || horizon_.is_full()) return;
+    if (!(dot(face.normal, point) - height_[into.face] > kInFace)) {
+      horizon_.push_back(into);
+      return;
+    }
+    see(into.face);
+    look_across(face.across[(into.side + 1) % 3], point);
+    look_across(face.across[(into.side + 2) % 3], point);
+  }
+
+  // A face from every side of the horizon to the point. Those that were seen are used again: there
+  // are always two more new ones.
+  bool close_horizon(const CoreVector& point) {
+    const auto apex = static_cast<uint16_t>(corners_.size());
+    corners_.push_back(point);
+    ring_.clear();
+    for (const Side& beyond : horizon_) {
+      if (ring_.size() >= seen_.size() && faces_.is_full()) return false;
+      const uint16_t face = ring_.size() < seen_.size() ? seen_[ring_.size()] : new_face();
+      const std::array<uint16_t, 3>& corner = faces_[beyond.face].corner;
+      set_face(face, {corner[(beyond.side + 1u) % 3], corner[beyond.side], apex});
+      link({face, 0}, beyond);
+      ring_.push_back(face);
+    }
+    if (ring_.size() < seen_.size()) return false;
+    for (size_t i = 0; i < ring_.size(); ++i) {
+      const uint16_t face = ring_[i], next = ring_[(i + 1) % ring_.size()];
+      if (faces_[face].corner[1] != faces_[next].corner[0]) return false;
+      link({face, 1}, {next, 2});
+    }
+    return true;
+  }
+
+  void link(const Side& one, const Side& other) {
+    faces_[one.face].across[one.side] = other;
+    faces_[other.face].across[other.side] = one;
+  }
+
+  uint16_t new_face() {
+    faces_.push_back({});
+    height_.push_back(0);
+    return static_cast<uint16_t>(faces_.size() - 1);
+  }
+
+  const Core& a_;
+  const Core& b_;
+  const FurthestPoint furthest_;
+  WayOut best_;
+  FewOf<CoreVector, kMostCorners> corners_;  // points of B - A
+  FewOf<Face, kMostFaces> faces_;
+  FewOf<double, kMostFaces> height_;  // of the plane of each face over zero
+  FewOf<uint16_t, kMostFaces> seen_, ring_;
+  FewOf<Side, kMostCorners> horizon_;
+};
+
+}  // namespace carom

@@ -1,0 +1,94 @@
+// Hulls against triangles that are thick, one-sided or inside a mesh (special_triangle_ref.h has
+// the rules), in double precision: pairs are rare, and tested one at a time.
+#pragma once
+
+#include "narrowphase/doubles/convex.h"
+#include "narrowphase/doubles/core_separation.h"
+
+namespace carom::scalar {
+
+// The shortest way out that the triangle (B) leaves open, of those that faces and edges allow.
+class OpenWays {
+ public:
+  OpenWays(const Core& a, const Core& b, const FrontRules& rules, FurthestPoint furthest)
+      : a_(a), b_(b), rules_(rules), furthest_(furthest) {}
+
+  void try_both_ways(const Vector3d& n) {
+    if (n.isZero(0)) return;
+    keep(core_vector(n));
+    keep(core_vector(-n));
+  }
+
+  // `otherwise` if all ways are closed.
+  CoreGap best_or(const CoreGap& otherwise) const {
+    return best_.size > -HUGE_VAL ? best_ : otherwise;
+  }
+
+ private:
+  void keep(const CoreVector& n) {
+    if (!allows(rules_, -eigen_vector(n))) return;
+    const double gap = dot(n, b_.point(furthest_(b_, -n))) - dot(n, a_.point(furthest_(a_, n)));
+    if (gap > best_.size + kTieOfGaps) best_ = {.size = gap, .normal = n};
+  }
+
+  const Core& a_;
+  const Core& b_;
+  const FrontRules& rules_;
+  const FurthestPoint furthest_;
+  CoreGap best_{.size = -HUGE_VAL, .normal = {1, 0, 0}};
+};
+
+// The normals of the faces of a hull, and the directions of its edges, against those of a triangle.
+inline void try_faces_and_edges(const HullShape<double>& hull, const Rotation<double>& turn,
+                                const Polytope& triangle, OpenWays& ways) {
+  const HullGeometry& geometry = *hull.geometry;
+  const auto point = [&](uint32_t i) -> Vector3d {
+    return rotate(turn, Vector3d(geometry.points()[i].cast<double>() * hull.scale));
+  };
+  const auto try_edge = [&](uint32_t i, uint32_t j) {
+    const Vector3d u = unit_or_zero(point(j) - point(i));
+    for (const Vector3d& v : triangle.directions) {
+      const Vector3d n = cross(u, v);
+      if (dot(n, n) > kParallelEdges) ways.try_both_ways(unit_or_zero(n));
+    }
+  };
+  for (const Vector3d& n : triangle.normals) ways.try_both_ways(n);
+  for (const HullGeometry::Face& face : geometry.faces()) {
+    const auto corners = geometry.corners(face);
+    Vector3d normal = Vector3d::Zero();
+    for (size_t i = 2; i < corners.size(); ++i) {
+      normal += cross(Vector3d(point(corners[i - 1]) - point(corners[0])),
+                      Vector3d(point(corners[i]) - point(corners[0])));
+    }
+    ways.try_both_ways(unit_or_zero(normal));
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const uint32_t from = corners[i], to = corners[(i + 1) % corners.size()];
+      if (from < to) try_edge(from, to);  // the other face of the edge has it the other way round
+    }
+  }
+  if (geometry.faces().empty()) {
+    for (uint32_t i = 1; i < geometry.points().size(); ++i) try_edge(0, i);
+  }
+}
+
+inline SeparationAs<double> ruled_hull(const HullShape<double>& a, const TriangleShape<double>& b,
+                                       const PairPose<double>& pose, const CoreTest& test) {
+  Polytope triangle = polytope_of(b, pose.b);
+  triangle.move(pose.d);
+  CorePair& cores = core_pair_of_thread();
+  make_core(a, pose.a, Vector3d::Zero(), cores.a);
+  make_core_of_points(triangle.points, Vector3d::Zero(), cores.b);
+  if (comes_from_behind(triangle.rules, eigen_vector(cores.a.middle))) return convex::never();
+  CoreGap gap = find_gap(cores.a, cores.b, test);
+  if (triangle.rules.close_ways() && gap.size <= 0) {
+    OpenWays ways(cores.a, cores.b, triangle.rules, test.furthest);
+    ways.try_both_ways(eigen_vector(gap.normal));
+    try_faces_and_edges(a, rotation_of(pose.a), triangle, ways);
+    const double greatest = gap.size;
+    gap = ways.best_or(gap);
+    gap.size = min(gap.size, greatest);
+  }
+  return core_separation(cores.a, cores.b, gap, pose.d, test);
+}
+
+}  // namespace carom::scalar

@@ -1,0 +1,267 @@
+// Nearest points of two oriented boxes, in lanes: along a separating axis, and of boxes apart
+// (boxes_contact_ref.h and boxes_distance_ref.h say how and why).
+#if defined(CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_
+#undef CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_
+#else
+#define CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_
+#endif
+
+#include "base/tolerances.h"
+#include "narrowphase/features/boxes_sat-inl.h"
+#include "narrowphase/features/rounded-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+HWY_INLINE F3 clamp_to_box(const F3& x, const F3& half) {
+  return {clamp(x.x, hn::Neg(half.x), half.x), clamp(x.y, hn::Neg(half.y), half.y),
+          clamp(x.z, hn::Neg(half.z), half.z)};
+}
+
+HWY_INLINE F3 to_b(const BoxPairLanes& p, const F3& x) { return rotate_back(p.turn, x - p.centre); }
+HWY_INLINE F3 from_b(const BoxPairLanes& p, const F3& q) { return rotate(p.turn, q) + p.centre; }
+
+HWY_INLINE Mask3 are_across(const F3& direction) {
+  return {hn::Le(hn::Abs(direction.x), splat(kAcross<float>)),
+          hn::Le(hn::Abs(direction.y), splat(kAcross<float>)),
+          hn::Le(hn::Abs(direction.z), splat(kAcross<float>))};
+}
+
+// `half` with the signs of a direction; minus where that is zero.
+HWY_INLINE F3 corner_towards(const F3& half, const F3& direction) {
+  const F zero = splat(0);
+  return {hn::IfThenElse(hn::Gt(direction.x, zero), half.x, hn::Neg(half.x)),
+          hn::IfThenElse(hn::Gt(direction.y, zero), half.y, hn::Neg(half.y)),
+          hn::IfThenElse(hn::Gt(direction.z, zero), half.z, hn::Neg(half.z))};
+}
+
+HWY_INLINE F3 on_feature(const F3& half, const F3& corner, const Mask3& across, const F3& target) {
+  return select(across, clamp_to_box(target, half), corner);
+}
+
+HWY_INLINE void facing_features(const BoxPairLanes& p, const F3& normal, F3& on_a, F3& on_b) {
+  const F3 out_of_b = -rotate_back(p.turn, normal);
+  const Mask3 across_a = are_across(normal);
+  const Mask3 across_b = are_across(out_of_b);
+  const F3 corner_a = corner_towards(p.half_a, normal);
+  const F3 corner_b = corner_towards(p.half_b, out_of_b);
+  on_a = on_feature(p.half_a, corner_a, across_a, p.centre);
+  for (int i = 0; i < 2; ++i) {
+    on_b = from_b(p, on_feature(p.half_b, corner_b, across_b, to_b(p, on_a)));
+    on_a = on_feature(p.half_a, corner_a, across_a, on_b);
+  }
+}
+
+HWY_INLINE F3 zero_if(const Mask3& mask, const F3& v) {
+  return {hn::IfThenZeroElse(mask.x, v.x), hn::IfThenZeroElse(mask.y, v.y),
+          hn::IfThenZeroElse(mask.z, v.z)};
+}
+
+HWY_INLINE F3 replace(const AxisMasks& axis, const F3& v, F value) {
+  return select(axis, {value, value, value}, v);
+}
+
+// The nearest points of two edges, along these axes, that face each other along `normal`.
+HWY_INLINE void facing_edges(const BoxPairLanes& p, const F3& normal, const AxisMasks& edge_a,
+                             const AxisMasks& edge_b, F3& on_a, F3& on_b) {
+  const F3 v = select_axis(edge_b, p.turn);
+  const F3 out_of_b = -rotate_back(p.turn, normal);
+  const F3 a = zero_if(edge_a, corner_towards(p.half_a, normal));
+  const F3 b = from_b(p, zero_if(edge_b, corner_towards(p.half_b, out_of_b)));
+  const F half_a = pick(edge_a, p.half_a);
+  const F half_b = pick(edge_b, p.half_b);
+  const F3 n = axis_cross(edge_a, v);
+  const F s = hn::Div(dot(cross(b - a, v), n), dot(n, n));
+  on_a = replace(edge_a, a, clamp(s, hn::Neg(half_a), half_a));
+  on_b = b + v * clamp(dot(v, on_a - b), hn::Neg(half_b), half_b);
+  on_a = replace(edge_a, on_a, clamp(pick(edge_a, on_b), hn::Neg(half_a), half_a));
+}
+
+// Whether the features along an edge axis are edges, and not faces that they belong to.
+HWY_INLINE Mask is_edge_contact(const BoxPairLanes& p, const SeparatingAxisLanes& axis) {
+  const Mask3 across_a = are_across(axis.normal);
+  const Mask3 across_b = are_across(rotate_back(p.turn, axis.normal));
+  const auto other = [](const AxisMasks& edge, const Mask3& across) HWY_ATTR {
+    return hn::Or(hn::Or(hn::AndNot(edge.x, across.x), hn::AndNot(edge.y, across.y)),
+                  hn::AndNot(edge.z, across.z));
+  };
+  return hn::AndNot(hn::Or(other(axis.edge_a, across_a), other(axis.edge_b, across_b)),
+                    axis.is_edge);
+}
+
+// Where the boxes are nearest to each other if that is along the axis. `unsure`: axes tie, and
+// float32 cannot tell along which of them the boxes meet.
+HWY_INLINE void witness_along(const BoxPairLanes& p, const SeparatingAxisLanes& axis, F3& on_a,
+                              F3& on_b, Mask& unsure) {
+  F3 edge_on_a, edge_on_b, feature_on_a, feature_on_b;
+  facing_edges(p, axis.normal, axis.edge_a, axis.edge_b, edge_on_a, edge_on_b);
+  facing_features(p, axis.normal, feature_on_a, feature_on_b);
+  const Mask edges = is_edge_contact(p, axis);
+  on_a = select(edges, edge_on_a, feature_on_a);
+  on_b = on_a + axis.normal * axis.gap;
+  const F3 off_axis = select(edges, edge_on_b, feature_on_b) - on_b;
+  unsure = hn::Gt(dot(off_axis, off_axis), splat(kOffAxisSquared));
+}
+
+// --- Boxes apart ---
+
+struct NearestCornerLanes {
+  F squared;
+  F3 corner;
+};
+
+// The corner of a box at `centre`, with half axes `h`, that is nearest to a box about the origin.
+HWY_INLINE NearestCornerLanes nearest_corner(const F3& half, const F3& centre, const F3& hx,
+                                             const F3& hy, const F3& hz) {
+  NearestCornerLanes nearest;
+  const auto offer = [&](const F3& corner, bool is_first) HWY_ATTR {
+    const F3 outside = max(abs(corner) - half, splat3(0));
+    const F squared = dot(outside, outside);
+    if (is_first) {
+      nearest = {squared, corner};
+      return;
+    }
+    const Mask nearer = hn::Lt(squared, nearest.squared);
+    nearest.squared = hn::IfThenElse(nearer, squared, nearest.squared);
+    nearest.corner = select(nearer, corner, nearest.corner);
+  };
+  const F3 x0 = centre - hx;
+  const F3 x1 = centre + hx;
+  const F3 x0y0 = x0 - hy;
+  const F3 x1y0 = x1 - hy;
+  const F3 x0y1 = x0 + hy;
+  const F3 x1y1 = x1 + hy;
+  offer(x0y0 - hz, true);
+  offer(x1y0 - hz, false);
+  offer(x0y1 - hz, false);
+  offer(x1y1 - hz, false);
+  offer(x0y0 + hz, false);
+  offer(x1y0 + hz, false);
+  offer(x0y1 + hz, false);
+  offer(x1y1 + hz, false);
+  return nearest;
+}
+
+HWY_INLINE NearestCornerLanes nearest_corner_of_b(const BoxPairLanes& p) {
+  return nearest_corner(p.half_a, p.centre, p.turn.x * p.half_b.x, p.turn.y * p.half_b.y,
+                        p.turn.z * p.half_b.z);
+}
+
+// In the frame of B.
+HWY_INLINE NearestCornerLanes nearest_corner_of_a(const BoxPairLanes& p) {
+  const Rotation rows = transposed(p.turn);
+  return nearest_corner(p.half_b, -rotate_back(p.turn, p.centre), rows.x * p.half_a.x,
+                        rows.y * p.half_a.y, rows.z * p.half_a.z);
+}
+
+// A point of A near the nearest one.
+HWY_INLINE F3 start_on_a(const BoxPairLanes& p, const BestEdges& edges) {
+  const NearestCornerLanes of_b = nearest_corner_of_b(p);
+  const NearestCornerLanes of_a = nearest_corner_of_a(p);
+  const Mask is_of_a = hn::Lt(of_a.squared, of_b.squared);
+  const F least = hn::IfThenElse(is_of_a, of_a.squared, of_b.squared);
+  const F3 x = select(is_of_a, from_b(p, of_a.corner), clamp_to_box(of_b.corner, p.half_a));
+
+  AxisMasks edge_a, edge_b;
+  choose_edges(edges.number, edge_a, edge_b);
+  F3 on_a, on_b;
+  facing_edges(p, from_a_to_b(p, edge_normal(p, edges, edge_a, edge_b)), edge_a, edge_b, on_a,
+               on_b);
+  const F3 way = on_b - on_a;
+  return select(hn::Lt(dot(way, way), least), on_a, x);
+}
+
+// How many coordinates are not held by the surface.
+HWY_INLINE F free_axes(const F3& x, const F3& half) {
+  const auto is_free = [](F coordinate, F limit) HWY_ATTR {
+    return hn::IfThenElseZero(hn::Lt(hn::Abs(coordinate), limit), splat(1));
+  };
+  return hn::Add(hn::Add(is_free(x.x, half.x), is_free(x.y, half.y)), is_free(x.z, half.z));
+}
+
+// The gap along a unit vector from A to B.
+HWY_INLINE F gap_along(const BoxPairLanes& p, const F3& n) {
+  const F reach_a = dot(abs(n), p.half_a);
+  const F reach_b = dot(abs(rotate_back(p.turn, n)), p.half_b);
+  return hn::Sub(dot(n, p.centre), hn::Add(reach_a, reach_b));
+}
+
+// The distance of boxes that are apart, their normal and nearest points.
+HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
+                            const SeparatingAxisLanes& axis, F& distance, F3& normal, F3& on_a,
+                            F3& on_b, Mask& unsure) {
+  F3 x = start_on_a(p, edges);
+  for (int round = 0; round < 2; ++round) {
+    x = clamp_to_box(from_b(p, clamp_to_box(to_b(p, x), p.half_b)), p.half_a);
+  }
+  const F3 q = to_b(p, x);
+  const F3 q_on_b = clamp_to_box(q, p.half_b);
+  const F3 y = from_b(p, q_on_b);
+  const Mask in_frame_b = hn::Gt(free_axes(q, p.half_b), free_axes(y, p.half_a));
+  const F3 way = select(in_frame_b, rotate(p.turn, q_on_b - q), y - clamp_to_box(y, p.half_a));
+  const F length = hn::Sqrt(dot(way, way));
+  const F3 direction = way * hn::Div(splat(1), length);
+
+  // The better normal is the one that keeps the boxes further apart; rounding tilts short ways.
+  const F gap = gap_along(p, direction);
+  const Mask by_points = hn::Gt(gap, axis.gap);
+  const Mask tilted = hn::Lt(gap, hn::Sub(length, splat(CoreTolerance<float>::kTilt)));
+  F3 axis_on_a, axis_on_b;
+  Mask axis_unsure;
+  witness_along(p, axis, axis_on_a, axis_on_b, axis_unsure);
+  distance = hn::IfThenElse(by_points, length, axis.gap);
+  normal = select(by_points, direction, axis.normal);
+  on_a = select(by_points, y - direction * length, axis_on_a);
+  on_b = select(by_points, y, axis_on_b);
+  unsure = hn::Or(hn::And(by_points, tilted), hn::AndNot(by_points, axis_unsure));
+}
+
+// --- Reports ---
+
+// Results in the frame of A -> world axes. `centre_a`: relative to A's position.
+template <class Report>
+HWY_INLINE void report_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
+                             F axis_gap, F separation, const F3& normal, const F3& on_a,
+                             const F3& on_b, Mask unsure, Report& report) {
+  report(hn::Le(separation, splat(0)), hn::Or(is_near_touch(axis_gap), unsure), no_lanes(),
+         separation, rotate(turn_a, normal), rotate(turn_a, on_a) + centre_a,
+         rotate(turn_a, on_b - p.centre));
+}
+
+// Which axes are tried for one that parts the boxes.
+enum class TriedAxes { all, of_faces };
+
+// Decision and, of overlapping boxes, all.
+template <TriedAxes kTried, class Report>
+HWY_INLINE void test_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
+                           Report& report) {
+  const BestEdges edges = kTried == TriedAxes::all ? best_edges(p) : no_edges();
+  const SeparatingAxisLanes axis = best_axis(p, edges);
+  F3 on_a = p.centre, on_b = p.centre;
+  Mask unsure = no_lanes();
+  if constexpr (Report::kHasContact) witness_along(p, axis, on_a, on_b, unsure);
+  // Boxes that edges part have no features that face each other: nobody asked.
+  if constexpr (kTried == TriedAxes::of_faces) unsure = no_lanes();
+  const Mask overlap = hn::Le(axis.gap, splat(0));
+  report_boxes(p, turn_a, centre_a, axis.gap, axis.gap, axis.normal, on_a, on_b,
+               hn::And(unsure, overlap), report);
+}
+
+// All, of boxes that are apart.
+template <class Report>
+HWY_INLINE void measure_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
+                              Report& report) {
+  const BestEdges edges = best_edges(p);
+  const SeparatingAxisLanes axis = best_axis(p, edges);
+  F distance;
+  F3 normal, on_a, on_b;
+  Mask unsure;
+  distance_of(p, edges, axis, distance, normal, on_a, on_b, unsure);
+  report_boxes(p, turn_a, centre_a, axis.gap, distance, normal, on_a, on_b, unsure, report);
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_

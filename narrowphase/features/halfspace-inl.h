@@ -1,0 +1,49 @@
+// Convex shapes over the plane of a half-space, in lanes (Ericson 2005, 5.2.2 and 5.2.3).
+#if defined(CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_
+#undef CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_
+#else
+#define CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_
+#endif
+
+#include "base/tolerances.h"
+#include "narrowphase/batch/load-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// The plane of a half-space that is turned by q, its position at `d` from another body: the unit
+// normal in world axes, the height over the other body's position along it, and the size of the
+// numbers that were rounded.
+HWY_INLINE void place_plane(const HalfspaceLanes& halfspace, const Quaternion& q, const F3& d,
+                            F3& normal, F& height, F& size) {
+  normal = rotate(rotation_of(q), halfspace.normal);
+  const F3 along = {hn::Mul(normal.x, d.x), hn::Mul(normal.y, d.y), hn::Mul(normal.z, d.z)};
+  height = hn::Add(hn::Add(hn::Add(along.x, along.y), along.z), halfspace.offset);
+  // A normal that no rotation has rounded does not care how far away the position is sideways.
+  const Mask is_turned = hn::Ne(sum_of_sizes(q.v), splat(0));
+  size = hn::Add(sum_of_sizes(select(is_turned, d, along)), hn::Abs(halfspace.offset));
+}
+
+// `size`: of the shape.
+HWY_INLINE Mask is_unsure_over_plane(F separation, F size, F plane_size) {
+  const F apart = hn::Abs(separation);
+  const Mask near_touch =
+      hn::Le(apart, hn::Mul(splat(kNearTouchScaled), hn::Add(plane_size, size)));
+  const Mask far = hn::Lt(hn::Mul(splat(kFarPlane), hn::Add(apart, size)), plane_size);
+  return hn::Or(near_touch, far);
+}
+
+// Reports the shape (A) whose lowest point is `lowest`, relative to its own position, against the
+// half-space (B) at `d` from it.
+template <class Report>
+HWY_INLINE void report_over_plane(const F3& normal, F plane_size, F separation, const F3& lowest,
+                                  F size, const F3& d, Report& report) {
+  report(hn::Le(separation, splat(0)), is_unsure_over_plane(separation, size, plane_size),
+         no_lanes(), separation, -normal, lowest, (lowest - normal * separation) - d);
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_

@@ -1,0 +1,34 @@
+// Shapes that are a core (point, segment, triangle, box) grown by a radius, in lanes.
+#if defined(CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_
+#undef CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_
+#else
+#define CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_
+#endif
+
+#include "base/tolerances.h"
+#include "simd/rotation-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// Whether the separation, in scaled units, is within what rounding may have done to it.
+HWY_INLINE Mask is_near_touch(F separation) {
+  return hn::Le(hn::Abs(separation), splat(kNearTouchScaled));
+}
+
+// Reports two grown cores of which `core_a` and `core_b` are the nearest points, relative to A, and
+// `distance` apart. `unsure` and `degenerate` beside what follows from the separation.
+template <class Report>
+HWY_INLINE void report_grown(const F3& core_a, const F3& core_b, const F3& normal, F distance,
+                             F radius_a, F radius_b, const PoseLanes& pose, Mask unsure,
+                             Mask degenerate, Report& report) {
+  const F separation = hn::Sub(hn::Sub(distance, max(radius_a, radius_b)), min(radius_a, radius_b));
+  report(hn::Le(separation, splat(0)), hn::Or(unsure, is_near_touch(separation)), degenerate,
+         separation, normal, core_a + normal * radius_a, (core_b - pose.d) - normal * radius_b);
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_

@@ -1,0 +1,85 @@
+// Nearest points of segments in lanes (Ericson 2005, 5.1.2, 5.1.9).
+#if defined(CAROM_NARROWPHASE_FEATURES_SEGMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_FEATURES_SEGMENT_INL_H_
+#undef CAROM_NARROWPHASE_FEATURES_SEGMENT_INL_H_
+#else
+#define CAROM_NARROWPHASE_FEATURES_SEGMENT_INL_H_
+#endif
+
+#include "base/tolerances.h"
+#include "simd/axis-inl.h"
+#include "simd/rotation-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// a / b where b > 0, elsewhere 0; clamped to [0, 1].
+HWY_INLINE F clamped_ratio(F a, F b) {
+  return hn::IfThenElseZero(hn::Gt(b, splat(0)), clamp(hn::Div(a, b), splat(0), splat(1)));
+}
+
+// Neither of the two ends.
+HWY_INLINE Mask is_inside(F t) { return hn::And(hn::Gt(t, splat(0)), hn::Lt(t, splat(1))); }
+
+// The point of the segment from a to b that is nearest to p, and the way there: where that is not
+// an end (`is_across`) it is perpendicular to the segment, since what rounding leaves along it
+// would tilt the normal.
+HWY_INLINE void nearest_on_segment(const F3& p, const F3& a, const F3& b, F3& point, F3& delta,
+                                   Mask& is_across) {
+  const F3 d = b - a;
+  const F squared = dot(d, d);
+  const F t = clamped_ratio(dot(p - a, d), squared);
+  point = a + d * t;
+  const F3 way = point - p;
+  is_across = is_inside(t);
+  delta = select(is_across, way - d * hn::Div(dot(way, d), squared), way);
+}
+
+// Where p + d s and q + e t, r being q - p, are nearest, and the way there. The first s in a form
+// that keeps the error of the distance at that of the coordinates, however near parallel the two
+// are.
+HWY_INLINE void nearest_of_segments(const F3& r, const F3& d, F dd, const F3& e, F ee, F& s, F& t,
+                                    F3& delta) {
+  const F3 n = cross(d, e);
+  const F along_lines = clamped_ratio(dot(cross(r, e), n), dot(n, n));
+  t = clamped_ratio(dot(e, d * along_lines - r), ee);
+  s = clamped_ratio(dot(d, r + e * t), dd);
+  delta = (r + e * t) - d * s;
+}
+
+// The direction of `delta`, not a unit vector, from the features that are nearest: across both
+// segments inside both (the sign is any), across one inside one. Returns where it is across both.
+HWY_INLINE Mask way_between(const F3& d, F dd, const F3& e, F ee, F s, F t, const F3& delta,
+                            F3& way) {
+  using Tolerance = CoreTolerance<float>;
+  const F3 n = cross(d, e);
+  const F least =
+      max(hn::Mul(splat(Tolerance::kParallel), hn::Mul(dd, ee)), splat(Tolerance::kVanishing));
+  const Mask in_d = is_inside(s);
+  const Mask in_e = is_inside(t);
+  const Mask across = hn::And(hn::And(in_d, in_e), hn::Gt(dot(n, n), least));
+  way = select(across, n, delta);
+  // Rounding left something along the segment. Once across d, n is across e up to rounding.
+  const F3 edge = select(in_d, d, e);
+  const F share = hn::Div(dot(way, edge), hn::IfThenElse(in_d, dd, ee));
+  way = select(hn::Or(in_d, in_e), way - edge * share, way);
+  return across;
+}
+
+// Some unit vector perpendicular to d; +x if d is zero.
+HWY_INLINE F3 any_perpendicular(const F3& d) {
+  const AxisMasks axis = least_axis({hn::Abs(d.x), hn::Abs(d.y), hn::Abs(d.z)});
+  const F zero = splat(0);
+  const F3 around_x = {zero, hn::Neg(d.z), d.y};
+  const F3 around_y = {d.z, zero, hn::Neg(d.x)};
+  const F3 around_z = {hn::Neg(d.y), d.x, zero};
+  const F3 v = select(axis.x, around_x, select(axis.y, around_y, around_z));
+  const F squared = dot(v, v);
+  const F3 x = {splat(1), zero, zero};
+  return select(hn::Gt(squared, zero), v * hn::Div(splat(1), hn::Sqrt(squared)), x);
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_FEATURES_SEGMENT_INL_H_

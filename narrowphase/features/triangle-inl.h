@@ -1,0 +1,121 @@
+// Triangles as cores, and the nearest point of one to a point, in lanes (Ericson 2005, 5.1.5).
+#if defined(CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_
+#undef CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_
+#else
+#define CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_
+#endif
+
+#include "narrowphase/features/segment-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// Corners in the order of the triangle, starting with its longest edge; edge i leads from corner i
+// to the next. Without a face (no area) the third corner is the first again: the longest edge is
+// all.
+struct TriangleCore {
+  F3 corner[3];
+  F3 edge[3];
+  F squared[3];  // of the edges
+  F3 normal;     // not a unit vector
+  Mask has_face;
+
+  HWY_INLINE TriangleCore(const F3& a, const F3& b, const F3& c) : corner{a, b, c} {
+    start_with_longest();
+    normal = cross(edge[1], edge[2]);
+    // The third corner of a sliver is as near to the longest edge as rounding leaves the normal
+    // uncertain about it; but it must be at right angles to it.
+    const F share =
+        hn::IfThenElseZero(hn::Gt(squared[0], splat(0)), hn::Div(dot(normal, edge[0]), squared[0]));
+    normal = normal - edge[0] * share;
+    using Tolerance = CoreTolerance<float>;
+    has_face = hn::Gt(dot(normal, normal),
+                      max(hn::Mul(splat(Tolerance::kFlat), hn::Mul(squared[0], squared[0])),
+                          splat(Tolerance::kVanishing)));
+    corner[2] = select(has_face, corner[2], corner[0]);
+    measure_edge(1);
+    measure_edge(2);
+  }
+
+ private:
+  HWY_INLINE void start_with_longest() {
+    for (size_t i = 0; i < 3; ++i) measure_edge(i);
+    const Mask second = hn::And(hn::Gt(squared[1], squared[0]), hn::Ge(squared[1], squared[2]));
+    const Mask third = hn::AndNot(second, hn::Gt(squared[2], squared[0]));
+    const F3 a = corner[0], b = corner[1], c = corner[2];
+    corner[0] = select(second, b, select(third, c, a));
+    corner[1] = select(second, c, select(third, a, b));
+    corner[2] = select(second, a, select(third, b, c));
+    for (size_t i = 0; i < 3; ++i) measure_edge(i);
+  }
+
+  HWY_INLINE void measure_edge(size_t i) {
+    edge[i] = corner[(i + 1) % 3] - corner[i];
+    squared[i] = dot(edge[i], edge[i]);
+  }
+};
+
+// One edge as a point sees it.
+struct EdgeView {
+  F3 way;           // to the nearest point of the edge's line
+  Mask is_before;   // of the first end, or there
+  Mask is_past;     // of the second end, or there
+  Mask is_outside;  // the triangle lies beyond the edge
+
+  // `from` and `past`: from the two ends to the point.
+  HWY_INLINE EdgeView(const F3& from, const F3& past, const TriangleCore& triangle, size_t i) {
+    const F zero = splat(0);
+    const F3& edge = triangle.edge[i];
+    const F squared = triangle.squared[i];
+    const F along = dot(from, edge);
+    is_before = hn::Le(along, zero);
+    is_past = hn::Ge(dot(past, edge), zero);
+    way = edge * hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(along, squared)) - from;
+    is_outside =
+        hn::Or(hn::Not(triangle.has_face), hn::Gt(dot(way, cross(triangle.normal, edge)), zero));
+  }
+
+  HWY_INLINE Mask is_nearest() const { return hn::AndNot(hn::Or(is_before, is_past), is_outside); }
+};
+
+// From a point to the nearest point of a triangle: the direction, not a unit vector, and the length
+// of the way. Returns where that is the face: where p is over no edge and no corner.
+HWY_INLINE Mask nearest_on_triangle(const F3& p, const TriangleCore& triangle, F3& way,
+                                    F& distance) {
+  const F3 from[3] = {p - triangle.corner[0], p - triangle.corner[1], p - triangle.corner[2]};
+  const EdgeView views[3] = {{from[0], from[1], triangle, 0},
+                             {from[1], from[2], triangle, 1},
+                             {from[2], from[0], triangle, 2}};
+  const Mask is_outside =
+      hn::Or(views[0].is_outside, hn::Or(views[1].is_outside, views[2].is_outside));
+  const F height = dot(from[0], triangle.normal);
+  way = negate_if(hn::Ge(height, splat(0)), triangle.normal);
+  Mask is_face = hn::Not(no_lanes());
+  for (size_t i = 3; i-- > 0;) {
+    const Mask at_corner =
+        hn::And(is_outside, hn::And(views[i].is_before, views[(i + 2) % 3].is_past));
+    way = select(at_corner, -from[i], way);
+    is_face = hn::AndNot(at_corner, is_face);
+  }
+  F3 edge = triangle.edge[0];
+  F squared = triangle.squared[0];
+  Mask is_edge = no_lanes();
+  for (size_t i = 3; i-- > 0;) {
+    const Mask nearest = views[i].is_nearest();
+    way = select(nearest, views[i].way, way);
+    edge = select(nearest, triangle.edge[i], edge);
+    squared = hn::IfThenElse(nearest, triangle.squared[i], squared);
+    is_edge = hn::Or(is_edge, nearest);
+  }
+  way = select(is_edge, way - edge * hn::Div(dot(way, edge), squared), way);
+  is_face = hn::AndNot(is_edge, is_face);
+  const F length = hn::Sqrt(dot(way, way));
+  distance = hn::IfThenElse(is_face, hn::Div(hn::Abs(height), length), length);
+  return is_face;
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_

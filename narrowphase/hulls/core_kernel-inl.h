@@ -1,0 +1,194 @@
+// The test of two kinds of which one is a hull, by GJK in lanes.
+#if defined(CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_
+#undef CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_
+#else
+#define CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_
+#endif
+
+#include <array>
+
+#include "base/tolerances.h"
+#include "narrowphase/hulls/closest_feature-inl.h"
+#include "narrowphase/hulls/features.h"
+#include "narrowphase/hulls/gjk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+HWY_INLINE Mask is_same(const F3& p, const F3& q) {
+  return hn::And(hn::Eq(p.x, q.x), hn::And(hn::Eq(p.y, q.y), hn::Eq(p.z, q.z)));
+}
+
+// Which point of the core it is, as `is_it` says; of several the first.
+template <class IsIt>
+HWY_INLINE F place_of(const CoreLanes& core, const IsIt& is_it) {
+  F place = splat(0);
+  for (size_t i = core.count(); i-- > 0;) {
+    place = hn::IfThenElse(is_it(core.point(i)), splat(static_cast<float>(i)), place);
+  }
+  return place;
+}
+
+// Writes `count` of the corners, a lane each, as features.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
+                               const std::array<const CornerLanes*, kMostFeatures>& corners,
+                               F count, uint64_t* features) {
+  HWY_ALIGN float counts[kLanes];
+  HWY_ALIGN float places[2 * kMostFeatures][kLanes];
+  hn::Store(count, FloatTag(), counts);
+  for (size_t k = 0; k < kMostFeatures; ++k) {
+    const CornerLanes& c = *corners[k];
+    const auto of_a = [&](const F3& p) HWY_ATTR { return is_same(p, c.on_a); };
+    const auto of_b = [&](const F3& p) HWY_ATTR { return is_same(p - c.on_a, c.point); };
+    hn::Store(place_of(a, of_a), FloatTag(), places[2 * k]);
+    hn::Store(place_of(b, of_b), FloatTag(), places[2 * k + 1]);
+  }
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    Features found{static_cast<size_t>(counts[lane])};
+    for (size_t k = 0; k < found.count; ++k) {
+      found.of_a[k] = static_cast<uint8_t>(places[2 * k][lane]);
+      found.of_b[k] = static_cast<uint8_t>(places[2 * k + 1][lane]);
+    }
+    features[lane] = pack_features(found);
+  }
+}
+
+// Those around zero, or those that are nearest, where either is sure.
+HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
+                               Mask is_nearest, const GjkLanes& gjk, Mask is_around,
+                               uint64_t* features) {
+  const auto& corner = gjk.ends.corner;
+  const CornerLanes p = select(is_around, corner[0], ends.p);
+  const CornerLanes q = select(is_around, corner[1], ends.q);
+  const CornerLanes r = select(is_around, corner[2], ends.r);
+  const F count = hn::IfThenElseZero(is_nearest, ends.count());
+  write_features(a, b, {&p, &q, &r, &gjk.last}, hn::IfThenElse(is_around, splat(4), count),
+                 features);
+}
+
+// `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
+// elsewhere. Lanes that go on later are neither.
+template <class Report>
+HWY_INLINE void report_nearest(const NearestCores& nearest, F radius, F radius_a, const F3& d,
+                               Mask goes_on, Report& report) {
+  const F separation = hn::Sub(nearest.distance, radius);
+  const Mask is_sure =
+      hn::Or(goes_on, hn::And(nearest.is_sure, hn::Gt(hn::Abs(separation), splat(kSureGap))));
+  const F3 arm_a = nearest.on_a + nearest.normal * radius_a;
+  const F3 arm_b = (arm_a + nearest.normal * separation) - d;
+  report(hn::Le(separation, splat(0)), hn::Not(is_sure), no_lanes(), separation, nearest.normal,
+         arm_a, arm_b);
+}
+
+// Scales at which float32 may decide. `up`: metres a unit.
+HWY_INLINE Mask is_usual_scale(F up) {
+  return hn::And(hn::Ge(up, splat(1 / kGreatestScale)), hn::Le(up, splat(kGreatestScale)));
+}
+
+// Tests run as a whole, or in two stages (core_stages-inl.h).
+enum class Stage { whole, first, rest };
+
+// No more lanes of a vector than these leave it at the end of the first stage: three of sixteen,
+// and none of four, which would cost more than it saves.
+inline constexpr size_t kFewOpen = 3 * kLanes / 16;
+
+// The test of two kinds of which one is a hull. Marks as unsure whatever is left to other tests,
+// and with kDeep cores that surely overlap, whose depth is wanted. At Pass::test the separation of
+// separate pairs is a lower bound, along the normal; at Pass::clearance overlaps have no depth; at
+// Pass::distance there is all.
+template <class ShapeA, class ShapeB, Pass kPass, Stage kStage = Stage::whole>
+struct CoreKernel {
+  using A = ShapeA;
+  using B = ShapeB;
+  static constexpr Units kUnits = Units::scaled;
+  static constexpr Unsure kUnsure = Unsure::left;
+
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    constexpr bool kDecides = kPass == Pass::test || !Report::kHasContact;
+    CoreLanes core_a, core_b;
+    make_core(a, pose.a, splat3(0), core_a);
+    make_core(b, pose.b, pose.d, core_b);
+    const Mask is_known =
+        hn::And(hn::And(core_a.has_space, core_b.has_space), is_usual_scale(report.up));
+    const F radius = hn::Add(core_a.radius, core_b.radius);
+    GjkSearch search;
+    const Mask goes_on = run_stage<kDecides>(core_a, core_b, radius, report, search);
+    const GjkLanes& gjk = search.gjk;
+    if constexpr (kDecides) {
+      report_decision(gjk, radius, is_known, goes_on, report);
+    } else {
+      const FrontCorners ends(gjk.ends);
+      NearestCores nearest = nearest_cores(core_a, core_b, ends);
+      nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
+      const Mask is_nearest = hn::And(nearest.is_sure, report.valid);
+      const Mask is_around = hn::And(gjk.is_around, hn::And(is_known, report.valid));
+      if (report.batch.features) {
+        write_features(core_a, core_b, ends, is_nearest, gjk, is_around,
+                       report.batch.features + report.row);
+      }
+      if constexpr (kPass == Pass::clearance) {
+        nearest.distance = hn::IfThenElse(is_around, splat(-1), nearest.distance);
+        nearest.is_sure = hn::Or(nearest.is_sure, is_around);
+      }
+      report_nearest(nearest, radius, core_a.radius, pose.d, goes_on, report);
+    }
+    if constexpr (Report::kHasContact && kPass != Pass::clearance) {
+      mark_deep(hn::And(gjk.is_around, is_known), report);
+    }
+  }
+
+ private:
+  // Yields the lanes that go on later.
+  template <bool kDecides, class Report>
+  static HWY_INLINE Mask run_stage(const CoreLanes& a, const CoreLanes& b, F radius,
+                                   const Report& report, GjkSearch& search) {
+    const SearchGoal goal = goal_at(radius, report.batch.features != nullptr);
+    OpenSearches* const open = report.batch.open;
+    if constexpr (kStage == Stage::rest) {
+      resume(*open, report.row, search);
+    } else {
+      begin_search<kDecides>(a, b, goal, search);
+    }
+    if constexpr (kStage == Stage::first) {
+      go_on<kDecides>(a, b, goal, open ? kFewOpen : 0, search);
+      const Mask goes_on = hn::And(search.is_open, report.valid);
+      if (!hn::AllFalse(FloatTag(), goes_on)) leave(search, goes_on, report.row, *open);
+      return goes_on;
+    } else {
+      go_on<kDecides>(a, b, goal, 0, search);
+      return no_lanes();
+    }
+  }
+
+  template <class Report>
+  static HWY_INLINE void report_decision(const GjkLanes& gjk, F radius, Mask is_known, Mask goes_on,
+                                         Report& report) {
+    const F reach = hn::Sub(radius, splat(kSureGap));
+    // Cores that all but touch may be flat, which is for others to say.
+    const Mask is_within =
+        hn::And(hn::Gt(gjk.squared, splat(kNearCores * kNearCores)),
+                hn::And(hn::Gt(reach, splat(0)), hn::Lt(gjk.squared, hn::Mul(reach, reach))));
+    const Mask overlap = hn::Or(gjk.is_around, is_within);
+    const Mask is_sure = hn::Or(goes_on, hn::And(is_known, hn::Or(overlap, gjk.is_apart)));
+    const F length = hn::Sqrt(gjk.squared);
+    const F gap = hn::Sub(hn::Div(gjk.gap, length), radius);
+    report(overlap, hn::Not(is_sure), no_lanes(), hn::IfThenElse(gjk.is_apart, gap, splat(-1)),
+           gjk.way * hn::Div(splat(1), length), splat3(0), splat3(0));
+  }
+
+  template <class Report>
+  static HWY_INLINE void mark_deep(Mask is_deep, const Report& report) {
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(hn::IfThenElseZero(hn::And(is_deep, report.valid), splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] != 0) report.batch.unsure[report.row + i] = kDeep;
+    }
+  }
+};
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_

@@ -1,0 +1,201 @@
+// Shapes as cores in lanes: the points of one core a lane, in world axes, relative to the position
+// of A, grown by a radius.
+#if defined(CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_
+#undef CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_
+#else
+#define CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+
+#include "base/tolerances.h"
+#include "narrowphase/batch/load-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// Cores with fewer points than others repeat their last one.
+class CoreLanes {
+ public:
+  F radius;
+  F3 middle;       // any point inside, to begin with
+  Mask has_space;  // those that have no more than there is room for, and no rules
+
+  // The same number of points in every lane.
+  HWY_INLINE void begin(size_t count) { begin(count, count, splat(static_cast<float>(count))); }
+  // `each`: how many of them it has, at least `least`.
+  HWY_INLINE void begin(size_t count, size_t least, F each) {
+    count_ = count;
+    least_ = least;
+    each_ = each;
+    has_space = hn::Le(each, splat(static_cast<float>(kMostLanePoints)));
+    radius = splat(0);
+  }
+  HWY_INLINE void set(size_t i, const F3& p) {
+    const FloatTag tag;
+    hn::Store(p.x, tag, points_[i][0]);
+    hn::Store(p.y, tag, points_[i][1]);
+    hn::Store(p.z, tag, points_[i][2]);
+  }
+
+  size_t count() const { return count_; }
+  size_t least() const { return least_; }  // that are no repetitions in any lane
+  HWY_INLINE Mask has(size_t i) const { return hn::Lt(splat(static_cast<float>(i)), each_); }
+  HWY_INLINE F3 point(size_t i) const {
+    const FloatTag tag;
+    return {hn::Load(tag, points_[i][0]), hn::Load(tag, points_[i][1]),
+            hn::Load(tag, points_[i][2])};
+  }
+
+ private:
+  size_t count_, least_;
+  F each_;
+  HWY_ALIGN float points_[kMostLanePoints][3][kLanes];
+};
+
+HWY_INLINE void make_core(const SphereLanes& sphere, const Quaternion&, const F3& offset,
+                          CoreLanes& core) {
+  core.begin(1);
+  core.set(0, offset);
+  core.middle = offset;
+  core.radius = sphere.radius;
+}
+
+HWY_INLINE void make_core(const CapsuleLanes& capsule, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  const Rotation turn = rotation_of(q);
+  const F3 a = rotate(turn, capsule.a) + offset, b = rotate(turn, capsule.b) + offset;
+  core.begin(2);
+  core.set(0, a);
+  core.set(1, b);
+  core.middle = (a + b) * splat(0.5f);
+  core.radius = capsule.radius;
+}
+
+HWY_INLINE void make_core_of_box(const F3& lower, const F3& upper, const Rotation& turn,
+                                 const F3& offset, CoreLanes& core) {
+  core.begin(8);
+  for (size_t i = 0; i < 8; ++i) {  // bit k of i: at the upper end of axis k
+    core.set(i, rotate(turn, {i & 1 ? upper.x : lower.x, i & 2 ? upper.y : lower.y,
+                              i & 4 ? upper.z : lower.z}) +
+                    offset);
+  }
+  core.middle = rotate(turn, (lower + upper) * splat(0.5f)) + offset;
+}
+
+HWY_INLINE void make_core(const AabbLanes& box, const Quaternion&, const F3& offset,
+                          CoreLanes& core) {
+  const F one = splat(1), zero = splat(0);
+  make_core_of_box(box.lower, box.upper, {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}},
+                   offset, core);
+}
+
+HWY_INLINE void make_core(const BoxLanes& box, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  make_core_of_box(-box.half, box.half, rotation_of(q), offset, core);
+}
+
+HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  const Rotation turn = rotation_of(q);
+  core.begin(3);
+  core.set(0, rotate(turn, triangle.a) + offset);
+  core.set(1, rotate(turn, triangle.b) + offset);
+  core.set(2, rotate(turn, triangle.c) + offset);
+  core.middle = core.point(0);
+  core.has_space = hn::Not(triangle.is_special);
+}
+
+// Records of the hull of each lane: its points, then the middle.
+class HullRecords {
+ public:
+  explicit HWY_INLINE HullRecords(const HullLanes& hull) {
+    static constexpr std::array<float, 8> kNothing{};
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const HullGeometry* const geometry = hull.geometry[lane];
+      first_[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
+      points_[lane] = geometry ? geometry->records().size() - 1 : 1;
+      most_ = std::max(most_, points_[lane]);
+      least_ = std::min(least_, points_[lane]);
+    }
+  }
+
+  // use(i, point i of each hull, or its last one), i < count.
+  template <class Use>
+  HWY_INLINE void for_each_point(size_t count, const Use& use) const {
+    size_t i = 0;
+    for (; i < std::min(least_, count); ++i) use(i, read([i](size_t) { return i; }));
+    for (; i < count; ++i) {
+      use(i, read([i, this](size_t lane) { return std::min(i, points_[lane] - 1); }));
+    }
+  }
+  // Point `places[lane]` of each, or its last one.
+  HWY_INLINE F3 points_at(const std::array<uint8_t, kLanes>& places) const {
+    return read([&](size_t lane) { return std::min<size_t>(places[lane], points_[lane] - 1); });
+  }
+  HWY_INLINE F3 middle() const {
+    return read([this](size_t lane) { return points_[lane]; });
+  }
+
+  // Points.
+  size_t most() const { return most_; }
+  size_t least() const { return least_; }
+  HWY_INLINE F count_lanes() const {
+    if (least_ == most_) return splat(static_cast<float>(most_));  // as most often
+    return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
+  }
+
+ private:
+  // Record place(lane) of each lane.
+  template <class Place>
+  struct Source {
+    const HullRecords& hulls;
+    const Place& place;
+
+    HWY_INLINE const float* record(size_t lane) const {
+      return hulls.first_[lane] + 4 * place(lane);
+    }
+#if HWY_TARGET != HWY_SCALAR
+    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
+#endif
+    HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
+  };
+
+  template <class Place>
+  HWY_INLINE F3 read(const Place& place) const {
+    F3 p;
+    F unused;
+    transpose_records(Source<Place>{*this, place}, p, unused);
+    return p;
+  }
+
+  std::array<const float*, kLanes> first_;
+  std::array<size_t, kLanes> points_;
+  size_t most_ = 1;
+  size_t least_ = kMostLanePoints;
+};
+
+// Turns and scales: by a power of two, so that it does not matter which factor it goes with.
+HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
+  Rotation turn = rotation_of(q);
+  for (F3* column : {&turn.x, &turn.y, &turn.z}) *column = *column * hull.scaling;
+  return turn;
+}
+
+HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  const HullRecords records(hull);
+  const size_t count = std::min(records.most(), kMostLanePoints);
+  const Rotation turn = placing_turn(hull, q);
+  core.begin(count, records.least(), records.count_lanes());
+  records.for_each_point(
+      count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
+  core.middle = rotate(turn, records.middle()) + offset;
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_

@@ -1,0 +1,251 @@
+// Points and faces of solids in lanes (hull_steps_ref.h is the reference).
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/hulls/hull_steps.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/hulls/hull_steps.h"
+#include "simd/first_of_most-inl.h"
+#include "simd/rotation-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+using scalar::Vector3;
+
+HWY_INLINE F3 in_all_lanes(const Vector3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
+
+void place_points(const Solid& solid, const scalar::Rotation<float>& turn, const Vector3f& offset,
+                  HullPoints& out) {
+  const FloatTag tag;
+  const Rotation r{in_all_lanes(turn.x), in_all_lanes(turn.y), in_all_lanes(turn.z)};
+  const F3 d = in_all_lanes(offset);
+  const F s = splat(solid.scale);
+  out.count = solid.point_count;
+  out.padded = (out.count + kLanes - 1) / kLanes * kLanes;
+  for (size_t i = 0; i < out.padded; i += kLanes) {
+    const F3 p = {hn::LoadU(tag, solid.point[0] + i), hn::LoadU(tag, solid.point[1] + i),
+                  hn::LoadU(tag, solid.point[2] + i)};
+    const F3 placed = rotate(r, p * s) + d;
+    hn::StoreU(placed.x, tag, out.x.data() + i);
+    hn::StoreU(placed.y, tag, out.y.data() + i);
+    hn::StoreU(placed.z, tag, out.z.data() + i);
+  }
+}
+
+// The planes of some faces of a hull.
+struct FaceLanes {
+  F3 normal;
+  F height;
+
+  HWY_INLINE FaceLanes(const Solid& solid, size_t i) {
+    const FloatTag tag;
+    normal = {hn::LoadU(tag, solid.plane[0] + i), hn::LoadU(tag, solid.plane[1] + i),
+              hn::LoadU(tag, solid.plane[2] + i)};
+    height = hn::Mul(hn::LoadU(tag, solid.plane[3] + i), splat(solid.scale));
+  }
+};
+
+HWY_INLINE F above(const FaceLanes& faces, const F3& point) {
+  return hn::Sub(dot(faces.normal, point), faces.height);
+}
+
+// What one ball says of a vector of faces.
+struct BoundLanes {
+  F gap, between;
+};
+
+HWY_INLINE BoundLanes bound(const FaceLanes& faces, const F3& middle, F radius) {
+  const F height = above(faces, middle);
+  const F gap = hn::Sub(height, radius);
+  return {gap, hn::IfThenElse(hn::Gt(height, splat(0)), splat(FLT_MAX), gap)};
+}
+
+BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
+  const FloatTag tag;
+  const size_t last = bounds.count++;
+  const F3 middle = in_all_lanes(ball.middle);
+  const F radius = splat(ball.radius);
+  const Mask all = hn::Not(no_lanes());
+  FirstOfMost best = FirstOfMost::none();
+  F index = lane_indices();
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
+    const BoundLanes found = bound(FaceLanes(solid, i), middle, radius);
+    hn::StoreU(found.between, tag, bounds.between[last].data() + i);
+    float* const gaps = bounds.gap.data() + i;
+    const F least = last == 0 ? found.gap : min(hn::LoadU(tag, gaps), found.gap);
+    hn::StoreU(least, tag, gaps);
+    best.keep(all, least, index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.value(), best.first_of(solid.face_count)};
+}
+
+BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds& bounds) {
+  const FloatTag tag;
+  bounds.count = points.count;
+  const Mask all = hn::Not(no_lanes());
+  FirstOfMost best = FirstOfMost::none();
+  F index = lane_indices();
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
+    const FaceLanes faces(solid, i);
+    F least = splat(FLT_MAX);
+    for (size_t p = 0; p < points.count; ++p) {
+      const F3 point = {splat(points.x[p]), splat(points.y[p]), splat(points.z[p])};
+      const F gap = above(faces, point);
+      hn::StoreU(gap, tag, bounds.between[p].data() + i);
+      least = min(least, gap);
+    }
+    best.keep(all, least, index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.value(), best.first_of(solid.face_count)};
+}
+
+void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
+  const FloatTag tag;
+  const hn::RebindToUnsigned<FloatTag> bits;
+  const F most = splat(gap);
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
+    auto settled = hn::Zero(bits);
+    auto bit = hn::Set(bits, 1);
+    for (size_t ball = 0; ball < bounds.count; ++ball) {
+      const Mask is_low = hn::Le(hn::LoadU(tag, bounds.between[ball].data() + i), most);
+      settled = hn::Or(settled, hn::IfThenElseZero(hn::RebindMask(bits, is_low), bit));
+      bit = hn::Add(bit, bit);
+    }
+    hn::StoreU(settled, bits, bounds.settled.data() + i);
+  }
+}
+
+HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
+  const FloatTag tag;
+  return dot(way, {hn::LoadU(tag, points.x.data() + i), hn::LoadU(tag, points.y.data() + i),
+                   hn::LoadU(tag, points.z.data() + i)});
+}
+
+FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
+  const F3 n = in_all_lanes(way);
+  const Mask all = hn::Not(no_lanes());
+  FirstOfMost best = FirstOfMost::none();
+  F index = lane_indices();
+  for (size_t i = 0; i < points.padded; i += kLanes) {
+    best.keep(all, heights(points, n, i), index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.first_of(points.count), best.value()};
+}
+
+FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
+  const FloatTag tag;
+  const FurthestOfHull furthest = furthest_of_hull(points, way);
+  const F3 n = in_all_lanes(way);
+  const F most = splat(furthest.height), count = splat(static_cast<float>(points.count));
+  F index = lane_indices();
+  size_t found = 0;
+  for (size_t i = 0; i < points.padded; i += kLanes) {
+    const Mask is_as_far = hn::Le(hn::Sub(most, heights(points, n, i)), splat(kFacingSlack));
+    found += hn::CountTrue(tag, hn::And(is_as_far, hn::Lt(index, count)));
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {furthest, found};
+}
+
+// Some edges of a column; behind the last, edges without direction, which cross no other.
+struct EdgeLanes {
+  F3 from, direction, left, right;
+
+  HWY_INLINE EdgeLanes(const EdgeColumns& edges, size_t k) {
+    const Mask exist = hn::FirstN(FloatTag(), edges.count - k);
+    const auto load = [&](const EdgeColumns::Column3& column) HWY_ATTR -> F3 {
+      const FloatTag tag;
+      return zero_unless(
+          exist, F3{hn::LoadU(tag, column[0].data() + k), hn::LoadU(tag, column[1].data() + k),
+                    hn::LoadU(tag, column[2].data() + k)});
+    };
+    from = load(edges.from);
+    direction = load(edges.direction);
+    left = load(edges.left);
+    right = load(edges.right);
+  }
+};
+
+HWY_INLINE F3 in_all_lanes(const EdgeColumns::Column3& column, size_t i) {
+  return {splat(column[0][i]), splat(column[1][i]), splat(column[2][i])};
+}
+
+// One vector of edges of B, in the frame of A.
+HWY_INLINE void cross_with(const EdgeColumns& a, const EdgeLanes& b, F index, FirstOfMost& best,
+                           Mask& doubtful) {
+  const F zero = splat(0);
+  for (size_t i = 0; i < a.count; ++i) {
+    const F3 direction = in_all_lanes(a.direction, i);
+    const F3 left = in_all_lanes(a.left, i), right = in_all_lanes(a.right, i);
+    const F of_left = dot(b.left, direction), of_right = dot(b.right, direction);
+    const F on_left = dot(left, b.direction), on_right = dot(right, b.direction);
+    const Mask crosses = hn::And(hn::Lt(hn::Mul(of_right, of_left), zero),
+                                 hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
+                                         hn::Lt(hn::Mul(of_right, on_left), zero)));
+    if (!hn::AllFalse(FloatTag(), crosses)) {
+      const F3 n = cross(direction, b.direction);
+      const F nn = dot(n, n);
+      doubtful = hn::Or(doubtful, hn::AndNot(hn::Gt(nn, splat(kAlongEachOther)), crosses));
+      const F along =
+          hn::Mul(dot(n, b.from - in_all_lanes(a.from, i)), hn::Div(splat(1), hn::Sqrt(nn)));
+      const Mask is_back = hn::Lt(dot(n, left + right), zero);
+      best.keep_first(crosses, hn::IfThenElse(is_back, hn::Neg(along), along), index);
+    }
+    index = hn::Add(index, splat(kMostCrossed));
+  }
+}
+
+Crossing cross_edges(const EdgeColumns& a, const EdgeColumns& b,
+                     const scalar::Rotation<float>& turn, float gap) {
+  const Rotation r{in_all_lanes(turn.x), in_all_lanes(turn.y), in_all_lanes(turn.z)};
+  Mask doubtful = no_lanes();
+  Crossing crossing{gap};
+  FirstOfMost best{splat(gap), splat(-1)};
+  for (size_t k = 0; k < b.count; k += kLanes) {
+    EdgeLanes edges(b, k);
+    edges.direction = rotate(r, edges.direction);
+    edges.left = rotate(r, edges.left);
+    edges.right = rotate(r, edges.right);
+    cross_with(a, edges, hn::Add(lane_indices(), splat(static_cast<float>(k))), best, doubtful);
+  }
+  crossing.is_doubtful = !hn::AllFalse(FloatTag(), doubtful);
+  crossing.exists = best.value() > gap;
+  if (!crossing.exists) return crossing;
+  const size_t first = best.first();
+  crossing.gap = best.value();
+  crossing.of_a = first / kMostCrossed;
+  crossing.of_b = first % kMostCrossed;
+  return crossing;
+}
+
+const HullSteps& hull_steps() {
+  static constexpr HullSteps kSteps = {&place_points, &bound_faces,      &try_all_faces,
+                                       &settle_faces, &furthest_of_hull, &cross_edges,
+                                       &facing_points};
+  return kSteps;
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(hull_steps);
+
+}  // namespace
+
+const HullSteps& hull_steps_in_lanes() { return CAROM_DISPATCH(hull_steps)(); }
+
+}  // namespace carom
+#endif  // HWY_ONCE

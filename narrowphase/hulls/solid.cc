@@ -1,0 +1,123 @@
+#include "narrowphase/hulls/solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
+  const HullGeometry& geometry = *hull.geometry;
+  const HullFeatures* const features = geometry.features();
+  if (!features) return;
+  const std::array<float, 4>& middle = geometry.records()[geometry.points().size()];
+  view_.point_count = geometry.points().size();
+  view_.face_count = features->face_count();
+  for (size_t axis = 0; axis < 3; ++axis) view_.point[axis] = geometry.column(axis);
+  for (size_t i = 0; i < 4; ++i) view_.plane[i] = features->column(i);
+  view_.edges = features->edges();
+  view_.sides = features->sides();
+  view_.middle = {middle[0], middle[1], middle[2]};
+  view_.inner_radius = features->inner_radius();
+  view_.scale = static_cast<float>(hull.scale);
+}
+
+SmallSolid::SmallSolid(const scalar::BoxShape<float>& box) { put_box(-box.half, box.half); }
+
+SmallSolid::SmallSolid(const scalar::AabbShape<float>& box) {
+  put_box(box.lower, box.upper);
+  view_.is_turned = false;
+}
+
+SmallSolid::SmallSolid(const scalar::TriangleShape<float>& triangle) {
+  if (triangle.is_special()) return;
+  const auto corner = [&](size_t i) -> Eigen::Vector3d {
+    return triangle.corners[i].cast<double>();
+  };
+  const Eigen::Vector3d u = corner(1) - corner(0), v = corner(2) - corner(0);
+  const Eigen::Vector3d n = scalar::cross(u, v);
+  const double nn = scalar::dot(n, n);
+  // As flat as that, its edges say no more of its plane than rounding.
+  if (!(nn > kFlatTriangle * scalar::dot(u, u) * scalar::dot(v, v))) return;
+  put_triangle(triangle.corners, (n * (1 / std::sqrt(nn))).cast<float>());
+}
+
+// Face 2 k has the lower end of axis k, face 2 k + 1 the upper one.
+void SmallSolid::put_box(const Vector3f& lower, const Vector3f& upper) {
+  const std::array<Vector3f, 2> ends = {lower, upper};
+  for (size_t i = 0; i < 8; ++i) {
+    put_point({ends[i & 1].x(), ends[i >> 1 & 1].y(), ends[i >> 2].z()});
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    put_face(-Vector3f::Unit(axis), -lower[axis]);
+    put_face(Vector3f::Unit(axis), upper[axis]);
+  }
+  for (uint16_t axis = 0; axis < 3; ++axis) {
+    const auto next = static_cast<uint16_t>((axis + 1) % 3);
+    const auto last = static_cast<uint16_t>((axis + 2) % 3);
+    for (uint16_t ends_at = 0; ends_at < 4; ++ends_at) {
+      const uint16_t one = ends_at & 1, other = ends_at >> 1;
+      const auto face = static_cast<uint16_t>(2 * next + one);
+      const auto other_face = static_cast<uint16_t>(2 * last + other);
+      const auto from = uint32_t{one} << next | uint32_t{other} << last;
+      if (one == other) {
+        put_edge(Vector3f::Unit(axis), from, face, other_face);
+      } else {
+        put_edge(Vector3f::Unit(axis), from, other_face, face);
+      }
+    }
+  }
+  view_.middle = (lower + upper) * 0.5f;
+  view_.inner_radius = ((upper - lower) * 0.5f).minCoeff();
+  close();
+}
+
+void SmallSolid::put_triangle(const std::array<Vector3f, 3>& corners, const Vector3f& normal) {
+  for (const Vector3f& corner : corners) put_point(corner);
+  const float height = scalar::dot(normal, corners[0]);
+  put_face(normal, height);
+  put_face(-normal, -height);
+  for (uint16_t i = 0; i < 3; ++i) {
+    const uint32_t from = i, to = (i + 1u) % 3;
+    const Vector3f along = corners[to] - corners[from];
+    const Vector3f direction = along * (1 / std::sqrt(scalar::dot(along, along)));
+    const Vector3f outwards = scalar::cross(direction, normal);
+    const auto side = static_cast<uint16_t>(2 + i);
+    put_face(outwards,
+             std::max(scalar::dot(outwards, corners[from]), scalar::dot(outwards, corners[to])));
+    put_edge(direction, from, 0, side);
+    put_edge(-direction, to, 1, side);
+  }
+  view_.middle = (corners[0] + corners[1] + corners[2]) * (1.0f / 3);
+  view_.inner_radius = 0;
+  close();
+}
+
+void SmallSolid::put_point(const Vector3f& point) {
+  for (size_t axis = 0; axis < 3; ++axis) point_[axis][view_.point_count] = point[int(axis)];
+  ++view_.point_count;
+}
+
+void SmallSolid::put_face(const Vector3f& normal, float height) {
+  for (size_t axis = 0; axis < 3; ++axis) plane_[axis][view_.face_count] = normal[int(axis)];
+  plane_[3][view_.face_count++] = height;
+}
+
+void SmallSolid::put_edge(const Vector3f& direction, uint32_t from, uint16_t left, uint16_t right) {
+  edges_.push_back({direction, from, left, right});
+  sides_.push_back({left, right});
+}
+
+void SmallSolid::close() {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    std::fill(point_[axis].begin() + view_.point_count, point_[axis].end(), point_[axis][0]);
+    std::fill(plane_[axis].begin() + view_.face_count, plane_[axis].end(), 0.0f);
+    view_.point[axis] = point_[axis].data();
+    view_.plane[axis] = plane_[axis].data();
+  }
+  std::fill(plane_[3].begin() + view_.face_count, plane_[3].end(), HUGE_VALF);
+  view_.plane[3] = plane_[3].data();
+  view_.edges = {edges_.begin(), edges_.size()};
+  view_.sides = {sides_.begin(), sides_.size()};
+}
+
+}  // namespace carom

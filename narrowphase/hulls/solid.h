@@ -1,0 +1,104 @@
+// Solids as searches over separating axes see them: points, faces and edges, in the solid's frame.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "base/few_of.h"
+#include "base/tolerances.h"
+#include "narrowphase/scalar/shapes.h"
+#include "shapes/hull_features.h"
+
+namespace carom {
+
+using Eigen::Vector3f;
+
+// A view; `scale` times its lengths are those of the pair. Columns go on up to a multiple of
+// sixteen.
+struct Solid {
+  static constexpr size_t kMostFaces = 2 * kMostLanePoints;
+  static constexpr size_t kMostEdges = 3 * kMostLanePoints;
+  using Edge = HullFeatures::Edge;
+
+  size_t point_count = 0;  // 0: its features are not known
+  size_t face_count = 0;
+  std::array<const float*, 3> point;  // behind the last the first
+  std::array<const float*, 4> plane;  // normal, height; behind the last faces out of reach
+  std::span<const Edge> edges;
+  std::span<const std::array<uint16_t, 2>> sides;  // the faces beside each edge
+  Vector3f middle;                                 // inside
+  float inner_radius;                              // of a ball around it, inside
+  float scale = 1;
+  bool is_turned = true;
+
+  bool is_known() const {
+    return point_count > 0 && point_count <= kMostLanePoints && face_count <= kMostFaces &&
+           edges.size() <= kMostEdges;
+  }
+  Vector3f corner(size_t i) const {
+    return Vector3f(point[0][i], point[1][i], point[2][i]) * scale;
+  }
+  Vector3f normal(size_t face) const { return {plane[0][face], plane[1][face], plane[2][face]}; }
+  float height(size_t face) const { return plane[3][face] * scale; }
+};
+
+// Features of boxes and triangles, made for one pair. A triangle counts as a solid without height:
+// two faces, and a third one along each edge.
+class SmallSolid {
+ public:
+  explicit SmallSolid(const scalar::BoxShape<float>& box);
+  explicit SmallSolid(const scalar::AabbShape<float>& box);
+  // Unknown if it has rules, or no area.
+  explicit SmallSolid(const scalar::TriangleShape<float>& triangle);
+
+  SmallSolid(const SmallSolid&) = delete;
+  SmallSolid& operator=(const SmallSolid&) = delete;
+
+  const Solid& view() const { return view_; }
+
+ private:
+  static constexpr size_t kMost = 16;
+
+  void put_box(const Vector3f& lower, const Vector3f& upper);
+  void put_triangle(const std::array<Vector3f, 3>& corners, const Vector3f& normal);
+  void put_point(const Vector3f& point);
+  void put_face(const Vector3f& normal, float height);
+  void put_edge(const Vector3f& direction, uint32_t from, uint16_t left, uint16_t right);
+  void close();
+
+  Solid view_;
+  std::array<std::array<float, kMost>, 3> point_;
+  std::array<std::array<float, kMost>, 4> plane_;
+  FewOf<Solid::Edge, 12> edges_;
+  FewOf<std::array<uint16_t, 2>, 12> sides_;
+};
+
+// The features of a hull are its own.
+class SolidHull {
+ public:
+  explicit SolidHull(const scalar::HullShape<float>& hull);
+  const Solid& view() const { return view_; }
+
+ private:
+  Solid view_;
+};
+
+template <class S>
+inline constexpr bool kIsSolid = false;
+template <>
+inline constexpr bool kIsSolid<scalar::HullShape<float>> = true;
+template <>
+inline constexpr bool kIsSolid<scalar::BoxShape<float>> = true;
+template <>
+inline constexpr bool kIsSolid<scalar::AabbShape<float>> = true;
+template <>
+inline constexpr bool kIsSolid<scalar::TriangleShape<float>> = true;
+
+inline SolidHull solid_of(const scalar::HullShape<float>& hull) { return SolidHull(hull); }
+template <class S>
+SmallSolid solid_of(const S& shape) {
+  return SmallSolid(shape);
+}
+
+}  // namespace carom

@@ -1,0 +1,294 @@
+// Two polygons seen along a line: where they cover one another, and how far apart they are there.
+//
+// Source of the clipping of edges: Y.-D. Liang and B. A. Barsky, "A New Concept and Method for Line
+// Clipping", ACM TOG 3(1), 1984.
+#pragma once
+
+#include "narrowphase/manifolds/polygon_scalar.h"
+
+namespace carom::scalar {
+
+// A point of the plane of a face, and how far the other polygon is above it along the view.
+struct ClipPoint {
+  float x, y, s;
+};
+
+// Two for every edge of one polygon, one for every corner of the other.
+using ClipPoints = FewOf<ClipPoint, 3 * DopFace::kMostCorners>;
+
+// Seen along the view: the corners of a polygon.
+using SeenPolygon = FewOf<ClipPoint, DopFace::kMostCorners>;
+
+inline Point2 xy(const ClipPoint& c) { return {c.x, c.y}; }
+
+// A face seen along m, a unit vector.
+class FaceView {
+ public:
+  FaceView(const FaceFrame& frame, const Vector3f& m)
+      : frame_(frame),
+        along_x_(dot(frame.u, m)),
+        along_y_(dot(frame.v, m)),
+        along_n_(dot(frame.n, m)),
+        inverse_(1 / along_n_) {}
+
+  bool is_edge_on() const { return !(std::fabs(along_n_) > kEdgeOn); }
+
+  ClipPoint project(const Vector3f& point) const {
+    return project(point - frame_.origin, frame_.height);
+  }
+  ClipPoint project_way(const Vector3f& way) const { return project(way, 0); }
+
+ private:
+  ClipPoint project(const Vector3f& r, float height) const {
+    const float s = (dot(frame_.n, r) - height) * inverse_;
+    return {dot(frame_.u, r) - s * along_x_, dot(frame_.v, r) - s * along_y_, s};
+  }
+
+  const FaceFrame& frame_;
+  float along_x_, along_y_, along_n_, inverse_;
+};
+
+// An edge of the other polygon, in the coordinates of the face.
+struct SeenEdge {
+  ClipPoint from, to;
+  ClipPoint way;  // from the one to the other
+};
+
+inline SeenEdge edge_between(const ClipPoint& from, const ClipPoint& to) {
+  return {from, to, {to.x - from.x, to.y - from.y, to.s - from.s}};
+}
+
+struct Extent2 {
+  Point2 lower, upper;
+
+  bool holds(Point2 p) const {
+    return p.x >= lower.x - kClipSlack && p.x <= upper.x + kClipSlack &&
+           p.y >= lower.y - kClipSlack && p.y <= upper.y + kClipSlack;
+  }
+};
+
+template <class Points>
+Extent2 extent_of(const Points& points) {
+  Extent2 extent{{points[0].x, points[0].y}, {points[0].x, points[0].y}};
+  for (size_t i = 1; i < points.size(); ++i) {
+    extent.lower = {min(extent.lower.x, points[i].x), min(extent.lower.y, points[i].y)};
+    extent.upper = {max(extent.upper.x, points[i].x), max(extent.upper.y, points[i].y)};
+  }
+  return extent;
+}
+
+// The part of an edge that is in sight, from 0 to 1.
+struct Span {
+  float near = 0;
+  float far = 1;
+};
+
+inline float crossing(float rate) {
+  return std::fabs(rate) > kLeastCrossing ? rate : kLeastCrossing;
+}
+
+// Between two parallel sides.
+inline void clip_between(float from, float rate, float lower, float upper, Span& span) {
+  const float inverse = 1 / crossing(rate);
+  const float t_lower = ((lower - kClipSlack) - from) * inverse;
+  const float t_upper = ((upper + kClipSlack) - from) * inverse;
+  span.near = max(span.near, min(t_lower, t_upper));
+  span.far = min(span.far, max(t_lower, t_upper));
+}
+
+inline Span clip_edge(const Rectangle& face, const SeenEdge& edge) {
+  Span span;
+  clip_between(edge.from.x, edge.way.x, face.lower.x, face.upper.x, span);
+  clip_between(edge.from.y, edge.way.y, face.lower.y, face.upper.y, span);
+  return span;
+}
+
+// Twice the area to the left of the edge from a to b, of the triangle up to (x, y).
+inline float area_left(Point2 a, Point2 b, float x, float y) {
+  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+}
+
+// What may be missing of it.
+inline float slack_of_edge(Point2 a, Point2 b) {
+  return kClipSlack * (std::fabs(b.x - a.x) + std::fabs(b.y - a.y));
+}
+
+// What the slack of two sides adds to the sharp corner between them is long: it ends where the
+// corners end.
+inline void clip_to_extent(const TriangleFace& face, const SeenEdge& edge, Span& span) {
+  clip_between(edge.from.x, edge.way.x, 0, face.points[1].x, span);
+}
+inline void clip_to_extent(const PolygonFace& face, const SeenEdge& edge, Span& span) {
+  const Extent2 extent = extent_of(face.points);
+  clip_between(edge.from.x, edge.way.x, extent.lower.x, extent.upper.x, span);
+  clip_between(edge.from.y, edge.way.y, extent.lower.y, extent.upper.y, span);
+}
+
+template <AnyPolygon Face>
+Span clip_edge(const Face& face, const SeenEdge& edge) {
+  Span span;
+  clip_to_extent(face, edge, span);
+  const size_t count = face.points.size();
+  for (size_t k = 0; k < count; ++k) {
+    const Point2 a = face.points[k], b = face.points[(k + 1) % count];
+    const float start = area_left(a, b, edge.from.x, edge.from.y) + slack_of_edge(a, b);
+    const float rate =
+        crossing((area_left(a, b, edge.to.x, edge.to.y) + slack_of_edge(a, b)) - start);
+    const float t = -start / rate;
+    if (rate > 0) {
+      span.near = max(span.near, t);
+    } else {
+      span.far = min(span.far, t);
+    }
+  }
+  return span;
+}
+
+// Points of an edge are moved by less than the slack.
+inline void confine(const Rectangle& face, ClipPoint& c) {
+  c.x = clamp(c.x, face.lower.x, face.upper.x);
+  c.y = clamp(c.y, face.lower.y, face.upper.y);
+}
+template <AnyPolygon Face>
+void confine(const Face&, ClipPoint&) {}
+
+inline void keep(const ClipPoint& c, float touching, ClipPoints& out) {
+  if (c.s <= touching) out.push_back(c);
+}
+
+// The ends of what is in sight of an edge; exact where it is all.
+template <class Face>
+void add_edge(const Face& face, const SeenEdge& edge, ClipPoints& out) {
+  const Span span = clip_edge(face, edge);
+  if (!(span.near <= span.far)) return;
+  const auto& [from, to, way] = edge;
+  const float rest = 1 - span.far;
+  ClipPoint near = {from.x + way.x * span.near, from.y + way.y * span.near,
+                    from.s + way.s * span.near};
+  ClipPoint far = {to.x - way.x * rest, to.y - way.y * rest, to.s - way.s * rest};
+  confine(face, near);
+  confine(face, far);
+  keep(near, kTouchingPoint, out);
+  keep(far, kTouchingPoint, out);
+}
+
+// The face of a box in the coordinates of another.
+struct SeenRectangle {
+  std::array<ClipPoint, 4> corners;
+  ClipPoint way_u, way_v;  // its sides
+
+  SeenRectangle(const FaceView& view, const Rectangle& face) {
+    const ClipPoint origin = view.project(face.frame.origin + face.frame.n * face.frame.height);
+    const ClipPoint u = view.project_way(face.frame.u);
+    const ClipPoint v = view.project_way(face.frame.v);
+    const std::array<Point2, 4> at = face.corners();
+    for (size_t i = 0; i < 4; ++i) {
+      corners[i] = {(origin.x + u.x * at[i].x) + v.x * at[i].y,
+                    (origin.y + u.y * at[i].x) + v.y * at[i].y,
+                    (origin.s + u.s * at[i].x) + v.s * at[i].y};
+    }
+    const float size_u = face.upper.x - face.lower.x, size_v = face.upper.y - face.lower.y;
+    way_u = {u.x * size_u, u.y * size_u, u.s * size_u};
+    way_v = {v.x * size_v, v.y * size_v, v.s * size_v};
+  }
+
+  // Opposite ones run the same way.
+  std::array<SeenEdge, 4> edges() const {
+    return {{{corners[0], corners[1], way_u},
+             {corners[3], corners[2], way_u},
+             {corners[1], corners[2], way_v},
+             {corners[0], corners[3], way_v}}};
+  }
+};
+
+inline float cross2(const ClipPoint& a, const ClipPoint& b) { return a.x * b.y - a.y * b.x; }
+
+inline float slack_of_way(const ClipPoint& way) {
+  return kClipSlack * (std::fabs(way.x) + std::fabs(way.y));
+}
+
+// Corners of the face that a rectangle covers, which it does between its pairs of sides.
+inline void add_corners(const Rectangle& face, const SeenRectangle& seen, ClipPoints& out) {
+  const ClipPoint& u = seen.way_u;
+  const ClipPoint& v = seen.way_v;
+  const float area = cross2(u, v);
+  const float side = area < 0 ? -1.0f : 1.0f;
+  const float slack_u = slack_of_way(u), slack_v = slack_of_way(v);
+  if (!(area * side > slack_u + slack_v)) return;
+  const float slope_x = (u.s * v.y - v.s * u.y) / area;
+  const float slope_y = (u.x * v.s - v.x * u.s) / area;
+  for (const Point2& corner : face.corners()) {
+    const ClipPoint r = {corner.x - seen.corners[0].x, corner.y - seen.corners[0].y, 0};
+    const float beside_u = cross2(u, r) * side;
+    const float beside_v = cross2(r, v) * side;
+    const bool covered = beside_u + slack_u >= 0 && beside_u <= area * side + slack_u &&
+                         beside_v + slack_v >= 0 && beside_v <= area * side + slack_v;
+    const float s = seen.corners[0].s + (r.x * slope_x + r.y * slope_y);
+    if (covered) keep({corner.x, corner.y, s}, kTouchingPoint, out);
+  }
+}
+
+// Corners of the face that a polygon with this normal covers.
+template <class Face>
+void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
+                 const SeenPolygon& seen, ClipPoints& out) {
+  const float facing = dot(normal, m);
+  if (!(std::fabs(facing) > kEdgeOn)) return;
+  const size_t count = seen.size();
+  const auto next = [count](size_t i) { return i + 1 < count ? i + 1 : 0; };
+  float area = area_left(xy(seen[0]), xy(seen[1]), seen[2].x, seen[2].y);
+  for (size_t i = 3; i < count; ++i) {
+    area += area_left(xy(seen[0]), xy(seen[i - 1]), seen[i].x, seen[i].y);
+  }
+  const float side = area < 0 ? -1.0f : 1.0f;
+  std::array<float, SeenPolygon::kCapacity> slack;
+  float all_slack = 0;
+  for (size_t i = 0; i < count; ++i) {
+    slack[i] = slack_of_edge(xy(seen[i]), xy(seen[next(i)]));
+    all_slack = all_slack + slack[i];
+  }
+  if (!(area * side > all_slack)) return;
+  const float slope_x = dot(face.frame.u, normal) / facing;
+  const float slope_y = dot(face.frame.v, normal) / facing;
+  const Extent2 extent = extent_of(seen);
+  for (const Point2& corner : face.corners()) {
+    bool covered = extent.holds(corner);
+    for (size_t i = 0; i < count; ++i) {
+      const float left = area_left(xy(seen[i]), xy(seen[next(i)]), corner.x, corner.y) * side;
+      covered = covered && left + slack[i] >= 0;
+    }
+    const float s =
+        seen[0].s + ((seen[0].x - corner.x) * slope_x + (seen[0].y - corner.y) * slope_y);
+    if (covered) keep({corner.x, corner.y, s}, kTouchingPoint, out);
+  }
+}
+
+// Where a face of another box is not above a face along m, a unit vector: the corners of that
+// region.
+inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vector3f& m) {
+  ClipPoints out;
+  const FaceView view(face.frame, m);
+  if (view.is_edge_on()) return out;
+  const SeenRectangle seen(view, other);
+  for (const SeenEdge& edge : seen.edges()) add_edge(face, edge, out);
+  add_corners(face, seen, out);
+  return out;
+}
+
+// The same of a polygon with this normal, or zero if it has no area.
+template <class Face, class Corners>
+ClipPoints clip(const Face& face, const Corners& corners, const Vector3f& normal,
+                const Vector3f& m) {
+  ClipPoints out;
+  const FaceView view(face.frame, m);
+  if (view.is_edge_on()) return out;
+  SeenPolygon seen;
+  for (const Vector3f& corner : corners) seen.push_back(view.project(corner));
+  for (size_t i = 0; i < seen.size(); ++i) {
+    add_edge(face, edge_between(seen[i], seen[(i + 1) % seen.size()]), out);
+  }
+  add_corners(face, normal, m, seen, out);
+  return out;
+}
+
+}  // namespace carom::scalar

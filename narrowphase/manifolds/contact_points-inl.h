@@ -1,0 +1,240 @@
+// Points of an overlap by the kinds of the two shapes, in lanes: where the faces that they turn
+// towards each other along the contact's normal cover one another.
+#if defined(CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_
+#undef CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_
+#else
+#define CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_
+#endif
+
+#include "narrowphase/manifolds/line_contact-inl.h"
+#include "narrowphase/manifolds/reduce-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// Both bodies in scaled units, seen from A.
+struct PlacedPair {
+  Placed a, b;
+};
+
+// ClipPoints of a frame that is at A's surface.
+template <size_t kCount>
+HWY_INLINE void put_on_frame(const FaceFrame& frame, const ClipPoints<kCount>& all, F limit,
+                             PointLanes& out) {
+  ClipPoints<4> few;
+  reduce(all, limit, few, out.used);
+  for (size_t k = 0; k < 4; ++k) {
+    out.point[k] = frame.point(few.x[k], few.y[k]);
+    out.s[k] = few.s[k];
+  }
+}
+
+HWY_INLINE void use_if(Mask mask, PointLanes& out) {
+  for (Mask& used : out.used) used = hn::And(used, mask);
+}
+
+template <AnyBox A, AnyBox B>
+HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  Rectangle face, other;
+  ClipPoints<12> all;
+  face_towards(contact.normal, a, placed.a, face);
+  face_towards(-contact.normal, b, placed.b, other);
+  clip(face, other, contact.normal, all);
+  put_on_frame(face.frame, all, splat(kSamePoint), out);
+}
+
+// Of a box and another face.
+template <AnyBox A, class OtherFace>
+HWY_INLINE void touch_box(const A& a, const Placed& placed, const FaceSide<OtherFace>& other,
+                          const ContactLanes& contact, PointLanes& out) {
+  Rectangle face;
+  ClipPoints<4 + 2 * OtherFace::kCorners> all;
+  face_towards(contact.normal, a, placed, face);
+  clip(face, other, contact.normal, all);
+  put_on_frame(face.frame, all, splat(kSamePoint), out);
+}
+
+template <AnyBox A>
+HWY_INLINE void contact_points(const A& a, const TriangleLanes& b, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  FaceSide<TriangleFace> side;
+  triangle_side(b, placed.b, side);
+  touch_box(a, placed.a, side, contact, out);
+  use_if(shows_face(b, side.face.frame.n, -contact.normal), out);
+}
+
+HWY_INLINE void swap_where(Mask mask, F& a, F& b) {
+  const F kept = a;
+  a = hn::IfThenElse(mask, b, a);
+  b = hn::IfThenElse(mask, kept, b);
+}
+HWY_INLINE void swap_where(Mask mask, F3& a, F3& b) {
+  swap_where(mask, a.x, b.x);
+  swap_where(mask, a.y, b.y);
+  swap_where(mask, a.z, b.z);
+}
+
+HWY_INLINE void swap_rest(Mask, TriangleFace&, TriangleFace&) {}
+template <size_t kMost>
+HWY_INLINE void swap_rest(Mask mask, PolygonFace<kMost>& a, PolygonFace<kMost>& b) {
+  swap_where(mask, a.count, b.count);
+  swap_where(mask, a.lower_x, b.lower_x);
+  swap_where(mask, a.lower_y, b.lower_y);
+  swap_where(mask, a.upper_x, b.upper_x);
+  swap_where(mask, a.upper_y, b.upper_y);
+}
+
+// Their heights are the same.
+template <class Face>
+HWY_INLINE void swap_where(Mask mask, FaceSide<Face>& a, FaceSide<Face>& b) {
+  swap_where(mask, a.face.frame.origin, b.face.frame.origin);
+  swap_where(mask, a.face.frame.u, b.face.frame.u);
+  swap_where(mask, a.face.frame.v, b.face.frame.v);
+  swap_where(mask, a.face.frame.n, b.face.frame.n);
+  for (size_t k = 0; k < Face::kCorners; ++k) {
+    swap_where(mask, a.face.x[k], b.face.x[k]);
+    swap_where(mask, a.face.y[k], b.face.y[k]);
+    swap_where(mask, a.corners[k], b.corners[k]);
+  }
+  swap_rest(mask, a.face, b.face);
+}
+
+// Points on A where two polygons cover one another. The face is that which the normal meets more
+// squarely; of equals that of A. The sides may be exchanged.
+template <class Face>
+HWY_INLINE void touch_faces(FaceSide<Face>& a, FaceSide<Face>& b, const ContactLanes& contact,
+                            PointLanes& out) {
+  const F3& n = contact.normal;
+  const Mask on_b = hn::Gt(hn::Abs(dot(b.face.frame.n, n)), hn::Abs(dot(a.face.frame.n, n)));
+  swap_where(on_b, a, b);
+  const F3 m = negate_if(on_b, n);
+  ClipPoints<3 * Face::kCorners> all;
+  clip(a.face, b, m, all);
+  put_on_frame(a.face.frame, all, splat(kSamePoint), out);
+  for (size_t k = 0; k < 4; ++k) {
+    out.point[k] = select(on_b, out.point[k] + m * out.s[k], out.point[k]);
+  }
+}
+
+HWY_INLINE void contact_points(const TriangleLanes& a, const TriangleLanes& b,
+                               const PlacedPair& placed, const ContactLanes& contact,
+                               PointLanes& out) {
+  FaceSide<TriangleFace> side_a, side_b;
+  triangle_side(a, placed.a, side_a);
+  triangle_side(b, placed.b, side_b);
+  const F3& n = contact.normal;
+  const Mask shown =
+      hn::And(shows_face(a, side_a.face.frame.n, n), shows_face(b, side_b.face.frame.n, -n));
+  touch_faces(side_a, side_b, contact, out);
+  use_if(shown, out);
+}
+
+template <AnyBox B>
+HWY_INLINE void contact_points(const CapsuleLanes& a, const B& b, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  SurfaceLine line;
+  Rectangle face;
+  line_towards(contact.normal, a, placed.a, line);
+  face_towards(-contact.normal, b, placed.b, face);
+  touch_face(line, face, contact, out);
+}
+
+HWY_INLINE void contact_points(const CapsuleLanes& a, const TriangleLanes& b,
+                               const PlacedPair& placed, const ContactLanes& contact,
+                               PointLanes& out) {
+  SurfaceLine line;
+  F3 corners[3];
+  TriangleFace face;
+  line_towards(contact.normal, a, placed.a, line);
+  corners_of(b, placed.b, corners);
+  triangle_face(corners, face);
+  touch_face(line, face, contact, out);
+  use_if(shows_face(b, face.frame.n, -contact.normal), out);
+}
+
+HWY_INLINE void contact_points(const CapsuleLanes& a, const CapsuleLanes& b,
+                               const PlacedPair& placed, const ContactLanes& contact,
+                               PointLanes& out) {
+  touch_capsule(a, placed.a, b, placed.b, contact, out);
+}
+
+HWY_INLINE void contact_points(const CapsuleLanes& a, const HalfspaceLanes&,
+                               const PlacedPair& placed, const ContactLanes& contact,
+                               PointLanes& out) {
+  touch_plane(a, placed.a, contact, out);
+}
+
+HWY_INLINE F same_point_limit(F size) { return hn::Mul(splat(kSamePoint), hn::Mul(size, size)); }
+
+// The corners of a face over a plane, measured from the lowest of them: however far the plane's
+// body is, that rounds no more than the shape itself.
+template <AnyBox A>
+HWY_INLINE void contact_points(const A& a, const HalfspaceLanes&, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  const F3& m = contact.normal;
+  Rectangle face;
+  face_towards(m, a, placed.a, face);
+  const F along_x = dot(face.frame.u, m);
+  const F along_y = dot(face.frame.v, m);
+  F depth[4];
+  for (size_t k = 0; k < 4; ++k) {
+    depth[k] = hn::Add(hn::Mul(face.corner_x(k), along_x), hn::Mul(face.corner_y(k), along_y));
+  }
+  const F lowest = max(max(max(depth[0], depth[1]), depth[2]), depth[3]);
+  const F size = a.extent();
+  const F touching = hn::Mul(splat(kTouchingPoint), size);
+  const Mask every = hn::Not(no_lanes());
+  ClipPoints<4> all;
+  for (size_t k = 0; k < 4; ++k) {
+    const F s = hn::Add(contact.separation, hn::Sub(lowest, depth[k]));
+    all.put(k, every, face.corner_x(k), face.corner_y(k), s, touching);
+  }
+  put_on_frame(face.frame, all, same_point_limit(size), out);
+}
+
+// A plane through a point (Duff et al. 2017).
+HWY_INLINE void plane_frame(const F3& point, const F3& n, FaceFrame& frame) {
+  const F one = splat(1);
+  const F sign = hn::CopySign(one, n.z);
+  const F share = hn::Div(splat(-1), hn::Add(sign, n.z));
+  const F xy = hn::Mul(hn::Mul(n.x, n.y), share);
+  frame.origin = point;
+  frame.u = {hn::Add(one, hn::Mul(sign, hn::Mul(hn::Mul(n.x, n.x), share))), hn::Mul(sign, xy),
+             hn::Mul(hn::Neg(sign), n.x)};
+  frame.v = {xy, hn::Add(sign, hn::Mul(hn::Mul(n.y, n.y), share)), hn::Neg(n.y)};
+  frame.n = n;
+  frame.height = splat(0);
+}
+
+// The plane is A: points are the feet of the corners.
+HWY_INLINE void contact_points(const HalfspaceLanes&, const TriangleLanes& b,
+                               const PlacedPair& placed, const ContactLanes& contact,
+                               PointLanes& out) {
+  F3 corners[3];
+  TriangleFace face;
+  FaceFrame plane;
+  corners_of(b, placed.b, corners);
+  triangle_face(corners, face);
+  plane_frame(contact.arm_a, contact.normal, plane);
+  const F heights[3] = {dot(contact.normal, rotate(placed.b.turn, b.a)),
+                        dot(contact.normal, rotate(placed.b.turn, b.b)),
+                        dot(contact.normal, rotate(placed.b.turn, b.c))};
+  const F lowest = min(min(heights[0], heights[1]), heights[2]);
+  const F size = b.extent();
+  const F touching = hn::Mul(splat(kTouchingPoint), size);
+  const Mask shown = shows_face(b, face.frame.n, -contact.normal);
+  ClipPoints<3> all;
+  for (size_t k = 0; k < 3; ++k) {
+    const F3 r = corners[k] - plane.origin;
+    const F s = hn::Add(contact.separation, hn::Sub(heights[k], lowest));
+    all.put(k, shown, dot(plane.u, r), dot(plane.v, r), s, touching);
+  }
+  put_on_frame(plane, all, same_point_limit(size), out);
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_

@@ -1,0 +1,77 @@
+// Points of an overlap with a hull, in lanes: where the faces that the shapes turn towards each
+// other cover one another.
+#if defined(CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_
+#undef CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_
+#else
+#define CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_
+#endif
+
+#include <type_traits>
+
+#include "narrowphase/manifolds/contact_points-inl.h"
+#include "narrowphase/manifolds/hull_side-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// use(number of corners as a constant) that is enough; triangles are the most frequent by far.
+template <class Use>
+HWY_INLINE void with_corners(size_t most, const Use& use) {
+  if (most <= 3) return use(std::integral_constant<size_t, 3>());
+  if (most <= 4) return use(std::integral_constant<size_t, 4>());
+  use(std::integral_constant<size_t, kMostSideCorners>());
+}
+
+HWY_INLINE FacingFaces faces_towards(const F3& m, const HullLanes& hull, const Placed& placed,
+                                     const ContactLanes& contact) {
+  return FacingFaces(hull, rotate_back(placed.turn, m), hn::Neg(contact.separation));
+}
+
+// Each yields which lanes it knows the points of; the others are left to the reference.
+
+HWY_INLINE Mask contact_points(const HullLanes& a, const HullLanes& b, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  const FacingFaces faces_a = faces_towards(contact.normal, a, placed.a, contact);
+  const FacingFaces faces_b = faces_towards(-contact.normal, b, placed.b, contact);
+  with_corners(std::max(faces_a.most(), faces_b.most()), [&](auto most) HWY_ATTR {
+    FaceSide<PolygonFace<most()>> side_a, side_b;
+    hull_side(a, placed.a, faces_a, side_a);
+    hull_side(b, placed.b, faces_b, side_b);
+    touch_faces(side_a, side_b, contact, out);
+  });
+  return hn::And(faces_a.is_known(), faces_b.is_known());
+}
+
+template <AnyBox A>
+HWY_INLINE Mask contact_points(const A& a, const HullLanes& b, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  const FacingFaces faces = faces_towards(-contact.normal, b, placed.b, contact);
+  with_corners(faces.most(), [&](auto most) HWY_ATTR {
+    FaceSide<PolygonFace<most()>> side;
+    hull_side(b, placed.b, faces, side);
+    touch_box(a, placed.a, side, contact, out);
+  });
+  return faces.is_known();
+}
+
+HWY_INLINE Mask contact_points(const HullLanes& a, const TriangleLanes& b, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  const FacingFaces faces = faces_towards(contact.normal, a, placed.a, contact);
+  FaceSide<TriangleFace> triangle;
+  triangle_side(b, placed.b, triangle);
+  const Mask shown = shows_face(b, triangle.face.frame.n, -contact.normal);
+  with_corners(faces.most(), [&](auto most) HWY_ATTR {
+    FaceSide<PolygonFace<most()>> side_a, side_b;
+    hull_side(a, placed.a, faces, side_a);
+    triangle_as_polygon(triangle, side_b);
+    touch_faces(side_a, side_b, contact, out);
+  });
+  use_if(shown, out);
+  return faces.is_known();
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_

@@ -1,0 +1,133 @@
+// The manifold pass of a batch: rows that overlap, with their contacts -> up to four points each.
+#if defined(CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_
+#undef CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_
+#else
+#define CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_
+#endif
+
+#include <algorithm>
+#include <cstring>
+
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/manifolds/contact_points-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+
+// The results of one vector.
+struct ManifoldRows {
+  uint8_t count[kLanes];
+  HWY_ALIGN float records[4][kLanes][4];  // quarters of ManifoldPoints
+
+  void copy_to(const ResultColumns& out, const uint16_t* rows, size_t row_count) const {
+    for (size_t i = 0; i < row_count; ++i) {
+      out.manifold_count[rows[i]] = count[i];
+      char* to = reinterpret_cast<char*>(out.manifold + rows[i]);
+      for (size_t k = 0; k < 4; ++k) {
+        std::memcpy(to + k * sizeof(records[k][i]), records[k][i], sizeof(records[k][i]));
+      }
+    }
+  }
+};
+
+template <class A, class B, class Records>
+class ManifoldLoop {
+ public:
+  static void run(const Batch& batch) {
+    const Batch local = batch;  // see BatchLoop
+    for (size_t row = 0; row < local.count; row += kLanes) run_rows(local, row);
+  }
+
+ private:
+  static HWY_INLINE void run_rows(const Batch& batch, size_t row) {
+    const ResultColumns& tested = batch.tested;
+    const Listed bodies{batch.pairs + row};
+    PositionLanes positions;
+    PoseLanes pose;
+    A a;
+    B b;
+    load_pairs<Records>(batch, bodies, positions, pose, a, b);
+    pose.d = clamp_to_finite(pose.d);
+    const F up = to_units<Units::scaled>(pose, a, b);
+    const F down = hn::Div(splat(1), up);
+    PlacedPair placed;
+    place<A>(pose.a, splat3(0), placed.a);
+    // The sum turns -0, which depends on who is A, into 0.
+    place<B>(pose.b, pose.d + splat3(0), placed.b);
+
+    const FloatTag tag;
+    const auto column = [&](const float* values) HWY_ATTR { return hn::LoadU(tag, values + row); };
+    const ContactLanes contact = {
+        hn::Mul(column(tested.separation), down),
+        {column(tested.normal[0]), column(tested.normal[1]), column(tested.normal[2])},
+        {hn::Mul(column(tested.point_a[0]), down), hn::Mul(column(tested.point_a[1]), down),
+         hn::Mul(column(tested.point_a[2]), down)}};
+    PointLanes points;
+    if constexpr (A::kKind == ShapeKind::hull || B::kKind == ShapeKind::hull) {
+      leave_unless(contact_points(a, b, placed, contact, points), batch, row);
+    } else {
+      contact_points(a, b, placed, contact, points);
+    }
+    ManifoldRows rows;
+    put_records(points, contact, up, rows);
+    rows.copy_to(batch.out, batch.manifold_row + row, std::min(kLanes, batch.count - row));
+  }
+
+  template <class Shape>
+  static HWY_INLINE void place(Quaternion& q, const F3& origin, Placed& placed) {
+    placed.origin = origin;
+    if constexpr (Shape::kIsOriented) {
+      if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), is_plain(q)))) make_plain(q);
+      placed.turn = rotation_of(q);
+    } else {
+      const F zero = splat(0);
+      const F one = splat(1);
+      placed.turn = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+    }
+  }
+
+  // Marks the rows that the reference is to find points of.
+  static HWY_INLINE void leave_unless(Mask is_known, const Batch& batch, size_t row) {
+    if (HWY_LIKELY(hn::AllTrue(FloatTag(), is_known))) return;
+    store_bytes(bytes_where(hn::Not(is_known), 1), batch.unsure, row);
+  }
+
+  // Back in metres; none deeper than the contact, none apart. One point alone is the witness.
+  static HWY_INLINE void put_records(PointLanes& points, const ContactLanes& contact, F up,
+                                     ManifoldRows& rows) {
+    const Mask has_more = points.used[1];
+    points.point[0] = select(has_more, points.point[0], contact.arm_a);
+    points.s[0] = hn::IfThenElse(has_more, points.s[0], contact.separation);
+    points.used[0] = hn::Not(no_lanes());
+    const FloatTag tag;
+    F count = splat(0);
+    F s[4];
+    for (size_t k = 0; k < 4; ++k) {
+      count = hn::Add(count, hn::IfThenElseZero(points.used[k], splat(1)));
+      points.point[k] = zero_unless(points.used[k], points.point[k] * up);
+      s[k] = min(max(points.s[k], contact.separation), splat(0));
+      s[k] = hn::IfThenElseZero(points.used[k], hn::Mul(s[k], up));
+    }
+    const F3(&p)[4] = points.point;
+    store_bytes(hn::ConvertTo(IntTag(), count), rows.count, 0);
+    hn::StoreInterleaved4(p[0].x, p[0].y, p[0].z, p[1].x, tag, rows.records[0][0]);
+    hn::StoreInterleaved4(p[1].y, p[1].z, p[2].x, p[2].y, tag, rows.records[1][0]);
+    hn::StoreInterleaved4(p[2].z, p[3].x, p[3].y, p[3].z, tag, rows.records[2][0]);
+    hn::StoreInterleaved4(s[0], s[1], s[2], s[3], tag, rows.records[3][0]);
+  }
+};
+
+// Pass::manifold of the kernels.
+template <class A, class B>
+void run_manifold(const Batch& batch) {
+  if (batch.layout != PositionLayout::none) return ManifoldLoop<A, B, AnyRecords>::run(batch);
+  if constexpr (A::kKind == ShapeKind::aabb && B::kKind == ShapeKind::aabb) {
+    ManifoldLoop<A, B, NoRecords>::run(batch);
+  }
+}
+
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_

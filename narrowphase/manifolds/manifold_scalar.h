@@ -1,0 +1,319 @@
+// Up to four points of an overlap, scalar: where the faces that two shapes turn towards each other
+// along the contact's normal cover one another.
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "carom/results/contact.h"
+#include "narrowphase/manifolds/hull_face.h"
+#include "narrowphase/manifolds/line_contact_scalar.h"
+#include "narrowphase/manifolds/reduce_scalar.h"
+#include "narrowphase/scalar/scaled.h"
+
+namespace carom::scalar {
+
+struct Manifold {
+  uint8_t count = 0;
+  ManifoldPoints points{};
+};
+
+// Both bodies in scaled units, seen from A.
+struct PlacedPair {
+  Placed a, b;
+};
+
+inline ContactPoints witness_only(const ScaledContact& contact) {
+  return {{contact.arm_a, contact.separation}};
+}
+
+// Points of a frame that is at A's surface.
+inline ContactPoints on_frame(const FaceFrame& frame, const ClipPoints& clipped) {
+  ContactPoints points;
+  for (const ClipPoint& c : clipped) points.push_back({frame.point(c.x, c.y), c.s});
+  return points;
+}
+
+// One point alone is the witness.
+inline ContactPoints or_witness(const ContactPoints& points, const ScaledContact& contact) {
+  return points.size() < 2 ? witness_only(contact) : points;
+}
+
+template <AnyBox A, AnyBox B>
+requires(std::is_same_v<A, AabbShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
+    ContactPoints
+    manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
+  const Rectangle face = face_towards(contact.normal, a, placed.a);
+  const Rectangle other = face_towards(-contact.normal, b, placed.b);
+  const ClipPoints points = reduce(clip(face, other, contact.normal), kSamePoint);
+  return or_witness(on_frame(face.frame, points), contact);
+}
+
+template <AnyBox A>
+ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const std::array<Vector3f, 3> corners = corners_of(b, placed.b);
+  const Vector3f normal = triangle_face(corners).frame.n;
+  if (!shows_face(b, normal, -contact.normal)) return witness_only(contact);
+  const Rectangle face = face_towards(contact.normal, a, placed.a);
+  const ClipPoints points = reduce(clip(face, corners, normal, contact.normal), kSamePoint);
+  return or_witness(on_frame(face.frame, points), contact);
+}
+
+// Points on A where two polygons cover one another. The face is that which the normal meets more
+// squarely; of equals that of A.
+template <class FaceA, class CornersA, class FaceB, class CornersB>
+ContactPoints touch_faces(const FaceA& face_a, const CornersA& corners_a, const FaceB& face_b,
+                          const CornersB& corners_b, const ScaledContact& contact) {
+  const Vector3f& n = contact.normal;
+  if (std::fabs(dot(face_b.frame.n, n)) > std::fabs(dot(face_a.frame.n, n))) {
+    const Vector3f m = -n;
+    const ClipPoints few = reduce(clip(face_b, corners_a, face_a.frame.n, m), kSamePoint);
+    ContactPoints points = on_frame(face_b.frame, few);
+    for (ContactPoint& p : points) p.point += m * p.s;
+    return or_witness(points, contact);
+  }
+  const ClipPoints few = reduce(clip(face_a, corners_b, face_b.frame.n, n), kSamePoint);
+  return or_witness(on_frame(face_a.frame, few), contact);
+}
+
+inline ContactPoints manifold(const TriangleShape<float>& a, const TriangleShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  const std::array<Vector3f, 3> corners_a = corners_of(a, placed.a);
+  const std::array<Vector3f, 3> corners_b = corners_of(b, placed.b);
+  const TriangleFace face_a = triangle_face(corners_a);
+  const TriangleFace face_b = triangle_face(corners_b);
+  const Vector3f& n = contact.normal;
+  if (!shows_face(a, face_a.frame.n, n) || !shows_face(b, face_b.frame.n, -n)) {
+    return witness_only(contact);
+  }
+  return touch_faces(face_a, corners_a, face_b, corners_b, contact);
+}
+
+// Shapes with faces of any outline.
+template <class Shape>
+concept AnyFaced =
+    std::is_same_v<Shape, DopShape<float>> || std::is_same_v<Shape, HullShape<float>>;
+
+template <AnyFaced A, AnyFaced B>
+requires(std::is_same_v<A, DopShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
+    ContactPoints
+    manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
+  const FacingSide side_a = side_towards(contact.normal, -contact.separation, a, placed.a);
+  const FacingSide side_b = side_towards(-contact.normal, -contact.separation, b, placed.b);
+  return touch_faces(side_a.face, side_a.corners, side_b.face, side_b.corners, contact);
+}
+
+template <AnyFaced A>
+ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const std::array<Vector3f, 3> corners_b = corners_of(b, placed.b);
+  const TriangleFace face_b = triangle_face(corners_b);
+  if (!shows_face(b, face_b.frame.n, -contact.normal)) return witness_only(contact);
+  const FacingSide side_a = side_towards(contact.normal, -contact.separation, a, placed.a);
+  return touch_faces(side_a.face, side_a.corners, face_b, corners_b, contact);
+}
+
+template <AnyBox A, AnyFaced B>
+ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const Rectangle face = face_towards(contact.normal, a, placed.a);
+  const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
+  const ClipPoints points =
+      reduce(clip(face, side.corners, side.face.frame.n, contact.normal), kSamePoint);
+  return or_witness(on_frame(face.frame, points), contact);
+}
+
+template <AnyFaced B>
+ContactPoints manifold(const CapsuleShape<float>& a, const B& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
+  return touch_face(line_towards(contact.normal, a, placed.a), side.face, contact);
+}
+
+template <AnyBox B>
+ContactPoints manifold(const CapsuleShape<float>& a, const B& b, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const SurfaceLine line = line_towards(contact.normal, a, placed.a);
+  return touch_face(line, face_towards(-contact.normal, b, placed.b), contact);
+}
+
+inline ContactPoints manifold(const CapsuleShape<float>& a, const TriangleShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  const TriangleFace face = triangle_face(corners_of(b, placed.b));
+  if (!shows_face(b, face.frame.n, -contact.normal)) return witness_only(contact);
+  return touch_face(line_towards(contact.normal, a, placed.a), face, contact);
+}
+
+inline ContactPoints manifold(const CapsuleShape<float>& a, const CapsuleShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  return touch_capsule(a, placed.a, b, placed.b, contact);
+}
+
+inline ContactPoints manifold(const CapsuleShape<float>& a, const HalfspaceShape<float>&,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  return touch_plane(a, placed.a, contact);
+}
+
+// The corners of a face over a plane, measured from the lowest of them: however far the plane's
+// body is, that rounds no more than the shape itself.
+template <AnyBox A>
+ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const Vector3f& m = contact.normal;
+  const Rectangle face = face_towards(m, a, placed.a);
+  const float along_x = dot(face.frame.u, m), along_y = dot(face.frame.v, m);
+  const auto depth = [&](Point2 p) { return p.x * along_x + p.y * along_y; };
+  const std::array<Point2, 4> corners = face.corners();
+  float lowest = depth(corners[0]);
+  for (const Point2& p : corners) lowest = max(lowest, depth(p));
+  const float size = a.size();
+  ClipPoints all;
+  for (const Point2& p : corners) {
+    keep({p.x, p.y, contact.separation + (lowest - depth(p))}, kTouchingPoint * size, all);
+  }
+  return or_witness(on_frame(face.frame, reduce(all, kSamePoint * (size * size))), contact);
+}
+
+// A plane through a point. Source of the axes: T. Duff et al., "Building an Orthonormal Basis,
+// Revisited", JCGT 6(1), 2017.
+inline FaceFrame plane_frame(const Vector3f& point, const Vector3f& n) {
+  const float sign = std::copysign(1.0f, n.z());
+  const float share = -1 / (sign + n.z());
+  const float xy = n.x() * n.y() * share;
+  const Vector3f u(1 + sign * (n.x() * n.x() * share), sign * xy, -sign * n.x());
+  const Vector3f v(xy, sign + n.y() * n.y() * share, -n.y());
+  return {point, u, v, n, 0};
+}
+
+// The plane is A: points are the feet of the corners.
+inline ContactPoints manifold(const HalfspaceShape<float>&, const TriangleShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
+  const std::array<Vector3f, 3> corners = corners_of(b, placed.b);
+  const Vector3f front = triangle_face(corners).frame.n;
+  if (!shows_face(b, front, -contact.normal)) return witness_only(contact);
+  const FaceFrame frame = plane_frame(contact.arm_a, contact.normal);
+  std::array<float, 3> heights;
+  for (size_t i = 0; i < 3; ++i) {
+    heights[i] = dot(contact.normal, rotate(placed.b.turn, b.corners[i]));
+  }
+  const float lowest = min(min(heights[0], heights[1]), heights[2]);
+  const float size = b.size();
+  ClipPoints all;
+  for (size_t i = 0; i < 3; ++i) {
+    const Vector3f r = corners[i] - frame.origin;
+    keep({dot(frame.u, r), dot(frame.v, r), contact.separation + (heights[i] - lowest)},
+         kTouchingPoint * size, all);
+  }
+  return or_witness(on_frame(frame, reduce(all, kSamePoint * (size * size))), contact);
+}
+
+// Corners of a face over the plane, as with boxes. The contact is at the lowest.
+template <AnyFaced A>
+ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
+                       const ScaledContact& contact) {
+  const Vector3f& m = contact.normal;
+  const FacingSide side = side_towards(m, -contact.separation, a, placed.a);
+  const FaceFrame frame = plane_frame(contact.arm_a, m);
+  const float size = a.size();
+  ClipPoints all;
+  for (const Vector3f& p : side.corners) {
+    const Vector3f r = p - frame.origin;
+    keep({dot(frame.u, r), dot(frame.v, r), contact.separation - dot(m, r)}, kTouchingPoint * size,
+         all);
+  }
+  ContactPoints points = on_frame(frame, reduce(all, kSamePoint * (size * size)));
+  for (ContactPoint& p : points) p.point -= m * (p.s - contact.separation);
+  return or_witness(points, contact);
+}
+
+template <class A, class B>
+concept HasFaces = requires(A a, B b, PlacedPair placed, ScaledContact contact) {
+  manifold(a, b, placed, contact);
+};
+
+inline Rotation<float> not_turned() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; }
+
+template <class Shape>
+Placed placed_at(const Vector3f& origin, const Quaternion<float>& q) {
+  if constexpr (std::is_same_v<Shape, AabbShape<float>>) return {not_turned(), origin};
+  return {rotation_of(q), origin};
+}
+
+// Back in metres; none deeper than the contact, none apart.
+inline Manifold in_metres(const ContactPoints& points, const ScaledContact& contact, float up) {
+  Manifold result;
+  for (const ContactPoint& p : points) {
+    Eigen::Map<Vector3f>(result.points.point[result.count].data()) = p.point * up;
+    result.points.separation[result.count] = min(max(p.s, contact.separation), 0.0f) * up;
+    ++result.count;
+  }
+  return result;
+}
+
+// The shapes in the order of the list of pairs.
+template <class A, class B>
+requires HasFaces<A, B> Manifold manifold_in_order(const A& a, const B& b,
+                                                   const PairPose<float>& pose,
+                                                   const Separation& contact) {
+  const Scale scale = scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
+  const ScaledContact scaled = {contact.separation * scale.down, contact.normal,
+                                contact.arm_a * scale.down};
+  // The sum turns -0, which depends on who is A, into 0.
+  const Vector3f d = pose.d * scale.down + Vector3f::Zero();
+  const PlacedPair placed = {placed_at<A>(Vector3f::Zero(), pose.a), placed_at<B>(d, pose.b)};
+  return in_metres(manifold(a.scaled(scale.down), b.scaled(scale.down), placed, scaled), scaled,
+                   scale.up);
+}
+
+// Spheres touch in one point.
+template <class B>
+Manifold manifold_in_order(const SphereShape<float>&, const B&, const PairPose<float>&,
+                           const Separation& contact) {
+  Manifold result;
+  result.count = 1;
+  Eigen::Map<Vector3f>(result.points.point[0].data()) = contact.arm_a;
+  result.points.separation[0] = contact.separation;
+  return result;
+}
+
+template <class A, class B>
+concept HasManifold = requires(A a, B b, PairPose<float> pose, Separation contact) {
+  manifold_in_order(a, b, pose, contact);
+};
+
+// Points on A of a manifold found with A and B exchanged.
+inline Manifold flipped(Manifold manifold, const Vector3f& d, const Separation& contact) {
+  for (size_t k = 0; k < manifold.count; ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      float& x = manifold.points.point[k][axis];
+      x = (x + contact.normal[axis] * manifold.points.separation[k]) + d[axis];
+    }
+  }
+  return manifold;
+}
+
+template <class A, class B>
+Manifold manifold_of_kinds(const A& a, const B& b, const PairPose<float>& pose,
+                           const Separation& contact) {
+  if constexpr (HasManifold<A, B>) {
+    return manifold_in_order(a, b, pose, contact);
+  } else if constexpr (HasManifold<B, A>) {
+    const Separation other = flipped(contact);
+    return flipped(manifold_in_order(b, a, flipped(pose), other), pose.d, other);
+  } else {
+    return {};  // no such pair
+  }
+}
+
+// Of an overlap: in metres, on A's surface, relative to its position.
+inline Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<float>& pose,
+                            const Separation& contact) {
+  return std::visit(
+      [&](const auto& a, const auto& b) {
+        return manifold_of_kinds(shape_as<float>(a), shape_as<float>(b), pose, contact);
+      },
+      shape_a, shape_b);
+}
+
+}  // namespace carom::scalar

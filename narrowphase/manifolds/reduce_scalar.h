@@ -1,0 +1,46 @@
+// The few points that stand for many, scalar.
+#pragma once
+
+#include "narrowphase/manifolds/clip_scalar.h"
+
+namespace carom::scalar {
+
+// Up to four: the deepest, the one farthest from it, and on either side of the line through them
+// the one farthest from that. `limit`: the square of the distance at which points are one.
+inline ClipPoints reduce(const ClipPoints& all, float limit) {
+  if (all.empty()) return {};
+  ClipPoint first = all[0];
+  for (const ClipPoint& c : all) {
+    if (c.s < first.s) first = c;
+  }
+  ClipPoint second = first;
+  float farthest = 0;
+  for (const ClipPoint& c : all) {
+    const float dx = c.x - first.x, dy = c.y - first.y;
+    const float squared = dx * dx + dy * dy;
+    if (squared > farthest) {
+      farthest = squared;
+      second = c;
+    }
+  }
+  if (!(farthest > limit)) return {first};
+  ClipPoint left = first, right = first;
+  float most = 0, least = 0;
+  for (const ClipPoint& c : all) {
+    const float area = area_left(xy(first), xy(second), c.x, c.y);
+    if (area > most) {
+      most = area;
+      left = c;
+    }
+    if (area < least) {
+      least = area;
+      right = c;
+    }
+  }
+  ClipPoints few = {first, second};
+  if (most * most > limit * farthest) few.push_back(left);
+  if (least * least > limit * farthest) few.push_back(right);
+  return few;
+}
+
+}  // namespace carom::scalar

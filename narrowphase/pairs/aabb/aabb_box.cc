@@ -1,0 +1,83 @@
+// Box along the world axes against an oriented box, by the separating axis theorem.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/pairs/aabb/aabb_box.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/features/boxes_contact-inl.h"
+#include "narrowphase/manifolds/manifold-inl.h"
+#include "narrowphase/pairs/direction-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+struct AabbBoxBase {
+  using A = AabbLanes;
+  using B = BoxLanes;
+  static constexpr Units kUnits = Units::scaled;
+  static constexpr Unsure kUnsure = Unsure::everything;
+
+  // Seen from both corners first, so that a box far from its position loses nothing.
+  static HWY_INLINE BoxPairLanes boxes(const PoseLanes& pose, const A& a, const B& b) {
+    const F half = splat(0.5f);
+    return {((pose.d - a.lower) + (pose.d - a.upper)) * half, rotation_of(pose.b),
+            (a.upper - a.lower) * half, b.half};
+  }
+  static HWY_INLINE F3 centre(const A& a) { return (a.lower + a.upper) * splat(0.5f); }
+  static HWY_INLINE Rotation world() {
+    const F zero = splat(0);
+    const F one = splat(1);
+    return {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+  }
+};
+
+template <TriedAxes kTried>
+struct AabbBox : AabbBoxBase {
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    test_boxes<kTried>(boxes(pose, a, b), world(), centre(a), report);
+  }
+};
+
+struct AabbBoxDistance : AabbBoxBase {
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    measure_boxes(boxes(pose, a, b), world(), centre(a), report);
+  }
+};
+
+void aabb_box(const Batch& batch) {
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<AabbLanes, BoxLanes>(batch);
+    case Pass::test:
+      return batch.faces_only ? run_batch<AabbBox<TriedAxes::of_faces>>(batch)
+                              : run_batch<AabbBox<TriedAxes::all>>(batch);
+    case Pass::distance:
+      return run_batch<AabbBoxDistance>(batch);
+    case Pass::manifold:
+      return run_manifold<AabbLanes, BoxLanes>(batch);
+    case Pass::clearance:  // of hulls alone
+    case Pass::recall:
+      return;
+  }
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+
+HWY_EXPORT(aabb_box);
+
+void run_aabb_box(const Batch& batch) { CAROM_DISPATCH(aabb_box)(batch); }
+
+}  // namespace carom
+#endif  // HWY_ONCE

@@ -1,0 +1,8 @@
+// Aabb against k-DOP: searches over any two cores.
+#include "narrowphase/pairs/core_batch.h"
+
+namespace carom {
+
+void run_aabb_dop(const Batch& batch) { run_core_batch<Aabb, Dop>(batch, nullptr); }
+
+}  // namespace carom

@@ -1,0 +1,79 @@
+// Box along the world axes against triangle, seen from the centre of the box.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/pairs/aabb/aabb_triangle.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/features/box_triangle_core-inl.h"
+#include "narrowphase/manifolds/manifold-inl.h"
+#include "narrowphase/pairs/direction-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+struct AabbTriangleBase {
+  using A = AabbLanes;
+  using B = TriangleLanes;
+  static constexpr Units kUnits = Units::scaled;
+  static constexpr Unsure kUnsure = Unsure::everything;
+
+  static HWY_INLINE F3 half_of(const A& box) { return (box.upper - box.lower) * splat(0.5f); }
+
+  // Of the triangle's body, seen from the centre of the box.
+  static HWY_INLINE F3 position_of(const PoseLanes& pose, const A& box) {
+    return ((pose.d - box.lower) + (pose.d - box.upper)) * splat(0.5f);
+  }
+};
+
+struct AabbTriangle : AabbTriangleBase {
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
+                              Report& report) {
+    const F3 centre = (box.lower + box.upper) * splat(0.5f);
+    const F3 position = position_of(pose, box);
+    PlacedTriangle placed = place_triangle(triangle, rotation_of(pose.b), position);
+    BoxContact contact;
+    box_triangle_contact(placed, half_of(box), contact);
+
+    report(hn::Le(contact.separation, splat(0)), hn::Or(contact.unsure, triangle.is_special),
+           no_lanes(), contact.separation, contact.normal, contact.on_box + centre,
+           contact.on_other - position);
+  }
+};
+
+// At Detail::overlap.
+struct AabbTriangleDecision : AabbTriangleBase {
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
+                              Report& report) {
+    const PlacedTriangle placed =
+        place_triangle(triangle, rotation_of(pose.b), position_of(pose, box));
+    report_decision(gap_of(placed, half_of(box)), triangle.is_special, report);
+  }
+};
+
+void aabb_triangle(const Batch& batch) {
+  if (batch.pass == Pass::direction) return run_direction<AabbLanes, TriangleLanes>(batch);
+  if (batch.pass == Pass::manifold) return run_manifold<AabbLanes, TriangleLanes>(batch);
+  if (batch.detail == Detail::overlap) return run_batch<AabbTriangleDecision>(batch);
+  run_batch<AabbTriangle>(batch);
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+
+HWY_EXPORT(aabb_triangle);
+
+void run_aabb_triangle(const Batch& batch) { CAROM_DISPATCH(aabb_triangle)(batch); }
+
+}  // namespace carom
+#endif  // HWY_ONCE

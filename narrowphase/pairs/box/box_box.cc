@@ -1,0 +1,78 @@
+// Oriented box against oriented box, by the separating axis theorem.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/pairs/box/box_box.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/features/boxes_contact-inl.h"
+#include "narrowphase/manifolds/manifold-inl.h"
+#include "narrowphase/pairs/direction-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+struct BoxBoxBase {
+  using A = BoxLanes;
+  using B = BoxLanes;
+  static constexpr Units kUnits = Units::scaled;
+  static constexpr Unsure kUnsure = Unsure::everything;
+
+  static HWY_INLINE BoxPairLanes boxes(const PoseLanes& pose, const Rotation& turn_a, const A& a,
+                                       const B& b) {
+    return {rotate_back(turn_a, pose.d), rotation_of(relative_rotation(pose.a, pose.b)), a.half,
+            b.half};
+  }
+};
+
+template <TriedAxes kTried>
+struct BoxBox : BoxBoxBase {
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    const Rotation turn_a = rotation_of(pose.a);
+    test_boxes<kTried>(boxes(pose, turn_a, a, b), turn_a, splat3(0), report);
+  }
+};
+
+struct BoxBoxDistance : BoxBoxBase {
+  template <class Report>
+  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
+    const Rotation turn_a = rotation_of(pose.a);
+    measure_boxes(boxes(pose, turn_a, a, b), turn_a, splat3(0), report);
+  }
+};
+
+void box_box(const Batch& batch) {
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<BoxLanes, BoxLanes>(batch);
+    case Pass::test:
+      return batch.faces_only ? run_batch<BoxBox<TriedAxes::of_faces>>(batch)
+                              : run_batch<BoxBox<TriedAxes::all>>(batch);
+    case Pass::distance:
+      return run_batch<BoxBoxDistance>(batch);
+    case Pass::manifold:
+      return run_manifold<BoxLanes, BoxLanes>(batch);
+    case Pass::clearance:  // of hulls alone
+    case Pass::recall:
+      return;
+  }
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+
+HWY_EXPORT(box_box);
+
+void run_box_box(const Batch& batch) { CAROM_DISPATCH(box_box)(batch); }
+
+}  // namespace carom
+#endif  // HWY_ONCE

@@ -1,0 +1,50 @@
+// Box against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/pairs/box/box_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/hulls/core_kernel-inl.h"
+#include "narrowphase/manifolds/hull_points-inl.h"
+#include "narrowphase/manifolds/manifold-inl.h"
+#include "narrowphase/pairs/direction-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void box_hull(const Batch& batch) {
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<BoxLanes, HullLanes>(batch);
+    case Pass::distance:
+      return run_batch<CoreKernel<BoxLanes, HullLanes, Pass::distance>>(batch);
+    case Pass::clearance:
+      return run_batch<CoreKernel<BoxLanes, HullLanes, Pass::clearance>>(batch);
+    case Pass::manifold:
+      return run_manifold<BoxLanes, HullLanes>(batch);
+    default:
+      return run_batch<CoreKernel<BoxLanes, HullLanes, Pass::test>>(batch);
+  }
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "narrowphase/pairs/core_batch.h"
+#include "simd/dispatch.h"
+
+namespace carom {
+
+HWY_EXPORT(box_hull);
+
+void run_box_hull(const Batch& batch) {
+  run_core_batch<Box, Hull>(batch, CAROM_DISPATCH(box_hull));
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

@@ -1,0 +1,8 @@
+// Capsule against k-DOP: searches over any two cores.
+#include "narrowphase/pairs/core_batch.h"
+
+namespace carom {
+
+void run_capsule_dop(const Batch& batch) { run_core_batch<Capsule, Dop>(batch, nullptr); }
+
+}  // namespace carom

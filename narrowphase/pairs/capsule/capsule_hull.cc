@@ -1,0 +1,36 @@
+// Capsule against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/pairs/capsule/capsule_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/hulls/core_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void capsule_hull(const Batch& batch) {
+  run_batch<CoreKernel<CapsuleLanes, HullLanes, Pass::distance>>(batch);  // whatever is asked for
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "narrowphase/pairs/core_batch.h"
+#include "simd/dispatch.h"
+
+namespace carom {
+
+HWY_EXPORT(capsule_hull);
+
+void run_capsule_hull(const Batch& batch) {
+  run_core_batch<Capsule, Hull>(batch, CAROM_DISPATCH(capsule_hull));
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

@@ -1,0 +1,177 @@
+#include "narrowphase/pairs/core_batch.h"
+
+#include <algorithm>
+#include <array>
+
+#include "narrowphase/batch/row_store.h"
+#include "narrowphase/batch/scratch_columns.h"
+#include "narrowphase/batch/single_pair.h"
+#include "narrowphase/batch/stated_body.h"
+#include "narrowphase/doubles/furthest.h"
+#include "narrowphase/hulls/hull_steps.h"
+#include "narrowphase/pairs/any_pair.h"
+#include "narrowphase/pairs/pair_kinds.h"
+#include "narrowphase/pairs/scalar_batch.h"
+
+namespace carom {
+namespace {
+
+scalar::Quaternion<double> orientation_of(const BodyReader& body, size_t index) {
+  const Row q = body.orientation(index);
+  return scalar::quaternion_as<double>({q[0], q[1], q[2], q[3]});
+}
+
+template <class T, class Real>
+auto shape_at(const BodyReader& body, size_t index) {
+  if constexpr (std::is_same_v<T, Hull>) {
+    return scalar::HullShape<Real>{geometry_at<HullGeometry>(body.row(index, 0)), 1};
+  } else {
+    return scalar::shape_as<Real>(std::get<T>(shape_of(body, index)));
+  }
+}
+
+template <class T>
+using FloatShape = decltype(scalar::shape_as<float>(std::declval<T>()));
+
+std::array<float, 10> numbers_of(const scalar::Separation& s) {
+  return {s.separation, s.normal.x(), s.normal.y(), s.normal.z(), s.arm_a.x(),
+          s.arm_a.y(),  s.arm_a.z(),  s.arm_b.x(),  s.arm_b.y(),  s.arm_b.z()};
+}
+
+// Proofs of shapes whose points are rounded by more than a rotation are not for these bounds.
+template <class T>
+bool has_exact_points(const T& shape) {
+  if constexpr (std::is_same_v<T, scalar::DopShape<double>>) return false;
+  if constexpr (std::is_same_v<T, scalar::TriangleShape<double>>) return !shape.is_special();
+  return true;
+}
+
+// Tests the rows of a batch that lanes have left, one at a time.
+template <class A, class B>
+class RowTester {
+ public:
+  RowTester(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b)
+      : batch_(batch),
+        view_a_(view_of(batch.a, batch.layout, kind_a)),
+        view_b_(view_of(batch.b, batch.layout, kind_b)),
+        store_(batch, kind_a, kind_b),
+        test_{furthest_point_in_lanes(), !has_contacts(batch.detail)},
+        decides_separate_(has_contacts(batch.detail) && batch.pass == Pass::test &&
+                          kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {}
+
+  bool is_valid(size_t row) const {
+    return a_.is_valid(batch_.pairs[row].a) && b_.is_valid(batch_.pairs[row].b);
+  }
+  void put_invalid(size_t row) const { store_.put_invalid(row); }
+
+  // Both bodies are valid.
+  void run(size_t row, bool is_deep) const {
+    if (is_deep && put_depth(row)) return;
+    put_separation(row);
+  }
+
+ private:
+  // Between solids, in float32, if that is sure.
+  bool put_depth(size_t row) const {
+    if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
+      const Pair pair = batch_.pairs[row];
+      const scalar::Separation s = scalar::in_scaled_units<float>(
+          shape_at<A, float>(a_, pair.a), shape_at<B, float>(b_, pair.b),
+          rounded_pose(a_, b_, pair),
+          [&](const auto& x, const auto& y, const scalar::PairPose<float>& pose) {
+            return shape_depth(x, y, pose, steps_);
+          });
+      if (!s.is_unsure) store_.put(row, s.status, numbers_of(s));
+      return !s.is_unsure;
+    }
+    return false;
+  }
+
+  // In double precision.
+  void put_separation(size_t row) const {
+    const Pair pair = batch_.pairs[row];
+    const Position<double> p = a_.template position<double>(pair.a);
+    const Position<double> q = b_.template position<double>(pair.b);
+    const auto shape_a = shape_at<A, double>(a_, pair.a);
+    const auto shape_b = shape_at<B, double>(b_, pair.b);
+    const scalar::SeparationAs<double> s = scalar::in_scaled_units<double>(
+        shape_a, shape_b,
+        {{q.x - p.x, q.y - p.y, q.z - p.z}, orientation_of(a_, pair.a), orientation_of(b_, pair.b)},
+        [&](const auto& x, const auto& y, const scalar::PairPose<double>& pose) {
+          return core_separation(x, y, pose, test_);
+        });
+    const bool is_decided_alone = decides_separate_ && s.separation > 0;
+    store_.put(row, is_decided_alone ? Status::ok : s.status, numbers_of(scalar::rounded(s)));
+    const bool is_proven = !s.is_unsure && has_exact_points(shape_a) && has_exact_points(shape_b);
+    if (batch_.unsure && !is_proven) batch_.unsure[row] = 1;
+  }
+
+  const Batch& batch_;
+  const Collidables view_a_, view_b_;
+  const BodyReader a_{view_a_}, b_{view_b_};
+  const RowStore store_;
+  const HullSteps& steps_ = hull_steps_in_lanes();  // choosing an ISA a row would show
+  const scalar::CoreTest test_;
+  // Of separate pairs no more is stated than that they are: the distance pass says how far, and
+  // whether that is a bound.
+  const bool decides_separate_;
+};
+
+template <class A, class B>
+inline constexpr bool kHasPointsInLanes = kIsSolid<FloatShape<A>>&& kIsSolid<FloatShape<B>>;
+
+template <class A, class B>
+void run_manifold_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
+  const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
+  if (!kHasPointsInLanes<A, B>) return run_scalar_manifolds(batch, kind_a, kind_b);
+  std::array<uint8_t, kPairsPerBlock> left{};
+  Batch lanes = batch;
+  lanes.unsure = left.data();
+  in_lanes(lanes);
+  run_scalar_manifolds(batch, kind_a, kind_b, left.data());
+}
+
+}  // namespace
+
+template <class A, class B>
+void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
+  const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
+  if (batch.pass == Pass::manifold) return run_manifold_batch<A, B>(batch, in_lanes);
+  if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
+  const RowTester<A, B> rows(batch, kind_a, kind_b);
+  std::array<uint8_t, kPairsPerBlock> left{};
+  if (in_lanes) {
+    Batch lanes = batch;
+    lanes.unsure = left.data();
+    in_lanes(lanes);
+  } else {
+    for (size_t row = 0; row < batch.count; ++row) {
+      left[row] = rows.is_valid(row) ? 1 : 0;
+      if (left[row] == 0) rows.put_invalid(row);
+    }
+  }
+  // Listed first: whether a row is left is as random as whether pairs overlap.
+  std::array<uint16_t, kPairsPerBlock + 1> list;
+  size_t count = 0;
+  for (size_t row = 0; row < batch.count; ++row) {
+    list[count] = static_cast<uint16_t>(row);
+    count += left[row] != 0 ? 1 : 0;
+  }
+  for (size_t i = 0; i < count; ++i) rows.run(list[i], left[list[i]] == kDeep);
+}
+
+template void run_core_batch<Sphere, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Capsule, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Aabb, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Box, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Dop, Dop>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Dop, Triangle>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Sphere, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Capsule, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Aabb, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Box, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Dop, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Hull, Hull>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Hull, Triangle>(const Batch&, void (*)(const Batch&));
+
+}  // namespace carom

@@ -1,0 +1,8 @@
+// K-DOP against triangle: searches over any two cores.
+#include "narrowphase/pairs/core_batch.h"
+
+namespace carom {
+
+void run_dop_triangle(const Batch& batch) { run_core_batch<Dop, Triangle>(batch, nullptr); }
+
+}  // namespace carom

@@ -1,0 +1,53 @@
+// Hull against hull: GJK in lanes, and searches over any two cores for what that leaves.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/pairs/hull/hull_hull.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/hulls/core_stages-inl.h"
+#include "narrowphase/hulls/recall-inl.h"
+#include "narrowphase/manifolds/hull_points-inl.h"
+#include "narrowphase/manifolds/manifold-inl.h"
+#include "narrowphase/pairs/direction-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+void hull_hull(const Batch& batch) {
+  switch (batch.pass) {
+    case Pass::direction:
+      return run_direction<HullLanes, HullLanes>(batch);
+    case Pass::recall:
+      return run_batch<RecallKernel<HullLanes, HullLanes>>(batch);
+    case Pass::distance:
+      return run_core<HullLanes, HullLanes, Pass::distance>(batch);
+    case Pass::clearance:
+      return run_core<HullLanes, HullLanes, Pass::clearance>(batch);
+    case Pass::manifold:
+      return run_manifold<HullLanes, HullLanes>(batch);
+    default:
+      return run_core<HullLanes, HullLanes, Pass::test>(batch);
+  }
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "narrowphase/pairs/core_batch.h"
+#include "simd/dispatch.h"
+
+namespace carom {
+
+HWY_EXPORT(hull_hull);
+
+void run_hull_hull(const Batch& batch) {
+  run_core_batch<Hull, Hull>(batch, CAROM_DISPATCH(hull_hull));
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

@@ -1,0 +1,63 @@
+// The dispatch table of pair kinds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "carom/shapes/shape.h"
+#include "narrowphase/batch/batch.h"
+
+namespace carom {
+
+struct PairKind {
+  ShapeKind a;
+  ShapeKind b;
+  void (*run)(const Batch& batch);
+  MorePasses more;
+
+  bool has_direction_pass() const {
+    return more == MorePasses::direction_and_manifold || has_distance_pass();
+  }
+  bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
+  // Whether the distance pass finds what the test does, for all rows.
+  bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
+  bool has_distance_pass() const { return more == MorePasses::distance || measures_at_once(); }
+  bool has_manifold_pass() const { return more != MorePasses::none; }
+};
+
+inline constexpr std::array kPairKinds = {
+#define CAROM_PAIR(name, kind_a, kind_b, passes) \
+  PairKind{ShapeKind::kind_a, ShapeKind::kind_b, run_##name, MorePasses::passes},
+#include "narrowphase/pairs/pair_list.inc"
+#undef CAROM_PAIR
+};
+
+// Which kernel tests a against b. `flipped`: with the sides exchanged, since kernels exist for one
+// order only.
+struct PairKindRef {
+  uint8_t index = 0xff;
+  bool flipped = false;
+
+  bool exists() const { return index != 0xff; }
+};
+
+// By the kinds of both sides.
+inline constexpr auto kPairKindTable = [] {
+  std::array<std::array<PairKindRef, kShapeKindCount>, kShapeKindCount> table{};
+  for (size_t i = 0; i < kPairKinds.size(); ++i) {
+    const auto a = static_cast<size_t>(kPairKinds[i].a);
+    const auto b = static_cast<size_t>(kPairKinds[i].b);
+    table[b][a] = {static_cast<uint8_t>(i), true};
+    table[a][b] = {static_cast<uint8_t>(i), false};
+  }
+  return table;
+}();
+
+constexpr PairKindRef find_pair_kind(ShapeKind a, ShapeKind b) {
+  const auto row = static_cast<size_t>(a);
+  const auto column = static_cast<size_t>(b);
+  return row < kPairKindTable.size() && column < kPairKindTable.size() ? kPairKindTable[row][column]
+                                                                       : PairKindRef{};
+}
+
+}  // namespace carom

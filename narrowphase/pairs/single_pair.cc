@@ -1,0 +1,164 @@
+#include "narrowphase/batch/single_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "narrowphase/batch/stated_body.h"
+#include "narrowphase/manifolds/manifold_scalar.h"
+#include "narrowphase/pairs/any_pair.h"
+#include "shapes/body_reader.h"
+
+namespace carom {
+namespace {
+
+Position<double> difference(const Position<double>& a, const Position<double>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+double square(const Position<double>& v) { return (v.x * v.x + v.y * v.y) + v.z * v.z; }
+
+// sqrt(distance^2) - reach without cancellation; 0 only if the two are equal in double.
+float gap(double distance_squared, double reach) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  if (distance_squared > 4 * kLargest * kLargest) return std::numeric_limits<float>::max();
+  const double difference = distance_squared - reach * reach;
+  if (difference == 0) return 0;
+  const double gap = difference / (std::sqrt(distance_squared) + reach);
+  const auto rounded = static_cast<float>(std::clamp(gap, -kLargest, kLargest));
+  return difference > 0 ? std::max(rounded, std::numeric_limits<float>::denorm_min()) : rounded;
+}
+
+float sphere_box_separation(const BodyReader& box, size_t box_index, const Position<double>& centre,
+                            float radius) {
+  const double p[3] = {centre.x, centre.y, centre.z};
+  double delta[3];
+  double way_out = std::numeric_limits<double>::infinity();
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double lower = box.lower(axis, box_index);
+    const double upper = box.upper(axis, box_index);
+    delta[axis] = std::clamp(p[axis], lower, upper) - p[axis];
+    way_out = std::min({way_out, p[axis] - lower, upper - p[axis]});
+  }
+  const double distance_squared = square({delta[0], delta[1], delta[2]});
+  if (distance_squared > 0) return gap(distance_squared, radius);
+  return static_cast<float>(0 - (way_out + radius));
+}
+
+// Of a sphere and a sphere or aabb.
+float sphere_separation(const Batch& batch, ShapeKind kind_b, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_a = view_of(batch.a, batch.layout, ShapeKind::sphere);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  const Position<double> centre =
+      difference(a.position<double>(pair.a), b.position<double>(pair.b));
+  if (kind_b == ShapeKind::aabb) {
+    return sphere_box_separation(b, pair.b, centre, a.radius(pair.a));
+  }
+  return gap(square(centre), double{a.radius(pair.a)} + double{b.radius(pair.b)});
+}
+
+scalar::Quaternion<double> orientation_of(const BodyReader& body, size_t index) {
+  const Row q = body.orientation(index);
+  return scalar::quaternion_as<double>({q[0], q[1], q[2], q[3]});
+}
+
+scalar::SeparationAs<double> exact_separation(const Batch& batch, ShapeKind kind_a,
+                                              ShapeKind kind_b, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_a = view_of(batch.a, batch.layout, kind_a);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  const Position<double> d = difference(b.position<double>(pair.b), a.position<double>(pair.a));
+  return scalar::separation_of<double>(
+      shape_of(a, pair.a), shape_of(b, pair.b),
+      {{d.x, d.y, d.z}, orientation_of(a, pair.a), orientation_of(b, pair.b)});
+}
+
+template <class T>
+scalar::PairPose<float> rounded_pose_of(const BodyReader& a, const BodyReader& b, Pair pair) {
+  const Position<T> at_a = a.position<T>(pair.a), at_b = b.position<T>(pair.b);
+  const Eigen::Matrix<T, 3, 1> position_a(at_a.x, at_a.y, at_a.z);
+  const Eigen::Matrix<T, 3, 1> position_b(at_b.x, at_b.y, at_b.z);
+  const Row qa = a.orientation(pair.a), qb = b.orientation(pair.b);
+  return {scalar::relative_position(position_a, position_b),
+          scalar::quaternion_as<float>({qa[0], qa[1], qa[2], qa[3]}),
+          scalar::quaternion_as<float>({qb[0], qb[1], qb[2], qb[3]}),
+          scalar::relative_position(position_b, position_a)};
+}
+
+}  // namespace
+
+scalar::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair) {
+  return a.is_float64() ? rounded_pose_of<double>(a, b, pair) : rounded_pose_of<float>(a, b, pair);
+}
+
+Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind) {
+  Collidables view;
+  view.position.data = side.records;
+  view.position.stride = side.record_stride;
+  view.position.type =
+      layout == PositionLayout::records64 ? PositionType::float64 : PositionType::float32;
+  view.uniform_kind = kind;
+  view.boxes = side.boxes;
+  view.box_slot = side.box_slot;
+  view.orientation = side.orientation;
+  view.rows = side.rows;
+  return view;
+}
+
+bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables a = view_of(batch.a, batch.layout, kind_a);
+  const Collidables b = view_of(batch.b, batch.layout, kind_b);
+  return BodyReader{a}.is_valid(pair.a) && BodyReader{b}.is_valid(pair.b);
+}
+
+float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
+  const bool of_sphere =
+      kind_a == ShapeKind::sphere && (kind_b == ShapeKind::sphere || kind_b == ShapeKind::aabb);
+  if (of_sphere) return sphere_separation(batch, kind_b, row);
+  return scalar::round_separation(exact_separation(batch, kind_a, kind_b, row).separation);
+}
+
+std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
+                                   size_t row) {
+  const auto s = scalar::rounded(exact_separation(batch, kind_a, kind_b, row));
+  return {s.separation,
+          s.normal.x(),
+          s.normal.y(),
+          s.normal.z(),
+          s.arm_a.x(),
+          s.arm_a.y(),
+          s.arm_a.z(),
+          s.arm_b.x(),
+          s.arm_b.y(),
+          s.arm_b.z(),
+          s.status == Status::degenerate ? 1.0f : 0.0f};
+}
+
+uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
+                        ManifoldPoints& points) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_a = view_of(batch.a, batch.layout, kind_a);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  const auto vector = [row](const std::array<float*, 3>& columns) -> Eigen::Vector3f {
+    return {columns[0][row], columns[1][row], columns[2][row]};
+  };
+  const ResultColumns& tested = batch.tested;
+  scalar::Separation contact;
+  contact.separation = tested.separation[row];
+  contact.normal = vector(tested.normal);
+  contact.arm_a = vector(tested.point_a);
+  const scalar::Manifold manifold = scalar::manifold_of(shape_of(a, pair.a), shape_of(b, pair.b),
+                                                        rounded_pose(a, b, pair), contact);
+  points = manifold.points;
+  return manifold.count;
+}
+
+}  // namespace carom

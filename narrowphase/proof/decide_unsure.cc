@@ -1,0 +1,58 @@
+#include "narrowphase/proof/decide_unsure.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "narrowphase/batch/single_pair.h"
+#include "narrowphase/proof/exact_overlap.h"
+#include "narrowphase/proof/proof.h"
+
+namespace carom {
+namespace {
+
+uint8_t decide(const StatedBody& a, const StatedBody& b, Tier tier) {
+  const uint8_t proven = prove_overlap(a, b);
+  if (proven != kUndecided || tier != Tier::exact) return proven;
+  return exact_overlap(a, b);
+}
+
+// The next row that is marked, or count. Hardly any is: eight are looked at at a time.
+size_t next_marked(const uint8_t* marks, size_t row, size_t count) {
+  while (row < count) {
+    uint64_t eight = 0;
+    std::memcpy(&eight, marks + row, std::min<size_t>(count - row, sizeof eight));
+    if (eight != 0) break;
+    row += sizeof eight;
+  }
+  while (row < count && !marks[row]) ++row;
+  return std::min(row, count);
+}
+
+// A separation that rounding put on the wrong side is as good as none; so is what overflowed.
+float with_sign_of(uint8_t overlap, float separation) {
+  if (overlap == 1 && !(separation <= 0)) return 0;
+  if (overlap == 0 && !(separation > 0)) return std::numeric_limits<float>::denorm_min();
+  return separation;
+}
+
+}  // namespace
+
+void decide_unsure(const PairKind& kind, const Batch& batch, Tier tier) {
+  const Collidables view_a = view_of(batch.a, batch.layout, kind.a);
+  const Collidables view_b = view_of(batch.b, batch.layout, kind.b);
+  const BodyReader a{view_a};
+  const BodyReader b{view_b};
+  for (size_t row = 0;; ++row) {
+    row = next_marked(batch.unsure, row, batch.count);
+    if (row == batch.count) return;
+    const Pair pair = batch.pairs[row];
+    const uint8_t overlap = decide(stated_body(a, pair.a), stated_body(b, pair.b), tier);
+    batch.out.overlap[row] = overlap;
+    if (!has_contacts(batch.detail)) continue;
+    float& separation = batch.out.separation[row];
+    separation = with_sign_of(overlap, separation);
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,12 @@
+// Whether two shapes overlap, exactly as they are stored (carom/results/tier.h). Touching is
+// overlap.
+#pragma once
+
+#include "narrowphase/batch/stated_body.h"
+
+namespace carom {
+
+// Some microseconds; more for k-DOPs and thick triangles, and for sizes that differ by many orders.
+bool exact_overlap(const StatedBody& a, const StatedBody& b);
+
+}  // namespace carom

@@ -1,0 +1,254 @@
+// GJK says what the answer probably is, and why: a direction along which the shapes are apart, or
+// points of their difference around the origin. Whichever it is gets checked:
+//   separate  The projections on the direction lie apart by more than rounding.
+//   overlap   The simplex has a point, a convex combination of its corners with weights that are
+//             positive beyond rounding, that is nearer to the origin than the radii reach; or, of
+//             shapes without radii, it holds the origin by more than rounding. Each corner is a
+//             point of B less a point of A, up to rounding, so that the shapes have a point in
+//             common.
+#include "narrowphase/proof/proof.h"
+
+#include <cmath>
+#include <variant>
+
+#include "carom/results/tier.h"
+#include "narrowphase/doubles/make_core.h"
+#include "narrowphase/pairs/any_pair.h"
+#include "narrowphase/proof/overlap_search.h"
+
+namespace carom {
+namespace {
+
+using Eigen::Vector3d;
+using Vector = VectorOf<double>;
+using PointHull = GrownHull<double>;
+using scalar::Polytope;
+
+// In units in which the greatest coordinate lies between one and two, points are off by less than
+// this, rotation and all: some dozen roundings of 2^-52 each.
+constexpr double kRounding = 0x1p-44;
+// Corners of k-DOPs are found to within kDopRounding, the normals of triangles by which they are
+// thick to within 2^-52 over the sine of their angle.
+constexpr double kRoundingOfDops = 4 * kDopRounding;
+constexpr double kLeastDop = 0x1p-20;
+constexpr double kRoundingOfFronts = 0x1p-30;
+constexpr double kLeastSine = 0x1p-16;
+
+// Volumes of three differences of points, each below 2^5, round to less than this.
+constexpr double kRoundingOfVolumes = 0x1p-34;
+
+// Sizes that can be scaled: those of all floats, and of distances that are squared.
+constexpr double kLeastSize = 0x1p-400;
+constexpr double kGreatestSize = 0x1p400;
+
+// GJK in doubles is over after some ten rounds, or goes round in circles.
+constexpr int kMostRounds = 32;
+
+// --- The shapes in scaled units ---
+
+Vector vector_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+struct ProofBody {
+  PointHull hull;
+  Vector3d middle = Vector3d::Zero();
+  scalar::FrontRules rules;
+  double rounding = kRounding;
+  bool is_known = true;  // how far off it may be
+
+  ProofBody() = default;
+  explicit ProofBody(const Polytope& polytope) : middle(polytope.middle), rules(polytope.rules) {
+    for (const Vector3d& p : polytope.points) hull.points.push_back(vector_of(p));
+    hull.radius = polytope.radius;
+  }
+
+  void move(const Vector3d& by) {
+    for (Vector& p : hull.points) p = p + vector_of(by);
+    middle += by;
+    rules.corner += by;
+  }
+};
+
+struct BodyMaker {
+  double scale;
+  const scalar::Quaternion<double>& turn;
+
+  template <class T>
+  ProofBody operator()(const T& shape) const {
+    return ProofBody(scalar::polytope_of(scalar::shape_as<double>(shape).scaled(scale), turn));
+  }
+  ProofBody operator()(const Hull& shape) const {
+    Core core;
+    scalar::make_core(scalar::shape_as<double>(shape).scaled(scale), turn, Vector3d::Zero(), core);
+    ProofBody body;
+    for (size_t i = 0; i < core.size(); ++i) body.hull.points.push_back(core.point(i));
+    body.middle = scalar::eigen_vector(core.middle);
+    return body;
+  }
+  // Only what is solid: of slabs that hardly have a point in common the corners say nothing.
+  ProofBody operator()(const Dop& dop) const {
+    const Polytope polytope =
+        scalar::polytope_of(scalar::shape_as<double>(dop).scaled(scale), turn);
+    ProofBody body(polytope);
+    body.rounding = kRoundingOfDops;
+    body.is_known = !polytope.points.empty() && polytope.inner_radius > kLeastDop;
+    return body;
+  }
+  ProofBody operator()(const Triangle& triangle) const {
+    const auto shape = scalar::shape_as<double>(triangle).scaled(scale);
+    ProofBody body(scalar::polytope_of(shape, turn));
+    if (!(triangle.thickness > 0 || triangle.one_sided)) return body;
+    body.rounding = kRoundingOfFronts;
+    body.is_known = has_sure_front(shape.corners);
+    return body;
+  }
+  ProofBody operator()(const Halfspace&) const { return {}; }
+  ProofBody operator()(const Mesh&) const { return nothing(); }
+  ProofBody operator()(const Compound&) const { return nothing(); }
+
+  // Their parts are proven one by one.
+  static ProofBody nothing() {
+    ProofBody body;
+    body.is_known = false;
+    return body;
+  }
+
+  static bool has_sure_front(const std::array<Vector3d, 3>& c) {
+    const Vector3d u = c[1] - c[0], v = c[2] - c[0];
+    const Vector3d n = scalar::cross(u, v);
+    const double sizes = scalar::largest_component(u) * scalar::largest_component(v);
+    return scalar::largest_component(n) > kLeastSine * sizes && sizes > 0;
+  }
+};
+
+scalar::Quaternion<double> turn_of(const StatedBody& body) {
+  return scalar::quaternion_as<double>(Eigen::Vector4f(body.orientation[0], body.orientation[1],
+                                                       body.orientation[2], body.orientation[3]));
+}
+
+Vector3d way_between(const StatedBody& a, const StatedBody& b) {
+  return {b.position.x - a.position.x, b.position.y - a.position.y, b.position.z - a.position.z};
+}
+
+// --- What comes from behind a one-sided triangle ---
+
+enum class Side { front, behind, unknown };
+
+Side side_of(const scalar::FrontRules& rules, const Vector3d& middle, double rounding) {
+  if (!rules.one_sided) return Side::front;
+  const double height = scalar::dot(rules.front, Vector3d(middle - rules.corner)) + rules.thickness;
+  if (std::fabs(height) <= rounding) return Side::unknown;
+  return height < 0 ? Side::behind : Side::front;
+}
+
+// --- Two hulls ---
+
+double length(const Vector& v) { return std::sqrt(dot(v, v)); }
+
+bool is_apart_along(const PointHull& a, const PointHull& b, const Vector& way, double rounding) {
+  const double scale = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
+  if (!(scale > 0)) return false;
+  const Vector n = {way.x / scale, way.y / scale, way.z / scale};
+  double top = -HUGE_VAL, bottom = HUGE_VAL;
+  for (const Vector& p : a.points) top = std::max(top, dot(n, p));
+  for (const Vector& p : b.points) bottom = std::min(bottom, dot(n, p));
+  return bottom - top > length(n) * ((a.radius + b.radius) + rounding);
+}
+
+// The nearest point to the origin as a combination of the corners. Whatever the weights are, as
+// long as none is negative and they sum to one, it is a point of the simplex.
+Vector nearest_by_weights(const FewOf<Vector, 4>& y) {
+  std::array<double, 4> weight{};
+  if (y.size() == 2) {
+    const Vector along = y[1] - y[0];
+    weight = {dot(along, y[1]), -dot(along, y[0])};
+  } else if (y.size() == 3) {
+    const Vector n = cross(y[1] - y[0], y[2] - y[0]);
+    for (size_t i = 0; i < 3; ++i) weight[i] = dot(n, cross(y[(i + 1) % 3], y[(i + 2) % 3]));
+  } else {
+    weight[0] = 1;
+  }
+  double sum = 0;
+  for (double& w : weight) {
+    w = std::max(w, 0.0);
+    sum += w;
+  }
+  Vector v{0, 0, 0};
+  for (size_t i = 0; i < y.size(); ++i) v = v + y[i] * (weight[i] / sum);
+  return v;
+}
+
+// Whether the origin lies further inside of all four faces than the corners may be off.
+bool holds_origin(const FewOf<Vector, 4>& y, double rounding) {
+  if (y.size() < 4) return false;
+  for (size_t i = 0; i < 4; ++i) {
+    const Vector &apex = y[i], &a = y[(i + 1) % 4], &b = y[(i + 2) % 4], &c = y[(i + 3) % 4];
+    const Vector n = cross(b - a, c - a);
+    const double to_apex = dot(n, apex - a);
+    const double to_origin = to_apex < 0 ? dot(n, a) : -dot(n, a);
+    if (!(to_origin > length(n) * (4 * rounding) + kRoundingOfVolumes)) return false;
+  }
+  return true;
+}
+
+uint8_t prove_hulls(const PointHull& a, const PointHull& b, double rounding) {
+  const auto evidence = OverlapSearch<double>(a, b, kMostRounds).run();
+  if (!evidence.overlap) {
+    return is_apart_along(a, b, evidence.way, 4 * rounding) ? uint8_t{0} : kUndecided;
+  }
+  if (holds_origin(evidence.simplex, rounding)) return 1;
+  if (evidence.simplex.size() == 4) return kUndecided;
+  const double nearest = length(nearest_by_weights(evidence.simplex));
+  return nearest + 4 * rounding < a.radius + b.radius ? uint8_t{1} : kUndecided;
+}
+
+uint8_t prove_bodies(const ProofBody& a, ProofBody b, const Vector3d& way) {
+  if (!a.is_known || !b.is_known) return kUndecided;
+  b.move(way);
+  const double rounding = std::max(a.rounding, b.rounding);
+  for (const Side side :
+       {side_of(a.rules, b.middle, rounding), side_of(b.rules, a.middle, rounding)}) {
+    if (side == Side::unknown) return kUndecided;
+    if (side == Side::behind) return 0;
+  }
+  return prove_hulls(a.hull, b.hull, rounding);
+}
+
+// --- A half-space (A) ---
+
+uint8_t prove_over_plane(const StatedBody& a, const ProofBody& b, const Vector3d& way,
+                         double scale) {
+  if (!b.is_known) return kUndecided;
+  const auto halfspace = scalar::shape_as<double>(std::get<Halfspace>(a.shape)).scaled(scale);
+  const auto plane = scalar::plane_of<double>(halfspace, turn_of(a), -way);
+  if (b.rules.one_sided) {
+    const double towards = scalar::dot(b.rules.front, plane.normal);
+    if (std::fabs(towards) <= b.rounding) return kUndecided;
+    if (towards > 0) return 0;
+  }
+  double lowest = HUGE_VAL;
+  for (const Vector& p : b.hull.points) {
+    lowest = std::min(lowest, dot(vector_of(plane.normal), p));
+  }
+  const double height = (lowest - plane.height) - b.hull.radius;
+  if (!(std::fabs(height) > 4 * b.rounding)) return kUndecided;
+  return height < 0;
+}
+
+}  // namespace
+
+uint8_t prove_overlap(const StatedBody& a, const StatedBody& b) {
+  const Vector3d metres = way_between(a, b);
+  const double size =
+      std::max({scalar::largest_component(metres), size_of(a.shape), size_of(b.shape)});
+  if (!(size > kLeastSize && size < kGreatestSize)) return kUndecided;
+  const double scale = scalar::scale_of(size).down;
+  const Vector3d way = metres * scale;
+  const auto made = [&](const StatedBody& body) {
+    return std::visit(BodyMaker{scale, turn_of(body)}, body.shape);
+  };
+  if (std::holds_alternative<Halfspace>(a.shape)) return prove_over_plane(a, made(b), way, scale);
+  if (std::holds_alternative<Halfspace>(b.shape)) return prove_over_plane(b, made(a), -way, scale);
+  return prove_bodies(made(a), made(b), way);
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+// What the reference tests of a pair of shapes yield.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "carom/results/contact.h"
+
+namespace carom::scalar {
+
+// Names, frames and signs as in Contact.
+template <class Real>
+struct SeparationAs {
+  using Vector = Eigen::Matrix<Real, 3, 1>;
+
+  Real separation;
+  Vector normal;
+  Vector arm_a;
+  Vector arm_b;
+  Status status = Status::ok;
+  // Real is too coarse: the pair lies within rounding of touching, or has no good normal in it.
+  bool is_unsure = false;
+};
+
+using Separation = SeparationAs<float>;
+
+// The same with A and B exchanged. NaN (no answer) stays the one NaN it is.
+template <class Real>
+SeparationAs<Real> flipped(const SeparationAs<Real>& s) {
+  const auto negated = [](Real x) { return std::isnan(x) ? x : -x; };
+  return {s.separation, s.normal.unaryExpr(negated), s.arm_b, s.arm_a, s.status, s.is_unsure};
+}
+
+}  // namespace carom::scalar

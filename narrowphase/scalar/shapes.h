@@ -1,0 +1,168 @@
+// Shapes of the scalar tests, in float and in double, scaled to the unit of the test.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "carom/shapes/shape.h"
+#include "narrowphase/scalar/vector.h"
+#include "shapes/dop_polytope.h"
+
+namespace carom::scalar {
+
+// Every shape has
+//   size()        a bound of all coordinates, within a factor of two
+//   scaled(s)     itself, s times as large
+template <class Real>
+struct SphereShape {
+  Real radius;
+
+  Real size() const { return radius; }
+  SphereShape scaled(Real s) const { return {radius * s}; }
+};
+
+template <class Real>
+struct CapsuleShape {
+  Vector3<Real> a, b;
+  Real radius;
+
+  Real size() const { return max(max(largest_component(a), largest_component(b)), radius); }
+  CapsuleShape scaled(Real s) const { return {a * s, b * s, radius * s}; }
+};
+
+template <class Real>
+struct AabbShape {
+  Vector3<Real> lower, upper;
+
+  Real size() const { return max(largest_component(lower), largest_component(upper)); }
+  AabbShape scaled(Real s) const { return {lower * s, upper * s}; }
+};
+
+template <class Real>
+struct BoxShape {
+  Vector3<Real> half;
+
+  Real size() const { return largest_component(half); }
+  BoxShape scaled(Real s) const { return {half * s}; }
+};
+
+// Slabs in double in any case: corners are not found in less.
+template <class Real>
+struct DopShape {
+  DopSlabs slabs;
+  double greatest;  // of all coordinates
+
+  Real size() const { return static_cast<Real>(greatest); }
+  DopShape scaled(Real s) const {
+    DopShape result = *this;
+    for (double& end : result.slabs.lower) end *= s;
+    for (double& end : result.slabs.upper) end *= s;
+    result.greatest *= s;
+    return result;
+  }
+};
+
+// Points as they are stored; they are turned in double in any case.
+template <class Real>
+struct HullShape {
+  const HullGeometry* geometry;
+  double scale;
+
+  Real size() const { return static_cast<Real>(geometry->size() * scale); }
+  HullShape scaled(Real s) const { return {geometry, scale * s}; }
+};
+
+// Meshes and compounds, which are tested part by part: there is no test of the whole.
+template <class Real>
+struct CompositeShape {
+  Real size() const { return 0; }
+  CompositeShape scaled(Real) const { return {}; }
+};
+
+template <class Real>
+struct TriangleShape {
+  std::array<Vector3<Real>, 3> corners;
+  Real thickness;
+  bool one_sided;
+  uint8_t inner_edges;
+  bool has_properties;  // one of the three above, whatever scaling makes of the thickness
+
+  // What the kernels do not test: the general test in double precision does.
+  bool is_special() const { return has_properties; }
+
+  Real size() const {
+    return max(max(largest_component(corners[0]), largest_component(corners[1])),
+               max(largest_component(corners[2]), thickness));
+  }
+  TriangleShape scaled(Real s) const {
+    return {{corners[0] * s, corners[1] * s, corners[2] * s},
+            thickness * s,
+            one_sided,
+            inner_edges,
+            has_properties};
+  }
+};
+
+// With a unit normal.
+template <class Real>
+struct HalfspaceShape {
+  Vector3<Real> normal;
+  Real offset;
+
+  Real size() const { return std::fabs(offset); }
+  HalfspaceShape scaled(Real s) const { return {normal, offset * s}; }
+};
+
+// From the shape as given.
+template <class Real>
+SphereShape<Real> shape_as(const Sphere& s) {
+  return {s.radius};
+}
+template <class Real>
+CapsuleShape<Real> shape_as(const Capsule& c) {
+  return {c.a.cast<Real>(), c.b.cast<Real>(), c.radius};
+}
+template <class Real>
+AabbShape<Real> shape_as(const Aabb& box) {
+  return {box.lower.cast<Real>(), box.upper.cast<Real>()};
+}
+template <class Real>
+BoxShape<Real> shape_as(const carom::Box& box) {
+  return {box.half.cast<Real>()};
+}
+template <class Real>
+DopShape<Real> shape_as(const Dop& dop) {
+  const DopSlabs slabs(dop);
+  return {slabs, slabs.with_tight_axes().size()};
+}
+template <class Real>
+HullShape<Real> shape_as(const Hull& hull) {
+  return {hull.geometry.get(), 1};
+}
+template <class Real>
+CompositeShape<Real> shape_as(const Mesh&) {
+  return {};
+}
+template <class Real>
+CompositeShape<Real> shape_as(const Compound&) {
+  return {};
+}
+template <class Real>
+TriangleShape<Real> shape_as(const Triangle& t) {
+  return {{t.corners[0].cast<Real>(), t.corners[1].cast<Real>(), t.corners[2].cast<Real>()},
+          t.thickness,
+          t.one_sided,
+          t.inner_edges,
+          t.thickness > 0 || t.one_sided || t.inner_edges > 0};
+}
+// Normals are scaled by a power of two first, so that their squares neither vanish nor overflow.
+template <class Real>
+HalfspaceShape<Real> shape_as(const Halfspace& h) {
+  const Scale scale = scale_of(largest_component(h.normal));
+  const Vector3<Real> n = (h.normal * scale.down).template cast<Real>();
+  const Real length = std::sqrt(dot(n, n));
+  const Real offset = Real(h.offset) * Real(scale.down) / length;
+  return {n * (1 / length), finite(offset)};
+}
+
+}  // namespace carom::scalar

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/float_environment.h"
+#include "carom/narrowphase/collide.h"
+#include "carom/queries/queries.h"
+#include "queries/query_rounds.h"
+#include "queries/searches.h"
+
+namespace carom {
+namespace {
+
+constexpr RoundSizes kRounds = {.first = 2, .most = 4};
+constexpr uint32_t kNone = 0xffffffffu;
+
+// Results of collide(), a row a candidate.
+class Distances {
+ public:
+  ResultColumns columns(size_t count) {
+    status_.resize(count);
+    sub_shape_.resize(count);
+    for (std::vector<float>& column : columns_) column.resize(count);
+    const auto three = [this](size_t first) -> std::array<float*, 3> {
+      return {columns_[first].data(), columns_[first + 1].data(), columns_[first + 2].data()};
+    };
+    return {.status = status_.data(),
+            .separation = columns_[0].data(),
+            .normal = three(1),
+            .point_a = three(4),
+            .point_b = three(7),
+            .sub_b = sub_shape_.data()};
+  }
+
+  float separation(size_t row) const { return columns_[0][row]; }
+
+  NearestHit hit(Pair pair, size_t row) const {
+    const auto three = [&](size_t first) -> Eigen::Vector3f {
+      return {columns_[first][row], columns_[first + 1][row], columns_[first + 2][row]};
+    };
+    return {.query = pair.a,
+            .body = pair.b,
+            .sub_shape = sub_shape_[row],
+            .separation = separation(row),
+            .normal = three(1),
+            .point_query = three(4),
+            .point_body = three(7),
+            .status = static_cast<Status>(status_[row])};
+  }
+
+ private:
+  std::vector<uint8_t> status_;
+  std::vector<uint32_t> sub_shape_;
+  std::array<std::vector<float>, 10> columns_;
+};
+
+class NearestSearch {
+ public:
+  NearestSearch(const Collidables& queries, const SearchedBodies& bodies, Parallelism parallelism)
+      : bodies_(bodies), boxes_(queries, still_, parallelism), parallelism_(parallelism) {}
+
+  Result<void> run(float within, std::vector<NearestHit>& hits) {
+    for (size_t first = 0; first < boxes_.count(); first += kQueriesAtOnce) {
+      first_ = first;
+      const size_t count = std::min(kQueriesAtOnce, boxes_.count() - first);
+      NearestHit none{};
+      none.body = kNone;
+      none.separation = within;
+      best_.assign(count, none);
+      limit_.assign(count, std::max(within, 0.0f));
+      const auto test = [this](std::span<const Pair> candidates) { return measure(candidates); };
+      Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::near, kRounds, first,
+                                            limit_, parallelism_, test);
+      if (!found) {
+        hits.clear();
+        return found;
+      }
+      for (const NearestHit& best : best_) {
+        if (best.body != kNone) hits.push_back(best);
+      }
+    }
+    return {};
+  }
+
+ private:
+  Result<void> measure(std::span<const Pair> candidates) {
+    const ResultColumns out = distances_.columns(candidates.size());
+    Result<void> measured = collide(boxes_.queries(), bodies_.bodies, candidates, Detail::contact,
+                                    out, WitnessFrame::body, parallelism_);
+    for (size_t i = 0; measured && i < candidates.size(); ++i) {
+      const Pair pair = candidates[i];
+      NearestHit& best = best_[pair.a - first_];
+      const float separation = distances_.separation(i);
+      const bool is_nearer =
+          separation < best.separation || (separation == best.separation && pair.b < best.body);
+      if (!is_nearer || separation == kInfinity) continue;
+      best = distances_.hit(pair, i);
+      limit_[pair.a - first_] = std::max(separation, 0.0f);
+    }
+    return measured;
+  }
+
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static constexpr SweepView still_{};
+
+  const SearchedBodies& bodies_;
+  const QueryBoxes boxes_;
+  const Parallelism parallelism_;
+  size_t first_ = 0;
+  std::vector<NearestHit> best_;
+  std::vector<float> limit_;
+  Distances distances_;
+};
+
+}  // namespace
+
+Result<void> find_nearest(const Collidables& queries, float within, const SearchedBodies& bodies,
+                          std::vector<NearestHit>& hits, Parallelism parallelism) {
+  const FloatEnvironment environment;
+  hits.clear();
+  if (std::isnan(within)) return {};
+  return NearestSearch(queries, bodies, parallelism).run(within, hits);
+}
+
+Result<void> find_nearest(const Collidables& queries, float within, const Collidables& bodies,
+                          std::vector<NearestHit>& hits, Parallelism parallelism) {
+  const FloatEnvironment environment;
+  const BodyIndex index = index_bodies(bodies, parallelism);
+  return find_nearest(queries, within, SearchedBodies{bodies, index}, hits, parallelism);
+}
+
+}  // namespace carom

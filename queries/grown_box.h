@@ -1,0 +1,36 @@
+// Boxes grown by more than tests of the shapes in them may err, so that what a test finds is never
+// left out by the search for candidates.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+
+#include "base/outward.h"
+#include "base/tolerances.h"
+#include "shapes/body_reader.h"
+#include "trees/tree.h"
+
+namespace carom {
+
+// Of a distance that is travelled; kImpactSlack is a twentieth of it.
+inline constexpr double kTravelSlack = 0x1p-32;
+
+// Grows the box of a body by a share of how far it reaches from the body's position, which is what
+// tests compute with, and a smaller one of the way that it goes.
+inline TreeBox grown(const TreeBox& box, const Position<double>& position, double travel = 0) {
+  const std::array<double, 3> origin = {position.x, position.y, position.z};
+  double reach = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    reach = std::max({reach, origin[axis] - box.lower[axis], box.upper[axis] - origin[axis]});
+  }
+  const double margin = (kSearchSlack * reach + kTravelSlack * travel) + FLT_TRUE_MIN;
+  TreeBox result;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    result.lower[axis] = sum_downwards(double{box.lower[axis]}, -margin);
+    result.upper[axis] = sum_upwards(double{box.upper[axis]}, margin);
+  }
+  return result;
+}
+
+}  // namespace carom

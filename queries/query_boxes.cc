@@ -1,0 +1,75 @@
+#include "queries/query_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/outward.h"
+#include "bounds/extent.h"
+#include "broadphase/box_source.h"
+#include "queries/grown_box.h"
+#include "shapes/body_reader.h"
+
+namespace carom {
+namespace {
+
+using Float3 = std::array<float, 3>;
+
+bool is_finite(const Float3& v) {
+  return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+double length(double x, double y, double z) { return std::sqrt((x * x + y * y) + z * z); }
+
+bool turns(ShapeKind kind) {
+  return kind != ShapeKind::sphere && kind != ShapeKind::aabb && kind != ShapeKind::halfspace;
+}
+
+// No point is further from the position than the furthest corner of the bounds, and none leaves
+// its place by more than an arc.
+TreeBox turned_box(const BodyReader& reader, size_t i, double angle, double& arc) {
+  const Extent extent = extent_of(reader, i);
+  Float3 furthest;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    furthest[axis] = std::max(std::abs(extent.lower[axis]), std::abs(extent.upper[axis]));
+  }
+  const double reach = length(furthest[0], furthest[1], furthest[2]);
+  arc = angle * reach;
+  const Position<double> p = reader.position<double>(i);
+  const std::array<double, 3> position = {p.x, p.y, p.z};
+  TreeBox box;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = sum_downwards(position[axis], std::max(-reach, extent.lower[axis] - arc));
+    box.upper[axis] = sum_upwards(position[axis], std::min(reach, extent.upper[axis] + arc));
+  }
+  return box;
+}
+
+}  // namespace
+
+std::optional<MovingBox> QueryBoxes::box(size_t query) const {
+  const BoundsView bounds = bounds_.view();
+  if (!takes_part(bounds, query)) return std::nullopt;
+  const auto displacement =
+      load_strided<Float3>(sweep_.displacement, sweep_.displacement_stride, query);
+  const auto rotation = load_strided<Float3>(sweep_.rotation, sweep_.rotation_stride, query);
+  const BodyReader reader{queries_};
+  const bool may_turn = sweep_.rotation && turns(reader.kind(query));
+  if (!is_finite(displacement) || (may_turn && !is_finite(rotation))) return std::nullopt;
+
+  const double angle = may_turn ? length(rotation[0], rotation[1], rotation[2]) : 0;
+  double travel = length(displacement[0], displacement[1], displacement[2]);
+  TreeBox at_start;
+  if (angle > 0) {
+    double arc = 0;
+    at_start = turned_box(reader, query, angle, arc);
+    travel += arc;
+  } else {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      at_start.lower[axis] = value_at(bounds, bounds.lower[axis], query);
+      at_start.upper[axis] = value_at(bounds, bounds.upper[axis], query);
+    }
+  }
+  return MovingBox(grown(at_start, reader.position<double>(query), travel), displacement);
+}
+
+}  // namespace carom

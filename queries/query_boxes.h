@@ -1,0 +1,33 @@
+// Where queries are, and where they go: boxes that hold them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "broadphase/tree_walk.h"
+#include "carom/results/sweep.h"
+#include "carom/shapes/views.h"
+#include "queries/bounds_of.h"
+
+namespace carom {
+
+class QueryBoxes {
+ public:
+  // Without a sweep queries stand still.
+  QueryBoxes(const Collidables& queries, const SweepView& sweep, Parallelism parallelism)
+      : queries_(queries), sweep_(sweep), bounds_(queries, parallelism) {}
+
+  const Collidables& queries() const { return queries_; }
+  size_t count() const { return queries_.count; }
+
+  // Grown by more than tests may err. None if the query or its sweep is not valid.
+  std::optional<MovingBox> box(size_t query) const;
+
+ private:
+  const Collidables& queries_;
+  const SweepView& sweep_;
+  const BoundsOf bounds_;
+};
+
+}  // namespace carom

@@ -1,0 +1,123 @@
+#include "queries/query_rounds.h"
+
+#include <algorithm>
+
+#include "base/block_lists.h"
+#include "shapes/body_reader.h"
+
+namespace carom {
+namespace {
+
+constexpr size_t kQueriesPerBlock = 64;
+
+struct Search {
+  uint32_t query;
+  MovingBox box;
+  TreeWalk walk;
+};
+
+bool may_reach(const MovingBox& moving, const WorldHalfspace& halfspace) {
+  std::array<double, 3> lowest;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const TreeBox& box = moving.swept;
+    lowest[axis] = halfspace.normal[axis] >= 0 ? box.lower[axis] : box.upper[axis];
+  }
+  return may_hold(halfspace, lowest[0], lowest[1], lowest[2]);
+}
+
+class Rounds {
+ public:
+  Rounds(const QueryBoxes& queries, const SearchedBodies& bodies, SearchFor what, size_t first,
+         std::span<const float> limit, Parallelism parallelism)
+      : queries_(queries),
+        bodies_(bodies),
+        what_(what),
+        first_(first),
+        limit_(limit),
+        parallelism_(parallelism) {}
+
+  Result<void> run(RoundSizes sizes, TestCandidates test) {
+    start();
+    size_t most = sizes.first;
+    for (bool first = true; !searches_.empty(); first = false) {
+      for_each_search([&](Search& search, std::vector<Pair>& found) {
+        if (first) find_halfspaces(search, found);
+        find(search, most, found);
+      });
+      most = std::min(2 * most, sizes.most);
+      if (Result<void> tested = test_all(test); !tested) return tested;
+      std::erase_if(searches_, [](const Search& search) { return search.walk.is_done(); });
+    }
+    return {};
+  }
+
+ private:
+  void start() {
+    for (size_t i = 0; i < limit_.size(); ++i) {
+      const std::optional<MovingBox> box = queries_.box(first_ + i);
+      if (!box) continue;
+      searches_.push_back({static_cast<uint32_t>(first_ + i), *box, {}});
+      searches_.back().walk.start(bodies_.index.tree);
+    }
+  }
+
+  template <class Find>
+  void for_each_search(const Find& find) {
+    found_.reset(block_count(searches_.size(), kQueriesPerBlock));
+    for_each_block(searches_.size(), kQueriesPerBlock, parallelism_,
+                   [&](size_t block, size_t begin, size_t end) {
+                     for (size_t i = begin; i < end; ++i) find(searches_[i], found_[block]);
+                   });
+  }
+
+  void find_halfspaces(const Search& search, std::vector<Pair>& found) const {
+    const BodyReader reader{queries_.queries()};
+    if (reader.kind(search.query) == ShapeKind::halfspace) return;
+    for (const WorldHalfspace& halfspace : bodies_.index.halfspaces) {
+      const bool reaches = what_ == SearchFor::near || may_reach(search.box, halfspace);
+      if (reaches && bodies_.is_met(halfspace.body))
+        found.push_back({search.query, halfspace.body});
+    }
+  }
+
+  void find(Search& search, size_t most, std::vector<Pair>& found) const {
+    static thread_local std::vector<uint32_t> items;
+    items.clear();
+    const float limit = limit_[search.query - first_];
+    const BoxTree& tree = bodies_.index.tree;
+    if (what_ == SearchFor::met) {
+      walk_met(tree, search.box, limit, most, search.walk, items);
+    } else {
+      walk_near(tree, search.box.box, limit, most, search.walk, items);
+    }
+    for (const uint32_t body : items) {
+      if (bodies_.is_met(body)) found.push_back({search.query, body});
+    }
+  }
+
+  Result<void> test_all(TestCandidates test) {
+    found_.concatenate(candidates_, parallelism_);
+    return candidates_.empty() ? Result<void>{} : test(candidates_);
+  }
+
+  const QueryBoxes& queries_;
+  const SearchedBodies& bodies_;
+  const SearchFor what_;
+  const size_t first_;
+  const std::span<const float> limit_;
+  const Parallelism parallelism_;
+  std::vector<Search> searches_;
+  BlockLists<Pair> found_;
+  std::vector<Pair> candidates_;
+};
+
+}  // namespace
+
+Result<void> search_in_rounds(const QueryBoxes& queries, const SearchedBodies& bodies,
+                              SearchFor what, RoundSizes sizes, size_t first,
+                              std::span<const float> limit, Parallelism parallelism,
+                              TestCandidates test) {
+  return Rounds(queries, bodies, what, first, limit, parallelism).run(sizes, test);
+}
+
+}  // namespace carom

@@ -1,0 +1,92 @@
+#include "shapes/hull_features.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/tolerances.h"
+
+namespace carom {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d point(const HullGeometry& hull, uint32_t i) { return hull.points()[i].cast<double>(); }
+
+// Source: as of the faces of manifolds (hull_face_ref.h).
+Vector3d area_vector(const HullGeometry& hull, std::span<const uint32_t> corners) {
+  const Vector3d first = point(hull, corners[0]);
+  Vector3d sum = Vector3d::Zero();
+  for (size_t i = 2; i < corners.size(); ++i) {
+    sum += (point(hull, corners[i - 1]) - first).cross(point(hull, corners[i]) - first);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::shared_ptr<const HullFeatures> HullFeatures::of(const HullGeometry& hull) {
+  constexpr size_t kMostFaces = std::numeric_limits<uint16_t>::max();
+  if (hull.faces().size() < 4 || hull.faces().size() > kMostFaces) return nullptr;
+  auto features = std::make_shared<HullFeatures>();
+  const bool is_solid = features->add_faces(hull) && features->add_edges(hull);
+  return is_solid ? features : nullptr;
+}
+
+bool HullFeatures::add_faces(const HullGeometry& hull) {
+  const double most_behind = kBehindFace * double{hull.size()};
+  const size_t padded = (hull.faces().size() + 15) / 16 * 16;
+  columns_.assign(4 * padded, 0);
+  std::fill_n(columns_.begin() + static_cast<ptrdiff_t>(3 * padded), padded, HUGE_VALF);
+  double inner_radius = HUGE_VAL;
+  for (const HullGeometry::Face& face : hull.faces()) {
+    const auto corners = hull.corners(face);
+    const Vector3d area = area_vector(hull, corners);
+    const double twice_area = area.stableNorm();
+    if (!(twice_area > 0)) return false;
+    const Vector3d normal = area / twice_area;
+    double height = normal.dot(point(hull, corners[0]));
+    for (uint32_t i = 0; i < hull.points().size(); ++i) {
+      height = std::max(height, normal.dot(point(hull, i)));
+    }
+    for (const uint32_t corner : corners) {
+      if (height - normal.dot(point(hull, corner)) > most_behind) return false;
+    }
+    const Eigen::Vector3f n = normal.cast<float>();
+    planes_.push_back({n.x(), n.y(), n.z(), static_cast<float>(height)});
+    for (size_t i = 0; i < 4; ++i) columns_[i * padded + planes_.size() - 1] = planes_.back()[i];
+    inner_radius = std::min(inner_radius, height - normal.dot(hull.middle()));
+  }
+  inner_radius_ = static_cast<float>(std::max(inner_radius - 4 * most_behind, 0.0));
+  return true;
+}
+
+bool HullFeatures::add_edges(const HullGeometry& hull) {
+  // Which face has the way from one point to another around it.
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> face_of_way;
+  for (uint32_t f = 0; f < hull.faces().size(); ++f) {
+    const auto corners = hull.corners(hull.faces()[f]);
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const std::pair way(corners[i], corners[(i + 1) % corners.size()]);
+      if (!face_of_way.emplace(way, f).second) return false;
+    }
+  }
+  for (const auto& [there, left] : face_of_way) {
+    const auto back = face_of_way.find({there.second, there.first});
+    if (back == face_of_way.end()) return false;
+    if (there.first > there.second) continue;
+    const uint32_t right = back->second;
+    const Vector3d along = point(hull, there.second) - point(hull, there.first);
+    const double length = along.stableNorm();
+    if (!(length > 0)) return false;
+    edges_.push_back({(along / length).cast<float>(), there.first, left, right});
+    sides_.push_back({static_cast<uint16_t>(left), static_cast<uint16_t>(right)});
+  }
+  return true;
+}
+
+}  // namespace carom

@@ -1,0 +1,24 @@
+#include "carom/shapes/shape.h"
+
+#include <array>
+
+namespace carom {
+
+const char* name(ShapeKind kind) {
+  static constexpr std::array<const char*, kShapeKindCount> kNames = {
+      "sphere", "capsule", "aabb",     "box",       "dop",
+      "hull",   "mesh",    "compound", "halfspace", "triangle"};
+  const auto code = static_cast<size_t>(kind);
+  return code < kNames.size() ? kNames[code] : "unknown";
+}
+
+ShapeKind kind_of(const Shape& shape) {
+  // In the order of the variant.
+  static constexpr std::array<ShapeKind, std::variant_size_v<Shape>> kKinds = {
+      ShapeKind::sphere,   ShapeKind::aabb,      ShapeKind::capsule, ShapeKind::box,
+      ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop,     ShapeKind::hull,
+      ShapeKind::mesh,     ShapeKind::compound};
+  return kKinds[shape.index()];
+}
+
+}  // namespace carom

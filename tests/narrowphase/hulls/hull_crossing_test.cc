@@ -1,0 +1,337 @@
+// Edges of two solids that cross, many with many: the same in lanes as one by one, and the best in
+// long double.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "narrowphase/hulls/hull_steps.h"
+#include "narrowphase/hulls/hull_steps_scalar.h"
+#include "oracle/random.h"
+#include "oracle/vec3.h"
+#include "tests/support/isas.h"
+#include "tests/support/rounds.h"
+
+namespace carom::test {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using oracle::Random;
+using Turn = scalar::Rotation<float>;
+using Vec = oracle::Vec3<long double>;
+
+// Around the lanes of all targets, and the most there can be.
+constexpr size_t kCounts[] = {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 32, 33, 63, kMostCrossed};
+
+struct Edge {
+  Vector3f from, direction, left, right;
+};
+
+void put(const Vector3f& v, size_t k, EdgeColumns::Column3& column) {
+  for (int axis = 0; axis < 3; ++axis) column[static_cast<size_t>(axis)][k] = v[axis];
+}
+Vector3f get(const EdgeColumns::Column3& column, size_t k) {
+  return {column[0][k], column[1][k], column[2][k]};
+}
+
+// Places behind the last hold what would be the best crossing of all, if it were looked at.
+template <class Make>
+EdgeColumns columns_of(size_t count, const Make& make) {
+  EdgeColumns columns;
+  columns.count = count;
+  for (size_t k = 0; k < kMostCrossed; ++k) {
+    const Edge edge = make();
+    put(k < count ? edge.from : Vector3f(edge.from * 1e6f), k, columns.from);
+    put(edge.direction, k, columns.direction);
+    put(edge.left, k, columns.left);
+    put(edge.right, k, columns.right);
+  }
+  return columns;
+}
+
+struct Crossed {
+  EdgeColumns a, b;
+  Turn turn;
+  float gap;
+};
+
+Crossing cross(const HullSteps& steps, const Crossed& edges) {
+  return steps.cross(edges.a, edges.b, edges.turn, edges.gap);
+}
+
+void expect_same_in_lanes(const Crossed& edges, const Crossing& expected) {
+  for_each_isa([&] {
+    const Crossing found = cross(hull_steps_in_lanes(), edges);
+    EXPECT_EQ(expected.is_doubtful, found.is_doubtful);
+    EXPECT_EQ(expected.exists, found.exists);
+    EXPECT_EQ(expected.gap, found.gap);  // the sign of zero is nobody's: that is no depth
+    EXPECT_EQ(expected.of_a, found.of_a);
+    EXPECT_EQ(expected.of_b, found.of_b);
+  });
+}
+
+Vector3f integers(Random& random, int most) {
+  const auto one = [&] {
+    return static_cast<float>(random.below(static_cast<uint64_t>(2 * most + 1))) -
+           static_cast<float>(most);
+  };
+  const float x = one(), y = one(), z = one();
+  return {x, y, z};
+}
+
+// As at an edge of a solid: the direction is across both normals.
+Edge solid_edge(Random& random) {
+  const Vector3d left = random.direction();
+  const Vector3d right = (left + random.direction() * random.uniform(0.2, 2)).normalized();
+  return {random.direction().cast<float>(), left.cross(right).normalized().cast<float>(),
+          left.cast<float>(), right.cast<float>()};
+}
+
+// Along an axis, with small integers for all else: nothing rounds, and gaps tie.
+Edge integer_edge(Random& random) {
+  const Vector3f axis = Vector3f::Unit(static_cast<int>(random.below(3)));
+  return {integers(random, 2), random.chance(0.5) ? axis : Vector3f(-axis), integers(random, 2),
+          integers(random, 2)};
+}
+
+// Most of them nearly along the x axis, some exactly.
+Edge parallel_edge(Random& random) {
+  const double tilt = random.chance(0.2) ? 0 : random.log_uniform(1e-5, 1e-1);
+  const Vector3d direction = (Vector3d::UnitX() + tilt * random.direction()).normalized();
+  return {random.direction().cast<float>(), direction.cast<float>(),
+          random.direction().cast<float>(), random.direction().cast<float>()};
+}
+
+Turn any_turn(Random& random) {
+  const Vector3f v = random.direction().cast<float>() * static_cast<float>(random.uniform(-1, 1));
+  return scalar::rotation_of(
+      scalar::Quaternion<float>{v, static_cast<float>(random.uniform(0.1, 1))});
+}
+
+Turn quarter_turns(Random& random) {
+  const Turn turns[] = {{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()},
+                        {Vector3f::UnitY(), Vector3f::UnitZ(), Vector3f::UnitX()},
+                        {Vector3f::UnitX(), Vector3f::UnitZ(), Vector3f(0, -1, 0)},
+                        {Vector3f(0, -1, 0), Vector3f::UnitX(), Vector3f::UnitZ()}};
+  return turns[random.below(4)];
+}
+
+// Every two counts, some rounds each.
+template <class MakeEdge, class MakeTurn, class Check>
+void for_each_counts(uint64_t seed, uint32_t count_each, const MakeEdge& make_edge,
+                     const MakeTurn& make_turn, const Check& check) {
+  Random random(seed);
+  for (const size_t count_a : kCounts) {
+    for (const size_t count_b : kCounts) {
+      SCOPED_TRACE(std::to_string(count_a) + " and " + std::to_string(count_b));
+      for (uint32_t round = 0; round < count_each; ++round) {
+        const auto edge = [&] { return make_edge(random); };
+        Crossed edges{columns_of(count_a, edge), columns_of(count_b, edge), make_turn(random), 0};
+        edges.gap = static_cast<float>(random.chance(0.2) ? -1e30 : random.uniform(-2, 1.5));
+        check(edges);
+        if (testing::Test::HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(HullCrossings, InLanesAreThoseOfTheReference) {
+  size_t all = 0, existing = 0;
+  for_each_counts(1, rounds(16), solid_edge, any_turn, [&](Crossed& edges) {
+    const Crossing expected = cross(scalar::kHullSteps, edges);
+    ++all;
+    existing += expected.exists;
+    expect_same_in_lanes(edges, expected);
+    if (!expected.exists) return;
+    // One as good as the best of faces is none.
+    edges.gap = expected.gap;
+    EXPECT_FALSE(cross(scalar::kHullSteps, edges).exists);
+    expect_same_in_lanes(edges, cross(scalar::kHullSteps, edges));
+  });
+  EXPECT_GT(existing, all * 3 / 10);
+  EXPECT_LT(existing, all * 7 / 10);
+}
+
+// Of edges that are along axes, in integers.
+struct BestOfIntegers {
+  bool exists = false;
+  int gap = 0;
+  size_t of_a = 0, of_b = 0;
+  size_t ties = 0;
+};
+
+BestOfIntegers best_of_integers(const Crossed& edges) {
+  const auto as_int = [](const Vector3f& v) -> Eigen::Vector3i { return v.cast<int>(); };
+  const auto turned = [&](const EdgeColumns::Column3& column, size_t k) {
+    return as_int(scalar::rotate(edges.turn, get(column, k)));
+  };
+  BestOfIntegers best;
+  for (size_t i = 0; i < edges.a.count; ++i) {
+    const auto direction = as_int(get(edges.a.direction, i));
+    const auto left = as_int(get(edges.a.left, i)), right = as_int(get(edges.a.right, i));
+    for (size_t k = 0; k < edges.b.count; ++k) {
+      const auto other = turned(edges.b.direction, k);
+      const int of_left = turned(edges.b.left, k).dot(direction);
+      const int of_right = turned(edges.b.right, k).dot(direction);
+      const int on_left = left.dot(other), on_right = right.dot(other);
+      const auto n = direction.cross(other);
+      const bool crosses = of_left * of_right < 0 && on_left * on_right < 0 &&
+                           of_right * on_left < 0 && n.squaredNorm() > 0;
+      if (!crosses) continue;
+      const int along = n.dot(as_int(get(edges.b.from, k) - get(edges.a.from, i)));
+      const int gap = n.dot(left + right) < 0 ? -along : along;
+      if (!(static_cast<float>(gap) > edges.gap)) continue;
+      best.ties = best.exists && gap < best.gap    ? best.ties
+                  : best.exists && gap == best.gap ? best.ties + 1
+                                                   : 0;
+      if (!best.exists || gap > best.gap) best = {true, gap, i, k, 0};
+    }
+  }
+  return best;
+}
+
+TEST(HullCrossings, OfEqualsTheFirst) {
+  size_t all = 0, existing = 0, tied = 0, later_edge_of_b = 0;
+  for_each_counts(2, rounds(16), integer_edge, quarter_turns, [&](const Crossed& edges) {
+    const Crossing expected = cross(scalar::kHullSteps, edges);
+    const BestOfIntegers best = best_of_integers(edges);
+    ++all;
+    existing += best.exists;
+    tied += best.ties > 0;
+    later_edge_of_b += best.ties > 0 && best.of_b >= 4;
+    ASSERT_EQ(best.exists, expected.exists);
+    if (best.exists) {
+      EXPECT_EQ(static_cast<float>(best.gap), expected.gap);
+      EXPECT_EQ(best.of_a, expected.of_a);
+      EXPECT_EQ(best.of_b, expected.of_b);
+    }
+    expect_same_in_lanes(edges, expected);
+  });
+  EXPECT_GT(existing, all * 3 / 10);
+  EXPECT_GT(tied, all * 15 / 100);
+  EXPECT_GT(later_edge_of_b, all * 5 / 100);
+}
+
+// Nothing is known of an axis across edges that are along each other, and no gap is made of it.
+TEST(HullCrossings, OfParallelEdgesAreDoubtful) {
+  size_t all = 0, doubtful = 0;
+  for_each_counts(3, rounds(16), parallel_edge, quarter_turns, [&](const Crossed& edges) {
+    const Crossing expected = cross(scalar::kHullSteps, edges);
+    ++all;
+    doubtful += expected.is_doubtful;
+    EXPECT_FALSE(std::isnan(expected.gap));
+    expect_same_in_lanes(edges, expected);
+  });
+  EXPECT_GT(doubtful, all / 10);
+  EXPECT_LT(doubtful, all * 7 / 10);
+}
+
+TEST(HullCrossings, OfOneParallelPairAmongManyEdges) {
+  Random random(4);
+  for (size_t at = 0; at < kMostCrossed; ++at) {
+    // No others cross: all that they are is along x.
+    const auto apart = [] { return Edge{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}}; };
+    Crossed edges{columns_of(kMostCrossed, apart), columns_of(kMostCrossed, apart), {}, -1};
+    edges.turn = {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
+    const size_t of_a = random.below(kMostCrossed);
+    put({-1, 0, 1}, of_a, edges.a.left);
+    put({1, 0, 1}, of_a, edges.a.right);
+    put({-1, 0, -1}, at, edges.b.left);
+    put({1, 0, -1}, at, edges.b.right);
+    for (const float tilt : {0.0f, 0x1p-9f, 0x1p-8f, 0x1.1p-8f, 0x1p-4f}) {
+      put({1, tilt, 0}, at, edges.b.direction);
+      const Crossing expected = cross(scalar::kHullSteps, edges);
+      EXPECT_EQ(expected.is_doubtful, tilt <= 0x1p-8f) << tilt;
+      EXPECT_EQ(expected.exists, tilt > 0) << tilt;
+      if (expected.exists) {
+        EXPECT_EQ(expected.of_a, of_a);
+        EXPECT_EQ(expected.of_b, at);
+      }
+      expect_same_in_lanes(edges, expected);
+    }
+  }
+}
+
+// --- Against long double ---
+
+// The best axis that lies on the arc of an edge of A, and turned round on that of one of B.
+struct BestOfAll {
+  bool exists = false;
+  bool is_clear = true;  // nothing near it that rounding could prefer
+  long double gap = 0;
+  size_t of_a = 0, of_b = 0;
+};
+
+// How far inside of the arc from one normal to another n is; they and n are in one plane.
+long double inside_arc(const Vec& left, const Vec& right, const Vec& n) {
+  const Vec axis = oracle::normalized(oracle::cross(left, right));
+  return std::min(dot(oracle::cross(left, n), axis), dot(oracle::cross(n, right), axis));
+}
+
+BestOfAll best_of_all(const Crossed& edges) {
+  constexpr long double kNear = 1e-4L;
+  const Turn& r = edges.turn;
+  const auto vec = [](const EdgeColumns::Column3& column, size_t k) {
+    return oracle::vec3_as<long double>(get(column, k));
+  };
+  const auto turned = [&](const EdgeColumns::Column3& column, size_t k) {
+    const Vec v = vec(column, k);
+    return oracle::vec3_as<long double>(r.x) * v.x + oracle::vec3_as<long double>(r.y) * v.y +
+           oracle::vec3_as<long double>(r.z) * v.z;
+  };
+  struct Found {
+    long double gap;
+    bool is_sure;
+    size_t i, k;
+  };
+  std::vector<Found> all;
+  for (size_t i = 0; i < edges.a.count; ++i) {
+    for (size_t k = 0; k < edges.b.count; ++k) {
+      const Vec across = oracle::cross(vec(edges.a.direction, i), turned(edges.b.direction, k));
+      for (const long double way : {1.0L, -1.0L}) {
+        const Vec n = oracle::normalized(across) * way;
+        const long double inside =
+            std::min(inside_arc(vec(edges.a.left, i), vec(edges.a.right, i), n),
+                     inside_arc(turned(edges.b.left, k), turned(edges.b.right, k), -n));
+        const long double rounding = kNear / oracle::length(across);
+        if (inside < -rounding) continue;
+        all.push_back({dot(n, vec(edges.b.from, k) - vec(edges.a.from, i)),
+                       inside > rounding && rounding < 100 * kNear, i, k});
+      }
+    }
+  }
+  BestOfAll best{.gap = edges.gap};
+  for (const Found& found : all) {
+    if (found.is_sure && found.gap > best.gap) best = {true, true, found.gap, found.i, found.k};
+  }
+  size_t near = 0;
+  for (const Found& found : all) near += found.gap > best.gap - (found.is_sure ? kNear : 0.1L);
+  best.is_clear = near == (best.exists ? 1 : 0);
+  return best;
+}
+
+TEST(HullCrossings, AreTheBestInLongDouble) {
+  size_t all = 0, clear = 0, existing = 0;
+  for_each_counts(5, rounds(16), solid_edge, any_turn, [&](const Crossed& edges) {
+    const BestOfAll best = best_of_all(edges);
+    ++all;
+    if (!best.is_clear) return;
+    ++clear;
+    existing += best.exists;
+    const Crossing found = cross(hull_steps_in_lanes(), edges);
+    ASSERT_EQ(best.exists, found.exists);
+    if (!best.exists) return;
+    EXPECT_NEAR(static_cast<double>(best.gap), found.gap, 1e-4);
+    EXPECT_EQ(best.of_a, found.of_a);
+    EXPECT_EQ(best.of_b, found.of_b);
+  });
+  EXPECT_GT(clear, all * 7 / 10);
+  EXPECT_GT(existing, clear * 3 / 10);
+  EXPECT_LT(existing, clear * 7 / 10);
+}
+
+}  // namespace
+}  // namespace carom::test

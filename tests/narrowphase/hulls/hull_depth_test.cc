@@ -1,0 +1,365 @@
+// What is found of hulls in float32: distances by GJK, depths by separating axes, against the
+// searches in double precision.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "narrowphase/doubles/core_separation.h"
+#include "narrowphase/hulls/gjk_scalar.h"
+#include "narrowphase/hulls/hull_steps.h"
+#include "narrowphase/hulls/hull_steps_scalar.h"
+#include "tests/support/hulls.h"
+#include "tests/support/isas.h"
+#include "tests/support/rounds.h"
+
+namespace carom::test {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using oracle::Random;
+using scalar::HullShape;
+using scalar::PairPose;
+using scalar::Separation;
+
+struct HullPair {
+  Hull a, b;
+  PairPose<float> pose;
+};
+
+scalar::Quaternion<float> random_turn(Random& random) {
+  const Vector3f v = random.direction().cast<float>() * static_cast<float>(random.uniform(-1, 1));
+  return {v, static_cast<float>(random.uniform(0.1, 1))};
+}
+
+// In scaled units, half of them overlapping.
+HullPair random_pair(Random& random, size_t count) {
+  const auto hull = [&] {
+    const auto side = [&] { return static_cast<float>(random.uniform(0.3, 1)); };
+    return oracle::hull_of(round_points(count, {side(), side(), side()}, random));
+  };
+  HullPair pair{hull(), hull(), {}};
+  pair.pose.d = (random.direction() * random.uniform(0, 1.9)).cast<float>();
+  pair.pose.a = random_turn(random);
+  pair.pose.b = random_turn(random);
+  return pair;
+}
+
+HullShape<float> float_hull(const Hull& hull) { return {hull.geometry.get(), 1}; }
+
+HullShape<double> in_double(const HullShape<float>& hull) { return {hull.geometry, hull.scale}; }
+scalar::BoxShape<double> in_double(const scalar::BoxShape<float>& box) {
+  return {box.half.cast<double>()};
+}
+scalar::AabbShape<double> in_double(const scalar::AabbShape<float>& box) {
+  return {box.lower.cast<double>(), box.upper.cast<double>()};
+}
+scalar::TriangleShape<double> in_double(const scalar::TriangleShape<float>& t) {
+  const auto corner = [&](size_t i) -> Vector3d { return t.corners[i].cast<double>(); };
+  return {{corner(0), corner(1), corner(2)}, 0, false, 0, false};
+}
+
+// B in the place of its hull.
+template <class Shape>
+scalar::SeparationAs<double> in_double(const HullPair& pair, const Shape& b) {
+  const auto turn = [](const scalar::Quaternion<float>& q) -> scalar::Quaternion<double> {
+    return {q.v.cast<double>(), q.w};
+  };
+  return core_separation(
+      in_double(float_hull(pair.a)), in_double(b),
+      PairPose<double>{pair.pose.d.cast<double>(), turn(pair.pose.a), turn(pair.pose.b)},
+      scalar::CoreTest());
+}
+
+scalar::SeparationAs<double> in_double(const HullPair& pair) {
+  return in_double(pair, float_hull(pair.b));
+}
+
+void expect_close(const Separation& found, const scalar::SeparationAs<double>& exact) {
+  EXPECT_NEAR(found.separation, exact.separation, 2e-6);
+  EXPECT_NEAR(found.normal.norm(), 1, 1e-6);
+  // Ways out may be as short as each other; the way between separate hulls is one.
+  if (exact.separation < 1e-3) return;
+  EXPECT_NEAR((found.normal.cast<double>() - exact.normal).norm(), 0, 1e-3);
+  EXPECT_NEAR((found.arm_a.cast<double>() - exact.arm_a).norm(), 0, 1e-3);
+}
+
+TEST(FloatGjk, IsSureOfMostDistancesAndRightWhereItIs) {
+  Random random(1);
+  const uint32_t count = rounds(1200);
+  uint32_t separate = 0, sure = 0, deep = 0;
+  for (uint32_t round = 0; round < count; ++round) {
+    const HullPair pair = random_pair(random, 4 + random.below(60));
+    const auto exact = in_double(pair);
+    const scalar::FloatTest test = scalar::nearest_separation(
+        float_core(float_hull(pair.a), pair.pose.a, Vector3f::Zero()),
+        float_core(float_hull(pair.b), pair.pose.b, pair.pose.d), pair.pose.d, 1);
+    separate += exact.separation > 0;
+    sure += !test.separation.is_unsure;
+    deep += test.is_deep;
+    if (test.is_deep) {
+      EXPECT_LT(exact.separation, 0);
+      EXPECT_TRUE(test.separation.is_unsure);
+    }
+    if (!test.separation.is_unsure) expect_close(test.separation, exact);
+  }
+  EXPECT_GT(separate, count * 3 / 10);
+  EXPECT_LT(separate, count * 7 / 10);
+  EXPECT_GT(sure, separate * 95 / 100);
+  EXPECT_GT(deep, (count - separate) * 95 / 100);
+}
+
+TEST(FloatGjk, LeavesHullsWithManyPoints) {
+  Random random(2);
+  for (const size_t count : {kMostLanePoints - 1, kMostLanePoints, kMostLanePoints + 1}) {
+    const Hull hull = oracle::hull_of(round_points(count, {1, 1, 1}, random));
+    ASSERT_EQ(hull.geometry->points().size(), count);
+    const auto core = float_core(float_hull(hull), {Vector3f::Zero(), 1}, Vector3f::Zero());
+    EXPECT_EQ(core.has_space, count <= kMostLanePoints);
+  }
+}
+
+TEST(FloatGjk, LeavesWhatIsTooLargeOrTooSmall) {
+  const scalar::FloatCore zero{{Vector3f::Zero()}}, one{{Vector3f::UnitX()}};
+  const auto is_unsure = [&](float up) {
+    return scalar::nearest_separation(zero, one, Vector3f::UnitX(), up).separation.is_unsure;
+  };
+  EXPECT_FALSE(is_unsure(1));
+  EXPECT_FALSE(is_unsure(kGreatestScale));
+  EXPECT_FALSE(is_unsure(1 / kGreatestScale));
+  EXPECT_TRUE(is_unsure(2 * kGreatestScale));
+  EXPECT_TRUE(is_unsure(0.5f / kGreatestScale));
+}
+
+TEST(HullDepth, IsTheWayOut) {
+  Random random(3);
+  const uint32_t count = rounds(1200);
+  uint32_t overlapping = 0, sure = 0;
+  for (uint32_t round = 0; round < count; ++round) {
+    const HullPair pair = random_pair(random, 4 + random.below(60));
+    const auto exact = in_double(pair);
+    if (exact.separation > -1e-3) continue;
+    ++overlapping;
+    const Separation found =
+        shape_depth(float_hull(pair.a), float_hull(pair.b), pair.pose, scalar::kHullSteps);
+    if (found.is_unsure) continue;
+    ++sure;
+    expect_close(found, exact);
+    // Moved apart by the depth along the normal they just touch.
+    HullPair apart = pair;
+    apart.pose.d -= found.normal * found.separation;
+    EXPECT_NEAR(in_double(apart).separation, 0, 4e-6);
+  }
+  EXPECT_GT(overlapping, count * 3 / 10);
+  EXPECT_LT(overlapping, count * 7 / 10);
+  EXPECT_GT(sure, overlapping * 95 / 100);
+}
+
+// One through the other: the shortest way out is over two edges, over a face of A, or one of B.
+TEST(HullDepth, KnownOnes) {
+  const Hull cube = oracle::hull_of(cube_corners());
+  const Hull tip = oracle::hull_of(pyramid(-1));
+  const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
+  const auto depth = [&](const Hull& a, const Hull& b, const PairPose<float>& pose) {
+    return shape_depth(float_hull(a), float_hull(b), pose, scalar::kHullSteps);
+  };
+  const Separation face_of_a = depth(cube, tip, {{0.25f, 0.5f, 1.75f}, unturned, unturned});
+  ASSERT_FALSE(face_of_a.is_unsure);
+  EXPECT_NEAR(face_of_a.separation, -0.25, 1e-6);
+  EXPECT_EQ(face_of_a.normal, Vector3f(0, 0, 1));
+  const Separation face_of_b = depth(tip, cube, {{-0.25f, -0.5f, -1.75f}, unturned, unturned});
+  ASSERT_FALSE(face_of_b.is_unsure);
+  EXPECT_NEAR(face_of_b.separation, -0.25, 1e-6);
+  EXPECT_EQ(face_of_b.normal, Vector3f(0, 0, -1));
+  // A cube on an edge over one on an edge across.
+  const scalar::Quaternion<float> on_x{{std::sin(0.3926991f), 0, 0}, std::cos(0.3926991f)};
+  const scalar::Quaternion<float> on_y{{0, std::sin(0.3926991f), 0}, std::cos(0.3926991f)};
+  const float reach = std::sqrt(2.0f);
+  const Separation edges = depth(cube, cube, {{0.1f, 0.2f, 2 * reach - 0.125f}, on_x, on_y});
+  ASSERT_FALSE(edges.is_unsure);
+  EXPECT_NEAR(edges.separation, -0.125, 2e-6);
+  EXPECT_NEAR(edges.normal.z(), 1, 1e-6);
+  EXPECT_NEAR(edges.arm_a.x(), 0.1, 1e-5);
+  EXPECT_NEAR(edges.arm_a.y(), 0, 1e-5);
+  EXPECT_NEAR(edges.arm_a.z(), reach, 1e-5);
+}
+
+// Faces that lie on each other have many points in common: which of them stands for all is not
+// found here.
+TEST(HullDepth, IsUnsureOfFacesOnFaces) {
+  const Hull cube = oracle::hull_of(cube_corners());
+  const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
+  EXPECT_TRUE(shape_depth(float_hull(cube), float_hull(cube), {{0, 0, 1.5f}, unturned, unturned},
+                          scalar::kHullSteps)
+                  .is_unsure);
+}
+
+// --- Boxes and triangles ---
+
+// Against hulls, which have the same features made by other means, or double precision.
+template <class MakeShape>
+void expect_ways_out(uint64_t seed, float nearer, const MakeShape& make_shape) {
+  Random random(seed);
+  const uint32_t count = rounds(1200);
+  uint32_t overlapping = 0, sure = 0;
+  for (uint32_t round = 0; round < count; ++round) {
+    HullPair pair = random_pair(random, 4 + random.below(60));
+    pair.pose.d *= nearer;
+    const auto shape = make_shape(random);
+    const auto exact = in_double(pair, shape);
+    if (exact.separation > -1e-3) continue;
+    ++overlapping;
+    const Separation found = shape_depth(float_hull(pair.a), shape, pair.pose, scalar::kHullSteps);
+    if (found.is_unsure) continue;
+    ++sure;
+    expect_close(found, exact);
+    EXPECT_NEAR((found.arm_b + pair.pose.d - found.arm_a - found.normal * found.separation).norm(),
+                0, 1e-6);
+  }
+  EXPECT_GT(overlapping, count * 3 / 10);
+  EXPECT_LT(overlapping, count * 7 / 10);
+  EXPECT_GT(sure, overlapping * 95 / 100);
+}
+
+Vector3f random_half(Random& random) {
+  const auto side = [&] { return static_cast<float>(random.uniform(0.1, 0.8)); };
+  return {side(), side(), side()};
+}
+
+TEST(SolidDepth, OfBoxes) {
+  expect_ways_out(7, 1,
+                  [](Random& random) -> scalar::BoxShape<float> { return {random_half(random)}; });
+}
+
+TEST(SolidDepth, OfUprightBoxesWhateverTheirPoseSays) {
+  expect_ways_out(8, 1, [](Random& random) -> scalar::AabbShape<float> {
+    const Vector3f middle = 0.3f * random.direction().cast<float>(), half = random_half(random);
+    return {middle - half, middle + half};
+  });
+}
+
+TEST(SolidDepth, OfTriangles) {
+  expect_ways_out(9, 0.6f, [](Random& random) -> scalar::TriangleShape<float> {
+    const auto corner = [&]() -> Vector3f { return random.direction().cast<float>(); };
+    return {{corner(), corner(), corner()}, 0, false, 0, false};
+  });
+}
+
+TEST(SolidDepth, IsUnsureOfTrianglesWithRulesAndOfFlatOnes) {
+  const Hull cube = oracle::hull_of(cube_corners());
+  const scalar::Quaternion<float> on_x{{0.3f, 0.1f, 0}, 1};
+  const auto is_unsure = [&](const scalar::TriangleShape<float>& triangle) {
+    return shape_depth(float_hull(cube), triangle, {{0, 0, 0.9f}, {Vector3f::Zero(), 1}, on_x},
+                       scalar::kHullSteps)
+        .is_unsure;
+  };
+  const Vector3f a(0, 0, 0), b(3, 0, 0), c(0, 3, 0);
+  EXPECT_FALSE(is_unsure({{a, b, c}, 0, false, 0, false}));
+  EXPECT_TRUE(is_unsure({{a, b, c}, 0, true, 0, true}));
+  EXPECT_TRUE(is_unsure({{a, b, a}, 0, false, 0, false}));
+  EXPECT_TRUE(is_unsure({{a, b, Vector3f(1, 1e-5f, 0)}, 0, false, 0, false}));
+}
+
+// --- The steps in lanes ---
+
+template <class T>
+void expect_same_bits(const T& expected, const T& found) {
+  EXPECT_EQ(std::memcmp(&expected, &found, sizeof expected), 0);
+}
+
+TEST(HullSteps, OfPointsAreThoseOfTheReferenceOnEveryIsa) {
+  for_each_isa([] {
+    const HullSteps& lanes = hull_steps_in_lanes();
+    const HullSteps& scalar = scalar::kHullSteps;
+    Random random(4);
+    for (size_t count = 1; count <= 35; ++count) {
+      SCOPED_TRACE(count);
+      Points points = round_points(count, {1, 1, 1}, random);
+      // Some reach as far as each other.
+      for (size_t i = 0; i < count; i += 3) points[i].z() = 1;
+      const Hull hull{*make_hull(points, {})};
+      const auto turn = scalar::rotation_of(random_turn(random));
+      const Vector3f offset = random.direction().cast<float>();
+      HullPoints expected, found;
+      Solid solid;
+      solid.point_count = count;
+      for (size_t axis = 0; axis < 3; ++axis) solid.point[axis] = hull.geometry->column(axis);
+      solid.scale = 0.5f;
+      scalar.place(solid, turn, offset, expected);
+      lanes.place(solid, turn, offset, found);
+      ASSERT_EQ(expected.count, found.count);
+      for (size_t i = 0; i < count; ++i) EXPECT_EQ(expected[i], found[i]) << i;
+      for (const Vector3f& way : {turn.z, Vector3f(-turn.z), offset}) {
+        const FurthestOfHull far = scalar.furthest(expected, way);
+        const FurthestOfHull far_in_lanes = lanes.furthest(found, way);
+        EXPECT_EQ(far.index, far_in_lanes.index);
+        expect_same_bits(far.height, far_in_lanes.height);
+        const FacingPoints facing = scalar.facing(expected, way);
+        const FacingPoints facing_in_lanes = lanes.facing(found, way);
+        EXPECT_EQ(facing.furthest.index, far.index);
+        EXPECT_EQ(facing_in_lanes.furthest.index, far.index);
+        expect_same_bits(facing.furthest.height, facing_in_lanes.furthest.height);
+        EXPECT_EQ(facing.count, facing_in_lanes.count);
+      }
+    }
+  });
+}
+
+void expect_same(const BestFace& expected, const BestFace& found) {
+  EXPECT_EQ(expected.face, found.face);
+  expect_same_bits(expected.gap, found.gap);
+}
+
+void expect_settled_alike(const Solid& solid, FaceBounds& expected, FaceBounds& found) {
+  uint32_t settled = 0, open = 0;
+  for (const float gap : {-0.5f, 0.0f, 0.5f}) {
+    scalar::settle_faces(solid, gap, expected);
+    hull_steps_in_lanes().settle(solid, gap, found);
+    for (size_t f = 0; f < solid.face_count; ++f) {
+      EXPECT_EQ(expected.settled[f], found.settled[f]);
+      for (size_t ball = 0; ball < expected.count; ++ball) {
+        ++((expected.settled[f] >> ball & 1) != 0 ? settled : open);
+      }
+    }
+  }
+  EXPECT_GT(settled, 0u);
+  EXPECT_GT(open, 0u);
+}
+
+TEST(HullSteps, OfFacesAreThoseOfTheReferenceOnEveryIsa) {
+  for_each_isa([] {
+    Random random(5);
+    for (size_t count = 4; count <= 30; ++count) {
+      SCOPED_TRACE(count);
+      const Hull hull = oracle::hull_of(round_points(count, {1, 0.5f, 1}, random));
+      const SolidHull hull_solid(HullShape<float>{hull.geometry.get(), 0.5});
+      const Solid& solid = hull_solid.view();
+      ASSERT_TRUE(solid.is_known());
+      FaceBounds expected, found;
+      expected.count = found.count = 0;
+      for (size_t i = 0; i < 4; ++i) {
+        const Ball ball{random.direction().cast<float>(), i == 0 ? 0.25f : 0};
+        const BestFace best = scalar::bound_faces(solid, ball, expected);
+        expect_same(best, hull_steps_in_lanes().bound(solid, ball, found));
+        ASSERT_EQ(expected.count, found.count);
+        for (size_t f = 0; f < solid.face_count; ++f) {
+          expect_same_bits(expected.gap[f], found.gap[f]);
+          expect_same_bits(expected.between[i][f], found.between[i][f]);
+        }
+        expected.gap[best.face] = found.gap[best.face] = -scalar::kLargest;
+      }
+      expect_settled_alike(solid, expected, found);
+
+      // By all points of another one.
+      HullPoints points;
+      scalar::place_points(solid, {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()},
+                           random.direction().cast<float>(), points);
+      expect_same(scalar::try_all_faces(solid, points, expected),
+                  hull_steps_in_lanes().try_all(solid, points, found));
+      expect_settled_alike(solid, expected, found);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,280 @@
+// The tiers of collide(): what each promises, on every instruction set.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "narrowphase/proof/exact_overlap.h"
+#include "tests/support/isas.h"
+#include "tests/support/kind_checks.h"
+#include "tests/support/kind_pairs.h"
+#include "tests/support/rounds.h"
+#include "tests/support/run.h"
+#include "tests/support/stated.h"
+
+namespace carom::test {
+namespace {
+
+Call call_of(Tier tier, PositionType positions, Detail detail) {
+  Call call = call_with(positions);
+  call.detail = detail;
+  call.accuracy.tier = tier;
+  return call;
+}
+
+StatedBody stated_body(const PlacedShape& body, PositionType positions) {
+  return test::stated_body(body.shape, {stored(body.position, positions), body.orientation});
+}
+
+bool exact(const TestPair& pair, PositionType positions) {
+  return exact_overlap(stated_body(pair.a, positions), stated_body(pair.b, positions));
+}
+
+// Every kind with every other, each family by turns: blocks hold all of them.
+class Tiers : public testing::TestWithParam<ConvexFamily> {
+ protected:
+  static std::vector<TestPair> pairs(PositionType positions) {
+    return make_mixed_kind_pairs(GetParam(), positions, rounds(1200), 7);
+  }
+};
+
+TEST_P(Tiers, ExactIsAlwaysRight) {
+  for (const PositionType positions : kPositionTypes) {
+    const std::vector<TestPair> some = pairs(positions);
+    for (const Detail detail : {Detail::overlap, Detail::manifold}) {
+      for_each_isa([&] {
+        const std::vector<Row> rows = run_rows(some, call_of(Tier::exact, positions, detail));
+        for (size_t i = 0; i < some.size(); ++i) {
+          SCOPED_TRACE(show(some[i]) + "\n" + show(rows[i]));
+          ASSERT_EQ(rows[i].overlap, exact(some[i], positions));
+          if (detail == Detail::overlap) continue;
+          ASSERT_EQ(rows[i].separation <= 0, rows[i].overlap == 1);
+          ASSERT_EQ(rows[i].manifold_count > 0, rows[i].overlap == 1);
+        }
+      });
+    }
+  }
+}
+
+TEST_P(Tiers, CertifiedIsNeverWrong) {
+  for (const PositionType positions : kPositionTypes) {
+    const std::vector<TestPair> some = pairs(positions);
+    for (const Detail detail : {Detail::overlap, Detail::manifold}) {
+      const std::vector<Row> rows = run_rows(some, call_of(Tier::certified, positions, detail));
+      size_t undecided = 0;
+      for (size_t i = 0; i < some.size(); ++i) {
+        undecided += rows[i].overlap == kUndecided;
+        if (rows[i].overlap == kUndecided) {
+          EXPECT_TRUE(detail == Detail::overlap || rows[i].manifold_count == 0);
+          continue;
+        }
+        ASSERT_EQ(rows[i].overlap, exact(some[i], positions)) << show(some[i]);
+      }
+      EXPECT_TRUE(undecided == 0 || GetParam().name != std::string("plain"));
+    }
+  }
+}
+
+// Beside the decisions, and the signs that go with them, certified results are the standard ones.
+TEST_P(Tiers, CertifiedChangesNothingElse) {
+  const PositionType positions = PositionType::float32;
+  const std::vector<TestPair> some = pairs(positions);
+  const auto standard = run_rows(some, call_of(Tier::standard, positions, Detail::contact));
+  const auto certified = run_rows(some, call_of(Tier::certified, positions, Detail::contact));
+  for (size_t i = 0; i < some.size(); ++i) {
+    Row row = certified[i];
+    const bool agrees = row.overlap == standard[i].overlap;
+    if (row.overlap == kUndecided) row.overlap = standard[i].overlap;
+    EXPECT_TRUE(!agrees || same_bits(row, standard[i])) << show(some[i]);
+    if (agrees) continue;
+    row.overlap = standard[i].overlap;
+    row.separation = standard[i].separation;
+    EXPECT_TRUE(same_bits(row, standard[i])) << show(some[i]);
+  }
+}
+
+// The forward bound of separations, which callers may ask for.
+TEST_P(Tiers, SeparationsAreWithinTheirBounds) {
+  for (const PositionType positions : kPositionTypes) {
+    const std::vector<TestPair> some =
+        make_mixed_kind_pairs(GetParam(), positions, rounds(600), 11);
+    const LaidOut a(side_a(some), {}), b(side_b(some), {});
+    Call call = call_with(positions);
+    const LaidOut laid_a(side_a(some), call.layout_a), laid_b(side_b(some), call.layout_b);
+    Columns columns(some.size());
+    std::vector<float> bound(some.size(), -1);
+    ResultColumns out = columns.out();
+    out.separation_bound = bound.data();
+    ASSERT_TRUE(collide_rows(laid_a.view(), laid_b.view(), Detail::contact, out));
+    for (size_t i = 0; i < some.size(); ++i) {
+      SCOPED_TRACE(show(some[i]));
+      const ExactKinds exact(some[i], positions);
+      const long double off = std::fabs(columns.row(i).separation - exact.answer.value);
+      EXPECT_LE(off, bound[i] + exact.gap * 0x1p-22L);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Tiers, testing::ValuesIn(convex_families()), family_name);
+
+TEST(Tiers, FastWithoutKnobsIsStandard) {
+  for (const PositionType positions : kPositionTypes) {
+    const auto pairs = make_mixed_kind_pairs(convex_families()[6], positions, 500, 3);
+    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+      const auto standard = run_rows(pairs, call_of(Tier::standard, positions, detail));
+      const auto fast = run_rows(pairs, call_of(Tier::fast, positions, detail));
+      EXPECT_TRUE(same_rows(standard, fast, pairs));
+    }
+  }
+}
+
+TEST(Tiers, KnobsOfOtherTiersAreOff) {
+  const auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 500, 3);
+  Call call = call_with(PositionType::float32);
+  const auto standard = run_rows(pairs, call);
+  call.accuracy.knobs = {.single_precision = true, .faces_only = true};
+  EXPECT_TRUE(same_rows(standard, run_rows(pairs, call), pairs));
+}
+
+// Every tier: the same bits on every instruction set, for any number of pairs, in any order.
+TEST(Tiers, AreTheSameOnEveryInstructionSet) {
+  const Accuracy tiers[] = {{.tier = Tier::certified, .knobs = {}},
+                            {.tier = Tier::exact, .knobs = {}},
+                            {.tier = Tier::fast, .knobs = {.single_precision = true}},
+                            {.tier = Tier::fast, .knobs = {.faces_only = true}}};
+  for (const Accuracy& accuracy : tiers) {
+    for (const PositionType positions : kPositionTypes) {
+      const auto pairs = make_mixed_kind_pairs(
+          {.name = "touch", .distance = 0, .placement = ConvexPlacement::near_touch}, positions,
+          300, 5);
+      Call call = call_with(positions);
+      call.detail = Detail::manifold;
+      call.accuracy = accuracy;
+      const std::vector<Row> all = run_rows(pairs, call);
+      for_each_isa([&] {
+        EXPECT_TRUE(same_rows(all, run_rows(pairs, call), pairs));
+        EXPECT_TRUE(same_rows(all, run_list(pairs, call), pairs));
+        for (const size_t count : {0, 1, 7, 8, 9, 15, 16, 17}) {
+          const std::span<const TestPair> some(pairs.data(), count);
+          EXPECT_TRUE(same_rows({all.data(), count}, run_rows(some, call), some));
+        }
+      });
+    }
+  }
+}
+
+TEST(Tiers, BoundsAndOverlapsDoNotNeedTheOtherColumns) {
+  const auto pairs = make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 100, 2);
+  const LaidOut a(side_a(pairs), {}), b(side_b(pairs), {});
+  std::vector<float> bound(pairs.size());
+  std::vector<uint8_t> overlap(pairs.size());
+  ResultColumns out;
+  out.overlap = overlap.data();
+  out.separation_bound = bound.data();
+  ASSERT_TRUE(collide_rows(a.view(), b.view(), Detail::overlap, out, WitnessFrame::world,
+                           Parallelism::none, Measured::all, {Tier::exact, {}}));
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_GT(bound[i], 0);
+    EXPECT_EQ(overlap[i], exact(pairs[i], PositionType::float32));
+  }
+}
+
+// What is odd about one pair must not make others of its vector unsure.
+TEST(Tiers, NeighboursOfInvalidPairsGetWhatTheyAlwaysGet) {
+  const float e = 0x1p-13f;
+  const PlacedShape a{Aabb{Eigen::Vector3f::Constant(1), Eigen::Vector3f::Constant(1 + 2 * e)}};
+  const PlacedShape b{Aabb{Eigen::Vector3f::Constant(1 + e), Eigen::Vector3f::Constant(1 + 4 * e)}};
+  std::vector<TestPair> pairs(16, {a, b});
+  const Call call = call_of(Tier::certified, PositionType::float32, Detail::contact);
+  const std::vector<Row> alone = run_rows(pairs, call);
+  std::get<Aabb>(pairs[3].a.shape).lower[0] = std::numeric_limits<float>::quiet_NaN();
+  for_each_isa([&] {
+    const std::vector<Row> rows = run_rows(pairs, call);
+    for (size_t i = 0; i < rows.size(); ++i) {
+      if (i == 3) {
+        EXPECT_EQ(rows[i].status, static_cast<uint8_t>(Status::invalid));
+      } else {
+        EXPECT_TRUE(same_bits(rows[i], alone[i])) << show(rows[i]);
+      }
+    }
+  });
+}
+
+// The separation overflowed on its way to not a number.
+TEST(Tiers, SignsHoldWhereDistancesOverflow) {
+  const double far = 0x1.e42d130773b76p+1023;
+  const PlacedShape plane = halfspace({-1, -far, far}, {0, -0x1p-148f, 0}, 0);
+  PlacedShape speck =
+      triangle({0x1p-149, 0x1p-148, -far},
+               {Eigen::Vector3f(-0x1p-148f, -0x1p-149f, 0),
+                Eigen::Vector3f(-0x1p-149f, -0x1p-149f, 0), Eigen::Vector3f(0x1p-149f, 0, 0)});
+  std::get<Triangle>(speck.shape).thickness = 0x1p-149f;
+  const std::vector<TestPair> pairs = {{plane, speck}, {speck, plane}};
+  for (const TestPair& pair : pairs) {
+    const Row row =
+        run_rows({&pair, 1}, call_of(Tier::exact, PositionType::float64, Detail::contact))[0];
+    EXPECT_EQ(row.overlap, exact(pair, PositionType::float64));
+    EXPECT_EQ(row.separation <= 0, row.overlap == 1);
+  }
+}
+
+// --- The knobs of the fast tier ---
+
+Accuracy knobs(const FastKnobs& knobs) { return {Tier::fast, knobs}; }
+
+// Decisions beyond 2^-17 of the size stay right, and so do normals where there is one.
+TEST(FastTier, SinglePrecisionErrsNearTouchAlone) {
+  size_t wrong = 0;
+  for (const ConvexFamily& family : convex_families()) {
+    if (family.smallest < 1e-30) continue;  // floats have fewer digits there
+    const auto pairs = make_mixed_kind_pairs(family, PositionType::float32, rounds(800), 4);
+    Call call = call_with(PositionType::float32);
+    call.accuracy = knobs({.single_precision = true});
+    const std::vector<Row> rows = run_rows(pairs, call);
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      const ExactKinds exact(pairs[i], PositionType::float32);
+      const bool overlap = exact.answer.value <= 0;
+      if (rows[i].overlap == overlap) continue;
+      ++wrong;
+      const auto size = static_cast<double>(exact.scale + length(exact.origin_b));
+      EXPECT_LE(exact.gap, 0x1p-16 * size) << show(pairs[i]);
+    }
+  }
+  EXPECT_GT(wrong, 0u);
+}
+
+TEST(FastTier, FacesOnlyMissesNothing) {
+  size_t extra = 0;
+  for (const KindPair kinds :
+       {KindPair{ShapeKind::box, ShapeKind::box}, KindPair{ShapeKind::aabb, ShapeKind::box},
+        KindPair{ShapeKind::box, ShapeKind::aabb}}) {
+    const auto pairs = make_kind_pairs({.name = "plain"}, kinds, PositionType::float32, 4000, 6);
+    Call call = call_with(PositionType::float32);
+    const std::vector<Row> standard = run_rows(pairs, call);
+    call.accuracy = knobs({.faces_only = true});
+    const std::vector<Row> rows = run_rows(pairs, call);
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      EXPECT_GE(rows[i].overlap, standard[i].overlap) << show(pairs[i]);
+      extra += rows[i].overlap > standard[i].overlap;
+    }
+  }
+  EXPECT_GT(extra, 20u);
+}
+
+// Kinds that have nothing to leave out are computed as ever.
+TEST(FastTier, FacesOnlyLeavesOtherKindsAlone) {
+  auto pairs = make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 600, 8);
+  std::erase_if(pairs, [](const TestPair& pair) {
+    const auto is_box = [](const PlacedShape& body) {
+      return kind_of(body.shape) == ShapeKind::box || kind_of(body.shape) == ShapeKind::aabb;
+    };
+    return is_box(pair.a) && is_box(pair.b);
+  });
+  Call call = call_with(PositionType::float32);
+  const std::vector<Row> standard = run_rows(pairs, call);
+  call.accuracy = knobs({.faces_only = true});
+  EXPECT_TRUE(same_rows(standard, run_rows(pairs, call), pairs));
+}
+
+}  // namespace
+}  // namespace carom::test

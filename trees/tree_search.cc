@@ -1,0 +1,247 @@
+// Eight boxes of a node against one, in as many vectors as that takes.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/tree_search.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <hwy/cache_control.h>
+
+#include <bit>
+#include <vector>
+
+#include "simd/lanes-inl.h"
+#include "trees/tree.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+using ChildTag = hn::CappedTag<float, BoxTree::kChildren>;
+inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
+
+// Bit i: child i touches the box.
+HWY_INLINE uint32_t touching(const BoxTree::Node& node, const TreeBox& box) {
+  const ChildTag tag;
+  uint32_t bits = 0;
+  for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
+    auto touch = hn::And(hn::Le(hn::Load(tag, node.lower[0] + i), hn::Set(tag, box.upper[0])),
+                         hn::Ge(hn::Load(tag, node.upper[0] + i), hn::Set(tag, box.lower[0])));
+    for (size_t axis = 1; axis < 3; ++axis) {
+      const auto starts =
+          hn::Le(hn::Load(tag, node.lower[axis] + i), hn::Set(tag, box.upper[axis]));
+      const auto ends = hn::Ge(hn::Load(tag, node.upper[axis] + i), hn::Set(tag, box.lower[axis]));
+      touch = hn::And(touch, hn::And(starts, ends));
+    }
+    uint8_t mask[8] = {};
+    hn::StoreMaskBits(tag, touch, mask);
+    bits |= (mask[0] & ((1u << kChildLanes) - 1)) << i;
+  }
+  return bits;
+}
+
+// Bit i: child i is within the radius of the box.
+HWY_INLINE uint32_t touching(const BoxTree::Node& node, const RoundedBox& rounded) {
+  const ChildTag tag;
+  const auto& [box, squared_radius] = rounded;
+  uint32_t bits = 0;
+  for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
+    auto squared = hn::Zero(tag);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto above =
+          hn::Sub(hn::Load(tag, node.lower[axis] + i), hn::Set(tag, box.upper[axis]));
+      const auto below =
+          hn::Sub(hn::Set(tag, box.lower[axis]), hn::Load(tag, node.upper[axis] + i));
+      const auto gap = hn::Max(hn::Max(above, below), hn::Zero(tag));
+      squared = hn::Add(squared, hn::Mul(gap, gap));
+    }
+    uint8_t mask[8] = {};
+    hn::StoreMaskBits(tag, hn::Le(squared, hn::Set(tag, squared_radius)), mask);
+    bits |= (mask[0] & ((1u << kChildLanes) - 1)) << i;
+  }
+  return bits;
+}
+
+template <class Use>
+HWY_INLINE void for_each_bit(uint32_t bits, const Use& use) {
+  for (; bits != 0; bits &= bits - 1) use(static_cast<size_t>(std::countr_zero(bits)));
+}
+
+constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
+
+// No child has half of its node's items: seven splits of the largest group, each of which leaves
+// 7/8 at most. That makes 31 levels, with seven children waiting in each.
+inline constexpr size_t kMostWaiting = 8 * 32;
+
+// A third of a search is waiting for nodes.
+HWY_INLINE void prefetch(const BoxTree::Node& node) {
+  constexpr size_t kCacheLine = 64;
+  for (size_t i = 0; i < sizeof node; i += kCacheLine) {
+    hwy::Prefetch(reinterpret_cast<const char*>(&node) + i);
+  }
+}
+
+template <class Box>
+HWY_INLINE void find_items(const BoxTree& tree, const Box& box, FunctionRef<void(uint32_t)> found) {
+  const BoxTree::Node* const nodes = tree.nodes().data();
+  uint32_t waiting[kMostWaiting];
+  size_t count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const BoxTree::Node& node = nodes[waiting[--count]];
+    for_each_bit(touching(node, box), [&](size_t i) {
+      const uint32_t child = node.child[i];
+      if (is_item(child)) {
+        found(child - BoxTree::kItem);
+      } else {
+        prefetch(nodes[child]);
+        waiting[count++] = child;
+      }
+    });
+  }
+}
+
+void touching_items(const BoxTree& tree, const RoundedBox& box, FunctionRef<void(uint32_t)> found) {
+  if (tree.is_empty()) return;
+  if (box.squared_radius == 0) {  // squares of distances might vanish
+    find_items(tree, box.box, found);
+  } else {
+    find_items(tree, box, found);
+  }
+}
+
+// Two children, nodes or items. The box is that of an item, in the frame of the other's tree.
+struct Meeting {
+  uint32_t a, b;
+  TreeBox box;
+};
+
+// Searches may begin inside of others: each uses what lies above its own start.
+class MeetingStack {
+ public:
+  explicit MeetingStack(std::vector<Meeting>& all) : all_(all), start_(all.size()) {}
+  ~MeetingStack() { all_.resize(start_); }
+  MeetingStack(const MeetingStack&) = delete;
+  MeetingStack& operator=(const MeetingStack&) = delete;
+
+  bool is_empty() const { return all_.size() == start_; }
+  void push(const Meeting& meeting) { all_.push_back(meeting); }
+  Meeting pop() {
+    const Meeting last = all_.back();
+    all_.pop_back();
+    return last;
+  }
+
+ private:
+  std::vector<Meeting>& all_;
+  const size_t start_;
+};
+
+class TreePair {
+ public:
+  TreePair(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a, double reach,
+           FunctionRef<void(uint32_t, uint32_t)> found)
+      : nodes_a_(a.nodes().data()),
+        nodes_b_(b.nodes().data()),
+        b_to_a_(b_to_a),
+        a_to_b_(b_to_a.inverse()),
+        reach_(reach),
+        found_(found) {}
+
+  void run(MeetingStack& stack) const {
+    stack.push({0, 0, {}});
+    while (!stack.is_empty()) {
+      const Meeting m = stack.pop();
+      if (is_item(m.b)) {
+        item_of_b(m, stack);
+      } else if (is_item(m.a)) {
+        item_of_a(m, stack);
+      } else {
+        two_nodes(m, stack);
+      }
+    }
+  }
+
+ private:
+  void two_nodes(const Meeting& m, MeetingStack& stack) const {
+    const BoxTree::Node& a = nodes_a_[m.a];
+    const BoxTree::Node& b = nodes_b_[m.b];
+    for (size_t j = 0; j < BoxTree::kChildren; ++j) {
+      const TreeBox box = b.box(j);
+      if (!(box.lower[0] <= box.upper[0])) continue;
+      const TreeBox in_a = b_to_a_.around(box, reach_);
+      for_each_bit(touching(a, in_a), [&](size_t i) {
+        if (is_item(a.child[i]) && is_item(b.child[j])) {
+          found_(a.child[i] - BoxTree::kItem, b.child[j] - BoxTree::kItem);
+        } else if (is_item(b.child[j])) {
+          stack.push({a.child[i], b.child[j], in_a});
+        } else if (is_item(a.child[i])) {
+          stack.push({a.child[i], b.child[j], a_to_b_.around(a.box(i), reach_)});
+        } else {
+          stack.push({a.child[i], b.child[j], {}});
+        }
+      });
+    }
+  }
+
+  void item_of_b(const Meeting& m, MeetingStack& stack) const {
+    const BoxTree::Node& a = nodes_a_[m.a];
+    for_each_bit(touching(a, m.box), [&](size_t i) {
+      if (is_item(a.child[i])) {
+        found_(a.child[i] - BoxTree::kItem, m.b - BoxTree::kItem);
+      } else {
+        stack.push({a.child[i], m.b, m.box});
+      }
+    });
+  }
+
+  void item_of_a(const Meeting& m, MeetingStack& stack) const {
+    const BoxTree::Node& b = nodes_b_[m.b];
+    for_each_bit(touching(b, m.box), [&](size_t j) {
+      if (is_item(b.child[j])) {
+        found_(m.a - BoxTree::kItem, b.child[j] - BoxTree::kItem);
+      } else {
+        stack.push({m.a, b.child[j], m.box});
+      }
+    });
+  }
+
+  const BoxTree::Node* nodes_a_;
+  const BoxTree::Node* nodes_b_;
+  const FrameChange& b_to_a_;
+  const FrameChange a_to_b_;
+  const double reach_;
+  FunctionRef<void(uint32_t, uint32_t)> found_;
+};
+
+void touching_pairs(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a, double reach,
+                    FunctionRef<void(uint32_t, uint32_t)> found) {
+  if (a.is_empty() || b.is_empty()) return;
+  static thread_local std::vector<Meeting> meetings;
+  MeetingStack stack(meetings);
+  TreePair(a, b, b_to_a, reach, found).run(stack);
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+
+HWY_EXPORT(touching_items);
+HWY_EXPORT(touching_pairs);
+
+void BoxTree::find_touching(const RoundedBox& box, FunctionRef<void(uint32_t)> found) const {
+  CAROM_DISPATCH(touching_items)(*this, box, found);
+}
+
+void find_touching_items(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a,
+                         double reach, FunctionRef<void(uint32_t, uint32_t)> found) {
+  CAROM_DISPATCH(touching_pairs)(a, b, b_to_a, reach, found);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

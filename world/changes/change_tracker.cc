@@ -1,0 +1,224 @@
+#include "world/changes/change_tracker.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "world/store/columns.h"
+
+namespace carom {
+namespace {
+
+// Small enough that a body on its own costs little, large enough for the loop over blocks.
+constexpr size_t kRowsPerBlock = 1024;
+
+// Bits that differ between two records of four numbers; by bits, so that NaN equals itself.
+template <class T>
+uint64_t difference(const T* a, const T* b) {
+  constexpr size_t kWords = 4 * sizeof(T) / sizeof(uint64_t);
+  uint64_t words_a[kWords], words_b[kWords];
+  std::memcpy(words_a, a, sizeof(words_a));
+  std::memcpy(words_b, b, sizeof(words_b));
+  uint64_t bits = 0;
+  for (size_t i = 0; i < kWords; ++i) bits |= words_a[i] ^ words_b[i];
+  return bits;
+}
+
+// Sets the flags of numbers that differ, and copies them.
+void compare_column(const float* now, float* last, size_t count, uint8_t* changed) {
+  for (size_t i = 0; i < count; ++i) {
+    uint32_t a, b;
+    std::memcpy(&a, now + i, sizeof(a));
+    std::memcpy(&b, last + i, sizeof(b));
+    changed[i] |= a != b;
+  }
+  std::memcpy(last, now, count * sizeof(float));
+}
+
+// The same for rows of four numbers.
+void compare_rows_of(const BodyStore::Row* now, BodyStore::Row* last, size_t count,
+                     uint8_t* changed) {
+  for (size_t i = 0; i < count; ++i) changed[i] |= difference(now[i].data(), last[i].data()) != 0;
+  std::memcpy(last, now, count * sizeof(BodyStore::Row));
+}
+
+uint32_t count_set(const uint8_t* flags, size_t count) {
+  return std::accumulate(flags, flags + count, uint32_t{0});
+}
+
+}  // namespace
+
+void ChangeTracker::SlotChanges::resize(size_t slots) {
+  resize_and_give_back(changed, slots);
+  resize_and_give_back(block_changed, block_count(slots, kRowsPerBlock));
+}
+
+bool ChangeTracker::SlotChanges::at(size_t slot) const {
+  return block_changed[slot / kRowsPerBlock] && changed[slot];
+}
+
+void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
+  update_shapes(bodies, parallelism);
+  update_bodies(bodies, parallelism);
+}
+
+void ChangeTracker::update_shapes(const BodyStore& bodies, Parallelism parallelism) {
+  any_reshaped_ = compare_boxes(bodies, parallelism);
+  any_reshaped_ |= compare_rows(bodies, parallelism);
+}
+
+void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
+  const size_t rows = bodies.rows();
+  all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
+  resize_and_give_back(changed_, rows);
+  resize_and_give_back(block_changes_, block_count(rows, kRowsPerBlock));
+  // New rows are touched, whatever their copies hold.
+  bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
+  moved |= compare_records(bodies.records64(), last_records64_, parallelism);
+  moved |= compare_orientations(bodies, parallelism);
+  if (any_reshaped_) mark_changed_shapes(bodies, parallelism);
+  if (moved || any_reshaped_) all_unchanged_ = false;
+  if (knows_last_) {
+    mark_touched(bodies);
+  } else {
+    mark_all();
+  }
+  knows_last_ = true;
+  changed_count_ = std::accumulate(block_changes_.begin(), block_changes_.end(), size_t{0});
+}
+
+// The first to write flags: those of the last step go.
+template <class T>
+bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& last,
+                                    Parallelism parallelism) {
+  resize_and_give_back(last, now.size());
+  std::atomic<bool> any{false};
+  for_each_block(now.size() / 4, kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const size_t count = end - begin;
+                   const size_t size = 4 * count * sizeof(T);
+                   const T* records = now.data() + 4 * begin;
+                   T* copies = last.data() + 4 * begin;
+                   uint8_t* flags = changed_.data() + begin;
+                   uint32_t& changes = block_changes_[block];
+                   if (std::memcmp(records, copies, size) == 0) {
+                     if (changes > 0) std::memset(flags, 0, count);
+                     changes = 0;
+                     return;
+                   }
+                   for (size_t i = 0; i < count; ++i) {
+                     flags[i] = difference(records + 4 * i, copies + 4 * i) != 0;
+                   }
+                   changes = count_set(flags, count);
+                   std::memcpy(copies, records, size);
+                   any = true;
+                 });
+  return any;
+}
+
+bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism parallelism) {
+  const std::vector<BodyStore::Row>& now = bodies.orientations();
+  // A body that had none had the identity.
+  last_orientations_.resize(now.size(), BodyStore::kIdentity);
+  give_back(last_orientations_, now.size());
+  std::atomic<bool> any{false};
+  for_each_block(now.size(), kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const size_t count = end - begin;
+                   BodyStore::Row* last = &last_orientations_[begin];
+                   if (std::memcmp(&now[begin], last, count * sizeof(*last)) == 0) return;
+                   compare_rows_of(&now[begin], last, count, &changed_[begin]);
+                   block_changes_[block] = count_set(&changed_[begin], count);
+                   any = true;
+                 });
+  return any;
+}
+
+bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism parallelism) {
+  const size_t slots = bodies.boxes()[0].size();
+  for (std::vector<float>& column : last_boxes_) resize_and_give_back(column, slots);
+  box_changes_.resize(slots);
+  std::atomic<bool> any{false};
+  for_each_block(slots, kRowsPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
+    const size_t count = end - begin;
+    uint8_t* changed = &box_changes_.changed[begin];
+    bool differs = false;
+    for (size_t column = 0; column < 6; ++column) {
+      const float* now = &bodies.boxes()[column][begin];
+      float* last = &last_boxes_[column][begin];
+      if (std::memcmp(now, last, count * sizeof(float)) == 0) continue;
+      if (!differs) std::memset(changed, 0, count);
+      compare_column(now, last, count, changed);
+      differs = true;
+    }
+    box_changes_.block_changed[block] = differs;
+    if (differs) any = true;
+  });
+  return any;
+}
+
+bool ChangeTracker::compare_rows(const BodyStore& bodies, Parallelism parallelism) {
+  const std::span<const BodyStore::Row> now = bodies.shape_rows();
+  resize_and_give_back(last_rows_, now.size());
+  row_changes_.resize(now.size());
+  std::atomic<bool> any{false};
+  for_each_block(now.size(), kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const size_t count = end - begin;
+                   BodyStore::Row* last = &last_rows_[begin];
+                   const bool differs = std::memcmp(&now[begin], last, count * sizeof(*last)) != 0;
+                   row_changes_.block_changed[block] = differs;
+                   if (!differs) return;
+                   std::memset(&row_changes_.changed[begin], 0, count);
+                   compare_rows_of(&now[begin], last, count, &row_changes_.changed[begin]);
+                   any = true;
+                 });
+  return any;
+}
+
+bool ChangeTracker::reshaped(const Collidables& view, size_t index) const {
+  if (!any_reshaped_) return false;
+  const ShapeKind kind = view.kind ? view.kind[index] : view.uniform_kind;
+  if (kind == ShapeKind::aabb) return box_changes_.at(view.box_slot[index]);
+  for (uint32_t k = 0; k < row_count(kind); ++k) {
+    if (row_changes_.at(view.rows.first[index] + k)) return true;
+  }
+  return false;
+}
+
+void ChangeTracker::mark_changed_shapes(const BodyStore& bodies, Parallelism parallelism) {
+  const Collidables view = bodies.view();
+  for_each_block(changed_.size(), kRowsPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   for (size_t i = begin; i < end; ++i) changed_[i] |= reshaped(view, i);
+                   block_changes_[block] = count_set(&changed_[begin], end - begin);
+                 });
+}
+
+void ChangeTracker::mark_touched(const BodyStore& bodies) {
+  for (const uint32_t index : bodies.touched_indices()) {
+    if (index >= changed_.size() || changed_[index]) continue;
+    changed_[index] = 1;
+    ++block_changes_[index / kRowsPerBlock];
+  }
+}
+
+void ChangeTracker::mark_all() {
+  std::fill(changed_.begin(), changed_.end(), uint8_t{1});
+  for (size_t block = 0; block < block_changes_.size(); ++block) {
+    const size_t first = block * kRowsPerBlock;
+    block_changes_[block] = static_cast<uint32_t>(std::min(kRowsPerBlock, changed_.size() - first));
+  }
+}
+
+size_t ChangeTracker::bytes() const {
+  size_t sum = bytes_of(changed_) + bytes_of(block_changes_) + bytes_of(last_records32_) +
+               bytes_of(last_records64_) + bytes_of(last_orientations_) + bytes_of(last_rows_) +
+               box_changes_.bytes() + row_changes_.bytes();
+  for (const std::vector<float>& column : last_boxes_) sum += bytes_of(column);
+  return sum;
+}
+
+}  // namespace carom

@@ -1,0 +1,116 @@
+#include "world/motion/bounding_radii.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+
+#include "base/outward.h"
+#include "base/parallel.h"
+#include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/mesh_geometry.h"
+#include "shapes/body_reader.h"
+#include "shapes/dop_polytope.h"
+#include "shapes/turn.h"
+
+namespace carom {
+namespace {
+
+constexpr size_t kRowsPerBlock = 1024;
+
+double length(const Double3& v) { return std::sqrt(dot(v, v)); }
+
+double aabb_reach(const BodyReader& reader, size_t i) {
+  Double3 furthest;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double lower = reader.lower(axis, i), upper = reader.upper(axis, i);
+    furthest[axis] = std::max(std::fabs(lower), std::fabs(upper));
+  }
+  return length(furthest);
+}
+
+double dop_reach(const Dop& dop) {
+  const DopSlabs slabs(dop);
+  const DopPolytope polytope(slabs);
+  double reach = 0;
+  for (const Double3& point : polytope.points()) reach = std::max(reach, length(point));
+  return reach + kDopRounding * slabs.with_tight_axes().size();
+}
+
+double hull_reach(const HullGeometry& hull) {
+  double reach = 0;
+  for (const Eigen::Vector3f& p : hull.points()) {
+    reach = std::max(reach, length({p.x(), p.y(), p.z()}));
+  }
+  return reach;
+}
+
+// Of the furthest corner of the box that holds all parts.
+template <class Geometry>
+double parts_reach(const Geometry& parts) {
+  Double3 furthest;
+  for (int axis = 0; axis < 3; ++axis) {
+    furthest[axis] = std::max(std::fabs(parts.lower()[axis]), std::fabs(parts.upper()[axis]));
+  }
+  return length(furthest);
+}
+
+double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
+  const auto corner = [&](size_t k) { return length(vector_of(rows[k])); };
+  switch (kind) {
+    case ShapeKind::capsule:
+      return std::max(corner(0), corner(1)) + rows[0][3];
+    case ShapeKind::box:
+      return corner(0);
+    case ShapeKind::triangle:
+      return std::max({corner(0), corner(1), corner(2)}) + rows[0][3];
+    case ShapeKind::dop:
+      return dop_reach(std::get<Dop>(shape_from_rows(kind, rows.data())));
+    case ShapeKind::hull:
+      return hull_reach(*geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::mesh:
+      return parts_reach(*geometry_at<MeshGeometry>(rows[0]));
+    case ShapeKind::compound:
+      return parts_reach(*geometry_at<CompoundGeometry>(rows[0]));
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
+}
+
+// The next float but one, so that what the tests themselves round is covered, too.
+float round_upwards(double reach) {
+  const float above = -round_downwards(-std::min(reach, double{FLT_MAX}));
+  return std::min(next_up(above), FLT_MAX);
+}
+
+}  // namespace
+
+float bounding_radius(const BodyReader& reader, size_t i) {
+  const ShapeKind kind = reader.kind(i);
+  if (kind == ShapeKind::sphere) return reader.radius(i);
+  if (kind == ShapeKind::halfspace) return std::numeric_limits<float>::infinity();
+  if (kind == ShapeKind::aabb) {
+    const double reach = aabb_reach(reader, i);
+    return std::isfinite(reach) ? round_upwards(reach) : 0;
+  }
+  const std::array<Row, kMostRows> rows = reader.rows(i);
+  return are_valid_rows(kind, rows.data()) ? round_upwards(rows_reach(kind, rows)) : 0;
+}
+
+void BoundingRadii::update(const BodyStore& bodies, const ChangeTracker* changes,
+                           Parallelism parallelism) {
+  resize_and_give_back(radii_, bodies.rows());
+  const Collidables view = bodies.view();
+  const BodyReader reader{view};
+  for_each_block(bodies.rows(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      // The record of a sphere holds its radius, so that no one tells when it changes.
+      const bool is_known = changes && reader.kind(i) != ShapeKind::sphere &&
+                            !bodies.touched(static_cast<uint32_t>(i)) &&
+                            !changes->reshaped(view, i);
+      if (!is_known) radii_[i] = bounding_radius(reader, i);
+    }
+  });
+}
+
+}  // namespace carom

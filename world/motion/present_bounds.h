@@ -1,0 +1,36 @@
+// The bounds of bodies as they are now, for pairs that were found by larger ones.
+#pragma once
+
+#include "carom/results/pair.h"
+#include "carom/shapes/views.h"
+#include "world/pairs/halfspace_stage.h"
+
+namespace carom {
+
+// Closed boxes. Empty ones meet nothing.
+inline bool boxes_meet(const BoundsView& bounds, Pair pair) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const float* lower = bounds.lower[axis];
+    const float* upper = bounds.upper[axis];
+    if (!(lower[pair.a] <= upper[pair.b] && lower[pair.b] <= upper[pair.a])) return false;
+  }
+  return true;
+}
+
+inline bool has_box(const BoundsView& bounds, uint32_t body) {
+  return bounds.lower[0][body] <= bounds.upper[0][body];
+}
+
+// Of a step's pairs: a body without a box is a half-space.
+struct PresentBounds {
+  BoundsView boxes;
+  const HalfspaceStage& halfspaces;
+
+  bool meet(Pair pair) const {
+    if (!has_box(boxes, pair.a)) return halfspaces.reaches(pair.a, boxes, pair.b);
+    if (!has_box(boxes, pair.b)) return halfspaces.reaches(pair.b, boxes, pair.a);
+    return boxes_meet(boxes, pair);
+  }
+};
+
+}  // namespace carom

@@ -1,0 +1,69 @@
+// How bodies move in the interval ahead of a step, and which of them are looked after.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "carom/base/parallelism.h"
+#include "carom/results/sweep.h"
+#include "world/store/body_store.h"
+
+namespace carom {
+
+class Sweeps {
+ public:
+  // Of all bodies, those that are not looked after, too: others may meet them.
+  void update(const BodyStore& bodies, double dt, float fast_share, Parallelism parallelism);
+
+  // Whether the last update found another interval, other motions in it, or other bodies looked
+  // after than the one before.
+  bool changed() const { return changed_; }
+
+  // Some body is swept or continuous in this step.
+  bool any() const { return swept_ > 0; }
+  bool any_continuous() const { return continuous_ > 0; }
+  bool any_merely_swept() const { return swept_ > continuous_; }
+
+  // Whether the body is swept or continuous, and moves by finite numbers.
+  bool looks_ahead(uint32_t index) const { return mode_[index] >= Mode::swept; }
+  bool is_continuous(uint32_t index) const { return mode_[index] == Mode::continuous; }
+  bool is_finite(uint32_t index) const { return mode_[index] != Mode::unknown; }
+
+  bool turns(uint32_t index) const { return !rotation_.empty() && !rotation_[index].isZero(0); }
+
+  // Zero of bodies of which it is not finite.
+  Sweep sweep(uint32_t index) const;
+  SweepView view() const;
+
+  size_t swept() const { return swept_; }      // bodies that look ahead
+  size_t unswept() const { return unswept_; }  // of which the motion is not finite
+
+  size_t bytes() const;
+
+ private:
+  enum class Mode : uint8_t { unknown, discrete, swept, continuous };
+
+  struct Row {
+    Sweep sweep;
+    Mode mode = Mode::discrete;
+  };
+  struct Counts {
+    size_t swept = 0, continuous = 0, unswept = 0;
+    bool changed = false;
+  };
+
+  static Mode mode_of(Detection detection);
+  static Row row_of(const BodyStore& bodies, const Collidables& view, uint32_t index, double dt,
+                    float fast_share);
+  void store(uint32_t index, const Row& row, Counts& counts);
+
+  std::vector<Mode> mode_;
+  std::vector<Eigen::Vector3f> displacement_;
+  std::vector<Eigen::Vector3f> rotation_;  // empty while no body turns
+  double dt_ = 0;
+  bool changed_ = false;
+  size_t swept_ = 0, continuous_ = 0, unswept_ = 0;
+};
+
+}  // namespace carom

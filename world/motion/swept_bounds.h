@@ -1,0 +1,29 @@
+// Bounds over the interval ahead of a step.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "carom/base/parallelism.h"
+#include "carom/shapes/views.h"
+#include "world/motion/sweeps.h"
+
+namespace carom {
+
+class SweptBounds {
+ public:
+  // Boxes that hold every body at all times of the interval, `bounds` being those of now; these
+  // themselves where a body does not move. Empty bounds stay empty.
+  void update(const Collidables& bodies, const Sweeps& sweeps, const BoundsView& bounds,
+              Parallelism parallelism);
+
+  BoundsView view() const;
+
+  size_t bytes() const;
+
+ private:
+  std::array<std::vector<float>, 6> columns_;  // lower and upper corners, one row a body
+};
+
+}  // namespace carom

@@ -1,0 +1,28 @@
+// The directions in which pairs were apart in the last step, to be tried first in this one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "world/pairs/pair_history.h"
+
+namespace carom {
+
+class DirectionMemory {
+ public:
+  // One a pair to test, as collide_pairs() takes them. `plan` matches `now` with `last`.
+  uint32_t* prepare(const CarryPlan& plan, const PairHistory& last, const PairHistory& now,
+                    Parallelism parallelism);
+
+  // Writes those of all pairs to `now`, after the tests.
+  void keep(const CarryPlan& plan, const PairHistory& last, Parallelism parallelism,
+            PairHistory& now) const;
+
+  void give_back_beyond(size_t pairs);
+  size_t bytes() const;
+
+ private:
+  std::vector<uint32_t> tested_;
+};
+
+}  // namespace carom

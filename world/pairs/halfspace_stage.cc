@@ -1,0 +1,114 @@
+#include "world/pairs/halfspace_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "broadphase/sort/merge_pairs.h"
+#include "shapes/body_reader.h"
+#include "world/store/columns.h"
+
+namespace carom {
+namespace {
+
+// Everything that the half-space covers at some time. One that turns sweeps over all that is far
+// enough away.
+WorldHalfspace covered(WorldHalfspace halfspace, const Sweep& sweep) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (!sweep.rotation.isZero(0)) {
+    halfspace.limit = kInfinity;
+    return halfspace;
+  }
+  const Eigen::Vector3d d = sweep.displacement.cast<double>();
+  if (d.isZero(0)) return halfspace;
+  const auto& n = halfspace.normal;
+  const double along = (n[0] * d.x() + n[1] * d.y()) + n[2] * d.z();
+  const double error = halfspace.slack * ((std::abs(d.x()) + std::abs(d.y())) + std::abs(d.z()));
+  halfspace.limit = std::nextafter(halfspace.limit + std::max(along + error, 0.0), kInfinity);
+  return halfspace;
+}
+
+}  // namespace
+
+void HalfspaceStage::set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds) {
+  halfspaces_.clear();
+  if (bodies.halfspaces().empty()) return drop_all();
+  const Collidables view = bodies.view();
+  for (const uint32_t index : bodies.halfspaces()) {
+    if (bounds[0][index] > bounds[3][index]) continue;
+    halfspaces_.push_back(world_halfspace(view, index));
+    for (size_t axis = 0; axis < 3; ++axis) {
+      bounds[axis][index] = std::numeric_limits<float>::infinity();
+      bounds[3 + axis][index] = -std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
+void HalfspaceStage::sweep(const Sweeps& sweeps) {
+  swept_.clear();
+  for (const WorldHalfspace& halfspace : halfspaces_) {
+    swept_.push_back(covered(halfspace, sweeps.sweep(halfspace.body)));
+  }
+}
+
+void HalfspaceStage::stay() { swept_.clear(); }
+
+bool HalfspaceStage::reaches(uint32_t body, const BoundsView& bounds, uint32_t other) const {
+  const auto halfspace =
+      std::lower_bound(halfspaces_.begin(), halfspaces_.end(), body,
+                       [](const WorldHalfspace& h, uint32_t index) { return h.body < index; });
+  double corner[3];  // the lowest along the normal
+  for (size_t axis = 0; axis < 3; ++axis) {
+    corner[axis] = (halfspace->normal[axis] >= 0 ? bounds.lower : bounds.upper)[axis][other];
+  }
+  return may_hold(*halfspace, corner[0], corner[1], corner[2]);
+}
+
+void HalfspaceStage::drop_all() {
+  if (bytes() == 0) return;
+  halfspaces_ = {};
+  swept_ = {};
+  search_.reset();
+  other_pairs_ = {};
+  own_pairs_ = {};
+}
+
+void HalfspaceStage::add_pairs(const BoundsView& bounds, const PairFilter& filter,
+                               size_t most_pairs, Parallelism parallelism, std::vector<Pair>& pairs,
+                               PairSearch& search) {
+  if (!search_) search_.emplace();
+  search.pairs += search_->find(swept_.empty() ? halfspaces_ : swept_, bounds, filter, most_pairs,
+                                parallelism, own_pairs_);
+  search.complete = search.complete && search.pairs <= most_pairs;
+  if (search.complete) {
+    merge_pairs(other_pairs_, own_pairs_, parallelism, pairs);
+  } else {
+    pairs.clear();
+  }
+}
+
+void HalfspaceStage::add_point_candidates(const float* xyz, size_t count, size_t stride,
+                                          std::vector<Pair>& candidates) const {
+  if (halfspaces_.empty()) return;
+  const auto middle = static_cast<ptrdiff_t>(candidates.size());
+  for (size_t i = 0; i < count; ++i) {
+    const auto p = load_strided<Position<float>>(xyz, stride, i);
+    for (const WorldHalfspace& halfspace : halfspaces_) {
+      if (!may_hold(halfspace, p.x, p.y, p.z)) continue;
+      candidates.push_back({static_cast<uint32_t>(i), halfspace.body});
+    }
+  }
+  std::inplace_merge(candidates.begin(), candidates.begin() + middle, candidates.end());
+}
+
+void HalfspaceStage::give_back_beyond(size_t pairs) {
+  give_back_scratch(other_pairs_, pairs);
+  give_back_scratch(own_pairs_, pairs);
+}
+
+size_t HalfspaceStage::bytes() const {
+  return bytes_of(halfspaces_) + bytes_of(swept_) + (search_ ? search_->bytes() : 0) +
+         bytes_of(other_pairs_) + bytes_of(own_pairs_);
+}
+
+}  // namespace carom

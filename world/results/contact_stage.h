@@ -1,0 +1,69 @@
+// Results of pair tests, new and carried -> the step's overlaps and contacts, in order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "carom/base/parallelism.h"
+#include "carom/results/contact.h"
+#include "world/motion/present_bounds.h"
+#include "world/pairs/pair_history.h"
+#include "world/store/body_store.h"
+
+namespace carom {
+
+// Columns for the narrow phase to write to.
+class ResultBuffer {
+ public:
+  // Room for `pairs` results, in the columns that the detail fills, those of sub-shapes where there
+  // are any. Behind them is a row that does not overlap, for pairs that need no test.
+  ResultColumns prepare(size_t pairs, Detail detail, bool sub_shapes);
+
+  // Bounds are exact, tests are not: pairs whose bounds lie apart do not overlap, even where the
+  // rounded result of the test touches.
+  void reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
+                    Parallelism parallelism);
+
+  uint8_t overlap(size_t row) const { return overlap_[row]; }
+  Contact contact(size_t row, Pair pair) const;
+  const ManifoldPoints& manifold(size_t row) const { return manifold_[row]; }
+
+  void give_back_beyond(size_t pairs);
+  size_t bytes() const;
+
+ private:
+  float* column(size_t i) { return floats_.data() + i * rows_; }
+  Eigen::Vector3f vector(size_t column, size_t row) const;
+
+  size_t rows_ = 0;
+  std::vector<uint8_t> overlap_, status_;
+  std::vector<float> floats_;        // ten columns: separation, normal, arm_a, arm_b
+  std::vector<uint32_t> sub_shape_;  // two columns: of A, of B; none without sub-shapes
+  std::vector<uint8_t> manifold_count_;
+  std::vector<ManifoldPoints> manifold_;
+};
+
+// Fills overlaps, contact indices, contacts and manifolds of `now`.
+class ContactStage {
+ public:
+  void run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
+           const BodyStore& bodies, Detail detail, Parallelism parallelism, PairHistory& now);
+
+  size_t overlaps() const { return overlaps_; }
+  size_t undecided() const { return undecided_; }
+  size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
+
+ private:
+  void find_overlaps(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
+                     const BodyStore& bodies, Parallelism parallelism, PairHistory& now);
+
+  size_t overlaps_ = 0;
+  size_t undecided_ = 0;
+  std::vector<size_t> block_first_;  // how many contacts each block has, then the first of them
+};
+
+// Sets the normal velocity of every contact.
+void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,
+                           std::vector<Contact>& contacts);
+
+}  // namespace carom

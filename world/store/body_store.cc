@@ -1,0 +1,389 @@
+#include "world/store/body_store.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace carom {
+namespace {
+
+constexpr uint32_t kEverything = 0xffffffffu;
+
+// Makes the column if a row differs from the default for the first time.
+template <class T>
+void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T default_value) {
+  if (column.empty()) {
+    if (value == default_value) return;
+    column.resize(rows, default_value);
+  }
+  column[index] = value;
+}
+
+std::shared_ptr<const void> geometry_of(const Shape& shape) {
+  if (const Hull* hull = std::get_if<Hull>(&shape)) return hull->geometry;
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->geometry;
+  if (const Compound* compound = std::get_if<Compound>(&shape)) return compound->geometry;
+  return {};
+}
+
+template <class Geometry>
+std::shared_ptr<const Geometry> geometry_as(const std::shared_ptr<const void>& geometry) {
+  return std::static_pointer_cast<const Geometry>(geometry);
+}
+
+Shape owning_shape(ShapeKind kind, const std::shared_ptr<const void>& geometry) {
+  switch (kind) {
+    case ShapeKind::hull:
+      return Hull{geometry_as<HullGeometry>(geometry)};
+    case ShapeKind::mesh:
+      return Mesh{geometry_as<MeshGeometry>(geometry)};
+    default:
+      return Compound{geometry_as<CompoundGeometry>(geometry)};
+  }
+}
+
+}  // namespace
+
+// visit(column, whether it exists, values a row, value of a new row)
+template <class Self, class Visit>
+void BodyStore::for_each_column(Self& self, const Visit& visit) {
+  const auto optional = [&](auto& column, auto value) { visit(column, !column.empty(), 1, value); };
+  const bool is_float64 = self.positions_ == PositionType::float64;
+  visit(self.generation_, true, 1, self.first_generation_);
+  visit(self.kind_, true, 1, ShapeKind::sphere);
+  visit(self.records32_, !is_float64, 4, 0.0f);
+  visit(self.records64_, is_float64, 4, 0.0);
+  const Eigen::Vector3f at_rest = Eigen::Vector3f::Zero();
+  visit(self.velocity_, self.has_velocities_, 1, at_rest);
+  visit(self.angular_velocity_, self.has_angular_velocities_, 1, at_rest);
+  optional(self.box_slot_, 0u);
+  optional(self.first_row_, 0u);
+  optional(self.orientation_, kIdentity);
+  optional(self.motion_, Motion::dynamic);
+  optional(self.detection_, Detection::discrete);
+  optional(self.layer_, kEverything);
+  optional(self.mask_, kEverything);
+  optional(self.owner_, 0u);
+  optional(self.sensor_, uint8_t{0});
+  optional(self.user_, uint64_t{0});
+  optional(self.geometry_, std::shared_ptr<const void>());
+}
+
+void BodyStore::add_row() {
+  for_each_column(*this, [&](auto& column, bool exists, int width, const auto& value) {
+    if (!exists) return;
+    for (int i = 0; i < width; ++i) column.push_back(value);
+  });
+  if (touched_.size() < rows()) touched_.push_back(0);
+}
+
+// Rows beyond the last body go.
+void BodyStore::drop_rows() {
+  for (size_t i = rows(); i < generation_.size(); ++i) {
+    first_generation_ = std::max(first_generation_, generation_[i]);
+  }
+  for_each_column(*this, [&](auto& column, bool exists, int width, const auto&) {
+    if (exists) resize_and_give_back(column, rows() * static_cast<size_t>(width));
+  });
+}
+
+BodyId BodyStore::add(const BodyDesc& body) {
+  const uint32_t index = alive_.take();
+  if (rows() > generation_.size()) add_row();
+  set_position(index, body.position);
+  store_shape(index, body.shape);
+  set_orientation(index, body.orientation);
+  set_row(motion_, rows(), index, body.motion, Motion::dynamic);
+  set_filter(index, body.layer, body.mask, body.owner);
+  set_row(sensor_, rows(), index, uint8_t{body.sensor}, uint8_t{0});
+  set_row(user_, rows(), index, body.user, uint64_t{0});
+  if (has_velocities_ || !body.linear_velocity.isZero(0)) {
+    set_linear_velocity(index, body.linear_velocity);
+  }
+  if (has_angular_velocities_ || !body.angular_velocity.isZero(0)) {
+    set_angular_velocity(index, body.angular_velocity);
+  }
+  store_detection(index, body.detection);
+  touch(index, kReplaced);
+  return id_of(index);
+}
+
+void BodyStore::remove(BodyId id) {
+  const uint32_t index = id.index;
+  touch(index, kReplaced);
+  store_detection(index, Detection::discrete);
+  count_kind(index, -1);
+  change_kind(index, ShapeKind::sphere);
+  if (!geometry_.empty()) geometry_[index].reset();
+  ++generation_[index];
+  alive_.release(index);
+  if (rows() < generation_.size()) drop_rows();
+}
+
+void BodyStore::touch(uint32_t index, uint8_t how) {
+  if (!touched_[index]) touched_indices_.push_back(index);
+  touched_[index] |= how;
+}
+
+void BodyStore::clear_touched() {
+  for (const uint32_t index : touched_indices_) touched_[index] = 0;
+  touched_indices_.clear();
+  give_back(touched_indices_, rows());
+  resize_and_give_back(touched_, rows());
+}
+
+Eigen::Vector3d BodyStore::position(uint32_t index) const {
+  const size_t row = size_t{index} * 4;
+  if (positions_ == PositionType::float64) {
+    return {records64_[row], records64_[row + 1], records64_[row + 2]};
+  }
+  return {records32_[row], records32_[row + 1], records32_[row + 2]};
+}
+
+void BodyStore::set_position(uint32_t index, const Eigen::Vector3d& position) {
+  const size_t row = size_t{index} * 4;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (positions_ == PositionType::float64) {
+      records64_[row + axis] = position[axis];
+    } else {
+      records32_[row + axis] = static_cast<float>(position[axis]);
+    }
+  }
+}
+
+Eigen::Quaternionf BodyStore::orientation(uint32_t index) const {
+  const Row q = row_count(kind_[index]) > 0 ? orientation_[index] : kIdentity;
+  return {q[3], q[0], q[1], q[2]};
+}
+
+void BodyStore::set_orientation(uint32_t index, const Eigen::Quaternionf& q) {
+  if (row_count(kind_[index]) > 0) orientation_[index] = {q.x(), q.y(), q.z(), q.w()};
+}
+
+float BodyStore::radius(uint32_t index) const {
+  const size_t row = size_t{index} * 4 + 3;
+  return positions_ == PositionType::float64 ? static_cast<float>(records64_[row])
+                                             : records32_[row];
+}
+
+void BodyStore::set_radius(uint32_t index, float radius) {
+  const size_t row = size_t{index} * 4 + 3;
+  if (positions_ == PositionType::float64) {
+    records64_[row] = radius;
+  } else {
+    records32_[row] = radius;
+  }
+}
+
+Shape BodyStore::shape(uint32_t index) const {
+  const ShapeKind kind = kind_[index];
+  if (kind == ShapeKind::sphere) return Sphere{radius(index)};
+  if (has_geometry(kind)) return owning_shape(kind, geometry_[index]);
+  if (kind != ShapeKind::aabb) return shape_from_rows(kind, &rows_[first_row_[index]]);
+  const uint32_t slot = box_slot_[index];
+  return Aabb{{boxes_[0][slot], boxes_[1][slot], boxes_[2][slot]},
+              {boxes_[3][slot], boxes_[4][slot], boxes_[5][slot]}};
+}
+
+void BodyStore::set_shape(uint32_t index, const Shape& shape) {
+  count_kind(index, -1);
+  store_shape(index, shape);
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::count_kind(uint32_t index, int change) {
+  bodies_of_kind_[static_cast<size_t>(kind_[index])] += static_cast<size_t>(change);
+}
+
+void BodyStore::store_shape(uint32_t index, const Shape& shape) {
+  const ShapeKind kind = kind_of(shape);
+  change_kind(index, kind);
+  count_kind(index, 1);
+  const Sphere* sphere = std::get_if<Sphere>(&shape);
+  set_radius(index, sphere ? sphere->radius : 0);
+  if (const Aabb* box = std::get_if<Aabb>(&shape)) store_box(index, *box);
+  if (row_count(kind) > 0) {
+    const auto rows = carom::shape_rows(shape);
+    std::copy_n(rows.begin(), row_count(kind), rows_.begin() + first_row_[index]);
+  }
+  store_geometry(index, shape);
+}
+
+// What the last shape had is let go.
+void BodyStore::store_geometry(uint32_t index, const Shape& shape) {
+  if (geometry_.empty()) {
+    if (!has_geometry(kind_of(shape))) return;
+    geometry_.resize(rows());
+  }
+  geometry_[index] = geometry_of(shape);
+}
+
+// Gives back what the last kind needed and takes what this one needs.
+void BodyStore::change_kind(uint32_t index, ShapeKind kind) {
+  const ShapeKind last = std::exchange(kind_[index], kind);
+  if (last == kind) return;
+  if (last == ShapeKind::aabb) release_box(index);
+  if (kind == ShapeKind::aabb) take_box(index);
+  if (row_count(last) != row_count(kind)) change_rows(index, row_count(last), row_count(kind));
+  if (last == ShapeKind::halfspace) remove_halfspace(index);
+  if (kind == ShapeKind::halfspace) add_halfspace(index);
+}
+
+void BodyStore::change_rows(uint32_t index, uint32_t last_count, uint32_t count) {
+  if (first_row_.empty()) {
+    first_row_.resize(rows(), 0);
+    orientation_.resize(rows(), kIdentity);
+  }
+  if (last_count > 0) row_pool_.release(first_row_[index], last_count);
+  first_row_[index] = count > 0 ? row_pool_.take(count) : 0;
+  if (count == 0) orientation_[index] = kIdentity;
+  resize_rows();
+}
+
+void BodyStore::resize_rows() {
+  const size_t needed = row_pool_.end() > 0 ? row_pool_.end() + kMostRows - 1 : 0;
+  if (needed == rows_.size()) return;
+  resize_and_give_back(rows_, needed);
+  const size_t end = row_pool_.end();
+  std::fill(rows_.begin() + static_cast<ptrdiff_t>(end), rows_.end(), Row{});
+}
+
+void BodyStore::add_halfspace(uint32_t index) {
+  halfspaces_.insert(std::lower_bound(halfspaces_.begin(), halfspaces_.end(), index), index);
+}
+
+void BodyStore::remove_halfspace(uint32_t index) {
+  halfspaces_.erase(std::lower_bound(halfspaces_.begin(), halfspaces_.end(), index));
+  give_back(halfspaces_, halfspaces_.size());
+}
+
+void BodyStore::store_box(uint32_t index, const Aabb& box) {
+  const uint32_t slot = box_slot_[index];
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes_[axis][slot] = box.lower[axis];
+    boxes_[3 + axis][slot] = box.upper[axis];
+  }
+}
+
+void BodyStore::take_box(uint32_t index) {
+  if (box_slot_.empty()) box_slot_.resize(rows(), 0);
+  box_slot_[index] = slots_.take();
+  if (slots_.end() == boxes_[0].size()) return;
+  for (std::vector<float>& column : boxes_) column.push_back(0);
+}
+
+void BodyStore::release_box(uint32_t index) {
+  slots_.release(box_slot_[index]);
+  box_slot_[index] = 0;  // nothing reads it, but vectors may load it: a row that exists
+  if (slots_.end() == boxes_[0].size()) return;
+  for (std::vector<float>& column : boxes_) resize_and_give_back(column, slots_.end());
+}
+
+Motion BodyStore::motion(uint32_t index) const {
+  return motion_.empty() ? Motion::dynamic : motion_[index];
+}
+
+void BodyStore::set_motion(uint32_t index, Motion motion) {
+  set_row(motion_, rows(), index, motion, Motion::dynamic);
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner) {
+  if (layer_.empty() && (layer != kEverything || mask != kEverything)) {
+    layer_.resize(rows(), kEverything);
+    mask_.resize(rows(), kEverything);
+  }
+  if (!layer_.empty()) {
+    layer_[index] = layer;
+    mask_[index] = mask;
+  }
+  set_row(owner_, rows(), index, owner, 0u);
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::set_sensor(uint32_t index, bool sensor) {
+  set_row(sensor_, rows(), index, uint8_t{sensor}, uint8_t{0});
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::set_user(uint32_t index, uint64_t user) {
+  set_row(user_, rows(), index, user, uint64_t{0});
+}
+
+Eigen::Vector3f BodyStore::linear_velocity(uint32_t index) const {
+  return !has_velocities_ ? Eigen::Vector3f::Zero().eval() : velocity_[index];
+}
+
+void BodyStore::set_linear_velocity(uint32_t index, const Eigen::Vector3f& velocity) {
+  linear_velocities()[index] = velocity;
+}
+
+std::span<Eigen::Vector3f> BodyStore::linear_velocities() {
+  has_velocities_ = true;
+  velocity_.resize(rows(), Eigen::Vector3f::Zero());
+  return velocity_;
+}
+
+Eigen::Vector3f BodyStore::angular_velocity(uint32_t index) const {
+  return !has_angular_velocities_ ? Eigen::Vector3f::Zero().eval() : angular_velocity_[index];
+}
+
+void BodyStore::set_angular_velocity(uint32_t index, const Eigen::Vector3f& velocity) {
+  angular_velocities()[index] = velocity;
+}
+
+std::span<Eigen::Vector3f> BodyStore::angular_velocities() {
+  has_angular_velocities_ = true;
+  angular_velocity_.resize(rows(), Eigen::Vector3f::Zero());
+  return angular_velocity_;
+}
+
+Detection BodyStore::detection(uint32_t index) const {
+  return detection_.empty() ? Detection::discrete : detection_[index];
+}
+
+void BodyStore::set_detection(uint32_t index, Detection detection) {
+  store_detection(index, detection);
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::store_detection(uint32_t index, Detection detection) {
+  detected_ -= this->detection(index) != Detection::discrete;
+  detected_ += detection != Detection::discrete;
+  set_row(detection_, rows(), index, detection, Detection::discrete);
+}
+
+Collidables BodyStore::view() const {
+  Collidables view;
+  view.count = rows();
+  const bool is_float64 = positions_ == PositionType::float64;
+  view.position.type = positions_;
+  view.position.data = is_float64 ? static_cast<const void*>(records64_.data())
+                                  : static_cast<const void*>(records32_.data());
+  view.position.stride = is_float64 ? 4 * sizeof(double) : 4 * sizeof(float);
+  for (size_t kind = 0; kind < bodies_of_kind_.size(); ++kind) {
+    if (bodies_of_kind_[kind] == 0) continue;
+    view.uniform_kind = static_cast<ShapeKind>(kind);
+    if (bodies_of_kind_[kind] != size()) view.kind = kind_.data();
+  }
+  view.box_slot = data_or_null(box_slot_);
+  view.boxes.lower = {boxes_[0].data(), boxes_[1].data(), boxes_[2].data()};
+  view.boxes.upper = {boxes_[3].data(), boxes_[4].data(), boxes_[5].data()};
+  if (!orientation_.empty()) view.orientation.data = orientation_.front().data();
+  if (!rows_.empty()) view.rows.data = rows_.front().data();
+  view.rows.first = data_or_null(first_row_);
+  return view;
+}
+
+PairFilter BodyStore::filter() const {
+  return {data_or_null(layer_), data_or_null(mask_), data_or_null(owner_), data_or_null(motion_)};
+}
+
+size_t BodyStore::bytes() const {
+  size_t sum = alive_.bytes() + slots_.bytes() + row_pool_.bytes() + bytes_of(rows_) +
+               bytes_of(halfspaces_) + bytes_of(touched_) + bytes_of(touched_indices_);
+  for (const std::vector<float>& column : boxes_) sum += bytes_of(column);
+  for_each_column(*this, [&](const auto& column, auto...) { sum += bytes_of(column); });
+  return sum;
+}
+
+}  // namespace carom

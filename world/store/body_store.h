@@ -1,0 +1,157 @@
+// The bodies of a world in flat arrays. A column that no body needs does not exist.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "carom/broadphase/find_pairs.h"
+#include "carom/shapes/body.h"
+#include "carom/shapes/views.h"
+#include "world/store/index_pool.h"
+#include "world/store/row_pool.h"
+
+namespace carom {
+
+class BodyStore {
+ public:
+  using Row = std::array<float, 4>;  // of shapes, as shape_rows() says; a quaternion x, y, z, w
+  static constexpr Row kIdentity = {0, 0, 0, 1};
+
+  explicit BodyStore(PositionType positions) : positions_(positions) {}
+
+  BodyId add(const BodyDesc& body);
+  void remove(BodyId id);
+  bool contains(BodyId id) const {
+    return id.index < rows() && is_alive(id.index) && generation_[id.index] == id.generation;
+  }
+
+  size_t rows() const { return alive_.end(); }  // highest living index + 1
+  size_t size() const { return alive_.size(); }
+  bool is_alive(uint32_t index) const { return alive_.is_used(index); }
+  BodyId id_of(uint32_t index) const { return {index, generation_[index]}; }
+
+  Eigen::Vector3d position(uint32_t index) const;
+  void set_position(uint32_t index, const Eigen::Vector3d& position);
+  // Of bodies of kinds that have one; the others have the identity, and keep no other.
+  Eigen::Quaternionf orientation(uint32_t index) const;
+  void set_orientation(uint32_t index, const Eigen::Quaternionf& orientation);
+  Shape shape(uint32_t index) const;
+  void set_shape(uint32_t index, const Shape& shape);
+  uint32_t box_slot(uint32_t index) const { return box_slot_[index]; }
+  uint32_t first_row(uint32_t index) const { return first_row_[index]; }
+
+  Motion motion(uint32_t index) const;
+  void set_motion(uint32_t index, Motion motion);
+  void set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner);
+  bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
+  void set_sensor(uint32_t index, bool sensor);
+  uint64_t user(uint32_t index) const { return user_.empty() ? 0 : user_[index]; }
+  void set_user(uint32_t index, uint64_t user);
+  Eigen::Vector3f linear_velocity(uint32_t index) const;
+  void set_linear_velocity(uint32_t index, const Eigen::Vector3f& velocity);
+  Eigen::Vector3f angular_velocity(uint32_t index) const;
+  void set_angular_velocity(uint32_t index, const Eigen::Vector3f& velocity);
+  Detection detection(uint32_t index) const;
+  void set_detection(uint32_t index, Detection detection);
+
+  // The arrays themselves.
+  std::vector<float>& records32() { return records32_; }
+  std::vector<double>& records64() { return records64_; }
+  std::array<std::vector<float>, 6>& boxes() { return boxes_; }
+  const std::array<std::vector<float>, 6>& boxes() const { return boxes_; }
+  std::vector<Row>& orientations() { return orientation_; }
+  const std::vector<Row>& orientations() const { return orientation_; }
+  std::span<Row> shape_rows() { return {rows_.data(), row_pool_.end()}; }
+  std::span<const Row> shape_rows() const { return {rows_.data(), row_pool_.end()}; }
+  std::span<Eigen::Vector3f> linear_velocities();
+  bool has_velocities() const { return has_velocities_; }
+  std::span<Eigen::Vector3f> angular_velocities();
+  bool has_angular_velocities() const { return has_angular_velocities_; }
+  // Some body has a detection that is not discrete.
+  bool has_detections() const { return detected_ > 0; }
+
+  // What the stages read.
+  bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
+  Collidables view() const;
+  PairFilter filter() const;
+  const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
+  const std::vector<uint32_t>& halfspaces() const { return halfspaces_; }  // indices, ascending
+
+  // One byte a row: what was done through the calls above since clear_touched(). Writes into the
+  // arrays are not seen here.
+  static constexpr uint8_t kShapeTouched = 1;  // shape, or what a result depends on beside the pose
+  static constexpr uint8_t kReplaced = 2;      // the body is not the one of the last step
+  uint8_t touched(uint32_t index) const { return touched_[index]; }
+  bool any_touched() const { return !touched_indices_.empty(); }
+  // Those with a byte that is not zero, rows() and beyond among them: bodies that went.
+  const std::vector<uint32_t>& touched_indices() const { return touched_indices_; }
+  void clear_touched();
+
+  size_t bytes() const;
+
+ private:
+  template <class Self, class Visit>
+  static void for_each_column(Self& self, const Visit& visit);
+  void add_row();
+  void drop_rows();
+  void touch(uint32_t index, uint8_t how);
+  void count_kind(uint32_t index, int change);
+  void change_kind(uint32_t index, ShapeKind kind);
+  void change_rows(uint32_t index, uint32_t last_count, uint32_t count);
+  void store_shape(uint32_t index, const Shape& shape);
+  void store_box(uint32_t index, const Aabb& box);
+  void store_geometry(uint32_t index, const Shape& shape);
+  void take_box(uint32_t index);
+  void release_box(uint32_t index);
+  void add_halfspace(uint32_t index);
+  void remove_halfspace(uint32_t index);
+  void resize_rows();
+  void store_detection(uint32_t index, Detection detection);
+  float radius(uint32_t index) const;
+  void set_radius(uint32_t index, float radius);
+
+  PositionType positions_;
+  IndexPool alive_;
+  std::vector<uint32_t> generation_;
+  uint32_t first_generation_ = 0;  // of new rows: above that of every body that dropped rows had
+  std::vector<ShapeKind> kind_;    // of a row without a body: sphere
+  std::array<size_t, kShapeKindCount> bodies_of_kind_{};
+  std::vector<uint8_t> touched_;  // rows that were dropped since clear_touched() included
+  std::vector<uint32_t> touched_indices_;
+
+  std::vector<float> records32_;  // x, y, z, w a row; one of the two is empty
+  std::vector<double> records64_;
+
+  // Lower and upper corners; rows are slots, handed out to aabb bodies.
+  IndexPool slots_;
+  std::array<std::vector<float>, 6> boxes_;
+  std::vector<uint32_t> box_slot_;  // empty until there is a box; 0 for other kinds
+
+  // Parameters of capsules, boxes, half-spaces and triangles, in blocks of rows. Behind the last
+  // block follow kMostRows - 1 rows of zero, so that as many can be read from any row.
+  RowPool row_pool_;
+  std::vector<Row> rows_;
+  std::vector<uint32_t> first_row_;  // empty until there is such a body; 0 for other kinds
+  std::vector<Row> orientation_;     // likewise; the identity for other kinds
+
+  std::vector<uint32_t> halfspaces_;
+
+  // What keeps the geometries alive whose addresses are in the rows; empty until there is one.
+  std::vector<std::shared_ptr<const void>> geometry_;
+
+  // Empty while every body has the default.
+  std::vector<Motion> motion_;
+  std::vector<uint32_t> layer_, mask_, owner_;
+  std::vector<uint8_t> sensor_;
+  std::vector<uint64_t> user_;
+  std::vector<Detection> detection_;
+  size_t detected_ = 0;  // living bodies of which it is not discrete
+  std::vector<Eigen::Vector3f> velocity_, angular_velocity_;
+  bool has_velocities_ = false;
+  bool has_angular_velocities_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,47 @@
+// Hands out blocks of a few neighbouring rows of one array, the lowest free block of that size
+// first; rows at the end are dropped once free.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "carom/shapes/views.h"
+#include "world/store/columns.h"
+
+namespace carom {
+
+class RowPool {
+ public:
+  // The first row of a block of so many: 1 to kMostRows.
+  uint32_t take(uint32_t rows);
+  void release(uint32_t first, uint32_t rows);
+
+  size_t end() const { return state_.size(); }  // highest row in use + 1
+
+  size_t bytes() const;
+
+ private:
+  // The free blocks of one size.
+  struct FreeBlocks {
+    // Min-heap of first rows. It may hold rows that are none any more, since the end of the array
+    // was dropped, and the same row twice.
+    std::vector<uint32_t> heap;
+    size_t count = 0;
+  };
+
+  FreeBlocks& free_blocks(size_t rows) { return free_[rows - 1]; }
+  bool is_free(uint32_t first, size_t rows) const;
+  void set_free(uint32_t first, size_t rows);
+  void drop_free_at_end();
+  void forget_dropped(size_t rows);
+
+  // One a row: kUsed; of a free block its size, with kInside in all rows but the first.
+  static constexpr uint8_t kUsed = 0;
+  static constexpr uint8_t kInside = 0x80;
+  std::vector<uint8_t> state_;
+  std::array<FreeBlocks, kMostRows> free_;
+};
+
+}  // namespace carom
