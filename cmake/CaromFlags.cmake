@@ -14,9 +14,16 @@ endif()
 find_program(CAROM_CCACHE ccache)
 mark_as_advanced(CAROM_CCACHE)
 if(CAROM_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Clones in different directories share what they have compiled.
+  # Clones in different directories share what they have compiled, with precompiled headers as well.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-      ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${CAROM_CCACHE})
+      ${CMAKE_COMMAND} -E env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+      ${CAROM_CCACHE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-fpch-preprocess)
+  else()
+    add_compile_options("SHELL:-Xclang -fno-pch-timestamp")
+  endif()
 endif()
 
 # Bit equality: no contraction to FMA, and no SLP vectorisation, under which g++ 12 drops the

@@ -49,11 +49,25 @@ Separation test(const Aabb& a, const Aabb& b, const Poses& poses) {
   return aabb_aabb(a.lower, a.upper, b.lower, b.upper, poses.rounded.d);
 }
 
-// In float32, and in double precision where that cannot decide.
-template <class A, class B>
-Separation test(const A& a, const B& b, const Poses& poses) {
+// All others: in float32, and in double precision where that cannot decide.
+Separation test(const Shape& a, const Shape& b, const Poses& poses) {
   const Separation result = separation_of<float>(a, b, poses.rounded);
   return result.is_unsure ? rounded(separation_of<double>(a, b, poses.exact)) : result;
+}
+
+template <class T>
+inline constexpr bool kHasNoOrientation = std::is_same_v<T, Sphere> || std::is_same_v<T, Aabb>;
+
+Separation test_any(const Shape& shape_a, const Shape& shape_b, const Poses& poses) {
+  return std::visit(
+      [&]<class A, class B>(const A& a, const B& b) {
+        if constexpr (kHasNoOrientation<A> && kHasNoOrientation<B>) {
+          return test(a, b, poses);
+        } else {
+          return test(shape_a, shape_b, poses);
+        }
+      },
+      shape_a, shape_b);
 }
 
 PairResult no_answer() {
@@ -75,8 +89,7 @@ PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_
   }
   const Poses poses = positions == PositionType::float32 ? poses_of<float>(pose_a, pose_b)
                                                          : poses_of<double>(pose_a, pose_b);
-  const Separation s =
-      std::visit([&](const auto& a, const auto& b) { return test(a, b, poses); }, shape_a, shape_b);
+  const Separation s = test_any(shape_a, shape_b, poses);
   const bool overlap = s.separation <= 0;
   const Manifold manifold = overlap ? manifold_of(shape_a, shape_b, poses.rounded, s) : Manifold{};
   return {overlap, s.status,       s.separation,    s.normal, s.arm_a,

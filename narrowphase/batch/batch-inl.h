@@ -82,11 +82,11 @@ HWY_INLINE void load_pairs(const Batch& batch, const Bodies& bodies, PositionLan
   pose.d = positions.relative;
 }
 
-template <class Kernel, class Records, Detail kDetail>
+template <class Kernel, class Records, Columns kColumns>
 struct BatchLoop {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
-  using Report = LaneReport<Kernel, Records::kHasLow, kDetail>;
+  using Report = LaneReport<Kernel, Records::kHasLow, kColumns>;
 
   static void run(const Batch& batch) {
     const size_t whole = batch.count - batch.count % kLanes;
@@ -172,7 +172,7 @@ struct BatchLoop {
     tail.count = kLanes;
     tail.out = results.columns();
     run(tail);
-    results.copy_to(batch.out, first_row, count, kDetail);
+    results.copy_to(batch.out, first_row, count, batch.detail);
     for (size_t i = 0; batch.unsure && i < count; ++i) batch.unsure[first_row + i] = unsure[i];
     for (size_t i = 0; batch.features && i < count; ++i)
       batch.features[first_row + i] = features[i];
@@ -187,12 +187,24 @@ struct BatchLoop {
   }
 };
 
+template <class Kernel>
+constexpr Columns columns_of() {
+  if constexpr (requires { Kernel::kColumns; }) {
+    return Kernel::kColumns;
+  } else {
+    return Columns::per_detail;
+  }
+}
+
 template <class Kernel, class Records>
 void run_with_records(const Batch& batch) {
-  if (batch.detail == Detail::overlap) {
-    BatchLoop<Kernel, Records, Detail::overlap>::run(batch);
+  constexpr Columns kColumns = columns_of<Kernel>();
+  if constexpr (kColumns != Columns::per_detail) {
+    BatchLoop<Kernel, Records, kColumns>::run(batch);
+  } else if (batch.detail == Detail::overlap) {
+    BatchLoop<Kernel, Records, Columns::decision>::run(batch);
   } else {
-    BatchLoop<Kernel, Records, Detail::contact>::run(batch);
+    BatchLoop<Kernel, Records, Columns::contact>::run(batch);
   }
 }
 

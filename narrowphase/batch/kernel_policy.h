@@ -17,4 +17,13 @@ enum class Unsure {
   left,  // nothing here: what is marked, and that alone, is tested again elsewhere
 };
 
+// Which columns a kernel is compiled to write. `Kernel::kColumns`; per_detail where it says
+// nothing.
+enum class Columns {
+  per_detail,  // twice: for the decision alone, and for contacts
+  decision,
+  contact,
+  as_asked,  // once: the batch's detail is looked at in the loop, which long kernels do not feel
+};
+
 }  // namespace carom

@@ -23,12 +23,12 @@ struct AnswerLanes {
 
 // Writes columns at Detail::overlap or Detail::contact. Kernels may report in other units than
 // metres.
-template <class Kernel, bool kHasLow, Detail kDetail>
+template <class Kernel, bool kHasLow, Columns kColumns>
 struct LaneReport {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
   // Whether more is stored than the decision.
-  static constexpr bool kHasContact = kDetail == Detail::contact;
+  static constexpr bool kHasContact = kColumns != Columns::decision;
 
   const Batch& batch;   // a private copy
   const Batch& source;  // of this one
@@ -104,6 +104,9 @@ struct LaneReport {
 
   HWY_INLINE void store_answer(Mask overlap, const AnswerLanes& answer) const {
     store_bytes(bytes_where(overlap, 1), batch.out.overlap, row);
+    if constexpr (kColumns == Columns::as_asked) {
+      if (!has_contacts(batch.detail)) return;
+    }
     if constexpr (kHasContact) {
       store(answer.separation, batch.out.separation, row);
       store(answer.normal, batch.out.normal, row);
@@ -134,19 +137,19 @@ struct LaneReport {
   }
 
   HWY_NOINLINE void refine_all(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
-    constexpr size_t kColumns = 11;
-    HWY_ALIGN float values[kColumns][kLanes];
-    F* const columns[kColumns - 1] = {
+    constexpr size_t kNumbers = 11;
+    HWY_ALIGN float values[kNumbers][kLanes];
+    F* const columns[kNumbers - 1] = {
         &answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z, &answer.arm_a.x,
         &answer.arm_a.y,    &answer.arm_a.z,  &answer.arm_b.x,  &answer.arm_b.y,  &answer.arm_b.z};
-    for (size_t c = 0; c + 1 < kColumns; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
-    hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kColumns - 1]);
+    for (size_t c = 0; c + 1 < kNumbers; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
+    hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kNumbers - 1]);
     for_each_lane(unsure, [&](size_t i) {
-      const std::array<float, kColumns> exact = exact_answer(source, A::kKind, B::kKind, row + i);
-      for (size_t c = 0; c < kColumns; ++c) values[c][i] = exact[c];
+      const std::array<float, kNumbers> exact = exact_answer(source, A::kKind, B::kKind, row + i);
+      for (size_t c = 0; c < kNumbers; ++c) values[c][i] = exact[c];
     });
-    for (size_t c = 0; c + 1 < kColumns; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
-    degenerate = hn::Ne(hn::Load(FloatTag(), values[kColumns - 1]), splat(0));
+    for (size_t c = 0; c + 1 < kNumbers; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
+    degenerate = hn::Ne(hn::Load(FloatTag(), values[kNumbers - 1]), splat(0));
   }
 
   template <class Body>

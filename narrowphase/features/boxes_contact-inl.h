@@ -229,20 +229,20 @@ HWY_INLINE void report_boxes(const BoxPairLanes& p, const Rotation& turn_a, cons
          rotate(turn_a, on_b - p.centre));
 }
 
-// Which axes are tried for one that parts the boxes.
-enum class TriedAxes { all, of_faces };
-
 // Decision and, of overlapping boxes, all.
-template <TriedAxes kTried, class Report>
+template <class Report>
 HWY_INLINE void test_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
                            Report& report) {
-  const BestEdges edges = kTried == TriedAxes::all ? best_edges(p) : no_edges();
+  const bool faces_only = report.batch.faces_only;
+  BestEdges edges = no_edges();
+  if (HWY_LIKELY(!faces_only)) edges = best_edges(p);
   const SeparatingAxisLanes axis = best_axis(p, edges);
   F3 on_a = p.centre, on_b = p.centre;
   Mask unsure = no_lanes();
   if constexpr (Report::kHasContact) witness_along(p, axis, on_a, on_b, unsure);
-  // Boxes that edges part have no features that face each other: nobody asked.
-  if constexpr (kTried == TriedAxes::of_faces) unsure = no_lanes();
+  // With faces only, pairs that only an edge axis separates give a meaningless witness; they are
+  // not marked unsure.
+  if (HWY_UNLIKELY(faces_only)) unsure = no_lanes();
   const Mask overlap = hn::Le(axis.gap, splat(0));
   report_boxes(p, turn_a, centre_a, axis.gap, axis.gap, axis.normal, on_a, on_b,
                hn::And(unsure, overlap), report);

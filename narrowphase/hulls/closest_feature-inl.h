@@ -143,13 +143,6 @@ class SpannedWay {
   Mask is_wide_, ends_inside_;
 };
 
-HWY_INLINE NearestCores nearest_cores(const CoreLanes& a, const CoreLanes& b,
-                                      const FrontCorners& ends) {
-  const SpannedWay way(ends.p, ends.q, ends.r, ends.has_two, ends.has_three);
-  return way.confirmed_by(count_facing(a, way.normal(), way.height_of_a()),
-                          count_facing(b, -way.normal(), way.height_of_b()));
-}
-
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

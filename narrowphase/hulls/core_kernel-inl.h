@@ -97,16 +97,16 @@ inline constexpr size_t kFewOpen = 3 * kLanes / 16;
 // and with kDeep cores that surely overlap, whose depth is wanted. At Pass::test the separation of
 // separate pairs is a lower bound, along the normal; at Pass::clearance overlaps have no depth; at
 // Pass::distance there is all.
-template <class ShapeA, class ShapeB, Pass kPass, Stage kStage = Stage::whole>
+template <class ShapeA, class ShapeB, bool kDecides, Stage kStage = Stage::whole>
 struct CoreKernel {
   using A = ShapeA;
   using B = ShapeB;
   static constexpr Units kUnits = Units::scaled;
   static constexpr Unsure kUnsure = Unsure::left;
+  static constexpr Columns kColumns = kDecides ? Columns::as_asked : Columns::contact;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    constexpr bool kDecides = kPass == Pass::test || !Report::kHasContact;
     CoreLanes core_a, core_b;
     make_core(a, pose.a, splat3(0), core_a);
     make_core(b, pose.b, pose.d, core_b);
@@ -114,13 +114,14 @@ struct CoreKernel {
         hn::And(hn::And(core_a.has_space, core_b.has_space), is_usual_scale(report.up));
     const F radius = hn::Add(core_a.radius, core_b.radius);
     GjkSearch search;
-    const Mask goes_on = run_stage<kDecides>(core_a, core_b, radius, report, search);
+    const Mask goes_on = run_stage(core_a, core_b, radius, report, search);
     const GjkLanes& gjk = search.gjk;
     if constexpr (kDecides) {
       report_decision(gjk, radius, is_known, goes_on, report);
     } else {
       const FrontCorners ends(gjk.ends);
-      NearestCores nearest = nearest_cores(core_a, core_b, ends);
+      NearestCores nearest;
+      nearest_cores(core_a, core_b, ends, nearest);
       nearest.is_sure = hn::And(nearest.is_sure, hn::And(gjk.has_ended, is_known));
       const Mask is_nearest = hn::And(nearest.is_sure, report.valid);
       const Mask is_around = hn::And(gjk.is_around, hn::And(is_known, report.valid));
@@ -128,20 +129,20 @@ struct CoreKernel {
         write_features(core_a, core_b, ends, is_nearest, gjk, is_around,
                        report.batch.features + report.row);
       }
-      if constexpr (kPass == Pass::clearance) {
+      if (report.batch.pass == Pass::clearance) {
         nearest.distance = hn::IfThenElse(is_around, splat(-1), nearest.distance);
         nearest.is_sure = hn::Or(nearest.is_sure, is_around);
       }
       report_nearest(nearest, radius, core_a.radius, pose.d, goes_on, report);
     }
-    if constexpr (Report::kHasContact && kPass != Pass::clearance) {
+    if (has_contacts(report.batch.detail) && report.batch.pass != Pass::clearance) {
       mark_deep(hn::And(gjk.is_around, is_known), report);
     }
   }
 
  private:
   // Yields the lanes that go on later.
-  template <bool kDecides, class Report>
+  template <class Report>
   static HWY_INLINE Mask run_stage(const CoreLanes& a, const CoreLanes& b, F radius,
                                    const Report& report, GjkSearch& search) {
     const SearchGoal goal = goal_at(radius, report.batch.features != nullptr);

@@ -40,16 +40,16 @@ void run_rest(const Batch& batch, OpenSearches& open) {
 }
 
 // As CoreKernel in one stage. Somebody asks which rows are unsure.
-template <class A, class B, Pass kPass>
+template <class A, class B, bool kDecides>
 void run_core(const Batch& batch) {
   if constexpr (kFewOpen == 0) {
-    run_batch<CoreKernel<A, B, kPass, Stage::whole>>(batch);
+    run_batch<CoreKernel<A, B, kDecides, Stage::whole>>(batch);
   } else {
     OpenSearches open;
     Batch first = batch;
     first.open = &open;
-    run_batch<CoreKernel<A, B, kPass, Stage::first>>(first);
-    if (open.count > 0) run_rest<CoreKernel<A, B, kPass, Stage::rest>>(batch, open);
+    run_batch<CoreKernel<A, B, kDecides, Stage::first>>(first);
+    if (open.count > 0) run_rest<CoreKernel<A, B, kDecides, Stage::rest>>(batch, open);
   }
 }
 

@@ -89,6 +89,7 @@ struct RecallKernel {
   using B = ShapeB;
   static constexpr Units kUnits = Units::scaled;
   static constexpr Unsure kUnsure = Unsure::left;
+  static constexpr Columns kColumns = Columns::contact;
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {

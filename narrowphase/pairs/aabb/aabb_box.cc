@@ -34,15 +34,16 @@ struct AabbBoxBase {
   }
 };
 
-template <TriedAxes kTried>
 struct AabbBox : AabbBoxBase {
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    test_boxes<kTried>(boxes(pose, a, b), world(), centre(a), report);
+    test_boxes(boxes(pose, a, b), world(), centre(a), report);
   }
 };
 
 struct AabbBoxDistance : AabbBoxBase {
+  static constexpr Columns kColumns = Columns::contact;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
     measure_boxes(boxes(pose, a, b), world(), centre(a), report);
@@ -54,8 +55,7 @@ void aabb_box(const Batch& batch) {
     case Pass::direction:
       return run_direction<AabbLanes, BoxLanes>(batch);
     case Pass::test:
-      return batch.faces_only ? run_batch<AabbBox<TriedAxes::of_faces>>(batch)
-                              : run_batch<AabbBox<TriedAxes::all>>(batch);
+      return run_batch<AabbBox>(batch);
     case Pass::distance:
       return run_batch<AabbBoxDistance>(batch);
     case Pass::manifold:

@@ -20,13 +20,12 @@ void aabb_hull(const Batch& batch) {
     case Pass::direction:
       return run_direction<AabbLanes, HullLanes>(batch);
     case Pass::distance:
-      return run_batch<CoreKernel<AabbLanes, HullLanes, Pass::distance>>(batch);
     case Pass::clearance:
-      return run_batch<CoreKernel<AabbLanes, HullLanes, Pass::clearance>>(batch);
+      return run_batch<CoreKernel<AabbLanes, HullLanes, false>>(batch);
     case Pass::manifold:
       return run_manifold<AabbLanes, HullLanes>(batch);
     default:
-      return run_batch<CoreKernel<AabbLanes, HullLanes, Pass::test>>(batch);
+      return run_batch<CoreKernel<AabbLanes, HullLanes, true>>(batch);
   }
 }
 

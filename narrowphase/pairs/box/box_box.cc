@@ -27,16 +27,17 @@ struct BoxBoxBase {
   }
 };
 
-template <TriedAxes kTried>
 struct BoxBox : BoxBoxBase {
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
     const Rotation turn_a = rotation_of(pose.a);
-    test_boxes<kTried>(boxes(pose, turn_a, a, b), turn_a, splat3(0), report);
+    test_boxes(boxes(pose, turn_a, a, b), turn_a, splat3(0), report);
   }
 };
 
 struct BoxBoxDistance : BoxBoxBase {
+  static constexpr Columns kColumns = Columns::contact;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
     const Rotation turn_a = rotation_of(pose.a);
@@ -49,8 +50,7 @@ void box_box(const Batch& batch) {
     case Pass::direction:
       return run_direction<BoxLanes, BoxLanes>(batch);
     case Pass::test:
-      return batch.faces_only ? run_batch<BoxBox<TriedAxes::of_faces>>(batch)
-                              : run_batch<BoxBox<TriedAxes::all>>(batch);
+      return run_batch<BoxBox>(batch);
     case Pass::distance:
       return run_batch<BoxBoxDistance>(batch);
     case Pass::manifold:

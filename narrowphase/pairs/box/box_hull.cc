@@ -20,13 +20,12 @@ void box_hull(const Batch& batch) {
     case Pass::direction:
       return run_direction<BoxLanes, HullLanes>(batch);
     case Pass::distance:
-      return run_batch<CoreKernel<BoxLanes, HullLanes, Pass::distance>>(batch);
     case Pass::clearance:
-      return run_batch<CoreKernel<BoxLanes, HullLanes, Pass::clearance>>(batch);
+      return run_batch<CoreKernel<BoxLanes, HullLanes, false>>(batch);
     case Pass::manifold:
       return run_manifold<BoxLanes, HullLanes>(batch);
     default:
-      return run_batch<CoreKernel<BoxLanes, HullLanes, Pass::test>>(batch);
+      return run_batch<CoreKernel<BoxLanes, HullLanes, true>>(batch);
   }
 }
 

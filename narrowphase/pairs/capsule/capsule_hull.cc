@@ -13,7 +13,10 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void capsule_hull(const Batch& batch) {
-  run_batch<CoreKernel<CapsuleLanes, HullLanes, Pass::distance>>(batch);  // whatever is asked for
+  // Contacts are measured in every pass: these kinds have no other.
+  if (has_contacts(batch.detail))
+    return run_batch<CoreKernel<CapsuleLanes, HullLanes, false>>(batch);
+  run_batch<CoreKernel<CapsuleLanes, HullLanes, true>>(batch);
 }
 
 }  // namespace

@@ -23,13 +23,12 @@ void hull_hull(const Batch& batch) {
     case Pass::recall:
       return run_batch<RecallKernel<HullLanes, HullLanes>>(batch);
     case Pass::distance:
-      return run_core<HullLanes, HullLanes, Pass::distance>(batch);
     case Pass::clearance:
-      return run_core<HullLanes, HullLanes, Pass::clearance>(batch);
+      return run_core<HullLanes, HullLanes, false>(batch);
     case Pass::manifold:
       return run_manifold<HullLanes, HullLanes>(batch);
     default:
-      return run_core<HullLanes, HullLanes, Pass::test>(batch);
+      return run_core<HullLanes, HullLanes, true>(batch);
   }
 }
 

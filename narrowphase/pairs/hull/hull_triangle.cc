@@ -20,13 +20,12 @@ void hull_triangle(const Batch& batch) {
     case Pass::direction:
       return run_direction<HullLanes, TriangleLanes>(batch);
     case Pass::distance:
-      return run_core<HullLanes, TriangleLanes, Pass::distance>(batch);
     case Pass::clearance:
-      return run_core<HullLanes, TriangleLanes, Pass::clearance>(batch);
+      return run_core<HullLanes, TriangleLanes, false>(batch);
     case Pass::manifold:
       return run_manifold<HullLanes, TriangleLanes>(batch);
     default:
-      return run_core<HullLanes, TriangleLanes, Pass::test>(batch);
+      return run_core<HullLanes, TriangleLanes, true>(batch);
   }
 }
 
