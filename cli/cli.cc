@@ -2,7 +2,7 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -10,62 +10,57 @@
 
 #include "carom_build_info.h"
 #include "cli/commands.h"
+#include "cli/support/command_line.h"
 #include "cli/support/options.h"
 
 namespace carom::cli {
 namespace {
 
-std::string command_names(CLI::App& program) {
-  std::string names;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  }
-  return names;
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
 }
 
 // What CLI11 would report less clearly.
-Result<void> check_command(CLI::App& program, std::span<const std::string> arguments) {
+Result<void> check_command(const std::vector<std::string>& commands,
+                           std::span<const std::string> arguments) {
   if (arguments.empty()) {
-    return Error{"no command given (commands: " + command_names(program) + "; see carom --help)"};
+    return Error{"no command given (commands: " + joined(commands) + "; see carom --help)"};
   }
   const std::string& word = arguments.front();
   if (word == "--help" || word == "-h" || word == "--version") return {};
-  for (const CLI::App* command : program.get_subcommands({})) {
-    if (command->get_name() == word) return {};
-  }
-  return Error{"unknown command '" + word + "' (commands: " + command_names(program) + ")"};
+  if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
+  return Error{"unknown command '" + word + "' (commands: " + joined(commands) + ")"};
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 int run_program(std::span<const std::string> arguments, const Console& console) {
-  CLI::App program("Collision detection for many bodies", "carom");
-  program.set_version_flag("--version", std::string("carom ") + build_info::kVersion);
-  program.require_subcommand(1);
-  Action action;
-  add_run_command(program, action);
-  add_pairs_command(program, action);
-  add_verify_command(program, action);
-  add_advise_command(program, action);
-  add_accuracy_command(program, action);
-  add_tunnelling_command(program, action);
-  add_check_command(program, action);
-  add_generate_command(program, action);
-  add_info_command(program, action);
+  CommandLine program("carom", "Collision detection for many bodies",
+                      std::string("carom ") + build_info::kVersion);
+  add_run_command(program);
+  add_pairs_command(program);
+  add_verify_command(program);
+  add_advise_command(program);
+  add_accuracy_command(program);
+  add_tunnelling_command(program);
+  add_check_command(program);
+  add_generate_command(program);
+  add_info_command(program);
 
-  if (Result<void> known = check_command(program, arguments); !known) {
+  if (Result<void> known = check_command(program.command_names(), arguments); !known) {
     console.error(known.error());
     return 2;
   }
-  try {
-    program.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error, console.out, console.err);
-    console.error({first_line(error.what())});
+  const Result<Action> action = program.parse(arguments, console);
+  if (!action) {
+    console.error({first_line(action.error().message)});
     return 2;
   }
+  if (!*action) return 0;
   Result<void> isa = check_isa_variable();
-  Result<int> code = isa ? action(console) : isa.error();
+  Result<int> code = isa ? (*action)(console) : isa.error();
   if (code) return *code;
   console.error(code.error());
   return 1;

@@ -1,29 +1,18 @@
-// The commands. Each adds itself and its options to the program, and sets `action` when the command
-// line names it.
+// The commands. Each adds itself, its options and its action to the program.
 #pragma once
-
-#include <functional>
-
-#include "carom/base/result.h"
-#include "cli/support/console.h"
-
-namespace CLI {
-class App;
-}
 
 namespace carom::cli {
 
-// Does the work and returns the exit code.
-using Action = std::function<Result<int>(const Console&)>;
+class CommandLine;
 
-void add_run_command(CLI::App& program, Action& action);
-void add_pairs_command(CLI::App& program, Action& action);
-void add_verify_command(CLI::App& program, Action& action);
-void add_advise_command(CLI::App& program, Action& action);
-void add_accuracy_command(CLI::App& program, Action& action);
-void add_tunnelling_command(CLI::App& program, Action& action);
-void add_check_command(CLI::App& program, Action& action);
-void add_generate_command(CLI::App& program, Action& action);
-void add_info_command(CLI::App& program, Action& action);
+void add_run_command(CommandLine& program);
+void add_pairs_command(CommandLine& program);
+void add_verify_command(CommandLine& program);
+void add_advise_command(CommandLine& program);
+void add_accuracy_command(CommandLine& program);
+void add_tunnelling_command(CommandLine& program);
+void add_check_command(CommandLine& program);
+void add_generate_command(CommandLine& program);
+void add_info_command(CommandLine& program);
 
 }  // namespace carom::cli

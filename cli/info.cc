@@ -1,10 +1,10 @@
 // carom info: what this build is and what it can do here.
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "carom_build_info.h"
 #include "cli/commands.h"
+#include "cli/support/command_line.h"
+#include "cli/support/json_output.h"
 #include "cli/support/options.h"
 #include "cli/support/pair_kinds.h"
 #include "cli/support/table.h"
@@ -21,12 +21,6 @@ std::string supported_pairs() {
     text += (text.empty() ? "" : ", ") + pair;
   }
   return text;
-}
-
-std::string json_version() {
-  return std::to_string(NLOHMANN_JSON_VERSION_MAJOR) + "." +
-         std::to_string(NLOHMANN_JSON_VERSION_MINOR) + "." +
-         std::to_string(NLOHMANN_JSON_VERSION_PATCH);
 }
 
 Result<int> info(const Console& console) {
@@ -46,18 +40,18 @@ Result<int> info(const Console& console) {
   table.add({"libzip", build_info::kLibzipVersion});
   table.add({"Qhull", build_info::kQhullVersion});
   table.add({"assimp", build_info::kAssimpVersion});
-  table.add({"CLI11", CLI11_VERSION});
-  table.add({"nlohmann-json", json_version()});
+  table.add({"CLI11", cli11_version()});
+  table.add({"nlohmann-json", json_library_version()});
   table.print(console.out);
   return 0;
 }
 
 }  // namespace
 
-void add_info_command(CLI::App& program, Action& action) {
-  CLI::App& command =
-      *program.add_subcommand("info", "Version, build flags, instruction sets, libraries");
-  command.callback([&action] { action = info; });
+void add_info_command(CommandLine& program) {
+  Command command =
+      program.add_command("info", "Version, build flags, instruction sets, libraries");
+  command.run(info);
 }
 
 }  // namespace carom::cli

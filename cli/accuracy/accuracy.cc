@@ -1,5 +1,4 @@
 // carom accuracy: what the tiers and knobs cost and what they give, measured against exact answers.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "accuracy/tiers/measure.h"
 #include "cli/accuracy/scene_fidelity.h"
 #include "cli/commands.h"
+#include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
@@ -29,7 +29,7 @@ struct AccuracyOptions {
   std::vector<std::string> pairs;
   uint64_t seed = 1;
   std::vector<std::string> scenes;
-  size_t decisions = 0;
+  uint64_t decisions = 0;
   std::string json;
 };
 
@@ -178,36 +178,32 @@ Result<int> measure_accuracy(const AccuracyOptions& options, const Console& cons
 
 }  // namespace
 
-void add_accuracy_command(CLI::App& program, Action& action) {
+void add_accuracy_command(CommandLine& program) {
   auto options = std::make_shared<AccuracyOptions>();
-  CLI::App& command =
-      *program.add_subcommand("accuracy", "Measure speed and accuracy of every tier");
+  Command command = program.add_command("accuracy", "Measure speed and accuracy of every tier");
   command
       .add_option("--out", options->out,
                   "Write accuracy.json and the page index.html to this folder")
-      ->check(file_name());
+      .file_name();
   command.add_option("--mode", options->mode, "short (minutes) or long (half an hour)")
-      ->check(CLI::IsMember({"short", "long"}))
-      ->capture_default_str();
-  command
-      .add_option("--pairs", options->pairs, "These pairs of kinds alone, as sphere_box,box_box")
-      ->delimiter(',');
+      .one_of({"short", "long"})
+      .show_default();
+  command.add_option("--pairs", options->pairs, "These pairs of kinds alone, as sphere_box,box_box")
+      .separated_by(',');
   command
       .add_option("--scene", options->scenes,
                   "Measure what the knobs change in this scene, too (a file or a generator)")
-      ->take_all();
+      .take_all();
   command
       .add_option("--decisions", options->decisions,
                   "Only count wrong and undecided decisions of the certified and exact tiers, of "
                   "so many pairs of each two kinds")
-      ->check(CLI::Range(1.0, 1e12))
-      ->excludes("--out")
-      ->excludes("--scene");
-  command.add_option("--seed", options->seed, "Of the random pairs")->capture_default_str();
+      .between(1.0, 1e12)
+      .excludes("--out")
+      .excludes("--scene");
+  command.add_option("--seed", options->seed, "Of the random pairs").show_default();
   add_json_option(command, options->json);
-  command.callback([options, &action] {
-    action = [options](const Console& console) { return measure_accuracy(*options, console); };
-  });
+  command.run([options](const Console& console) { return measure_accuracy(*options, console); });
 }
 
 }  // namespace carom::cli

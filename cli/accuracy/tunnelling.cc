@@ -1,14 +1,13 @@
 // carom tunnelling: what ways of looking after fast bodies miss, and what they cost.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "carom/base/thread_arena.h"
 #include "cli/accuracy/tunnelling_output.h"
 #include "cli/commands.h"
 #include "cli/scenes/loaded_scene.h"
+#include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
@@ -91,42 +90,32 @@ Result<int> tunnelling(const TunnellingCommand& command, const Console& console)
   if (!json) return json.error();
   const Result<TunnellingRun> run = measure(command, console);
   if (!run) return run.error();
-  if (json->wanted()) {
-    if (Result<void> written = json->write(to_json(*run), console); !written) {
-      return written.error();
-    }
-  } else {
-    print(*run, console.out);
-  }
+  if (Result<void> written = write_run(*run, *json, console); !written) return written.error();
   return run->report.failures.empty() ? 0 : 1;
 }
 
 }  // namespace
 
-void add_tunnelling_command(CLI::App& program, Action& action) {
+void add_tunnelling_command(CommandLine& program) {
   auto command = std::make_shared<TunnellingCommand>();
-  CLI::App& app = *program.add_subcommand(
+  Command app = program.add_command(
       "tunnelling", "Measure what substeps, sweeps and times of impact miss, and what they cost");
-  app.add_option("SCENE", command->scene, "A .npz file with velocities, or a generator")
-      ->required();
+  app.add_option("SCENE", command->scene, "A .npz file with velocities, or a generator").required();
   app.add_option("--frames", command->frames, "Frames to measure; all of the scene if not given")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
+      .between(uint64_t{1}, uint64_t{1'000'000'000});
   app.add_option("--substeps", command->options.substeps,
                  "Steps a frame of the discrete runs, separated by commas")
-      ->delimiter(',')
-      ->check(CLI::Range(1, kMostSubsteps))
-      ->capture_default_str();
+      .separated_by(',')
+      .between(1, kMostSubsteps)
+      .show_default();
   app.add_option("--reference-substeps", command->options.reference_substeps,
                  "Poses of an interval that the reference looks at")
-      ->check(CLI::Range(1, kMostSubsteps))
-      ->capture_default_str();
+      .between(1, kMostSubsteps)
+      .show_default();
   add_threads_option(app, command->threads);
-  app.add_option("--isa", command->isa, "auto, scalar, sse4, avx2, avx512 or neon")
-      ->capture_default_str();
+  app.add_option("--isa", command->isa, "auto, scalar, sse4, avx2, avx512 or neon").show_default();
   add_json_option(app, command->json);
-  app.callback([command, &action] {
-    action = [command](const Console& console) { return tunnelling(*command, console); };
-  });
+  app.run([command](const Console& console) { return tunnelling(*command, console); });
 }
 
 }  // namespace carom::cli

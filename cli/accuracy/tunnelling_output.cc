@@ -63,8 +63,6 @@ void print_failures(const std::vector<NotedPair>& failures, std::ostream& out) {
   if (failures.size() > kShown) out << "... " << failures.size() << " failures in all\n";
 }
 
-}  // namespace
-
 Json to_json(const TunnellingRun& run) {
   const accuracy::TunnellingReport& report = run.report;
   Json json = {{"scene", run.scene},
@@ -113,6 +111,14 @@ void print(const TunnellingRun& run, std::ostream& out) {
   }
   table.print(out);
   print_failures(report.failures, out);
+}
+
+}  // namespace
+
+Result<void> write_run(const TunnellingRun& run, JsonOutput& json, const Console& console) {
+  if (json.wanted()) return json.write(to_json(run), console);
+  print(run, console.out);
+  return {};
 }
 
 }  // namespace carom::cli

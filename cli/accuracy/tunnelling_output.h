@@ -1,11 +1,10 @@
 // What `carom tunnelling` measured, as JSON and as text.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <ostream>
 #include <string>
 
 #include "accuracy/tunnelling/tunnelling.h"
+#include "cli/support/json_output.h"
 
 namespace carom::cli {
 
@@ -18,7 +17,7 @@ struct TunnellingRun {
   accuracy::TunnellingReport report;
 };
 
-nlohmann::ordered_json to_json(const TunnellingRun& run);
-void print(const TunnellingRun& run, std::ostream& out);
+// As JSON if that is wanted, as text otherwise.
+Result<void> write_run(const TunnellingRun& run, JsonOutput& json, const Console& console);
 
 }  // namespace carom::cli

@@ -1,13 +1,12 @@
 // What `carom advise` says about a scene: settings, each with its measured reason.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include "cli/advise/scene_survey.h"
 #include "cli/advise/settings_trial.h"
+#include "cli/support/json_output.h"
 
 namespace carom::cli {
 
@@ -36,7 +35,7 @@ Advice advise(const std::string& scene, double tolerance, SceneSurvey survey,
 // "carom run SCENE --tier ...", for a shell.
 std::string run_command(const std::string& scene, const accuracy::Trial& trial);
 
-nlohmann::ordered_json to_json(const Advice& advice);
-void print(const Advice& advice, std::ostream& out);
+// As JSON if that is wanted, as text otherwise.
+Result<void> write_advice(const Advice& advice, JsonOutput& json, const Console& console);
 
 }  // namespace carom::cli

@@ -180,8 +180,6 @@ void print_rows(const char* heading, const std::vector<AdviceRow>& rows, std::os
   }
 }
 
-}  // namespace
-
 Json to_json(const Advice& advice) {
   const SettingsChoice& choice = advice.choice;
   Json json;
@@ -223,6 +221,14 @@ void print(const Advice& advice, std::ostream& out) {
         << number("%.2g m\n", advice.survey.pairs.error_bound);
   }
   out << io::printable(advice.command) << '\n';
+}
+
+}  // namespace
+
+Result<void> write_advice(const Advice& advice, JsonOutput& json, const Console& console) {
+  if (json.wanted()) return json.write(to_json(advice), console);
+  print(advice, console.out);
+  return {};
 }
 
 }  // namespace carom::cli

@@ -1,14 +1,13 @@
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/advise/advice.h"
 #include "cli/commands.h"
+#include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
@@ -78,34 +77,28 @@ Result<int> run_advise(const AdviseOptions& options, const Console& console) {
   if (!json) return json.error();
   Result<Advice> advice = advise_scene(options, console);
   if (!advice) return advice.error();
-  if (!json->wanted()) {
-    print(*advice, console.out);
-    return 0;
-  }
-  Result<void> written = json->write(to_json(*advice), console);
+  Result<void> written = write_advice(*advice, *json, console);
   return written ? Result<int>(0) : written.error();
 }
 
 }  // namespace
 
-void add_advise_command(CLI::App& program, Action& action) {
+void add_advise_command(CommandLine& program) {
   auto options = std::make_shared<AdviseOptions>();
-  CLI::App& command =
-      *program.add_subcommand("advise", "Measure a scene and name the cheapest settings for it");
-  command.add_option("SCENE", options->scene, "A .npz or .aabb file, or a generator")->required();
+  Command command =
+      program.add_command("advise", "Measure a scene and name the cheapest settings for it");
+  command.add_option("SCENE", options->scene, "A .npz or .aabb file, or a generator").required();
   command
       .add_option("--tolerance", options->tolerance,
                   "Metres by which separations and decisions may be off")
-      ->required();
+      .required();
   command.add_option("--frames", options->frames, "Frames to look at, at most")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}))
-      ->capture_default_str();
+      .between(uint64_t{1}, uint64_t{1'000'000'000})
+      .show_default();
   command.add_option("--threads", options->threads,
                      "Threads to try, beside one; those of the machine if not given");
   add_json_option(command, options->json);
-  command.callback([options, &action] {
-    action = [options](const Console& console) { return run_advise(*options, console); };
-  });
+  command.run([options](const Console& console) { return run_advise(*options, console); });
 }
 
 }  // namespace carom::cli

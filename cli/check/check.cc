@@ -1,7 +1,5 @@
 // carom check: reads shapes and says what is wrong with them.
-#include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -10,6 +8,7 @@
 #include "cli/check/mesh_file.h"
 #include "cli/commands.h"
 #include "cli/scenes/shapes.h"
+#include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
@@ -91,28 +90,7 @@ ShapeReport report_of(MeshPart part, size_t index) {
   return report;
 }
 
-// Where reports go, one after the other.
-class Sink {
- public:
-  Sink(bool is_json, const Console& console) : is_json_(is_json), console_(console) {}
-
-  void add(const ShapeReport& report) {
-    if (is_json_) {
-      shapes_.push_back(to_json(report));
-    } else {
-      print(report, console_.out);
-    }
-  }
-
-  nlohmann::ordered_json take() { return std::move(shapes_); }
-
- private:
-  bool is_json_;
-  const Console& console_;
-  nlohmann::ordered_json shapes_ = nlohmann::ordered_json::array();
-};
-
-Result<void> check_mesh_file(const std::string& path, Sink& sink, const Console& console) {
+Result<void> check_mesh_file(const std::string& path, ReportSink& sink, const Console& console) {
   Result<std::vector<MeshPart>> parts = read_mesh_file(path);
   if (!parts) return parts.error();
   Progress progress(console, "mesh", parts->size());
@@ -123,7 +101,7 @@ Result<void> check_mesh_file(const std::string& path, Sink& sink, const Console&
   return {};
 }
 
-Result<void> check_archive(const std::string& path, Sink& sink, const Console& console) {
+Result<void> check_archive(const std::string& path, ReportSink& sink, const Console& console) {
   Result<io::NpzReader> reader = io::NpzReader::open(path);
   if (!reader) return reader.error();
   Result<io::SceneShapes> shapes = io::read_shapes(*reader);
@@ -139,31 +117,27 @@ Result<void> check_archive(const std::string& path, Sink& sink, const Console& c
 Result<int> check(const CheckOptions& options, const Console& console) {
   Result<JsonOutput> json = JsonOutput::open(options.json);
   if (!json) return json.error();
-  Sink sink(json->wanted(), console);
+  ReportSink sink(*json, console);
   const Result<void> done = names_mesh(options.input)
                                 ? check_mesh_file(options.input, sink, console)
                                 : check_archive(options.input, sink, console);
   if (!done) return done.error();
-  if (!json->wanted()) return 0;
-  const Result<void> written =
-      json->write({{"file", options.input}, {"shapes", sink.take()}}, console);
+  const Result<void> written = sink.finish(options.input);
   return written ? Result<int>(0) : written.error();
 }
 
 }  // namespace
 
-void add_check_command(CLI::App& program, Action& action) {
+void add_check_command(CommandLine& program) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App& command =
-      *program.add_subcommand("check", "Say what is wrong with shapes: convex, watertight, ...");
+  Command command =
+      program.add_command("check", "Say what is wrong with shapes: convex, watertight, ...");
   command
       .add_option("FILE", options->input,
                   "A mesh (.obj, .stl, .gltf, .glb), a scene or pairs (.npz)")
-      ->required();
+      .required();
   add_json_option(command, options->json);
-  command.callback([options, &action] {
-    action = [options](const Console& console) { return check(*options, console); };
-  });
+  command.run([options](const Console& console) { return check(*options, console); });
 }
 
 }  // namespace carom::cli

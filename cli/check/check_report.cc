@@ -205,8 +205,24 @@ class JsonReport {
 
 }  // namespace
 
-Json to_json(const ShapeReport& report) { return JsonReport(report).json(); }
+ReportSink::ReportSink(JsonOutput& output, const Console& console)
+    : output_(output), console_(console) {
+  if (output.wanted()) shapes_ = std::make_unique<Json>(Json::array());
+}
 
-void print(const ShapeReport& report, std::ostream& out) { Printer(report, out).print(); }
+ReportSink::~ReportSink() = default;
+
+void ReportSink::add(const ShapeReport& report) {
+  if (shapes_) {
+    shapes_->push_back(JsonReport(report).json());
+  } else {
+    Printer(report, console_.out).print();
+  }
+}
+
+Result<void> ReportSink::finish(const std::string& file) {
+  if (!shapes_) return {};
+  return output_.write({{"file", file}, {"shapes", std::move(*shapes_)}}, console_);
+}
 
 }  // namespace carom::cli

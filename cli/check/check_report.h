@@ -4,14 +4,15 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include "carom/shapes/shape.h"
 #include "cli/check/mesh_check.h"
+#include "cli/support/json_output.h"
 #include "io/build_hull.h"
 
 namespace carom::cli {
@@ -28,7 +29,21 @@ struct ShapeReport {
   std::optional<io::BuiltHull> hull;
 };
 
-nlohmann::ordered_json to_json(const ShapeReport& report);
-void print(const ShapeReport& report, std::ostream& out);
+// Where the reports of a file go, one after the other: into the JSON if that is wanted, to standard
+// output as text otherwise.
+class ReportSink {
+ public:
+  ReportSink(JsonOutput& output, const Console& console);
+  ~ReportSink();
+
+  void add(const ShapeReport& report);
+  // To be called once, after the last report.
+  Result<void> finish(const std::string& file);
+
+ private:
+  JsonOutput& output_;
+  const Console& console_;
+  std::unique_ptr<nlohmann::ordered_json> shapes_;  // null: reports are text
+};
 
 }  // namespace carom::cli

@@ -1,6 +1,5 @@
 #include "cli/page/scene_page.h"
 
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "cli/page/scene_view.h"
@@ -16,10 +15,7 @@ Result<ScenePage> ScenePage::create(const std::string& path) {
 }
 
 Result<void> ScenePage::add_frame(const World& world, const std::string& scene, uint64_t frame) {
-  // Infinite numbers become null.
-  const std::string json =
-      view_of(world, scene, frame).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  const std::string page = io::fill_page(kPagePieces, json);
+  const std::string page = io::fill_page(kPagePieces, view_of(world, scene, frame));
   return file_.write(std::as_bytes(std::span(page)));
 }
 

@@ -140,7 +140,7 @@ Json shapes_of(ShapeTable& shapes) {
 
 }  // namespace
 
-Json view_of(const World& world, const std::string& scene, uint64_t frame) {
+std::string view_of(const World& world, const std::string& scene, uint64_t frame) {
   ShapeTable shapes;
   Json view = {{"scene", scene}, {"frame", frame}};
   view["left_out"] = world.quarantined().size();
@@ -149,7 +149,7 @@ Json view_of(const World& world, const std::string& scene, uint64_t frame) {
   view["shapes"] = shapes_of(shapes);
   view["contact"] = contacts_of(world);
   view["surface"] = surface_of(world);
-  return view;
+  return view.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace carom::cli

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "carom/world/world.h"
@@ -10,7 +9,8 @@
 namespace carom::cli {
 
 // Shapes, bodies and contacts in columns, and how far the contact points are from the surfaces.
-// Bodies that were left out of the step are not in it. At details with contacts.
-nlohmann::ordered_json view_of(const World& world, const std::string& scene, uint64_t frame);
+// Bodies that were left out of the step are not in it. At details with contacts. The text of one
+// JSON object; infinite numbers are null.
+std::string view_of(const World& world, const std::string& scene, uint64_t frame);
 
 }  // namespace carom::cli

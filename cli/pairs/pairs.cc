@@ -1,5 +1,4 @@
 // carom pairs: tests a file of pairs.
-#include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
 #include <memory>
@@ -14,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/pairs/impact_arrays.h"
 #include "cli/pairs/pair_set.h"
+#include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
@@ -250,24 +250,20 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
 
 }  // namespace
 
-void add_pairs_command(CLI::App& program, Action& action) {
+void add_pairs_command(CommandLine& program) {
   auto options = std::make_shared<PairsOptions>();
-  CLI::App& command = *program.add_subcommand("pairs", "Test a file of pairs");
-  command.add_option("IN", options->input, "Pairs (.npz)")->required();
-  command.add_option("-o,--output", options->output, "Results (.npz)")
-      ->required()
-      ->check(file_name());
+  Command command = program.add_command("pairs", "Test a file of pairs");
+  command.add_option("IN", options->input, "Pairs (.npz)").required();
+  command.add_option("-o,--output", options->output, "Results (.npz)").required().file_name();
   add_engine_options(command, options->engine);
   command
       .add_option("--detail", options->engine.detail, "overlap, contact, manifold, distance or toi")
-      ->capture_default_str();
+      .show_default();
   command.add_option("--repeat", options->repeat, "Runs to take the median time of")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
+      .between(1, 1'000'000)
+      .show_default();
   add_json_option(command, options->json);
-  command.callback([options, &action] {
-    action = [options](const Console& console) { return pairs(*options, console); };
-  });
+  command.run([options](const Console& console) { return pairs(*options, console); });
 }
 
 }  // namespace carom::cli

@@ -1,8 +1,6 @@
 // carom run: replays a scene and measures it.
-#include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "carom/base/thread_arena.h"
@@ -10,6 +8,7 @@
 #include "cli/page/scene_page.h"
 #include "cli/run/run_report.h"
 #include "cli/scenes/scene_source.h"
+#include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
 
@@ -184,55 +183,49 @@ Result<int> run(const RunOptions& options, const Console& console) {
   if (!report) return report.error();
   warn_of_quarantined(report->record.quarantined_bodies, console);
   if (Result<void> finished = finish(*outputs); !finished) return finished.error();
-  if (!outputs->json.wanted()) {
-    print(*report, console.out);
-    return 0;
-  }
-  Result<void> written = outputs->json.write(to_json(*report), console);
+  Result<void> written = write_report(*report, outputs->json, console);
   return written ? Result<int>(0) : written.error();
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& program, Action& action) {
+void add_run_command(CommandLine& program) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App& command = *program.add_subcommand("run", "Replay a scene and measure it");
-  command.add_option("SCENE", options->scene, "A .npz or .aabb file, or a generator")->required();
+  Command command = program.add_command("run", "Replay a scene and measure it");
+  command.add_option("SCENE", options->scene, "A .npz or .aabb file, or a generator").required();
   command.add_option("--frames", options->frames, "Frames to run; all of the scene if not given")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
+      .between(uint64_t{1}, uint64_t{1'000'000'000});
   add_engine_options(command, options->engine);
   command.add_option("--detail", options->engine.detail, "pairs, overlap, contact or manifold")
-      ->capture_default_str();
+      .show_default();
   command
       .add_option("--motion-tolerance", options->engine.motion_tolerance,
                   "Metres that bodies may move before they are tested again; fast tier only")
-      ->capture_default_str();
+      .show_default();
   command.add_option("--broadphase", options->broadphase, "auto, grid, sweep or brute")
-      ->capture_default_str();
+      .show_default();
   command
       .add_option("--margin", options->margin, "Metres to fatten bounds by; pairs are kept longer")
-      ->capture_default_str();
+      .show_default();
   command
       .add_option("--dop-bounds", options->dop_bounds,
                   "Drop pairs whose k-DOPs of 6, 14, 18 or 26 directions are apart; 0: none")
-      ->capture_default_str();
+      .show_default();
   command
       .add_option("--detection", options->detection,
                   "How dynamic bodies are looked after between frames: discrete, swept, continuous "
                   "or automatic")
-      ->capture_default_str();
+      .show_default();
   command.add_flag("--no-cache", options->no_cache,
                    "Test every pair anew and drop the sort order between frames");
   add_json_option(command, options->json);
   command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)")
-      ->check(file_name());
+      .file_name();
   command
       .add_option("--page", options->page,
                   "Write a page that shows the last frame and its contacts in 3D (.html)")
-      ->check(file_name());
-  command.callback([options, &action] {
-    action = [options](const Console& console) { return run(*options, console); };
-  });
+      .file_name();
+  command.run([options](const Console& console) { return run(*options, console); });
 }
 
 }  // namespace carom::cli

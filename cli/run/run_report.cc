@@ -71,14 +71,6 @@ std::string extent(const std::vector<uint64_t>& list) {
          " in the last; " + std::to_string(*least) + " to " + std::to_string(*greatest);
 }
 
-}  // namespace
-
-uint64_t peak_rss_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-}
-
 Json to_json(const RunReport& report) {
   const RunRecord& record = report.record;
   Summary frame = summarize(steady(record.frame_ms));
@@ -164,6 +156,20 @@ void print(const RunReport& report, std::ostream& out) {
                            number("%.1f bytes a pair, ", bytes_per_pair(report)) +
                            number("%.1f MB at the peak", 1e-6 * report.peak_rss_bytes)});
   table.print(out);
+}
+
+}  // namespace
+
+uint64_t peak_rss_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Result<void> write_report(const RunReport& report, JsonOutput& json, const Console& console) {
+  if (json.wanted()) return json.write(to_json(report), console);
+  print(report, console.out);
+  return {};
 }
 
 }  // namespace carom::cli

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include "cli/run/replay.h"
+#include "cli/support/json_output.h"
 
 namespace carom::cli {
 
@@ -32,7 +31,7 @@ struct RunReport {
 // Memory of this process at its peak.
 uint64_t peak_rss_bytes();
 
-nlohmann::ordered_json to_json(const RunReport& report);
-void print(const RunReport& report, std::ostream& out);
+// As JSON if that is wanted, as text otherwise.
+Result<void> write_report(const RunReport& report, JsonOutput& json, const Console& console);
 
 }  // namespace carom::cli

@@ -1,9 +1,9 @@
 // carom generate: writes a generated scene.
-#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/scenes/scene_bounds.h"
+#include "cli/support/command_line.h"
 #include "cli/support/progress.h"
 #include "io/generate/generator.h"
 #include "io/recording.h"
@@ -82,19 +82,17 @@ Result<int> generate(const GenerateOptions& options, const Console& console) {
 
 }  // namespace
 
-void add_generate_command(CLI::App& program, Action& action) {
+void add_generate_command(CommandLine& program) {
   auto options = std::make_shared<GenerateOptions>();
-  CLI::App& command = *program.add_subcommand("generate", "Write a generated scene");
-  command.add_option("KIND", options->spec, "KIND[:key=value,...]")->required();
+  Command command = program.add_command("generate", "Write a generated scene");
+  command.add_option("KIND", options->spec, "KIND[:key=value,...]").required();
   command
       .add_option("-o,--output", options->output,
                   "The file: a scene (.npz), or a recording of bounds if its name ends in .aabb or "
                   ".aabbs")
-      ->required();
+      .required();
   command.footer(io::kGeneratorHelp);
-  command.callback([options, &action] {
-    action = [options](const Console& console) { return generate(*options, console); };
-  });
+  command.run([options](const Console& console) { return generate(*options, console); });
 }
 
 }  // namespace carom::cli

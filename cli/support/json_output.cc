@@ -27,4 +27,10 @@ Result<void> JsonOutput::write(const nlohmann::ordered_json& json, const Console
   return written ? file_->commit() : written;
 }
 
+std::string json_library_version() {
+  return std::to_string(NLOHMANN_JSON_VERSION_MAJOR) + "." +
+         std::to_string(NLOHMANN_JSON_VERSION_MINOR) + "." +
+         std::to_string(NLOHMANN_JSON_VERSION_PATCH);
+}
+
 }  // namespace carom::cli

@@ -1,6 +1,5 @@
 #include "cli/support/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -8,6 +7,8 @@
 #include <filesystem>
 #include <limits>
 #include <system_error>
+
+#include "cli/support/command_line.h"
 
 namespace carom::cli {
 namespace {
@@ -121,23 +122,22 @@ Result<std::optional<Isa>> parse_isa(const std::string& name) {
 
 }  // namespace
 
-void add_engine_options(CLI::App& command, EngineOptions& options) {
+void add_engine_options(Command& command, EngineOptions& options) {
   add_threads_option(command, options.threads);
   command.add_option("--isa", options.isa, "auto, scalar, sse4, avx2, avx512 or neon")
-      ->capture_default_str();
-  command.add_option("--tier", options.tier, "fast, standard, certified or exact")
-      ->capture_default_str();
+      .show_default();
+  command.add_option("--tier", options.tier, "fast, standard, certified or exact").show_default();
   command.add_option("--knobs", options.knobs,
                      "What the fast tier loosens, separated by commas; none if not given");
 }
 
-void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to use")->capture_default_str();
+void add_threads_option(Command& command, int& threads) {
+  command.add_option("--threads", threads, "Threads to use").show_default();
 }
 
-void add_json_option(CLI::App& command, std::string& json) {
+void add_json_option(Command& command, std::string& json) {
   command.add_option("--json", json, "Write the results as JSON to this file; -: standard output")
-      ->check(file_name());
+      .file_name();
 }
 
 Result<void> check_threads(int threads) {
@@ -235,15 +235,6 @@ Result<ForcedIsa> ForcedIsa::create(const std::string& name) {
   Result<std::optional<Isa>> isa = parse_isa(name);
   if (!isa) return isa.error();
   return ForcedIsa(*isa && force_isa(**isa));
-}
-
-const CLI::Validator& file_name() {
-  static const CLI::Validator validator(
-      [](const std::string& name) {
-        return name.empty() ? std::string("the name of the file is empty") : std::string();
-      },
-      "");
-  return validator;
 }
 
 Result<void> check_apart(std::span<const OutputFile> outputs) {

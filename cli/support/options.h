@@ -16,12 +16,9 @@
 #include "carom/shapes/dop.h"
 #include "carom/simd/isa.h"
 
-namespace CLI {
-class App;
-class Validator;
-}  // namespace CLI
-
 namespace carom::cli {
+
+class Command;
 
 struct EngineOptions {
   std::string isa = "auto";
@@ -32,9 +29,9 @@ struct EngineOptions {
   int threads = 1;
 };
 
-void add_engine_options(CLI::App& command, EngineOptions& options);
-void add_threads_option(CLI::App& command, int& threads);
-void add_json_option(CLI::App& command, std::string& json);
+void add_engine_options(Command& command, EngineOptions& options);
+void add_threads_option(Command& command, int& threads);
+void add_json_option(Command& command, std::string& json);
 
 inline constexpr int kMaxThreads = 1024;
 Result<void> check_threads(int threads);
@@ -65,9 +62,6 @@ struct NamedDetail {
 // Looks `text` up among what a command serves; a detail that only `carom pairs` has is refused as
 // such.
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known);
-
-// For options that name a file: an empty name (a script's unset variable) is refused.
-const CLI::Validator& file_name();
 
 struct OutputFile {
   std::string option;

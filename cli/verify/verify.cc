@@ -1,7 +1,6 @@
 // carom verify: everything against the scalar reference, bit for bit.
 #include "cli/verify/verify.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/scenes/scene_source.h"
+#include "cli/support/command_line.h"
 #include "cli/support/options.h"
 #include "cli/support/table.h"
 #include "cli/verify/verify_builtin.h"
@@ -135,21 +135,19 @@ Result<int> verify(const VerifyOptions& options, System& system, const Console& 
   return verification.finish();
 }
 
-void add_verify_command(CLI::App& program, Action& action) {
+void add_verify_command(CommandLine& program) {
   auto options = std::make_shared<VerifyOptions>();
-  CLI::App& command =
-      *program.add_subcommand("verify", "Compare every instruction set with the scalar reference");
+  Command command =
+      program.add_command("verify", "Compare every instruction set with the scalar reference");
   command.add_option("SCENE|PAIRS", options->sources,
                      "Scenes, generators and files of pairs; a built-in set if there are none");
   command.add_option("--frames", options->frames, "Frames of every scene; all if not given")
-      ->check(CLI::Range(uint64_t{1}, uint64_t{1'000'000'000}));
+      .between(uint64_t{1}, uint64_t{1'000'000'000});
   command.add_option("--threads", options->threads,
                      "Verify 1 to this many threads; if not given, those of the machine, 2 to 8");
-  command.callback([options, &action] {
-    action = [options](const Console& console) {
-      System system;
-      return verify(*options, system, console);
-    };
+  command.run([options](const Console& console) {
+    System system;
+    return verify(*options, system, console);
   });
 }
 
