@@ -240,8 +240,7 @@ inline constexpr double kBehindFace = 0x1p-20;
 // their cross product.
 inline constexpr float kAlongEachOther = 0x1p-16f;
 
-// float32 tests no pair whose scale (a power of two) is greater than this, or smaller than 1 /
-// this.
+// float32 tests no pair whose scale (a power of two) is above this, or below its inverse.
 inline constexpr float kGreatestScale = 0x1p90f;
 
 // The most rounds of GJK in lanes, and the most points of a core there. Pairs that need more are
@@ -267,7 +266,7 @@ inline constexpr double kSameHeight = 0x1p-15;
 // deep.
 inline constexpr double kSameDepth = 0x1p-18;
 
-// If lengths exceed this, the search cuts positions off and takes every part as near.
+// If the lengths of a search reach this, every part counts as near.
 inline constexpr double kBeyondSearch = 0x1p120;
 
 // A merged manifold uses the contacts of at most this many parts, the deepest ones.

@@ -126,7 +126,7 @@ Contact contact_between(const Body& a, const Body& b, const PairResult& result, 
   return contact;
 }
 
-// What of a frame does not depend on the pair.
+// The settings of a frame, which all its pairs share.
 struct Settings {
   PositionType positions;
   Detail detail;
@@ -149,7 +149,8 @@ void add_overlap(const Body& a, const Body& b, const PairResult& result, const S
   frame.touching.push_back(touch);
 }
 
-// Tests one pair and records what it yields. Bounds that lie apart are believed.
+// Tests one pair and records what it yields. A pair whose present bounds are separate does not
+// overlap, whatever its rounded test says.
 void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
   const Body& a = *pair.a;
   const Body& b = *pair.b;
