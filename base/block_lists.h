@@ -1,4 +1,4 @@
-// One list a block of a parallel loop, put together in block order.
+// Lists that the blocks of a parallel loop fill, one each, and their concatenation in block order.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace carom {
 
-// Lists keep their memory from use to use.
+// The lists keep their memory between uses.
 template <class T>
 class BlockLists {
  public:
-  // `blocks` empty lists.
+  // Starts again with `blocks` empty lists.
   void reset(size_t blocks) {
     if (lists_.size() < blocks) lists_.resize(blocks);
     for (size_t i = 0; i < blocks; ++i) lists_[i].items.clear();
@@ -30,7 +30,7 @@ class BlockLists {
     return sum;
   }
 
-  // All items in block order.
+  // Replaces `out` by all items, in block order.
   void concatenate(std::vector<T>& out, Parallelism parallelism) {
     size_t first = 0;
     for (size_t i = 0; i < blocks_; ++i) {
@@ -50,7 +50,7 @@ class BlockLists {
   }
 
  private:
-  // A cache line each: two threads that append do not share one.
+  // Each list has a cache line of its own, so that two threads that append never share one.
   struct alignas(64) List {
     std::vector<T> items;
     size_t first = 0;

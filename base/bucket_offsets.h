@@ -1,4 +1,4 @@
-// The middle step of a parallel distribution into buckets.
+// Counts -> offsets: the middle step of a parallel distribution into buckets.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,9 @@
 
 namespace carom {
 
-// counts[task * buckets + bucket], how many items of a bucket a task has, becomes where they go;
-// `begin` where every bucket begins, and behind the last one their sum.
+// On entry counts[task * buckets + bucket] is the number of items that the task puts into the
+// bucket; on return it is the place of the first of them. `begin` gets the place where every bucket
+// begins and, as its last entry, the number of all items.
 inline void counts_to_offsets(size_t tasks, size_t buckets, std::vector<uint32_t>& counts,
                               std::vector<uint32_t>& begin) {
   begin.resize(buckets + 1);

@@ -9,7 +9,7 @@ namespace {
 
 __extension__ using Wide = unsigned __int128;
 
-// Space for the result of one operation.
+// Zeroed space for the result of one operation.
 class Workspace {
  public:
   explicit Workspace(size_t limbs) {
@@ -48,7 +48,7 @@ uint64_t* Dyadic::make_room(size_t limbs) {
   return more_.empty() ? few_.data() : more_.data();
 }
 
-// Without the zeros at both ends.
+// Copies the limbs without the zeros at both ends.
 void Dyadic::set(std::span<uint64_t> limbs, int low, int sign) {
   while (!limbs.empty() && limbs.back() == 0) limbs = limbs.first(limbs.size() - 1);
   while (!limbs.empty() && limbs.front() == 0) {

@@ -1,5 +1,5 @@
-// Exact arithmetic: integers times powers of two, of any size. Every float and every double is one,
-// and sums and products of them are.
+// Exact arithmetic on integers times powers of two, of any size. Every float and every double is
+// such a number, and so are their sums and products.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 
 namespace carom {
 
-// sign * (limb[0] + limb[1] 2^64 + ...) * 2^(64 low). No limb at either end is zero; zero has none.
-// Up to kInline limbs lie in the object itself: enough for what is decided about shapes of usual
-// sizes.
+// The value is sign * (limb[0] + limb[1] 2^64 + ...) * 2^(64 low). The first and the last limb are
+// never zero; the number zero has no limbs. Up to kInline limbs lie in the object itself, which is
+// enough for shapes of usual sizes.
 class Dyadic {
  public:
   Dyadic() = default;
@@ -22,7 +22,7 @@ class Dyadic {
   int sign() const { return sign_; }
   bool is_zero() const { return sign_ == 0; }
 
-  // To about 2^-50 of the value; infinite or zero beyond the range of double.
+  // The value with a relative error of about 2^-50; infinite or zero beyond the range of double.
   double approximate() const;
 
   friend Dyadic operator-(Dyadic a) {
@@ -50,12 +50,12 @@ class Dyadic {
   int32_t low_ = 0;
   size_t size_ = 0;
   std::array<uint64_t, kInline> few_;
-  std::vector<uint64_t> more_;  // in place of few_ where that is too small
+  std::vector<uint64_t> more_;  // used instead of few_ if there are more than kInline limbs
 };
 
 inline int sign_of(const Dyadic& x) { return x.sign(); }
 inline double approximately(const Dyadic& x) { return x.approximate(); }
-// What approximately() errs in proportion to.
+// The rounding error of approximately() is proportional to this.
 inline double magnitude(const Dyadic& x) { return std::fabs(x.approximate()); }
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// A short list without the heap.
+// A list of bounded length that needs no heap.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// At most kMost elements. Copies cost what is in use.
+// Holds at most kMost elements. A copy copies only the elements in use.
 template <class T, size_t kMost>
 class FewOf {
  public:

@@ -9,8 +9,9 @@
 
 namespace carom {
 
-// Round to nearest, subnormals kept, for the lifetime of the object; then the caller's mode again.
-// Engines often run with flush-to-zero, which would change results near the smallest floats.
+// While the object lives, the thread rounds to nearest and keeps subnormals; afterwards it is in
+// the caller's mode again. Engines often run with flush-to-zero, which would change results near
+// the smallest floats.
 class FloatEnvironment {
  public:
 #if defined(__SSE2__)

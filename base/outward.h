@@ -1,4 +1,4 @@
-// Sums rounded outwards: the float32 nearest to the exact sum from below, or from above.
+// Sums rounded outwards: the greatest float32 below the exact sum, or the smallest above it.
 #pragma once
 
 #include <bit>
@@ -9,7 +9,8 @@
 
 namespace carom {
 
-// a + b = sum + error, exactly (Knuth's TwoSum; TAOCP 2, 4.2.2). Error is NaN if the sum overflows.
+// a + b = sum + error, exactly (Knuth's TwoSum; TAOCP 2, 4.2.2). The error is NaN if the sum
+// overflows.
 template <class T>
 struct TwoSum {
   T sum;
@@ -21,16 +22,16 @@ struct TwoSum {
   }
 };
 
-// std::nextafter without the call.
+// std::nextafter towards -inf and +inf, without the call.
 inline float next_down(float v) {
-  if (!(v > -INFINITY)) return v;  // NaN, too
+  if (!(v > -INFINITY)) return v;  // -inf or NaN
   if (v == 0) return -std::numeric_limits<float>::denorm_min();
   const auto bits = std::bit_cast<int32_t>(v);
   return std::bit_cast<float>(bits + (bits < 0 ? 1 : -1));
 }
 inline float next_up(float v) { return -next_down(-v); }
 
-// next_down(v) or v. How sums round is anybody's guess: no branch depends on it.
+// next_down(v) if `is_above`, else v. Without a branch: how a sum rounds cannot be predicted.
 inline float step_down_if(bool is_above, float v) {
   if (v == 0) return is_above ? next_down(0) : v;
   const auto bits = std::bit_cast<int32_t>(v);
@@ -38,13 +39,13 @@ inline float step_down_if(bool is_above, float v) {
   return std::bit_cast<float>(bits + (bits < 0 ? step : -step));
 }
 
-// The largest float32 <= x; x is not beyond the range of float32.
+// The largest float32 <= x. x must lie within the range of float32.
 inline float round_downwards(double x) {
   const auto rounded = static_cast<float>(x);
   return step_down_if(rounded > x, rounded);
 }
 
-// The largest float32 <= a + b. In float64, first the exact sum, then its rounding.
+// The largest float32 <= a + b. For float64 it rounds the float64 sum, and its error decides ties.
 template <class T>
 float sum_downwards(T a, T b) {
   const TwoSum<T> exact(a, b);

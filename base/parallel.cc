@@ -10,7 +10,7 @@
 
 #include "carom/base/thread_arena.h"
 
-// oneTBB's synchronisation is invisible to ThreadSanitizer; here it is stated.
+// ThreadSanitizer does not see oneTBB's synchronisation; these calls tell it.
 #if defined(CAROM_THREAD_SANITIZER)
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
@@ -54,13 +54,14 @@ void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
 
 namespace {
 
-// oneTBB has as many threads as cores unless told otherwise, and takes the least of what it is
-// told. So there is one such limit in the process: the most that any arena asked for beyond the
-// cores.
+// oneTBB uses as many threads as there are cores. global_control raises that limit, but of several
+// controls the least counts. So the process has one control: the greatest number of threads that
+// any arena asked for beyond the cores.
 void allow_threads(int threads) {
   static std::mutex mutex;
   static int allowed = tbb::info::default_concurrency();
-  static tbb::global_control* limit = nullptr;  // stays: arenas may outlive every scope
+  // never deleted at exit: arenas may outlive every scope
+  static tbb::global_control* limit = nullptr;
   const std::lock_guard lock(mutex);
   if (threads <= allowed) return;
   delete limit;

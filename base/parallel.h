@@ -1,5 +1,5 @@
 // Loops over fixed blocks. The blocks depend on the count alone, never on the number of threads, so
-// that results which are put together block by block do not either.
+// results that are put together block by block do not depend on it either.
 #pragma once
 
 #include <algorithm>
@@ -32,14 +32,14 @@ class FunctionRef<R(Args...)> {
 // True if the caller's arena has more than one thread and may be used.
 bool uses_threads(Parallelism parallelism);
 
-// Runs task(i) for i in [0, count), on the caller's arena, in no particular order.
+// Runs task(i) for i in [0, count) on the caller's arena, in no particular order.
 void run_tasks(size_t count, FunctionRef<void(size_t)> task);
 
 inline size_t block_count(size_t count, size_t block_size) {
   return (count + block_size - 1) / block_size;
 }
 
-// body(block, begin, end) for every block of [0, count), each in Carom's floating-point mode.
+// Runs body(block, begin, end) for every block of [0, count), each in Carom's floating-point mode.
 template <class Body>
 void for_each_block(size_t count, size_t block_size, Parallelism parallelism, const Body& body) {
   const size_t blocks = block_count(count, block_size);

@@ -10,7 +10,8 @@ constexpr int kKeyShift = 32;
 
 size_t digit(uint64_t item, int shift) { return (item >> shift) & (kDigits - 1); }
 
-// From counts a block and digit to where that block's items of that digit go.
+// Turns the count of each block and digit into the place of that block's first item with that
+// digit.
 void counts_to_offsets(std::vector<uint32_t>& histograms, size_t blocks) {
   uint32_t offset = 0;
   for (size_t d = 0; d < kDigits; ++d) {

@@ -1,4 +1,4 @@
-// Stable parallel radix sort of 64-bit items by their upper 32 bits.
+// A stable parallel radix sort of 64-bit items by their upper 32 bits.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@
 
 namespace carom {
 
-// `scratch` and `histograms` are working memory, kept by the caller from call to call.
+// Sorts `items`. The caller keeps `scratch` and `histograms`, which are working memory, between
+// calls.
 void radix_sort_by_key(std::vector<uint64_t>& items, std::vector<uint64_t>& scratch,
                        std::vector<uint32_t>& histograms, Parallelism parallelism);
 

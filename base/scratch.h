@@ -10,7 +10,7 @@ namespace carom {
 
 class Scratch {
  public:
-  // Gives back what the last stage took, and makes room for so many bytes in `arrays` arrays.
+  // Frees what the last stage took, and makes room for `bytes` bytes in `arrays` arrays.
   void start(size_t bytes, size_t arrays) {
     const size_t lines = bytes / sizeof(Line) + arrays;
     if (lines_.size() < lines) {
@@ -20,7 +20,7 @@ class Scratch {
     used_ = 0;
   }
 
-  // An array of anything, at the start of a cache line.
+  // An array of `count` elements with undefined contents, at the start of a cache line.
   template <class T>
   std::span<T> take(size_t count) {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(Line));

@@ -1,4 +1,5 @@
-// Numbers a + b sqrt(s), exactly: sums, products and signs. Nested, for more than one root.
+// Exact numbers a + b sqrt(s), with sums, products and signs. Nested (Base is a Surd) for more than
+// one root.
 #pragma once
 
 #include <cmath>
@@ -7,8 +8,8 @@
 
 namespace carom {
 
-// All numbers of one computation have the same radicand, a positive number that outlives them;
-// those without a root need none.
+// All numbers of one computation have the same radicand, a positive number that outlives them. A
+// number without a root needs no radicand.
 template <class Base>
 class Surd {
  public:
@@ -41,7 +42,7 @@ class Surd {
   friend double approximately(const Surd& x) {
     return approximately(x.a_) + approximately(x.b_) * x.approximate_root();
   }
-  // The two parts may cancel.
+  // The sum of the two parts' magnitudes, since the parts may cancel.
   friend double magnitude(const Surd& x) {
     return magnitude(x.a_) + magnitude(x.b_) * x.approximate_root();
   }

@@ -1,4 +1,4 @@
-// World bounds: positions and extents in lanes, whatever the layout, and their sums.
+// World bounds in lanes: loads positions and extents from any layout, and adds them.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Zero, but not a number where the position is not finite.
+// Zero if the position is finite, else NaN.
 template <class V>
 HWY_INLINE V finite_test(V x, V y, V z) {
   const V zero = hn::Zero(hn::DFromV<V>());
@@ -38,7 +38,7 @@ HWY_INLINE Mask is_valid(const Position& p) {
 }
 HWY_INLINE Mask is_valid(const NoPositions::Position&) { return hn::Not(no_lanes()); }
 
-// Finite and in order; not so with NaN.
+// Whether both are finite and in order; false for NaN.
 HWY_INLINE Mask is_valid_axis(F lower, F upper) {
   return hn::And(hn::And(hn::Ge(lower, splat(-FLT_MAX)), hn::Le(lower, upper)),
                  hn::Le(upper, splat(FLT_MAX)));
@@ -49,7 +49,8 @@ HWY_INLINE Mask is_valid_extent(const F3& lower, const F3& upper) {
                  is_valid_axis(lower.z, upper.z));
 }
 
-// Bodies [begin, end), end - begin a multiple of the lanes; returns the valid ones.
+// Writes the bounds of bodies [begin, end), a multiple of the lanes, and returns how many are
+// valid.
 template <class Positions, class Extents>
 size_t bounds_of(const Positions& positions, const Extents& extents, const BoundsColumns& out,
                  size_t begin, size_t end) {
@@ -126,7 +127,7 @@ namespace {
 HWY_EXPORT(lane_bounds);
 HWY_EXPORT(lane_count);
 
-// One body at a time: what is left of a block after whole vectors.
+// Computes the bodies that are left of a block after the whole vectors, one at a time.
 size_t single_bounds(const Collidables& bodies, const BoundsColumns& out, size_t begin,
                      size_t end) {
   const BodyReader reader{bodies};
@@ -154,7 +155,7 @@ bool has_halfspaces(const Collidables& bodies) {
          bodies.kind + bodies.count;
 }
 
-// All of space, except of those that are not valid.
+// Gives valid half-spaces all of space as their bounds.
 void open_halfspaces(const Collidables& bodies, const BoundsColumns& out) {
   const BodyReader reader{bodies};
   const float infinity = std::numeric_limits<float>::infinity();

@@ -1,5 +1,5 @@
-// Bodies of a view in lanes: positions and fourth components (`w`, a sphere's radius) from one
-// source, extents relative to the position from another.
+// Loads the bodies of a view into lanes: positions and fourth components (`w`, a sphere's radius)
+// from one source, extents relative to the position from another.
 #if defined(CAROM_BOUNDS_BOUNDS_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_BOUNDS_BOUNDS_LOAD_INL_H_
 #undef CAROM_BOUNDS_BOUNDS_LOAD_INL_H_
@@ -17,9 +17,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// --- Positions: load(i, position, w) yields bodies i, i + 1, ... ---
+// --- Positions: load(i, position, w) loads bodies i, i + 1, ... ---
 
-// Boxes in world coordinates.
+// For boxes in world coordinates.
 struct NoPositions {
   struct Position {
     Origin x, y, z;
@@ -77,7 +77,7 @@ struct DoubleRecords {
     w = demote(load_wide(r + 3));
   }
 #else
-  // A vector whose 128-bit block j is components c and c + 1 of record i + 2 j.
+  // A vector whose 128-bit block j holds components c and c + 1 of record i + 2 j.
   template <class Tag>
   HWY_INLINE hn::Vec<Tag> interleaved_pairs(Tag tag, size_t i, size_t c) const {
     if constexpr (hn::MaxLanes(Tag()) == 2) {
@@ -89,7 +89,7 @@ struct DoubleRecords {
     }
   }
 
-  // Components c and c + 1 of as many records as a vector has doubles.
+  // Loads components c and c + 1 of as many records as a vector has doubles.
   HWY_INLINE void load_pairs(size_t i, size_t c, D& first, D& second) const {
     const DoubleTag tag;
     const D even = interleaved_pairs(tag, i, c);
@@ -110,7 +110,7 @@ struct DoubleRecords {
 #endif
 };
 
-// Any other layout, one by one; T: float or double.
+// AnyPositions reads any other layout body by body. T is float or double.
 HWY_INLINE F load_scalars(const float* values) { return hn::Load(FloatTag(), values); }
 HWY_INLINE Wide load_scalars(const double* values) { return load_wide(values); }
 
@@ -164,7 +164,7 @@ struct BoxExtents {
     gather_rows(rows, lower, upper);
   }
 
-  // Boxes in the order of their bodies: the rule where nothing was ever removed.
+  // Whether the boxes lie in the order of their bodies, as they do if nothing was ever removed.
   HWY_INLINE bool are_consecutive(size_t i) const {
     if (boxes.stride != sizeof(float)) return false;
     if (!slot) return true;
@@ -191,7 +191,7 @@ struct BoxExtents {
   }
 };
 
-// Any kinds side by side.
+// Bodies of any kinds, mixed.
 struct MixedExtents {
   const BodyReader& reader;
   BoxExtents boxes;

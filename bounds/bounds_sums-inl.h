@@ -1,5 +1,5 @@
-// Sums of position and extent rounded outwards, lane by lane: what base/outward.h says, to the
-// bit. Positions are in float32 or float64, everything else in float32.
+// Sums of position and extent rounded outwards, in lanes: bit for bit the results of
+// base/outward.h. Positions are float32 or float64, everything else is float32.
 #if defined(CAROM_BOUNDS_BOUNDS_SUMS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_BOUNDS_BOUNDS_SUMS_INL_H_
 #undef CAROM_BOUNDS_BOUNDS_SUMS_INL_H_
@@ -15,8 +15,8 @@ namespace carom::HWY_NAMESPACE {
 using DoubleTag = hn::ScalableTag<double>;
 using D = hn::Vec<DoubleTag>;
 
-// As many doubles as a vector has floats: in two vectors, but on the scalar target, where a vector
-// is one number.
+// As many doubles as a vector has floats. They take two vectors, except on the scalar target, where
+// a vector is one number.
 #if HWY_TARGET == HWY_SCALAR
 
 using HalfTag = FloatTag;
@@ -26,7 +26,7 @@ struct Wide {
 };
 
 HWY_INLINE Wide load_wide(const double* from) { return {hn::LoadU(DoubleTag(), from)}; }
-// Highway's DemoteTo saturates here and nowhere else.
+// A cast instead of Highway's DemoteTo, which saturates on this target only.
 HWY_INLINE Half demote(D v) { return splat(static_cast<float>(hn::GetLane(v))); }
 HWY_INLINE F demote(const Wide& v) { return demote(v.all); }
 
@@ -41,7 +41,7 @@ struct Wide {
 HWY_INLINE Wide load_wide(const double* from) {
   return {hn::LoadU(DoubleTag(), from), hn::LoadU(DoubleTag(), from + kLanes / 2)};
 }
-// Rounds to the nearest float, to infinity beyond them.
+// Rounds to the nearest float, and to infinity beyond their range.
 HWY_INLINE Half demote(D v) { return hn::DemoteTo(HalfTag(), v); }
 HWY_INLINE F demote(const Wide& v) {
   return hn::Combine(FloatTag(), demote(v.high), demote(v.low));
@@ -53,15 +53,16 @@ struct Wide3 {
   Wide x, y, z;
 };
 
-// Where `steps`: the neighbouring float towards -inf (kTowards = -1) or +inf (+1), by its bits.
-// There the float is not NaN, not the infinity on that side, and of zeros the one on that side.
+// Where `steps` is set: the neighbouring float towards -inf (kTowards = -1) or +inf (+1), computed
+// on its bits. There v must not be NaN or the infinity on that side, and a zero must have the sign
+// of that side.
 template <int kTowards>
 HWY_INLINE F neighbour(F v, Mask steps) {
   const FloatTag tag;
   const IntTag bits;
   const I as_integer = hn::BitCast(bits, v);
   const I sign = hn::ShiftRight<31>(as_integer);  // 0 or -1
-  // Positive floats order like their bits, negative ones against them.
+  // Positive floats order like their bits, negative ones in reverse.
   const I down = hn::Sub(hn::Xor(hn::BitCast(bits, hn::VecFromMask(tag, steps)), sign), sign);
   return hn::BitCast(tag, kTowards < 0 ? hn::Add(as_integer, down) : hn::Sub(as_integer, down));
 }
@@ -73,7 +74,8 @@ HWY_INLINE void two_sum(V a, V b, V& sum, V& error) {  // the error is NaN if th
   error = hn::Add(hn::Sub(a, hn::Sub(sum, b_part)), hn::Sub(b, b_part));
 }
 
-// A sum with an error is never zero: near zero sums are exact.
+// neighbour() never gets a zero here: a sum with an error is not zero, since sums near zero are
+// exact.
 HWY_INLINE F sum_downwards(F a, F b) {
   F sum, error;
   two_sum(a, b, sum, error);
@@ -86,11 +88,11 @@ HWY_INLINE F sum_upwards(F a, F b) {
   return max(neighbour<1>(sum, hn::Gt(error, splat(0))), splat(-FLT_MAX));
 }
 
-// A float with the sign of v: large enough not to vanish, or infinite.
+// A float with the sign of v. The factor keeps it from underflowing; it may be infinite.
 HWY_INLINE Half demote_sign(D v) { return demote(hn::Mul(v, hn::Set(DoubleTag(), 0x1p1000))); }
 
-// The float nearest to the float64 sum, and a number with the sign of that sum less the float.
-// Finite a + b does not overflow in float64.
+// `sum`: the float nearest to the float64 sum. `error`: a number with the sign of (float64 sum -
+// that float). Finite a + b does not overflow in float64.
 HWY_INLINE void narrowed_sum(D a, Half b, Half& sum, Half& error) {
   const DoubleTag tag;
   const D wide = hn::Add(a, hn::PromoteTo(tag, b));
@@ -98,15 +100,16 @@ HWY_INLINE void narrowed_sum(D a, Half b, Half& sum, Half& error) {
   error = demote_sign(hn::Sub(wide, hn::PromoteTo(tag, sum)));
 }
 
-// The sign of the exact sum less the float64 sum.
+// A number with the sign of (exact sum - float64 sum).
 HWY_INLINE Half wide_error(D a, Half b) {
   D sum, error;
   two_sum(a, hn::PromoteTo(DoubleTag(), b), sum, error);
   return demote_sign(error);
 }
 
-// The same for whole vectors, and of the exact sum. The error of float64 is the smaller one by far:
-// it counts where the float64 sum is a float, which is rare or the rule.
+// The same for whole vectors, with the sign of the error against the exact sum. The error of the
+// float64 sum is much smaller, so it decides only where the float64 sum is a float; data either
+// hardly ever have such sums or nearly always.
 HWY_INLINE void narrowed_sum(const Wide& a, F b, F& sum, F& error) {
 #if HWY_TARGET == HWY_SCALAR
   narrowed_sum(a.all, b, sum, error);
@@ -140,7 +143,7 @@ HWY_INLINE F sum_upwards(const Wide& a, F b) {
   return neighbour<1>(sum, hn::Gt(error, splat(0)));
 }
 
-// Boxes in world coordinates: nothing is rounded. (-0 becomes +0, as in any sum with zero.)
+// For boxes in world coordinates: nothing is rounded. (-0 becomes +0, as in any sum with zero.)
 struct Origin {};
 HWY_INLINE F sum_downwards(Origin, F b) { return hn::Add(splat(0), b); }
 HWY_INLINE F sum_upwards(Origin, F b) { return hn::Add(splat(0), b); }

@@ -1,4 +1,5 @@
-// Boxes and capsules: bodies in lanes. All others, and pairs: slabs in lanes, one at a time.
+// Boxes and capsules are computed with one body a lane; all other bodies, and tests of pairs, one
+// at a time with one slab a lane.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -18,14 +19,14 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// Four slabs: in one vector, two, or one by one.
+// Four slabs take one vector, two, or four of one lane.
 using SlabTag = hn::CappedTag<double, 4>;
 using Slabs = hn::Vec<SlabTag>;
 inline constexpr size_t kSlabLanes = hn::MaxLanes(SlabTag());
 
 HWY_INLINE Slabs all_slabs(double value) { return hn::Set(SlabTag(), value); }
 
-// Directions s, s + 1, ...
+// Directions s, s + 1, ..., one a lane.
 struct SlabDirections {
   Slabs x, y, z;
 
@@ -34,15 +35,15 @@ struct SlabDirections {
         y(hn::Load(SlabTag(), all.y + s)),
         z(hn::Load(SlabTag(), all.z + s)) {}
 
-  // Products with -1, 0 and 1 are exact.
+  // Exact: the factors x, y, z are -1, 0 or 1.
   HWY_INLINE Slabs project(const Double3& v) const {
     return hn::Add(hn::Add(hn::Mul(x, all_slabs(v[0])), hn::Mul(y, all_slabs(v[1]))),
                    hn::Mul(z, all_slabs(v[2])));
   }
 };
 
-// Rounded to the nearest float, to infinity beyond them. Highway's DemoteTo saturates on the scalar
-// target.
+// Rounds to the nearest float, and to infinity beyond their range. A cast on the scalar target,
+// where Highway's DemoteTo saturates.
 HWY_INLINE void store_floats(Slabs v, float* to) {
 #if HWY_TARGET == HWY_SCALAR
   *to = static_cast<float>(hn::GetLane(v));
@@ -85,7 +86,7 @@ void fill_record(float lower, float upper, size_t size, float* record) {
   for (size_t i = 0; i < size; ++i) record[i] = i % 8 < 4 ? lower : upper;
 }
 
-// Any body.
+// Writes the record of a body of any kind.
 void write_single(const BodyReader& reader, const DopDirections& directions, size_t i,
                   float* record) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -100,7 +101,7 @@ void write_single(const BodyReader& reader, const DopDirections& directions, siz
   }
 }
 
-// Bodies of one kind, by index.
+// A list of bodies of one kind.
 struct BodyList {
   size_t count = 0;
   uint32_t bodies[kBodiesPerBlock + kLanes];
@@ -129,7 +130,7 @@ void write_listed(const BodyReader& reader, const DopDirections& directions, Bod
   }
 }
 
-// Which way a body goes depends on that body alone, or results would depend on the ISA.
+// The path that a body takes must depend on that body alone, or results would depend on the ISA.
 void lane_dops(const Collidables& bodies, const DopDirections& directions, const uint8_t* which,
                float* records, size_t begin, size_t end) {
   const BodyReader reader{bodies};
@@ -154,14 +155,14 @@ void lane_dops(const Collidables& bodies, const DopDirections& directions, const
 using EndTag = hn::CappedTag<float, 4>;
 using Meets = hn::Mask<EndTag>;
 
-// Four slabs or fewer of two records.
+// Compares up to four slabs of two records.
 HWY_INLINE Meets meet(const float* a, const float* b) {
   const EndTag tag;
   return hn::And(hn::Le(hn::LoadU(tag, a), hn::LoadU(tag, b + 4)),
                  hn::Le(hn::LoadU(tag, b), hn::LoadU(tag, a + 4)));
 }
 
-// Without a branch: which slab parts two bodies is anybody's guess.
+// Without a branch: which slab separates two bodies cannot be predicted.
 template <size_t kFours>
 size_t find_overlaps(const float* records, const Pair* pairs, size_t count, uint8_t* overlap) {
   const EndTag tag;

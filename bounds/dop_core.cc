@@ -20,7 +20,7 @@ DopCore sphere_core(float radius) {
   return core;
 }
 
-// Along the axes of the world. Sums of two floats are rounded at most.
+// A box along the world axes. Double precision rounds the sums of two floats by very little.
 DopCore extent_core(const Extent& extent) {
   const Double3 lower = {extent.lower[0], extent.lower[1], extent.lower[2]};
   const Double3 upper = {extent.upper[0], extent.upper[1], extent.upper[2]};
@@ -50,7 +50,7 @@ DopCore box_core(const Turn& turn, const Row& half) {
   return core;
 }
 
-// A prism if it is thick; a rounded one where it does not know its back.
+// A thick triangle is a prism. It is grown by its thickness on all sides if its back is unknown.
 DopCore triangle_core(const Turn& turn, const std::array<Row, kMostRows>& rows) {
   const Double3 a = vector_of(rows[0]), b = vector_of(rows[1]), c = vector_of(rows[2]);
   DopCore core;

@@ -1,5 +1,5 @@
-// Shapes as sums of simple ones: the hull of three points, a box of any axes, and a ball. How far a
-// sum reaches in a direction is the sum of how far each of them does.
+// Shapes as Minkowski sums of simple ones: the hull of three points, a box with any axes, and a
+// ball. The reach of a sum in a direction is the sum of their reaches.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 namespace carom {
 
 struct DopCore {
-  std::array<Double3, 3> points{};  // relative to the position; equal ones where there are fewer
-  std::array<Double3, 3> edges{};   // half edges of the box; zero where it has fewer
+  std::array<Double3, 3> points{};  // relative to the position; some coincide if there are fewer
+  std::array<Double3, 3> edges{};   // half edges of the box; zero if there are fewer
   double radius = 0;
-  double size = 0;  // greatest coordinate of the shape in its own frame, at least
+  double size = 0;  // at least the greatest coordinate of the shape in its own frame
 };
 
-// The body is valid, and no half-space.
+// The body must be valid and no half-space.
 DopCore dop_core(const BodyReader& reader, size_t i);
 
 }  // namespace carom

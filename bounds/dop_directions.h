@@ -1,4 +1,4 @@
-// What the loops over extra slabs need: directions in columns, and how far results are rounded.
+// The directions of the extra slabs in columns, and bounds on how far the results are rounded.
 #pragma once
 
 #include <cmath>
@@ -8,27 +8,27 @@
 
 namespace carom {
 
-// More than half a unit in the last place of a float, as a share of it; of those near zero the
-// least one.
+// More than half a unit in the last place of a float, as a share of it. Near zero the least float
+// is added.
 inline constexpr double kFloatRounding = 0x1.0002p-24;
 inline constexpr double kLeastFloat = 0x1p-149;
 
-// Projections of positions are cut off here: sums stay finite, and no float reaches that far.
+// Projections of positions are clamped here: sums stay finite, and no float reaches that far.
 inline constexpr double kBeyondFloats = 0x1p1000;
 
-// In float32, of boxes and capsules: shares of the 1-norms of their coordinates and positions. A
-// rotation, projections and their sums round to at most 45 units of 2^-24 of a shape's, and to 4 of
-// a position's.
+// Rounding in float32 for boxes and capsules, as shares of the 1-norms of their coordinates and
+// positions. A rotation, projections and their sums round to at most 45 units of 2^-24 of the
+// shape's norm, and to 4 of the position's.
 inline constexpr float kLaneSizeRounding = 0x1p-18f;
 inline constexpr float kLanePositionRounding = 0x1p-21f;
 
-// Norms for which that is so: nothing overflows, and what vanishes does not count.
+// The norms for which that holds: nothing overflows, and what underflows is negligible.
 inline constexpr float kLeastPlain = 0x1p-100f;
 inline constexpr float kGreatestPlain = 0x1p100f;
 
 inline constexpr size_t kMostRecordSize = dop_record_size(DopKind::k26);
 
-// Extra slabs of a kind, zero behind the last one up to a multiple of four.
+// The extra slabs of a kind, padded with zeros to a multiple of four.
 struct DopDirections {
   size_t count;
   alignas(32) double x[12] = {};
@@ -49,8 +49,8 @@ struct DopDirections {
   }
 };
 
-// What double precision rounds, here and in tests of pairs that touch, with room to spare; for
-// float32 results next to nothing.
+// A generous bound on the rounding in double precision, here and in tests of touching pairs. It is
+// negligible beside the rounding to float32.
 inline double slack_of(const DopCore& core, const Double3& position) {
   return 0x1p-30 * core.size +
          ((0x1p-50 * std::fabs(position[0]) + 0x1p-50 * std::fabs(position[1])) +

@@ -1,5 +1,5 @@
-// k-DOPs of boxes and capsules, as many bodies at a time as there are lanes, in float32. Bodies
-// whose numbers are far from one, or not valid, are left to the caller.
+// k-DOPs of boxes and capsules in float32, one body a lane. Bodies that are not valid, or whose
+// numbers are far from one, are left to the caller.
 #if defined(CAROM_BOUNDS_DOP_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_BOUNDS_DOP_LANES_INL_H_
 #undef CAROM_BOUNDS_DOP_LANES_INL_H_
@@ -17,9 +17,9 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
-namespace {  // the narrow phase has lanes of the same names
+namespace {  // the narrow phase has types of the same names
 
-// Four floats of each body.
+// Points to four floats of each body.
 struct RowLanes {
   const float* row[kLanes];
 
@@ -65,18 +65,18 @@ HWY_INLINE F3 load_positions(const BodyReader& reader, const uint32_t* bodies) {
   return {hn::Load(tag, x), hn::Load(tag, y), hn::Load(tag, z)};
 }
 
-// Not a number if a coordinate is not.
+// The 1-norm. NaN if a coordinate is NaN.
 HWY_INLINE F sum_of_sizes(const F3& v) {
   return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
-// All comparisons are false of what is not a number.
+// Both are false for NaN.
 HWY_INLINE Mask is_between(F v, float low, float high) {
   return hn::And(hn::Ge(v, splat(low)), hn::Le(v, splat(high)));
 }
 HWY_INLINE Mask is_finite_lane(F v) { return hn::Le(hn::Abs(v), splat(FLT_MAX)); }
 
-// The one slab of a body in every lane: its direction, and how far a vector reaches along it.
+// One slab in every lane: its direction, and the length of that direction.
 struct SlabLanes {
   F x, y, z, length;
 
@@ -92,10 +92,10 @@ struct SlabLanes {
   HWY_INLINE F reach(const F3& v) const { return hn::Abs(project(v)); }
 };
 
-// A shape in lanes says
-//   Mask load(reader, bodies, q)  which bodies are plain, their quaternions q being so
-//   F size                        1-norm of its coordinates
-//   F middle(slab), F reach(slab) of its projection; the position is zero
+// A shape in lanes has these members:
+//   Mask load(reader, bodies, q)   loads bodies with quaternions q; which of them are valid
+//   F size                         1-norm of its coordinates
+//   F middle(slab), F reach(slab)  middle and half length of its projection, with position zero
 struct BoxLanes {
   F size;
   F3 x, y, z;  // half edges
@@ -140,9 +140,9 @@ struct CapsuleLanes {
   }
 };
 
-// Records of as many bodies as there are lanes: the first four floats of each, the next four, ...
+// The records of one body a lane: the first four floats of all, then the next four, ...
 struct RecordLanes {
-  HWY_ALIGN float plain[kLanes];  // other than zero: the body's record is there
+  HWY_ALIGN float plain[kLanes];  // not zero if the body's record was found
   HWY_ALIGN float fours[kMostRecordSize / 4][4 * kLanes];
 
   void copy(size_t i, size_t size, float* record) const {

@@ -57,7 +57,7 @@ Intervals triangle_intervals(const std::array<Double3, 3>& turn, const Row* rows
   return result;
 }
 
-// Inside the range of float32.
+// The largest float32 <= x, but never below -FLT_MAX or above FLT_MAX.
 float downwards(double x) {
   return round_downwards(std::clamp(x, -double{FLT_MAX}, double{FLT_MAX}));
 }
@@ -73,14 +73,14 @@ Extent outward(const Intervals& intervals, double radius, double slack) {
   return extent;
 }
 
-// The points of a polytope are rounded as well.
+// The slack covers the rounding of the polytope's points and of the rotation.
 Extent dop_extent(const std::array<Double3, 3>& turn, const Dop& dop) {
   const DopSlabs slabs(dop);
   const double slack = kDopRounding * slabs.with_tight_axes().size();
   return outward(point_intervals(turn, DopPolytope(slabs).points()), 0, slack);
 }
 
-// Of the hull's own points.
+// The extent of the turned points.
 Extent hull_extent(const std::array<Double3, 3>& turn, const HullGeometry& hull) {
   Intervals result;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -97,11 +97,11 @@ Extent hull_extent(const std::array<Double3, 3>& turn, const HullGeometry& hull)
   return outward(result, 0, kTurnRounding * hull.size());
 }
 
-// Of the box in the body's frame that holds all parts.
+// The extent of the turned box that holds all parts in the body's frame.
 template <class Geometry>
 Extent parts_extent(const std::array<Double3, 3>& turn, const Geometry& parts) {
   std::array<Double3, 8> corners;
-  for (size_t i = 0; i < corners.size(); ++i) {  // bit k of i: at the upper end of axis k
+  for (size_t i = 0; i < corners.size(); ++i) {  // bit k of i: the upper end of axis k
     for (int axis = 0; axis < 3; ++axis) {
       corners[i][axis] = (i >> axis & 1 ? parts.upper() : parts.lower())[axis];
     }

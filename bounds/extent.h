@@ -1,4 +1,4 @@
-// How far shapes reach from their position along the world axes.
+// How far a shape reaches from its body's position along the world axes.
 #pragma once
 
 #include <array>
@@ -7,14 +7,13 @@
 
 namespace carom {
 
-// Corners of a box relative to the position. Not a number if the body's orientation or shape is not
-// valid.
+// Corners of a box relative to the position. NaN if the body's orientation or shape is not valid.
 struct Extent {
   std::array<float, 3> lower, upper;
 };
 
-// Exact for spheres and aabbs, rounded outwards for shapes that are turned. Half-spaces have none:
-// zero, or not a number.
+// Exact for spheres and aabbs, rounded outwards for turned shapes. Meaningless for half-spaces:
+// zero or NaN.
 Extent extent_of(const BodyReader& reader, size_t i);
 
 }  // namespace carom

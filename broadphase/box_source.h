@@ -1,4 +1,4 @@
-// The boxes that a search is about, and how kernels read them: block by block, in dense columns.
+// The boxes that a search takes, and how kernels read them: block by block, in dense columns.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ inline float value_at(const BoundsView& bounds, const float* column, size_t i) {
   return *reinterpret_cast<const float*>(reinterpret_cast<const char*>(column) + i * bounds.stride);
 }
 
-// lower <= upper on every axis; false for empty boxes and NaN.
+// True if lower <= upper on every axis; false for empty boxes and NaN.
 inline bool takes_part(const BoundsView& bounds, size_t i) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const float lower = value_at(bounds, bounds.lower[axis], i);
@@ -23,7 +23,7 @@ inline bool takes_part(const BoundsView& bounds, size_t i) {
   return true;
 }
 
-// All boxes of a view, or those that `members` lists.
+// All boxes of a view, or those listed in `members`; nullptr: all.
 struct BoxSource {
   const BoundsView& bounds;
   const uint32_t* members = nullptr;
@@ -36,7 +36,7 @@ struct BoxSource {
   uint32_t body(size_t i) const { return members ? members[i] : static_cast<uint32_t>(i); }
 };
 
-// Up to kBoxes boxes in six columns. Rows behind `count` can be read, up to kPadding, and are NaN.
+// Up to kBoxes boxes in six columns. Up to kPadding rows after `count` can be read; they are NaN.
 struct BoxBlock {
   static constexpr size_t kBoxes = 256;
   static constexpr size_t kPadding = 16;
@@ -46,10 +46,10 @@ struct BoxBlock {
   size_t count;
 };
 
-// Dense columns are read where they are; everything else is copied here first.
+// Reads dense columns in place, and copies all other layouts into its buffer.
 class BlockBuffer {
  public:
-  // Boxes [begin, end) of `source`, kBoxes at most; valid until the next call.
+  // Loads boxes [begin, end) of `source`, at most kBoxes; valid until the next call.
   BoxBlock load(const BoxSource& source, size_t begin, size_t end);
 
  private:

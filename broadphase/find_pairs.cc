@@ -17,16 +17,16 @@ namespace {
 
 constexpr size_t kRowsPerBlock = 256;
 
-// Up to here every box against every other is as fast as sorting,
+// Up to this many boxes, testing all pairs is as fast as sorting,
 constexpr size_t kBruteForceLimit = 128;
-// and up to here a sweep along one axis is as fast as cells.
+// and up to this many a sweep along one axis is as fast as cells.
 constexpr size_t kSweepLimit = 350;
-// So few are done before other threads have woken up.
+// One thread finishes this many before others have woken up.
 constexpr size_t kSerialLimit = 2048;
 // With more boxes than this in the cell of a box, a sweep may be faster again.
 constexpr double kMostCrowded = 512;
 
-// Turns hits into pairs of bodies that may meet.
+// Turns hits into candidate pairs of bodies, if the filter allows them.
 class PairSink final : public HitSink {
  public:
   PairSink(const BoxColumns& columns, const PairFilter& filter, PairList& out)
@@ -72,10 +72,10 @@ struct PairFinder::State {
   FoundPairs found;
   PairSorter sorter;
   Scratch scratch;
-  // Brute force and sweep.
+  // Used by brute force and the sweep.
   SweepOrder order;
   BoxColumns columns;
-  // Grid.
+  // Used by the grid.
   BoxSample sample;
   RestingBoxes resting;
   CellRows cells;
@@ -115,11 +115,11 @@ struct PairFinder::State {
     if (search.complete) sorter.sort(found.lists(), bounds.count, parallelism, out, scratch);
   }
 
-  // Boxes that rest are remembered from the moment on that most of them do.
+  // Keeps the boxes that rest in `resting` as soon as most boxes do.
   void find_by_cells(const BoundsView& bounds, const PairFilter& filter, bool must,
                      Parallelism parallelism, std::vector<Pair>& out, PairSearch& search) {
     using Outcome = RestingBoxes::Outcome;
-    constexpr double kRestless = 0.2;  // less than what RestingBoxes bears
+    constexpr double kRestless = 0.2;  // below the share of moving boxes that RestingBoxes bears
     const double most_crowded = must ? std::numeric_limits<double>::infinity() : kMostCrowded;
     const RestingBoxes::Workspace work = {cells, found, sorter, scratch, most_pairs, most_crowded};
     Outcome outcome = Outcome::restless;
@@ -188,7 +188,7 @@ PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
 void PairFinder::forget() { state_->forget(); }
 
 void PairFinder::set_most_pairs(size_t pairs) {
-  constexpr size_t kMostOffsets = 0xffffffffu;  // what the sort counts with
+  constexpr size_t kMostOffsets = 0xffffffffu;  // the range of the sort's counters
   state_->most_pairs = std::min(pairs, kMostOffsets);
 }
 

@@ -1,4 +1,4 @@
-// The lowest corner of every box against the plane, in double precision lanes.
+// Tests the lowest corner of every box against the plane, in lanes of double precision.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -36,7 +36,7 @@ HWY_INLINE Mask is_in_order(const BoxBlock& boxes, size_t axis, size_t i) {
                 hn::LoadU(FloatTag(), boxes.upper[axis] + i));
 }
 
-// Bit i: box i takes part.
+// Sets bit i if box i takes part.
 void find_valid(const BoxBlock& boxes, uint64_t* words) {
   for (size_t i = 0; i < boxes.count; i += kLanes) {
     const Mask valid = hn::And(hn::And(is_in_order(boxes, 0, i), is_in_order(boxes, 1, i)),
@@ -45,7 +45,7 @@ void find_valid(const BoxBlock& boxes, uint64_t* words) {
   }
 }
 
-// Bit i: may_hold() of the lowest corner of box i along the normal.
+// Sets bit i if may_hold() is true of the corner of box i that is lowest along the normal.
 void find_reaching(const BoxBlock& boxes, const WorldHalfspace& halfspace, uint64_t* words) {
   const DoubleTag tag;
   const float* corners[3];
@@ -92,17 +92,17 @@ constexpr size_t kBoxesPerWord = 64;
 constexpr size_t kWordsPerBlock = BoxBlock::kBoxes / kBoxesPerWord;
 static_assert(kBoxesPerTask % BoxBlock::kBoxes == 0);
 
-// 32 units in the last place; what is rounded below adds up to less than 16 of the sizes involved.
+// 32 units in the last place; the rounding below adds up to less than 16 of the sizes involved.
 constexpr double kRounding = 0x1p-48;
 
-// The bits of a word that are boxes with an index below that of the body.
+// Mask of the boxes of a word whose index is below that of the body.
 uint64_t boxes_below(uint32_t body, size_t word) {
   const size_t first = word * kBoxesPerWord;
   if (body <= first) return 0;
   return body - first >= kBoxesPerWord ? ~uint64_t{0} : (uint64_t{1} << (body - first)) - 1;
 }
 
-// visit(box) for each bit of the word.
+// Calls visit(box) for each bit of the word.
 template <class Visit>
 void for_each_box(uint64_t bits, size_t word, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) {
@@ -113,7 +113,7 @@ void for_each_box(uint64_t bits, size_t word, const Visit& visit) {
 
 size_t count_of(uint64_t bits) { return static_cast<size_t>(std::popcount(bits)); }
 
-// Counts -> where each begins; returns their sum.
+// Turns counts into the places where each begins; returns their sum.
 size_t sum_up(std::vector<size_t>& counts) {
   const size_t last = counts.empty() ? 0 : counts.back();
   std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), size_t{0});
@@ -147,7 +147,7 @@ WorldHalfspace world_halfspace(const Collidables& bodies, uint32_t body) {
   const double limit = offset * scale + ((normal[0] * p.x + normal[1] * p.y) + normal[2] * p.z);
   const double error = kRounding * (std::abs(offset) * scale +
                                     size * ((std::abs(p.x) + std::abs(p.y)) + std::abs(p.z)));
-  // What vanishes below the smallest double counts, too.
+  // DBL_MIN covers what underflows.
   return {body, normal, (limit + error) + DBL_MIN, kRounding * size};
 }
 
@@ -186,7 +186,7 @@ size_t HalfspaceSearch::find(std::span<const WorldHalfspace> halfspaces, const B
   return count;
 }
 
-// visit(half-space, its word of hits, index of the word)
+// Calls visit(half-space, its word of hits, index of the word).
 template <class Visit>
 void HalfspaceSearch::for_each_word(const Task& task, const Visit& visit) {
   for (size_t h = 0; h < halfspaces_.size(); ++h) {

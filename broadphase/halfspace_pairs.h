@@ -1,4 +1,5 @@
-// Half-spaces have no bounds: they meet every box that reaches into them.
+// Finds the pairs of half-spaces and boxes. Half-spaces have no bounds: they pair with every box
+// that reaches into them.
 #pragma once
 
 #include <array>
@@ -15,20 +16,20 @@
 
 namespace carom {
 
-// A half-space in world coordinates: all x with normal . x <= limit. The normal is as long as
-// quaternion and normal of the body make it, and the limit is rounded upwards.
+// A half-space in world coordinates: all x with normal . x <= limit. The length of the normal
+// follows from the body's quaternion and normal; the limit is rounded upwards.
 struct WorldHalfspace {
   uint32_t body;
   std::array<double, 3> normal;
   double limit;
-  double slack;  // |x| + |y| + |z| times this is more than what normal . x may be off by
+  double slack;  // slack * (|x| + |y| + |z|) bounds the rounding error of normal . x
 };
 
-// Of a valid half-space of the view.
+// `body` must be a valid half-space of the view.
 WorldHalfspace world_halfspace(const Collidables& bodies, uint32_t body);
 
-// False only if the point is certainly outside, however much the plane and this were rounded. An
-// overflow gives infinities and then NaN, which is certain of nothing.
+// False only if the point is certainly outside, despite all rounding of the plane and of this test.
+// An overflow gives infinities and then NaN, for which this is true.
 inline bool may_hold(const WorldHalfspace& halfspace, double x, double y, double z) {
   const auto& n = halfspace.normal;
   const double height = (n[0] * x + n[1] * y) + n[2] * z;
@@ -36,13 +37,13 @@ inline bool may_hold(const WorldHalfspace& halfspace, double x, double y, double
   return !(height - error > halfspace.limit);
 }
 
-// Keeps its working memory from call to call.
+// The search keeps its working memory between calls.
 class HalfspaceSearch {
  public:
-  // Replaces `out` by the sorted pairs of half-spaces and boxes of which one corner may lie in the
-  // half-space, and which the filter lets through. Half-spaces ascend by body. Boxes that are empty
-  // or hold a NaN meet nothing; those of the half-spaces themselves must be. Returns how many pairs
-  // there are; if there are more than `most_pairs`, none are written.
+  // Replaces `out` by the sorted pairs of a half-space and a box such that a corner of the box may
+  // lie in the half-space, and the filter allows the pair. Half-spaces ascend by body. Boxes that
+  // are empty or hold a NaN pair with nothing; the boxes of the half-spaces themselves must be
+  // such. Returns the number of pairs; if it is above `most_pairs`, writes none.
   size_t find(std::span<const WorldHalfspace> halfspaces, const BoundsView& bounds,
               const PairFilter& filter, size_t most_pairs, Parallelism parallelism,
               std::vector<Pair>& out);
@@ -50,7 +51,7 @@ class HalfspaceSearch {
   size_t bytes() const;
 
  private:
-  // Boxes [begin, end), those of one task.
+  // The boxes [begin, end) of one task.
   struct Task {
     size_t index, begin, end;
   };
@@ -64,10 +65,11 @@ class HalfspaceSearch {
 
   std::span<const WorldHalfspace> halfspaces_;
   size_t tasks_ = 0;
-  size_t words_ = 0;            // of 64 boxes
-  std::vector<uint64_t> hits_;  // one bit a box, `words_` a half-space
-  // How many pairs each task has, then where they begin: those in which the box comes first, and
-  // those in which a half-space does, one a half-space and task.
+  size_t words_ = 0;            // words of 64 bits a half-space
+  std::vector<uint64_t> hits_;  // one bit a box
+  // The number of pairs of each task, and later the place of its first pair: for pairs in which the
+  // box comes first, one entry a task; for pairs in which the half-space does, one a half-space and
+  // task.
   std::vector<size_t> box_first_, halfspace_first_;
   std::vector<Pair> box_pairs_, halfspace_pairs_;
 };

@@ -29,7 +29,7 @@ class CandidateSink final : public HitSink {
   PairList& out_;
 };
 
-// SearchBox i with `first_axis` as axis 0.
+// Box i with `first_axis` as its axis 0.
 SearchBox turned_box(const BoundsView& bounds, size_t i, size_t first_axis) {
   SearchBox box;
   for (size_t k = 0; k < 3; ++k) {

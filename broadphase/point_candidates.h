@@ -1,4 +1,4 @@
-// Points against bounds -> candidate pairs (point, body).
+// Points and bounds -> candidate pairs (point, body).
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// All pairs of a point (x, y, z float32, `stride` bytes apart) and a box of `bounds` that holds it,
-// sorted by (point, box). Points with NaN are in no box.
+// All pairs of a point (x, y, z in float32, `stride` bytes apart) and a box of `bounds` that holds
+// it, sorted by (point, box). A point with a NaN is in no box.
 std::vector<Pair> find_point_candidates(const float* xyz, size_t count, size_t stride,
                                         const BoundsView& bounds, Parallelism parallelism);
 

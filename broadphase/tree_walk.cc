@@ -1,4 +1,5 @@
-// Eight boxes of a node against one that moves, or their distances from it.
+// Tests the eight boxes of a node in lanes: against one moving box, or for their distance from a
+// box.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -22,14 +23,14 @@ inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
 
 HWY_INLINE Children child_splat(float value) { return hn::Set(ChildTag(), value); }
 
-// More than the times of one axis round: a difference, a reciprocal and a product, each by 2^-24,
-// or 2^-22 where the reciprocal is subnormal.
+// A bound on the rounding of the times of one axis: a difference, a reciprocal and a product, each
+// by 2^-24, or 2^-22 if the reciprocal is subnormal.
 inline constexpr float kTimeRounding = 0x1p-20f;
-// And more than products that underflow lose.
+// A bound on what products lose by underflow.
 inline constexpr float kTinyTime = 0x1p-100f;
 
-// Keys are times. All steps of the test are functions that do not decrease, so that a node passes
-// if one of its children does.
+// The keys are times. Every step of the test is a function that never decreases, so a node passes
+// whenever one of its children does.
 struct Meeting {
   const MovingBox& moving;
 
@@ -51,7 +52,7 @@ struct Meeting {
       const Children still = child_splat(moving.still[axis]);
       const Children first = hn::Sub(hn::Mul(forwards ? to_lower : to_upper, inverse), still);
       const Children last = hn::Add(hn::Mul(forwards ? to_upper : to_lower, inverse), still);
-      entry = max(first, entry);  // the old one if the new is not a number
+      entry = max(first, entry);  // keeps the old one if the new one is NaN
       exit = min(last, exit);
     }
     const Children latest =
@@ -61,10 +62,10 @@ struct Meeting {
   }
 };
 
-// Lengths round by less.
+// A bound on the rounding of lengths.
 inline constexpr float kGapRounding = 0x1p-20f;
 
-// Keys are distances.
+// The keys are distances.
 struct Nearness {
   const TreeBox& box;
 
@@ -82,7 +83,7 @@ struct Nearness {
       const Children apart = max(gap, hn::Zero(tag));
       squared = hn::Add(squared, hn::Mul(apart, apart));
     }
-    // Squares vanish or overflow before lengths do.
+    // The squares underflow or overflow before the lengths do.
     const Children length = hn::Sqrt(squared);
     const auto in_range = hn::Le(length, child_splat(FLT_MAX));
     const Children distance = hn::IfThenElse(in_range, max(length, greatest), greatest);
@@ -93,7 +94,7 @@ struct Nearness {
 
 constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
 
-// The last of the steps come first; of equal keys, the first child.
+// Sorts by falling keys, since the last step is taken next.
 HWY_INLINE void sort_steps(TreeWalk::Step* begin, TreeWalk::Step* end) {
   for (TreeWalk::Step* i = begin + 1; i < end; ++i) {
     const TreeWalk::Step step = *i;
@@ -103,7 +104,7 @@ HWY_INLINE void sort_steps(TreeWalk::Step* begin, TreeWalk::Step* end) {
   }
 }
 
-// Adds the children of a node that pass, the nearest last.
+// Adds the children of a node that pass the test, the nearest last.
 template <class Test>
 HWY_INLINE void expand(const BoxTree::Node& node, const Test& test, float limit,
                        std::vector<TreeWalk::Step>& steps) {
@@ -173,7 +174,8 @@ namespace {
 HWY_EXPORT(go_on_meeting);
 HWY_EXPORT(go_on_near);
 
-// Below, its reciprocal would be beyond the range of float32, or near it.
+// The reciprocal of a smaller displacement would be near the end of the range of float32, or
+// beyond.
 constexpr float kLeastDisplacement = 0x1p-120f;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Which boxes of a tree one box meets on its way, or has near it; the first ones first.
+// Finds the boxes of a tree that a moving box meets, or that are near a box, nearest first.
 #pragma once
 
 #include <array>
@@ -9,19 +9,21 @@
 
 namespace carom {
 
-// A box that moves along a line for t from 0 to 1. The box and what it sweeps may be infinite.
+// A box that moves along a line for t from 0 to 1. The box, and the box that holds its path, may be
+// infinite.
 struct MovingBox {
   TreeBox box;
   TreeBox swept;
-  // Where it hardly moves along an axis, 1 / displacement is 0 there, and `still` infinite.
+  // On an axis along which the box hardly moves, inverse_displacement is 0 and `still` infinite.
   std::array<float, 3> inverse_displacement{};
   std::array<float, 3> still{};
 
   MovingBox(const TreeBox& at_start, const std::array<float, 3>& displacement);
 };
 
-// What is left to look at: children of nodes, the next one last. The key is a lower bound of the
-// time at which the moving box meets it, or of its distance. No key is NaN.
+// The children of nodes that a search has still to visit; it visits the last one next. The key is a
+// lower bound of the time at which the moving box meets the child, or of the distance. No key is
+// NaN.
 class TreeWalk {
  public:
   struct Step {
@@ -29,7 +31,7 @@ class TreeWalk {
     uint32_t child;
   };
 
-  // From the root.
+  // Starts a search at the root.
   void start(const BoxTree& tree) {
     steps_.clear();
     if (!tree.is_empty()) steps_.push_back({0, 0});
@@ -42,14 +44,14 @@ class TreeWalk {
   std::vector<Step> steps_;
 };
 
-// Appends items that the box meets to `items`, until there are `most` more or none are left. The
-// items of all calls together are those that pass one test of their boxes, which errs on the side
-// of a hit by a millionth; of items whose key is above the limit none need be found. What is found,
-// and in which order, is the same on every ISA.
+// Appends items that the box meets to `items`, until it has added `most` or none are left. All
+// calls together give the items that pass one test of their boxes, which errs on the side of a hit
+// by a millionth. Items whose key is above the limit need not be found. The items and their order
+// are the same on every ISA.
 void walk_met(const BoxTree& tree, const MovingBox& box, float limit, size_t most, TreeWalk& walk,
               std::vector<uint32_t>& items);
 
-// The same for items whose distance from the box is not above the limit.
+// The same for items whose distance from the box is at most the limit.
 void walk_near(const BoxTree& tree, const TreeBox& box, float limit, size_t most, TreeWalk& walk,
                std::vector<uint32_t>& items);
 

@@ -18,7 +18,7 @@ bool is_empty_geometry(const Shape& shape) {
   return has_geometry(kind_of(shape)) && geometry_at<void>(shape_rows(shape)[0]) == nullptr;
 }
 
-// One child as a view of one body at the origin.
+// A view of one child as a single body at the origin.
 class ChildView {
  public:
   explicit ChildView(const CompoundChild& child)
@@ -44,7 +44,7 @@ class ChildView {
   bool is_valid() const { return BodyReader{view_}.is_valid(0); }
   Extent extent() const { return extent_of(BodyReader{view_}, 0); }
 
-  // An aabb as a box about its middle, which turns with the body.
+  // An aabb becomes a box about its own middle, since it turns with the body.
   Part part(const Vector3f& position) const {
     Part part;
     part.kind = view_.uniform_kind;
@@ -110,8 +110,8 @@ class CompoundMaker {
   }
 
  private:
-  // Sums of floats are off by their rounding in double, which the middle and the half size that
-  // they become here leaves room for.
+  // The child's box in the body's frame. Double precision rounds the sums; the half size makes room
+  // for that.
   static TreeBox box_at(const Vector3f& position, const Extent& extent) {
     Double3 middle, half;
     for (int axis = 0; axis < 3; ++axis) {

@@ -20,7 +20,7 @@ using Corners = std::array<uint32_t, 3>;
 
 double length(const Double3& v) { return std::sqrt(dot(v, v)); }
 
-// Of corners at one place the same number.
+// Numbers the places of the vertices: vertices at one place get the same number.
 std::vector<uint32_t> places_of(std::span<const Vector3f> vertices) {
   const auto is_before = [&](uint32_t a, uint32_t b) {
     const Vector3f &u = vertices[a], &v = vertices[b];
@@ -36,7 +36,7 @@ std::vector<uint32_t> places_of(std::span<const Vector3f> vertices) {
   return places;
 }
 
-// An edge of a triangle, by the places of its ends.
+// An edge of a triangle, by the numbers of the places of its ends.
 struct Edge {
   uint32_t low, high;
   uint32_t triangle;
@@ -49,9 +49,10 @@ struct Edge {
   }
 };
 
-enum class Bend { outwards, inwards, flat, folded };  // as seen from the front
+enum class Bend { outwards, inwards, flat, folded };  // as seen from the front of the triangle
 
-// What lies across edge `index` of a triangle, whose other corner is `across`.
+// How the surface bends at edge `index` of a triangle; `across` is the third corner of the
+// neighbour.
 Bend bend_at(const std::array<Double3, 3>& corners, size_t index, const Double3& across) {
   const Double3& start = corners[index];
   const Double3 edge = minus(corners[(index + 1) % 3], start);

@@ -7,7 +7,7 @@
 namespace carom {
 namespace {
 
-// Of points that are added one by one.
+// The bounding box of points that are added one by one.
 class GrowingBox {
  public:
   void add(const Double3& point) {
@@ -86,7 +86,7 @@ PartBox box_of(const Part& part) {
   }
 }
 
-// Hamilton's product; the scale keeps numbers where their squares neither vanish nor overflow.
+// Hamilton's product, scaled so that the squares of its numbers neither underflow nor overflow.
 Row product(const Row& q, const Row& p) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
   const std::array<double, 4> r = {
@@ -94,7 +94,7 @@ Row product(const Row& q, const Row& p) {
       ((w * p[2] + z * p[3]) + x * p[1]) - y * p[0], ((w * p[3] - x * p[0]) - y * p[1]) - z * p[2]};
   double largest = 0;
   for (const double c : r) largest = std::max(largest, std::fabs(c));
-  // Spheres and aabbs may have a quaternion of zero: they do not turn.
+  // The quaternion of a sphere or an aabb may be zero, since those do not turn.
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
   Row result;
   for (size_t i = 0; i < 4; ++i) result[i] = static_cast<float>(std::ldexp(r[i], -exponent));

@@ -1,4 +1,4 @@
-// Parts of bodies: simple shapes and meshes with a pose, in numbers that tests take as they are.
+// Parts of bodies: simple shapes and meshes with a pose, in the numbers that the tests read.
 #pragma once
 
 #include <algorithm>
@@ -35,13 +35,13 @@ inline Double3 cross(const Double3& a, const Double3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// A shape and its pose in some frame: that of the body for children of compounds, one of the pair's
-// own for whole bodies.
+// A shape and its pose: in the body's frame for a child of a compound, in a frame of the pair's own
+// for a whole body.
 struct Part {
   ShapeKind kind = ShapeKind::sphere;
-  float radius = 0;                       // of spheres
-  std::array<float, 3> lower{}, upper{};  // of aabbs
-  std::array<Row, kMostRows> rows{};      // of all others
+  float radius = 0;                       // spheres only
+  std::array<float, 3> lower{}, upper{};  // aabbs only
+  std::array<Row, kMostRows> rows{};      // all other kinds
   Row orientation = {0, 0, 0, 1};
   Double3 position{};
 
@@ -49,19 +49,20 @@ struct Part {
   Turn turn() const { return is_turned() ? rotation_of(orientation) : kNotTurned; }
 };
 
-// A box in the part's frame that holds it, up to rounding; of half-spaces nothing.
+// A box in the part's frame that holds the part, up to rounding. Zero for half-spaces.
 struct PartBox {
   Double3 middle{}, half{};
 };
 
 PartBox box_of(const Part& part);
 
-// q * p, x, y, z, w, of any length but zero, scaled by a power of two and rounded to float32.
+// q * p as x, y, z, w, scaled by a power of two and rounded to float32. The quaternions need not be
+// unit ones.
 Row product(const Row& q, const Row& p);
 
-// The pose of a child of a body.
+// The world pose of a child of a body.
 struct PlacedChild {
-  Double3 arm;  // from the body's position to its own
+  Double3 arm;  // from the body's position to the child's
   Double3 position;
   Row orientation;
 };
@@ -72,13 +73,13 @@ inline PlacedChild placed(const Part& child, const Double3& position, const Turn
   return {arm, plus(position, arm), product(orientation, child.orientation)};
 }
 
-// In the frame of the part's position.
+// The middle of the part's box, in the frame in which the part's position is given.
 inline Double3 middle_of(const Part& part) {
   return plus(part.position, turned(part.turn(), box_of(part).middle));
 }
 
-// Writes the three rows of a triangle of a mesh, without inner edges. (To where they are needed:
-// what is stored as floats and copied as rows waits for the stores.)
+// Writes the three rows of a triangle of a mesh, without inner edges. It writes straight to the
+// destination: copying rows that were just stored as floats would wait for those stores.
 inline void put_triangle_rows(const MeshGeometry& mesh, size_t triangle, Row* rows) {
   const float fourth[] = {mesh.rules().thickness, mesh.rules().one_sided ? 1.0f : 0.0f, 0.0f};
   for (size_t i = 0; i < 3; ++i) {
@@ -92,7 +93,7 @@ inline Double3 corner(const MeshGeometry& mesh, size_t triangle, size_t i) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Towards the front of a triangle, in the mesh's frame; not a unit vector.
+// A normal towards the front of a triangle, in the mesh's frame; not a unit vector.
 inline Double3 front_of(const MeshGeometry& mesh, size_t triangle) {
   const Double3 a = corner(mesh, triangle, 0);
   return cross(minus(corner(mesh, triangle, 1), a), minus(corner(mesh, triangle, 2), a));
@@ -105,14 +106,14 @@ struct PlacedTriangle {
   const Double3& position;
   Turn turn;
 
-  // Which of its edges are inner ones for what has its middle there.
+  // The inner edges of the triangle for a shape whose middle is at `middle`, as bits.
   uint8_t inner_edges_towards(const Double3& middle) const {
     const Double3 in_mesh = turned_back(turn, minus(middle, position));
     const Double3 way = minus(in_mesh, corner(mesh, triangle, 0));
     return mesh.inner_edges(triangle, dot(front_of(mesh, triangle), way) >= 0);
   }
 
-  // The corners that are furthest along a way, as bits.
+  // The corners that are furthest along `way`, as bits.
   unsigned corners_towards(const Double3& way) const {
     const Double3 in_mesh = turned_back(turn, way);
     const Double3 a = corner(mesh, triangle, 0);
@@ -125,8 +126,8 @@ struct PlacedTriangle {
     return corners;
   }
 
-  // What leaves this way, and has its middle there, does it over an inner edge, or over a corner
-  // between two of them: these are the triangle's inner edges then. Otherwise 0.
+  // The triangle's inner edges if a shape with this middle that is pushed out along `way` would
+  // cross an inner edge, or a corner between two of them; otherwise 0.
   template <class Middle>
   uint8_t edges_to_close(const Double3& way, const Middle& middle) const {
     const unsigned corners = corners_towards(way);

@@ -31,7 +31,7 @@ Error no_kernel(ShapeKind a, ShapeKind b) {
   return {std::string("no kernel for ") + name(a) + " against " + name(b)};
 }
 
-// Whether it is cheaper to look at the pairs than at all bodies.
+// Whether going through the pairs is cheaper than going through all bodies.
 bool is_short(const Collidables& a, const Collidables& b, size_t pairs) {
   return pairs < (a.count + b.count) / 8;
 }
@@ -49,7 +49,8 @@ bool do_all_kinds_meet(const Collidables& a, const Collidables& b) {
   return all_meet;
 }
 
-// By the kinds that are there; if some of them do not meet, or there are few pairs, by every pair.
+// Checks the kinds that occur. If some of them have no kernel, or if there are few pairs, checks
+// every pair.
 template <class PairAt>
 Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t count,
                          const PairAt& pair_at) {
@@ -67,12 +68,12 @@ Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t coun
 
 bool has_composites(const Collidables& bodies) {
   if (!bodies.kind) return is_composite(bodies.uniform_kind);
-  bool found = false;  // without a branch: that reads many kinds at once
+  bool found = false;  // without a branch, to read many kinds at once
   for (size_t i = 0; i < bodies.count; ++i) found |= is_composite(bodies.kind[i]);
   return found;
 }
 
-// No pairs: (0, 0), (1, 1), ...
+// `pairs` nullptr: the pairs are (0, 0), (1, 1), ...
 bool may_have_composites(const Collidables& a, const Collidables& b, const Pair* pairs,
                          size_t count) {
   if (!pairs || !is_short(a, b, count)) return has_composites(a) || has_composites(b);
@@ -112,7 +113,8 @@ void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pair
 
 }  // namespace
 
-// Parts of composites meet if there is a kernel for them, which is so for all shapes with bounds.
+// Composites work with all kinds: their parts have kernels against all shapes with bounds, and
+// parts without a kernel are skipped.
 bool supports(ShapeKind a, ShapeKind b) {
   const auto is_shape = [](ShapeKind kind) {
     return static_cast<size_t>(kind) < size_t{kShapeKindCount};

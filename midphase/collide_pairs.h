@@ -1,4 +1,4 @@
-// The world's way into the mid-phase and the narrow phase.
+// The world's entry to the mid-phase and the narrow phase.
 #pragma once
 
 #include <span>
@@ -13,18 +13,20 @@
 
 namespace carom {
 
-// collide() within one set, with witness points relative to the bodies. The kinds were checked when
-// the bodies were added. Of separate pairs the decision alone is sure to be written. `direction`:
-// nullptr, or one a pair, kNoDirection at first, to be handed in again with the pair's next test:
-// pairs that are still apart in that direction take a short cut. Results are the same.
+// collide() within one set, with witness points relative to the bodies. The kinds must have been
+// checked when the bodies were added. For a separate pair only the decision is sure to be written.
+//
+// `direction`: nullptr, or one entry a pair, kNoDirection at first. The caller hands an entry in
+// again with the pair's next test; a pair that is still separate in that direction takes a short
+// cut. Results are the same.
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
                    const ResultColumns& out, uint32_t* direction, Parallelism parallelism,
                    const Accuracy& accuracy);
 
-// Fails if a pair is of kinds that no kernel exists for.
+// Fails if no kernel exists for the kinds of some pair.
 Result<void> check_pairs(const Collidables& a, const Collidables& b, std::span<const Pair> pairs);
 
-// Whether tests of these kinds make use of directions.
+// Whether the test of these kinds uses a direction.
 bool uses_directions(ShapeKind a, ShapeKind b);
 
 }  // namespace carom

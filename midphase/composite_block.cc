@@ -25,8 +25,8 @@ struct BodyPair {
   Part part_a, part_b;
   PlacedPart a, b;
 
-  // In world coordinates; with compounds as seen from A, since children are placed in double
-  // precision.
+  // Positions are in world coordinates. If there is a compound, they are relative to A, since
+  // children are placed in double precision.
   BodyPair(const BodyReader& reader_a, const BodyReader& reader_b, Pair pair)
       : part_a(body_part(reader_a, pair.a)),
         part_b(body_part(reader_b, pair.b)),
@@ -46,17 +46,17 @@ struct BodyPair {
   }
 };
 
-// Which pair of parts is the one to report, and how it came to overlap.
+// A pair of parts that may be the one to report, and how it overlaps.
 struct Finding {
   uint8_t overlap = 0;
-  std::array<uint8_t, 2> edges_to_close{};  // of triangles, over which the contact came
+  std::array<uint8_t, 2> edges_to_close{};  // inner edges of triangles over which the contact came
   float separation = kInfinity;
   std::array<uint64_t, 2> parts{};
 
   bool is_over_edge() const { return edges_to_close[0] != 0 || edges_to_close[1] != 0; }
 
-  // Overlapping pairs before undecided ones before separate ones; contacts that came over an inner
-  // edge last, since what lies across that edge knows better.
+  // Orders overlapping pairs before undecided ones before separate ones. Contacts that came over an
+  // inner edge go last, since the neighbouring triangle has the correct normal.
   bool is_before(const Finding& other) const {
     const auto order = [](const Finding& f) {
       const int rank = f.overlap == 1 ? 0 : f.overlap == kUndecided ? 1 : 2;
@@ -66,7 +66,7 @@ struct Finding {
   }
 };
 
-// What was found of a pair so far: that of the deepest pair of parts.
+// The result of a pair of bodies so far: that of the deepest pair of parts.
 struct Outcome : Finding {
   uint8_t status = static_cast<uint8_t>(Status::ok);
   bool is_found = false;
@@ -74,7 +74,7 @@ struct Outcome : Finding {
   std::array<float, 3> arm_a = {kNan, kNan, kNan};
   std::array<float, 3> arm_b = {kNan, kNan, kNan};
   float bound = 0;
-  double nearest = HUGE_VAL;  // the least that a separation may be in truth
+  double nearest = HUGE_VAL;  // a lower bound of the true separation
 
   bool is_invalid() const { return status == static_cast<uint8_t>(Status::invalid); }
 };
@@ -101,7 +101,7 @@ void set_row(T* column, size_t row, const T& value) {
   if (column) column[row] = value;
 }
 
-// From a part's position to that of its body.
+// Moves a point relative to a part's position to one relative to its body's.
 std::array<float, 3> moved(const std::array<float, 3>& point, const Double3& arm) {
   return {static_cast<float>(point[0] + arm[0]), static_cast<float>(point[1] + arm[1]),
           static_cast<float>(point[2] + arm[2])};
@@ -112,7 +112,7 @@ float rounded_up(double x) {
   return rounded < x ? std::nextafter(rounded, HUGE_VALF) : rounded;
 }
 
-// Memory of one thread.
+// The working memory of one thread.
 struct Scratch {
   PartBatch batch, again;
   std::array<Outcome, kPairsPerBlock> outcomes;
@@ -121,7 +121,8 @@ struct Scratch {
   std::array<uint16_t, kPairsPerBlock> to_measure;
 };
 
-// The deepest of overlapping parts names the parts that overlap.
+// Pairs of parts need their depth even where bodies do not: the deepest overlapping parts are
+// reported.
 Measured of_parts(Measured measured) {
   return measured == Measured::overlapping ? measured : Measured::all;
 }
@@ -179,7 +180,7 @@ class CompositeRun {
     batch_.add(k, a, b);
   }
 
-  // Tests what is waiting. Pairs before the current one are complete then.
+  // Tests the waiting pairs of parts. All pairs of bodies before the current one are then complete.
   void flush() {
     run_batch();
     for (size_t k = first_open_; k < current_; ++k) {
@@ -201,7 +202,7 @@ class CompositeRun {
     batch_.clear();
   }
 
-  // The deepest first: of what is behind it, less has to be asked.
+  // Merges the deepest pair of parts first, since that leaves less to compute for the others.
   void merge(size_t begin, size_t end) {
     const ResultColumns& out = batch_.results();
     size_t first = begin;
@@ -220,7 +221,7 @@ class CompositeRun {
     Outcome& best = outcomes_[k];
     if (best.overlap == 1 && out.overlap[i] == 0 && !tests_.bounds) return;
     Finding found{out.overlap[i], {}, out.separation[i], batch_.orders(i)};
-    // Where it came from need not be known of what is not the best in any case.
+    // A finding that is not the best in any case need not know over which edge it came.
     const bool may_be_best = !best.is_found || found.is_before(best);
     if (!may_be_best && !tests_.manifolds && !tests_.bounds) return;
     if (found.overlap == 1) found.edges_to_close = batch_.edges_to_close(i);
@@ -238,7 +239,7 @@ class CompositeRun {
     if (tests_.manifolds && found.overlap == 1) contacts_.add(k, contact_of(batch_, i, found));
   }
 
-  // Before `best` is replaced.
+  // Must run before `best` is replaced.
   void keep_bound(size_t i, const Finding& found, bool is_best, Outcome& best) const {
     const float bound = batch_.results().separation_bound[i];
     const bool is_alike = found.is_over_edge() == best.is_over_edge();
@@ -266,8 +267,8 @@ class CompositeRun {
     return contact;
   }
 
-  // Those of the pairs [begin, end) that meet over inner edges alone: their contacts once more,
-  // with no way over such edges. That they overlap stays as it is.
+  // Of the pairs [begin, end), tests those again that only have contacts over inner edges, with
+  // such directions forbidden. It does not change the decision that they overlap.
   void write_over_edges(size_t begin, size_t end) {
     again_.clear();
     for (size_t k = begin; k < end; ++k) {
@@ -292,7 +293,7 @@ class CompositeRun {
     }
   }
 
-  // The contacts of a pair, with another one of the same parts.
+  // Replaces the contact of the same parts among the contacts of a pair.
   static std::span<PartContact> replaced(std::span<PartContact> contacts,
                                          const PartContact& contact) {
     for (PartContact& each : contacts) {
@@ -308,8 +309,8 @@ class CompositeRun {
     return result;
   }
 
-  // Pairs of which no parts touch: how far they are apart. One pair of parts that is near says how
-  // far at most.
+  // Measures the separation of pairs whose parts do not overlap. The separation of one near pair of
+  // parts is an upper bound, which limits the search.
   void measure() {
     size_t count = 0;
     for (size_t k = 0; k < rows_.size(); ++k) {
@@ -334,7 +335,7 @@ class CompositeRun {
     for (const size_t k : to_measure) write(k, {});
   }
 
-  // `contacts`: of its parts, at detail manifold.
+  // `contacts`: those of the pair's parts, at detail manifold.
   void write(size_t k, std::span<PartContact> contacts) {
     const size_t row = rows_[k];
     const Pair p = pair(k);
@@ -373,7 +374,8 @@ class CompositeRun {
     return static_cast<uint32_t>(kind == ShapeKind::compound ? part >> 32 : part);
   }
 
-  // The deepest pair of parts in truth may be another one, and deeper by what its test rounds.
+  // The true deepest pair of parts may be another one, deeper than the reported one by the rounding
+  // of its test.
   static float bound_of(const Outcome& o) {
     const double deeper = double{o.separation} - o.nearest;
     return rounded_up(std::isfinite(deeper) ? std::max(double{o.bound}, deeper) : o.bound);
@@ -384,7 +386,7 @@ class CompositeRun {
   const std::span<const uint16_t> rows_;
   const PartTests tests_;
   PartBatch& batch_;
-  PartBatch& again_;  // contacts that came over inner edges
+  PartBatch& again_;  // pairs to test again without inner edges
   std::array<Outcome, kPairsPerBlock>& outcomes_;
   ContactRuns& contacts_;
   std::vector<merging::SeenPoint>& seen_;

@@ -1,4 +1,4 @@
-// Pairs of bodies of which one is a mesh or a compound at least: through their parts.
+// Tests pairs of bodies of which at least one is a mesh or a compound, through their parts.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// Tests the rows of `block` that are listed, and writes them, all of the columns that are there.
+// Tests the listed rows of `block`, and writes them to all result columns that are there.
 void run_composite_pairs(const PairBlock& block, std::span<const uint16_t> rows);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Overlaps of parts at detail manifold, pair after pair.
+// Collects the contacts of overlapping parts at detail manifold, pair after pair.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@ class ContactRuns {
     runs_.clear();
   }
 
-  // Owners never descend. Of an owner that has very many the deepest are kept.
+  // `owner` never decreases from call to call. If an owner has very many contacts, only the deepest
+  // are kept.
   void add(size_t owner, const PartContact& contact) {
     if (runs_.empty() || runs_.back().owner != owner) runs_.push_back({owner, contacts_.size()});
     contacts_.push_back(contact);

@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-// The rows of simple pairs, which run as a block of their own, and those of all others.
+// The rows of simple pairs, which run as a block of their own, and the rows of all others.
 struct Scratch {
   size_t simple_count = 0, composite_count = 0;
   std::array<uint16_t, kPairsPerBlock> simple, composite;

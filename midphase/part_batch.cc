@@ -43,7 +43,7 @@ void PartColumns::put_frame(size_t owner, const PlacedPart& part) {
   frames_[frames_used_++] = {part.position, part.arm, part.turn, mesh, part.child, owner};
 }
 
-// Of one kind, if all are: that saves the narrow phase from sorting them.
+// Says that all are of one kind if they are, which saves the narrow phase from sorting them.
 Collidables PartColumns::view() const {
   Collidables view;
   view.count = count_;
@@ -125,7 +125,7 @@ void PartBatch::run(const PartTests& tests) {
                   .out = asked});
 }
 
-// Half-spaces always push along their own normal.
+// Half-spaces are skipped: they always push along their own normal.
 std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) const {
   std::array<uint8_t, 2> edges{};
   const Double3 normal = {results_.normal[0][i], results_.normal[1][i], results_.normal[2][i]};

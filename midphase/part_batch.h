@@ -1,4 +1,4 @@
-// Pairs of parts on their way through the narrow phase, as two sets of bodies of their own.
+// A batch of pairs of parts for the narrow phase. The parts form two sets of bodies of their own.
 #pragma once
 
 #include <array>
@@ -10,11 +10,12 @@
 
 namespace carom {
 
-// One side, dense, with float64 positions.
+// The bodies of one side, dense, with float64 positions.
 class PartColumns {
  public:
   void clear();
-  // The place of the part's body. A part that comes again and again is put once.
+  // Adds a part, and returns the index of its body. A part that repeats the last one is not added
+  // again.
   uint32_t put(size_t owner, const PlacedPart& part);
 
   Collidables view() const;
@@ -23,10 +24,10 @@ class PartColumns {
   const Double3& arm(size_t body) const { return frames_[frame_[body]].arm; }
   uint64_t order(size_t body) const { return order_[body]; }
 
-  // Whether it is a triangle of a mesh; if so, which.
+  // Whether the body is a triangle of a mesh; triangle() then gives it.
   bool is_of_mesh(size_t body) const { return triangle_[body] != PlacedPart::kWhole; }
   PlacedTriangle triangle(size_t body) const;
-  // A triangle's inner edges.
+  // Sets the inner edges of a triangle.
   void set_inner_edges(size_t body, uint8_t edges) {
     rows_[first_row_[body] + 2][3] = static_cast<float>(edges);
   }
@@ -34,11 +35,11 @@ class PartColumns {
  private:
   Part part(size_t body) const;
 
-  // What the triangles of a mesh have in common.
+  // What the triangles of one mesh share.
   struct Frame {
     Double3 position, arm;
     Turn turn;
-    const MeshGeometry* mesh;  // nullptr: of another shape
+    const MeshGeometry* mesh;  // nullptr: not a mesh
     uint32_t child;
     size_t owner;
 
@@ -57,7 +58,7 @@ class PartColumns {
   bool are_mixed_ = false;
   alignas(64) std::array<Position, kPairsPerBlock> record_;
   std::array<Row, kPairsPerBlock> orientation_;
-  std::array<std::array<float, kPairsPerBlock>, 3> lower_, upper_;  // of aabbs
+  std::array<std::array<float, kPairsPerBlock>, 3> lower_, upper_;  // aabbs only
   std::array<ShapeKind, kPairsPerBlock> kind_;
   std::array<uint32_t, kPairsPerBlock> first_row_;
   std::array<Row, kPairsPerBlock * kMostRows> rows_;
@@ -67,7 +68,7 @@ class PartColumns {
   std::array<Frame, kPairsPerBlock> frames_;
 };
 
-// What is asked of all pairs.
+// What to compute for all pairs of a batch.
 struct PartTests {
   bool manifolds = false;
   bool bounds = false;
@@ -83,9 +84,9 @@ class PartBatch {
   size_t count() const { return count_; }
   bool is_full() const { return count_ == kPairsPerBlock; }
   void clear();
-  // The pair belongs to `owner`; it must be of kinds that have a kernel.
+  // Adds a pair for `owner`. Its kinds must have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b);
-  // The same, with inner edges of triangles.
+  // The same, and sets the inner edges of triangles.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b,
            const std::array<uint8_t, 2>& inner_edges);
 
@@ -93,16 +94,16 @@ class PartBatch {
   void run(const PartTests& tests);
 
   size_t owner(size_t i) const { return owner_[i]; }
-  // Of the parts of pair i.
+  // The places of the parts of pair i in the order of sub-shapes.
   std::array<uint64_t, 2> orders(size_t i) const {
     return {sides_[0].order(pairs_[i].a), sides_[1].order(pairs_[i].b)};
   }
   const Double3& arm_a(size_t i) const { return sides_[0].arm(pairs_[i].a); }
   const Double3& arm_b(size_t i) const { return sides_[1].arm(pairs_[i].b); }
-  // Those of the last run, as far as they were asked for.
+  // The results of the last run, in the columns that were asked for.
   const ResultColumns& results() const { return results_; }
-  // Of an overlapping pair: the inner edges of the triangle on each side over one of which the
-  // contact came; 0: it did not.
+  // For an overlapping pair, by side: all inner edges of the triangle if the contact came over one
+  // of them; 0 otherwise.
   std::array<uint8_t, 2> edges_to_close(size_t i) const;
 
  private:

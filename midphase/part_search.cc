@@ -19,14 +19,14 @@ FrameChange to_frame_of(const PlacedPart& frame, const PlacedPart& part) {
     const Double3 seen = turned_back(frame.turn, axis);
     for (size_t k = 0; k < 3; ++k) change.turn[k][i] = seen[k];
   }
-  // Beyond the search everything is near: no further than that, so that sums stay finite.
+  // Beyond the range of the search every part is near. The clamp keeps sums finite.
   Double3 way = minus(part.position, frame.position);
   for (double& x : way) x = std::clamp(x, -kGreatestOffset, kGreatestOffset);
   change.offset = turned_back(frame.turn, way);
   return change;
 }
 
-// The greatest coordinate.
+// The greatest coordinate of the tree's boxes.
 double size_of(const PlacedPart& tree) {
   const auto largest = [](const auto& parts) {
     return std::max(parts.lower().cwiseAbs().maxCoeff(), parts.upper().cwiseAbs().maxCoeff());
@@ -39,9 +39,9 @@ double with_slack(double reach, double lengths) {
   return reach + kSearchSlack * lengths;
 }
 
-// A part as seen from a tree.
+// A part in the frame of a tree.
 class SeenPart {
-  // Of hulls with more, the box is seen.
+  // Hulls with more points are seen as their box.
   static constexpr size_t kMostSeenPoints = 64;
 
  public:
@@ -64,7 +64,7 @@ class SeenPart {
   TreeBox box() const {
     return rounded_outwards(box_.middle, plus(box_.half, {radius_, radius_, radius_}));
   }
-  // And what is within `reach` of it.
+  // The box, and all within `reach` of it.
   RoundedBox surroundings(double reach) const {
     const double lengths = size_ + greatest(box_.middle) + greatest(box_.half) + radius_;
     return rounded_outwards(box_.middle, box_.half, with_slack(radius_ + reach, lengths));
@@ -88,7 +88,7 @@ class SeenPart {
     }
   }
 
-  // The box of a box that is turned has twice the faces of that of the points inside.
+  // A box around the turned points has half the faces of a box around the turned box.
   void see_hull(const HullGeometry& hull, const Part& part) {
     if (hull.points().size() > kMostSeenPoints) return see_box(box_of(part));
     FewOf<Double3, kMostSeenPoints> points;
@@ -107,7 +107,7 @@ class SeenPart {
       }
     }
     for (size_t axis = 0; axis < 3; ++axis) {
-      // Halves first: sums of the greatest doubles are infinite.
+      // Halved first, since sums of the greatest doubles are infinite.
       box_.middle[axis] = lower[axis] / 2 + upper[axis] / 2;
       box_.half[axis] = upper[axis] / 2 - lower[axis] / 2;
     }
@@ -125,10 +125,10 @@ class SeenPart {
   const FrameChange change_;
   const double size_;
   PartBox box_;
-  double radius_ = 0;  // around it
+  double radius_ = 0;  // around the box
 };
 
-// A half-space as seen from a tree: all x with normal . x <= limit.
+// A half-space in the frame of a tree: all x with normal . x <= limit.
 struct SeenPlane {
   Double3 normal;  // unit
   double limit;
@@ -147,7 +147,7 @@ struct SeenPlane {
 
 bool is_plane(const PlacedPart& part) { return part.kind() == ShapeKind::halfspace; }
 
-// The parts of a body, one at a time. Those of a mesh differ in no more than the triangle.
+// Gives the parts of a body one at a time. For a mesh only the triangle changes.
 class PartOf {
  public:
   explicit PartOf(const PlacedPart& whole) : whole_(whole), part_(whole) {}
@@ -166,7 +166,8 @@ class PartOf {
   PlacedPart part_;
 };
 
-// Which of two bodies with parts is taken apart: the compound; of two of a kind both.
+// Whether A is taken apart before B: a compound goes before a mesh. Two of a kind are taken apart
+// together.
 bool takes_apart_first(const PlacedPart& a, const PlacedPart& b) {
   if (!a.has_parts()) return false;
   return !b.has_parts() || a.kind() == ShapeKind::compound;

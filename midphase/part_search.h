@@ -1,5 +1,5 @@
-// Two bodies, at least one of which is made of parts -> the pairs of their parts that are near each
-// other.
+// Finds the pairs of parts of two bodies that are near each other; at least one body is made of
+// parts.
 #pragma once
 
 #include "base/parallel.h"
@@ -7,15 +7,15 @@
 
 namespace carom {
 
-// Parts that have no parts themselves.
+// Receives parts that have no parts themselves.
 using PartPairFound = FunctionRef<void(const PlacedPart& a, const PlacedPart& b)>;
 
-// All pairs of parts that are no further apart than `reach` in metres, and some that are: what a
-// test may find to be that near is among them, whatever it rounds. Half-spaces are near all that
-// reaches below their plane.
+// Finds all pairs of parts that are at most `reach` metres apart, and some that are further. Every
+// pair that a test may find to be that near is among them, despite all rounding. A half-space is
+// near everything that reaches below its plane.
 void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, PartPairFound found);
 
-// One pair of parts that are probably about the nearest; none if one of the bodies has no parts.
+// Finds one pair of parts that is about the nearest; none if one of the bodies has no parts.
 void find_near_part_pair(const PlacedPart& a, const PlacedPart& b, PartPairFound found);
 
 }  // namespace carom

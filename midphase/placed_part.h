@@ -1,4 +1,4 @@
-// Bodies and what they are made of, placed in the frame of a pair.
+// Bodies and their parts, placed in the frame of a pair.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,20 @@
 
 namespace carom {
 
-// A body, a child of a compound, or a triangle of a mesh: one that has parts, or one to test.
+// A body, a child of a compound, or a triangle of a mesh. It has parts itself, or it is ready to
+// test.
 struct PlacedPart {
   static constexpr uint32_t kWhole = 0xffffffffu;
 
   const Part* part;
-  Double3 arm{};  // from the body's position to its own
+  Double3 arm{};  // from the body's position to the part's
   Double3 position;
   Row orientation;
   Turn turn;
   uint32_t child = 0;
-  uint32_t triangle = kWhole;  // of a mesh
+  uint32_t triangle = kWhole;  // index in the mesh; kWhole: no triangle of a mesh
 
-  // A whole body.
+  // Places a whole body.
   PlacedPart(const Part& body, const Double3& at)
       : part(&body), position(at), orientation(body.orientation), turn(body.turn()) {}
 
@@ -30,17 +31,17 @@ struct PlacedPart {
 
   const MeshGeometry& mesh() const { return *geometry_at<MeshGeometry>(part->rows[0]); }
   const CompoundGeometry& compound() const { return *geometry_at<CompoundGeometry>(part->rows[0]); }
-  // Of those that have parts.
+  // Only for those that have parts.
   const BoxTree& tree() const {
     return kind() == ShapeKind::mesh ? mesh().tree() : compound().tree();
   }
   PlacedPart item(uint32_t index) const;
 
-  // Parts in the order of sub-shapes.
+  // A number that sorts parts by child, then by triangle.
   uint64_t order() const { return uint64_t{child} << 32 | (triangle == kWhole ? 0 : triangle); }
 };
 
-// Body `i` of a view.
+// Body `i` of a view, with position zero.
 Part body_part(const BodyReader& reader, size_t i);
 
 }  // namespace carom

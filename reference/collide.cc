@@ -13,7 +13,7 @@
 namespace carom::reference {
 namespace {
 
-// Where both are, in the two precisions of the tests.
+// The poses of both bodies, in the two precisions of the tests.
 struct Poses {
   PairPose<float> rounded;
   PairPose<double> exact;
@@ -49,7 +49,7 @@ Separation test(const Aabb& a, const Aabb& b, const Poses& poses) {
   return aabb_aabb(a.lower, a.upper, b.lower, b.upper, poses.rounded.d);
 }
 
-// All others: in float32, and in double precision where that cannot decide.
+// All others: in float32, and again in double precision if the result is unsure.
 Separation test(const Shape& a, const Shape& b, const Poses& poses) {
   const Separation result = separation_of<float>(a, b, poses.rounded);
   return result.is_unsure ? rounded(separation_of<double>(a, b, poses.exact)) : result;

@@ -18,7 +18,8 @@ PairResult test(const Simple& a, const Simple& b) {
   return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
 }
 
-// The inner edges of a triangle of a mesh, if the other one leaves over one of them.
+// The inner edges of a triangle of a mesh, if the other part is pushed out over one of them; else
+// 0.
 uint8_t edges_to_close(const Simple& part, const Simple& other, const Double3& way) {
   if (!part.mesh || std::holds_alternative<Halfspace>(other.shape)) return 0;
   return part.placed_triangle().edges_to_close(way, [&] { return middle_of(other.placed); });
@@ -40,7 +41,7 @@ Vector3f moved(const Vector3f& point, const Double3& arm) {
   return {result[0], result[1], result[2]};
 }
 
-// Relative to the bodies.
+// Makes the result relative to the bodies.
 PairResult from_parts(PairResult result, const Simple& a, const Simple& b) {
   result.arm_a = moved(result.arm_a, a.arm);
   result.arm_b = moved(result.arm_b, b.arm);
@@ -65,8 +66,8 @@ PartContact contact_of(const PairResult& result, const Simple& a, const Simple& 
           result.manifold_count, result.manifold,       is_over_edge};
 }
 
-// Overlapping pairs of parts before separate ones, those that meet over inner edges after others;
-// the deepest, and the first of those.
+// Ranks overlapping pairs of parts before separate ones, and contacts over inner edges after
+// others; then the deepest first, then by the order of parts.
 using Rank = std::tuple<int, bool, float, uint64_t, uint64_t>;
 
 struct Best {
@@ -74,13 +75,13 @@ struct Best {
   PairResult result = nothing();
   const Simple* a = nullptr;
   const Simple* b = nullptr;
-  std::array<uint8_t, 2> closed{};  // edges, of either side
+  std::array<uint8_t, 2> closed{};  // inner edges, by side
 
   bool is_over_edge() const { return a != nullptr && (closed[0] != 0 || closed[1] != 0); }
 };
 
-// Again with no way over inner edges. That the two overlap stays as it was: where this test finds
-// that they do not, the contact is the one before.
+// Tests again with directions over inner edges forbidden. The pair still counts as overlapping. If
+// this test finds no overlap, the old contact stays.
 void close_edges(Best& best) {
   const PairResult again =
       test(with_inner_edges(*best.a, best.closed[0]), with_inner_edges(*best.b, best.closed[1]));
@@ -107,7 +108,7 @@ PairResult collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& 
                          const Pose& pose_b, PositionType positions) {
   Double3 position_a = stored(pose_a.position, positions);
   Double3 position_b = stored(pose_b.position, positions);
-  // Children are placed in double precision, near the pair.
+  // Children are placed in double precision, so the pair is moved near the origin.
   if (kind_of(shape_a) == ShapeKind::compound || kind_of(shape_b) == ShapeKind::compound) {
     position_b = minus(position_b, position_a);
     position_a = {};

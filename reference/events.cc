@@ -21,8 +21,7 @@ Event with_kind(Event event, EventKind kind) {
 std::vector<Event> events(std::span<const Event> before, std::span<const Event> now) {
   std::vector<Event> merged;
   auto old = before.begin();
-  // Those that are not overlapping now, or were between other bodies of the same indices, end
-  // first.
+  // First end the overlaps that are gone, or that were between other bodies with the same indices.
   const auto end_up_to = [&](const Event& current) {
     for (; old != before.end() && place(*old) < place(current); ++old) {
       merged.push_back(with_kind(*old, EventKind::end));

@@ -29,8 +29,8 @@ inline float step_down(float x) {
 }
 inline float step_up(float x) { return std::nextafter(x, std::numeric_limits<float>::infinity()); }
 
-// The largest float that is not above the exact sum. (Where it is not a float, the error is at most
-// half a unit: the next float below the rounded sum is the one.)
+// The largest float that is not above the exact sum. (The error is at most half a unit. So if the
+// rounded sum is too large, the next float below it is the answer.)
 inline float round_down(const ExactSum<float>& s) { return s.error < 0 ? step_down(s.sum) : s.sum; }
 
 inline float round_down(const ExactSum<double>& s) {
@@ -48,8 +48,8 @@ inline float round_up(const ExactSum<double>& s) {
   return is_below ? step_up(rounded) : rounded;
 }
 
-// a + b as a lower corner, and as an upper one. Sums beyond the range of float32 round to infinity,
-// which is not below them (or above): the largest float is.
+// a + b rounded as a lower corner, or as an upper one. A sum beyond the range of float32 rounds to
+// infinity, which is no bound on that side; the largest float is.
 template <class Real>
 float sum_down(Real a, Real b) {
   return std::fmin(round_down(two_sum(a, b)), std::numeric_limits<float>::max());

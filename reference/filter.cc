@@ -1,4 +1,4 @@
-// Who may meet whom.
+// The filter on pairs.
 #include "carom/reference/reference.h"
 
 namespace carom::reference {

@@ -16,7 +16,7 @@ Pose pose_of(const BodyDesc& desc) { return {desc.position, desc.orientation}; }
 
 bool has_sensor(const MovingPair& pair) { return pair.a.desc.sensor || pair.b.desc.sensor; }
 
-// Contact numbers of either kind of result.
+// Copies the contact from either kind of result.
 template <class From>
 void copy_contact(const From& from, carom::Impact& impact) {
   impact.sub_a = from.sub_a;
@@ -52,7 +52,7 @@ void add_impact(const MovingPair& pair, const PairResult& now, bool overlap, Pos
   frame.impacts.push_back(impact);
 }
 
-// Over the interval, of a point that goes on straight.
+// The displacement over the interval of a point of the body that goes on straight.
 Vector3d way_of(const BodyMotion& motion, const Vector3f& arm) {
   const Vector3d w = motion.sweep.rotation.cast<double>(), r = arm.cast<double>();
   return motion.sweep.displacement.cast<double>() + w.cross(r);
@@ -96,7 +96,7 @@ void settle(Impacts impacts, std::vector<carom::Impact>& all) {
   });
   if (impacts == Impacts::all) return;
 
-  std::map<uint32_t, float> stopped;  // when each body is, by another one
+  std::map<uint32_t, float> stopped;  // when another body first stops each body
   for (const carom::Impact& impact : all) {
     if (impact.sensor || impact.overlap) continue;
     stopped.emplace(impact.a, impact.toi);

@@ -1,4 +1,4 @@
-// What the bodies of a frame will meet.
+// Impacts and speculative contacts of the bodies of a frame.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace carom::reference {
 
-// Two bodies, the lower index first, of which the bounds over the interval meet.
+// Two bodies, the lower index first, whose bounds over the interval overlap.
 struct MovingPair {
   const Body& a;
   const Body& b;
@@ -16,12 +16,13 @@ struct MovingPair {
   const BodyMotion& motion_b;
 };
 
-// Adds what is ahead of a pair to the frame: an impact, or a speculative contact. `now` is the
-// result of its test; `overlap` says whether they overlap now, which bounds may deny.
+// Adds an impact or a speculative contact of the pair to the frame, if it has one. `now` is the
+// result of its test. `overlap` says whether the bodies overlap now; it is false if their present
+// bounds are separate, whatever `now` says.
 void look_ahead(const MovingPair& pair, const PairResult& now, bool overlap, PositionType positions,
                 Detail detail, double dt, Frame& frame);
 
-// Sorts the impacts, and leaves those that the setting asks for.
+// Sorts the impacts, and keeps those that the setting asks for.
 void settle(Impacts impacts, std::vector<carom::Impact>& all);
 
 }  // namespace carom::reference

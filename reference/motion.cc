@@ -22,7 +22,7 @@ double length(const Vector3f& v) {
   return std::sqrt((d.x() * d.x() + d.y() * d.y()) + d.z() * d.z());
 }
 
-// Whether a point of the body may go further than that share of a ball inside of it is wide.
+// Whether a point of the body may move further than this share of the diameter of a ball inside it.
 bool is_fast(const BodyDesc& body, const Sweep& sweep, float share) {
   if (kind_of(body.shape) == ShapeKind::halfspace) return false;
   const double angle = length(sweep.rotation);
@@ -31,8 +31,8 @@ bool is_fast(const BodyDesc& body, const Sweep& sweep, float share) {
   return way > 0 && way > double{share} * inner_diameter(body.shape);
 }
 
-// What holds the body while it turns without being moved: what the ball about its position and the
-// box of now, grown by the way of the point that goes furthest, have in common.
+// A box that holds the body while it turns in place: the intersection of the box of the ball about
+// its position with the present box grown by the greatest distance that a point moves.
 Box turned_box(const Box& now, const BodyDesc& body, const Vector3f& rotation,
                PositionType positions) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();

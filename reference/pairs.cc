@@ -21,7 +21,7 @@ uint32_t intervals_overlap(float lower_a, float upper_a, float lower_b, float up
   return uint32_t{lower_a <= upper_b} & uint32_t{lower_b <= upper_a};
 }
 
-// One array a coordinate: a loop over neighbours reads them in order.
+// One array for each coordinate, so that the loop reads neighbours in order.
 struct Columns {
   explicit Columns(std::span<const Box> boxes) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -36,8 +36,8 @@ struct Columns {
   std::array<std::vector<float>, 3> upper;
 };
 
-// 32 units in the last place; what world_plane() and may_reach() round adds up to less than 16 of
-// the sizes involved.
+// 32 units in the last place; the rounding in world_plane() and may_reach() adds up to less than 16
+// of the sizes involved.
 constexpr double kRounding = 0x1p-48;
 
 double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -61,7 +61,8 @@ Eigen::Matrix3d scaled_rotation(double x, double y, double z, double w) {
 constexpr size_t kBlock = 128;
 
 // Sets hits[k] to whether `box` overlaps box first + k, for k < count <= kBlock. Returns whether
-// any does. Plain enough for compilers to test several boxes at once: no branches, local names.
+// any does. It has no branches and uses local names, so that compilers can test several boxes at
+// once.
 uint32_t test_block(const Box& box, const Columns& boxes, size_t first, size_t count,
                     uint32_t* __restrict hits) {
   const float lower_x = box.lower.x(), upper_x = box.upper.x();
@@ -125,15 +126,15 @@ Plane world_plane(const Halfspace& halfspace, const Pose& pose, PositionType pos
   const double offset = halfspace.offset;
   const double limit = offset * scale + dot(normal, p);
   const double error = kRounding * (std::abs(offset) * scale + size * sum_of_magnitudes(p));
-  // What vanishes below the smallest double counts, too.
+  // DBL_MIN covers what underflows.
   return {normal, (limit + error) + DBL_MIN, kRounding * size};
 }
 
 bool may_reach(const Box& box, const Plane& plane) {
-  Eigen::Vector3d lowest;  // corner along the normal
+  Eigen::Vector3d lowest;  // the corner that is lowest along the normal
   for (int i = 0; i < 3; ++i) lowest[i] = plane.normal[i] >= 0 ? box.lower[i] : box.upper[i];
   const double error = plane.slack * sum_of_magnitudes(lowest);
-  // Infinite corners give NaN, which is certain of nothing.
+  // Infinite corners give NaN, for which the answer is true.
   return !(dot(plane.normal, lowest) - error > plane.limit);
 }
 

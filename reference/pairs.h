@@ -22,7 +22,7 @@ struct Plane {
 // Both must be valid.
 Plane world_plane(const Halfspace& halfspace, const Pose& pose, PositionType positions);
 
-// False only if all of the box is certainly outside of the half-space.
+// False only if all of the box is certainly outside the half-space.
 bool may_reach(const Box& box, const Plane& plane);
 
 }  // namespace carom::reference

@@ -1,5 +1,4 @@
-// The reference calls the scalar tests that the library is made of (narrowphase/, impacts/) by
-// their own names.
+// Lets the reference call the library's scalar tests (narrowphase/, impacts/) without a prefix.
 #pragma once
 
 namespace carom::scalar {}

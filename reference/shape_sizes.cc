@@ -24,7 +24,7 @@ double length(const Vector3d& v) {
 }
 double length(const Vector3f& v) { return length(v.cast<double>().eval()); }
 
-// Of the furthest corner of a box.
+// The distance of the furthest corner of a box.
 double reach_of_box(const Vector3f& lower, const Vector3f& upper) {
   return length(lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).eval());
 }
@@ -67,7 +67,8 @@ double diameter(const Capsule& capsule) { return 2 * double{capsule.radius}; }
 double diameter(const carom::Box& box) { return 2 * double{box.half.minCoeff()}; }
 double diameter(const Triangle&) { return 0; }
 double diameter(const Halfspace&) { return kInfinity; }
-// Of a ball around the middle of the first three slabs.
+// The diameter of the largest ball around the middle of the first three slabs that stays within all
+// slabs.
 double diameter(const Dop& dop) {
   const auto middle_of = [&](size_t slab) {
     return (double{dop.lower[slab]} + double{dop.upper[slab]}) / 2;
@@ -98,7 +99,7 @@ double diameter(const Compound& compound) {
 
 }  // namespace
 
-// One float further than the nearest from above, which covers what is rounded above.
+// Rounds up, and takes one float more, which covers the rounding above.
 float bounding_radius(const Shape& shape) {
   const double exact =
       std::min(std::visit([](const auto& s) { return reach(s); }, shape), double{kLargest});

@@ -1,15 +1,15 @@
-// How far shapes reach, and how large a ball fits into them.
+// The radius of a ball that holds a shape, and the diameter of a ball that fits into it.
 #pragma once
 
 #include "carom/shapes/shape.h"
 
 namespace carom::reference {
 
-// Of a shape that is turned, and valid: a ball about the body's position of this radius holds it,
-// however it is turned. The largest float where it would be more.
+// The radius of a ball about the body's position that holds the shape, however it is turned; at
+// most the largest float. The shape must be valid.
 float bounding_radius(const Shape& shape);
 
-// The diameter of a ball that lies inside of the shape; 0 where none is known.
+// The diameter of a ball inside the shape; 0 if none is known.
 double inner_diameter(const Shape& shape);
 
 }  // namespace carom::reference

@@ -30,7 +30,7 @@ Triangle triangle_of(const MeshGeometry& mesh, size_t i) {
   return triangle;
 }
 
-// What a body, or a child of one, is made of. `whole` is the shape in its place.
+// Adds the parts of a body, or of a child of one. `whole` is its shape in its place.
 void add_parts(const Simple& whole, std::vector<Simple>& parts) {
   if (const auto* mesh = std::get_if<Mesh>(&whole.shape)) {
     for (size_t i = 0; i < mesh->geometry->triangles().size(); ++i) {

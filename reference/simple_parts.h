@@ -1,4 +1,4 @@
-// What bodies are made of, as simple shapes in their places.
+// Splits bodies into simple shapes in their places.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@ namespace carom::reference {
 // A shape that has no parts.
 struct Simple {
   Shape shape;
-  Part placed;                         // the same, as numbers
-  Double3 arm{};                       // from the body's position
+  Part placed;                         // the same shape with its pose, as numbers
+  Double3 arm{};                       // from the body's position to the part's
   uint64_t order = 0;                  // the child, and the triangle of a mesh
-  uint32_t sub = 0;                    // what it is called
-  const MeshGeometry* mesh = nullptr;  // of which it is this triangle
+  uint32_t sub = 0;                    // the sub-shape that results report
+  const MeshGeometry* mesh = nullptr;  // mesh whose triangle it is; nullptr: none
   size_t triangle = 0;
 
   Pose pose() const {
@@ -28,7 +28,7 @@ struct Simple {
   }
 };
 
-// Of a simple shape itself alone. Triangles of a mesh that have no area are left out.
+// A simple shape has itself as its only part. Triangles of a mesh that have no area are left out.
 std::vector<Simple> parts_of(const Shape& shape, const Double3& position,
                              const Eigen::Quaternionf& orientation);
 

@@ -17,7 +17,7 @@ namespace {
 
 Pose pose_of(const BodyDesc& desc) { return {desc.position, desc.orientation}; }
 
-// A body that has bounds, with those of now and of the interval ahead.
+// A body with bounds: the present ones, and those over the interval ahead.
 struct Participant {
   const Body* body;
   BodyMotion motion;
@@ -65,7 +65,7 @@ struct Candidate {
   const Body* b;
   const BodyMotion* motion_a;
   const BodyMotion* motion_b;
-  bool meet_now;  // their bounds do
+  bool meet_now;  // their present bounds overlap
 };
 
 // Two bodies, not in order.
@@ -75,12 +75,13 @@ Candidate in_order(const Body* x, const BodyMotion& of_x, const Body* y, const B
   return {y, x, &of_y, &of_x, meet_now};
 }
 
-// If one of the bodies looks ahead, what meets on the way is a candidate.
+// If one of the bodies looks ahead, overlapping bounds over the interval are enough.
 bool is_candidate(const Candidate& pair) {
   return pair.meet_now || pair.motion_a->looks_ahead() || pair.motion_b->looks_ahead();
 }
 
-// Bodies whose bounds meet, and those that reach into half-spaces; sorted.
+// Pairs of bodies with overlapping bounds, and of bodies and half-spaces that they reach into;
+// sorted.
 std::vector<Candidate> candidates(const Participants& all) {
   std::vector<Candidate> result;
   const auto add = [&](const Candidate& pair) {
@@ -125,7 +126,7 @@ Contact contact_between(const Body& a, const Body& b, const PairResult& result, 
   return contact;
 }
 
-// What of a frame does not depend on the pair.
+// The settings of a frame, which all its pairs share.
 struct Settings {
   PositionType positions;
   Detail detail;
@@ -148,7 +149,8 @@ void add_overlap(const Body& a, const Body& b, const PairResult& result, const S
   frame.touching.push_back(touch);
 }
 
-// Tests one pair and records what it yields. Bounds that lie apart are believed.
+// Tests one pair and records what it yields. A pair whose present bounds are separate does not
+// overlap, whatever its rounded test says.
 void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
   const Body& a = *pair.a;
   const Body& b = *pair.b;

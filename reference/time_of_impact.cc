@@ -1,4 +1,4 @@
-// When two moving bodies meet: every pair of their parts, one at a time.
+// When two moving bodies meet. It tests every pair of their parts, one at a time.
 #include <limits>
 #include <tuple>
 
@@ -28,7 +28,7 @@ MovingShape moving(const Simple& part, const Sweep& sweep) {
       part.shape, {{q[0], q[1], q[2]}, q[3]}, vector_of(part.arm), sweep.rotation.cast<double>()};
 }
 
-// Where bodies further apart than anything could move are taken to be.
+// The position of B relative to A, clamped to a distance that no displacement covers.
 Double3 seen_from(const Vector3d& a, const Vector3d& b) {
   constexpr double kFurthest = 1e40;
   Double3 from;
@@ -65,7 +65,8 @@ FirstTime time_of(const Simple& part_a, const Sweep& sweep_a, const Simple& part
   return found;
 }
 
-// The part where it is at time t, and from where the body is then.
+// The pose of the part at time t, and the vector from the body's position to the part's at that
+// time.
 struct PlacedInTime {
   Pose pose;
   Vector3d arm;

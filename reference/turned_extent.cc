@@ -1,5 +1,5 @@
-// In double precision, whose own rounding is added before the result is rounded outwards to
-// float32.
+// The extent is computed in double precision. A bound on its rounding is added before the result is
+// rounded outwards to float32.
 //
 // Source of the extent of a box: C. Ericson, Real-Time Collision Detection, 2005, section 4.2.6.
 #include "reference/turned_extent.h"
@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRounding = 0x1p-46;  // of a rotation and the sums that follow, generously
+constexpr double kRounding = 0x1p-46;  // a generous bound for a rotation and the sums that follow
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-// Rows of M(q) / |q|^2.
+// The rows of M(q) / |q|^2.
 struct Turn {
   Vector3d x, y, z;
 
@@ -72,8 +72,8 @@ double greatest(const std::vector<Vector3d>& points, double size) {
   return size;
 }
 
-// Against the front, `thickness` long; zero if the triangle has hardly any area, and with it no
-// direction to rely on.
+// The vector, `thickness` long, from the front of a triangle to its back. Zero if the triangle has
+// hardly any area, so that its normal is unreliable.
 Vector3d way_back(const std::vector<Vector3d>& corners, double thickness) {
   const Vector3d u = corners[1] - corners[0];
   const Vector3d v = corners[2] - corners[0];

@@ -1,4 +1,4 @@
-// How far shapes that are turned reach from their position along the world axes.
+// How far turned shapes reach from their position along the world axes.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,10 +13,10 @@ Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation)
 Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation);
-// Of the box in the body's frame that holds all parts.
+// The extent of the turned box that holds all parts in the body's frame.
 Aabb turned_extent(const Mesh& mesh, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Compound& compound, const Eigen::Quaternionf& orientation);
-// Nothing: half-spaces have no extent.
+// Empty: half-spaces have no extent.
 Aabb turned_extent(const Halfspace& plane, const Eigen::Quaternionf& orientation);
 
 }  // namespace carom::reference

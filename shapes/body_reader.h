@@ -1,5 +1,6 @@
-// Single bodies of a view, and what counts as a valid one: finite position, finite and not negative
-// size. One rule for bounds, kernels and queries; comparisons are ordered so that NaN fails them.
+// Reads single bodies of a view, and says which are valid: finite position, finite size that is not
+// negative. Bounds, kernels and queries share this one rule. The comparisons are ordered so that
+// NaN fails them.
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ struct Position {
 
 using Row = std::array<float, 4>;
 
-// Without a branch: of finite numbers the differences are zero, of others they are not numbers.
+// Without a branch: x - x is zero for a finite number and NaN for any other.
 template <class T>
 bool is_finite(const Position<T>& p) {
   return ((p.x - p.x) + (p.y - p.y)) + (p.z - p.z) == 0;
@@ -43,15 +44,17 @@ inline bool is_finite(const Row& row) {
 
 inline bool is_direction(float x, float y, float z) { return (x != 0) | (y != 0) | (z != 0); }
 
-// A quaternion that is not zero.
+// A finite quaternion that is not zero.
 inline bool is_rotation(const Row& q) {
   return is_finite(q) && (is_direction(q[0], q[1], q[2]) || q[3] != 0);
 }
 
-// Its number of planes, and slabs that are finite, in order, and have a point in common.
+// True if the number of planes exists, and the slabs are finite, in order, and have a point in
+// common.
 bool is_valid_dop(const Dop& dop);
 
-// Of all kinds but spheres and aabbs: their parameters. A geometry is valid if it is there.
+// Whether the parameters are valid; for all kinds but spheres and aabbs. A geometry is valid if its
+// address is not null.
 inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
   if (has_geometry(kind)) return geometry_at<void>(rows[0]) != nullptr;
   if (kind == ShapeKind::dop) return is_valid_dop(std::get<Dop>(shape_from_rows(kind, rows)));
@@ -61,7 +64,7 @@ inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
   switch (kind) {
     case ShapeKind::capsule:
       return rows[0][3] >= 0;
-    case ShapeKind::triangle:  // thickness and the bits of inner edges
+    case ShapeKind::triangle:  // thickness and the bits of the inner edges
       return rows[0][3] >= 0 && rows[2][3] >= 0 && rows[2][3] <= 7;
     case ShapeKind::box:
       return rows[0][0] >= 0 && rows[0][1] >= 0 && rows[0][2] >= 0;
@@ -82,7 +85,7 @@ struct BodyReader {
 
   bool is_float64() const { return bodies.position.type == PositionType::float64; }
 
-  // Zero where the view has no positions.
+  // Zero if the view has no positions.
   template <class T>
   Position<T> position(size_t i) const {
     const PositionView& view = bodies.position;
@@ -121,13 +124,13 @@ struct BodyReader {
     return load_strided<float>(bodies.boxes.upper[axis], bodies.boxes.stride, box(i));
   }
 
-  // The identity where the view has no orientations.
+  // The identity if the view has no orientations.
   Row orientation(size_t i) const {
     if (!bodies.orientation.data) return {0, 0, 0, 1};
     return load_strided<Row>(bodies.orientation.data, bodies.orientation.stride, i);
   }
 
-  // Index of the body's first row of parameters, and row k of those.
+  // The index of the body's first row of parameters; row() reads row k of those.
   size_t first_row(size_t i) const {
     return bodies.rows.first ? bodies.rows.first[i] : i * row_count(kind(i));
   }
@@ -147,7 +150,7 @@ struct BodyReader {
     return has_valid_parameters(i);
   }
 
-  // Orientation and rows of a kind that has them.
+  // Checks orientation and rows, for a kind that has them.
   bool has_valid_parameters(size_t i) const {
     return is_rotation(orientation(i)) && are_valid_rows(kind(i), rows(i).data());
   }

@@ -22,7 +22,7 @@ constexpr std::array<Direction, kMostSlabs> kAllDirections = {{{1, 0, 0},
                                                                {1, 0, -1},
                                                                {0, 1, -1}}};
 
-// Those of a cube's faces and edges.
+// The directions of a cube's faces and edges.
 constexpr std::array<Direction, 9> kFacesAndEdges = [] {
   std::array<Direction, 9> directions{};
   std::copy_n(kAllDirections.begin(), 3, directions.begin());

@@ -1,4 +1,4 @@
-// Every plane is clipped by all others.
+// Clips every plane by all others.
 //
 // Source of the clipping: I. E. Sutherland and G. W. Hodgman, "Reentrant Polygon Clipping", CACM
 // 17(1), 1974.
@@ -24,7 +24,7 @@ struct Relation {
   int8_t sign, factor;
 };
 
-// What holds for all k-DOPs of a kind.
+// Tables that all k-DOPs of a kind share.
 struct KindTables {
   FewOf<Double3, kMostSlabs> directions;
   FewOf<Relation, 64> relations;
@@ -63,7 +63,7 @@ double height_of(const DopSlabs& slabs, size_t plane) {
   return plane % 2 == 0 ? slabs.upper[slab] : slabs.lower[slab];
 }
 
-// The polygon that is left of one plane.
+// Clips one plane by all slabs; corners() is the polygon that remains.
 class PlaneClipper {
  public:
   PlaneClipper(const DopSlabs& slabs, size_t plane)
@@ -81,7 +81,8 @@ class PlaneClipper {
   const Corners& corners() const { return corners_; }
 
  private:
-  // Within the slabs of two axes; the third coordinate follows from the plane.
+  // Starts with the rectangle within the slabs of two axes; the third coordinate follows from the
+  // plane.
   void start() {
     const Double3& d = directions_[slab_of_plane(plane_)];
     const size_t axis = d[0] != 0 ? 0 : d[1] != 0 ? 1 : 2;
@@ -147,7 +148,7 @@ class PlaneClipper {
     return x;
   }
 
-  // The last corner stays.
+  // Drops the corners whose edge to the next corner has no length. One corner always stays.
   void drop_short_edges() {
     Corners left;
     for (size_t i = 0; i < corners_.size(); ++i) {
@@ -169,7 +170,7 @@ class PlaneClipper {
   std::array<double, DopFace::kMostCorners> heights_;
 };
 
-// Both ends half a unit in the last place of a float further out.
+// Moves both ends of every slab outwards by half a unit in the last place of a float.
 DopSlabs widened(DopSlabs slabs) {
   for (size_t i = 0; i < slab_count(slabs.kind); ++i) {
     slabs.lower[i] -= 0x1p-24 * std::fabs(slabs.lower[i]);
@@ -178,7 +179,7 @@ DopSlabs widened(DopSlabs slabs) {
   return slabs;
 }
 
-// None with its ends exchanged, but for rounding.
+// Whether no slab has its ends exchanged, beyond rounding.
 bool are_ordered(const DopSlabs& slabs) {
   const double tolerance = kInDopPlane * slabs.size();
   for (size_t i = 0; i < slab_count(slabs.kind); ++i) {
@@ -239,7 +240,7 @@ void DopPolytope::build(const DopSlabs& slabs) {
   add_edges();
 }
 
-// The corners of all faces, each once: as many planes as touch the polytope there make one.
+// Collects the corners of all faces. Corners at the same place become one point.
 void DopPolytope::add_points(double tolerance) {
   for (const DopFace& face : faces_) {
     for (const DopCorner& corner : face.corners) {
@@ -251,7 +252,8 @@ void DopPolytope::add_points(double tolerance) {
   }
 }
 
-// Both faces of an edge have it, but for rounding.
+// Both faces of an edge list it, but rounding may drop it from one. So the face with the lower
+// plane adds the edge, or the other one if the lower one does not list it.
 void DopPolytope::add_edges() {
   std::array<uint32_t, 2 * kMostSlabs> neighbours{};
   for (const DopFace& face : faces_) {

@@ -11,7 +11,7 @@
 
 namespace carom {
 
-// In any unit of length.
+// The slabs of a k-DOP, in any unit of length.
 struct DopSlabs {
   DopKind kind = DopKind::k6;
   std::array<double, kMostSlabs> lower{};
@@ -20,14 +20,14 @@ struct DopSlabs {
   DopSlabs() = default;
   explicit DopSlabs(const Dop& dop);
 
-  // The first three slabs as narrow as pairs of others make them: the same set, and a good bound of
-  // it where one of them is far off.
+  // Narrows the first three slabs to what pairs of the others imply. It is the same set of points,
+  // but the three are then a good bound of it even if they were far off.
   DopSlabs with_tight_axes() const;
-  // The greatest coordinate in the first three slabs.
+  // The greatest absolute coordinate in the first three slabs.
   double size() const;
 };
 
-// Plane 2 i is the upper one of slab i, plane 2 i + 1 the lower one.
+// Plane 2 i is the upper plane of slab i, plane 2 i + 1 its lower one.
 constexpr size_t slab_of_plane(size_t plane) { return plane / 2; }
 constexpr int sign_of_plane(size_t plane) { return plane % 2 == 0 ? 1 : -1; }
 
@@ -36,10 +36,10 @@ struct DopCorner {
   uint8_t edge;  // the other plane of the edge from here to the next corner
 };
 
-// What of a plane belongs to the polytope, counter-clockwise seen from outside. Planes that only
-// touch it have two corners or one.
+// The part of a plane that belongs to the polytope, counter-clockwise seen from outside. A plane
+// that only touches the polytope has one corner or two.
 struct DopFace {
-  // A rectangle, and one corner more for every plane that cuts it.
+  // Four of a rectangle, and one more for every plane that cuts it.
   static constexpr size_t kMostCorners = 4 + 2 * kMostSlabs;
 
   uint8_t plane;
@@ -51,11 +51,12 @@ struct DopEdge {
   std::array<uint8_t, 2> planes;
 };
 
-// Slabs may be redundant or flat, and what they enclose without area or length. Ends of slabs were
-// rounded to floats: where that alone has left no point, they count as half a unit wider.
+// Slabs may be redundant or flat, and the polytope may have no area or no length. The ends of slabs
+// were rounded to floats: if no point is left, the constructor tries again with slabs half a unit
+// wider.
 class DopPolytope {
  public:
-  // 26 faces have 72 edges and 48 corners at most (Euler); edges more where planes coincide. With
+  // 26 faces have at most 72 edges and 48 corners (Euler). Planes that coincide add edges; there is
   // room to spare.
   static constexpr size_t kMostPoints = 96;
   static constexpr size_t kMostEdges = 288;
@@ -82,7 +83,7 @@ constexpr bool is_dop_kind(DopKind kind) {
          kind == DopKind::k26;
 }
 
-// Whether slabs that are finite and in order have a point in common; of most one look tells.
+// Whether slabs that are finite and in order have a point in common. For most the middle decides.
 bool has_points(const Dop& dop);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Geometries as rows of shape parameters: their address.
+// Stores the address of a geometry in a row of shape parameters, and reads it back.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace carom {
 
-// nullptr: a row of zeros.
+// A nullptr gives a row of zeros.
 inline std::array<float, 4> geometry_row(const void* geometry) {
   std::array<float, 4> row{};
   static_assert(sizeof geometry <= sizeof row);
@@ -14,7 +14,7 @@ inline std::array<float, 4> geometry_row(const void* geometry) {
   return row;
 }
 
-// From where such a row begins.
+// `row`: the first number of such a row.
 template <class Geometry>
 const Geometry* geometry_at(const float* row) {
   const void* geometry;

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 Vector3d point(const HullGeometry& hull, uint32_t i) { return hull.points()[i].cast<double>(); }
 
-// Source: as of the faces of manifolds (hull_face_ref.h).
+// Twice the area times the normal. Source: see narrowphase/manifolds/hull_face.h.
 Vector3d area_vector(const HullGeometry& hull, std::span<const uint32_t> corners) {
   const Vector3d first = point(hull, corners[0]);
   Vector3d sum = Vector3d::Zero();
@@ -66,7 +66,7 @@ bool HullFeatures::add_faces(const HullGeometry& hull) {
 }
 
 bool HullFeatures::add_edges(const HullGeometry& hull) {
-  // Which face has the way from one point to another around it.
+  // (from, to) -> the face whose outline runs from one point to the other.
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> face_of_way;
   for (uint32_t f = 0; f < hull.faces().size(); ++f) {
     const auto corners = hull.corners(hull.faces()[f]);

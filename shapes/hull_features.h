@@ -12,18 +12,18 @@
 
 namespace carom {
 
-// In the body's frame.
+// All vectors are in the body's frame.
 class HullFeatures {
  public:
-  // From one point to the next, with these faces beside it as seen from outside.
+  // An edge from one point to the next, with the faces on either side as seen from outside.
   struct Edge {
-    Eigen::Vector3f direction;  // unit; left normal x right normal has it
+    Eigen::Vector3f direction;  // unit, along left normal x right normal
     uint32_t from;              // point
     uint32_t left, right;       // faces
   };
 
-  // nullptr unless the faces are those of a solid, with all points behind them: edges in order,
-  // each between two faces.
+  // nullptr unless the faces bound a solid: all points lie behind every face, and each edge lies
+  // between two faces that run along it in opposite directions.
   static std::shared_ptr<const HullFeatures> of(const HullGeometry& hull);
 
   size_t face_count() const { return planes_.size(); }
@@ -31,15 +31,15 @@ class HullFeatures {
     const std::array<float, 4>& plane = planes_[face];
     return {plane[0], plane[1], plane[2]};
   }
-  // Of a face's plane over the origin of the body, along the normal.
+  // Height of a face's plane over the body's origin, along the normal.
   float height(size_t face) const { return planes_[face][3]; }
-  // The same in columns: x, y, z of the normals, and heights, up to a multiple of sixteen; behind
-  // the last, faces that lie further out than anything.
+  // The same in columns: x, y and z of the normals, then the heights. Columns are padded to a
+  // multiple of sixteen with faces of infinite height.
   const float* column(size_t i) const { return columns_.data() + i * columns_.size() / 4; }
-  // A ball of this size around the middle of the hull lies inside of it, surely.
+  // A ball of this radius around the middle of the hull surely lies inside it.
   float inner_radius() const { return inner_radius_; }
   std::span<const Edge> edges() const { return edges_; }
-  // The faces beside each edge.
+  // The left and the right face of each edge.
   std::span<const std::array<uint16_t, 2>> sides() const { return sides_; }
 
  private:

@@ -24,7 +24,7 @@ Rows rows_of(const Triangle& t) {
           row(t.corners[2], t.inner_edges)};
 }
 
-// The rows of a k-DOP as one list: lower ends, upper ends, k.
+// The rows of a k-DOP hold one list of numbers: the lower ends, the upper ends, k.
 constexpr size_t kUpperEnds = kMostSlabs, kNumberOfPlanes = 2 * kMostSlabs;
 static_assert(kNumberOfPlanes < 4 * row_count(ShapeKind::dop));
 
@@ -48,7 +48,7 @@ std::shared_ptr<const Geometry> not_owned(const Row& row) {
   return {std::shared_ptr<const void>(), geometry_at<Geometry>(row)};
 }
 
-// A number that no triangle has becomes another such.
+// A number that is out of range becomes 255, which no triangle has either.
 uint8_t inner_edges_from(float number) {
   return number >= 0 && number < 256 ? static_cast<uint8_t>(number) : 255;
 }

@@ -1,4 +1,4 @@
-// Shapes turned by the orientation of their body, in double precision.
+// Vector helpers, and rotations of shapes by the orientation of their body, in double precision.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace carom {
 
 using Double3 = std::array<double, 3>;
 
-// What double precision may round in a rotation and the sums that follow, as a share of the
-// greatest length that goes in; generously.
+// A generous bound on the rounding of a rotation and the sums that follow, as a share of the
+// greatest length that goes in.
 inline constexpr double kTurnRounding = 0x1p-46;
 
 inline double dot(const Double3& a, const Double3& b) {
@@ -30,7 +30,7 @@ inline double greatest(const Double3& v) {
 
 inline Double3 vector_of(const Row& row) { return {row[0], row[1], row[2]}; }
 
-// Rows of M(q) / |q|^2.
+// The rows of M(q) / |q|^2.
 inline std::array<Double3, 3> rotation_of(const Row& q) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
   const double s = 2 / ((x * x + y * y) + (z * z + w * w));
@@ -39,8 +39,8 @@ inline std::array<Double3, 3> rotation_of(const Row& q) {
            {s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}};
 }
 
-// Of a thick triangle, against its front; zero if it has hardly any area, and with it no direction
-// to rely on.
+// The vector from the front of a thick triangle to its back. Zero if the triangle has hardly any
+// area, so that its normal is unreliable.
 inline Double3 way_back(const Double3& a, const Double3& b, const Double3& c, double thickness) {
   const Double3 u = minus(b, a);
   const Double3 v = minus(c, a);
@@ -51,7 +51,8 @@ inline Double3 way_back(const Double3& a, const Double3& b, const Double3& c, do
   return {-n[0] / length * thickness, -n[1] / length * thickness, -n[2] / length * thickness};
 }
 
-// Radius and thickness are the fourth number of the first row.
+// The greatest absolute number of the rows. The fourth number of the first row is a radius or a
+// thickness.
 inline double greatest_of(std::span<const Row> rows) {
   double size = rows[0][3];
   for (const Row& row : rows) size = std::max(size, greatest(vector_of(row)));

@@ -1,4 +1,5 @@
-// Bottom up: boxes sorted along a Morton curve, eight neighbours a node, eight nodes a node above.
+// Builds a tree bottom up: it sorts the boxes along a Morton curve, puts eight neighbours into a
+// node, and eight nodes into a node above.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -25,14 +26,14 @@ float middle(const TreeBox& box, size_t axis) {
   return 0.5f * box.lower[axis] + 0.5f * box.upper[axis];
 }
 
-// NaN is 0.
+// NaN gives 0.
 uint32_t floor_between(float x, float most) {
   return static_cast<uint32_t>(x > 0 ? std::min(x, most) : 0);
 }
 
-// Places of boxes as keys: the larger boxes first, since they would spoil the nodes of small ones,
-// then along the curve. The grid is laid over most of a sample of the boxes, so that a few that are
-// far away do not matter: they are in its outermost cells.
+// Keys by which the boxes are sorted: first by size class, the large boxes first, since they would
+// spoil the nodes of small ones; then along the curve. The grid covers most of a sample of the
+// boxes. A few boxes far away do not matter: they belong to its outermost cells.
 class PlaceKeys {
  public:
   static constexpr uint32_t kEmpty = ~0u;  // greater than all keys
@@ -81,7 +82,7 @@ class PlaceKeys {
     return width + width / 8;
   }
 
-  // Each bit halves the axis on which cells are longest.
+  // Gives each bit of the key to the axis on which cells are longest at that point.
   void share_bits(std::array<float, 3> cell) {
     for (size_t bit = kBits; bit-- > 0;) {
       const size_t axis =
@@ -113,7 +114,7 @@ class PlaceKeys {
   std::array<std::array<uint8_t, kBits>, 3> place_of_bit_{};  // the highest bit of a cell first
 };
 
-// Boxes that are not empty, in the order of the keys: key << 32 | item.
+// The boxes that are not empty, in the order of their keys: key << 32 | item.
 std::vector<uint64_t> sorted_items(std::span<const TreeBox> boxes, Parallelism parallelism) {
   const PlaceKeys keys(boxes);
   std::vector<uint64_t> items(boxes.size()), scratch;
@@ -138,7 +139,8 @@ void set_child(size_t i, uint32_t child, const TreeBox& box, BoxTree::Node& node
 
 TreeBox box_of(const BoxTree::Node& node) {
   TreeBox box = node.box(0);
-  for (size_t i = 1; i < BoxTree::kChildren; ++i) {  // NaN of places without a child is ignored
+  // comparisons with the NaN of an empty place are false
+  for (size_t i = 1; i < BoxTree::kChildren; ++i) {
     for (size_t axis = 0; axis < 3; ++axis) {
       const float lower = node.lower[axis][i], upper = node.upper[axis][i];
       if (lower < box.lower[axis]) box.lower[axis] = lower;
@@ -148,7 +150,8 @@ TreeBox box_of(const BoxTree::Node& node) {
   return box;
 }
 
-// Nodes [first, first + count) get children 0, 1, ... of `children`: get(child, place, node).
+// Fills nodes [first, first + count) with children 0, 1, ... of `children`: get(child, place, node)
+// sets one.
 template <class Get>
 void fill_nodes(size_t first, size_t count, size_t children, Parallelism parallelism,
                 std::vector<BoxTree::Node>& nodes, const Get& get) {
@@ -174,11 +177,12 @@ BoxTree BoxTree::packed(std::span<const TreeBox> boxes, Parallelism parallelism)
   BoxTree tree;
   const std::vector<uint64_t> items = sorted_items(boxes, parallelism);
   if (items.empty()) return tree;
-  std::vector<size_t> level_sizes = {block_count(items.size(), kChildren)};  // from the lowest up
+  // from the lowest level up
+  std::vector<size_t> level_sizes = {block_count(items.size(), kChildren)};
   while (level_sizes.back() > 1) {
     level_sizes.push_back(block_count(level_sizes.back(), kChildren));
   }
-  size_t first = 0;  // of the level; the root's comes first
+  size_t first = 0;  // first node of the level; the levels are stored from the root down
   for (const size_t size : level_sizes) first += size;
   tree.nodes_.resize(first);
   std::vector<Node>& nodes = tree.nodes_;

@@ -1,7 +1,8 @@
-// Top down: a node's items are split until there are as many groups as it has children, each time
-// the largest group in two, where the surface area heuristic says (J. D. MacDonald, K. S. Booth,
-// Heuristics for Ray Tracing Using Space Subdivision, The Visual Computer 6, 1990; binned as in
-// I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007).
+// Builds a tree top down: it splits a node's items until there are as many groups as a node has
+// children, each time the largest group in two, where the surface area heuristic says (J. D.
+// MacDonald, K. S. Booth, Heuristics for Ray Tracing Using Space Subdivision, The Visual Computer
+// 6, 1990; binned as in I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
+// 2007).
 #include "trees/tree.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ double middle(const TreeBox& box, size_t axis) {
   return (double{box.lower[axis]} + box.upper[axis]) / 2;
 }
 
-// Items in [begin, end) of the order.
+// The items at [begin, end) of the order.
 struct Group {
   size_t begin, end;
 
@@ -100,8 +101,8 @@ class TreeBuilder {
     return count;
   }
 
-  // Where the second half of the group begins, after sorting them out. Neither has less than an
-  // eighth: that bounds the depth.
+  // Splits a group in two, and returns where its second part begins. Each part gets at least an
+  // eighth of the items, which bounds the depth of the tree.
   size_t split(Group group) {
     const TreeBox middles = box_of_middles(group);
     size_t best_axis = 0;
@@ -147,7 +148,7 @@ class TreeBuilder {
     return static_cast<size_t>(second - order_.begin());
   }
 
-  // The bin at which the second part begins.
+  // The bin with which the second part begins.
   static size_t cheapest(const std::array<TreeBox, kBins>& box,
                          const std::array<size_t, kBins>& count) {
     std::array<double, kBins> cost{};
@@ -197,7 +198,7 @@ class TreeBuilder {
   std::vector<uint32_t> order_;
 };
 
-// Squared.
+// The squared distance.
 double distance(const TreeBox& a, const TreeBox& b) {
   double sum = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -217,7 +218,7 @@ double lowest(const TreeBox& box, const Double3& normal) {
   return sum;
 }
 
-// Down from the root, to the child of which `cost` is least.
+// Goes down from the root, always to the child with the least `cost`, and returns the item there.
 template <class Cost>
 uint32_t best_item(std::span<const BoxTree::Node> nodes, const Cost& cost) {
   uint32_t child = 0;
@@ -235,7 +236,7 @@ uint32_t best_item(std::span<const BoxTree::Node> nodes, const Cost& cost) {
   return child - BoxTree::kItem;
 }
 
-// Inside the range of float32.
+// The largest float32 <= x, but never below -FLT_MAX or above FLT_MAX.
 float downwards(double x) {
   return round_downwards(std::clamp(x, -double{FLT_MAX}, double{FLT_MAX}));
 }
@@ -268,7 +269,7 @@ TreeBox rounded_outwards(const Double3& middle, const Double3& half) {
 RoundedBox rounded_outwards(const Double3& middle, const Double3& half, double radius) {
   constexpr double kLeast = 0x1p-60, kMost = 0x1p60;
   if (radius >= kLeast && radius <= kMost) {
-    // More than distances to it and their squares round.
+    // The factor covers the rounding of distances to the box and of their squares.
     return {rounded_outwards(middle, half), static_cast<float>(radius * radius * (1 + 0x1p-18))};
   }
   return {rounded_outwards(middle, {half[0] + radius, half[1] + radius, half[2] + radius})};

@@ -1,4 +1,4 @@
-// Eight boxes of a node against one, in as many vectors as that takes.
+// Tests the eight boxes of a node against one box in lanes.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -20,7 +20,7 @@ namespace {
 using ChildTag = hn::CappedTag<float, BoxTree::kChildren>;
 inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
 
-// Bit i: child i touches the box.
+// Bit i is set if child i touches the box.
 HWY_INLINE uint32_t touching(const BoxTree::Node& node, const TreeBox& box) {
   const ChildTag tag;
   uint32_t bits = 0;
@@ -40,7 +40,7 @@ HWY_INLINE uint32_t touching(const BoxTree::Node& node, const TreeBox& box) {
   return bits;
 }
 
-// Bit i: child i is within the radius of the box.
+// Bit i is set if child i is within the radius of the box.
 HWY_INLINE uint32_t touching(const BoxTree::Node& node, const RoundedBox& rounded) {
   const ChildTag tag;
   const auto& [box, squared_radius] = rounded;
@@ -69,11 +69,12 @@ HWY_INLINE void for_each_bit(uint32_t bits, const Use& use) {
 
 constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
 
-// No child has half of its node's items: seven splits of the largest group, each of which leaves
-// 7/8 at most. That makes 31 levels, with seven children waiting in each.
+// A bound for the stack. A node's items are split seven times, always the largest group, and a
+// split leaves at most 7/8 in one part, so no child gets half of the items. That makes 31 levels,
+// with seven children waiting in each.
 inline constexpr size_t kMostWaiting = 8 * 32;
 
-// A third of a search is waiting for nodes.
+// Without this, a search spends a third of its time waiting for nodes.
 HWY_INLINE void prefetch(const BoxTree::Node& node) {
   constexpr size_t kCacheLine = 64;
   for (size_t i = 0; i < sizeof node; i += kCacheLine) {
@@ -103,20 +104,22 @@ HWY_INLINE void find_items(const BoxTree& tree, const Box& box, FunctionRef<void
 
 void touching_items(const BoxTree& tree, const RoundedBox& box, FunctionRef<void(uint32_t)> found) {
   if (tree.is_empty()) return;
-  if (box.squared_radius == 0) {  // squares of distances might vanish
+  if (box.squared_radius == 0) {  // the squares of small distances might underflow
     find_items(tree, box.box, found);
   } else {
     find_items(tree, box, found);
   }
 }
 
-// Two children, nodes or items. The box is that of an item, in the frame of the other's tree.
+// Two children, nodes or items, whose boxes touch. If one is an item, `box` is its box in the frame
+// of the other's tree.
 struct Meeting {
   uint32_t a, b;
   TreeBox box;
 };
 
-// Searches may begin inside of others: each uses what lies above its own start.
+// `found` may start another search. Each search uses only the part of the stack above its own
+// start.
 class MeetingStack {
  public:
   explicit MeetingStack(std::vector<Meeting>& all) : all_(all), start_(all.size()) {}

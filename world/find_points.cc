@@ -15,7 +15,7 @@ void World::find_points(const float* xyz, size_t count, size_t stride,
   state_->halfspaces.add_point_candidates(xyz, count, stride, candidates);
   std::vector<uint8_t> overlap(candidates.size());
   std::vector<float> separation(candidates.size());
-  // Every kind in a world has a kernel against spheres, which is what points are here.
+  // Cannot fail: points are spheres here, and every kind has a kernel against spheres.
   (void)collide(points(xyz, count, stride), state_->bodies.view(), candidates, Detail::contact,
                 {.overlap = overlap.data(), .separation = separation.data()}, WitnessFrame::body,
                 parallelism);

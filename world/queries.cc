@@ -5,7 +5,7 @@
 namespace carom {
 namespace {
 
-// Calls search(bodies): those of the last step.
+// Calls search(bodies) with the bodies of the last step.
 template <class State, class Search>
 void search_world(State& state, uint32_t mask, const Search& search) {
   const FloatEnvironment environment;
@@ -13,7 +13,7 @@ void search_world(State& state, uint32_t mask, const Search& search) {
   const BodyIndex& index =
       state.query_index.of_step(state.report.step, bodies, state.bounds_view(),
                                 state.halfspaces.all(), state.settings.parallelism);
-  // Every kind of a world meets every kind, except half-spaces each other, which are no candidates.
+  // Cannot fail: every pair of kinds has a kernel, except two half-spaces, which are no candidates.
   (void)search(SearchedBodies{bodies, index, state.bodies.filter().layer, mask});
 }
 

@@ -1,4 +1,4 @@
-// The bodies of the last step as queries search them; made by the first query after it.
+// The search index over the bodies of the last step, which the first query after the step builds.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,8 @@ const StepReport& World::State::step() {
     run(Stage::velocities,
         [&] { set_normal_velocities(bodies.linear_velocities(), parallelism, now.contacts); });
   }
-  if (has_events() && !(still && was_still)) {  // otherwise all persists once more
+  // After two still steps the old events are already all `persist`; keep them.
+  if (has_events() && !(still && was_still)) {
     run(Stage::events, [&] {
       event_stage.run(still ? now : last, now, bodies, parallelism, events);
       EventStage::add_impacts(impacts.impacts(), bodies, events);
@@ -76,7 +77,7 @@ void World::State::find_changes() {
   changes.update_bodies(bodies, settings.parallelism);
 }
 
-// Those that the knobs of the fast tier need; of all bodies if none is known to be as it was.
+// Updates the radii that the knobs of the fast tier need. `reshaped` nullptr: of all bodies.
 void World::State::update_radii(const ChangeTracker* reshaped) {
   if (!has_proxies() && !has_motion_tolerance()) return;
   bounding_radii.update(bodies, reshaped, settings.parallelism);
@@ -108,8 +109,8 @@ void World::State::find_all() {
   if (looks_ahead()) run(Stage::impacts, [&] { find_impacts(); });
 }
 
-// The broadphase knows what changed where it keeps something; a sample of the bodies tells the
-// rest.
+// Says whether nothing seems to have moved. Where the broadphase keeps boxes, it has counted the
+// changes; a sample of the bounds covers the rest.
 void World::State::watch_rest(bool still) {
   if (still) {
     rest_watch.saw_rest();
@@ -119,7 +120,8 @@ void World::State::watch_rest(bool still) {
   }
 }
 
-// Memory that neither this step nor the last one needed, so that pairs may come and go in turns.
+// Gives back memory that neither this step nor the last one needed, so that a number of pairs that
+// rises and falls in turns costs no new memory.
 void World::State::give_back_memory(size_t last_pairs) {
   const size_t pairs = std::max(now.pairs.size(), last_pairs);
   now.give_back_beyond(pairs);
@@ -166,7 +168,7 @@ void World::State::find_bounds() {
                                         {{bounds[0].data(), bounds[1].data(), bounds[2].data()},
                                          {bounds[3].data(), bounds[4].data(), bounds[5].data()}},
                                         settings.parallelism);
-  // Rows without a body hold whatever was last written there.
+  // Rows without a body still hold old values.
   for (const uint32_t index : bodies.free_indices()) {
     for (size_t axis = 0; axis < 3; ++axis) {
       bounds[axis][index] = std::numeric_limits<float>::infinity();
@@ -205,14 +207,14 @@ void World::State::find_pairs() {
   if (search.complete) search.pairs = now.pairs.size();
 }
 
-// The bodies whose pairs are to be tested again: one byte an index.
+// The bodies whose pairs are tested again: one byte an index.
 std::span<const uint8_t> World::State::changed_for_tests() {
   if (!has_motion_tolerance()) return changes.changed();
   return motion_tolerance.update(bodies, changes, bounding_radii.radii(),
                                  settings.accuracy.knobs.motion_tolerance, settings.parallelism);
 }
 
-// What came and went, and what is to be tested.
+// Finds the pairs that appeared and vanished, and those to test.
 void World::State::compare_pairs() {
   if (settings.pair_changes) {
     pair_changes.run(last.pairs, now.pairs, bodies, settings.parallelism);
@@ -225,7 +227,7 @@ void World::State::compare_pairs() {
   }
 }
 
-// Pairs whose k-DOPs are apart need no test.
+// Drops pairs whose k-DOPs are separate: they need no test.
 void World::State::drop_pairs() {
   const std::span<const uint8_t> changed =
       carries() ? changes.changed() : std::span<const uint8_t>();
@@ -235,7 +237,7 @@ void World::State::drop_pairs() {
   plan.drop(dops.test(pairs, settings.parallelism), now.pairs, settings.parallelism);
 }
 
-// Whether two kinds that are there remember in which direction they are apart.
+// Whether the world has two kinds whose test remembers the separating direction.
 bool World::State::uses_directions() const {
   if (!carries() || !has_contacts(settings.detail) || has_proxies()) return false;
   const auto is_there = [this](int kind) { return bodies.has_kind(static_cast<ShapeKind>(kind)); };
@@ -277,14 +279,14 @@ void World::State::find_impacts() {
   speculative.run(ahead);
 }
 
-// What was ahead of the last step. Memory is kept: bodies may be fast and slow in turns.
+// Drops what the last step found ahead. Keeps memory, since bodies may be fast and slow in turns.
 void World::State::forget_ahead() {
   halfspaces.stay();
   impacts.clear();
   speculative.clear();
 }
 
-// The last body with a detection went, or lost it.
+// Runs in steps without a body with a detection: frees what looking ahead has used.
 void World::State::stop_looking_ahead() {
   if (sweeps.bytes() == 0) return;
   forget_ahead();

@@ -221,7 +221,7 @@ std::span<const Contact> World::speculative_contacts() const {
   return state_->speculative.contacts();
 }
 
-// Another body may have got the index since the step.
+// Since the step another body may have taken the index.
 const Impact* World::first_impact(BodyId id) const {
   assert(contains(id));
   const bool is_new = (state_->bodies.touched(id.index) & BodyStore::kReplaced) != 0;

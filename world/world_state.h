@@ -1,4 +1,4 @@
-// What a world consists of; its step reads like the flow of data.
+// The stages of a world, and the data that flows between them.
 #pragma once
 
 #include <array>
@@ -58,21 +58,22 @@ struct World::State {
   bool has_margin() const { return settings.margin > 0; }
   bool is_fast() const { return settings.accuracy.tier == Tier::fast && has_narrowphase(); }
   bool has_proxies() const { return is_fast() && settings.accuracy.knobs.proxy_spheres; }
-  // Without results to carry there is none that may stay.
+  // Only a world that carries results can keep them.
   bool has_motion_tolerance() const {
     return is_fast() && carries() && settings.accuracy.knobs.motion_tolerance > 0;
   }
-  // Balls are tested faster than their k-DOPs would be.
+  // No k-DOPs with proxy spheres: testing balls is faster than testing their k-DOPs.
   bool has_dops() const {
     return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_proxies();
   }
   bool carries() const { return settings.carry_results && has_narrowphase(); }
-  // Without results to carry, comparing all bodies pays only where none of them moves.
+  // At detail pairs there are no results to carry, so comparing all bodies pays only while none
+  // moves.
   bool watches_rest() const { return settings.carry_results && !has_narrowphase(); }
   bool compares_bodies() const { return carries() || (watches_rest() && rest_watch.is_on()); }
   bool looks_ahead() const { return sweeps.any(); }
   PresentBounds present_bounds() const { return {bounds_view(), halfspaces}; }
-  // What pairs are made of, but for margins.
+  // The bounds from which pairs are made, before any margin.
   BoundsView reach_view() const { return looks_ahead() ? swept_bounds.view() : bounds_view(); }
   Collidables tested_shapes() const { return has_proxies() ? proxies.view(bodies) : bodies.view(); }
   bool uses_directions() const;
@@ -100,7 +101,7 @@ struct World::State {
   void forget_ahead();
   void stop_looking_ahead();
 
-  bool was_still = false;  // the last step repeated the one before
+  bool was_still = false;  // the last step repeated its predecessor
   ChangeTracker changes;
   RestWatch rest_watch;
   BoxSample sample;

@@ -11,7 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// Half of every record: four numbers from number `first` on.
+// Half of every record: four numbers, beginning with number `first`.
 struct RecordHalves {
   const BoxRecord* records;
   const uint32_t* order;

@@ -1,4 +1,4 @@
-// Boxes with their cells, as records that can be moved about; and back to columns.
+// Boxes with their cells, as records that a sort can move; and their way back to columns.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ struct alignas(32) BoxRecord {
   CellKey key;
 };
 
-// Rows in columns; that of corner k (lower 0 to 2, upper 3 to 5) begins k * stride behind the
-// first.
+// Where rows are written. Column k of the corners (lower 0 to 2, upper 3 to 5) begins k * stride
+// after the first.
 struct RowColumns {
   float* corners;
   size_t stride;

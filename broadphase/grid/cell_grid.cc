@@ -9,10 +9,11 @@
 namespace carom {
 namespace {
 
-// Boxes a cell, on average, from which boxes of other sizes get a grid of their own.
+// With more boxes a cell than this, on average, smaller boxes get a grid of their own.
 constexpr double kFullCell = 12;
 constexpr double kMostCellsPerBox = 2.25;
-// Of all grids; with their empty cells they are up to 4.5 times as many, all with a key.
+// For all grids together. With empty cells there are up to 4.5 times as many, and every one has a
+// key.
 constexpr double kMostCells = (1 << CellKey::kCellBits) / 5.0;
 constexpr double kMostCellsPerAxis = 1 << 22;
 
@@ -20,8 +21,8 @@ struct Range {
   double low, high;
 };
 
-// Where the lower corners are on an axis: all of them, unless a few lie far away from the rest.
-// Boxes beyond belong to the outermost cells.
+// The range of the lower corners on an axis. If a few lie far away from the rest, it leaves them
+// out; their boxes belong to the outermost cells.
 Range populated_range(const Survey& survey, const BoxSource& source, size_t axis) {
   constexpr size_t kSamples = 64;
   constexpr double kFar = 16;  // quartile distances
@@ -38,7 +39,7 @@ Range populated_range(const Survey& survey, const BoxSource& source, size_t axis
   std::sort(sample.begin(), sample.begin() + samples);
   double low = sample[samples / 4];
   double high = sample[samples * 3 / 4];
-  if (low == high) {  // a flat world: few lie elsewhere, and fewer far away
+  if (low == high) {  // a flat world: the quartiles coincide, so use outer quantiles
     low = sample[samples / 16];
     high = sample[samples - 1 - samples / 16];
   }
@@ -57,10 +58,10 @@ struct Layout {
 
   double length(size_t k) const { return range[k].high - range[k].low; }
 
-  // The edge of cells for boxes with edges up to `box`; `least` at least.
+  // The edge of cells for boxes with edges up to `box`, but at least `least`.
   double cell_edge(size_t k, double box, double least) const {
-    // A little more than the boxes, so that rounding cannot make them reach two cells further; and
-    // never so small that its inverse overflows.
+    // A little more than the boxes, so that rounding cannot make a box reach one cell too far; and
+    // never so small that the inverse overflows.
     constexpr double kSpare = 1 + 1.0 / 256;
     return std::max({std::min(box, longest_edge[k]) * kSpare * cell_scale[k], least,
                      length(k) / kMostCellsPerAxis, 1e-37});
@@ -72,7 +73,7 @@ struct Layout {
     return cells;
   }
 
-  // The smallest edge of cells of which there are not too many, within a few percent.
+  // The smallest edge, within a few percent, with which there are at most `most_cells` cells.
   double affordable_edge(double box, double most_cells) const {
     if (cell_count(box, 0) <= most_cells) return 0;
     double low = -90, high = 130;  // logarithms of edges
@@ -102,8 +103,8 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
                        const std::array<float, 3>& cell_scale) {
   std::array<Range, 3> range;
   for (size_t k = 0; k < 3; ++k) range[k] = populated_range(survey, source, k);
-  // Slabs along the longest side keep neighbours close in memory; rows along the shortest would be
-  // mere cells.
+  // Slabs along the longest side keep neighbours close in memory. Rows along the shortest side
+  // would have only a few cells.
   std::array<uint8_t, 3> by_length = {0, 1, 2};
   std::sort(by_length.begin(), by_length.end(), [&](uint8_t a, uint8_t b) {
     const double length_a = range[a].high - range[a].low;
@@ -119,7 +120,7 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
     layout.longest_edge[k] = survey.longest_edge[axis[k]];
   }
 
-  // From the largest boxes down: smaller ones join them as long as the cells do not fill up.
+  // From the largest boxes down, smaller ones join a grid as long as its cells do not fill up.
   count = 0;
   std::array<size_t, kMost> boxes{};
   std::array<double, kMost> edges{};
@@ -151,7 +152,7 @@ void CellGrids::choose(const Survey& survey, const BoxSource& source,
     }
     to.largest_edge =
         g + 1 < count ? static_cast<float>(edges[g]) : std::numeric_limits<float>::infinity();
-    // Where boxes are dense, shorter cells leave fewer to test.
+    // Where boxes are dense, cells of half the length leave fewer boxes to test.
     to.reach = {1, 1, 1};
     if (2.0 * to.cells[0] * to.cells[1] * to.cells[2] <= most && to.cells[0] > 1) {
       to.cells[0] *= 2;

@@ -13,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// Columns of the rows that are searched, at equal distances: so few pointers fit the registers.
+// The columns of the searched rows, at equal distances, so that their few pointers fit the
+// registers.
 struct Columns {
   const float* lower;
   size_t stride;
@@ -53,8 +54,8 @@ HWY_INLINE Mask overlaps(const Columns& columns, const BoxLanes& box, size_t row
   return all;
 }
 
-// Appends the pairs of the box and rows [begin, end) that overlap it. At least one vector is
-// tested, whether there are rows or not: a loop that mostly runs once is predicted well.
+// Appends the pairs of the box and the rows of [begin, end) that overlap it. It tests at least one
+// vector even if there is no row: a loop that mostly runs once is predicted well.
 HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin, size_t end,
                       Pair* hits) {
   const FloatTag tag;
@@ -81,11 +82,12 @@ void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const P
   for (size_t i = begin; i < end; ++i) {
     const CellKey key = rows.key[i];
     const uint32_t* first = rows.first_row() + key.cell();
-    // The rest of its own cell, and those that it reaches into.
+    // The rest of the box's own cell, and the cells of its row that it reaches into.
     const size_t to_cell = key.cells_along_row() + 1;
     const size_t row_end = first[to_cell];
     size_t candidates = row_end - (i + 1);
-    // In the rows ahead the cells before, too. Boxes much smaller than their cells reach few.
+    // The rows ahead also count the cells before. Boxes much smaller than their cells reach few
+    // rows.
     const size_t r_begin = key.reaches_next_row() ? 0 : ahead.in_slab;
     const size_t r_end = key.reaches_next_slab() ? ahead.count : ahead.in_slab;
     for (size_t r = r_begin; r < r_end; ++r) {
@@ -113,7 +115,7 @@ struct CellRange {
   uint32_t begin, end;
 };
 
-// The cells along axis k with the lower corners of all boxes that can overlap [lower, upper].
+// The cells along axis k that hold the lower corners of all boxes that can overlap [lower, upper].
 HWY_INLINE CellRange reachable_cells(const CellGrid& grid, size_t k, float lower, float upper) {
   const uint32_t first = cell_along(grid, k, lower);
   return {first - std::min(first, grid.reach[k]), cell_along(grid, k, upper) + 1};
@@ -123,7 +125,7 @@ void join_across(const CellRows& queries, size_t begin, size_t end, const CellRo
                  const PairFilter& filter, PairList& out) {
   const Columns columns(rows);
   const CellGrid& grid = rows.grids().grid[g];
-  // Axis k of `rows` among the axes of `queries`.
+  // The place of axis k of `rows` among the axes of `queries`.
   size_t axis[3];
   for (size_t k = 0; k < 3; ++k) {
     const auto& axes = queries.grids().axis;

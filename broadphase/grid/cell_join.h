@@ -8,11 +8,12 @@
 
 namespace carom {
 
-// The boxes of rows [begin, end), all of grid g, against those of the same grid that follow them.
+// Pairs the boxes of rows [begin, end), all of grid g, with the boxes of the same grid that follow
+// them.
 void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const PairFilter& filter,
                PairList& out);
 
-// The boxes of rows [begin, end) of `queries` against all boxes of grid g of `rows`.
+// Pairs the boxes of rows [begin, end) of `queries` with all boxes of grid g of `rows`.
 void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
                  const PairFilter& filter, PairList& out);
 

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// As cell_along(), in lanes.
+// cell_along() in lanes.
 HWY_INLINE I cells_along(const CellGrid& grid, size_t k, F coordinate) {
   const F cell = hn::Mul(hn::Sub(coordinate, splat(grid.origin[k])), splat(grid.scale[k]));
   const F last = splat(static_cast<float>(grid.cells[k] - 1));

@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// How many cells further than its lower corner the upper corner of a box lies, at most.
+// The greatest number of cells, by grid and axis, from the lower corner of a box to its upper one.
 struct CellReach {
   std::array<std::array<float, 3>, CellGrids::kMost> cells{};
 
@@ -29,12 +29,13 @@ struct CellKey {
   bool reaches_next_slab() const { return bits >> kReachShift[2]; }
 };
 
-// Writes the cell of every box of a block to `keys`, which has room for whole vectors behind the
-// last one; grids.cells for boxes that take no part.
+// Writes the cell of every box of a block to `keys`, or grids.cells for boxes that take no part.
+// `keys` has room for whole vectors after the last box.
 void find_cells(const BoxBlock& block, const CellGrids& grids, CellKey* keys, CellReach& reach);
 
-// The cell along axis k of a coordinate. Never decreases as the coordinate grows, rounding
-// included: what overlaps on the axis is in the cells from one's lower corner to its upper one.
+// The cell of a coordinate along axis k. It never decreases as the coordinate grows, rounding
+// included. So whatever overlaps a box on the axis has a point in the cells from the box's lower
+// corner to its upper one.
 inline uint32_t cell_along(const CellGrid& grid, size_t k, float coordinate) {
   const float cell = (coordinate - grid.origin[k]) * grid.scale[k];
   const auto last = static_cast<float>(grid.cells[k] - 1);

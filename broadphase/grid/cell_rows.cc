@@ -14,8 +14,8 @@ constexpr size_t kBoxesPerTask = 16384;
 constexpr size_t kBoxesPerBucket = 8192;  // their records fit the second-level cache
 constexpr size_t kMostBuckets = 512;
 
-// Room for so many floats. The same row of different columns must not fall into one set of a cache
-// whose sets repeat every 4 KiB.
+// The stride of a column of at least `count` floats. Caches repeat their sets every 4 KiB; the
+// stride keeps the same row of different columns out of one set.
 size_t spread_stride(size_t count) {
   constexpr size_t kLine = 16, kSetPeriod = 1024, kOffset = 9 * kLine;
   const size_t lines = (count + kLine - 1) / kLine * kLine;
@@ -24,8 +24,8 @@ size_t spread_stride(size_t count) {
 
 }  // namespace
 
-// A counting sort in two steps: into buckets of neighbouring cells, streams that are written in
-// order; then by cell within a bucket, in cache.
+// A counting sort in two steps: first into buckets of neighbouring cells, each written in order as
+// a stream; then by cell within a bucket, in cache.
 void CellRows::build(const BoxSource& source, Parallelism parallelism, Scratch& scratch) {
   constexpr size_t kBytesPerBox = sizeof(CellKey) + sizeof(uint32_t) + sizeof(BoxRecord);
   scratch.start(source.count * kBytesPerBox, 3);
@@ -50,7 +50,8 @@ void CellRows::build(const BoxSource& source, Parallelism parallelism, Scratch& 
                  [&](size_t bucket, size_t, size_t) { sort_bucket(bucket); });
 }
 
-// False if a box reaches further than its grid allows: then `cell_scale` is larger.
+// Finds the cells of all boxes. If a box reaches further than its grid allows, enlarges
+// `cell_scale` and returns false.
 bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
                              std::array<float, 3>& cell_scale) {
   const size_t tasks = block_count(source.count, kBoxesPerTask);
@@ -121,7 +122,8 @@ void CellRows::sort_bucket(size_t bucket) {
   const BoxRecord* records = records_.data() + begin;
   const size_t first_cell = bucket << bucket_shift_;
   const size_t last_cell = std::min<size_t>((bucket + 1) << bucket_shift_, grids_.cells + 1);
-  // Where each cell begins; after the sort, where it ends, which is where the next one begins.
+  // Here each cell begins. The sort moves each entry to where the cell ends, which is where the
+  // next one begins.
   uint32_t* next = first_.data() + 1;
   std::fill(next + first_cell, next + last_cell, 0u);
   for (size_t i = 0; i < count; ++i) ++next[records[i].key.cell()];

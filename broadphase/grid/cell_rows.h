@@ -1,4 +1,4 @@
-// Boxes sorted by cell: the structure that searches run through.
+// Boxes sorted by cell, which the searches of a grid run through.
 #pragma once
 
 #include <array>
@@ -16,26 +16,27 @@ namespace carom {
 
 class CellRows {
  public:
-  // Rows behind the last can be read, up to this number.
+  // This many rows after the last one can be read.
   static constexpr size_t kPadding = 32;
 
   // Replaces the contents by the boxes of `source` that take part.
   void build(const BoxSource& source, Parallelism parallelism, Scratch& scratch);
 
-  // Empties the box of a row: nothing meets it any more.
+  // Makes the box of a row empty, so that nothing pairs with it any more.
   void clear_row(size_t row);
 
   const CellGrids& grids() const { return grids_; }
   size_t count() const { return count_; }
 
-  // Corners, by axis k of grids().axis; one column begins column_stride() behind the other.
+  // The columns of corners along axis k of grids().axis. Consecutive columns lie column_stride()
+  // apart.
   const float* lower(size_t k) const { return corners_.data() + k * stride_; }
   const float* upper(size_t k) const { return lower(3 + k); }
   size_t column_stride() const { return stride_; }
   std::vector<uint32_t> body;
   std::vector<CellKey> key;
 
-  // The first row of a cell; of the next one: where the cell ends.
+  // The first row of each cell. The first row of the next cell is where a cell ends.
   const uint32_t* first_row() const { return first_.data(); }
 
   struct Range {
@@ -43,8 +44,8 @@ class CellRows {
   };
   Range rows_of_grid(size_t g) const;
 
-  // Boxes in the cell of a box, on the average of a sample of all boxes whose cells are much larger
-  // than they: many where boxes lie in a few dense places far apart.
+  // The mean number of boxes in the cell of a box, over a sample of the boxes whose cells are much
+  // larger than they. It is great if the boxes lie in a few dense places far apart.
   double crowding() const;
 
   size_t bytes() const;
@@ -63,11 +64,11 @@ class CellRows {
 
   Surveyor surveyor_;
   std::vector<CellReach> reach_;
-  std::vector<uint32_t> offsets_;  // a task and bucket
+  std::vector<uint32_t> offsets_;  // of each task and bucket
   std::vector<uint32_t> bucket_begin_;
-  // In scratch memory, while the rows are built.
-  std::span<CellKey> keys_;       // a box of the source
-  std::span<uint32_t> order_;     // of the records of a bucket
+  // In scratch memory, only during build().
+  std::span<CellKey> keys_;       // of each box of the source
+  std::span<uint32_t> order_;     // sorts the records of a bucket
   std::span<BoxRecord> records_;  // by bucket
   int bucket_shift_ = 0;
   size_t buckets_ = 0;

@@ -7,10 +7,10 @@
 namespace carom {
 namespace {
 
-// Few enough that tables with an entry a task stay small.
+// Tasks are few, so that tables with an entry a task stay small.
 size_t rows_per_task(size_t rows) { return std::clamp<size_t>(rows / 64, 256, 8192); }
 
-// body(list, begin, end) for the rows of a grid.
+// Calls body(list, begin, end) for tasks of the rows of a grid.
 template <class Body>
 void for_each_task(CellRows::Range rows, Parallelism parallelism, FoundPairs& found,
                    const Body& body) {
@@ -22,7 +22,7 @@ void for_each_task(CellRows::Range rows, Parallelism parallelism, FoundPairs& fo
   });
 }
 
-// An estimate of the rows of cells that the boxes of grid `q` search in grid `g`.
+// Estimates how many rows of cells the boxes of grid `q` search in grid `g`.
 double search_cost(const CellRows& queries, size_t q, const CellRows& rows, size_t g) {
   const CellRows::Range range = queries.rows_of_grid(q);
   double cost = static_cast<double>(range.end - range.begin);

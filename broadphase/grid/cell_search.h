@@ -1,4 +1,4 @@
-// All overlapping pairs of boxes sorted by cell: the joins of grids, as parallel tasks.
+// Finds all overlapping pairs of boxes sorted by cell, with joins of grids as parallel tasks.
 #pragma once
 
 #include "broadphase/grid/cell_rows.h"
@@ -10,7 +10,7 @@ namespace carom {
 void find_pairs_within(const CellRows& rows, const PairFilter& filter, Parallelism parallelism,
                        FoundPairs& found);
 
-// Adds the pairs of a box of `queries` and one of `rows`; best if `queries` are fewer.
+// Adds the pairs of a box of `queries` and one of `rows`. Fastest if `queries` are the fewer.
 void find_pairs_between(const CellRows& queries, const CellRows& rows, const PairFilter& filter,
                         Parallelism parallelism, FoundPairs& found);
 

@@ -1,4 +1,4 @@
-// How long a box is, the same wherever boxes are told apart by it.
+// The edge of a box, computed in the same way by every file that sorts boxes by size.
 #if defined(CAROM_BROADPHASE_GRID_EDGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_BROADPHASE_GRID_EDGE_INL_H_
 #undef CAROM_BROADPHASE_GRID_EDGE_INL_H_
@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// On one axis; never negative, and zero where both corners are the same infinity.
+// The edge on one axis. Never negative; zero if both corners are the same infinity.
 HWY_INLINE F edge_of(F lower, F upper) { return max(hn::Sub(upper, lower), splat(0)); }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -19,7 +19,7 @@ float largest_lane(F v) {
   return largest;
 }
 
-// Adds the boxes of a block.
+// Adds the boxes of a block to the survey.
 void survey_block(const BoxBlock& block, Survey& survey) {
   const FloatTag tag;
   const IntTag bits;

@@ -1,4 +1,4 @@
-// What a search learns about the boxes of a frame before it lays out its cells.
+// Statistics of the boxes of a frame, by which a search lays out its cells.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace carom {
 
-// Size classes: two an octave of the longest edge, by the upper bits of the float.
+// Size classes of the longest edge, two an octave, by the upper bits of the float.
 inline constexpr int kSizeClassShift = 22;
 inline constexpr size_t kSizeClasses = 512;
 
@@ -21,16 +21,16 @@ inline size_t size_class(float longest_edge) {
   return std::bit_cast<uint32_t>(longest_edge) >> kSizeClassShift;
 }
 
-// The largest float of a class; infinite where edges are too long for a float.
+// The largest float of a class; infinite if the class holds edges beyond the range of float32.
 inline float largest_of_class(size_t index) {
   constexpr uint32_t kInfinite = 0x7f800000;
   const auto next = static_cast<uint32_t>((index + 1) << kSizeClassShift);
   return std::bit_cast<float>(std::min(next - 1, kInfinite));
 }
 
-// Of boxes that take part. Edges are rounded to nearest.
+// Covers the boxes that take part. Edges are rounded to nearest.
 struct Survey {
-  std::array<float, 3> lowest, highest;  // of the lower corners
+  std::array<float, 3> lowest, highest;  // range of the lower corners
   std::array<float, 3> longest_edge;
   std::array<uint32_t, kSizeClasses> boxes_of_class;
   size_t count;  // boxes that take part

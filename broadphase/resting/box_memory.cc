@@ -10,7 +10,7 @@ constexpr size_t kBoxesPerTask = 8192;
 
 using Flags = std::array<uint8_t, BoxBlock::kBoxes>;
 
-// Marks where `now` and `last` differ, and makes `last` equal.
+// Marks where `now` and `last` differ, and copies `now` to `last`. Returns whether they differed.
 template <class T>
 bool compare_and_copy(const T* now, T* last, size_t count, Flags& differs) {
   static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float>);
@@ -32,7 +32,7 @@ bool compare_column(const T* now, std::vector<T>& last, size_t begin, size_t cou
   return now && compare_and_copy(now + begin, last.data() + begin, count, differs);
 }
 
-// Absent columns are empty; false if the column came or went.
+// An absent column has an empty copy. Returns false if the column has appeared or vanished.
 template <class T>
 bool resize_column(const T* now, size_t count, size_t known, std::vector<T>& copy) {
   const bool same = known == 0 || copy.empty() == (now == nullptr);
@@ -103,7 +103,8 @@ double BoxSample::changed_share(const BoundsView& bounds) {
   count_ = bounds.count;
   size_t changed = 0;
   for (size_t i = 0; i < samples; ++i) {
-    // One somewhere in every stretch: bodies at regular indices may be of one kind.
+    // Each sample lies at a different place of its stretch, since bodies at regular indices may be
+    // of one kind.
     const size_t box = i * step + i * 2654435761u % step;
     std::array<float, 6> now;
     for (size_t axis = 0; axis < 3; ++axis) {

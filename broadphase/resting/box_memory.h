@@ -1,4 +1,4 @@
-// The boxes and filters of the last call: which bodies differ in this one.
+// Remembers the boxes and filters of the last call, and finds the bodies that differ in this one.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace carom {
 
-// A copy of everything.
+// A copy of all boxes and filter columns.
 class BoxMemory {
  public:
-  // Replaces `changed` by the bodies that differ from the last update, ascending; bodies that were
-  // not there count as different. By bits, so that NaN equals itself.
+  // Replaces `changed` by the bodies that differ from the last update, ascending. A body that was
+  // not there then counts as different. Compares bits, so that NaN equals itself.
   void update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
               std::vector<uint32_t>& changed);
 
@@ -30,7 +30,7 @@ class BoxMemory {
   size_t bytes() const;
 
  private:
-  // Columns of the filter, absent ones empty.
+  // Copies of the filter's columns; absent ones are empty.
   struct FilterCopy {
     std::vector<uint32_t> layer, mask, owner;
     std::vector<Motion> motion;
@@ -41,16 +41,17 @@ class BoxMemory {
                     std::vector<uint32_t>& changed);
 
   size_t count_ = 0;
-  size_t known_ = 0;  // bodies of the update before
+  size_t known_ = 0;  // bodies in both of the last two updates; 0 if the filter's columns changed
   std::array<std::vector<float>, 6> columns_;
   FilterCopy filter_;
   BlockLists<uint32_t> lists_;
 };
 
-// A copy of a few boxes: whether it is worth while to keep one of all.
+// A copy of a few boxes, which says whether a copy of all is worth while.
 class BoxSample {
  public:
-  // The share of a fixed sample of boxes that differ from those of the last call; 1 for the first.
+  // The share of the sampled boxes that differ from the last call. 1 in the first call, or if the
+  // number of boxes has changed.
   double changed_share(const BoundsView& bounds);
 
   void forget() { count_ = 0; }

@@ -15,7 +15,7 @@ RestingBoxes::Outcome RestingBoxes::settle(const BoundsView& bounds, const PairF
   memory_.update(bounds, filter, parallelism, changed_);
   is_moving_.assign(bounds.count, 0);
   moving_.clear();
-  resting_.reserve(bounds.count);  // now, so that to settle again allocates nothing
+  resting_.reserve(bounds.count);  // now, so that settling again allocates nothing
   const Outcome outcome = settle_rest(bounds, filter, parallelism, work);
   if (outcome == Outcome::found) merge_pairs(pairs_, {}, parallelism, out);
   return outcome;
@@ -58,7 +58,7 @@ RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const 
 RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairFilter& filter,
                                            Parallelism parallelism, Workspace work,
                                            std::vector<Pair>& out) {
-  // To search for a box that moves costs about as much as four in a search from scratch.
+  // Searching for a moving box costs about as much as searching for four boxes from scratch.
   constexpr size_t kCostOfMoving = 4;
   const size_t count_before = memory_.count();
   memory_.update(bounds, filter, parallelism, changed_);
@@ -70,7 +70,8 @@ RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairF
   }
   if (moving_.size() != moving_before || bounds.count < count_before) drop_pairs_of_moving();
 
-  // Boxes that came to rest join the others when searching for them has cost about as much as that.
+  // Boxes that came to rest are still searched for. They join the resting ones as soon as these
+  // searches have cost about as much as settling.
   searched_ = moving_.size();
   idle_ += moving_.size() - std::min(moving_.size(), changed_.size());
   if (kCostOfMoving * idle_ > memory_.count()) {
@@ -83,7 +84,7 @@ RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairF
   return find_pairs_of_moving(bounds, filter, parallelism, work, out);
 }
 
-// Takes the boxes that changed, or went, out of the resting ones.
+// Takes the boxes that have changed or vanished out of the resting ones.
 void RestingBoxes::wake(size_t count_before) {
   const size_t count = memory_.count();
   const auto leave_row = [&](uint32_t body) {
@@ -95,7 +96,7 @@ void RestingBoxes::wake(size_t count_before) {
   row_of_.resize(count, kNoRow);
   is_moving_.resize(count, 0);
 
-  resting_.clear();  // here: those that rested until now
+  resting_.clear();  // here: the changed boxes that were at rest until now
   for (const uint32_t body : changed_) {
     if (is_moving_[body]) continue;
     is_moving_[body] = 1;

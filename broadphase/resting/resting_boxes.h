@@ -1,5 +1,5 @@
-// Temporal coherence: boxes that rest are sorted into cells once, and their pairs are kept; only
-// those that moved are searched for.
+// Temporal coherence: sorts boxes that rest into cells once and keeps their pairs, so that a search
+// runs only for the boxes that moved.
 #pragma once
 
 #include <cstdint>
@@ -14,36 +14,36 @@ namespace carom {
 
 class RestingBoxes {
  public:
-  // Working memory that is shared with other searches.
+  // Working memory shared with other searches, and their limits.
   struct Workspace {
     CellRows& moving;
     FoundPairs& found;
     PairSorter& sorter;
     Scratch& scratch;
     size_t most_pairs;
-    double most_crowded;  // CellRows::crowding()
+    double most_crowded;  // limit for CellRows::crowding()
   };
 
   enum class Outcome {
     found,     // `out` holds all pairs
-    too_many,  // there are more pairs than wanted; nothing is remembered
+    too_many,  // there are more pairs than wanted; all is forgotten
     restless,  // so many boxes moved that a search from scratch costs less
-    crowded,   // cells would hold too many boxes; nothing is remembered
+    crowded,   // cells would hold too many boxes; all is forgotten
   };
 
   bool is_empty() const { return !holds_any_; }
 
-  // All boxes rest from now on. Finds their pairs, unless they are too many.
+  // Takes all boxes as resting from now on, and finds their pairs.
   Outcome settle(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
                  Workspace work, std::vector<Pair>& out);
 
-  // The pairs of boxes of which some moved, came or went.
+  // Finds the pairs after some boxes have moved, appeared or vanished.
   Outcome update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
                  Workspace work, std::vector<Pair>& out);
 
   void forget();
 
-  size_t pairs() const { return pair_count_; }        // of the last search, too many or not
+  size_t pairs() const { return pair_count_; }        // pairs of the last search, even if too many
   size_t changed() const { return changed_.size(); }  // boxes that differed in the last update
   size_t grids() const { return rows_.grids().count; }
   size_t searched() const { return searched_; }  // boxes whose pairs the last search found
@@ -61,16 +61,16 @@ class RestingBoxes {
 
   bool holds_any_ = false;
   BoxMemory memory_;
-  CellRows rows_;                   // of resting boxes
-  std::vector<uint32_t> row_of_;    // a body; kNoRow: it moves, or takes no part
-  std::vector<uint8_t> is_moving_;  // a body
+  CellRows rows_;                   // the resting boxes
+  std::vector<uint32_t> row_of_;    // of each body; kNoRow: it moves, or takes no part
+  std::vector<uint8_t> is_moving_;  // of each body
   std::vector<uint32_t> moving_;    // ascending
   std::vector<Pair> pairs_;         // among resting boxes, sorted
   std::vector<Pair> moving_pairs_;  // all others
   std::vector<uint32_t> changed_, resting_, merged_;
   size_t pair_count_ = 0;
   size_t searched_ = 0;
-  size_t idle_ = 0;  // boxes searched for although they rested, summed since the last settlement
+  size_t idle_ = 0;  // searches for boxes that rested, since the last settlement
 };
 
 }  // namespace carom

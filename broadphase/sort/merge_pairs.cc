@@ -9,8 +9,8 @@ constexpr size_t kPairsPerTask = 1 << 15;
 
 }  // namespace
 
-// Task i takes a block of `a` and the pairs of `b` up to the first of the next block: where they go
-// follows from where they come from.
+// Task i merges a block of `a` with the pairs of `b` up to the first pair of the next block. Their
+// places in `out` follow from their places in `a` and `b`.
 void merge_pairs(const std::vector<Pair>& a, const std::vector<Pair>& b, Parallelism parallelism,
                  std::vector<Pair>& out) {
   out.resize(a.size() + b.size());

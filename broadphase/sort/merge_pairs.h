@@ -1,4 +1,4 @@
-// Sorted lists of pairs: their union, and what one has that the other lacks.
+// The union of two sorted lists of pairs.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// Replaces `out` by the pairs of both lists, sorted. No pair is in both.
+// Replaces `out` by the pairs of both lists, sorted. No pair may be in both.
 void merge_pairs(const std::vector<Pair>& a, const std::vector<Pair>& b, Parallelism parallelism,
                  std::vector<Pair>& out);
 

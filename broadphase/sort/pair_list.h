@@ -1,4 +1,4 @@
-// Pairs as searches find them, in no order.
+// Lists of pairs that a search fills in any order, and the limit on how many it keeps.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// Whether the filter lets two bodies meet.
+// Whether the filter allows the pair of two bodies.
 inline bool may_meet(const PairFilter& f, uint32_t a, uint32_t b) {
   if (f.motion && f.motion[a] == Motion::fixed && f.motion[b] == Motion::fixed) return false;
   if (f.layer && (!(f.layer[a] & f.mask[b]) || !(f.layer[b] & f.mask[a]))) return false;
@@ -21,7 +21,7 @@ inline bool may_meet(const PairFilter& f, uint32_t a, uint32_t b) {
 
 inline bool lets_all_meet(const PairFilter& f) { return !f.motion && !f.layer && !f.owner; }
 
-// How many pairs a search may keep. Beyond, lists go on counting, and keep nothing more.
+// The number of pairs that a search may keep. Once it is spent, lists only count.
 class PairBudget {
  public:
   void start(size_t most) {
@@ -36,10 +36,11 @@ class PairBudget {
   std::atomic<size_t> kept_{0};
 };
 
-// A cache line of its own: two threads that append to neighbouring lists do not share one.
+// Each list has a cache line of its own, so that two threads that append to neighbouring lists
+// never share one.
 class alignas(64) PairList {
  public:
-  // Empties the list; it draws on that budget from now on.
+  // Empties the list, which draws on this budget from now on.
   void start(PairBudget& budget) {
     budget_ = &budget;
     used_ = 0;
@@ -47,7 +48,8 @@ class alignas(64) PairList {
     dropped_ = 0;
   }
 
-  // Room for so many pairs behind the last one, to write to and then commit().
+  // Makes room for `pairs` pairs after the last one. The caller writes them there and then calls
+  // commit().
   Pair* reserve(size_t pairs) {
     if (used_ + pairs > pairs_.size()) grow(pairs);
     return pairs_.data() + used_;
@@ -61,7 +63,7 @@ class alignas(64) PairList {
     }
   }
 
-  // Adds those of the pairs written there that the filter lets through.
+  // Adds those of the pairs written there that the filter allows.
   void commit(size_t pairs, const PairFilter& filter) {
     Pair* written = pairs_.data() + used_;
     size_t kept = 0;
@@ -94,11 +96,11 @@ class alignas(64) PairList {
   std::vector<Pair> pairs_;
   PairBudget* budget_ = nullptr;
   size_t used_ = 0;
-  size_t accounted_ = 0;  // pairs of this list that the budget knows of
+  size_t accounted_ = 0;  // pairs of this list that the budget has counted
   size_t dropped_ = 0;
 };
 
-// The lists of the tasks of a search. Memory is kept from search to search.
+// The lists of a search, one a task. They keep their memory between searches.
 class FoundPairs {
  public:
   void start(size_t most_pairs) {
@@ -106,7 +108,7 @@ class FoundPairs {
     used_ = 0;
   }
 
-  // So many more empty lists; the index of the first.
+  // Adds `lists` empty lists, and returns the index of the first.
   size_t add(size_t lists) {
     const size_t first = used_;
     used_ += lists;
@@ -118,7 +120,7 @@ class FoundPairs {
   PairList& operator[](size_t i) { return lists_[i]; }
   std::span<const PairList> lists() const { return {lists_.data(), used_}; }
 
-  // All pairs that were found. They are all kept if they are not more than `most_pairs`.
+  // The number of pairs found. All of them are kept unless they are more than `most_pairs`.
   size_t count() const {
     size_t sum = 0;
     for (const PairList& list : lists()) sum += list.count();

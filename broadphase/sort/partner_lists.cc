@@ -18,10 +18,12 @@ namespace {
 using PartnerTag = hn::RebindToUnsigned<FloatTag>;
 using Partners = hn::Vec<PartnerTag>;
 
-// One step of a sorting network: every lane is compared with another one, `flip` away.
+// One step of a sorting network: compares every lane with the lane whose index differs by the bits
+// of `flip`.
 struct NetworkStep {
   HWY_ALIGN std::array<int32_t, kLanes> other{};
-  HWY_ALIGN std::array<uint32_t, kLanes> is_lower{};  // all bits set where the lane keeps the less
+  // all bits set where the lane keeps the smaller number
+  HWY_ALIGN std::array<uint32_t, kLanes> is_lower{};
 
   constexpr NetworkStep() = default;
   constexpr explicit NetworkStep(size_t flip) {
@@ -38,8 +40,8 @@ constexpr size_t step_count() {
   return steps;
 }
 
-// Batcher's bitonic network ("Sorting networks and their applications", 1968): merges of two
-// sorted halves, of which the second is reversed by the first step.
+// Batcher's bitonic network ("Sorting networks and their applications", 1968). It merges two sorted
+// halves; the first step of a merge reverses the second half.
 constexpr auto make_sorting_network() {
   std::array<NetworkStep, step_count()> network{};
   size_t step = 0;
@@ -50,7 +52,7 @@ constexpr auto make_sorting_network() {
   return network;
 }
 
-// Sorts lanes that rise and then fall, or the reverse.
+// Sorts lanes that rise and then fall, or fall and then rise.
 constexpr auto make_merging_network() {
   std::array<NetworkStep, std::countr_zero(kLanes)> network{};
   size_t step = 0;
@@ -78,8 +80,8 @@ HWY_INLINE Partners load_partners(const uint32_t* partners, size_t count) {
                         hn::Set(tag, 0xffffffffu));
 }
 
-// Partners that fit a vector: sorted without a branch that depends on how many they are. Writes
-// whole vectors; what is too much is overwritten by the next body's.
+// Sorts partners that fit into a vector, without a branch that depends on their number. Writes a
+// whole vector; the next body overwrites the surplus.
 HWY_INLINE void write_one_vector(const uint32_t* partners, size_t count, uint32_t body, Pair* out) {
   const PartnerTag tag;
   const Partners sorted = run(kSortingNetwork, load_partners(partners, count));
@@ -99,7 +101,7 @@ HWY_INLINE void write_two_vectors(const uint32_t* partners, size_t count, uint32
   hn::StoreInterleaved2(hn::Set(tag, body), more, tag, &out[kLanes].a);
 }
 
-// More of them: every partner's place is the number of smaller ones.
+// For more partners: the place of each is the number of smaller ones.
 HWY_INLINE void write_by_rank(const uint32_t* partners, size_t count, uint32_t body, Pair* out) {
   const PartnerTag tag;
   for (size_t i = 0; i < count; ++i) {

@@ -1,4 +1,4 @@
-// The last step of sorting pairs: the partners of every body.
+// The last step of sorting pairs: sorts the partners of every body.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,20 @@
 
 namespace carom {
 
-// The partners b of neighbouring bodies a, one body behind the other, each body's in any order.
+// The partners b of consecutive bodies a, one body after the other; each body's partners in any
+// order.
 struct PartnerLists {
-  // Partners that can be read behind the last one.
+  // This many partners after the last one can be read.
   static constexpr size_t kPadding = 32;
 
   const uint32_t* partners;
-  const uint32_t* first;  // where those of body first_body + i begin; one more entry behind
+  // the place of the first partner of body first_body + i; one more entry at the end
+  const uint32_t* first;
   size_t bodies;
   uint32_t first_body;
 };
 
-// Writes all pairs in the order of (a, b).
+// Writes all pairs, sorted by (a, b).
 void write_sorted(const PartnerLists& lists, Pair* out);
 
 }  // namespace carom

@@ -9,13 +9,13 @@
 namespace carom {
 namespace {
 
-// Up to here, counters for all bodies fit the cache.
+// Up to this many bodies, a counter for each fits the cache.
 constexpr size_t kBodiesAtOnce = 1 << 14;
 constexpr size_t kPairsPerBucket = 4096;
 constexpr size_t kMostBuckets = 512;
 
-// Visits all pairs, four places of the list in turn: neighbours share a body mostly, and its
-// counter is not ready so soon again.
+// Visits all pairs, from four places of the list in turn. Neighbours in the list mostly share a
+// body, whose counter would not be ready again so soon.
 template <class Visit>
 void for_each_spread(std::span<const Pair> pairs, const Visit& visit) {
   const size_t quarter = pairs.size() / 4;
@@ -83,13 +83,14 @@ void PairSorter::fill_buckets(std::span<const PairList> found, size_t body_count
   });
 }
 
-// By counting on a; then the partners of each.
+// Sorts by counting on a, then sorts the partners of each a.
 template <class ForEachSpan>
 void PairSorter::sort_bucket(size_t index, const Bucket& bucket, const ForEachSpan& for_each_span,
                              std::vector<Pair>& out) {
   uint32_t* first = first_.data() + bucket.first_body + 2 * index;
   uint32_t* partners = partners_.data() + bucket.first_pair + index * PartnerLists::kPadding;
-  // Where each body's partners begin; after the distribution, where they end and the next begin.
+  // Here each body's partners begin. The distribution moves each entry to where they end, which is
+  // where the next body's begin.
   uint32_t* next = first + 1;
   std::fill_n(first, bucket.bodies + 1, 0u);
   for_each_span([&](std::span<const Pair> pairs) {

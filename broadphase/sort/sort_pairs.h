@@ -13,18 +13,18 @@
 
 namespace carom {
 
-// Keeps its working memory from call to call.
+// The sorter keeps its working memory between calls.
 class PairSorter {
  public:
-  // Replaces `out` by all pairs of `found`, sorted. Bodies are below `body_count`; no pair occurs
-  // twice.
+  // Replaces `out` by all pairs of `found`, sorted. All bodies are below `body_count`, and no pair
+  // occurs twice.
   void sort(std::span<const PairList> found, size_t body_count, Parallelism parallelism,
             std::vector<Pair>& out, Scratch& scratch);
 
   size_t bytes() const;
 
  private:
-  // Bodies first_body, first_body + 1, ... and their pairs.
+  // Consecutive bodies from first_body on, and their pairs.
   struct Bucket {
     uint32_t first_body;
     uint32_t bodies;
@@ -37,11 +37,11 @@ class PairSorter {
   void sort_bucket(size_t index, const Bucket& bucket, const ForEachSpan& for_each_span,
                    std::vector<Pair>& out);
 
-  std::vector<uint32_t> offsets_;  // one a list of `found` and bucket
+  std::vector<uint32_t> offsets_;  // one for each list of `found` and bucket
   std::vector<uint32_t> bucket_begin_;
-  // In scratch memory, while pairs are sorted.
+  // In scratch memory, only during sort().
   std::span<Pair> buckets_;
-  std::span<uint32_t> first_;     // where the pairs of each body begin; two more a bucket
+  std::span<uint32_t> first_;     // place of each body's first pair; two more a bucket
   std::span<uint32_t> partners_;  // one a pair, padded a bucket
 };
 

@@ -1,4 +1,4 @@
-// Boxes in the order of a search: six columns and whose boxes they are.
+// Boxes in the order of a search: six columns, and the body of each row.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace carom {
 
-// Axis 0 is the one that is swept. Behind the last row lie kPadding rows of NaN, which overlap
+// Axis 0 is the one that is swept. After the last row follow kPadding rows of NaN, which overlap
 // nothing, so that whole vectors can be read.
 struct BoxColumns {
   static constexpr size_t kPadding = 16;
@@ -21,7 +21,8 @@ struct BoxColumns {
   std::vector<uint32_t> body;
   size_t count = 0;
 
-  // Rows body[i] of `bounds`, axes in the order first_axis, first_axis + 1, ...
+  // Fills row i with box body[i] of `bounds`, with axes in the order first_axis, first_axis + 1,
+  // ...
   void fill(const BoundsView& bounds, size_t first_axis, Parallelism parallelism);
 
   size_t bytes() const;

@@ -20,7 +20,7 @@ struct BoxLanes {
         upper{splat(box.upper[0]), splat(box.upper[1]), splat(box.upper[2])} {}
 };
 
-// The rows from `row` on that start before the box ends, on one axis; closed.
+// Which rows from `row` on start before the box ends on an axis, or as it ends.
 HWY_INLINE Mask starts_before_end(const BoxColumns& columns, const BoxLanes& box, size_t axis,
                                   size_t row) {
   return hn::Le(hn::LoadU(FloatTag(), columns.lower[axis].data() + row), box.upper[axis]);
@@ -31,7 +31,7 @@ HWY_INLINE Mask ends_after_start(const BoxColumns& columns, const BoxLanes& box,
   return hn::Ge(hn::LoadU(FloatTag(), columns.upper[axis].data() + row), box.lower[axis]);
 }
 
-// Hits of one box on their way to the sink.
+// Collects the hits of one box, and hands them to the sink in portions.
 class Hits {
  public:
   HWY_INLINE Hits(size_t box_row, HitSink& sink) : box_row_(box_row), sink_(sink) {}

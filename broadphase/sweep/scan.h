@@ -1,4 +1,4 @@
-// One box against a run of boxes: the inner loop of every search.
+// Tests one box against a run of boxes: the inner loop of the sweep and of brute force.
 #pragma once
 
 #include <cstddef>
@@ -23,14 +23,14 @@ class HitSink {
   ~HitSink() = default;
 };
 
-// Rows [begin, end) of `columns` against every later row. Rows ascend by lower[0], so that a row
-// need not look further than its upper[0].
+// Tests rows [begin, end) of `columns` against every later row. Rows ascend by lower[0], so a row
+// stops at the first one that begins after its upper[0].
 void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
 
 // The same for rows in any order: every row against all later ones.
 void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
 
-// `box` against the rows from `first_row` on, which ascend by lower[0].
+// Tests `box` against the rows from `first_row` on, which ascend by lower[0].
 void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,
                HitSink& sink);
 

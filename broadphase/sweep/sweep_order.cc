@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-// An integer that orders like the float; -0 and +0 are equal.
+// An integer that orders like the float; -0 and +0 give the same one.
 uint32_t sortable(float v) {
   const auto bits = std::bit_cast<uint32_t>(v + 0.0f);
   return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
@@ -22,7 +22,7 @@ uint64_t item(const BoundsView& bounds, size_t axis, uint32_t i) {
 
 uint32_t index_of(uint64_t item) { return static_cast<uint32_t>(item); }
 
-// Insertion sort that gives up after `budget` moves.
+// An insertion sort that gives up, and returns false, after `budget` moves.
 bool insertion_sort(std::vector<uint64_t>& items, size_t budget) {
   for (size_t i = 1; i < items.size(); ++i) {
     const uint64_t moving = items[i];
@@ -82,8 +82,8 @@ void SweepOrder::update(const BoundsView& bounds, size_t axis, Parallelism paral
   std::transform(items_.begin(), items_.end(), order.begin(), index_of);
 }
 
-// Last call's order with this call's keys, sorted by insertion; false if that is not worth it:
-// boxes came or went, or moved past too many others.
+// Sorts the last call's order by this call's keys with insertions. Returns false if that is not
+// worth it: boxes appeared or vanished, or moved past too many others.
 bool SweepOrder::repair(const BoundsView& bounds, size_t axis, const std::vector<uint32_t>& order) {
   constexpr size_t kMovesPerBox = 4;  // beyond, three radix passes are cheaper
   size_t present = 0;
@@ -97,7 +97,7 @@ bool SweepOrder::repair(const BoundsView& bounds, size_t axis, const std::vector
   return insertion_sort(items_, kMovesPerBox * items_.size());
 }
 
-// In ascending order of index, which makes the stable sort a total one.
+// Lists the boxes in ascending order of index, which makes the stable sort a total order.
 void SweepOrder::collect(const BoundsView& bounds, size_t axis) {
   items_.clear();
   for (size_t i = 0; i < bounds.count; ++i) {

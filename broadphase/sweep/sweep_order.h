@@ -1,4 +1,4 @@
-// The order of a sweep: boxes by their lower corner on one axis, kept from call to call.
+// The order of a sweep: boxes sorted by their lower corner on one axis, kept from call to call.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@ namespace carom {
 // The axis on which the lower corners of a fixed sample vary most; ties go to the first.
 size_t axis_of_largest_spread(const BoundsView& bounds);
 
-// Sorts by (lower corner, index): a total order, so that the result does not depend on what the
-// order was before, on the way it was repaired, or on threads.
+// Sorts by (lower corner, index). That is a total order, so the result does not depend on the order
+// before, on how it was repaired, or on threads.
 class SweepOrder {
  public:
-  // Writes the indices of all boxes that take part to `order`, sorted along `axis`. `order` comes
-  // in as the last call left it, and is repaired if that was on the same axis.
+  // Writes the indices of all boxes that take part to `order`, sorted along `axis`. `order` must
+  // come in as the last call left it; it is repaired if that call was on the same axis.
   void update(const BoundsView& bounds, size_t axis, Parallelism parallelism,
               std::vector<uint32_t>& order);
 
-  // The next update starts afresh.
+  // Makes the next update start afresh.
   void forget() { axis_ = kNoAxis; }
 
   size_t bytes() const;

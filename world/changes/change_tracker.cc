@@ -11,10 +11,10 @@
 namespace carom {
 namespace {
 
-// Small enough that a body on its own costs little, large enough for the loop over blocks.
+// Few enough that a single changed body costs little, enough for an efficient loop over blocks.
 constexpr size_t kRowsPerBlock = 1024;
 
-// Bits that differ between two records of four numbers; by bits, so that NaN equals itself.
+// The bits that differ between two records of four numbers. Comparing bits makes NaN equal itself.
 template <class T>
 uint64_t difference(const T* a, const T* b) {
   constexpr size_t kWords = 4 * sizeof(T) / sizeof(uint64_t);
@@ -26,7 +26,7 @@ uint64_t difference(const T* a, const T* b) {
   return bits;
 }
 
-// Sets the flags of numbers that differ, and copies them.
+// Sets the flags of numbers that differ, and copies `now` to `last`.
 void compare_column(const float* now, float* last, size_t count, uint8_t* changed) {
   for (size_t i = 0; i < count; ++i) {
     uint32_t a, b;
@@ -74,7 +74,7 @@ void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
   resize_and_give_back(changed_, rows);
   resize_and_give_back(block_changes_, block_count(rows, kRowsPerBlock));
-  // New rows are touched, whatever their copies hold.
+  // New rows are marked as touched, so the contents of their copies do not matter.
   bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
   moved |= compare_records(bodies.records64(), last_records64_, parallelism);
   moved |= compare_orientations(bodies, parallelism);
@@ -89,7 +89,7 @@ void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   changed_count_ = std::accumulate(block_changes_.begin(), block_changes_.end(), size_t{0});
 }
 
-// The first to write flags: those of the last step go.
+// Runs first, so it overwrites the flags of the last step.
 template <class T>
 bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& last,
                                     Parallelism parallelism) {
@@ -120,7 +120,7 @@ bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& l
 
 bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism parallelism) {
   const std::vector<BodyStore::Row>& now = bodies.orientations();
-  // A body that had none had the identity.
+  // A body that had no orientation had the identity.
   last_orientations_.resize(now.size(), BodyStore::kIdentity);
   give_back(last_orientations_, now.size());
   std::atomic<bool> any{false};

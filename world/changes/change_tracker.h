@@ -1,5 +1,5 @@
-// Which bodies changed since the last step: by comparing their data with a copy of it, since poses
-// may be written straight into the arrays.
+// Finds the bodies that changed since the last step. It compares their data with a copy, since
+// callers may write poses straight into the arrays.
 #pragma once
 
 #include <array>
@@ -15,36 +15,36 @@ namespace carom {
 
 class ChangeTracker {
  public:
-  // Compares with the last call and remembers the bodies as they are now. In two halves, for
-  // callers that write to the records what depends on shapes: first boxes and rows of shapes, then
-  // all the rest.
+  // Compares the bodies with the last call, and remembers them as they are now. The two halves are
+  // for callers that in between write values to the records that depend on shapes: the first
+  // compares boxes and rows of shapes, the second all the rest.
   void update(BodyStore& bodies, Parallelism parallelism);
   void update_shapes(const BodyStore& bodies, Parallelism parallelism);
   void update_bodies(BodyStore& bodies, Parallelism parallelism);
 
-  // For callers that leave out steps: the next update finds everything changed.
+  // Makes the next update find everything changed; for callers that skip steps.
   void forget() { knows_last_ = false; }
 
-  // Pose, shape or properties of the body at this index differ, or it is another body.
+  // Whether pose, shape or properties of the body at this index differ, or it is another body.
   bool changed(uint32_t index) const { return changed_[index]; }
   std::span<const uint8_t> changed() const { return changed_; }  // one byte an index
 
-  // The box or the rows of the body at this index differ, as the last update_shapes() has it. What
-  // is known without comparing, BodyStore::touched(), is not in it, nor are radii of spheres.
+  // Whether the box or the rows of the body at this index differed in the last update_shapes(). It
+  // does not cover BodyStore::touched() or the radii of spheres.
   bool reshaped(const Collidables& view, size_t index) const;
 
-  // How many indices there are of which that is true; bodies that went may be among them.
+  // The number of indices that changed; removed bodies may be among them.
   size_t changed_count() const { return changed_count_; }
 
-  // There was a last step, and nothing differs at all, bodies that came and went included.
+  // True if there was a last step and nothing differs from it, not even by added or removed bodies.
   bool all_unchanged() const { return all_unchanged_; }
 
   size_t bytes() const;
 
  private:
-  // What changed in arrays that are not indexed by body: boxes, rows of shapes.
+  // Changes in arrays that are not indexed by body: boxes, rows of shapes.
   struct SlotChanges {
-    std::vector<uint8_t> changed;  // one a slot; of use where block_changed is set
+    std::vector<uint8_t> changed;  // one a slot; valid where block_changed is set
     std::vector<uint8_t> block_changed;
 
     void resize(size_t slots);
@@ -61,8 +61,8 @@ class ChangeTracker {
   void mark_touched(const BodyStore& bodies);
   void mark_all();
 
-  // One byte a row, and how many are set in each block of rows: a block without any is all zero and
-  // need not be written.
+  // One byte a row, and the number of set bytes in each block of rows. A block without any is all
+  // zero and need not be written again.
   std::vector<uint8_t> changed_;
   std::vector<uint32_t> block_changes_;
   size_t changed_count_ = 0;

@@ -11,15 +11,15 @@ namespace {
 
 constexpr size_t kRowsPerBlock = 1024;
 
-// What sums, products and roots below round at most, generously.
+// A generous bound on the rounding of the sums, products and roots below.
 constexpr double kRounding = 0x1p-44;
 
 double squared(const BodyStore::Row& q) {
   return dot(vector_of(q), vector_of(q)) + double{q[3]} * q[3];
 }
 
-// Squared length of the vector part of conj(p) q, which is |p| |q| times the sine of half the angle
-// from one rotation to the other, and the same for q and -q.
+// The squared length of the vector part of conj(p) q. The length is |p| |q| times the sine of half
+// the angle between the two rotations, and the same for q and -q.
 double squared_turn(const BodyStore::Row& p, const BodyStore::Row& q) {
   const Double3 u = vector_of(p), v = vector_of(q);
   const double pw = p[3], qw = q[3];
@@ -29,15 +29,16 @@ double squared_turn(const BodyStore::Row& p, const BodyStore::Row& q) {
   return dot(part, part);
 }
 
-// Spheres and aabbs do not turn.
+// The orientation; the identity for spheres and aabbs, which do not turn.
 BodyStore::Row turn_of(const BodyReader& reader, size_t i) {
   return row_count(reader.kind(i)) > 0 ? reader.orientation(i) : BodyStore::kIdentity;
 }
 
 }  // namespace
 
-// Whether no point goes further: the way of the position, and the chord of a point that is as far
-// away from it as any. False where a number is none, or a quaternion no rotation.
+// Whether no point of the body moves by more than `distance`. The bound is the displacement of the
+// position plus the chord of a point at the bounding radius. False if a number is NaN, or a
+// quaternion is no rotation.
 bool MotionTolerance::stays_within(double distance, const Pose& from, const Pose& to) {
   const Double3 way = minus(to.position, from.position);
   const double left = distance * (1 - kRounding) - std::sqrt(dot(way, way)) * (1 + kRounding);
@@ -52,7 +53,7 @@ std::span<const uint8_t> MotionTolerance::update(const BodyStore& bodies,
                                                  const ChangeTracker& changes,
                                                  std::span<const float> radii, float tolerance,
                                                  Parallelism parallelism) {
-  resize_and_give_back(references_, bodies.rows());  // bodies that are new are touched
+  resize_and_give_back(references_, bodies.rows());  // new bodies are touched
   resize_and_give_back(exceeded_, bodies.rows());
   const Collidables view = bodies.view();
   const BodyReader reader{view};

@@ -1,4 +1,4 @@
-// FastKnobs::motion_tolerance: bodies that moved so little that their results may stay.
+// FastKnobs::motion_tolerance: finds the bodies that moved so little that their results may stay.
 #pragma once
 
 #include <array>
@@ -13,14 +13,15 @@
 
 namespace carom {
 
-// Every body has a reference pose, and stays within half the tolerance of it: what it is tested in
-// now and what it is in later, or was in before, are less than the tolerance apart. So each body of
-// a pair may be tested at a time of its own.
+// Every body has a reference pose, and stays within half the tolerance of it. So the pose in which
+// it was tested and any pose since then differ by less than the tolerance, and the two bodies of a
+// pair may be tested at different times.
 class MotionTolerance {
  public:
-  // One byte an index: whether the pairs of the body are to be tested again, because its shape
-  // changed, it is another body, or a point of it may have gone further from where the reference
-  // pose has it. Its pose becomes the reference then. `changes` and `radii` are those of the step.
+  // One byte an index: whether the pairs of the body must be tested again. That is so if its shape
+  // changed, if it is another body, or if one of its points may have left the tolerance about the
+  // reference pose; its pose then becomes the reference. `changes` and `radii` are those of the
+  // step.
   std::span<const uint8_t> update(const BodyStore& bodies, const ChangeTracker& changes,
                                   std::span<const float> radii, float tolerance,
                                   Parallelism parallelism);

@@ -1,4 +1,5 @@
-// When to compare all bodies with the last step, where only a world at rest gains by it.
+// Decides when to compare all bodies with the last step, in worlds that only gain by it while at
+// rest.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +12,12 @@ class RestWatch {
   // Whether the next step compares the bodies.
   bool is_on() const { return state_ != State::off; }
 
-  // After a step in which nothing had changed.
+  // Called after a step in which nothing had changed.
   void saw_rest() { patience_ = 1; }
 
-  // After any other; `quiet`: nothing seems to have moved. The first comparison only makes the
-  // copy; one that finds a change ends the watch, and the next one comes later each time.
+  // Called after any other step; `quiet`: nothing seems to have moved. After enough quiet steps the
+  // watch begins. Its first comparison only makes the copy. A comparison that finds a change ends
+  // the watch, and each time the next one begins later.
   void saw_step(bool quiet) {
     switch (state_) {
       case State::off:

@@ -45,7 +45,7 @@ double hull_reach(const HullGeometry& hull) {
   return reach;
 }
 
-// Of the furthest corner of the box that holds all parts.
+// The distance of the furthest corner of the box that holds all parts.
 template <class Geometry>
 double parts_reach(const Geometry& parts) {
   Double3 furthest;
@@ -77,7 +77,7 @@ double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
   }
 }
 
-// The next float but one, so that what the tests themselves round is covered, too.
+// The next float but one, which also covers the rounding of the tests.
 float round_upwards(double reach) {
   const float above = -round_downwards(-std::min(reach, double{FLT_MAX}));
   return std::min(next_up(above), FLT_MAX);
@@ -104,7 +104,7 @@ void BoundingRadii::update(const BodyStore& bodies, const ChangeTracker* changes
   const BodyReader reader{view};
   for_each_block(bodies.rows(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      // The record of a sphere holds its radius, so that no one tells when it changes.
+      // A sphere's radius is in its record, so `changes` does not report it.
       const bool is_known = changes && reader.kind(i) != ShapeKind::sphere &&
                             !bodies.touched(static_cast<uint32_t>(i)) &&
                             !changes->reshaped(view, i);

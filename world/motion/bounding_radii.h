@@ -1,4 +1,4 @@
-// The ball about each body's position that holds its shape.
+// The radius of a ball about each body's position that holds its shape.
 #pragma once
 
 #include <span>
@@ -13,17 +13,16 @@ namespace carom {
 
 struct BodyReader;
 
-// At least as large as it must be, whatever the orientation, but at most the largest float. Of
-// spheres their own; infinite for half-spaces; zero for shapes that are not valid.
+// An upper bound for any orientation, but at most the largest float. For spheres their own radius;
+// infinite for half-spaces; zero for shapes that are not valid.
 float bounding_radius(const BodyReader& reader, size_t i);
 
 class BoundingRadii {
  public:
-  // Brings the radii up to date: of the bodies whose shape `changes` saw change, or of all if it is
-  // nullptr.
+  // Updates the radii of the bodies whose shape has changed by `changes`; nullptr: of all bodies.
   void update(const BodyStore& bodies, const ChangeTracker* changes, Parallelism parallelism);
 
-  // One a body index.
+  // One radius a body index.
   std::span<const float> radii() const { return radii_; }
 
   size_t bytes() const { return bytes_of(radii_); }

@@ -11,11 +11,12 @@ namespace {
 
 constexpr size_t kRowsPerBlock = 1024;
 
-// Fat bounds of a body that only moved stick out by at most two margins, give or take rounding.
+// The fat bounds of a body that only moved exceed the true ones by at most two margins, up to
+// rounding. Beyond this many margins the body has shrunk.
 constexpr float kMostSlack = 3;
 
-// Rounded outwards, by a little more than base/outward.h does and in fewer steps: the sum is off
-// by half a unit in the last place at most, and `step` is one unit or two.
+// v - margin rounded outwards, by a little more than in base/outward.h but in fewer steps: the sum
+// is off by at most half a unit in the last place, and `step` is one unit or two.
 float below(float v, float margin) {
   const float sum = v - margin;
   const float step = 0x1p-23f * std::abs(sum);
@@ -24,7 +25,7 @@ float below(float v, float margin) {
 
 float above(float v, float margin) { return -below(-v, margin); }
 
-// Whether lower[i] .. upper[i] lies inside the fat bounds, not far inside. False for NaN.
+// Whether lower[i] .. upper[i] lies inside the fat bounds, but not far inside. False for NaN.
 struct Fit {
   const float* lower;
   const float* upper;

@@ -12,8 +12,8 @@ namespace carom {
 
 class FatBounds {
  public:
-  // New fat bounds, `margin` (finite, above zero) larger on every side, for each body whose true
-  // bounds left the ones it had, or shrank well below them. Empty bounds stay empty.
+  // Renews the fat bounds of each body whose true bounds left them, or shrank well below them. New
+  // ones are `margin` (finite, above zero) larger on every side. Empty bounds stay empty.
   void update(const BoundsView& bounds, float margin, Parallelism parallelism);
 
   BoundsView view() const;

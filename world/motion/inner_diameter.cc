@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The ball around the middle of the first three slabs that stays within all of them.
+// The diameter of the largest ball around the middle of the first three slabs that stays within all
+// slabs.
 double dop_diameter(const Dop& dop) {
   Double3 middle;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -38,7 +39,7 @@ double hull_diameter(const HullGeometry& hull) {
 
 double compound_diameter(const CompoundGeometry& compound);
 
-// `rows` are those of kinds that have rows, and valid.
+// `rows` are valid rows of a kind that has rows.
 double diameter(ShapeKind kind, const Row* rows) {
   switch (kind) {
     case ShapeKind::capsule:

@@ -1,4 +1,5 @@
-// How large a ball fits into a shape: a body that moves less than that cannot jump over itself.
+// The diameter of a ball that fits into a shape. A body that moves less than that cannot jump past
+// itself.
 #pragma once
 
 #include "carom/shapes/views.h"
@@ -6,10 +7,10 @@
 
 namespace carom {
 
-// The diameter of a ball that lies inside of the shape, up to rounding; of spheres, capsules, boxes
-// and aabbs the largest there is. 0: none is known, as of triangles, meshes and hulls that are no
-// solids. Of compounds that of the child with the smallest one; of half-spaces infinite. 0 or not a
-// number for shapes that are not valid.
+// The diameter of a ball inside the shape, up to rounding. For spheres, capsules, boxes and aabbs
+// it is the largest one. 0 if none is known: triangles, meshes, and hulls that are no solids. A
+// compound has the smallest diameter among its children; a half-space an infinite one. 0 or NaN for
+// shapes that are not valid.
 double inner_diameter(const BodyReader& reader, size_t i);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// What the stages that look ahead go by.
+// The inputs of the stages that look ahead.
 #pragma once
 
 #include "carom/world/world.h"
@@ -12,12 +12,12 @@ namespace carom {
 struct LookAhead {
   const WorldSettings& settings;
   const BodyStore& bodies;
-  const Collidables& shapes;  // of the bodies, as they are tested
+  const Collidables& shapes;  // the shapes of the bodies, as tests read them
   const Sweeps& sweeps;
   const BoundsView& swept_bounds;
   const PairHistory& now;
 
-  // A pair of the step may be one because of a margin alone.
+  // False for a pair that is in the step only because of a margin.
   bool may_meet(Pair pair) const {
     if (!sweeps.is_finite(pair.a) || !sweeps.is_finite(pair.b)) return false;
     const bool are_boxes = has_box(swept_bounds, pair.a) && has_box(swept_bounds, pair.b);

@@ -1,4 +1,4 @@
-// The bounds of bodies as they are now, for pairs that were found by larger ones.
+// The present bounds of bodies, to check pairs that were found with larger bounds.
 #pragma once
 
 #include "carom/results/pair.h"
@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// Closed boxes. Empty ones meet nothing.
+// Whether two closed boxes overlap. Empty boxes overlap nothing.
 inline bool boxes_meet(const BoundsView& bounds, Pair pair) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const float* lower = bounds.lower[axis];
@@ -21,7 +21,7 @@ inline bool has_box(const BoundsView& bounds, uint32_t body) {
   return bounds.lower[0][body] <= bounds.upper[0][body];
 }
 
-// Of a step's pairs: a body without a box is a half-space.
+// Checks the pairs of a step: a body without a box is a half-space.
 struct PresentBounds {
   BoundsView boxes;
   const HalfspaceStage& halfspaces;

@@ -1,4 +1,4 @@
-// FastKnobs::proxy_spheres: bodies as balls about their positions.
+// FastKnobs::proxy_spheres: replaces bodies by balls about their positions.
 #pragma once
 
 #include <span>
@@ -14,10 +14,10 @@ namespace carom {
 class ProxySpheres {
  public:
   // Writes the radius of every body that is neither sphere nor half-space to the fourth number of
-  // its record, which nothing else uses: kernels read balls in place, then.
+  // its record. Nothing else uses that number, and kernels can then read the balls in place.
   void update(BodyStore& bodies, std::span<const float> radii, Parallelism parallelism);
 
-  // The bodies as they were at the last update, all spheres but the half-spaces.
+  // The bodies as of the last update. All are spheres except half-spaces.
   Collidables view(const BodyStore& bodies) const;
 
   size_t bytes() const { return bytes_of(kind_); }

@@ -29,7 +29,7 @@ double length(const Vector3f& v) {
   return std::sqrt((x * x + y * y) + z * z);
 }
 
-// How far a point of the body may go.
+// A bound on how far any point of the body moves.
 double way_of(const Sweep& sweep, const BodyReader& reader, uint32_t index) {
   const double angle = length(sweep.rotation);
   const double turned = angle > 0 ? angle * double{bounding_radius(reader, index)} : 0;

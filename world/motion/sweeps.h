@@ -1,4 +1,4 @@
-// How bodies move in the interval ahead of a step, and which of them are looked after.
+// How bodies move in the interval ahead of a step, and which of them look ahead.
 #pragma once
 
 #include <array>
@@ -13,31 +13,31 @@ namespace carom {
 
 class Sweeps {
  public:
-  // Of all bodies, those that are not looked after, too: others may meet them.
+  // Covers all bodies, also those that do not look ahead: others may meet them.
   void update(const BodyStore& bodies, double dt, float fast_share, Parallelism parallelism);
 
-  // Whether the last update found another interval, other motions in it, or other bodies looked
-  // after than the one before.
+  // Whether the last update differs from the one before in the interval, the motions in it, or the
+  // bodies that look ahead.
   bool changed() const { return changed_; }
 
-  // Some body is swept or continuous in this step.
+  // Whether some body is swept or continuous in this step.
   bool any() const { return swept_ > 0; }
   bool any_continuous() const { return continuous_ > 0; }
   bool any_merely_swept() const { return swept_ > continuous_; }
 
-  // Whether the body is swept or continuous, and moves by finite numbers.
+  // Whether the body is swept or continuous, and its motion finite.
   bool looks_ahead(uint32_t index) const { return mode_[index] >= Mode::swept; }
   bool is_continuous(uint32_t index) const { return mode_[index] == Mode::continuous; }
   bool is_finite(uint32_t index) const { return mode_[index] != Mode::unknown; }
 
   bool turns(uint32_t index) const { return !rotation_.empty() && !rotation_[index].isZero(0); }
 
-  // Zero of bodies of which it is not finite.
+  // Zero for bodies whose motion is not finite.
   Sweep sweep(uint32_t index) const;
   SweepView view() const;
 
   size_t swept() const { return swept_; }      // bodies that look ahead
-  size_t unswept() const { return unswept_; }  // of which the motion is not finite
+  size_t unswept() const { return unswept_; }  // bodies whose motion is not finite
 
   size_t bytes() const;
 

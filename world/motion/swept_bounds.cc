@@ -24,10 +24,11 @@ struct Corners {
 // The smallest float32 >= x, for 0 <= x <= FLT_MAX.
 float upwards(double x) { return -round_downwards(-x); }
 
-// A point at r from the body's position is on the ball of radius |r| about it at all times, and on
-// an arc no longer than angle x |r|, whose chord is no longer than that and than 2 |r|. With R the
-// bounding radius, |r| <= R: the turning body stays in the box of the ball, and in the box of now
-// grown by min(angle, 2) R on all sides. So it stays in what they have in common.
+// Grows the box of a body that turns. A point at r from the body's position stays on the ball of
+// radius
+// r| about it, and moves along an arc no longer than angle x |r|, so its chord is at most
+// min(angle, 2) |r|. With R >= |r| the bounding radius, the turning body stays in the box of that
+// ball, and in the present box grown by min(angle, 2) R on all sides: so in their intersection.
 void turn(Corners& box, const BodyReader& reader, size_t i, const Eigen::Vector3f& rotation) {
   const float radius = bounding_radius(reader, i);
   if (!(radius <= FLT_MAX / 2)) {
@@ -35,7 +36,8 @@ void turn(Corners& box, const BodyReader& reader, size_t i, const Eigen::Vector3
     box.upper.fill(INFINITY);
     return;
   }
-  constexpr double kRounding = 1 + 0x1p-40;  // of the root, and the products, generously
+  // a generous bound on the rounding of root and products
+  constexpr double kRounding = 1 + 0x1p-40;
   const double x = rotation.x(), y = rotation.y(), z = rotation.z();
   const double angle = std::sqrt((x * x + y * y) + z * z) * kRounding;
   const float way = upwards(std::min(angle, 2.0) * double{radius});
@@ -50,8 +52,8 @@ void turn(Corners& box, const BodyReader& reader, size_t i, const Eigen::Vector3
   }
 }
 
-// At time t the body is what it has turned into, moved by t times the displacement: between the
-// same box at the start and at the end, along each axis.
+// Grows the box along the displacement. At time t the turned body lies in the same box moved by t
+// times the displacement, so along each axis between the box's places at the start and at the end.
 void move(Corners& box, const Eigen::Vector3f& displacement) {
   for (int axis = 0; axis < 3; ++axis) {
     box.lower[axis] = sum_downwards(box.lower[axis], std::min(displacement[axis], 0.0f));

@@ -1,4 +1,4 @@
-// Bounds over the interval ahead of a step.
+// Bounds of bodies over the interval ahead of a step.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace carom {
 
 class SweptBounds {
  public:
-  // Boxes that hold every body at all times of the interval, `bounds` being those of now; these
-  // themselves where a body does not move. Empty bounds stay empty.
+  // Computes boxes that hold every body at all times of the interval. `bounds` are the present
+  // ones, which a body keeps if it does not move. Empty bounds stay empty.
   void update(const Collidables& bodies, const Sweeps& sweeps, const BoundsView& bounds,
               Parallelism parallelism);
 

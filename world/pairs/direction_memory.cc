@@ -6,7 +6,7 @@
 namespace carom {
 namespace {
 
-// Of pair i of `now`, if the last step knew it.
+// The direction of pair i of `now`, if the last step had the pair.
 uint32_t last_direction(const CarryPlan& plan, const PairHistory& last, const PairHistory& now,
                         size_t i) {
   const uint32_t index = plan.last_index(i);

@@ -1,4 +1,4 @@
-// The directions in which pairs were apart in the last step, to be tried first in this one.
+// Keeps the separating direction of each separate pair, which the next step tests first.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@ namespace carom {
 
 class DirectionMemory {
  public:
-  // One a pair to test, as collide_pairs() takes them. `plan` matches `now` with `last`.
+  // One direction for each pair to test, as collide_pairs() takes them. `plan` matches `now` with
+  // `last`.
   uint32_t* prepare(const CarryPlan& plan, const PairHistory& last, const PairHistory& now,
                     Parallelism parallelism);
 
-  // Writes those of all pairs to `now`, after the tests.
+  // Writes the directions of all pairs to `now`, after the tests.
   void keep(const CarryPlan& plan, const PairHistory& last, Parallelism parallelism,
             PairHistory& now) const;
 

@@ -1,4 +1,5 @@
-// k-DOPs between broadphase and narrow phase: which pairs of overlapping bounds need no test.
+// k-DOPs between broadphase and narrow phase: finds pairs with overlapping bounds that need no
+// test.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +15,12 @@ namespace carom {
 
 class DopStage {
  public:
-  // Brings the k-DOPs up to date: of the bodies whose byte in `changed` is not zero, those that are
-  // new included, or of all if there are no such bytes.
+  // Updates the k-DOPs of the bodies whose byte in `changed` is not zero, which includes new ones.
+  // If `changed` is empty, updates all.
   void update(const Collidables& bodies, DopKind kind, std::span<const uint8_t> changed,
               Parallelism parallelism);
 
-  // One byte a pair: 1 if it is to be tested, 0 if the k-DOPs are apart.
+  // One byte a pair: 1 if it must be tested, 0 if its k-DOPs are separate.
   const std::vector<uint8_t>& test(std::span<const Pair> pairs, Parallelism parallelism);
 
   void give_back_beyond(size_t pairs);

@@ -11,8 +11,8 @@
 namespace carom {
 namespace {
 
-// Everything that the half-space covers at some time. One that turns sweeps over all that is far
-// enough away.
+// The half-space that holds everything the given one covers during the interval. One that turns
+// covers all of space.
 WorldHalfspace covered(WorldHalfspace halfspace, const Sweep& sweep) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (!sweep.rotation.isZero(0)) {
@@ -57,7 +57,7 @@ bool HalfspaceStage::reaches(uint32_t body, const BoundsView& bounds, uint32_t o
   const auto halfspace =
       std::lower_bound(halfspaces_.begin(), halfspaces_.end(), body,
                        [](const WorldHalfspace& h, uint32_t index) { return h.body < index; });
-  double corner[3];  // the lowest along the normal
+  double corner[3];  // the corner that is lowest along the normal
   for (size_t axis = 0; axis < 3; ++axis) {
     corner[axis] = (halfspace->normal[axis] >= 0 ? bounds.lower : bounds.upper)[axis][other];
   }

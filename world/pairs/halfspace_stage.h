@@ -1,4 +1,4 @@
-// The half-spaces of a world, which the broadphase proper does not see.
+// The half-spaces of a world, which the broadphase itself does not see.
 #pragma once
 
 #include <array>
@@ -15,28 +15,31 @@ namespace carom {
 
 class HalfspaceStage {
  public:
-  // Remembers the valid half-spaces, those whose bounds are not empty, and empties the bounds.
+  // Remembers the valid half-spaces, which are those with bounds that are not empty, and empties
+  // these bounds.
   void set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds);
 
   bool has_any() const { return !halfspaces_.empty(); }
   std::span<const WorldHalfspace> all() const { return halfspaces_; }  // by body index
 
-  // For a step that looks ahead: pairs are those that half-spaces and bodies may make on their way.
+  // For a step that looks ahead: half-spaces then pair with all that they may reach during the
+  // interval.
   void sweep(const Sweeps& sweeps);
-  void stay();  // for one that does not
+  void stay();  // for a step that does not look ahead
 
-  // Whether a box, that of `other`, reaches into the valid half-space of `body`, as they are now.
+  // Whether the box of `other` reaches into the valid half-space of `body`, at present.
   bool reaches(uint32_t body, const BoundsView& bounds, uint32_t other) const;
 
-  // Where the pairs of all other bodies go to, if there are half-spaces.
+  // Where the broadphase writes the pairs of all other bodies, if there are half-spaces.
   std::vector<Pair>& other_pairs() { return other_pairs_; }
 
-  // Replaces `pairs` by those and the pairs of half-spaces, sorted, and counts them in `search`. If
-  // there are more than `most_pairs` altogether, the search is incomplete, and there are none.
+  // Replaces `pairs` by other_pairs() and the pairs of half-spaces, sorted, and counts them in
+  // `search`. If there are more than `most_pairs` in all, the search is incomplete and `pairs`
+  // empty.
   void add_pairs(const BoundsView& bounds, const PairFilter& filter, size_t most_pairs,
                  Parallelism parallelism, std::vector<Pair>& pairs, PairSearch& search);
 
-  // Adds to the sorted candidates (point, body) those of half-spaces.
+  // Adds the candidates (point, half-space) to the sorted candidates (point, body).
   void add_point_candidates(const float* xyz, size_t count, size_t stride,
                             std::vector<Pair>& candidates) const;
 
@@ -47,8 +50,9 @@ class HalfspaceStage {
   void drop_all();
 
   std::vector<WorldHalfspace> halfspaces_;  // by body index
-  std::vector<WorldHalfspace> swept_;       // what each covers on its way; empty if they stay
-  std::optional<HalfspaceSearch> search_;   // made on first use
+  // what each covers during the interval; empty if the step does not look ahead
+  std::vector<WorldHalfspace> swept_;
+  std::optional<HalfspaceSearch> search_;  // created on first use
   std::vector<Pair> other_pairs_, own_pairs_;
 };
 

@@ -1,4 +1,4 @@
-// The pairs of two steps -> those that are new, and those that are gone.
+// The pairs of two steps -> the pairs that appeared and those that vanished.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,17 @@ namespace carom {
 
 class PairChanges {
  public:
-  // Sorted, both. A pair with a body that replaced another one at its index is new; the old pair is
-  // gone.
+  // Both sorted. If a body has replaced another one at its index, its pairs count as removed and
+  // added.
   std::vector<Pair> added, removed;
 
   void run(const std::vector<Pair>& last, const std::vector<Pair>& now, const BodyStore& bodies,
            Parallelism parallelism);
 
-  // Nothing changed.
+  // For a step without changes.
   void clear();
 
-  // Gives memory back that lists of `pairs` pairs do not need.
+  // Gives back memory that lists of `pairs` pairs do not need.
   void give_back_beyond(size_t pairs);
   size_t bytes() const;
 

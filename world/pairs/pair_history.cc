@@ -101,7 +101,7 @@ void CarryPlan::drop(const std::vector<uint8_t>& overlap, const std::vector<Pair
                    for (size_t i = begin; i < end; ++i) {
                      const uint32_t row = test_row(i);
                      if (row == kCarried) continue;
-                     // Without a branch: which pairs are dropped is anybody's guess.
+                     // Without a branch: which pairs are dropped cannot be predicted.
                      const bool stays = overlap[row] != 0;
                      row_[i] = static_cast<uint32_t>(stays ? next : left);
                      *(stays ? left_.data() + next : &dropped) = now[i];

@@ -1,4 +1,4 @@
-// Of the pairs of bounds over an interval, those that a step asks for.
+// Drops pairs of swept bounds that a step does not need.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@
 
 namespace carom {
 
-// All bodies are swept where one looks ahead, since each may be met on its way. Two that do not
-// look ahead themselves are a pair only if their bounds meet now.
+// If one body looks ahead, all bodies are swept, since it may meet any of them. Two bodies that do
+// not look ahead themselves are a pair only if their present bounds overlap.
 class PairSieve {
  public:
   void run(const Sweeps& sweeps, const PresentBounds& bounds, Parallelism parallelism,

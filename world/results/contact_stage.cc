@@ -85,13 +85,13 @@ size_t ResultBuffer::bytes() const {
 void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
                        const BodyStore& bodies, Detail detail, Parallelism parallelism,
                        PairHistory& now) {
-  // First what every pair is, and how many contacts each block makes ...
+  // First find the result of every pair, and how many contacts each block has ...
   find_overlaps(plan, last, results, bodies, parallelism, now);
   now.contacts.clear();
   now.manifolds.clear();
   if (!has_contacts(detail)) return;
 
-  // ... then every contact in its place.
+  // ... then write every contact to its place.
   const bool has_manifolds = detail == Detail::manifold;
   size_t contacts = 0;
   for (size_t& first : block_first_) contacts += std::exchange(first, contacts);

@@ -1,4 +1,4 @@
-// Results of pair tests, new and carried -> the step's overlaps and contacts, in order.
+// Results of pair tests, new and carried -> the step's overlaps and contacts, sorted.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,16 @@
 
 namespace carom {
 
-// Columns for the narrow phase to write to.
+// The columns to which the narrow phase writes.
 class ResultBuffer {
  public:
-  // Room for `pairs` results, in the columns that the detail fills, those of sub-shapes where there
-  // are any. Behind them is a row that does not overlap, for pairs that need no test.
+  // Makes room for `pairs` results in the columns that the detail fills; with columns for
+  // sub-shapes if `sub_shapes`. An extra row after them does not overlap; it serves pairs that need
+  // no test.
   ResultColumns prepare(size_t pairs, Detail detail, bool sub_shapes);
 
-  // Bounds are exact, tests are not: pairs whose bounds lie apart do not overlap, even where the
-  // rounded result of the test touches.
+  // Bounds are exact, tests round. So pairs with separate bounds do not overlap, even if the
+  // rounded result of the test says that they touch.
   void reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
                     Parallelism parallelism);
 
@@ -38,7 +39,7 @@ class ResultBuffer {
   size_t rows_ = 0;
   std::vector<uint8_t> overlap_, status_;
   std::vector<float> floats_;        // ten columns: separation, normal, arm_a, arm_b
-  std::vector<uint32_t> sub_shape_;  // two columns: of A, of B; none without sub-shapes
+  std::vector<uint32_t> sub_shape_;  // two columns: of A, of B; empty without sub-shapes
   std::vector<uint8_t> manifold_count_;
   std::vector<ManifoldPoints> manifold_;
 };
@@ -59,7 +60,8 @@ class ContactStage {
 
   size_t overlaps_ = 0;
   size_t undecided_ = 0;
-  std::vector<size_t> block_first_;  // how many contacts each block has, then the first of them
+  // number of contacts of each block, later the place of its first one
+  std::vector<size_t> block_first_;
 };
 
 // Sets the normal velocity of every contact.

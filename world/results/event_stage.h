@@ -17,7 +17,7 @@ namespace carom {
 
 class EventStage {
  public:
-  // `last` may be `now` itself: nothing changed, and every overlap persists.
+  // `last` may be `now` itself if nothing changed: every overlap then persists.
   void run(const PairHistory& last, const PairHistory& now, const BodyStore& bodies,
            Parallelism parallelism, std::vector<Event>& events);
 
@@ -25,7 +25,8 @@ class EventStage {
   static void add_impacts(std::span<const Impact> impacts, const BodyStore& bodies,
                           std::vector<Event>& events);
 
-  // Remembers the generations of all bodies, which name the bodies of ended overlaps next time.
+  // Remembers the generations of all bodies. The next step needs them to name the bodies of
+  // overlaps that ended.
   void remember(const BodyStore& bodies);
 
   void give_back_beyond(size_t pairs) { give_back(lists_, pairs); }
@@ -35,7 +36,7 @@ class EventStage {
   BodyId last_id(uint32_t index) const { return {index, generation_[index]}; }
 
   BlockLists<Event> lists_;
-  std::vector<uint32_t> generation_;  // as of the last step
+  std::vector<uint32_t> generation_;  // of the last step
 };
 
 }  // namespace carom

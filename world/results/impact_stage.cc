@@ -16,10 +16,10 @@ bool is_before(const Impact& x, const Impact& y) {
   return std::tie(x.toi, x.a, x.b) < std::tie(y.toi, y.a, y.b);
 }
 
-// Sensors stop nobody, and what overlaps now is a matter of contacts.
+// A sensor stops nobody, and a present overlap is a matter for contacts.
 bool stops(const Impact& impact) { return !impact.sensor && !impact.overlap; }
 
-// `contact`: nullptr where there is none, at Detail::overlap and of sensors.
+// `contact`: nullptr if there is none, as at Detail::overlap and for sensors.
 Impact overlap_of(Pair pair, const Contact* contact) {
   Impact impact{.a = pair.a, .b = pair.b, .overlap = true};
   if (!contact) return impact;
@@ -67,7 +67,7 @@ void ImpactStage::find_candidates(const LookAhead& ahead) {
   lists_.concatenate(candidates_, ahead.settings.parallelism);
 }
 
-// Overlaps of now are known; all others are to be tested.
+// Takes present overlaps over from the step; all other pairs go to the test.
 void ImpactStage::sort_out(const LookAhead& ahead) {
   const PairHistory& now = ahead.now;
   pairs_.clear();
@@ -113,7 +113,7 @@ ImpactColumns ImpactStage::columns(bool contacts, bool sub_shapes) {
   return out;
 }
 
-// Those that meet within the interval: pairs that do not, and those without an answer, are no
+// Adds the pairs that meet within the interval. Pairs that do not meet, or have no answer, are no
 // impacts.
 void ImpactStage::add_met(const LookAhead& ahead) {
   for (size_t row = 0; row < pairs_.size(); ++row) {
@@ -167,7 +167,7 @@ void ImpactStage::keep_earliest() {
     const bool too_late_for_b = impact.toi > first_time(impact.b);
     return impact.sensor ? too_late_for_a || too_late_for_b : too_late_for_a && too_late_for_b;
   };
-  // The first ones are looked up while others go: not in place.
+  // Not in place, since first_time() still reads impacts while others are dropped.
   kept_.clear();
   for (const Impact& impact : impacts_) {
     if (!comes_too_late(impact)) kept_.push_back(impact);

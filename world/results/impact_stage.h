@@ -1,4 +1,4 @@
-// The pairs of continuous bodies -> when they meet first.
+// The pairs of continuous bodies -> their times of impact.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,12 @@ class ImpactStage {
   // Replaces the impacts by those of the step.
   void run(const LookAhead& ahead);
 
-  // There are none.
+  // For a step without impacts.
   void clear();
 
   std::span<const Impact> impacts() const { return impacts_; }
 
-  // The first one that stops the body; nullptr if there is none.
+  // The first impact that stops the body; nullptr if there is none.
   const Impact* first_of(uint32_t body) const;
 
   void give_back_beyond(size_t pairs);
@@ -43,13 +43,13 @@ class ImpactStage {
 
   BlockLists<uint32_t> lists_;
   std::vector<uint32_t> candidates_;  // indices of pairs
-  std::vector<Pair> pairs_;           // of those to be tested
+  std::vector<Pair> pairs_;           // the pairs to test
 
-  // What the tests yield, one row each.
+  // Results of the tests, one row a pair.
   std::vector<float> toi_;
   std::vector<uint8_t> status_;
   std::vector<float> floats_;        // ten columns: separation, normal, arm_a, arm_b; or none
-  std::vector<uint32_t> sub_shape_;  // two columns: of A, of B; none without sub-shapes
+  std::vector<uint32_t> sub_shape_;  // two columns: of A, of B; empty without sub-shapes
 
   std::vector<Impact> impacts_, kept_;
   std::vector<uint32_t> first_;  // one a body: index of its first impact, or kNone

@@ -13,14 +13,14 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// Over the interval, of the point of the body that is at `arm` from its position: as if it went on
-// straight.
+// The displacement over the interval of the point at `arm` from the body's position, as if it went
+// on straight.
 Vector3d motion_of(const Sweep& sweep, const Vector3f& arm) {
   const Vector3d motion = sweep.displacement.cast<double>();
   return motion + sweep.rotation.cast<double>().cross(arm.cast<double>());
 }
 
-// By how much the separation grows over the interval, both witness points going their way.
+// How much the separation grows over the interval if both witness points go on straight.
 double opening(const Sweeps& sweeps, const Contact& contact) {
   const Vector3d motion = motion_of(sweeps.sweep(contact.b), contact.arm_b) -
                           motion_of(sweeps.sweep(contact.a), contact.arm_a);
@@ -41,7 +41,8 @@ void SpeculativeStage::run(const LookAhead& ahead) {
                  [&](size_t block, size_t begin, size_t end) {
                    for (size_t i = begin; i < end; ++i) {
                      Contact contact = results_.contact(i, pairs_[i]);
-                     // Bounds that lie apart are believed, not tests that round them together.
+                     // The pair is separate by its bounds; a test that rounds to an overlap does
+                     // not count.
                      contact.separation = std::max(contact.separation, 0.0f);
                      const double opens = opening(ahead.sweeps, contact);
                      if (!(double{contact.separation} + opens <= 0)) continue;
@@ -52,7 +53,7 @@ void SpeculativeStage::run(const LookAhead& ahead) {
   contact_lists_.concatenate(contacts_, ahead.settings.parallelism);
 }
 
-// Pairs that are apart, one of them swept, none of them continuous: these have impacts.
+// Lists separate pairs with a swept body and no continuous one; the latter have impacts.
 void SpeculativeStage::find_candidates(const LookAhead& ahead) {
   const PairHistory& now = ahead.now;
   const auto is_candidate = [&](size_t i) {
@@ -71,7 +72,7 @@ void SpeculativeStage::find_candidates(const LookAhead& ahead) {
   pair_lists_.concatenate(pairs_, ahead.settings.parallelism);
 }
 
-// The narrow phase of the step has decided about these pairs, and measured none of them.
+// The step's narrow phase has only decided these pairs, so this measures them.
 void SpeculativeStage::measure(const LookAhead& ahead) {
   const ResultColumns out = results_.prepare(pairs_.size(), Detail::contact, ahead.has_parts());
   [[maybe_unused]] const Result<void> done =

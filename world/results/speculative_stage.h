@@ -1,4 +1,4 @@
-// The pairs of swept bodies -> contacts that may be there before the interval ends.
+// The pairs of swept bodies -> contacts that may come into being before the interval ends.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class SpeculativeStage {
   // Replaces the contacts by those of the step.
   void run(const LookAhead& ahead);
 
-  // There are none.
+  // For a step without such contacts.
   void clear() { contacts_.clear(); }
 
   std::span<const Contact> contacts() const { return contacts_; }

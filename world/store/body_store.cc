@@ -8,7 +8,7 @@ namespace {
 
 constexpr uint32_t kEverything = 0xffffffffu;
 
-// Makes the column if a row differs from the default for the first time.
+// Creates the column as soon as a row differs from the default.
 template <class T>
 void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T default_value) {
   if (column.empty()) {
@@ -43,7 +43,7 @@ Shape owning_shape(ShapeKind kind, const std::shared_ptr<const void>& geometry) 
 
 }  // namespace
 
-// visit(column, whether it exists, values a row, value of a new row)
+// Calls visit(column, whether it exists, values a row, value of a new row) for every column.
 template <class Self, class Visit>
 void BodyStore::for_each_column(Self& self, const Visit& visit) {
   const auto optional = [&](auto& column, auto value) { visit(column, !column.empty(), 1, value); };
@@ -76,7 +76,7 @@ void BodyStore::add_row() {
   if (touched_.size() < rows()) touched_.push_back(0);
 }
 
-// Rows beyond the last body go.
+// Drops the rows beyond the last body.
 void BodyStore::drop_rows() {
   for (size_t i = rows(); i < generation_.size(); ++i) {
     first_generation_ = std::max(first_generation_, generation_[i]);
@@ -208,7 +208,7 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
   store_geometry(index, shape);
 }
 
-// What the last shape had is let go.
+// Releases the geometry of the last shape.
 void BodyStore::store_geometry(uint32_t index, const Shape& shape) {
   if (geometry_.empty()) {
     if (!has_geometry(kind_of(shape))) return;
@@ -217,7 +217,7 @@ void BodyStore::store_geometry(uint32_t index, const Shape& shape) {
   geometry_[index] = geometry_of(shape);
 }
 
-// Gives back what the last kind needed and takes what this one needs.
+// Releases what the last kind needed, and takes what this one needs.
 void BodyStore::change_kind(uint32_t index, ShapeKind kind) {
   const ShapeKind last = std::exchange(kind_[index], kind);
   if (last == kind) return;
@@ -273,7 +273,7 @@ void BodyStore::take_box(uint32_t index) {
 
 void BodyStore::release_box(uint32_t index) {
   slots_.release(box_slot_[index]);
-  box_slot_[index] = 0;  // nothing reads it, but vectors may load it: a row that exists
+  box_slot_[index] = 0;  // unused, but vectors may load it, so it must be a valid row
   if (slots_.end() == boxes_[0].size()) return;
   for (std::vector<float>& column : boxes_) resize_and_give_back(column, slots_.end());
 }

@@ -17,7 +17,7 @@ namespace carom {
 
 class BodyStore {
  public:
-  using Row = std::array<float, 4>;  // of shapes, as shape_rows() says; a quaternion x, y, z, w
+  using Row = std::array<float, 4>;  // a row of shape_rows(), or a quaternion x, y, z, w
   static constexpr Row kIdentity = {0, 0, 0, 1};
 
   explicit BodyStore(PositionType positions) : positions_(positions) {}
@@ -35,7 +35,8 @@ class BodyStore {
 
   Eigen::Vector3d position(uint32_t index) const;
   void set_position(uint32_t index, const Eigen::Vector3d& position);
-  // Of bodies of kinds that have one; the others have the identity, and keep no other.
+  // For bodies of kinds that have one. The others have the identity, and setting another has no
+  // effect.
   Eigen::Quaternionf orientation(uint32_t index) const;
   void set_orientation(uint32_t index, const Eigen::Quaternionf& orientation);
   Shape shape(uint32_t index) const;
@@ -70,23 +71,24 @@ class BodyStore {
   bool has_velocities() const { return has_velocities_; }
   std::span<Eigen::Vector3f> angular_velocities();
   bool has_angular_velocities() const { return has_angular_velocities_; }
-  // Some body has a detection that is not discrete.
+  // Whether some body has a detection that is not discrete.
   bool has_detections() const { return detected_ > 0; }
 
-  // What the stages read.
+  // Inputs of the stages.
   bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
   Collidables view() const;
   PairFilter filter() const;
   const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
   const std::vector<uint32_t>& halfspaces() const { return halfspaces_; }  // indices, ascending
 
-  // One byte a row: what was done through the calls above since clear_touched(). Writes into the
-  // arrays are not seen here.
-  static constexpr uint8_t kShapeTouched = 1;  // shape, or what a result depends on beside the pose
-  static constexpr uint8_t kReplaced = 2;      // the body is not the one of the last step
+  // One byte a row: what the calls above have done since clear_touched(). It does not cover writes
+  // into the arrays.
+  static constexpr uint8_t kShapeTouched = 1;  // shape, or another input of results beside the pose
+  static constexpr uint8_t kReplaced = 2;      // the body was added or removed since the last step
   uint8_t touched(uint32_t index) const { return touched_[index]; }
   bool any_touched() const { return !touched_indices_.empty(); }
-  // Those with a byte that is not zero, rows() and beyond among them: bodies that went.
+  // The rows with a byte that is not zero. Rows of removed bodies at rows() and beyond may be among
+  // them.
   const std::vector<uint32_t>& touched_indices() const { return touched_indices_; }
   void clear_touched();
 
@@ -116,22 +118,23 @@ class BodyStore {
   PositionType positions_;
   IndexPool alive_;
   std::vector<uint32_t> generation_;
-  uint32_t first_generation_ = 0;  // of new rows: above that of every body that dropped rows had
-  std::vector<ShapeKind> kind_;    // of a row without a body: sphere
+  // generation of new rows, above those of all bodies that dropped rows had
+  uint32_t first_generation_ = 0;
+  std::vector<ShapeKind> kind_;  // sphere for a row without a body
   std::array<size_t, kShapeKindCount> bodies_of_kind_{};
-  std::vector<uint8_t> touched_;  // rows that were dropped since clear_touched() included
+  std::vector<uint8_t> touched_;  // includes rows that were dropped since clear_touched()
   std::vector<uint32_t> touched_indices_;
 
-  std::vector<float> records32_;  // x, y, z, w a row; one of the two is empty
+  std::vector<float> records32_;  // x, y, z, w a row; one of the two columns is empty
   std::vector<double> records64_;
 
-  // Lower and upper corners; rows are slots, handed out to aabb bodies.
+  // Lower and upper corners. Rows are slots, which only aabb bodies get.
   IndexPool slots_;
   std::array<std::vector<float>, 6> boxes_;
   std::vector<uint32_t> box_slot_;  // empty until there is a box; 0 for other kinds
 
-  // Parameters of capsules, boxes, half-spaces and triangles, in blocks of rows. Behind the last
-  // block follow kMostRows - 1 rows of zero, so that as many can be read from any row.
+  // Parameters of all kinds but spheres and aabbs, in blocks of rows. After the last block follow
+  // kMostRows - 1 rows of zero, so that kMostRows rows can be read from any row.
   RowPool row_pool_;
   std::vector<Row> rows_;
   std::vector<uint32_t> first_row_;  // empty until there is such a body; 0 for other kinds
@@ -139,16 +142,16 @@ class BodyStore {
 
   std::vector<uint32_t> halfspaces_;
 
-  // What keeps the geometries alive whose addresses are in the rows; empty until there is one.
+  // Keeps the geometries alive whose addresses are in the rows. Empty until there is one.
   std::vector<std::shared_ptr<const void>> geometry_;
 
-  // Empty while every body has the default.
+  // These are empty while every body has the default.
   std::vector<Motion> motion_;
   std::vector<uint32_t> layer_, mask_, owner_;
   std::vector<uint8_t> sensor_;
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;
-  size_t detected_ = 0;  // living bodies of which it is not discrete
+  size_t detected_ = 0;  // bodies whose detection is not discrete
   std::vector<Eigen::Vector3f> velocity_, angular_velocity_;
   bool has_velocities_ = false;
   bool has_angular_velocities_ = false;

@@ -1,4 +1,4 @@
-// Columns of a store: flat arrays that exist once they are needed and give memory back.
+// Helpers for columns, flat arrays that exist once they are needed and give memory back.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ const T* data_or_null(const std::vector<T>& column) {
   return column.empty() ? nullptr : column.data();
 }
 
-// Gives memory back if more than four times the `needed` rows are held; twice those are kept, so
-// that their number must halve again, or double, before the column moves once more.
+// Gives memory back if the column holds more than four times the `needed` rows. It keeps twice as
+// many, so that their number must halve again, or double, before the column moves again.
 template <class T>
 void give_back(std::vector<T>& column, size_t needed) {
   constexpr size_t kAlwaysKept = 4096 / sizeof(T);
@@ -32,7 +32,7 @@ void give_back(std::vector<T>& column, size_t needed) {
   column.swap(smaller);
 }
 
-// The same for working memory: what it holds is of no use any more.
+// The same for working memory, whose contents are of no use any more.
 template <class T>
 void give_back_scratch(std::vector<T>& column, size_t needed) {
   if (column.size() > needed) column.resize(needed);
@@ -46,7 +46,7 @@ void give_back(BlockLists<T>& lists, size_t needed) {
   if (lists.bytes() > 8 * needed * sizeof(T) + kAlwaysKept) lists = {};
 }
 
-// Resizes to a number of rows that may have fallen for good.
+// Resizes the column, and gives memory back if the number of rows has fallen.
 template <class T>
 void resize_and_give_back(std::vector<T>& column, size_t rows) {
   const bool shrinks = rows < column.size();

@@ -8,7 +8,7 @@ namespace carom {
 uint32_t IndexPool::take() {
   ++size_;
   if (size_ > end()) {
-    free_.clear();  // dropped ones alone
+    free_.clear();  // it held only dropped indices
     used_.push_back(1);
     return static_cast<uint32_t>(end() - 1);
   }
@@ -33,7 +33,7 @@ void IndexPool::release(uint32_t index) {
 void IndexPool::drop_free_at_end() {
   while (!used_.empty() && !used_.back()) used_.pop_back();
   give_back(used_, end());
-  // As many were dropped since the last time as there are entries to look at now.
+  // More than half of the entries are dropped ones, so going through all of them pays.
   const size_t free_count = end() - size_;
   if (free_.size() > 2 * free_count) forget_dropped();
 }

@@ -1,4 +1,4 @@
-// Hands out indices from 0, the lowest free one first; those at the end are dropped once free.
+// Hands out indices from 0, the lowest free one first. Free indices at the end are dropped.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class IndexPool {
   size_t size() const { return size_; }        // indices in use
   bool is_used(uint32_t index) const { return used_[index]; }
 
-  // Those below end(), in no order.
+  // The free indices below end(), in no order.
   const std::vector<uint32_t>& free_indices();
 
   size_t bytes() const { return bytes_of(used_) + bytes_of(free_); }
@@ -29,8 +29,8 @@ class IndexPool {
 
   std::vector<uint8_t> used_;
   size_t size_ = 0;
-  // Min-heap of the free indices. It may hold dropped ones, which are all above the others, until
-  // they are forgotten.
+  // A min-heap of the free indices. It may also hold dropped ones, which are all above the others,
+  // until forget_dropped().
   std::vector<uint32_t> free_;
 };
 

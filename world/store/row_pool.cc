@@ -53,7 +53,7 @@ void RowPool::drop_free_at_end() {
     --free_blocks(rows).count;
   }
   give_back(state_, end());
-  // As many were dropped since the last time as there are entries to look at now.
+  // Where more than half of the entries are dropped ones, going through all of them pays.
   for (size_t rows = 1; rows <= kMostRows; ++rows) {
     if (free_blocks(rows).heap.size() > 2 * free_blocks(rows).count) forget_dropped(rows);
   }

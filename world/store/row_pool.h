@@ -1,5 +1,5 @@
 // Hands out blocks of a few neighbouring rows of one array, the lowest free block of that size
-// first; rows at the end are dropped once free.
+// first. Free rows at the end are dropped.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace carom {
 
 class RowPool {
  public:
-  // The first row of a block of so many: 1 to kMostRows.
+  // Takes a block of 1 to kMostRows rows, and returns its first row.
   uint32_t take(uint32_t rows);
   void release(uint32_t first, uint32_t rows);
 
@@ -25,8 +25,8 @@ class RowPool {
  private:
   // The free blocks of one size.
   struct FreeBlocks {
-    // Min-heap of first rows. It may hold rows that are none any more, since the end of the array
-    // was dropped, and the same row twice.
+    // A min-heap of first rows. It may also hold rows that do not begin a free block any more,
+    // because the end of the array was dropped, and the same row twice.
     std::vector<uint32_t> heap;
     size_t count = 0;
   };
@@ -37,7 +37,7 @@ class RowPool {
   void drop_free_at_end();
   void forget_dropped(size_t rows);
 
-  // One a row: kUsed; of a free block its size, with kInside in all rows but the first.
+  // One byte a row: kUsed, or the size of its free block, with kInside in all rows but the first.
   static constexpr uint8_t kUsed = 0;
   static constexpr uint8_t kInside = 0x80;
   std::vector<uint8_t> state_;
