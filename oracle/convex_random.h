@@ -176,8 +176,7 @@ class ConvexRandom {
     std::swap(triangle.corners[0], triangle.corners[static_cast<size_t>(integer(0, 2))]);
   }
 
-  // The k-DOP of a few points or of a box's corners. Some slabs are then narrowed, so that they cut
-  // corners off or become redundant.
+  // The k-DOP of a few points or of a box's corners. Some slabs are then narrowed.
   Dop dop(double size) {
     // Mostly kinds with few planes: the oracle is slow for many.
     constexpr DopKind kKinds[] = {DopKind::k6,  DopKind::k6,  DopKind::k6,  DopKind::k14,
