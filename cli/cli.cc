@@ -23,7 +23,7 @@ std::string command_names(CLI::App& program) {
   return names;
 }
 
-// What CLI11 would report less clearly.
+// Reports missing and unknown commands more clearly than CLI11.
 Result<void> check_command(CLI::App& program, std::span<const std::string> arguments) {
   if (arguments.empty()) {
     return Error{"no command given (commands: " + command_names(program) + "; see carom --help)"};

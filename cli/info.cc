@@ -1,4 +1,4 @@
-// carom info: what this build is and what it can do here.
+// carom info: describes this build and what it supports on this machine.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <thread>

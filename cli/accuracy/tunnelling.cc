@@ -1,4 +1,4 @@
-// carom tunnelling: what ways of looking after fast bodies miss, and what they cost.
+// carom tunnelling: measures what the detection settings miss of fast bodies and what they cost.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>

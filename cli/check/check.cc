@@ -1,4 +1,4 @@
-// carom check: reads shapes and says what is wrong with them.
+// carom check: reads shapes and reports what is wrong with them.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -50,7 +50,7 @@ void check_compound(const io::SceneShapes& shapes, ShapeReport& report) {
   }
 }
 
-// Why a shape that is no compound is not a valid one; empty if it is.
+// Why a shape (not a compound) is invalid; empty if it is valid.
 std::string problem_of(const io::SceneShapes& shapes, size_t index) {
   const Result<Shape> shape = convert_simple_shape(shapes, index);
   if (!shape) return "it is " + shape.error().message;
@@ -91,7 +91,7 @@ ShapeReport report_of(MeshPart part, size_t index) {
   return report;
 }
 
-// Where reports go, one after the other.
+// Writes reports one after the other.
 class Sink {
  public:
   Sink(bool is_json, const Console& console) : is_json_(is_json), console_(console) {}

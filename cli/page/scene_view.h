@@ -1,4 +1,4 @@
-// What the page of a scene shows of a world after a step.
+// The data of the scene page: a world after a step.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace carom::cli {
 
-// Shapes, bodies and contacts in columns, and how far the contact points are from the surfaces.
-// Bodies that were left out of the step are not in it. At details with contacts.
+// Shapes, bodies and contacts in columns, and the distances of contact points from the surfaces.
+// Leaves out bodies that the step left out. Needs a detail with contacts.
 nlohmann::ordered_json view_of(const World& world, const std::string& scene, uint64_t frame);
 
 }  // namespace carom::cli
