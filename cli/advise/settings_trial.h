@@ -31,7 +31,7 @@ struct TriedSettings {
   std::string name;
   accuracy::Trial trial;
   std::optional<accuracy::TrialResult> result;  // empty: there was no time for it
-  // Of the choice that it should improve, measured in the same turns.
+  // Values of the choice that it should improve, measured in the same turns.
   double frame_ms_beside = 0;
   uint64_t tested_beside = 0;  // pairs
   bool meets = false;          // it meets the tolerance

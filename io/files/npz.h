@@ -22,7 +22,7 @@ namespace carom::io {
 // An error "path: member name: text".
 Error member_error(const std::string& path, const std::string& name, const std::string& text);
 
-// What a reader expects of one member. Extents may be kAny.
+// The type and shape that a reader expects of one member. Extents may be kAny.
 struct Expected {
   DType dtype;
   Shape shape;

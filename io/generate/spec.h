@@ -1,4 +1,4 @@
-// What scene to generate, as written on the command line: KIND[:key=value,...].
+// The specification of a generated scene, as written on the command line: KIND[:key=value,...].
 #pragma once
 
 #include <cstdint>
