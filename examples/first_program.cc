@@ -1,4 +1,4 @@
-// A ball that overlaps the ground by ten centimetres.
+// A ball that sinks into the ground by ten centimetres.
 #include <carom/carom.h>
 
 #include <cstdio>
