@@ -1,4 +1,4 @@
-// The page that shows a document of measurements; its data is in it.
+// The HTML page of a document of measurements, with the data inside.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,6 +1,6 @@
 // carom_bench [--smoke | --large] [Google Benchmark's flags]
-//   --smoke  short streams, small scenes, hardly any repetition: does everything still run?
-//   --large  scenes of a million bodies as well
+//   --smoke  short streams, small scenes, few repetitions: checks that everything still runs
+//   --large  also scenes of a million bodies
 #include <benchmark/benchmark.h>
 
 #include <cstring>
@@ -14,7 +14,7 @@
 namespace carom::bench {
 namespace {
 
-// Takes our own flags out of the list; flags that follow win over those that --smoke puts in.
+// Removes our own flags from the list. Later flags override those that --smoke adds.
 Options take_options(std::vector<char*>& arguments) {
   static char min_time[] = "--benchmark_min_time=0.001";
   Options options;

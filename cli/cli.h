@@ -1,4 +1,4 @@
-// The program, callable from tests.
+// The program as a function, which tests can call.
 #pragma once
 
 #include <iosfwd>

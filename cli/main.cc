@@ -8,13 +8,13 @@
 
 namespace {
 
-// The default action follows as soon as the handler returns: until then the signal is blocked.
+// raise() blocks until the handler returns; then the default action ends the program.
 extern "C" void end_on_signal(int signal) {
   carom::io::remove_temporary_files();
   std::raise(signal);
 }
 
-// A process that is interrupted leaves no temporary file behind.
+// Makes an interrupted process remove its temporary files.
 void install_handlers() {
   for (int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};

@@ -11,19 +11,19 @@
 
 namespace {
 
-// The program's own records: x, y, z and radius side by side, anything else behind them.
+// The program's own records: x, y, z and radius first, other data behind them.
 struct Particle {
   float x, y, z, radius;
   float temperature;
   int32_t species;
 };
 
-// The program's own boxes: a column a coordinate.
+// The program's own boxes: one column for each coordinate.
 struct Boxes {
   std::vector<float> min_x, min_y, min_z, max_x, max_y, max_z;
 };
 
-// Six columns for bounds, as carom writes and reads them.
+// Six columns for bounds, which Carom writes and reads.
 struct Bounds {
   std::vector<float> columns[6];
 
@@ -72,7 +72,7 @@ carom::Collidables view_of(const Boxes& boxes) {
                             boxes.min_x.size());
 }
 
-// Nothing is written where the buffer is too small: the call says how much room it needs.
+// If the buffer is too small, find_pairs() writes nothing and returns the room that it needs.
 std::vector<carom::Pair> find_pairs(const Bounds& bounds, const carom::PairFilter& filter) {
   std::vector<carom::Pair> pairs(16);
   const size_t count = carom::find_pairs(bounds.view(), filter, pairs);
@@ -88,7 +88,7 @@ bool check(bool holds, const char* claim) {
   return holds;
 }
 
-// The plain loops that Carom replaces; in double, the sums of these floats are exact enough.
+// The plain loops that Carom replaces. Doubles hold the sums of these floats exactly enough.
 size_t count_overlaps_one_by_one(const std::vector<Particle>& particles) {
   size_t count = 0;
   for (size_t i = 0; i < particles.size(); ++i) {
@@ -120,7 +120,7 @@ bool particles_against_each_other(const std::vector<Particle>& particles) {
   carom::compute_bounds(view_of(particles), bounds.from(0));
   const std::vector<carom::Pair> pairs = find_pairs(bounds, {});
 
-  // Only the columns that are wanted are written.
+  // Carom writes only the columns that are given.
   std::vector<uint8_t> overlap(pairs.size());
   std::vector<float> separation(pairs.size());
   const carom::Result<void> done =
@@ -134,7 +134,7 @@ bool particles_against_each_other(const std::vector<Particle>& particles) {
   return check(overlaps == count_overlaps_one_by_one(particles), "as many as one by one");
 }
 
-// Two sets: their bounds one behind the other, and a filter that lets only mixed pairs through.
+// Two sets: their bounds follow each other, and a filter passes only mixed pairs.
 bool particles_against_boxes(const std::vector<Particle>& particles, const Boxes& boxes) {
   std::printf("particles against boxes\n");
   const size_t count = particles.size();
@@ -158,7 +158,7 @@ bool particles_against_boxes(const std::vector<Particle>& particles, const Boxes
   return check(overlaps == count_overlaps_one_by_one(particles, boxes), "as many as one by one");
 }
 
-// Every point against every particle: small sets need no bounds.
+// Every point against every particle. Small sets need no bounds.
 bool points_in_particles(const std::vector<Particle>& particles) {
   std::printf("points in particles\n");
   const Particle& first = particles[0];

@@ -1,5 +1,5 @@
-// Bullets in a room of walls as thin as paper: each is moved to where it meets something first, and
-// bounces. Looking at where bodies are would lose most of them in the first frames.
+// Bullets in a room with walls as thin as paper. Each bullet moves to its first impact and bounces.
+// Discrete detection would lose most of them in the first frames.
 #include <carom/carom.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace {
 
 constexpr float kTimeStep = 1.0f / 60;
-constexpr float kRoom = 2;  // half a side, metres
+constexpr float kRoom = 2;  // half the side, metres
 constexpr float kWall = 0.001f;
 constexpr int kBullets = 100;
 constexpr int kFrames = 120;
@@ -46,14 +46,14 @@ std::vector<Bullet> add_bullets(carom::World& world) {
     body.position = {std::cos(turn), std::sin(turn), 1.5 * height};
     body.linear_velocity = {speed * std::sin(turn), speed * std::cos(turn), speed * height};
     body.detection = carom::Detection::continuous;
-    body.user = bullets.size() + 1;  // walls have none
+    body.user = bullets.size() + 1;  // walls have 0
     bullets.push_back({world.add(body), body.linear_velocity});
   }
   return bullets;
 }
 
-// Bodies rest on each other to within rounding after they met: `stays` for those that would go on
-// into what they touch.
+// After an impact a bullet touches the other body to within rounding. A bullet that would move on
+// into a body it touches bounces instead, and `stays` for this frame.
 void bounce_off_contacts(const carom::World& world, std::vector<Bullet>& bullets,
                          std::vector<bool>& stays) {
   const auto bounce = [&](uint32_t body, const Eigen::Vector3f& normal) {
@@ -63,12 +63,12 @@ void bounce_off_contacts(const carom::World& world, std::vector<Bullet>& bullets
     stays[user - 1] = true;
   };
   for (const carom::Contact& contact : world.contacts()) {
-    bounce(contact.a, contact.normal);  // from a to b
+    bounce(contact.a, contact.normal);  // the normal points from a to b
     bounce(contact.b, -contact.normal);
   }
 }
 
-// To where it meets something first, or to the end of the frame. Returns whether it met something.
+// Moves the bullet to its first impact, or to the end of the frame. Returns whether there was one.
 bool fly(carom::World& world, Bullet& bullet) {
   const carom::Impact* impact = world.first_impact(bullet.id);
   const float share = impact ? impact->toi : 1;

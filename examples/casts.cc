@@ -1,5 +1,5 @@
-// A row of sensors looks at a yard of boxes, balls and pillars: which body each ray meets first,
-// how far a ball can roll, and what is nearest to it.
+// A row of sensors scans a yard of boxes, balls and pillars: which body each ray hits first, how
+// far a ball can roll, and what is nearest to it.
 #include <carom/carom.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ int main() {
   }
   world.step();
 
-  // Rays in a fan, 20 m long, half a metre above the ground; some of them look down.
+  // A fan of rays, 20 m long, half a metre above the ground; some point downwards.
   constexpr size_t kRays = 64;
   std::vector<Eigen::Vector3f> origins(kRays, {0, 10, 0.5f}), directions;
   for (size_t i = 0; i < kRays; ++i) {
@@ -36,7 +36,7 @@ int main() {
                 hit.toi * kLength, hit.normal.x(), hit.normal.y(), hit.normal.z());
   }
 
-  // A ball of 30 cm that rolls 12 m to the right, and all that is in its way.
+  // A ball of 30 cm that rolls 12 m to the right, and everything in its path.
   const std::vector<float> ball = {0, 9, 0.31f, 0.3f};
   const std::vector<float> way = {12, 0, 0};
   std::vector<carom::CastHit> in_the_way;

@@ -1,5 +1,5 @@
-// How far the parts of a machine stay apart, step after step: convex hulls, the same pairs again
-// and again, and what the last step knew of them.
+// Measures the clearance of a machine's parts, step after step. The parts are convex hulls and the
+// pairs stay the same, so each step starts from the features of the last one.
 #include <carom/carom.h>
 
 #include <algorithm>
@@ -23,9 +23,9 @@ carom::Hull wedge() {
   return {*carom::make_hull(points, faces)};
 }
 
-// One record of each kind a body, as Carom reads them.
+// One record of each kind for every body, as Carom reads them.
 struct Bodies {
-  std::vector<Row> positions;     // x, y, z and nothing
+  std::vector<Row> positions;     // x, y, z and an unused number
   std::vector<Row> orientations;  // x, y, z, w
   std::vector<Row> shapes;        // the hull that all of them share
 
@@ -52,7 +52,7 @@ void turn_about_z(Row& orientation, float angle) {
 }  // namespace
 
 int main() {
-  // A row of wedges, and above it one more of each, which turns.
+  // A row of wedges, and above each another one, which turns.
   constexpr uint32_t kCount = 64;
   const carom::Hull hull = wedge();
   Bodies still(kCount, hull), turning(kCount, hull);

@@ -1,5 +1,5 @@
-// Who is near whom, for a crowd that drifts: a set of neighbours for every body, kept up to date by
-// the pairs that come and go. The margin makes the pairs last: most steps change only a few.
+// Keeps a set of neighbours for every body of a drifting crowd, from the pairs that begin and end.
+// The margin makes pairs last, so most steps change only a few.
 #include <carom/carom.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr int kSteps = 100;
 using Neighbours = std::vector<std::set<uint32_t>>;
 
 void follow(const carom::World& world, Neighbours& neighbours) {
-  // Removed ones first: a pair is in both lists if another body took an index over.
+  // Removed pairs first: a pair is in both lists if another body took over an index.
   for (const carom::Pair& pair : world.removed_pairs()) {
     neighbours[pair.a].erase(pair.b);
     neighbours[pair.b].erase(pair.a);

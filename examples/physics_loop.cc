@@ -1,5 +1,5 @@
-// A physics loop with Carom as its collision world: the loop moves the bodies, Carom says which of
-// them touch and how, and the loop decides what that means. Three uses of contacts are shown:
+// A physics loop with Carom as its collision world. The loop moves the bodies, Carom reports which
+// of them touch and how, and the loop decides what follows. It shows three uses of contacts:
 // pushing bodies apart, coming to rest on the ground, and triggers.
 #include <carom/carom.h>
 
@@ -21,12 +21,12 @@ constexpr float kTimeStep = 1.0f / 60;
 constexpr float kGravity = -9.81f;
 constexpr int kFrames = 150;
 
-// What a body is to the game; Carom hands it back as the body's user value.
+// The role of a body in the game; Carom stores it as the body's user value.
 enum class Role : uint64_t { ground, wall, ball, player, missile, pickup };
 
 struct Game {
   World world;
-  std::vector<BodyId> movers;  // all that are not static
+  std::vector<BodyId> movers;  // all bodies that are not static
   BodyId ball, left, right, missile, pickup;
   double time = 0;
   int explosions = 0;
@@ -53,8 +53,8 @@ void set_up(Game& game) {
   game.left = add(game, Role::ball, {.shape = carom::Sphere{0.5f}, .position = {-0.4, -10, 0.5}});
   game.right = add(game, Role::ball, {.shape = carom::Sphere{0.5f}, .position = {0.4, -10, 0.5}});
 
-  // The player walks over the pick-up. The missile starts inside the player, whom it does not hit:
-  // they share an owner.
+  // The player walks over the pick-up. The missile starts inside the player but does not hit it,
+  // because they share an owner.
   constexpr uint32_t kPlayerOne = 1;
   add(game, Role::player,
       {.shape = carom::Aabb{{-0.3f, -0.3f, 0}, {0.3f, 0.3f, 1.8f}},
@@ -74,9 +74,9 @@ void set_up(Game& game) {
                      .sensor = true});
 }
 
-// --- Dynamics: no business of Carom's ---------------------------------------------------------
+// --- Dynamics: not part of Carom --------------------------------------------------------------
 
-// Gravity and velocities, straight in the arrays of the world.
+// Applies gravity and velocities straight in the arrays of the world.
 void move_bodies(Game& game) {
   const carom::BodyArrays arrays = game.world.arrays();
   const auto velocities = game.world.linear_velocities();
@@ -97,9 +97,10 @@ float inverse_mass(const World& world, BodyId id) {
   return world.motion(id) == Motion::dynamic ? 1.0f : 0.0f;
 }
 
-// --- The first two uses of contacts: apart, and at rest ---------------------------------------
+// --- The first two uses of contacts: pushing apart and rest
+// ---------------------------------------
 
-// Moving B by -separation * normal makes A and B touch. Lighter bodies go the longer way.
+// Moving B by -separation * normal makes A and B touch. The lighter body moves further.
 void push_apart(World& world, const Contact& contact) {
   const BodyId a = world.id_of(contact.a);
   const BodyId b = world.id_of(contact.b);
@@ -111,7 +112,7 @@ void push_apart(World& world, const Contact& contact) {
   world.set_position(a, world.position(a) - (mass_a * way).cast<double>());
   world.set_position(b, world.position(b) + (mass_b * way).cast<double>());
 
-  if (contact.normal_velocity >= 0) return;  // already parting
+  if (contact.normal_velocity >= 0) return;  // already separating
   const Eigen::Vector3f stop = -contact.normal_velocity / (mass_a + mass_b) * contact.normal;
   world.set_linear_velocity(a, world.linear_velocity(a) - mass_a * stop);
   world.set_linear_velocity(b, world.linear_velocity(b) + mass_b * stop);
@@ -120,7 +121,7 @@ void push_apart(World& world, const Contact& contact) {
 // --- The third use: triggers ------------------------------------------------------------------
 
 void explode(Game& game, const Event& event) {
-  // Where: the witness point of A, relative to A's position.
+  // The place is the witness point of A, relative to A's position.
   const Contact& contact = game.world.contacts()[event.contact];
   const Eigen::Vector3d at = game.world.position(event.a) + contact.arm_a.cast<double>();
   if (!remove(game, game.missile)) return;

@@ -1,4 +1,4 @@
-// What holds of the result of any two bodies, with the comparisons of the tests.
+// Checks that hold for the result of any two bodies, with the comparisons of the tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@ namespace carom::fuzz {
 
 using test::TestPair;
 
-// GoogleTest has said what failed; a fuzzer sees nothing but the end of the program.
+// GoogleTest has printed the failure; a fuzzer only notices that the program ends.
 inline void abort_on_failure() {
   if (testing::Test::HasFailure()) std::abort();
 }
 
-// On every instruction set, at every detail: the bits of the reference.
+// Expects the bits of the reference on every instruction set at every detail.
 inline void expect_everywhere(const TestPair& pair, PositionType positions,
                               const reference::PairResult& result) {
   test::Call call = test::call_with(positions);
@@ -37,7 +37,7 @@ inline void expect_everywhere(const TestPair& pair, PositionType positions,
 
 inline bool has_nan(const Eigen::Vector3f& v) { return v.array().isNaN().any(); }
 
-// Numbers in all of it, but for bodies that cannot meet: those are separate by infinity.
+// Expects numbers in all fields, except for bodies that cannot meet: their separation is infinite.
 inline void expect_numbers(const TestPair& pair, const reference::PairResult& result) {
   EXPECT_EQ(result.overlap, result.separation <= 0);
   EXPECT_EQ(result.overlap, result.manifold_count > 0);

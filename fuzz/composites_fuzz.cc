@@ -1,5 +1,5 @@
-// Any bytes as a mesh or a compound and what it meets: every instruction set says what the scalar
-// reference says, which knows no trees, and either order of the two gives one decision.
+// Reads any bytes as a mesh or compound and another body. Every instruction set must agree with the
+// scalar reference, which uses no trees, and both orders of the bodies must give the same decision.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -22,12 +22,12 @@ enum MeshFlag : uint8_t { kOneSided = 1, kThick = 2, kAnyIndex = 4 };
 constexpr size_t kMostTriangles = 24;
 constexpr size_t kMostChildren = 6;
 
-// Nothing if the numbers make no shape.
+// Empty if the numbers do not make a shape.
 using MaybeShape = std::optional<Shape>;
 using Triangles = std::vector<std::array<uint32_t, 3>>;
 using Vertices = std::vector<Eigen::Vector3f>;
 
-// What make_mesh() asks for.
+// The conditions of make_mesh().
 bool is_mesh(const Vertices& vertices, const Triangles& triangles, const MeshRules& rules) {
   const auto is_finite = [](const Eigen::Vector3f& p) { return p.allFinite(); };
   const auto has_corners = [&](const std::array<uint32_t, 3>& triangle) {
@@ -38,7 +38,7 @@ bool is_mesh(const Vertices& vertices, const Triangles& triangles, const MeshRul
          std::all_of(triangles.begin(), triangles.end(), has_corners);
 }
 
-// What make_compound() asks for, of shapes that are valid.
+// The conditions of make_compound() for valid shapes.
 bool is_compound(const std::vector<CompoundChild>& children) {
   return !children.empty() && std::all_of(children.begin(), children.end(), [](const auto& child) {
     return !std::holds_alternative<Halfspace>(child.shape) && child.orientation.norm() > 0;
@@ -62,7 +62,7 @@ MaybeShape take_mesh(double size, size_t most_triangles, Data& data) {
   return Mesh{*mesh};
 }
 
-// A triangle by itself has rules of its own.
+// Gives a lone triangle its own rules.
 void add_rules(Triangle& triangle, uint8_t form) {
   triangle.one_sided = (form & 8) != 0;
   triangle.inner_edges = form >> 5;
@@ -83,7 +83,7 @@ MaybeShape take_shape(ShapeKind kind, double size, size_t most_triangles, Data& 
   return take_simple(kind, size, data);
 }
 
-// Of any kind but compounds, and half-spaces, which are refused.
+// Reads children of any kind except compounds. make_compound() must refuse half-spaces.
 MaybeShape take_compound(double size, Data& data) {
   std::vector<CompoundChild> children(take<uint8_t>(data) % (kMostChildren + 1));
   for (CompoundChild& child : children) {
@@ -116,7 +116,7 @@ std::optional<TestPair> take_pair(const std::array<ShapeKind, 2>& kinds, uint8_t
   return pair;
 }
 
-// The numbers below which the two sub-shapes of a result are to be.
+// The number of parts; a result's sub-shape must be below it.
 size_t part_count(const Shape& shape) {
   if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->geometry->triangles().size();
   if (const auto* all = std::get_if<Compound>(&shape)) return all->geometry->children().size();

@@ -1,5 +1,6 @@
-// Any bytes as two clouds of points: build_hull() ends and makes what it says, and of the hulls,
-// placed in any way, all kernels say what the reference says and independent projections confirm.
+// Reads any bytes as two clouds of points. build_hull() must end and keep its promises. For the
+// hulls in any poses all kernels must agree with the reference, and independent projections must
+// confirm its results.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -27,16 +28,17 @@ enum Flag : uint8_t {
   kNear = 32
 };
 
-// The oracle tries every three corners, and every two edges.
+// The most corners for the oracle, which tries every three corners and every two edges.
 constexpr size_t kMostJudged = 20;
 
-// One to 64, few more often than many.
+// 1 to 64 points; small counts are more frequent.
 size_t take_count(Data& data) {
   const auto byte = take<uint8_t>(data);
   return 1 + byte * byte / 1024u;
 }
 
-// In extents: faces hold what is in their plane up to the rounding of the coordinates.
+// As a share of the extents: a face contains points that are in its plane up to the rounding of the
+// coordinates.
 double face_tolerance(const io::Points& points) {
   double largest = 0;
   for (const Eigen::Vector3f& p : points)
@@ -67,7 +69,7 @@ std::optional<Hull> take_hull(Data& data) {
 using Number = long double;
 using Cloud = oracle::ConvexShape<Number>;
 
-// Points alone: that suffices for projections.
+// The placed points without faces, which suffices for projections.
 Cloud placed_points(const test::PlacedShape& body, PositionType positions) {
   const oracle::Rotation<Number> turn(body.orientation);
   Cloud cloud(oracle::Vec3<Number>{});
@@ -92,7 +94,7 @@ double reach_of(const Hull& hull) {
   return reach;
 }
 
-// B beside A, or moved back along that way until the two touch.
+// Puts B beside A; with kTouching moves B back along the same direction until the two touch.
 void place(TestPair& pair, uint8_t flags, Data& data) {
   const Hull &a = std::get<Hull>(pair.a.shape), &b = std::get<Hull>(pair.b.shape);
   const double reach = reach_of(a) + reach_of(b);
@@ -116,8 +118,8 @@ TestPair take_pair(const Hull& a, const Hull& b, uint8_t flags, Data& data) {
   return pair;
 }
 
-// The gap along the normal is the separation: no other direction has a larger one, so that the two
-// do not overlap by less than is said, and are not further apart.
+// The gap along the normal must equal the separation. As no direction has a larger gap than the
+// true separation, the reported overlap is not too deep and the reported distance not too large.
 void check_projections(const TestPair& pair, PositionType positions,
                        const reference::PairResult& result) {
   const auto normal = oracle::vec3_as<Number>(result.normal);
@@ -127,21 +129,21 @@ void check_projections(const TestPair& pair, PositionType positions,
   EXPECT_NEAR(gap, result.separation, 1e-5L * (size + std::fabs(gap)) + 0x1p-140L);
 }
 
-// Sums beyond the range of floats are promised less.
+// Only pairs within the range of floats have all the promises.
 bool is_in_range(const TestPair& pair) {
   const double size = test::bounding_radius(pair.a.shape) + test::bounding_radius(pair.b.shape);
   return size + pair.a.position.norm() + pair.b.position.norm() < 1e37;
 }
 
-// A quaternion of zeros is no orientation.
+// A zero quaternion is not an orientation.
 bool is_turned(const test::PlacedShape& body) { return body.orientation.norm() > 0; }
 
 size_t corner_count(const test::PlacedShape& body) {
   return std::get<Hull>(body.shape).geometry->points().size();
 }
 
-// Separations may be off by 2^-18 of the greatest number that went into the pair
-// (docs/accuracy.md), which is 2e-6 of two bodies of that size.
+// Separations may be off by 2^-18 of the greatest input number (docs/accuracy.md), which is 2e-6 of
+// the size of two such bodies.
 test::ExactKinds exact_pair(const TestPair& pair, PositionType positions) {
   test::ExactKinds exact(pair, positions);
   exact.scale = exact.oracle.a.bounding_radius + exact.oracle.b.bounding_radius;

@@ -1,4 +1,4 @@
-// The bodies that kinds_fuzz and motions_fuzz make of their input, as shapes and as views.
+// The bodies that kinds_fuzz and motions_fuzz read from their input, as shapes and as views.
 #pragma once
 
 #include <array>
@@ -30,8 +30,7 @@ inline Pose pose_of(const Body& body) {
   return {{p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]}};
 }
 
-// A set of one kind: the body, and another beside it in the same vector. Positions are of the type
-// that is asked for.
+// A set of one kind: the body and a neighbour in the same vector, with positions of the given type.
 class View {
  public:
   static constexpr size_t kBodies = 2;
@@ -78,13 +77,13 @@ class View {
   Collidables view_;
 };
 
-// Rows of bytes are no address of a hull.
+// Replaces the rows of a hull, which must be an address and not arbitrary bytes.
 inline Body with_hull(ShapeKind kind, Body body, const Hull& hull) {
   if (kind == ShapeKind::hull) body.rows = shape_rows(hull);
   return body;
 }
 
-// Without numbers that no shape has, a flag of 0.3 say.
+// Removes numbers that no shape has, such as a flag of 0.3.
 inline Body without_excess(ShapeKind kind, Body body) {
   if (row_count(kind) > 0) body.rows = shape_rows(shape_of(kind, body));
   return body;
@@ -94,12 +93,12 @@ inline Hull take_hull_of(ShapeKind kind, Data& data) {
   return kind == ShapeKind::hull ? take_hull(data) : Hull{};
 }
 
-// Two bodies, and beside each another one of its kind.
+// Two bodies, and a neighbour of the same kind beside each.
 struct TwoBodies {
   KindPair kinds;
   uint8_t flags;
   PositionType type;
-  Hull hull_a, hull_b;  // kept for as long as the bodies
+  Hull hull_a, hull_b;  // must live as long as the bodies
   Body a, b, beside_a, beside_b;
 };
 

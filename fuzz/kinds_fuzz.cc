@@ -1,5 +1,5 @@
-// Any bytes as two bodies of any two kinds that have a kernel: every instruction set says what the
-// scalar reference says, bit for bit, whatever is beside them.
+// Reads any bytes as two bodies of any two kinds that have a kernel. Every instruction set must
+// give the bits of the scalar reference, whatever neighbours the bodies have.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -45,7 +45,7 @@ Row reference_row(const reference::PairResult& result, Detail detail) {
   return row;
 }
 
-// Of the first bodies of the two sets.
+// The result for the first bodies of the two sets.
 Row kernel_row(const Collidables& a, const Collidables& b, Detail detail) {
   using Column = std::array<float, View::kBodies>;
   std::array<uint8_t, View::kBodies> overlap{}, status{}, manifold_count{};

@@ -1,5 +1,5 @@
-// What kinds_fuzz reads: the number of a pair of kinds, flags, two bodies, then what take_hull()
-// reads for A and for B.
+// The input of kinds_fuzz: the number of a pair of kinds, flags, two bodies, then the input of
+// take_hull() for A and for B.
 #pragma once
 
 #include <array>
@@ -27,16 +27,16 @@ inline constexpr KindPair kPairs[] = {
 
 enum Flag : uint8_t { kExchanged = 1, kFloat64 = 2 };
 
-// Spheres: the radius is the first number of the rows; aabbs: the first two rows are the corners.
-// The rows of hulls are not read.
+// Spheres: the first number of the rows is the radius. Aabbs: the first two rows are the corners.
+// The rows of hulls are ignored.
 struct Body {
   std::array<std::array<float, 4>, kMostRows> rows;
   std::array<float, 4> orientation;
   std::array<double, 3> position;
 };
 
-// The first byte says what follows: below kRandomHull the points themselves, one to sixteen of
-// them; otherwise the style, the size and the seed of a random hull of up to 64.
+// The first byte selects what follows. Below kRandomHull: one to sixteen points. Otherwise: the
+// style, size and seed of a random hull of up to 64 points.
 inline constexpr uint8_t kRandomHull = 128;
 inline constexpr size_t kMostPoints = 16;
 

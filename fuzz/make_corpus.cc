@@ -1,4 +1,4 @@
-// Writes the seed corpus: make_corpus FOLDER. The seeds in fuzz/corpus came from here.
+// Writes the seed corpus: make_corpus FOLDER. It wrote the seeds in fuzz/corpus.
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -87,7 +87,7 @@ bool write_seed_pairs(const std::string& path, bool full) {
   return bool(write_pairs(path, pairs));
 }
 
-// About one metre in size.
+// A body of about one metre.
 carom::fuzz::Body ordinary_body(carom::ShapeKind kind) {
   using namespace carom;
   carom::fuzz::Body body{.rows = {}, .orientation = {0.1f, -0.2f, 0.3f, 0.9f}, .position = {}};
@@ -121,7 +121,7 @@ carom::fuzz::Body ordinary_body(carom::ShapeKind kind) {
   return body;
 }
 
-// A tetrahedron, and one of many corners.
+// A tetrahedron and a hull of many corners.
 void write_hulls(std::ofstream& file) {
   const std::array<float, 12> corners = {1, 0, 0, -1, 0, 0.5f, 0, 1, 0, 0, 0, -1};
   file.put(corners.size() / 3 - 1);
@@ -141,7 +141,7 @@ void write_kinds(std::ofstream& file, uint8_t pair, uint8_t flags,
   if (has_hull) write_hulls(file);
 }
 
-// write(file, pair) for a file of every pair of kinds.
+// Calls write(file, pair) with a new file for every pair of kinds.
 template <class Write>
 bool write_all_kinds(const std::string& folder, const Write& write) {
   for (uint8_t pair = 0; pair < std::size(carom::fuzz::kPairs); ++pair) {
@@ -156,7 +156,7 @@ void write_pair(std::ofstream& file, uint8_t pair) {
   write_kinds(file, pair, pair % 4, {0.7, 0.9, -0.4});
 }
 
-// B comes from some metres away, and turns; every other pair of kinds turns.
+// B comes from some metres away; its rotation counts if the flags of the pair say so.
 void write_motion(std::ofstream& file, uint8_t pair) {
   write_kinds(file, pair, pair % 8, {3.5, 4.5, -2});
   const std::array<int16_t, 6> stays = {0, 0, 0, 2000, 0, 0};
@@ -165,12 +165,13 @@ void write_motion(std::ofstream& file, uint8_t pair) {
   file.write(reinterpret_cast<const char*>(comes.data()), sizeof comes);
 }
 
-// Numbers of a metre or less.
+// Random bytes; they make numbers of a metre or less.
 void put_random(std::ofstream& file, carom::oracle::Random& random, size_t bytes) {
   while (bytes-- > 0) file.put(static_cast<char>(random.bits()));
 }
 
-// Half of them turned and moved; a 1000th as thin as they are wide.
+// A cloud of this family; odd families are turned and moved. Thin ones are a 1000th as thin as
+// wide.
 void put_cloud(std::ofstream& file, carom::oracle::Random& random, uint8_t family, size_t points) {
   const uint8_t place = family % 2 ? 3 : 0;
   file.put(static_cast<char>(family)).put(static_cast<char>(place));
@@ -179,7 +180,8 @@ void put_cloud(std::ofstream& file, carom::oracle::Random& random, uint8_t famil
   put_random(file, random, points * 6);
 }
 
-// Two hulls of 17 points of a family, half of them the same one, half of them touching.
+// Two hulls of 17 points of a family. In half of the files both are the same hull; in the others
+// they touch.
 bool write_hull_pair(const std::string& path, uint8_t family) {
   constexpr uint8_t kCount = 128;
   carom::oracle::Random random(family);

@@ -1,7 +1,7 @@
-// Any bytes as the members of an intact archive: checksums, which random changes of a whole
-// archive never meet, hold here, so that everything behind them is reached.
+// Reads any bytes as the members of an intact archive. Random changes of a whole archive would
+// break its checksums; here they are right, so that the code behind them is reached.
 //
-// The input is a list of members: one byte that picks the name, two bytes of length, the content.
+// The input is a list of members: one byte selects the name, two bytes the length, then content.
 #include <zip.h>
 
 #include <cstddef>
@@ -27,7 +27,7 @@ constexpr const char* kNames[] = {
     "rotation_a.npy",         "body_sensor.npy",
 };
 
-// The archive in memory, stored.
+// The uncompressed archive in memory.
 std::vector<uint8_t> archive_of(const uint8_t* data, size_t size) {
   zip_source_t* target = zip_source_buffer_create(nullptr, 0, 0, nullptr);
   zip_source_keep(target);
@@ -39,7 +39,7 @@ std::vector<uint8_t> archive_of(const uint8_t* data, size_t size) {
     if (length > size - i) length = size - i;
     zip_source_t* content = zip_source_buffer(archive, data + i, length, 0);
     const zip_int64_t index = zip_file_add(archive, name, content, 0);
-    if (index < 0) zip_source_free(content);  // the name is there already
+    if (index < 0) zip_source_free(content);  // the name exists already
     if (index >= 0) {
       zip_set_file_compression(archive, static_cast<zip_uint64_t>(index), ZIP_CM_STORE, 0);
     }

@@ -1,4 +1,4 @@
-// Gives the readers, which take paths, a file that lives in memory.
+// A file in memory with a path, for readers that take paths.
 #pragma once
 
 #include <sys/mman.h>

@@ -1,6 +1,6 @@
-// Any bytes as two bodies of any two kinds that have a kernel, and as their motions: the search for
-// the time of impact ends, in a time that there is, and every instruction set says what the scalar
-// reference says, bit for bit.
+// Reads any bytes as two moving bodies of any two kinds that have a kernel. The search for the time
+// of impact must end with a valid time, and every instruction set must give the bits of the scalar
+// reference.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Row {
   std::array<float, 11> numbers{};  // toi, separation, normal, both points
 };
 
-// Of any size, or about as far as the bodies are apart and once around.
+// A sweep of any size, or one of about the distance of the bodies and one turn.
 Sweep take_sweep(uint8_t flags, double reach, Data& data) {
   Sweep sweep;
   if (flags & kAnyMotion) {
@@ -61,7 +61,8 @@ Row reference_row(const reference::Impact& impact) {
   return row;
 }
 
-// Of the first bodies of the two sets; the second ones lie beside them in the same vectors.
+// The result for the first bodies of the two sets; the second ones are neighbours in the same
+// vectors.
 Row kernel_row(const Collidables& a, const Sweep& sweep_a, const Collidables& b,
                const Sweep& sweep_b) {
   constexpr std::array<Pair, 2> kList = {{{0, 0}, {1, 1}}};

@@ -1,4 +1,4 @@
-// Any bytes as a file of pairs: what is accepted has arrays that fit each other.
+// Reads any bytes as a file of pairs. An accepted file must have arrays that fit each other.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

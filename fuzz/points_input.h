@@ -1,4 +1,4 @@
-// Clouds of points from bytes, of families that hulls and meshes find hard.
+// Makes clouds of points from bytes, in families that are hard for hulls and meshes.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,26 +13,26 @@ namespace carom::fuzz {
 
 enum class Family : uint8_t {
   any,       // floats of any bits
-  box,       // anywhere in it
+  box,       // anywhere in a box
   lattice,   // few distinct coordinates
-  flat,      // in a plane but for rounding
+  flat,      // in a plane except for rounding
   noisy,     // a little off the plane
-  line,      // on a line but for rounding
-  repeated,  // many of them are one of the first four
+  line,      // on a line except for rounding
+  repeated,  // many are equal to one of the first four
   sliver,    // two axes are short
   wedge,     // two planes that meet at a small angle
-  needle,    // about one axis, but for the first
+  needle,    // close to one axis, except the first point
   count
 };
 
-// A metre mostly, otherwise 1e-30 to 1e18.
+// Mostly one metre, otherwise 1e-30 to 1e18.
 inline double take_size(Data& data) {
   const auto power = take<uint8_t>(data);
   return power < 192 ? 1 : std::pow(10.0, power % 49 - 30);
 }
 
-// The bytes of a cloud: the family, whether it is turned and moved, its thinness; then six a point,
-// but of `any`, which has twelve.
+// Reads a cloud: a byte for the family, one for whether it is turned and moved, one for its
+// thinness; then six bytes for each point, or twelve for `any`.
 class CloudReader {
  public:
   CloudReader(double size, Data& data) : size_(size), data_(data) {
@@ -67,7 +67,8 @@ class CloudReader {
   }
 
   Eigen::Vector3d formed(const Eigen::Vector3d& p) const {
-    const double height = p.x() / 3 + p.y() / 7;  // over the plane z = 0, rounded in every bit
+    const double height =
+        p.x() / 3 + p.y() / 7;  // a tilted plane whose coordinates round in every bit
     switch (family_) {
       case Family::lattice:
         return (p * 2).array().round();

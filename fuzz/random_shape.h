@@ -1,4 +1,4 @@
-// Random shapes from bytes.
+// Makes random shapes from bytes.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace carom::fuzz {
 
-// The form says in which style, the data from which seed.
+// `form` gives the style, the data the seed.
 inline Shape take_random_shape(ShapeKind kind, uint8_t form, double size, Data& data) {
   oracle::Random random(take<uint64_t>(data));
   oracle::ConvexRandom shapes({.aspect = std::pow(10.0, form >> 4 & 7),

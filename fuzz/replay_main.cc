@@ -1,4 +1,4 @@
-// Runs the fuzz target on every file and folder named, once: for compilers without libFuzzer.
+// Runs the fuzz target once on every given file and folder, for compilers without libFuzzer.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Any bytes as a scene archive: what is accepted has arrays that fit each other.
+// Reads any bytes as a scene archive. An accepted scene must have arrays that fit each other.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Numbers from the front of the data; what is missing is zero.
+// Takes numbers from the front of the data; missing bytes are zero.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -22,7 +22,7 @@ T take(Data& data) {
   return value;
 }
 
-// -1 to 1; among them zero and what halving one leaves.
+// A multiple of 2^-15 in [-1, 1), so that 0, 1/2, 1/4 and so on occur exactly.
 inline double take_unit(Data& data) { return take<int16_t>(data) * 0x1p-15; }
 
 inline Eigen::Vector3d take_vector(Data& data) {
@@ -30,7 +30,7 @@ inline Eigen::Vector3d take_vector(Data& data) {
   return {x, y, take_unit(data)};
 }
 
-// The identity of zeros; seldom a unit one, and hardly ever all zero.
+// Zero bytes give the identity. The quaternion is seldom a unit one and hardly ever zero.
 inline Eigen::Quaternionf take_orientation(Data& data) {
   const auto bytes = take<std::array<int8_t, 4>>(data);
   Eigen::Quaternionf q;

@@ -20,10 +20,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kFlat = 1e-12;   // on a line, in a plane
-constexpr double kInside = 1e-9;  // left out of a solid, as a share of its height
+constexpr double kFlat = 1e-12;   // this close to a line or plane counts as on it
+constexpr double kInside = 1e-9;  // thicker facets may hide corners; a share of the height
 
-// The index with the largest value, and the value.
 template <class Value>
 std::pair<uint32_t, double> largest(const std::vector<Vector3d>& points, const Value& value) {
   std::pair<uint32_t, double> best = {0, -std::numeric_limits<double>::infinity()};
@@ -34,8 +33,8 @@ std::pair<uint32_t, double> largest(const std::vector<Vector3d>& points, const V
   return best;
 }
 
-// What points are together: the ends of a segment, the normal of a plane, or how far a solid
-// reaches beyond the plane of three of its points.
+// The dimension of a point set, with the ends of a segment, the normal of a polygon's plane, or the
+// height of a solid above the plane of three of its points.
 struct Form {
   HullForm form = HullForm::point;
   uint32_t first = 0;
@@ -67,7 +66,7 @@ Form form_of(const std::vector<Vector3d>& points) {
   return result;
 }
 
-// Marks and outlines that leave nothing out and know no face.
+// Keeps every point as a corner and has no faces.
 HullFaces all_points(size_t count) { return {{}, std::vector<bool>(count, true)}; }
 
 HullFaces segment_faces(const Form& form, size_t count) {
@@ -94,7 +93,8 @@ HullFaces solid_faces(const UnitPoints& unit, double height) {
   if (!facets) facets = find_facets(unit.point, true);
   if (!facets) return all_points(unit.point.size());
   HullFaces faces = merge_facets(unit.point, facets->list, unit.rounding);
-  // Facets so thick may hide corners: between two that meet at a small angle there is more room.
+  // Thick facets may hide corners: where two meet at a small angle, points further out than the
+  // thickness may be missing. Keep all points.
   if (facets->thickness > kInside * height) faces.is_corner.assign(unit.point.size(), true);
   return faces;
 }
@@ -113,7 +113,7 @@ HullFaces faces_of(const UnitPoints& unit, const Form& form) {
   return {};
 }
 
-// The corners of the outlines become those of what is kept.
+// Replaces indices of all points in the outlines by indices of the kept points.
 void renumber(HullFaces& faces) {
   std::vector<uint32_t> place(faces.is_corner.size());
   uint32_t next = 0;

@@ -11,24 +11,24 @@
 
 namespace carom::io {
 
-// What the hull of the points is.
+// The dimension of the hull.
 enum class HullForm : uint8_t { point, segment, polygon, solid };
 
 const char* name(HullForm form);
 
-// The points of `geometry` are a part of the points that were given, bit for bit and in their
-// order; its faces are polygons, one for each plane up to the rounding of the coordinates.
+// `geometry` holds some of the given points, bit for bit and in their order. Its faces are
+// polygons, one for each plane up to the rounding of the coordinates.
 struct BuiltHull {
   std::shared_ptr<const HullGeometry> geometry;
   HullForm form = HullForm::point;
-  size_t duplicates = 0;  // points that were there before
-  size_t inside = 0;      // other points that are no corners
+  size_t duplicates = 0;  // points equal to an earlier one
+  size_t inside = 0;      // other points that are not corners
 };
 
-// Points lie on a line or in a plane if they do to 1e-12 of their extents; what is left out is
-// inside to 1e-9 of them. Each axis is scaled for itself, so that neither the unit nor the
-// proportions matter, from the smallest float to the largest. Where Qhull fails, all distinct
-// points are kept, and there are no faces. Fails if there is no point or one is not finite.
+// Points count as collinear or coplanar if they are to 1e-12 of their extents. Dropped points lie
+// inside the hull to 1e-9 of the extents. Each axis is scaled separately, so neither the unit nor
+// the proportions matter, from the smallest float to the largest. If Qhull fails, the hull keeps
+// all distinct points and has no faces. Fails if there is no point or one is not finite.
 Result<BuiltHull> build_hull(std::span<const Eigen::Vector3f> points);
 
 }  // namespace carom::io

@@ -1,11 +1,11 @@
-// What the machine calls its processor, for reports of measurements.
+// The name of the processor, for reports of measurements.
 #pragma once
 
 #include <string>
 
 namespace carom::io {
 
-// As Linux calls it; "unknown" elsewhere.
+// The name that Linux gives; "unknown" elsewhere.
 std::string cpu_name();
 
 }  // namespace carom::io

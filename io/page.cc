@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::string_view kPlaceholder = "/*CAROM_DATA*/null";
 
-// A script ends or changes its mode at some tags, and in JSON only strings have this character.
+// Escapes '<', which only occurs in strings of JSON: some tags would end the script or change how
+// it is read.
 std::string without_tags(const std::string& json) {
   std::string text;
   text.reserve(json.size());

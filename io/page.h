@@ -1,4 +1,4 @@
-// Pages (HTML) that carry their data.
+// HTML pages that contain their data.
 #pragma once
 
 #include <span>
@@ -6,7 +6,7 @@
 
 namespace carom::io {
 
-// The pieces of a page, put together, with a JSON document in place of its /*CAROM_DATA*/null.
+// Joins the pieces of a page and puts a JSON document in place of /*CAROM_DATA*/null.
 std::string fill_page(std::span<const char* const> pieces, const std::string& json);
 
 }  // namespace carom::io

@@ -71,8 +71,8 @@ Result<void> write_side(NpzWriter& writer, const std::string& letter, const Pair
   return done;
 }
 
-// Adds a result array that is given: one element a pair. Without pairs all arrays are empty and
-// cannot be told apart from those not given, so all are written.
+// Adds a result array with one element for each pair, unless the caller left it empty. With zero
+// pairs all arrays are empty, so all are written.
 template <class T>
 Result<void> add_result(NpzWriter& writer, const std::string& path, const std::string& name,
                         const std::vector<T>& values, uint64_t pairs) {

@@ -1,4 +1,4 @@
-// Files of pairs to test, and of their results (.npz).
+// Reads files of pairs to test and writes their results (.npz).
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace carom::io {
 // One side (a or b) of all pairs. Optional arrays are empty if absent.
 struct PairSide {
   std::vector<uint32_t> shape;
-  std::vector<std::array<float, 3>> position32;    // one of the two,
+  std::vector<std::array<float, 3>> position32;    // one of these two,
   std::vector<std::array<double, 3>> position64;   // the same one for both sides
   std::vector<std::array<float, 4>> orientation;   // empty: identity
   std::vector<std::array<float, 3>> displacement;  // for time of impact
@@ -29,7 +29,7 @@ struct PairsFile {
   PairSide b;
 };
 
-// NaN is passed on; indices and sizes are checked.
+// Checks indices and sizes, not values: NaN is passed on.
 Result<PairsFile> read_pairs(const std::string& path);
 Result<void> write_pairs(const std::string& path, const PairsFile& pairs);
 
@@ -46,7 +46,7 @@ struct PairResults {
   std::vector<std::array<float, 4>> manifold_separation;
   std::vector<float> toi;
   std::vector<uint8_t> status;
-  std::vector<uint32_t> sub_a;  // of pairs with meshes or compounds
+  std::vector<uint32_t> sub_a;  // for pairs with meshes or compounds
   std::vector<uint32_t> sub_b;
 };
 

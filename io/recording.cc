@@ -16,7 +16,7 @@ struct Header {
   char name[kNameBytes];
   char object_type[kNameBytes];
   int32_t bodies;
-  int32_t frames;  // without the first
+  int32_t frames;  // stored frames less one
   int32_t reserved[2];
   float world[kFloatsPerBox];
 };
@@ -118,7 +118,7 @@ Result<RecordingWriter> RecordingWriter::create(const std::string& path, const s
   info.name = name;
   info.object_type = object_type;
   info.bodies = bodies;
-  // The header is written again at the end, when it is known.
+  // A blank header; finish() writes the real one.
   const Header blank{};
   Result<void> done = file->write(std::as_bytes(std::span(&blank, 1)));
   if (!done) return done.error();

@@ -13,7 +13,7 @@
 
 namespace carom::io {
 
-// min x y z 0, max x y z 0, as in the file.
+// A box in the file: min x y z 0, max x y z 0.
 inline constexpr size_t kFloatsPerBox = 8;
 
 struct RecordingInfo {
@@ -31,8 +31,8 @@ class RecordingReader {
   const RecordingInfo& info() const { return info_; }
   const std::string& path() const { return path_; }
 
-  // The next frame; after the last comes the first. Boxes with NaN or min > max are passed on as
-  // they are, but a frame (of at least one box) without any finite box is an error.
+  // Reads the next frame, and the first after the last. Passes on boxes with NaN or min > max, but
+  // fails if a frame has boxes and none is finite.
   Result<void> read_frame(std::vector<float>& boxes);
 
  private:

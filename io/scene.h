@@ -11,11 +11,11 @@
 
 namespace carom::io {
 
-// What holds for all frames. Optional arrays are empty if absent.
+// The data that all frames share. Optional arrays are empty if absent.
 struct SceneInfo {
   std::string name;
   uint64_t bodies = 0;
-  uint64_t frames = 0;            // stored frames; of a recording F + 1
+  uint64_t frames = 0;            // stored frames; for a recording F + 1
   bool bounds_recording = false;  // no shapes, frames hold boxes
   bool float64_positions = false;
   bool has_orientation = false;
@@ -34,7 +34,7 @@ struct SceneInfo {
 // Checks shapes, indices, flags and dt; `path` is for the message.
 Result<void> check_scene(const SceneInfo& info, const std::string& path);
 
-// One frame. Arrays that the scene lacks or nobody wanted are empty.
+// One frame. Arrays that the scene lacks or the caller did not want are empty.
 struct SceneFrame {
   std::vector<float> position32;   // 3 a body, or
   std::vector<double> position64;  // if SceneInfo::float64_positions
@@ -55,23 +55,24 @@ class SceneReader {
  public:
   virtual ~SceneReader() = default;
   virtual const SceneInfo& info() const = 0;
-  // Narrows what read_frame() fills, once info() has told what the scene holds. To be called
-  // before the first read_frame().
+  // Limits the arrays that read_frame() fills. Call it before the first read_frame(), after info()
+  // has shown which arrays the scene has.
   virtual void want(const SceneArrays& wanted) = 0;
-  // The next frame, into the same buffers; after the last comes the first. NaN is passed on, but
-  // an array that holds no finite value in this frame is an error.
+  // Reads the next frame into the same buffers, and the first after the last. NaN is passed on, but
+  // fails if an array of this frame has no finite value.
   virtual Result<void> read_frame(SceneFrame& frame) = 0;
 };
 
-// Opens a scene or a recording: by extension, otherwise a zip archive is taken for a scene.
+// Opens a scene or a recording by its extension. With another extension, a zip archive is read as a
+// scene.
 Result<std::unique_ptr<SceneReader>> open_scene(const std::string& path,
                                                 const SceneArrays& wanted = {});
 
-// Writes a scene frame by frame; the file appears at finish(), and not at all without it.
+// Writes a scene frame by frame. The file appears at finish() only.
 class SceneWriter {
  public:
-  // `info` says what every frame will hold (float64_positions, has_*); `frames` and `name` are
-  // not used. It is checked as a reader would.
+  // `info` says what every frame will hold (float64_positions, has_*); `frames` and `name` are not
+  // used. Checks `info` as a reader would.
   static Result<SceneWriter> create(const std::string& path, const SceneInfo& info,
                                     Compression compression = Compression::kStored);
 
@@ -82,8 +83,8 @@ class SceneWriter {
   struct Column {
     const char* name;
     bool present;
-    size_t member;  // of the archive
-    size_t values;  // of one frame
+    size_t member;  // index in the archive
+    size_t values;  // in one frame
   };
   SceneWriter(std::string path, NpzWriter writer);
   Result<void> add_column(const char* name, bool present, DType dtype, uint64_t bodies,

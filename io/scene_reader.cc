@@ -27,7 +27,7 @@ class RecordingScene final : public SceneReader {
   }
 
   const SceneInfo& info() const override { return info_; }
-  void want(const SceneArrays&) override {}  // boxes are all there is
+  void want(const SceneArrays&) override {}  // a recording has boxes only
 
   Result<void> read_frame(SceneFrame& frame) override { return reader_.read_frame(frame.boxes); }
 
@@ -36,7 +36,7 @@ class RecordingScene final : public SceneReader {
   SceneInfo info_;
 };
 
-// Reads the arrays that hold for all frames.
+// Reads the arrays that all frames share.
 class InfoParser {
  public:
   explicit InfoParser(const NpzReader& reader) : reader_(reader) {}
@@ -54,7 +54,7 @@ class InfoParser {
   }
 
  private:
-  // Numbers of frames and bodies, and which arrays a frame has.
+  // Reads the numbers of frames and bodies, and which arrays a frame has.
   Result<void> read_layout() {
     const std::string expected = " (float32 or float64 (any, any, 3) was expected)";
     if (!reader_.has("position")) {
@@ -155,14 +155,14 @@ class NpzScene final : public SceneReader {
     if (failure_) return *failure_;
     Result<void> done = next_frame_ == 0 ? start() : Result<void>();
     if (done) done = read_columns(frame);
-    // The streams may now be anywhere inside a frame: every later call says the same.
+    // After an error the streams may be anywhere inside a frame, so every later call returns the
+    // same error.
     if (!done) failure_ = done.error();
     next_frame_ = (next_frame_ + 1) % info_.frames;
     return done;
   }
 
  private:
-  // Brings every wanted stream to the first frame.
   Result<void> start() {
     Result<void> done = start_stream("position", true, position_);
     if (done) {
@@ -240,7 +240,6 @@ Result<std::unique_ptr<SceneReader>> open_npz_scene(const std::string& path,
       std::make_unique<NpzScene>(std::move(*reader), std::move(*info), wanted));
 }
 
-// Whether the file begins like a zip archive.
 Result<bool> is_zip(const std::string& path) {
   Result<File> file = File::open(path, "a scene or a recording of bounds");
   if (!file) return file.error();

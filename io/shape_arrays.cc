@@ -8,7 +8,7 @@ namespace {
 
 using Range = std::array<uint32_t, 2>;
 
-// The file format's codes end here: a lone triangle is a mesh of one.
+// The largest kind in the file format. It has no triangle kind: a lone triangle is a mesh of one.
 constexpr uint8_t kLastKind = uint8_t(ShapeKind::halfspace);
 
 bool needs_vertices(uint8_t kind) {
@@ -57,11 +57,12 @@ Result<void> check_kinds(const SceneShapes& shapes, const std::string& path) {
   return {};
 }
 
-// How many elements all ranges may hold together, of an array of `size`: shapes may share what is
-// there, but a small file must not ask for more work than a machine can do.
+// The largest sum of counts of all ranges into an array of `size` elements. Shapes may share
+// elements, but a small file must not cause unbounded work.
 uint64_t most_uses(size_t size) { return 64 * (uint64_t{size} + (uint64_t{1} << 20)); }
 
-// Every range lies inside its array of `size` elements, and is there if a kind needs it.
+// Checks that the ranges are there if a kind needs them, that each lies inside its array of `size`
+// elements, and that they do not name too many elements together.
 Result<void> check_ranges(const SceneShapes& shapes, const std::string& path,
                           const std::string& name, const std::vector<Range>& ranges, size_t size,
                           bool (*needed)(uint8_t)) {
@@ -124,7 +125,7 @@ Result<void> check_children(const SceneShapes& shapes, const std::string& path) 
   return {};
 }
 
-// An array has as many elements as what it belongs to, or none.
+// Checks that an array has `expected` elements, or none if it may be absent.
 template <class T>
 Result<void> check_size(const std::string& path, const std::string& name,
                         const std::vector<T>& values, size_t expected, bool may_be_absent) {

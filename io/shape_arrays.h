@@ -11,7 +11,7 @@
 
 namespace carom::io {
 
-// As in the file; ranges are (first, count). Arrays that are absent are empty.
+// The arrays as stored in the file; ranges are (first, count). Absent arrays are empty.
 struct SceneShapes {
   std::vector<uint8_t> kind;  // ShapeKind
   std::vector<std::array<float, 8>> params;
@@ -25,12 +25,12 @@ struct SceneShapes {
   std::vector<std::array<float, 4>> child_orientation;
 };
 
-// Reads and checks the shapes: kinds, ranges and indices lie inside their arrays, children are no
-// compounds, and what a kind needs is there. Parameters are passed on as they are.
+// Reads the shapes. Checks that kinds are known, ranges and indices lie inside their arrays,
+// children are not compounds, and each kind has the arrays it needs. Parameters are not checked.
 Result<SceneShapes> read_shapes(const NpzReader& reader);
 // The checks alone; `path` is for the message.
 Result<void> check_shapes(const SceneShapes& shapes, const std::string& path);
-// Adds the arrays that are not empty; shape_kind and shape_params always.
+// Adds shape_kind and shape_params, and every other array that is not empty.
 Result<void> write_shapes(const SceneShapes& shapes, NpzWriter& writer);
 
 // carom_version must be 1; it may be absent only if not `required`.

@@ -1,5 +1,5 @@
-// The corners, edges and faces of k-DOPs for the oracle, by solving for every three planes. In any
-// real type; nothing of it is shared with the library but the directions of the slabs.
+// The corners, edges and faces of k-DOPs for the oracle, from the intersections of every three
+// planes. Works in any real type. It shares only the slab directions with the library.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace carom::oracle {
 
-// Which planes meet where is found in long double; the points themselves in the type R.
+// Decides in long double which planes meet in a corner; computes the corner itself in the type R.
 template <class R>
 class ConvexDop {
  public:
@@ -23,13 +23,14 @@ class ConvexDop {
   };
 
   explicit ConvexDop(const Dop& dop) : ConvexDop(dop, false) {
-    // Rounding of the slabs may have left no point: then they are half a unit wider.
+    // Rounding of the slabs may leave the solid empty. Then widen each slab by half a unit in the
+    // last place.
     if (points_.empty()) *this = ConvexDop(dop, true);
   }
 
   const std::vector<Vec>& points() const { return points_; }
   const std::vector<Edge>& edges() const { return edges_; }
-  // Each a convex polygon.
+  // Every face is a convex polygon.
   const std::vector<std::vector<Vec>>& faces() const { return faces_; }
   const std::vector<Vec>& normals() const { return normals_; }
 

@@ -1,5 +1,5 @@
-// Families of random pairs of placed shapes: the ways in which inputs are hard, for any two kinds
-// that have a direct solution.
+// Families of random pairs of placed shapes. Each family makes inputs hard in one way, for any two
+// kinds that have a direct solution.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline constexpr ShapeKind kConvexKinds[] = {
     ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,     ShapeKind::box,
     ShapeKind::dop,    ShapeKind::hull,    ShapeKind::triangle, ShapeKind::halfspace};
 
-// All ordered pairs of them, but for two half-spaces.
+// All ordered pairs of these kinds except two half-spaces.
 inline std::vector<KindPair> convex_kind_pairs() {
   std::vector<KindPair> all;
   for (ShapeKind a : kConvexKinds) {
@@ -38,8 +38,8 @@ inline std::string name(const KindPair& kinds) {
   return std::string(carom::name(kinds.a)) + "_" + carom::name(kinds.b);
 }
 
-// Polytopes of many faces are slow, in the library as in the oracle: a few of those pairs have to
-// do.
+// Polytopes with many faces are slow in the library and in the oracle, so tests take fewer of these
+// pairs.
 inline bool has_polytope(const KindPair& kinds) {
   const auto is_polytope = [](ShapeKind kind) {
     return kind == ShapeKind::dop || kind == ShapeKind::hull;
@@ -67,20 +67,20 @@ inline ConvexPair swapped(const ConvexPair& pair) {
 }
 
 enum class ConvexPlacement {
-  free,        // anywhere between touching middles and twice as far as touch
+  free,        // from coincident centroids to twice the distance of touch
   near_touch,  // touching, then moved by a few floats
   coincident,  // same position
   same_pose,   // same position and rotation
-  lattice,     // small integers and quarter turns: true ties
+  lattice,     // small integers and quarter turns, which give exact ties
 };
 
 struct ConvexFamily {
   const char* name;
-  double smallest = 0.5;  // sizes, log-uniform
+  double smallest = 0.5;  // of the sizes, which are log-uniform
   double largest = 2;
-  double ratio = 1;      // of the sizes of the two
-  double aspect = 4;     // of lengths, radii and halves
-  double distance = 10;  // of A from the origin, in metres or in sizes
+  double ratio = 1;      // the greatest ratio of the two sizes
+  double aspect = 4;     // the greatest ratio of lengths, radii and half extents
+  double distance = 10;  // distance of A from the origin, in metres or in sizes
   bool distance_in_sizes = false;
   ConvexPlacement placement = ConvexPlacement::free;
   bool degenerate = false;
@@ -196,7 +196,8 @@ class ConvexPairMaker {
     if (family_.placement == ConvexPlacement::same_pose) b = a;
   }
 
-  // A quaternion near identity keeps its small angle; near others that is lost in rounding.
+  // Turns b from a by a small angle. A quaternion near identity stores the small angle; others lose
+  // it in rounding.
   void turn_a_little(Eigen::Quaternionf& a, Eigen::Quaternionf& b) {
     if (random_.chance(0.6)) a = shapes_.quarter_turns();
     const int power = shapes_.integer(1, 9);
@@ -213,7 +214,8 @@ class ConvexPairMaker {
     return position.cast<float>().cast<double>();
   }
 
-  // Moves B from where the middles of the two meet until they touch, times the factor.
+  // Starts B where the centroids coincide, finds the distance along a random direction at which the
+  // shapes touch, and moves B by `factor` times this distance.
   template <class R>
   void place(ConvexPair& pair, double size, double factor, int steps) {
     ConvexOracle<R> oracle = pair.oracle<R>();
@@ -222,7 +224,7 @@ class ConvexPairMaker {
     oracle.b.translate(start);
     const Vec<R> direction = way(oracle);
     R reach = distance_to_touch(oracle, direction, steps) * R(factor);
-    // Flat ones part at once.
+    // Flat shapes are separate after any movement, so the distance is zero.
     const bool flat = reach < R(1e-12 * size);
     if (flat && family_.placement == ConvexPlacement::free && random_.chance(0.6)) {
       reach = R(random_.uniform(0, 1) * size);
@@ -233,7 +235,8 @@ class ConvexPairMaker {
     pair.pose_b.position = stored(pair.pose_a.position + to);
   }
 
-  // The way of B to where both have their middle, for half-spaces a random one close by.
+  // The displacement of B that makes the centroids coincide. With a half-space: that moves the
+  // other's centroid onto the plane, plus a random drift along it.
   template <class R>
   Vec<R> meeting(const ConvexShape<R>& a, const ConvexShape<R>& b) {
     if (!a.is_halfspace && !b.is_halfspace) return a.centroid() - b.centroid();
@@ -245,7 +248,8 @@ class ConvexPairMaker {
     return a.is_halfspace ? way : -way;
   }
 
-  // Any direction, or one that long and flat shapes have between them; out of half-spaces.
+  // A random direction; half of the time from a point of B to a point of A, which suits long and
+  // flat shapes. With a half-space it points out of the half-space.
   template <class R>
   Vec<R> way(const ConvexOracle<R>& oracle) {
     const Vec<R> any = vec3_as<R>(random_.direction());
@@ -264,7 +268,8 @@ class ConvexPairMaker {
     return p + (q - p) * R(random_.uniform(0, 1));
   }
 
-  // The separation is a convex function of the way; false position with the Illinois rule.
+  // The separation is a convex function of the distance moved. This finds its root by false
+  // position with the Illinois rule.
   template <class R>
   static R distance_to_touch(const ConvexOracle<R>& oracle, const Vec<R>& direction, int steps) {
     const auto gap = [&](const R& t) {
@@ -280,7 +285,7 @@ class ConvexPairMaker {
       gap_high = gap(high);
     }
     R best = -gap_low < gap_high ? low : high, least = std::min<R>(-gap_low, gap_high);
-    int kept = 0;  // the end that stayed in the last step: 1 high, -1 low
+    int kept = 0;  // the end that the last step kept: 1 high, -1 low
     for (int i = 0; i < steps; ++i) {
       const R t = low - gap_low * ((high - low) / (gap_high - gap_low));
       if (!(t > low && t < high)) break;
@@ -305,7 +310,7 @@ class ConvexPairMaker {
     return best;
   }
 
-  // Moves one coordinate by up to four of its floats.
+  // Moves one coordinate by up to four steps of its float type.
   void nudge(Eigen::Vector3d& position) {
     double& x = position[shapes_.integer(0, 2)];
     const double towards = random_.chance(0.5) ? HUGE_VAL : -HUGE_VAL;

@@ -1,6 +1,6 @@
-// The signed distance of two placed shapes by trying everything: all pairs of features if they are
-// apart, all axes that could be the least way out if they overlap. In long double by default; any
-// other real type will do.
+// The signed distance of two placed shapes by brute force: all pairs of features if they are
+// separate, all axes of least penetration if they overlap. In long double by default; works in any
+// real type.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct ConvexSeparation {
 
 namespace convex {
 
-// The axis that parts two cores best; if they overlap, their least penetration.
+// The axis with the largest gap between two cores; if they overlap, the axis of least penetration.
 template <class R>
 class AxisSearch {
  public:
@@ -31,7 +31,7 @@ class AxisSearch {
   R gap() const { return gap_; }
   const Vec& axis() const { return axis_; }
 
-  // Both ways along n, a unit vector or zero.
+  // Tries n and -n. n is a unit vector or zero.
   void try_axis(const Vec& n) {
     if (!(dot(n, n) > 0)) return;
     const auto [low_a, high_a] = extent(a_, n);
@@ -58,8 +58,8 @@ class AxisSearch {
     axis_ = n;
   }
 
-  // No axis is one too many: each bounds the separation from below. Normals and cross products
-  // suffice for solid differences of the cores, the rest serve flat ones.
+  // Extra axes do no harm: each bounds the separation from below. Face normals and cross products
+  // of edges suffice if the difference of the cores is solid; the other axes serve flat ones.
   void try_all() {
     for (const Vec& n : a_.normals) try_axis(n);
     for (const Vec& n : b_.normals) try_axis(n);
@@ -86,7 +86,7 @@ class AxisSearch {
     try_axis(common_normal(v, n));
   }
 
-  // The coordinate axis that is the least along u.
+  // The coordinate axis that is furthest from parallel to u.
   static Vec least_axis(const Vec& u) {
     const R x = u.x * u.x, y = u.y * u.y, z = u.z * u.z;
     if (x <= y && x <= z) return {R(1), R(0), R(0)};
@@ -100,8 +100,8 @@ class AxisSearch {
   Vec axis_;
 };
 
-// The least distance of two cores that do not overlap, and the way from A to B. All of their
-// features are tried.
+// The least distance of two cores that do not overlap, and the vector from A to B, by trying all
+// pairs of features.
 template <class R>
 class FeatureSearch {
  public:
@@ -124,8 +124,8 @@ class FeatureSearch {
   const Vec& way() const { return way_; }
 
  private:
-  // The lower features come last and have to be closer by more than rounding: the way to an edge
-  // is as good as the edge, the way to a point beside it only as good as the root of an epsilon.
+  // Vertices are tried last and win only by more than rounding. The vector to an edge is as exact
+  // as the edge; the vector to a vertex beside it only as exact as the root of an epsilon.
   void keep(const Vec& way) {
     const R distance = length(way);
     const R enough = distance_ * (1 - 8 * std::numeric_limits<R>::epsilon());
@@ -153,9 +153,10 @@ class FeatureSearch {
     if (t > 0 && t < edge.size) keep((edge.direction * t - d) * sign);
   }
 
-  // The face over the point. Measured from its longest edge, so that the uncertain tilt of a sliver
-  // does no harm: nothing of it is far from that edge. A point over the seam of two triangles is to
-  // be over one of them, whatever the rounding.
+  // The distance to the face if the point projects onto it. Coordinates start at the longest edge,
+  // because the normal of a sliver is uncertain but no point of it is far from that edge. The seam
+  // makes a point over the common edge of two triangles count as over one of them in spite of
+  // rounding.
   void point_face(const Vec& p, const ConvexFace<R>& face, const R& sign) {
     const Vec d = p - face.origin;
     const R y = dot(d, face.v);
@@ -168,7 +169,8 @@ class FeatureSearch {
     if (x >= left - seam && x <= right + seam) keep(face.normal * (-dot(d, face.normal) * sign));
   }
 
-  // Edges that cross, seen along their common normal; parallel ones are left to their ends.
+  // The distance of two edges that cross, seen along their common normal. The end points cover
+  // parallel edges.
   void edge_edge(const ConvexEdge<R>& e, const ConvexEdge<R>& f) {
     const Vec n = common_normal(e.direction, f.direction);
     const Vec across_e = cross(n, e.direction);
@@ -192,7 +194,7 @@ R gap_to_halfspace(const ConvexShape<R>& a, const ConvexShape<R>& b) {
   return -a.support(-b.normal) - b.offset;
 }
 
-// Two half-spaces are apart only if they look into exactly opposite directions.
+// Two half-spaces are separate only if their normals are exactly opposite.
 template <class R>
 R halfspace_gap(const ConvexShape<R>& a, const ConvexShape<R>& b) {
   const Vec3<R> sum = a.normal + b.normal;
@@ -209,8 +211,8 @@ ConvexSeparation<R> halfspace_separation(const ConvexShape<R>& a, const ConvexSh
 
 }  // namespace convex
 
-// Signed distance with the normal that attains it. Where several do, one of them; of half-spaces
-// that cross, -infinity.
+// Signed distance with the normal that attains it; any one of them on a tie. For half-spaces that
+// cross it is -infinity.
 template <class R>
 ConvexSeparation<R> separation_with_normal(const ConvexShape<R>& a, const ConvexShape<R>& b) {
   if (a.is_halfspace || b.is_halfspace) return convex::halfspace_separation(a, b);
@@ -227,10 +229,10 @@ R exact_separation(const ConvexShape<R>& a, const ConvexShape<R>& b) {
   return separation_with_normal(a, b).value;
 }
 
-// The gap between the projections on n, which points from A to B and need not be a unit vector;
-// never more than the separation, and the separation for the true normal. With half-spaces, whose
-// projections have no end: how far B is to be moved against n to touch, and the separation
-// projected on n if they are apart.
+// The gap between the projections on n, which points from A to B and need not be a unit vector. It
+// never exceeds the separation, and equals it for the true normal. Half-spaces have unbounded
+// projections; for them it is how far B must move against n to touch, or the separation projected
+// on n if they are separate.
 template <class R>
 R gap_along(const ConvexShape<R>& a, const ConvexShape<R>& b, const Vec3<R>& n) {
   const Vec3<R> unit = normalized(n);
@@ -241,13 +243,14 @@ R gap_along(const ConvexShape<R>& a, const ConvexShape<R>& b, const Vec3<R>& n) 
   return true_one.value > 0 ? true_one.value * share : true_one.value / share;
 }
 
-// Of a point from the surface: negative inside.
+// Distance of a point from the surface; negative inside.
 template <class R>
 R signed_distance(const ConvexShape<R>& shape, const Vec3<R>& point) {
   return exact_separation(shape, ConvexShape<R>(point));
 }
 
-// Of a point from the surface, on whichever side of it; of what is flat, from the shape.
+// Distance of a point from the surface, positive on both sides. For a flat shape: distance from the
+// shape.
 template <class R>
 R surface_distance(const ConvexShape<R>& shape, const Vec3<R>& point) {
   using std::abs;
@@ -255,7 +258,7 @@ R surface_distance(const ConvexShape<R>& shape, const Vec3<R>& point) {
   return abs(convex::FeatureSearch<R>(shape, ConvexShape<R>(point)).distance() - shape.radius);
 }
 
-// Two bodies as they are stored, in coordinates relative to the position of A.
+// Two stored bodies in coordinates relative to the position of A.
 template <class R = long double>
 struct ConvexOracle {
   ConvexShape<R> a;

@@ -17,7 +17,7 @@ namespace carom::oracle {
 
 // How the shapes of a family are drawn.
 struct ConvexStyle {
-  double aspect = 4;        // of lengths, radii and halves
+  double aspect = 4;        // the greatest ratio of lengths, radii and half extents
   bool degenerate = false;  // zero radii, zero lengths, flat boxes, triangles without area
   bool lattice = false;     // small integers times the size
   bool aligned = false;     // edges along the axes of the body
@@ -50,7 +50,7 @@ class ConvexRandom {
     }
   }
 
-  // Uniform; one in five is no unit quaternion.
+  // Uniform rotation; one quaternion in five is not a unit one.
   Eigen::Quaternionf orientation() {
     const double u = random_.uniform(0, 1);
     const double s = random_.uniform(0, 2 * std::numbers::pi);
@@ -62,7 +62,8 @@ class ConvexRandom {
         .cast<float>();
   }
 
-  // One of the 24 that take the axes to each other, exactly; as integers, so it is seldom unit.
+  // One of the 24 rotations that map axes to axes, exactly. The quaternion has integer components,
+  // so it is seldom a unit one.
   Eigen::Quaternionf quarter_turns() {
     Eigen::Quaternionf q = Eigen::Quaternionf::Identity();
     const int turns = integer(0, 3);
@@ -81,7 +82,7 @@ class ConvexRandom {
   }
 
  private:
-  // At most `size`, by up to the aspect ratio less.
+  // Between size / aspect and size; 0 sometimes in the degenerate style.
   double extent(double size) {
     if (style_.degenerate && random_.chance(0.4)) return 0;
     if (style_.lattice) return size * integer(0, 2);
@@ -96,7 +97,7 @@ class ConvexRandom {
 
   Eigen::Vector3f half(double size) { return extents(size).cast<float>(); }
 
-  // Of the middle of a shape from the body's origin.
+  // Offset of the shape's centre from the body's origin.
   Eigen::Vector3d shift(double size) {
     if (random_.chance(0.5)) return Eigen::Vector3d::Zero();
     return style_.lattice ? lattice_point(size, 1).eval() : vector(size);
@@ -114,7 +115,7 @@ class ConvexRandom {
     return all;
   }
 
-  // Along an axis, or anywhere.
+  // A coordinate axis or a random direction.
   Eigen::Vector3d direction() {
     if (!style_.lattice && !(style_.aligned && random_.chance(0.7))) return random_.direction();
     return Eigen::Vector3d::Unit(integer(0, 2));
@@ -159,13 +160,13 @@ class ConvexRandom {
     return triangle;
   }
 
-  // Points, segments, slivers.
+  // Makes the triangle degenerate: a point, a segment or a sliver.
   void spoil(Triangle& triangle, double size) {
     auto& [a, b, c] = triangle.corners;
     const int kind = integer(0, 4);
     if (kind == 0) b = c = a;
     if (kind == 1) c = random_.chance(0.5) ? a : b;
-    if (kind == 2) b = (a + c) / 2;  // collinear but for rounding
+    if (kind == 2) b = (a + c) / 2;  // collinear except for rounding
     if (kind >= 3) {
       const double width = size * random_.log_uniform(1e-7, 1e-2);
       const Eigen::Vector3d on_edge =
@@ -175,9 +176,9 @@ class ConvexRandom {
     std::swap(triangle.corners[0], triangle.corners[static_cast<size_t>(integer(0, 2))]);
   }
 
-  // Of a few points, or of the corners of a box; some of its slabs narrower than it takes.
+  // The k-DOP of a few points or of a box's corners. Some slabs are then narrowed.
   Dop dop(double size) {
-    // The more planes, the slower the oracle.
+    // Mostly kinds with few planes: the oracle is slow for many.
     constexpr DopKind kKinds[] = {DopKind::k6,  DopKind::k6,  DopKind::k6,  DopKind::k14,
                                   DopKind::k14, DopKind::k14, DopKind::k18, DopKind::k26};
     const Eigen::Vector3d middle = shift(size);
@@ -198,7 +199,7 @@ class ConvexRandom {
     return dop;
   }
 
-  // All slabs still hold the point.
+  // Narrows random slabs so that all still contain the point.
   void narrow(Dop& dop, const Eigen::Vector3d& point) {
     const auto directions = slab_directions(dop.kind);
     for (size_t i = 0; i < directions.size(); ++i) {
@@ -212,7 +213,7 @@ class ConvexRandom {
     }
   }
 
-  // Coordinates stay within the range of floats.
+  // Limits the size so that coordinates do not overflow float32.
   Hull hull(double size) {
     size = std::min(size, FLT_MAX / 4.0);
     const Eigen::Vector3d middle = shift(size);
@@ -222,7 +223,8 @@ class ConvexRandom {
     return hull_of(points);
   }
 
-  // Of a box, on an ellipsoid, anywhere in a box, or in one plane or on one line but for rounding.
+  // Corners of a box, on an ellipsoid, anywhere in a box, or (but for rounding) in one plane or on
+  // one line.
   std::vector<Eigen::Vector3d> corners(double size) {
     const Eigen::Vector3d scale = extents(size);
     const bool is_box = style_.aligned ? random_.chance(0.7) : random_.chance(0.1);

@@ -1,5 +1,5 @@
-// Placed shapes for the oracle: the hull of a few points, grown by a radius, or a half-space. In
-// any real type; nothing of it is shared with the library.
+// Placed shapes for the oracle: the hull of a few points, grown by a radius, or a half-space. Works
+// in any real type and shares nothing with the library.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +34,7 @@ struct Rotation {
     for (Vec3<R>& c : column) c = c * s;
   }
 
-  // By an angle about a unit vector; without an axis (zero) there is no rotation.
+  // Rotation by an angle about a unit axis; a zero axis gives the identity.
   Rotation(const Vec3<R>& axis, const R& angle) {
     using std::cos, std::sin;
     const R half_sine = sin(angle / 2), s = sin(angle), k = 2 * half_sine * half_sine;
@@ -44,7 +44,7 @@ struct Rotation {
     }
   }
 
-  // The other way round.
+  // Applies the inverse rotation.
   Vec3<R> back(const Vec3<R>& v) const {
     return {dot(column[0], v), dot(column[1], v), dot(column[2], v)};
   }
@@ -54,7 +54,7 @@ struct Rotation {
   }
 };
 
-// Of an edge of no length the direction is zero.
+// An edge without length has a zero direction.
 template <class R>
 struct ConvexEdge {
   Vec3<R> start;
@@ -65,8 +65,8 @@ struct ConvexEdge {
       : start(from), direction(normalized(to - from)), size(length(to - from)) {}
 };
 
-// A triangle over its longest edge: corners (0, 0), (base, 0) and (apex_x, height) of u and v from
-// the origin, height >= 0. Without area the normal is zero.
+// A triangle over its longest edge. In the frame (origin, u, v) its corners are (0, 0), (base, 0)
+// and (apex_x, height), with height >= 0. Without area the normal is zero.
 template <class R>
 struct ConvexFace {
   Vec3<R> origin, u, v, normal;
@@ -89,29 +89,29 @@ struct ConvexFace {
   }
 };
 
-// Coordinates are relative to a point in space that the caller chooses. One-sided triangles are
-// taken as two-sided ones, and thick triangles without area as having no thickness. Meshes and
-// compounds are not convex: there is no such shape of them.
+// Coordinates are relative to a point that the caller chooses. One-sided triangles count as
+// two-sided, and thick triangles without area as thin. Meshes and compounds are not supported
+// because they are not convex.
 template <class R = long double>
 struct ConvexShape {
   using Vec = Vec3<R>;
 
   std::vector<Vec> points;  // the core's
-  R radius{0};              // around the core
-  R bounding_radius{0};     // about the body's own origin; of a half-space: to its plane
+  R radius{0};              // by which the core is grown
+  R bounding_radius{0};     // about the body's origin; half-space: distance to its plane
   bool is_halfspace = false;
   bool is_solid = false;  // known not to be flat
   Vec normal;             // of a half-space: all x with normal . x <= offset; unit
   R offset{0};            // of a half-space
   std::vector<ConvexEdge<R>> edges;
   std::vector<ConvexFace<R>> faces;
-  std::vector<Vec> directions;  // of edges, unit
-  std::vector<Vec> normals;     // of faces and, in the plane, of flat cores; unit
+  std::vector<Vec> directions;  // unit, of edges
+  std::vector<Vec> normals;     // unit; of faces, and of a flat core's outline in its plane
 
   // A point.
   explicit ConvexShape(const Vec& point) : points{point} {}
 
-  // In its own frame.
+  // The shape in its body frame.
   explicit ConvexShape(const Shape& shape) {
     std::visit([this](const auto& s) { this->build(s); }, shape);
     for (const Vec& p : points) bounding_radius = std::max<R>(bounding_radius, length(p));
@@ -127,7 +127,7 @@ struct ConvexShape {
     translate(vec3_as<R>(pose.position) - vec3_as<R>(relative_to));
   }
 
-  // Largest n . x, n being a unit vector; not of half-spaces.
+  // Largest n . x for a unit vector n; not for half-spaces.
   R support(const Vec& n) const {
     R best = dot(points[0], n);
     for (const Vec& p : points) best = std::max<R>(best, dot(p, n));
@@ -148,8 +148,8 @@ struct ConvexShape {
     offset += dot(normal, by);
   }
 
-  // About the origin. Turned from the body's frame, directions stay as good as those of the body's
-  // own numbers.
+  // Rotates about the origin. Edge directions are computed in the body frame and then turned, so
+  // they are as exact as the body's own numbers.
   void rotate(const Rotation<R>& rotation) {
     const auto turn = [&](Vec& v) { v = rotation(v); };
     std::for_each(points.begin(), points.end(), turn);
@@ -246,7 +246,7 @@ struct ConvexShape {
     }
   }
 
-  // Of the corners and faces that the points have, whatever the geometry says.
+  // Finds corners and faces from the points alone and ignores those in the geometry.
   void build(const Hull& hull) {
     const auto all = hull.geometry->points();
     const HullFaces found(all);
@@ -267,7 +267,7 @@ struct ConvexShape {
     for (const auto& edge : edges) normals.push_back(cross(normals[0], edge.direction));
   }
 
-  // Every edge is in two outlines, once each way.
+  // Every edge is in two outlines, once in each direction; this adds it once.
   void add_outline(const std::vector<size_t>& corners) {
     for (size_t i = 0; i < corners.size(); ++i) {
       const size_t from = corners[i], to = corners[(i + 1) % corners.size()];
@@ -277,7 +277,7 @@ struct ConvexShape {
     }
   }
 
-  // Products of differences of floats lose next to nothing.
+  // Compares unnormalized differences of points, because their cross products hardly round.
   void add_direction(const Vec& way) {
     const bool is_known = std::any_of(ways_.begin(), ways_.end(), [&](const Vec& known) {
       const Vec n = cross(known, way);
@@ -321,7 +321,7 @@ struct ConvexShape {
     add_face(i, k, l);
   }
 
-  std::vector<Vec> ways_;  // of a hull: its directions as differences of points
+  std::vector<Vec> ways_;  // of a hull: edge directions as unnormalized differences
 };
 
 }  // namespace carom::oracle

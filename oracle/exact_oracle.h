@@ -1,6 +1,6 @@
-// Whether two shapes overlap, for the judgement of exact answers: by the oracle's brute force, in
-// 100 decimal digits. Shapes of floats that touch differ from ones that do not by far more than
-// the last of them.
+// Decides exactly whether two shapes overlap: brute force by the oracle in 100 decimal digits.
+// Shapes with float coordinates that do not touch are further from touching than the rounding of
+// these digits.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -14,12 +14,13 @@ using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_floa
 
 struct ExactGap {
   Digits value;  // the separation
-  Digits doubt;  // below this it is rounding, and the shapes touch
+  Digits doubt;  // a value up to this is rounding: the shapes touch
 
   bool is_overlap() const { return value <= doubt; }
 };
 
-// In long double first, which tells almost always. Roots of a lost half of the digits included.
+// Tries long double first, which nearly always decides. 1e-45 allows for square roots, which lose
+// half of the digits.
 inline ExactGap exact_gap(const ConvexPair& pair) {
   const ConvexOracle<long double> wide = pair.oracle<long double>();
   const long double gap = wide.separation().value;

@@ -1,5 +1,5 @@
-// The faces of the convex hull of a few points, by trying every three of them. What lies in one
-// plane, or on one line, is found exactly; nothing is shared with the library but its integers.
+// The faces of the convex hull of a few points, by trying every three of them. Coplanar and
+// collinear points are found exactly. It shares only the exact numbers (Dyadic) with the library.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace carom::oracle {
 
-// Of finite points. O(n^4) at worst, about n^3 for points of which most are corners.
+// Points must be finite. O(n^4) at worst, about n^3 if most points are corners.
 class HullFaces {
  public:
   using Outline = std::vector<uint32_t>;
@@ -42,13 +42,13 @@ class HullFaces {
 
   // 0: a point, 1: a segment, 2: a flat polygon, 3: a solid.
   int dimension() const { return dimension_; }
-  // Points that are corners, ascending but for the ends of segments; of equal ones one.
+  // Indices of corners, each distinct point once; ascending except for the ends of a segment.
   const std::vector<uint32_t>& corners() const { return corners_; }
-  // Their outlines, counter-clockwise as seen from outside; polygons have two.
+  // Outlines of the faces, counter-clockwise as seen from outside. A polygon has two.
   const std::vector<Outline>& faces() const { return faces_; }
 
  private:
-  // Indices of points, equal ones once, in the order of their coordinates.
+  // Indices of distinct points in the order of their coordinates.
   std::vector<uint32_t> distinct() const {
     std::vector<uint32_t> all;
     for (uint32_t i = 0; i < points_.size(); ++i) all.push_back(i);
@@ -61,7 +61,7 @@ class HullFaces {
     return all;
   }
 
-  // The first three points that are not on one line, otherwise the ends of the line.
+  // The first three points that are not collinear; otherwise the ends of the line.
   Outline find_plane(const std::vector<uint32_t>& all) const {
     if (all.size() == 1) return all;
     for (const uint32_t i : all) {
@@ -81,7 +81,7 @@ class HullFaces {
       for (size_t j = 0; j < i; ++j) {
         for (size_t k = 0; k < j; ++k) {
           const auto [on, front, back] = sides(all, {all[i], all[j], all[k]});
-          if (front == back) continue;  // three on one line have all others in their plane
+          if (front == back) continue;  // the three are collinear, so no point is off their plane
           if (std::find(known.begin(), known.end(), on) != known.end()) continue;
           known.push_back(on);
           faces_.push_back(outline(
@@ -96,7 +96,7 @@ class HullFaces {
     bool front = false, back = false;
   };
 
-  // Ends at the first point that shows that there is no face.
+  // Stops as soon as points lie on both sides: the plane is no face.
   Sides sides(const std::vector<uint32_t>& all, const std::array<uint32_t, 3>& plane) const {
     const Plane through(*this, plane);
     Sides found;
@@ -110,9 +110,9 @@ class HullFaces {
     return found;
   }
 
-  // Of points of one plane, counter-clockwise as the three of it are. A. M. Andrew, "Another
-  // efficient algorithm for convex hulls in two dimensions", Information Processing Letters 9
-  // (1979), seen along an axis.
+  // The outline of coplanar points in the orientation of the three points `plane`, seen along an
+  // axis. A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions",
+  // Information Processing Letters 9 (1979).
   Outline outline(std::vector<uint32_t> on, const Outline& plane) const {
     int axis = 0;
     while (turn(plane[0], plane[1], plane[2], axis) == 0) ++axis;
@@ -130,7 +130,7 @@ class HullFaces {
     return corners;
   }
 
-  // The corners of one half of the outline, without its last one.
+  // The corners of half the outline, without the last one.
   Outline chain(const std::vector<uint32_t>& on, int axis) const {
     Outline half;
     for (const uint32_t i : on) {
@@ -147,7 +147,7 @@ class HullFaces {
     return turn(i, j, k, 0) == 0 && turn(i, j, k, 1) == 0 && turn(i, j, k, 2) == 0;
   }
 
-  // Which way the three turn, seen along an axis: 1 is counter-clockwise.
+  // Orientation of three points seen along an axis: 1 counter-clockwise, -1 clockwise, 0 collinear.
   int turn(uint32_t i, uint32_t j, uint32_t k, int axis) const {
     const size_t u = static_cast<size_t>(axis + 1) % 3, v = static_cast<size_t>(axis + 2) % 3;
     const auto p = way<long double>(i, j), q = way<long double>(i, k);
@@ -162,7 +162,7 @@ class HullFaces {
   template <class R>
   using Triple = std::array<R, 3>;
 
-  // Through three points.
+  // The plane through three points.
   class Plane {
    public:
     Plane(const HullFaces& hull, const std::array<uint32_t, 3>& corners)
@@ -177,7 +177,8 @@ class HullFaces {
       }
     }
 
-    // Where a point lies: 1 is the side from which the three run counter-clockwise.
+    // The side of a point: 1 where the three appear counter-clockwise, -1 on the other side, 0 on
+    // the plane.
     int side(uint32_t i) const {
       const auto way = hull_.way<long double>(corners_[0], i);
       long double sum = 0, size = 0;
@@ -214,7 +215,7 @@ class HullFaces {
     return {R(q.x()) - R(p.x()), R(q.y()) - R(p.y()), R(q.z()) - R(p.z())};
   }
 
-  static constexpr long double kRounding = 0x1p-59L;  // several times that of long double
+  static constexpr long double kRounding = 0x1p-59L;  // a bound of several roundings of long double
 
   std::span<const Eigen::Vector3f> points_;
   int dimension_ = 0;
@@ -222,7 +223,7 @@ class HullFaces {
   std::vector<Outline> faces_;
 };
 
-// The hull of finite points, which it keeps: those inside and equal ones, too.
+// The hull of finite points. It keeps all of them, also inner and equal ones.
 inline Hull hull_of(const std::vector<Eigen::Vector3f>& points) {
   return {*make_hull(points, HullFaces(points).faces())};
 }

@@ -1,5 +1,5 @@
-// Judges times of impact, and finds them, with proof up to rounding: that two shapes stay apart is
-// shown by directions along which they do, that they meet by points of both.
+// Finds and judges times of impact, with proof up to rounding. Directions with a positive gap prove
+// that two shapes stay separate; points of both prove that they meet.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace carom::oracle {
 
 enum class Meeting : uint8_t { none, found, unknown };
 
-// The first time at which a separation is not above a floor.
+// The first time at which the separation is not above a floor.
 template <class R>
 struct MeetingTime {
   Meeting meeting;
-  R time;  // until then it is above; where it was found, not then
+  R time;  // the separation is above the floor before it, and at it if not found
 };
 
-// Goes from one end to the other in steps that are proven to be free: conservative advancement
-// along the normal, which for shapes that do not turn is Newton's method on a convex function.
+// Advances from `from` to `to` in steps proven free (conservative advancement along the normal).
+// For shapes that do not turn this is Newton's method on a convex function.
 template <class R>
 MeetingTime<R> first_meeting(const MovingPair<R>& pair, R from, const R& to, const R& floor) {
   constexpr int kMostSteps = 1000;
@@ -37,8 +37,8 @@ MeetingTime<R> first_meeting(const MovingPair<R>& pair, R from, const R& to, con
   return {Meeting::unknown, from};
 }
 
-// The first time of impact: apart until `low` for certain, overlapping at `high`. Shapes that graze
-// each other within rounding have only the first (high = +infinity).
+// Brackets the first time of impact: certainly separate until `low`, certainly overlapping at
+// `high`. Shapes that graze each other within rounding have no `high` (+infinity).
 template <class R>
 struct ImpactBracket {
   Meeting meeting;
@@ -60,10 +60,10 @@ template <class R>
 struct LeastSeparation {
   R time;
   R value;         // signed
-  Vec3<R> normal;  // of the pair as the oracle has it: a half-space is B
+  Vec3<R> normal;  // in the oracle's order, in which a half-space is B
 };
 
-// By golden section: of shapes that do not turn the least of all, of others one that is hardly
+// By golden section. This is the minimum for shapes that do not turn; for others a value hardly
 // greater than its neighbours.
 template <class R>
 LeastSeparation<R> least_separation(const MovingPair<R>& pair, R from, R to) {
@@ -90,9 +90,9 @@ LeastSeparation<R> least_separation(const MovingPair<R>& pair, R from, R to) {
 
 enum class Fault : uint8_t {
   none,
-  late,       // they overlap before the time that was claimed
-  early,      // at that time, and until the next float, they are further apart than is allowed
-  malformed,  // no time and not "never"
+  late,       // they overlap before the claimed time
+  early,      // further apart than allowed from that time to the next float
+  malformed,  // neither a time in [0, 1] nor "never" (+infinity)
   unknown,    // the oracle could not tell
 };
 
@@ -101,22 +101,22 @@ inline const char* name(Fault fault) {
   return kNames[static_cast<size_t>(fault)];
 }
 
-// A fault, and where.
+// A fault, with its time and the separation then.
 struct Judgement {
   Fault fault = Fault::none;
   double time = 0;
   double separation = 0;
 };
 
-inline constexpr double kAllowedGap = 1e-11;  // of the size and the travel
+inline constexpr double kAllowedGap = 1e-11;  // as a share of size plus travel
 
 template <class R>
 class ImpactJudge {
  public:
-  // The pair is to outlive the judge.
+  // The pair must outlive the judge.
   explicit ImpactJudge(const MovingPair<R>& pair) : pair_(pair) {}
 
-  // Shapes overlap by more than rounding before `end`.
+  // Faults a pair whose shapes overlap by more than rounding before `end`.
   Judgement late(const R& end) const {
     const R floor = -pair_.rounding();
     const MotionMoment<R> last(pair_, end, floor);
@@ -129,7 +129,7 @@ class ImpactJudge {
     return at(fault, MotionMoment<R>(pair_, meeting.time, floor));
   }
 
-  // There is no time in [from, to] at which they are as near as is allowed.
+  // Faults a pair whose separation is above the allowed gap during all of [from, to].
   Judgement early(const R& from, const R& to) const {
     const R allowed = R(kAllowedGap) * (pair_.size() + pair_.travel()) + pair_.rounding();
     const MotionMoment<R> last(pair_, to, allowed);
@@ -148,8 +148,8 @@ class ImpactJudge {
   const MovingPair<R>& pair_;
 };
 
-// Of a time that was rounded down to float32; +infinity: they never meet. Touching within rounding
-// of double precision may count as a meeting or not.
+// Judges a time that was rounded down to float32; +infinity means never. A touch within rounding of
+// double precision may count as an impact or not.
 template <class R>
 Judgement judge_impact(const MovingPair<R>& pair, float toi) {
   const bool is_never = toi == std::numeric_limits<float>::infinity();
@@ -160,7 +160,8 @@ Judgement judge_impact(const MovingPair<R>& pair, float toi) {
   return judge.early(R(toi), R(std::min(std::nextafter(toi, 2.0f), 1.0f)));
 }
 
-// In double precision first, which nearly always is enough to acquit; in long double what is left.
+// Judges in double precision first, which nearly always finds no fault; repeats the others in long
+// double.
 inline Judgement judge_impact(const Shape& shape_a, const Pose& pose_a, const Sweep& sweep_a,
                               const Shape& shape_b, const Pose& pose_b, const Sweep& sweep_b,
                               float toi) {

@@ -1,5 +1,5 @@
-// Two convex shapes in motion, for the oracle: how far they are apart at a time, and for how long
-// they surely stay so.
+// Two moving convex shapes for the oracle: their separation at a time, and how long they provably
+// stay separate.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,8 @@
 
 namespace carom::oracle {
 
-// In coordinates relative to the position of A, which moves. A half-space is always B.
+// Coordinates are relative to the moving position of A. A half-space is always B, so the shapes may
+// be swapped.
 template <class R>
 class MovingPair {
  public:
@@ -41,15 +42,14 @@ class MovingPair {
   R radii() const { return a_.radius() + b_.radius(); }
   Vec between(const R& t) const { return between_ + velocity_ * t; }
 
-  // Of both, about their positions; a half-space does not count.
+  // Sum of the bounding radii about the positions; a half-space adds nothing.
   const R& size() const { return size_; }
-  // At most how far a point of one moves as seen from the other.
+  // A bound of how far a point of one shape moves relative to the other.
   const R& travel() const { return travel_; }
-  // What double precision may lose of a separation.
+  // A bound of the rounding error of a separation in double precision.
   R rounding() const { return 64 * R(0x1p-52) * (size_ + travel_ + reach_); }
-  // By how much the way from one position to the other, seen along a direction that turns by
-  // `angle` over the interval, may bend off a straight one: half of this times the square of the
-  // time.
+  // The path from one position to the other, projected on a direction that turns by `angle` over
+  // the interval, deviates from a straight one by at most half of this times the time squared.
   R bend(const R& angle) const { return angle * (angle * distance_ + 2 * length(velocity_)); }
 
  private:
@@ -71,7 +71,7 @@ class MovingPair {
   MovingShape<R> a_, b_;
   Vec between_, velocity_;
   R size_{0}, travel_{0};
-  R distance_{0};  // of the two positions, at most
+  R distance_{0};  // the greatest distance between the positions
   R reach_{0};     // the largest coordinates
 };
 
@@ -81,8 +81,8 @@ class MotionMoment {
  public:
   using Vec = Vec3<R>;
 
-  // `floor`: shapes that are above it for certain are not measured by trying everything; those that
-  // are far above only up to `share` of their separation.
+  // If the quick search puts the separation above `floor` or not above it, brute force is skipped.
+  // The search bounds positive separations only to within `share` of them.
   MotionMoment(const MovingPair<R>& pair, const R& t, const R& floor, const R& share = R(1) / 1024)
       : pair_(pair), time_(t), a_(pair.a(), t), b_(pair.b(), t), between_(pair.between(t)) {
     if (pair.is_halfspace()) {
@@ -95,19 +95,20 @@ class MotionMoment {
   }
 
   const R& time() const { return time_; }
-  // Bounds of the separation. The lower one is the gap along the normal; the upper one of shapes
-  // that overlap need not be their depth.
+  // Bounds of the separation. `lower` is the gap along the normal. `upper` need not be the true
+  // depth of shapes that overlap.
   const R& lower() const { return lower_; }
   const R& upper() const { return upper_; }
   // Unit, from A to B.
   const Vec& normal() const { return normal_; }
 
   bool is_above(const R& floor) const { return lower_ > floor; }
-  // Or so near that rounding alone keeps it above.
+  // Also true if only rounding keeps the separation above the floor.
   bool is_below(const R& floor) const { return upper_ <= floor + pair_.rounding() / 16; }
 
-  // For how long, at most until `delta` later (or earlier), the separation surely stays above
-  // `floor`: as seen along the normal, which may turn with a shape or with what is nearest.
+  // A time span, up to `delta` (which may be negative), in which the separation provably stays
+  // above `floor`. The proof looks along the normal, fixed or turning with a shape or with the
+  // closest features.
   R free_span(const R& delta, const R& floor) const {
     if (!(lower_ > floor)) return R(0);
     const Vec spin_a = pair_.a().spin(), spin_b = pair_.b().spin();
@@ -123,13 +124,13 @@ class MotionMoment {
   }
 
  private:
-  // The uppermost edge of a shape, seen along the normal.
+  // The edge of a shape at its furthest point along the normal, projected across the normal.
   Vec edge(const TurnedShape<R>& shape, const R& side) const {
     return across(shape.ridge(normal_ * side), normal_);
   }
 
-  // How the normal is to turn so that it stays across an edge of each; of one that is zero it need
-  // not.
+  // The angular velocity that keeps the normal perpendicular to an edge of each shape. A zero edge
+  // imposes nothing.
   Vec spin_with(const Vec& edge_a, const Vec& edge_b) const {
     const R rise_a = dot(cross(pair_.a().spin(), edge_a), normal_);
     const R rise_b = dot(cross(pair_.b().spin(), edge_b), normal_);
@@ -153,9 +154,8 @@ class MotionMoment {
     explicit View(const Vec& turn) : spin(turn), angle(length(turn)) {}
   };
 
-  // A lower bound of the separation at the time later by `delta`, seen along such a direction: all
-  // points are taken to go on straight, and to bend off towards each other as they may. Concave in
-  // `delta`.
+  // A lower bound of the separation `delta` later, along the turning direction. It moves all points
+  // on straight lines and subtracts a bound of how far their true paths bend. Concave in `delta`.
   R lower_after(const R& delta, const View& view) const {
     const Vec tilt = cross(view.spin, normal_);
     const R speed = dot(normal_, pair_.velocity()) + dot(tilt, between_);
@@ -165,7 +165,7 @@ class MotionMoment {
     return gap - reach_after(delta, view, pair_.b(), b_, R(-1));
   }
 
-  // Nothing of a shape bends if the direction turns with it.
+  // Points of a shape that turns with the direction do not bend.
   R reach_after(const R& delta, const View& view, const MovingShape<R>& shape,
                 const TurnedShape<R>& turned, const R& side) const {
     const Vec apart = shape.spin() - view.spin;
@@ -175,9 +175,9 @@ class MotionMoment {
     return turned.reach(way, turn * turn / 2, view.angle == 0);
   }
 
-  // At least `inner`, more if the normal that turns shows it: false position (Illinois) on a
-  // concave function, aimed a little above the floor, as rounding might deny a span that ends
-  // there.
+  // A free span of at least `inner`, longer if this turning normal proves it. It uses false
+  // position (Illinois) on a concave function. It aims a little above the floor, because rounding
+  // could reject a span that ends exactly there.
   R longer_span(R inner, const R& delta, const R& floor, const View& view) const {
     const auto gap_after = [&](const R& t) { return lower_after(t, view) - floor; };
     R outer = delta, outer_gap = gap_after(delta);

@@ -1,4 +1,4 @@
-// A convex shape in motion, for the oracle: where its points are at a time in [0, 1].
+// A moving convex shape for the oracle: its points at a time in [0, 1].
 #pragma once
 
 #include <limits>
@@ -12,8 +12,8 @@
 
 namespace carom::oracle {
 
-// In coordinates relative to the body's position, which moves: what is left is the rotation. Not
-// for several threads at once.
+// Coordinates are relative to the body's moving position, so only the rotation remains. Not for
+// concurrent use, because at() caches.
 template <class R>
 class MovingShape {
  public:
@@ -34,18 +34,18 @@ class MovingShape {
     measure();
   }
 
-  // At the start: the core's points, and what is around them.
+  // At time 0: the core's points and the radius around them.
   const std::vector<Vec>& points() const { return points_; }
   const R& radius() const { return radius_; }
   bool is_halfspace() const { return is_halfspace_; }
-  const Vec& normal() const { return normal_; }  // of a half-space, as its offset
+  const Vec& normal() const { return normal_; }  // of a half-space, as is offset()
   const R& offset() const { return offset_; }
-  // Of the farthest point from the body's position, and of the core's; of a half-space the first is
-  // the distance to its plane.
+  // The greatest distance from the body's position of any point, and of a core point. For a
+  // half-space bounding_radius() is the distance to its plane.
   const R& bounding_radius() const { return bounding_radius_; }
   const R& core_reach() const { return core_reach_; }
 
-  // Of its segment, box or corners.
+  // The centroid of its segment, box or corners.
   Vec middle() const {
     const size_t count = std::holds_alternative<Triangle>(shape_) ? 3 : points_.size();
     Vec sum;
@@ -53,15 +53,16 @@ class MovingShape {
     return sum * (1 / R(count));
   }
 
-  // The rotation vector over the interval; zero for what does not turn.
+  // The rotation vector over the interval; zero for shapes that do not turn.
   const Vec& spin() const { return spin_; }
   const R& angle() const { return angle_; }
-  // Of the points, from the position and from the axis (zero for what does not turn).
+  // Distances of the points from the position and from the axis of rotation (zero if it does not
+  // turn).
   const std::vector<R>& arms() const { return arms_; }
   const std::vector<R>& axis_arms() const { return axis_arms_; }
   Rotation<R> turn(const R& t) const { return {axis_, angle_ * t}; }
 
-  // With all its features, at a time.
+  // The shape at a time with all its features.
   ConvexShape<R> at(const R& t) const {
     ConvexShape<R> shape = all();
     if (angle_ > 0) shape.rotate(turn(t));
@@ -69,7 +70,8 @@ class MovingShape {
   }
 
  private:
-  // Finding the faces of a hull takes a hundred times as long as judging a motion mostly does.
+  // Built only when needed: finding a hull's faces takes a hundred times as long as most judgements
+  // of a motion.
   const ConvexShape<R>& all() const {
     if (!all_) all_.emplace(shape_, pose_);
     return *all_;
@@ -108,7 +110,7 @@ class MovingShape {
   mutable std::optional<ConvexShape<R>> all_;
 };
 
-// The same at one time: support points without a copy of the shape.
+// The shape at one time: support points without a copy of the shape.
 template <class R>
 class TurnedShape {
  public:
@@ -119,8 +121,8 @@ class TurnedShape {
 
   // The core's point that is furthest along a direction.
   Vec corner(const Vec& way) const { return is_turned_ ? turn_(best(way)) : best(way); }
-  // How far any point is along a direction, times the length of that, and `bend` times its arm
-  // (from the axis, or from the position if the direction turns as well).
+  // The largest over all points of point . way + `bend` * arm. The arm is the distance from the
+  // axis, or from the position if the direction turns as well.
   R reach(const Vec& way, const R& bend, bool is_from_axis) const {
     const auto& arms = is_from_axis ? shape_.axis_arms() : shape_.arms();
     const Vec local = is_turned_ ? turn_.back(way) : way;
@@ -131,7 +133,8 @@ class TurnedShape {
     }
     return most;
   }
-  // From the point that is furthest along a direction to the next one; zero if there is none.
+  // The edge from the furthest point along a direction to the second furthest; zero if there is
+  // none.
   Vec ridge(const Vec& way) const {
     const Vec local = is_turned_ ? turn_.back(way) : way;
     const Vec& top = best(way);
@@ -145,7 +148,7 @@ class TurnedShape {
     }
     return turn_(*next - top);
   }
-  // Of a half-space.
+  // The normal of a half-space.
   Vec normal() const { return turn_(shape_.normal()); }
 
  private:

@@ -1,5 +1,5 @@
 // The distance of a convex set from the origin by its support points, with a proof: a direction
-// along which all of the set is that far away, and a point of the set that is no further.
+// along which the whole set is at least that far away, and a point of the set that is no further.
 // E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A fast procedure for computing the distance between
 // complex objects in three-dimensional space, IEEE J. Robotics and Automation 4(2), 1988.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace carom::oracle {
 
-// Up to four points; the point of their hull that is nearest to the origin, by trying all corners,
+// A simplex of up to four points. Finds the point nearest to the origin by trying all corners,
 // edges and faces.
 template <class R>
 class SearchSimplex {
@@ -28,7 +28,8 @@ class SearchSimplex {
     return false;
   }
 
-  // Drops the points that do not count. The result is zero only if the hull holds the origin.
+  // Returns the nearest point and drops the points that do not span it. The result is zero only if
+  // the hull contains the origin.
   Vec reduce() {
     least_ = std::numeric_limits<R>::infinity();
     for (size_t i = 0; i < count_; ++i) try_corner(i);
@@ -80,7 +81,7 @@ class SearchSimplex {
     if (is_over) keep(normal * dot(a, normal), {i, j, k});
   }
 
-  // On the inner side of all four faces.
+  // Whether the origin is on the inner side of all four faces.
   bool holds_origin() const {
     for (size_t i = 0; i < 4; ++i) {
       const Vec& a = points_[(i + 1) % 4];
@@ -98,7 +99,7 @@ class SearchSimplex {
   std::array<size_t, 3> kept_{};
 };
 
-// What is proven about a distance: at least `lower`, along the unit vector `normal`; at most
+// A proven interval of a distance: at least `lower`, along the unit vector `normal`, and at most
 // `upper`.
 template <class R>
 struct DistanceProof {
@@ -107,9 +108,9 @@ struct DistanceProof {
   R upper;
 };
 
-// `support` gives the point of the set that is furthest along a direction. Ends when the bounds are
-// within `enough(lower)` of each other, or rounding lets them come no closer. Where the set holds
-// the origin `upper` is zero.
+// `support` gives the support point of the set along a direction. Stops when the bounds are within
+// `enough(lower)` of each other, or when rounding prevents progress. `upper` is zero if the set
+// contains the origin.
 template <class R, class Support, class Enough>
 DistanceProof<R> distance_from_origin(const Support& support, const Enough& enough) {
   using Vec = Vec3<R>;

@@ -36,22 +36,22 @@ R length(const Vec3<R>& a) {
   return sqrt(dot(a, a));
 }
 
-// Zero stays zero.
+// A zero vector stays zero.
 template <class R>
 Vec3<R> normalized(const Vec3<R>& a) {
   const R size = length(a);
   return size > 0 ? a * (1 / size) : Vec3<R>{};
 }
 
-// What is left of `a` across the unit vector u.
+// The component of `a` perpendicular to the unit vector u.
 template <class R>
 Vec3<R> across(const Vec3<R>& a, const Vec3<R>& u) {
   return a - u * dot(a, u);
 }
 
-// The unit vector across both of two unit vectors, zero if they are parallel. However near parallel
-// they are, the result is at right angles to u up to rounding: what is uncertain is the turn about
-// u, where v has next to no extent.
+// The unit vector perpendicular to two unit vectors; zero if they are parallel. Even for nearly
+// parallel vectors the result is perpendicular to u up to rounding. The error is then a rotation
+// about u, where v has next to no extent.
 template <class R>
 Vec3<R> common_normal(const Vec3<R>& u, const Vec3<R>& v) {
   return normalized(across(normalized(across(normalized(cross(u, v)), u)), u));

@@ -16,7 +16,7 @@ struct Placed {
   Pose pose;
 };
 
-// Of one kind, or of any.
+// All bodies of one kind, or of mixed kinds.
 class BodyArrays {
  public:
   BodyArrays(std::span<const Placed> bodies, PositionType positions);

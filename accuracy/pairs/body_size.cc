@@ -74,7 +74,7 @@ struct Aspect {
   double operator()(const Dop& dop) const {
     return edge_ratio(upper_corner(dop) - lower_corner(dop));
   }
-  // Of the box that holds it.
+  // The aspect of its bounding box.
   double operator()(const Hull& hull) const {
     Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& point : hull.geometry->points()) box.extend(point);

@@ -17,7 +17,7 @@ using oracle::ConvexRandom;
 
 constexpr size_t kBatch = 4096;
 
-// Pairs of one style at a time: sizes, aspects, how parallel.
+// A batch of pairs of one random style: ratio of sizes, aspect, near parallel or not.
 class Pairs {
  public:
   Pairs(const KindPair& kinds, Random& random) : random_(random) {
@@ -43,7 +43,7 @@ class Pairs {
   const std::vector<Placed>& a() const { return a_; }
   const std::vector<Placed>& b() const { return b_; }
 
-  // Along the normals, until the two touch but for so many roundings.
+  // Moves every B along the normal until the pair touches, give or take `roundings` roundings.
   void move_to_touch(double roundings) {
     const BodyArrays a(a_, PositionType::float32), b(b_, PositionType::float32);
     Answers answers(kBatch);

@@ -7,10 +7,10 @@
 
 namespace carom::accuracy {
 
-// printf for one number.
+// One number as printf() writes it.
 std::string text(const char* format, double value);
 
-// All numbers of a pair, in hexadecimal, so that they can be put into a test.
+// All numbers of a pair in hexadecimal, to copy into a test.
 std::string describe(const ConvexPair& pair, PositionType positions);
 
 }  // namespace carom::accuracy

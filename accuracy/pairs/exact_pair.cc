@@ -12,14 +12,14 @@ template <unsigned kDigits>
 using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<kDigits>,
                                              boost::multiprecision::et_off>;
 
-// What long double errs by, as a share of the extent; tests/accuracy/exact_pair_test.cc holds it
-// against 100 digits.
+// The error bound of long double, as a share of the extent; tests/accuracy/exact_pair_test.cc
+// checks it against 100 digits.
 constexpr long double kMargin = 1e-17L;
-// Of k-DOPs, whose corners are found as meetings of planes.
+// The bound for k-DOPs, whose corners are intersections of planes.
 constexpr long double kDopMargin = 1e-13L;
-// Positions that differ by less take so many digits more that they are left out otherwise.
+// If positions differ by a smaller share of the extent, 100 digits do not suffice.
 constexpr double kTiny = 1e-25;
-// Spacing of floats near zero, rounded several times.
+// Several roundings at the spacing of floats near zero.
 constexpr long double kLeast = 32 * 0x1p-149L;
 
 bool is_halfspace(const Shape& shape) { return std::holds_alternative<Halfspace>(shape); }
@@ -27,8 +27,8 @@ bool is_dop(const Shape& shape) { return std::holds_alternative<Dop>(shape); }
 
 bool has_dop(const ConvexPair& pair) { return is_dop(pair.shape_a) || is_dop(pair.shape_b); }
 
-// Whether every plane of the k-DOP either holds a corner exactly or is clearly off it. Otherwise
-// the oracle, which finds in long double which planes meet where, may take two corners for one.
+// Whether every plane of the k-DOP either contains a corner exactly or is clearly off it. Otherwise
+// the oracle, which compares corners and planes in long double, may merge two corners.
 bool has_sure_corners(const Dop& dop) {
   using R = Digits<100>;
   const oracle::ConvexDop<R> polytope(dop);
@@ -66,7 +66,7 @@ long double scale_of(const ConvexPair& pair, const ConvexOracle<long double>& or
   return oracle.scale();
 }
 
-// The sign is that of the gap. Of shapes without radius an axis that parts them is enough, at a
+// A number with the sign of the gap. For shapes without radius the best axis is enough and takes a
 // tenth of the time.
 template <class R>
 R signed_gap(const ConvexPair& pair) {
@@ -76,14 +76,15 @@ R signed_gap(const ConvexPair& pair) {
   return oracle::convex::AxisSearch<R>(oracle.a, oracle.b).gap();
 }
 
-// Numbers of such different sizes meet that 100 digits do not hold both, or the squares of both.
+// Whether the pair mixes numbers of such different sizes that 100 digits do not hold both, or their
+// squares.
 bool needs_more_digits(const ConvexPair& pair, long double extent) {
   const Eigen::Vector3d way = pair.pose_b.position - pair.pose_a.position;
   return std::any_of(way.begin(), way.end(),
                      [&](double x) { return x != 0 && std::fabs(x) < kTiny * extent; });
 }
 
-// Closer than all digits but ten is touching; closer than `unsure` is unknown otherwise.
+// Shapes closer than the last ten digits touch. Otherwise a gap up to `unsure` is unknown.
 template <unsigned kDigits>
 Truth decide_in_digits(const ConvexPair& pair, long double extent, long double unsure) {
   using R = Digits<kDigits>;

@@ -1,4 +1,4 @@
-// The true answer of a pair as it is stored, and what an answer is off by.
+// The exact answer for a stored pair, and the errors of other answers.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,40 +9,40 @@ namespace carom::accuracy {
 
 enum class Truth { apart, overlap, unknown };
 
-// Computed in long double, whose rounding is far below any margin that matters but that of the
-// decision: where that is within the margin, 100 digits decide, or 1500 where positions all but
-// coincide. Two shapes that those see touching but for the last ten digits touch.
+// Computed in long double, whose rounding is far below all bounds tested. The decision may need
+// more: if the gap is within the rounding, 100 digits decide, or 1500 if the positions nearly
+// coincide. Shapes touch if these digits agree except for the last ten.
 class ExactPair {
  public:
   explicit ExactPair(const ConvexPair& pair);
 
-  // Unknown where planes of a k-DOP all but meet in a point: the oracle cannot tell.
+  // Unknown if planes of a k-DOP nearly meet in a point, because the oracle cannot tell.
   Truth truth() const { return truth_; }
   // Signed distance.
   long double gap() const { return gap_; }
 
-  // Errors are shares of this: L, the mean of the bounding radii, or the gap or depth if that is
-  // larger. Half-spaces count for the rounding of their distance, as floats have it. What a few of
-  // the smallest floats make is no error.
+  // `length` as a share of the pair's scale: L, the mean bounding radius, or |gap| if that is
+  // larger. With a half-space L is the other body's radius plus the float32 rounding of the extent.
+  // Lengths of a few of the smallest floats count as 0.
   double share(long double length) const;
   double gap_share() const { return share(gap_ < 0 ? -gap_ : gap_); }
   double error_share(float separation) const;
-  // The separation, less what the shapes are apart along this normal.
+  // The separation minus the gap along this normal: 0 for the best normal.
   double regret_share(const Eigen::Vector3f& normal) const;
-  // Bounds are of L + gap: what they are to be multiplied by, 1 to 2, as shares.
+  // The factor, 1 to 2, by which to multiply a bound in L + |gap| before comparing it with a share.
   double allowance() const;
 
  private:
   void decide(const ConvexPair& pair);
 
   ConvexOracle<long double> oracle_;
-  long double extent_;  // of everything that is computed with
+  long double extent_;  // sum of the bounding radii and the distance of positions
   long double scale_;
   long double gap_;
   Truth truth_ = Truth::unknown;
 };
 
-// What long double errs by for this pair, as a share of the extent that the margin is a share of.
+// The actual error of long double for this pair, as a share of the extent (like the margin).
 double rounding_share(const ConvexPair& pair);
 
 }  // namespace carom::accuracy

@@ -1,4 +1,4 @@
-// The pairs of the oracle under the names that this folder uses.
+// The oracle's pairs under this folder's names.
 #pragma once
 
 #include "oracle/convex_families.h"
@@ -11,7 +11,7 @@ using oracle::ConvexPair;
 using oracle::KindPair;
 using oracle::Random;
 
-// Every pair of kinds that the library has a kernel for, in the order of its list.
+// Every pair of kinds with a kernel, in the order of the library's list.
 struct NamedKinds {
   const char* name;
   KindPair kinds;

@@ -13,7 +13,7 @@ class PairSet {
   PairSet(std::vector<ConvexPair> pairs, PositionType positions);
 
   size_t size() const { return pairs_.size(); }
-  // As they are stored.
+  // The stored pair.
   const ConvexPair& operator[](size_t i) const { return pairs_[i]; }
   PositionType positions() const { return positions_; }
   const Collidables& a() const { return a_.view(); }

@@ -13,7 +13,7 @@ namespace {
 using oracle::ConvexRandom;
 using oracle::ConvexStyle;
 
-// Near misses are at most so many times as far off as bounds that touch.
+// How far B may be from A, as a multiple of the distance at which their bounds touch.
 constexpr double kReach = 1.3;
 
 bool is_halfspace(const Shape& shape) { return std::holds_alternative<Halfspace>(shape); }
@@ -31,7 +31,7 @@ class PairDrawer {
 
   Random& random() { return random_; }
 
-  // Both at the origin.
+  // Two random shapes with random orientations, both at the origin.
   ConvexPair shapes() {
     ConvexPair pair;
     pair.shape_a = shapes_.shape(kinds_.a, random_.log_uniform(0.5, 2));
@@ -43,7 +43,8 @@ class PairDrawer {
     return pair;
   }
 
-  // Turns both the same way, by quarters, and one of them a little more.
+  // Gives both the same orientation (identity or quarter turns), then turns one by a further
+  // `angle`.
   void turn_by(double angle, ConvexPair& pair) {
     const Eigen::Vector3d axis = random_.chance(0.5)
                                      ? random_.direction()
@@ -57,7 +58,7 @@ class PairDrawer {
     turned.orientation = base * turn;
   }
 
-  // From the position of A to one of B, so that their bounds are near each other.
+  // A random displacement from A to B that puts their bounds near each other.
   Eigen::Vector3d way(const ConvexPair& pair) {
     if (is_halfspace(pair.shape_a)) {
       return way_from_plane(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
@@ -74,7 +75,7 @@ class PairDrawer {
   }
 
  private:
-  // Relative to the body's position.
+  // Bounds relative to the body's position.
   static Eigen::AlignedBox3d bounds(const Shape& shape, const Pose& pose) {
     const Pose turned{Eigen::Vector3d::Zero(), pose.orientation};
     const reference::Box box = reference::bounds(shape, turned, PositionType::float32);
@@ -109,7 +110,7 @@ bool overlaps(const ConvexPair& pair) {
       .overlap;
 }
 
-// Tells which of `count` are the first half of a random order.
+// Marks a random half of `count` elements.
 std::vector<bool> random_halves(size_t count, Random& random) {
   std::vector<bool> is_first(count);
   for (size_t i = 0; i < count; ++i) is_first[i] = i < count / 2;

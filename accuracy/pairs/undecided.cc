@@ -23,7 +23,7 @@ std::vector<ConvexPair> of_kind(ShapeKind kind, size_t count, uint64_t seed) {
   return random_pairs({kind, kind}, count, seed);
 }
 
-// All kinds of bodies that roll and fall, in random order.
+// Random pairs of spheres, capsules, aabbs and boxes, in random order.
 std::vector<ConvexPair> mixed_pairs(size_t count, uint64_t seed) {
   constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
                                   ShapeKind::box};
@@ -39,8 +39,7 @@ std::vector<ConvexPair> mixed_pairs(size_t count, uint64_t seed) {
   return all;
 }
 
-// Neighbours in a stack of cubes that are turned by quarters or not at all: faces, edges and
-// corners that touch.
+// Neighbours in a stack of cubes with quarter turns or none: faces, edges and corners that touch.
 std::vector<ConvexPair> stacked_boxes(size_t count, uint64_t seed) {
   Random random(seed);
   oracle::ConvexRandom shapes({.lattice = true}, random);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// By the reference, whose bits are those of the standard tier. Worlds do not keep what separate
-// pairs measure.
+// Computed by the reference, which has the bits of the standard tier, because worlds do not keep
+// the separations of separate pairs.
 double standard_separation(const World& world, Pair pair) {
   const BodyId a = world.id_of(pair.a);
   const BodyId b = world.id_of(pair.b);
@@ -27,7 +27,7 @@ double distance(double separation) {
   return std::isnan(separation) ? kInfinity : std::abs(separation);
 }
 
-// Pairs of `now` that `before` lacks.
+// Pairs that are in `now` but not in `before`.
 std::vector<Pair> new_pairs(const std::vector<Pair>& before, const std::vector<Pair>& now) {
   std::vector<Pair> pairs;
   std::set_difference(now.begin(), now.end(), before.begin(), before.end(),
@@ -56,7 +56,7 @@ FrameResults results_of(const World& world) {
   const std::span<const uint8_t> overlaps = world.overlaps();
   const std::span<const Contact> contacts = world.contacts();
   results.candidates = pairs.size();
-  size_t next = 0;  // contacts are those of the overlaps without sensors, in the same order
+  size_t next = 0;  // contacts are the overlaps without sensors, in the same order
   for (size_t i = 0; i < pairs.size(); ++i) {
     if (overlaps[i] == kUndecided) results.undecided.push_back(pairs[i]);
     if (overlaps[i] != 1) continue;
@@ -114,7 +114,7 @@ void DeviationMeter::note_lost(Pair pair, double separation, const World& world)
   deviation_.lost_worst = std::max(deviation_.lost_worst, distance(separation));
 }
 
-// Sensors have no contacts to compare, in either run.
+// Overlaps with sensors have no contact in either run: NaN.
 void DeviationMeter::note_common(float separation, float other) {
   if (std::isnan(separation) && std::isnan(other)) return;
   const double error = separation == other ? 0 : distance(double{separation} - double{other});

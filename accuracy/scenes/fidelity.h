@@ -1,4 +1,4 @@
-// What the knobs of Tier::fast change in whole scenes, and what they save.
+// Measures what the knobs of Tier::fast change in whole scenes and how much time they save.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace carom::accuracy {
 
-// One scene with one knob against the standard tier, sums over all frames. Times are those of
-// TrialResult, measured in turns; lengths are metres.
+// One scene with one knob, compared with the standard tier; sums over all frames. Times are as in
+// TrialResult and come from alternating runs; lengths are metres.
 struct FidelityEntry {
   std::string scene;
   std::string setting;  // "single precision", "faces only", "proxy spheres"
   uint64_t pairs = 0;   // candidates of the standard run
-  uint64_t lost = 0;    // overlaps that are missing
-  uint64_t gained = 0;  // overlaps that are none
+  uint64_t lost = 0;    // overlaps of the standard run that are missing
+  uint64_t gained = 0;  // overlaps that the standard run does not have
   double contact_error_worst = 0;
   double contact_error_p99 = 0;
-  uint64_t events_moved = 0;  // begins and ends that do not happen in the same frame
+  uint64_t events_moved = 0;  // begin and end events that happen in another frame
   double frame_ms = 0;
   double frame_ms_standard = 0;
 };
@@ -31,8 +31,8 @@ struct ReuseEntry {
   double tolerance = 0;
   double frame_ms = 0;
   double frame_ms_standard = 0;
-  double error_bound = 0;  // what the knob promises: twice the tolerance
-  double error_worst = 0;  // of separations, lost and gained overlaps included
+  double error_bound = 0;  // the knob's promise: twice the tolerance
+  double error_worst = 0;  // of separations, including lost and gained overlaps
   uint64_t lost = 0;
   uint64_t gained = 0;
   uint64_t pairs = 0;
@@ -43,11 +43,12 @@ struct FidelityReport {
   std::vector<ReuseEntry> reuse;
 };
 
-// Generators (as on the command line) that show what knobs do: boxes that creep, boxes and spheres
-// that move, a level of which nine tenths rest. `is_short`: small ones, for some seconds in all.
+// Generated scenes (as on the command line) that show the effect of the knobs: creeping boxes,
+// moving boxes and spheres, and a level in which nine tenths of the bodies rest. `is_short`: small
+// scenes that take some seconds in all.
 std::vector<std::string> fidelity_scenes(bool is_short);
 
-// Adds the entries of a scene to the report. It is run 1 + `rounds` times with each setting.
+// Adds the entries of a scene to the report. Runs the scene 1 + `rounds` times with each setting.
 Result<void> measure_fidelity(const Playback& scene, int rounds, FidelityReport& report);
 
 }  // namespace carom::accuracy

@@ -7,7 +7,7 @@
 
 namespace carom::accuracy {
 
-// An object of the two lists. What is infinite is null.
+// An object with the two lists. Infinite numbers become null.
 nlohmann::ordered_json to_json(const FidelityReport& report);
 
 }  // namespace carom::accuracy

@@ -1,4 +1,4 @@
-// A scene that can be played into worlds as often as wanted.
+// A scene that can be played into worlds any number of times.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ class Playback {
   virtual const std::string& name() const = 0;
   virtual size_t frames() const = 0;
   virtual PositionType positions() const = 0;
-  // The first frame, into an empty world: adds all bodies, body i of the scene at index i.
+  // Puts the first frame into an empty world: adds all bodies, body i of the scene at index i.
   virtual void start(World& world) const = 0;
-  // A later frame, counted from 1: moves them.
+  // Moves the bodies to a later frame, counted from 1.
   virtual void move(size_t frame, World& world) const = 0;
 };
 

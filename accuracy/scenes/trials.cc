@@ -18,7 +18,7 @@ Error too_many_pairs(const Playback& scene, size_t frame, const World& world) {
           std::to_string(world.settings().most_pairs)};
 }
 
-// Milliseconds of every step.
+// Plays the scene; returns the milliseconds of each step.
 Result<std::vector<double>> play(const Playback& scene, const Trial& trial,
                                  const AfterStep& after_step) {
   ThreadArena arena(trial.threads);
@@ -63,13 +63,13 @@ Result<TrialResult> compare(const Playback& scene, const StandardRun& standard,
   return result;
 }
 
-// The least of each frame: what else the machine does only ever adds to it.
+// Keeps the least time of each frame, because other load on the machine only ever adds time.
 void keep_least(const std::vector<double>& frame_ms, std::vector<double>& least) {
   if (least.empty()) least = frame_ms;
   for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], frame_ms[i]);
 }
 
-// Times that no comparing disturbs; every trial is timed as often.
+// Times the trials in turns without comparisons, each the same number of times.
 Result<void> time_in_turns(const Playback& scene, std::span<const Trial> trials,
                            const TrialPlan& plan,
                            std::vector<std::optional<TrialResult>>& results) {

@@ -1,5 +1,5 @@
-// Runs a scene with different settings, in turns, and says how long each takes and how far its
-// results are from the standard ones.
+// Runs a scene with different settings, in turns, and measures their times and the deviation of
+// their results from the standard ones.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace carom::accuracy {
 
-// What a run with the settings that a world has by default found.
+// The results of a run with a world's default settings.
 struct StandardRun {
   std::vector<FrameResults> frames;
   std::vector<double> frame_ms;  // World::step() alone
@@ -30,13 +30,13 @@ Result<StandardRun> run_standard(const Playback& scene);
 
 struct Trial {
   std::string name;
-  WorldSettings settings;  // at detail contact; positions and parallelism are chosen by the trial
+  WorldSettings settings;  // play() sets detail (contact), positions and parallelism
   int threads = 1;
 };
 
 struct TrialResult {
-  // Median over the frames, the first one left out where there are others, of the least time that a
-  // frame took in any round.
+  // For each frame the least time of any round; of these the median, without the first frame if
+  // there are others.
   double frame_ms = 0;
   uint64_t candidates = 0;  // sums over all frames
   uint64_t tested = 0;
@@ -47,21 +47,23 @@ struct TrialPlan {
   using TimePoint = std::chrono::steady_clock::time_point;
   int rounds = 2;
   TimePoint deadline = TimePoint::max();
-  std::function<void()> before_run = [] {};  // for who wants to know how far it is
+  std::function<void()> before_run = [] {};  // to report progress
 };
 
-// One result a trial; none for trials that there was no time to begin. Every trial is compared
-// once; then all are timed in turns, as many rounds as planned or as there is time for, so that a
-// machine that changes its pace does so for all of them. Without a full round the times are those
-// of the run that was compared.
+// Returns one result for each trial, or nothing if there was no time to begin it. Compares every
+// trial once, then times all in turns, so that a change in the machine's speed affects all of them.
+// It repeats that for the planned rounds or until the deadline. Without a full round the times are
+// those of the comparison run.
 Result<std::vector<std::optional<TrialResult>>> run_trials(const Playback& scene,
                                                            const StandardRun& standard,
                                                            std::span<const Trial> trials,
                                                            const TrialPlan& plan);
 
-// The middle value, of an even number the mean of the two in the middle; 0 if there is none.
+// The middle value; for an even number of values the mean of the two in the middle; 0 if there is
+// none.
 double median(std::vector<double> values);
-// The same without the first, which built everything for the first time, where there are others.
+// The median without the first value, in which everything is built for the first time, if there are
+// others.
 double steady_median(const std::vector<double>& frame_ms);
 
 }  // namespace carom::accuracy

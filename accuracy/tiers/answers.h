@@ -1,4 +1,4 @@
-// What a contender answers for a set of pairs: columns as the library writes them.
+// A contender's answers for a set of pairs, in the columns that the library writes.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ class Answers {
   std::vector<uint8_t> status;
   std::vector<float> separation;
   Column3 normal;
-  Column3 point_a;  // relative to the body's position, as point_b
+  Column3 point_a;  // relative to the position of A; point_b: of B
   Column3 point_b;
   std::vector<uint8_t> manifold_count;
   std::vector<ManifoldPoints> manifold;

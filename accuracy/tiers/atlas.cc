@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A family, and the mode in which the caller runs it.
+// A family, and whether the caller sets flush-to-zero.
 struct Chapter {
   ConvexFamily family;
   std::string title;
@@ -56,7 +56,7 @@ Json atlas_row(const NamedKinds& kinds, const Chapter& chapter, PositionType pos
   return row;
 }
 
-// All contenders at contact, and the tiers at the other details.
+// All contenders at detail contact, and the tiers at the other details.
 class Attempts {
  public:
   Attempts(std::span<const std::unique_ptr<Contender>> contenders, bool flush_to_zero) {
@@ -73,7 +73,7 @@ class Attempts {
 
   const std::vector<Attempt>& list() const { return list_; }
 
-  // Where the standard tier is tried at that detail.
+  // Index of the standard tier's attempt at that detail.
   size_t standard_at(Detail detail) const {
     const auto found = std::find_if(list_.begin(), list_.end(), [&](const Attempt& attempt) {
       return attempt.detail == detail && attempt.contender->setting() == std::string("standard");

@@ -1,4 +1,4 @@
-// The families of hard pairs.
+// Judges the contenders on the families of hard pairs.
 #pragma once
 
 #include <memory>
@@ -12,9 +12,9 @@
 
 namespace carom::accuracy {
 
-// Adds the rows of the standard setting at every detail, for each family and type of positions;
-// certified and exact are held to their promise as well. Returns what each contender makes of all
-// of these pairs at detail contact.
+// Adds a row for the standard setting at every detail, for each family and position type. Also
+// checks the promises of the certified and exact tiers. Returns the tally of each contender over
+// all these pairs at detail contact.
 std::vector<Tally> judge_families(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
                                   std::span<const std::unique_ptr<Contender>> contenders,
                                   nlohmann::ordered_json& rows, Failures& failures);

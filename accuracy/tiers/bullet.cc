@@ -1,5 +1,5 @@
-// Bullet's contacts of one pair: the algorithm that its dispatcher picks for two kinds. Compiled
-// only where Bullet is built in.
+// Bullet's contacts of one pair, by the algorithm that its dispatcher chooses for the two kinds.
+// Compiled only if the program is built with Bullet.
 #include "accuracy/tiers/bullet.h"
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
@@ -18,8 +18,8 @@
 namespace carom::accuracy {
 namespace {
 
-// Bullet rounds the corners of boxes by margins and makes triangles thicker; this share of the
-// shape's size is little enough to compare. Hulls do without.
+// Bullet rounds the corners of boxes and thickens triangles by a margin. This share of the shape's
+// size is small enough for a comparison. Hulls need no margin.
 constexpr float kMarginShare = 1e-3f;
 
 btVector3 vector(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
@@ -88,7 +88,7 @@ class Bullet final : public Contender {
   const char* tier() const override { return "peer"; }
   Promise promise() const override { return Promise::none; }
 
-  // Shapes that both describe alike.
+  // Only kinds that both libraries define in the same way.
   bool serves(const KindPair& kinds) const override {
     const auto is_known = [](ShapeKind kind) {
       return kind == ShapeKind::sphere || kind == ShapeKind::box || kind == ShapeKind::triangle ||
@@ -135,7 +135,7 @@ class Bullet final : public Contender {
     }
   }
 
-  // The deepest point; the normal is from B to A there.
+  // Reads the deepest point. Bullet's normal there is from B to A.
   void read(size_t row, Answers& out) {
     float deepest = std::numeric_limits<float>::max();
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();

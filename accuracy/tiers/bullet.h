@@ -1,4 +1,4 @@
-// Bullet, where the program was built with it (CAROM_BUILD_PEERS).
+// Bullet as a contender, if the program was built with it (CAROM_BUILD_PEERS).
 #pragma once
 
 #include <memory>

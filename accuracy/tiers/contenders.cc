@@ -37,7 +37,7 @@ class ScalarReference final : public Contender {
   }
 };
 
-// Kinds that single precision changes.
+// Kinds whose results change in single precision.
 bool has_knob(ShapeKind kind) {
   return kind == ShapeKind::sphere || kind == ShapeKind::capsule || is_boxlike(kind);
 }

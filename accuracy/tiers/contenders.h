@@ -1,4 +1,4 @@
-// The settings that are measured against each other.
+// The settings that are compared with each other.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@
 
 namespace carom::accuracy {
 
-// What an answer is held to.
+// What a setting promises of its answers; each promise from `finite` on includes the ones before.
 enum class Promise {
-  none,      // another library's
-  finite,    // numbers, right or wrong
-  standard,  // decisions right but for rounding, separations within the bound
-  proven,    // and decisions that are given are right
-  exact,     // and all are given
+  none,      // another library
+  finite,    // finite numbers, right or wrong
+  standard,  // decisions right up to rounding, separations within the bound
+  proven,    // and every given decision is right
+  exact,     // and every pair gets a decision
 };
 
 class Contender {
@@ -27,9 +27,9 @@ class Contender {
   virtual const char* setting() const = 0;
   virtual const char* tier() const = 0;
   virtual Promise promise() const = 0;
-  // Whether it answers for these kinds, and other than the standard setting does.
+  // Whether it supports these kinds; a knob: whether it changes their results.
   virtual bool serves(const KindPair& kinds) const = 0;
-  // What it makes of the pairs beforehand is not part of run().
+  // Preparation of the pairs that is not timed as part of run().
   virtual void prepare(const PairSet& /*pairs*/) {}
   virtual void run(const PairSet& pairs, Detail detail, Answers& out) = 0;
 };
@@ -58,8 +58,8 @@ LibrarySetting certified_setting();
 LibrarySetting exact_setting();
 LibrarySetting single_precision_setting();
 
-// All that serve the kinds: the scalar reference, the tiers, the knobs, and Bullet where the
-// program was built with it.
+// All contenders that serve the kinds: the scalar reference, the tiers, the knobs, and Bullet if
+// the program was built with it.
 std::vector<std::unique_ptr<Contender>> contenders_for(const KindPair& kinds);
 
 }  // namespace carom::accuracy

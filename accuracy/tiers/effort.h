@@ -1,4 +1,4 @@
-// How many pairs each measurement takes.
+// The number of pairs in each measurement.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@ namespace carom::accuracy {
 
 struct Effort {
   size_t stream;    // random pairs, timed and judged
-  size_t family;    // of every family and type of positions
+  size_t family;    // of each family and position type
   size_t gap;       // at every distance from touching
   size_t distance;  // at every distance from the origin
   size_t angle;     // at every angle
-  size_t scene;     // of every scene of which certified may leave pairs undecided
-  int rounds;       // passes that times are medians of
+  size_t scene;     // of each scene with undecided pairs
+  int rounds;       // timed passes; times are their medians
 };
 
-// Some two minutes for all kinds, or half an hour. Pairs with k-DOPs take so much longer, in the
-// library as in the oracle, that there are fewer of them.
+// About two minutes for all kinds, or half an hour if long. k-DOPs get fewer pairs, because they
+// are much slower in the library and in the oracle.
 Effort effort_for(const KindPair& kinds, bool is_long);
 
 }  // namespace carom::accuracy

@@ -1,4 +1,4 @@
-// What broke a promise, as text.
+// Collects broken promises as text.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace carom::accuracy {
 
 class Failures {
  public:
-  // Of the tally the count and its examples, if there are any.
+  // Notes the tally's count of broken promises and its examples, if there are any.
   void note(const std::string& where, const Tally& tally) {
     if (tally.broken == 0) return;
     const std::string share =

@@ -1,4 +1,4 @@
-// Flush-to-zero and denormals-are-zero, as engines set them.
+// Sets flush-to-zero and denormals-are-zero, as game engines do.
 #pragma once
 
 #if defined(__SSE2__)
@@ -7,7 +7,7 @@
 
 namespace carom::accuracy {
 
-// Set for the lifetime of the object, if asked for and where the machine has MXCSR.
+// Sets both modes for the lifetime of the object if `wanted` and the machine has MXCSR.
 class FlushToZero {
  public:
 #if defined(__SSE2__)

@@ -13,7 +13,7 @@ namespace {
 
 bool is_finite(const Eigen::Vector3f& v) { return v.allFinite(); }
 
-// Holds the answers of one attempt against the exact pairs, one after the other.
+// Compares the answers of one attempt with the exact pairs, one after the other.
 class Judgement {
  public:
   Judgement(const Attempt& attempt, const PairSet& pairs)
@@ -94,7 +94,7 @@ class Judgement {
     }
   }
 
-  // Bullet says where shapes overlap and nothing of the others.
+  // A contender without a promise (Bullet) reports contacts of overlapping pairs only.
   void add_contact(const ExactPair& exact) {
     const uint8_t overlap = answers_.overlap[row_];
     if (!promises(Promise::finite) && overlap != 1) return;
@@ -114,7 +114,7 @@ class Judgement {
     }
   }
 
-  // No point may be deeper than the shapes.
+  // A manifold point must not be deeper than the exact depth.
   void add_manifold(const ExactPair& exact) {
     const size_t count = answers_.manifold_count[row_];
     const bool is_overlap = answers_.overlap[row_] == 1;

@@ -1,4 +1,4 @@
-// carom accuracy: all of it, as one document.
+// All measurements of `carom accuracy`, as one document.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,12 @@ struct MeasureOptions {
   uint64_t seed = 1;
 };
 
-// How many steps of all are done.
+// Reports that `done` of `all` steps are done.
 using MeasureProgress = std::function<void(size_t done, size_t all)>;
 
-// The document of the page (accuracy/page.html); `failures` lists what broke a promise. "undecided"
-// is empty unless all kinds are measured, "reuse" and "fidelity" in any case: those take scenes
-// (fidelity_json.h).
+// The document of the page (accuracy/page.html); `failures` lists broken promises. "undecided" is
+// empty unless all kinds are measured. "reuse" and "fidelity" are always empty, because they need
+// scenes (fidelity_json.h).
 nlohmann::ordered_json measure(const MeasureOptions& options, const MeasureProgress& progress);
 
 }  // namespace carom::accuracy

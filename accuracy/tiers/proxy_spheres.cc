@@ -10,7 +10,7 @@
 namespace carom::accuracy {
 namespace {
 
-// Larger than it need be by a float, as those of worlds are: tests round, too.
+// One float larger than needed, as in worlds, because the tests round too.
 Shape ball_around(const Shape& shape) {
   if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Halfspace>(shape)) {
     return shape;

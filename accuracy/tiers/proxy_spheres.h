@@ -1,4 +1,4 @@
-// Balls in place of shapes.
+// A contender that replaces shapes by their bounding spheres.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace carom::accuracy {
 
-// Every body but half-spaces is the ball about its position that holds its shape.
+// Replaces every body except half-spaces by the ball about its position that contains its shape.
 std::unique_ptr<Contender> make_proxy_spheres();
 
 }  // namespace carom::accuracy

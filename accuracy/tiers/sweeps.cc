@@ -12,8 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The settings whose curves are worth a look: the reference has the bits of standard, and balls in
-// place of shapes are off by more than any of these gaps.
+// The settings whose curves are worth a look. The reference has the bits of standard, and the
+// errors of proxy spheres exceed all of these gaps.
 std::vector<std::unique_ptr<Contender>> close_contenders(const KindPair& kinds) {
   auto all = contenders_for(kinds);
   std::erase_if(all, [](const auto& contender) {
@@ -46,7 +46,7 @@ std::string where(const NamedKinds& kinds, const std::string& what, const Conten
   return std::string(kinds.name) + ", " + what + ", " + contender.setting();
 }
 
-// All of them at this gap, but for those that cannot be.
+// Moves all pairs to this gap; leaves out those for which move_to_gap() fails.
 PairSet pairs_at(double gap, const std::vector<ConvexPair>& touching) {
   std::vector<ConvexPair> pairs;
   for (ConvexPair pair : touching) {
@@ -55,7 +55,7 @@ PairSet pairs_at(double gap, const std::vector<ConvexPair>& touching) {
   return {pairs, PositionType::float64};
 }
 
-// What float64 positions mean, stored as they are or as float32.
+// Moves both bodies of each pair away from the origin by `distance` times L, in float64.
 std::vector<ConvexPair> moved_from_origin(std::vector<ConvexPair> pairs, double distance,
                                           uint64_t seed) {
   Random random(seed);
@@ -67,7 +67,8 @@ std::vector<ConvexPair> moved_from_origin(std::vector<ConvexPair> pairs, double 
   return pairs;
 }
 
-// Of the standard tier's separations against the shapes where they were meant to be.
+// The worst error of the standard tier's separations, measured on the intended float64 positions
+// while the tier gets positions of this type.
 double worst_error(const std::vector<ConvexPair>& meant, PositionType positions) {
   const PairSet pairs(meant, positions);
   LibrarySetting standard = standard_setting();

@@ -1,4 +1,5 @@
-// What answers depend on: how close to touching, how far from the origin, how nearly parallel.
+// Measures how answers depend on the gap, the distance from the origin and the angle between
+// shapes.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,17 +9,18 @@
 
 namespace carom::accuracy {
 
-// One row a setting: shares of wrong and undecided answers at gaps of so many steps of one float32
-// of L.
+// Adds one row for each setting: shares of wrong and undecided answers at gaps that are multiples
+// of the float32 rounding of L.
 void measure_gaps(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
                   nlohmann::ordered_json& rows, Failures& failures);
 
-// One row a type of positions: the error of separations of shapes where the user meant them, which
-// is in float64, at distances from the origin in L.
+// Adds one row for each position type: the error of separations at distances from the origin in L,
+// measured on the user's intended float64 positions.
 void measure_distances(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
                        nlohmann::ordered_json& rows);
 
-// One row a setting, for kinds that can be turned against each other: errors at small angles.
+// Adds one row for each setting, if the angle has a meaning for these kinds: errors at small
+// angles.
 void measure_angles(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
                     nlohmann::ordered_json& rows, Failures& failures);
 

@@ -1,4 +1,4 @@
-// What is counted of the answers to many pairs.
+// Counts and errors of the answers to many pairs.
 #pragma once
 
 #include <cstddef>
@@ -10,20 +10,20 @@ namespace carom::accuracy {
 // Lengths are shares of L (exact_pair.h).
 struct Tally {
   size_t pairs = 0;
-  size_t unjudged = 0;        // decisions that the oracle itself cannot make
+  size_t unjudged = 0;        // pairs that the oracle cannot decide
   size_t false_overlaps = 0;  // of decisions
   size_t missed = 0;
   size_t undecided = 0;
   size_t not_finite = 0;
   double worst_wrong_gap = 0;
-  std::vector<float> errors;  // of separations; of manifolds: what is deeper than the truth
+  std::vector<float> errors;  // of separations; of manifolds: excess depth
   double error_worst = 0;
   double regret_worst = 0;
-  size_t broken = 0;                  // answers that break what was promised
-  std::vector<std::string> examples;  // of these, the first few
+  size_t broken = 0;                  // answers that break the promise
+  std::vector<std::string> examples;  // the first few of the broken ones
 
   size_t wrong() const { return false_overlaps + missed; }
-  // The error that this share of all do not exceed.
+  // The error that this share of all answers does not exceed.
   double error_quantile(double share) const;
 
   void add_error(double share);

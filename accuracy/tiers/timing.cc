@@ -29,7 +29,7 @@ std::vector<double> median_seconds(std::span<const std::function<void()>> passes
   std::vector<std::vector<double>> seconds(passes.size());
   for (int round = 0; round < rounds; ++round) {
     for (size_t i = 0; i < passes.size(); ++i) {
-      const double once = seconds_of(passes[i], 1);  // and warms the caches
+      const double once = seconds_of(passes[i], 1);  // also warms the caches
       const auto repeats = static_cast<size_t>(kEnoughSeconds / std::max(once, 1e-9));
       seconds[i].push_back(seconds_of(passes[i], std::clamp<size_t>(repeats, 1, kMostRepeats)));
     }

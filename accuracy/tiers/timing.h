@@ -1,4 +1,4 @@
-// Times of passes that are compared with each other.
+// Times passes that are compared with each other.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace carom::accuracy {
 
-// The median seconds of each pass. They run in turns, so that a clock that drifts is the same for
-// all of them; passes of microseconds run often enough for the clock to be read seldom.
+// The median seconds of each pass. The passes run in turns, so that a drift of the machine's speed
+// affects all of them. Short passes run often enough that reading the clock costs little.
 std::vector<double> median_seconds(std::span<const std::function<void()>> passes, int rounds);
 
 }  // namespace carom::accuracy

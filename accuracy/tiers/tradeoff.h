@@ -1,5 +1,5 @@
-// One pair of kinds with every setting: how fast on random pairs, and how accurate on these and on
-// all families of hard ones.
+// Measures one pair of kinds with every setting: the speed on random pairs, and the accuracy on
+// these and on all families of hard pairs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,7 +15,7 @@ struct TradeoffRows {
   nlohmann::ordered_json& atlas;
 };
 
-// Adds to the arrays.
+// Adds rows to the arrays in `rows`.
 void measure_tradeoff(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
                       const TradeoffRows& rows, Failures& failures);
 

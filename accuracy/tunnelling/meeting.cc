@@ -11,15 +11,15 @@ namespace {
 using Eigen::Vector3d;
 using Vec = oracle::Vec3<double>;
 
-// What doubles round, as a share of all lengths that go in.
+// The rounding of doubles, as a share of the sum of all lengths involved.
 constexpr double kRounding = 1e-14;
-// How finely the first time is bracketed, as a share of the same.
+// The width of the bracket of the first time: motion within it, as a share of the same sum.
 constexpr double kFine = 1e-13;
 constexpr double kLeastInterval = 0x1p-50;
-// Rounding of a time that is a whole number of substeps.
+// Tolerance for a time that is a whole number of substeps.
 constexpr double kSameSubstep = 1e-6;
 
-// Half-spaces have no size.
+// Ignores half-spaces, which have no size.
 double graze_of(const MovingPart& a, const MovingPart& b) {
   double size = kNever;
   for (const MovingPart* part : {&a, &b}) {
@@ -28,7 +28,7 @@ double graze_of(const MovingPart& a, const MovingPart& b) {
   return kGrazeShare * size;
 }
 
-// One part against another one that is `from` away at the start and goes `way`.
+// One part against another. B starts at `from` relative to A and moves by `way` relative to A.
 class PartMeeting {
  public:
   PartMeeting(const MovingPart& a, const MovingPart& b, const Vector3d& from, const Vector3d& way)
@@ -57,9 +57,9 @@ class PartMeeting {
   size_t poses() const { return poses_; }
 
  private:
-  // A time, how far apart the parts are then, and how fast they may come together after it and have
-  // come apart before it. (On the way from one to the other they are never nearer than what lies
-  // between them along the normal of this time; rotation changes that by the way of their points.)
+  // The gap at time t. `closing` bounds how fast the gap may shrink after t, and `opening` how fast
+  // it may have grown before t. (The gap along the normal at t is a lower bound; translation
+  // changes it by the velocity along the normal, and rotation at most by the paths of the points.)
   struct Look {
     double t;
     double gap;
@@ -82,7 +82,7 @@ class PartMeeting {
     solid_b_.translate(oracle::vec3_as<double>(Vector3d(from_ + way_ * t)));
   }
 
-  // No separation between the two times is less than this.
+  // A lower bound of all separations between the two times.
   static double least_between(const Look& from, const Look& to) {
     const double closing = from.closing, opening = to.opening;
     if (!(closing + opening > 0)) return std::max(from.gap, to.gap);
@@ -90,7 +90,7 @@ class PartMeeting {
     return (from.gap * opening + to.gap * closing - way) / (closing + opening);
   }
 
-  // The first substep after `now` at which the gap may have come down to `goal`.
+  // Looks at the first substep after `now` at which the gap may have fallen to `goal`.
   Look next(const Look& now, double goal) {
     const double substep = now.closing / substeps_;
     const double all = substeps_;
@@ -115,7 +115,7 @@ class PartMeeting {
   }
 
   bool find_first_between(const Look& from, const Look& to) {
-    // Once they graze, only an overlap is news.
+    // Once a graze was seen, only an overlap is new.
     const double goal = found_.least <= graze_ ? -rounding_ : graze_;
     if (least_between(from, to) > goal) return false;
     const bool is_over = to.gap < -rounding_;
@@ -130,7 +130,7 @@ class PartMeeting {
     return find_first_between(from, middle) || find_first_between(middle, to);
   }
 
-  // Whether they overlap by more than a graze at some time after the first one.
+  // Whether the parts overlap by more than a graze at any time from the first overlap on.
   bool gets_deep() {
     Look now = look(found_.by);
     while (now.gap >= -graze_ && now.t < 1) {
@@ -169,9 +169,9 @@ class PartMeeting {
   const MovingPart& b_;
   Vector3d from_;
   Vector3d way_;
-  Solid solid_a_, solid_b_;  // at the time of the last look, about the position of A then
-  double turned_;            // the most that points move by turning
-  double travel_;            // the most that a point of one moves against the other
+  Solid solid_a_, solid_b_;  // at the time of the last look(), relative to the position of A then
+  double turned_;            // bound of how far points move by rotation
+  double travel_;            // bound of the relative movement of points
   double graze_;
   double rounding_;
   double fine_;
@@ -181,7 +181,7 @@ class PartMeeting {
 };
 
 bool boxes_meet(const MovingPart& a, const MovingPart& b, const Vector3d& from) {
-  // Room for what rounding does, and for grazes.
+  // Leaves room for rounding and for grazes.
   const Vector3d gap = (b.lower() + from - a.upper()).cwiseMax(a.lower() - from - b.upper());
   const double room = 2 * graze_of(a, b) + kFine * from.norm();
   return !(gap.maxCoeff() > room);

@@ -24,7 +24,7 @@ bool may_meet(const MovingBody& a, const MovingBody& b) {
          reference::may_meet(a.desc, b.desc);
 }
 
-// A box that holds all parts at all times, in the world.
+// A world box that contains all parts of a body at all times.
 struct WayBox {
   Eigen::Vector3d lower = Eigen::Vector3d::Constant(kNever);
   Eigen::Vector3d upper = Eigen::Vector3d::Constant(-kNever);
@@ -36,7 +36,7 @@ struct WayBox {
     }
     lower += body.desc.position;
     upper += body.desc.position;
-    // More than sums may round, and grazes.
+    // Room for the rounding of the sums and for grazes.
     const double room = 1e-5 * (upper - lower).cwiseAbs().maxCoeff();
     if (!(room < kNever)) return;
     lower -= Eigen::Vector3d::Constant(room);

@@ -1,4 +1,4 @@
-// All meetings of the bodies of a frame in the interval ahead.
+// Finds all meetings of a frame's bodies in the following interval.
 #pragma once
 
 #include <span>
@@ -14,11 +14,11 @@ struct PairMeeting {
   MeetingTime time;
 };
 
-// How bodies go on from where they are, as World says (WorldSettings::dt).
+// Bodies with their movement over the next interval, as World defines it (WorldSettings::dt).
 std::vector<MovingBody> moving_bodies(std::span<const BodyDesc> bodies, double dt);
 
-// Of the dynamic bodies with everything that they may meet, sorted by pair; what is not valid meets
-// nothing. Every two bodies are looked at.
+// The meetings of dynamic bodies with everything they may meet, sorted by pair. Invalid bodies meet
+// nothing. Tries every two bodies.
 std::vector<PairMeeting> find_meetings(std::span<const MovingBody> bodies, PositionType positions,
                                        MeetingSearch& search);
 

@@ -76,7 +76,7 @@ void MovingPart::find_box(const Vector3d& displacement) {
   turn_to(0, start);
   for (const Vec& p : start.points) {
     const Vector3d corner(p.x, p.y, p.z);
-    // A point that turns stays within the ball about the position.
+    // A turning point stays within the ball about the body's position.
     const Vector3d reach = Vector3d::Constant(length(p));
     lower_ = lower_.cwiseMin(turned_way_ > 0 ? Vector3d(-reach) : corner);
     upper_ = upper_.cwiseMax(turned_way_ > 0 ? reach : corner);

@@ -1,5 +1,4 @@
-// Convex parts of bodies on their way, for a reference that asks where they are at one time after
-// the other.
+// Convex parts of moving bodies, placed at any time of the interval for the tunnelling reference.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,29 +12,30 @@ namespace carom::accuracy {
 
 using Solid = oracle::ConvexShape<double>;
 
-// A body over the interval, t from 0 to 1.
+// A body and its movement over the interval, t from 0 to 1.
 struct MovingBody {
   BodyDesc desc;
   Sweep sweep;
 };
 
-// Where the body is at time t, the rotation rounded to float32.
+// The pose at time t; the rotation is rounded to float32.
 Pose pose_at(const MovingBody& body, double t);
 
 class MovingPart {
  public:
   const Solid& own() const { return own_; }  // in its own frame
-  // What holds the part at all times: corners relative to the position of the body at the start.
+  // Corners of a box that contains the part at all times, relative to the body's position at the
+  // start.
   const Eigen::Vector3d& lower() const { return lower_; }
   const Eigen::Vector3d& upper() const { return upper_; }
-  // The most that a point of its core moves by turning in the whole interval.
+  // A bound of how far rotation moves a point of its core in the whole interval.
   double turned_way() const { return turned_way_; }
-  // Some point inside of it, turned as at time t, relative to the position of the body then.
+  // A point inside the part at time t, relative to the body's position then.
   oracle::Vec3<double> middle_at(double t) const;
   bool is_one_sided() const { return is_one_sided_; }
   double thickness() const { return thickness_; }
 
-  // The part at time t about the position of the body then.
+  // The part at time t relative to the body's position then.
   void turn_to(double t, Solid& out) const;
 
  private:
@@ -52,14 +52,14 @@ class MovingPart {
   oracle::Vec3<double> own_middle_;
   Eigen::Quaterniond start_;
   Eigen::Vector3d rotation_;  // over the interval
-  bool turns_;                // balls and aabbs are the same, however their bodies turn
+  bool turns_;                // false for spheres and aabbs, which do not turn with their bodies
   double turned_way_ = 0;
   bool is_one_sided_ = false;
   double thickness_ = 0;
   Eigen::Vector3d lower_, upper_;
 };
 
-// Of a body itself alone, unless it is a mesh or a compound.
+// One part, unless the body is a mesh or a compound.
 std::vector<MovingPart> moving_parts(const MovingBody& body);
 
 }  // namespace carom::accuracy

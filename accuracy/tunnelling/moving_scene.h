@@ -1,4 +1,4 @@
-// A scene whose bodies say how they go on from every frame.
+// A scene whose bodies have velocities in every frame.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class MovingScene {
   virtual size_t frames() const = 0;
   virtual PositionType positions() const = 0;
   virtual double dt() const = 0;
-  // As many in every frame, in the same order, with velocities.
+  // The same bodies in the same order in every frame, with velocities.
   virtual std::vector<BodyDesc> bodies(size_t frame) const = 0;
 };
 

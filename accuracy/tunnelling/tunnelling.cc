@@ -39,9 +39,9 @@ void note_reference(const Frame& frame, size_t index, TunnellingReport& report) 
   }
 }
 
-// --- One way of looking, played into a world ---
+// --- One detection setting, played into a world ---
 
-// What a world saw in a frame, and what it took.
+// The pairs that a world reported in a frame, and the time of its steps.
 struct Sight {
   Pairs pairs;
   std::vector<Impact> impacts;
@@ -63,7 +63,7 @@ class Viewer {
 
   Result<Sight> view(const Frame& frame) {
     Sight sight;
-    // Discrete: the start is the end of the frame before, and costs nothing more.
+    // Discrete: the start of this frame is the end of the frame before, so its step is not timed.
     const bool in_substeps = detection_ == Detection::discrete;
     for (int k = 0; k <= (in_substeps ? substeps_ : 0); ++k) {
       const Result<double> milliseconds = step(frame, static_cast<double>(k) / substeps_);
@@ -125,7 +125,7 @@ class Viewer {
   std::vector<BodyId> ids_;
 };
 
-// --- What was seen beside what there is ---
+// --- Reported pairs compared with the true meetings ---
 
 class Comparison {
  public:

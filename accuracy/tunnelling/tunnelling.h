@@ -1,5 +1,5 @@
-// What ways of looking after fast bodies miss, and what they cost: substeps, speculative contacts
-// and times of impact, held against a reference that knows none of them (meeting.h).
+// Measures what substeps, speculative contacts and times of impact miss of fast bodies and what
+// they cost, compared with a reference that uses none of them (meeting.h).
 #pragma once
 
 #include <cstdint>
@@ -22,51 +22,51 @@ struct TunnellingOptions {
   Parallelism parallelism = Parallelism::none;
 };
 
-// Times of impact beside the brackets of the reference, of all meetings that are certain.
+// Times of impact compared with the reference's brackets, over all certain meetings.
 struct ImpactTimes {
-  uint64_t late = 0;     // after the bodies overlap
-  double latest = 0;     // by this share of the interval at most
-  double earliest = 0;   // before the bodies touch, by this share at most,
-  double early_way = 0;  // and by this way, metres
+  uint64_t late = 0;     // times after the bodies overlap
+  double latest = 0;     // the latest, as a share of the interval
+  double earliest = 0;   // the earliest before the touch, as a share of the interval,
+  double early_way = 0;  // and as the movement in that time, metres
 };
 
 // Sums over all frames.
 struct TunnellingRow {
   Detection detection = Detection::discrete;
   int substeps = 1;        // a frame
-  uint64_t seen = 0;       // of the certain meetings
-  uint64_t missed = 0;     // the others
-  uint64_t grazes = 0;     // seen that graze
-  uint64_t unfounded = 0;  // seen that do not even graze
-  double frame_ms = 0;     // all steps of a frame: the median of the least times of the frames
+  uint64_t seen = 0;       // certain meetings that were reported
+  uint64_t missed = 0;     // certain meetings that were not
+  uint64_t grazes = 0;     // reported pairs that graze
+  uint64_t unfounded = 0;  // reported pairs that do not even graze
+  double frame_ms = 0;     // all steps of a frame; median over frames of the least time
   std::optional<ImpactTimes> times;
 };
 
-// A pair that grazes, or a failure.
+// A grazing pair or a failure.
 struct NotedPair {
   size_t frame;
   Pair pair;
-  double least;      // separation, metres
-  std::string what;  // of a failure
+  double least;      // least separation, metres
+  std::string what;  // description of a failure
 };
 
 struct TunnellingReport {
   uint64_t bodies = 0;
   uint64_t dynamic = 0;
   size_t frames = 0;
-  uint64_t meetings = 0;  // that are certain
-  uint64_t at_start = 0;  // of these the bodies overlap at the start of the interval
-  uint64_t poses = 0;     // of pairs of parts that the reference looked at
+  uint64_t meetings = 0;  // certain ones
+  uint64_t at_start = 0;  // those that overlap at the start of the interval
+  uint64_t poses = 0;     // poses of pairs of parts that the reference examined
   double reference_seconds = 0;
   std::vector<TunnellingRow> rows;
   std::vector<NotedPair> grazing;
-  std::vector<NotedPair> failures;  // continuous: certain meetings that it misses, or is late for
+  std::vector<NotedPair> failures;  // certain meetings that continuous misses or finds late
 };
 
-// How many steps of all are done.
+// Reports that `done` of `all` steps are done.
 using TunnellingProgress = std::function<void(size_t done, size_t all)>;
 
-// Sensors count as bodies. Fails if a frame has more pairs than a world may have.
+// Treats sensors like other bodies. Fails if a frame has more pairs than a world may have.
 Result<TunnellingReport> measure_tunnelling(const MovingScene& scene,
                                             const TunnellingOptions& options,
                                             const TunnellingProgress& progress);

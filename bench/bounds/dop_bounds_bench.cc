@@ -1,12 +1,11 @@
 // k-DOPs between broadphase and narrow phase, for turned boxes of one form:
 // dop_bounds/FORM_kK/WHAT/THREADS/RUNNER, WHAT being
-//   compute   the k-DOPs, a body
-//   pairs     the test of candidate pairs, a pair. left: share of the candidates (%) that it
-//   leaves;
-//             overlapping: share that really overlaps; what lies between are false positives
-//   overlap, contact   the narrow phase of a frame at that detail, a candidate pair, k-DOPs
-//   included;
-//             without: the same without them; gain: without by with
+//   compute            computes the k-DOPs; time per body
+//   pairs              tests candidate pairs; time per pair. left: share of the candidates (%) that
+//                      the test leaves; overlapping: share that really overlaps. The difference is
+//                      false positives.
+//   overlap, contact   the narrow phase of a frame at that detail including k-DOPs; time per
+//                      candidate pair. without: the time without k-DOPs; gain: without / with
 #include "carom/bounds/dop_bounds.h"
 
 #include <algorithm>
@@ -26,9 +25,9 @@ namespace carom::bench {
 namespace {
 
 constexpr size_t kBodies = 5'000;
-constexpr double kDensity = 0.1;  // of the bodies' volumes, one cubic metre each
+constexpr double kDensity = 0.1;  // share of the space that bodies of one cubic metre fill
 
-// Edges, up to a factor.
+// Edge lengths of a box, up to a factor.
 struct Form {
   const char* name;
   float x, y, z;
@@ -60,7 +59,7 @@ std::vector<PlacedShape> draw_bodies(const Form& form) {
   return bodies;
 }
 
-// Every step tests every pair.
+// A world that tests every pair in every step.
 World make_world(const std::vector<PlacedShape>& bodies, Detail detail,
                  std::optional<DopKind> dop_bounds, Parallelism parallelism) {
   World world({.detail = detail,
@@ -74,7 +73,7 @@ World make_world(const std::vector<PlacedShape>& bodies, Detail detail,
   return world;
 }
 
-// Bodies, and the pairs of them whose bounds overlap.
+// Bodies and their candidate pairs.
 struct DopScene {
   explicit DopScene(const Form& form)
       : bodies(draw_bodies(form)), arrays(ShapeKind::box, bodies, Storage::f32) {
@@ -125,7 +124,8 @@ void measure_pairs(benchmark::State& state, const DopScene& scene, DopKind kind,
   state.counters["overlapping"] = share(static_cast<size_t>(overlapping), scene.pairs.size());
 }
 
-// The least time of a frame, an item: frames are few, and other programs disturb many of them.
+// The least time of a frame per item. Other programs disturb many of the few frames, so a median
+// would not do.
 class LeastTime {
  public:
   explicit LeastTime(size_t items) : items_(static_cast<double>(items)) {}
@@ -143,7 +143,7 @@ class LeastTime {
   double least_ = HUGE_VAL;
 };
 
-// Of two worlds in turns, so that the clock drifts for both.
+// Steps a world with and one without k-DOPs in turns, so that a drift of the clock affects both.
 void measure_frames(benchmark::State& state, const DopScene& scene, DopKind kind, Detail detail,
                     Parallelism parallelism) {
   World with = make_world(scene.bodies, detail, kind, parallelism);

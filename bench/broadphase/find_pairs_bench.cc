@@ -1,5 +1,5 @@
-// Pairs of a frame: find_pairs/SCENE/METHOD/cold or warm/THREADS/ISA. Cold: the last frame is
-// forgotten; warm: its order is repaired, or its pairs at rest are kept.
+// Finding the pairs of a frame: find_pairs/SCENE/METHOD/cold or warm/THREADS/ISA. Cold: starts
+// without the last frame. Warm: repairs the order of the last frame or keeps its resting pairs.
 #include "carom/broadphase/find_pairs.h"
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace carom::bench {
 namespace {
 
 constexpr size_t kMostForReference = 10'000;
-constexpr size_t kMostForBruteForce = 10'000;  // to be measured
+constexpr size_t kMostForBruteForce = 10'000;  // most bodies to measure it with
 constexpr size_t kMostForBruteForceOnce = 100'000;
 constexpr size_t kMostForSweep = 100'000;
 
@@ -58,8 +58,9 @@ class BoundsFrames {
     reference_seconds_ = times.median();
   }
 
-  // Too many for the reference: a kernel that was held against it in the smaller scenes. Brute
-  // force on the strongest ISA, or else the sweep on the weakest.
+  // Expected pairs of scenes too large for the reference come from a kernel that the smaller scenes
+  // compared with the reference: brute force on the strongest ISA, or for even more bodies the
+  // sweep on the weakest.
   void run_kernel() {
     const bool brute = bounds(1).count <= kMostForBruteForceOnce;
     force_isa(brute ? usable_isas().back() : usable_isas().front());

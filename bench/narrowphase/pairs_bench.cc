@@ -13,10 +13,11 @@
 namespace carom::bench {
 namespace {
 
-// These are measured with float64 positions and other hit rates as well.
+// Also measured with float64 positions and other hit rates.
 constexpr const char* kInDepth[] = {"sphere_sphere", "sphere_aabb", "aabb_aabb", "box_box"};
 
-// Why the stream is not what its name says, or the results not those of the reference.
+// Why the stream's hit rate is wrong or its results differ from the reference; nothing if all is
+// well.
 std::optional<std::string> problem(const PairStream& stream, Detail detail, ResultArrays& results) {
   if (std::abs(stream.hit_percent() - stream.spec().hit_percent) > 2) {
     return "the hit rate is " + std::to_string(stream.hit_percent()) + " %";
@@ -28,7 +29,7 @@ std::optional<std::string> problem(const PairStream& stream, Detail detail, Resu
   return stream.difference(detail, results.columns());
 }
 
-// So many passes make an iteration that reading the clock does not count; fewer of slow kinds.
+// Passes per iteration: so many that reading the clock costs next to nothing, fewer for slow kinds.
 size_t passes(const PairStream& stream) {
   constexpr size_t kPairs = 50'000;
   constexpr double kReferenceSeconds = 0.02;
@@ -67,7 +68,7 @@ void measure_reference(benchmark::State& state, const PairStream& stream) {
   });
 }
 
-// The same stream on every runner. `access` stands in the name.
+// Registers a stream on every runner. `access` is part of the name.
 void register_stream(const KindPair& kinds, const StreamSpec& spec, Detail detail,
                      const char* access) {
   const std::string stream_name = std::string(kinds.name) + "/" + name(detail) + "/" +
@@ -87,7 +88,7 @@ void register_stream(const KindPair& kinds, const StreamSpec& spec, Detail detai
   }
 }
 
-// As rows and as a list of pairs, at every detail.
+// Registers streams as rows and as a list of pairs, at every detail.
 void register_streams(const KindPair& kinds, Storage storage, int hit_percent, size_t count) {
   for (const Access access : {Access::rows, Access::pairs}) {
     for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
@@ -103,14 +104,14 @@ void register_streams(const KindPair& kinds, Storage storage, int hit_percent, s
   }
 }
 
-// Pairs that are tested one at a time would take minutes, and hulls take a while to draw.
+// Fewer pairs for slow kinds: k-DOP pairs are tested one at a time, and hulls take long to draw.
 size_t pair_count(const KindPair& kinds, const Options& options) {
   const auto has = [&](ShapeKind kind) { return kinds.a == kind || kinds.b == kind; };
   if (has(ShapeKind::dop)) return options.pairs / 32;
   return has(ShapeKind::hull) ? options.pairs / 4 : options.pairs;
 }
 
-// Hulls of so many vertices; as rows alone.
+// Registers hulls of 8 to 64 vertices, as rows only.
 void register_hulls(const KindPair& kinds, size_t count) {
   for (const size_t vertices : {8, 16, 32, 64}) {
     const std::string title = kinds.name + ("_" + std::to_string(vertices));
@@ -130,8 +131,8 @@ void register_in_depth(const KindPair& kinds, size_t count) {
   }
 }
 
-// Boxes in world coordinates, few enough for inputs and results to stay in L2: what the kernel
-// itself can do.
+// Boxes in world coordinates, so few that inputs and results stay in L2. This shows the speed of
+// the kernel alone.
 void register_in_l2(const KindPair& kinds) {
   constexpr size_t kPairs = 4096;
   for (const int hit_percent : {10, 50, 90}) {

@@ -2,15 +2,15 @@
 //             [--frame-limit S] [--out FILE.json] [RECORDING.aabb...]
 // Compares Carom with other libraries, in one run: the broadphase on generated scenes of 1k, 10k
 // and 100k bodies and on recordings of bounds, the narrow phase on streams of pairs.
-//   --smoke          1k bodies, a few frames, 2000 pairs: does everything still run?
-//   --large          a million bodies as well
-//   --max-bodies N   generated scenes have at most so many; 0: recordings alone
-//   --pairs N        of a stream (100000); 0: no narrow phase
-//   --streams NAME   those streams alone whose names begin so: hull_hull
+//   --smoke          1k bodies, a few frames, 2000 pairs: checks that everything still runs
+//   --large          also a million bodies
+//   --max-bodies N   most bodies of generated scenes; 0: recordings only
+//   --pairs N        pairs of a stream (100000); 0: no narrow phase
+//   --streams NAME   only streams whose names begin with NAME: hull_hull
 //   --budget S       seconds of frames a peer and scene, and of passes a runner and stream (1)
-//   --frame-limit S  a peer that needs longer for a frame is left out (5)
+//   --frame-limit S  a peer with a slower frame is left out (5)
 //   --out FILE       the results as JSON
-// Exit code 1 if a peer, or Carom, finds other pairs or decides otherwise than it should.
+// Exit code 1 if a peer or Carom finds wrong pairs or decides wrongly.
 #include <charconv>
 #include <cstdio>
 #include <limits>
@@ -42,7 +42,7 @@ bool parse(std::string_view text, T& value) {
   return error == std::errc() && end == text.data() + text.size() && value >= 0;
 }
 
-// Takes the flag's value, if it is one of those that have one.
+// Parses the value of a flag that has one; false for other flags and bad values.
 bool take_value(std::string_view flag, std::string_view value, Arguments& arguments) {
   if (flag == "--max-bodies") return parse(value, arguments.max_bodies);
   if (flag == "--pairs") return parse(value, arguments.pairs);
@@ -83,7 +83,7 @@ std::vector<PeerKind> all_kinds() {
   return all;
 }
 
-// On one thread; infinity for those too slow.
+// Median times on one thread; infinity for peers that are too slow.
 SmallerScene medians(const SceneResult& result) {
   SmallerScene medians;
   for (const PeerResult& peer : result.peers) {
@@ -143,7 +143,7 @@ int fail(const Error& error) {
   return 1;
 }
 
-// What differs is found in the report.
+// Returns the exit code; the report shows the differences.
 int check(const Comparisons& comparisons) {
   for (const SceneResult& result : comparisons.scenes) {
     if (!result.all_equal()) return fail({result.scene + ": pairs differ"});

@@ -1,4 +1,4 @@
-// Both comparisons in one file of JSON.
+// Writes both comparisons into one JSON file.
 #pragma once
 
 #include <string>

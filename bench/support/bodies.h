@@ -1,4 +1,4 @@
-// Bodies as the library reads them, and random ones.
+// Random bodies, and bodies in the arrays that the library reads.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,28 +14,28 @@ namespace carom::bench {
 
 using test::PlacedShape;
 
-// How the places of bodies are stored.
+// How bodies' positions are stored.
 enum class Storage {
   f32,    // positions float32
   f64,    // positions float64
-  world,  // none: boxes in world coordinates
+  world,  // no positions: boxes in world coordinates
 };
 
 const char* name(Storage storage);
 PositionType position_type(Storage storage);
 
-// Sizes from 0.25 to 2 metres, about the body's origin; anywhere within 100 m of the world's,
-// turned any way. Capsules are along their y axis. Hulls are one of those given, of which there has
-// to be one then.
+// A random body of 0.25 to 2 metres about its origin, within 100 m of the world's origin, with a
+// random orientation. Capsules are along their y axis. A hull is one of `hulls`, which then must
+// not be empty.
 PlacedShape draw_body(ShapeKind kind, oracle::Random& random, std::span<const Hull> hulls = {});
 
-// As many hulls, each of so many points on an ellipsoid.
+// `count` hulls, each of `vertices` points on an ellipsoid.
 std::vector<Hull> draw_hulls(size_t count, size_t vertices, oracle::Random& random);
 
 // Bounds relative to the body's position.
 Eigen::AlignedBox3d local_bounds(const PlacedShape& body);
 
-// The body with its position, or its corners in world coordinates, rounded as stored.
+// The body with its position (or its corners in world coordinates) rounded as stored.
 PlacedShape as_stored(PlacedShape body, Storage storage);
 
 // Bodies of one kind in dense arrays.

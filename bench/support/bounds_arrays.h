@@ -1,4 +1,4 @@
-// Six columns of world bounds.
+// Memory for six columns of world bounds.
 #pragma once
 
 #include <vector>

@@ -1,11 +1,11 @@
-// Inputs are made when the first benchmark that needs them runs.
+// Makes inputs when the first benchmark needs them.
 #pragma once
 
 #include <memory>
 
 namespace carom::bench {
 
-// The T made from `key`; kept until one with another key is asked for.
+// The T made from `key`. It is kept until another key is asked for.
 template <class T, class Key>
 const T& cached(const Key& key) {
   static std::unique_ptr<Key> last_key;

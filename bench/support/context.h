@@ -9,7 +9,7 @@ namespace carom::bench {
 
 std::vector<std::pair<std::string, std::string>> context();
 
-// Gives it to Google Benchmark.
+// Adds these to Google Benchmark's context.
 void add_context();
 
 }  // namespace carom::bench

@@ -9,7 +9,7 @@
 namespace carom::bench {
 namespace {
 
-// Our own texts and generators do not fail.
+// Unwraps results of our own specs and generators, which do not fail.
 template <class T>
 T expect(Result<T> result) {
   if (result) return std::move(*result);

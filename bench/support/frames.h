@@ -8,8 +8,8 @@
 
 namespace carom::bench {
 
-// Motion is played forwards and backwards, so that from one frame to the next bodies move as far as
-// the scene says.
+// Plays frames forwards and backwards, so that bodies always move as far per frame as the scene
+// says.
 class FrameCycle {
  public:
   explicit FrameCycle(size_t frames) : last_(frames - 1) {}
@@ -39,7 +39,7 @@ class Frames {
   explicit Frames(const SceneSpec& spec);
 
   const SceneSpec& spec() const { return spec_; }
-  // Positions of that frame, x, y, z a body.
+  // Positions in that frame, x, y, z for each body.
   const std::vector<float>& positions(size_t frame) const { return positions_[frame]; }
   std::vector<PlacedShape> bodies(size_t frame) const;
 
@@ -49,7 +49,7 @@ class Frames {
   std::vector<std::vector<float>> positions_;
 };
 
-// Scenes of 1k, 10k, ... bodies, `most` at most.
+// 1k, 10k, ... bodies, up to `most`.
 std::vector<size_t> scene_sizes(size_t most);
 
 }  // namespace carom::bench

@@ -1,4 +1,4 @@
-// What all benchmarks share: registration, timing, and failure.
+// Shared by all benchmarks: registration, timing and failure.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -38,7 +38,7 @@ class PassTimes {
   std::vector<double> seconds_;
 };
 
-// One of the implementations that are compared: an instruction set, or the scalar reference.
+// One of the compared implementations: an instruction set, or the scalar reference.
 struct Runner {
   std::optional<Isa> isa;
 
@@ -62,15 +62,15 @@ std::vector<Setup> strongest_setups();
 // 1k, 10k, ...
 std::string short_count(size_t count);
 
-// Uses that ISA from now on; false, and a failed benchmark, if that is not possible.
+// Uses that ISA from now on. Returns false and fails the benchmark if that is not possible.
 bool use_isa(benchmark::State& state, Isa isa);
 
 // Ends the benchmark with an error, and makes the program fail.
 void fail(benchmark::State& state, const std::string& message);
 bool any_failed();
 
-// Adds the counters ns_per_<item>, of the median pass over `items`, and, if the time of the
-// reference for as many is known, speedup. Medians, because other programs disturb means.
+// Adds the counter ns_per_<item> from the median pass over `items`, and speedup if the reference's
+// time for as many items is known. Uses medians because other programs disturb means.
 void report(benchmark::State& state, const char* item, size_t items, const PassTimes& times,
             std::optional<double> reference_seconds = std::nullopt);
 

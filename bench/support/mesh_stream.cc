@@ -33,7 +33,7 @@ Terrain make_terrain() {
   return terrain;
 }
 
-// Over the terrain, its middle up to twice as high as it would touch on flat ground.
+// A body over the terrain, up to twice as high as it would touch on flat ground.
 PlacedShape draw_above(const MeshSpec& spec, std::span<const Hull> hulls, oracle::Random& random) {
   PlacedShape body = draw_body(spec.kind, random, hulls);
   const Eigen::AlignedBox3d bounds = local_bounds(body);
@@ -62,7 +62,7 @@ MeshStream::MeshStream(const MeshSpec& spec) : spec_(spec), terrain_(make_terrai
   ask_reference();
 }
 
-// As many that touch as ones that do not, by turns.
+// Draws touching and separate bodies in turns.
 void MeshStream::draw() {
   oracle::Random random(1);
   const bool has_hulls = spec_.kind == ShapeKind::hull;

@@ -19,13 +19,13 @@ struct MeshSpec {
   friend bool operator==(const MeshSpec&, const MeshSpec&) = default;
 };
 
-// Squares of two triangles over x and y, in metres, about the origin.
+// A terrain of squares of two triangles over x and y, in metres, around the origin.
 struct Terrain {
   static constexpr int kSquares = 71;  // along each side: 10,082 triangles
   static constexpr float kSide = 1.8f;
 
   std::vector<Eigen::Vector3f> vertices;
-  std::vector<std::array<uint32_t, 3>> triangles;  // fronts look up
+  std::vector<std::array<uint32_t, 3>> triangles;  // fronts face up
 };
 
 class MeshStream {
@@ -36,16 +36,17 @@ class MeshStream {
   const Terrain& terrain() const { return terrain_; }
   const std::vector<PlacedShape>& bodies() const { return bodies_; }
   double hit_percent() const { return hit_percent_; }
-  // What the library says of body i and the terrain.
+  // The library's separation of body i and the terrain.
   float separation(size_t i) const { return separations_[i]; }
-  // Of one pass of the reference, from a few of the pairs: it looks at all triangles.
+  // Time of one pass of the reference, extrapolated from a few pairs, because it tries all
+  // triangles.
   double reference_seconds() const { return reference_seconds_; }
 
-  // One pass: row i is body i and the terrain.
+  // Runs one pass: row i is body i and the terrain.
   Result<void> run(Detail detail, const ResultColumns& out,
                    Measured measured = Measured::all) const;
 
-  // The first of a few rows that does not have the bits of the reference, as a message.
+  // A message on the first of a few rows that does not have the bits of the reference.
   std::optional<std::string> difference(Detail detail, const ResultColumns& out) const;
 
  private:
@@ -61,7 +62,7 @@ class MeshStream {
   std::unique_ptr<DenseBodies> b_;
   std::vector<float> separations_;
   double hit_percent_ = 0;
-  std::vector<reference::PairResult> expected_;  // of the first few
+  std::vector<reference::PairResult> expected_;  // of the first few rows
   double reference_seconds_ = 0;
 };
 

@@ -67,7 +67,8 @@ void MotionStream::draw() {
     const bool hit = static_cast<int>(bodies_a_.size() % 100) < spec_.hit_percent;
     const PlacedShape a = as_stored(draw_body(spec_.kind_a, random, hulls), Storage::f32);
     PlacedShape b = draw_body(spec_.kind_b, random, hulls);
-    const Eigen::Vector3d way = random.direction() * random.uniform(8, 14);  // apart, then
+    const Eigen::Vector3d way =
+        random.direction() * random.uniform(8, 14);  // separate at the start
     b.position = a.position + way;
     bodies_a_.push_back(a);
     bodies_b_.push_back(as_stored(b, Storage::f32));

@@ -1,5 +1,5 @@
-// Streams of moving pairs of one pair of kinds, with a given share of impacts, and what the
-// reference says of each.
+// Streams of moving pairs of one pair of kinds with a given share of impacts, and the reference's
+// results.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ struct MotionSpec {
   friend bool operator==(const MotionSpec&, const MotionSpec&) = default;
 };
 
-// Room for all columns of `count` impacts.
+// Memory for all columns of `count` impacts.
 class ImpactArrays {
  public:
   explicit ImpactArrays(size_t count);
@@ -39,7 +39,7 @@ class ImpactArrays {
   ImpactColumns columns_;
 };
 
-// Body B comes from a few sizes away, by up to twice as far.
+// Body B starts a few sizes away and moves by up to twice that distance.
 class MotionStream {
  public:
   explicit MotionStream(const MotionSpec& spec);
@@ -47,16 +47,16 @@ class MotionStream {
   const MotionSpec& spec() const { return spec_; }
   const std::vector<PlacedShape>& bodies_a() const { return bodies_a_; }
   const std::vector<PlacedShape>& bodies_b() const { return bodies_b_; }
-  // Of B; A does not move, but for turning.
+  // Displacements of B; A can turn but does not move.
   const std::vector<Eigen::Vector3f>& displacements() const { return displacement_; }
   const reference::Impact& expected(size_t i) const { return expected_[i]; }
   double hit_percent() const;
   double reference_seconds() const { return reference_seconds_; }
 
-  // One pass, points relative to the bodies.
+  // Runs one pass, with points relative to the bodies.
   Result<void> run(const ImpactColumns& out) const;
   void run_reference(std::vector<reference::Impact>& out) const;
-  // The first row that does not have the bits of the reference, as a message.
+  // A message on the first row that does not have the bits of the reference.
   std::optional<std::string> difference(const ImpactColumns& out) const;
 
  private:

@@ -22,10 +22,10 @@ reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& 
   return test::reference_result({a, b}, position_type(storage));
 }
 
-// Near misses are at most so many times as far off as bounds that touch.
+// How far B may be from A, as a multiple of the distance at which their bounds touch.
 constexpr double kReach = 1.3;
 
-// From A's position to that of B, so that their bounds are near each other.
+// A random displacement from A to B that puts their bounds near each other.
 Eigen::Vector3d draw_way(const PlacedShape& a, const PlacedShape& b, oracle::Random& random) {
   const Eigen::AlignedBox3d bounds_a = local_bounds(a), bounds_b = local_bounds(b);
   const Eigen::Vector3d reach = kReach / 2 * (bounds_a.sizes() + bounds_b.sizes());
@@ -34,7 +34,7 @@ Eigen::Vector3d draw_way(const PlacedShape& a, const PlacedShape& b, oracle::Ran
   return way;
 }
 
-// From the position of a half-space to that of a body near its plane.
+// A random displacement from a half-space's position to a body near its plane.
 Eigen::Vector3d draw_way_from_plane(const PlacedShape& plane, const PlacedShape& body,
                                     oracle::Random& random) {
   const auto& halfspace = std::get<Halfspace>(plane.shape);
@@ -52,7 +52,7 @@ Eigen::Vector3d draw_way(const StreamSpec& spec, const PlacedShape& a, const Pla
   return draw_way(a, b, random);
 }
 
-// B near A, so that the two overlap or do not, as asked for.
+// A pair with B near A that overlaps or not, as `overlap` says.
 test::TestPair draw_pair(const StreamSpec& spec, std::span<const Hull> hulls, bool overlap,
                          oracle::Random& random) {
   const PlacedShape a = draw_body(spec.kind_a, random, hulls);
@@ -78,7 +78,7 @@ bool same_bits(float x, float y) {
   return std::bit_cast<uint32_t>(x) == std::bit_cast<uint32_t>(y);
 }
 
-// A witness point in world coordinates, the position taken as the sum of two floats.
+// A coordinate of a witness point in the world; the position is the sum of two floats.
 float world_coordinate(double position, float arm) {
   const auto high = static_cast<float>(position);
   const auto low = static_cast<float>(position - high);
@@ -160,7 +160,7 @@ void PairStream::draw() {
   bodies_b_.resize(spec_.count);
   const bool has_hull = spec_.kind_a == ShapeKind::hull || spec_.kind_b == ShapeKind::hull;
   const std::vector<Hull> hulls = draw_hulls(has_hull ? kHulls : 0, spec_.vertices, random);
-  // Exactly so many overlap, at random places.
+  // Exactly `hits` pairs overlap, at random places.
   const size_t hits = spec_.count * static_cast<size_t>(spec_.hit_percent) / 100;
   const std::vector<uint32_t> ranks = shuffled(spec_.count, random);
   for (uint32_t row = 0; row < spec_.count; ++row) {

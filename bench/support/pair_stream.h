@@ -1,5 +1,5 @@
-// Streams of pairs of one pair of kinds, with a given share of overlaps, and what the reference
-// says of each.
+// Streams of pairs of one pair of kinds with a given share of overlaps, and the reference's
+// results.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,10 @@
 
 namespace carom::bench {
 
-// How the bodies of a pair are found.
+// How the library finds the bodies of a pair.
 enum class Access {
   rows,   // row i of both sets
-  pairs,  // a list of pairs as the broadphase yields it: a ascends, b is anywhere
+  pairs,  // a list of pairs as from the broadphase: a ascends, b is random
 };
 
 const char* name(Detail detail);
@@ -30,12 +30,12 @@ struct StreamSpec {
   int hit_percent = 50;
   Access access = Access::rows;
   size_t count = 0;
-  size_t vertices = 16;  // of hulls, which are few: bodies share them
+  size_t vertices = 16;  // of hulls; few hulls, shared by the bodies
 
   friend bool operator==(const StreamSpec&, const StreamSpec&) = default;
 };
 
-// Room for all columns of `count` results, one after the other.
+// Memory for all columns of `count` results, one after another.
 class ResultArrays {
  public:
   explicit ResultArrays(size_t count);
@@ -51,11 +51,11 @@ class ResultArrays {
   ResultColumns columns_;
 };
 
-// Steps of pairs that move: by this share of the size of a body, and by this angle.
+// Movement from one step to the next: this share of the body's size, and this angle (radians).
 inline constexpr double kStepLength = 0.01;
 inline constexpr double kStepAngle = 0.01;
 
-// Whether a row of results, in world coordinates, is what the reference says of two bodies.
+// Whether a row of results, in world coordinates, has the bits of the reference for two bodies.
 bool has_bits_of(const reference::PairResult& expected, const PlacedShape& a, const PlacedShape& b,
                  Detail detail, const ResultColumns& out, size_t row);
 
@@ -64,24 +64,24 @@ class PairStream {
   explicit PairStream(const StreamSpec& spec);
 
   const StreamSpec& spec() const { return spec_; }
-  // Bodies as they are stored; with Access::rows pair i is row i of both.
+  // The stored bodies; with Access::rows pair i is row i of both.
   const std::vector<PlacedShape>& bodies_a() const { return bodies_a_; }
   const std::vector<PlacedShape>& bodies_b() const { return bodies_b_; }
-  // What the reference says of pair i.
+  // The reference's result of pair i.
   const reference::PairResult& expected(size_t i) const { return expected_[i]; }
   double hit_percent() const;
   // The time of one pass of the reference.
   double reference_seconds() const { return reference_seconds_; }
 
-  // One pass.
+  // Runs one pass.
   Result<void> run(Detail detail, const ResultColumns& out,
                    Measured measured = Measured::all) const;
-  // The same with all second bodies a step further, as draw_next_step() has them.
+  // Runs one pass with all second bodies one step further, as drawn by draw_next_step().
   Result<void> run_next_step(Detail detail, const ResultColumns& out, Measured measured) const;
   void draw_next_step();
   void run_reference(std::vector<reference::PairResult>& out) const;
 
-  // The first row of `out` that does not have the bits of the reference, as a message.
+  // A message on the first row of `out` that does not have the bits of the reference.
   std::optional<std::string> difference(Detail detail, const ResultColumns& out) const;
 
  private:

@@ -1,4 +1,4 @@
-// What main() registers: one function a file of benchmarks.
+// The functions that main() calls: one for each file of benchmarks.
 #pragma once
 
 #include <cstddef>

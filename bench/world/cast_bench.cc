@@ -1,6 +1,6 @@
-// Casts and queries of 10,000 in a world of 10,000 bodies: cast/BODIES/WHAT/THREADS/ISA. Rays start
-// anywhere, and are as long as the world is wide. The first query of a world, which makes its tree,
-// is cast/BODIES/tree.
+// Casts and queries, 10,000 at a time, in a world of 10,000 bodies: cast/BODIES/WHAT/THREADS/ISA.
+// Rays start anywhere and are as long as the world is wide. cast/BODIES/tree is the first query of
+// a world, which builds its tree.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +18,7 @@ namespace carom::bench {
 namespace {
 
 constexpr size_t kQueries = 10'000;
-constexpr size_t kChecked = 20;  // queries against every body
+constexpr size_t kChecked = 20;  // queries also tested against every body
 
 enum class What { closest, all, spheres, overlaps, nearest };
 constexpr What kEverything[] = {What::closest, What::all, What::spheres, What::overlaps,
@@ -29,7 +29,7 @@ const char* name(What what) {
   return kNames[static_cast<int>(what)];
 }
 
-// Bodies of several kinds, a fifth of the volume full.
+// Bodies of several kinds that fill a fifth of the volume.
 std::vector<BodyDesc> draw_yard(size_t count, double side, oracle::Random& random) {
   std::vector<BodyDesc> bodies(count);
   for (BodyDesc& body : bodies) {
@@ -131,7 +131,7 @@ HitList hits_of_first(const Yard& yard, const World& world) {
   return list;
 }
 
-// The same by casts at one body after the other.
+// The same hits, by casts at one body after another.
 HitList plain_hits(const Yard& yard) {
   HitList all;
   for (uint32_t i = 0; i < yard.bodies.size(); ++i) {

@@ -28,7 +28,7 @@ std::vector<reference::Body> reference_bodies(const Frames& frames, size_t frame
   return bodies;
 }
 
-// A scene, and the results of its first two frames where that does not take too long.
+// A scene, and the reference's results of its first two frames unless that takes too long.
 struct WorldScene {
   explicit WorldScene(const SceneSpec& spec) : frames(spec) {
     if (spec.bodies > kMostForReference) return;
@@ -72,7 +72,7 @@ void place(const Frames& frames, size_t frame, World& world) {
   }
 }
 
-// Sums over frames.
+// Sums of stage times over frames.
 class StageTimes {
  public:
   void add(const StepReport& step) {

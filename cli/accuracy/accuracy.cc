@@ -48,7 +48,7 @@ Result<std::vector<accuracy::NamedKinds>> chosen_kinds(const std::vector<std::st
   return chosen;
 }
 
-// Progress over as many steps as the work says that it has.
+// Progress over a number of steps that the work reports.
 class ProgressLine {
  public:
   ProgressLine(const Console& console, const char* what) : console_(console), what_(what) {}
@@ -61,10 +61,10 @@ class ProgressLine {
  private:
   const Console& console_;
   const char* what_;
-  std::shared_ptr<Progress> line_;  // of all copies that a std::function makes
+  std::shared_ptr<Progress> line_;  // shared by all copies, because std::function copies
 };
 
-// What the knobs do to whole scenes.
+// Adds the effect of the knobs on whole scenes.
 Result<void> add_scenes(const AccuracyOptions& options, const Console& console, Json& json) {
   const Result<accuracy::FidelityReport> report = measure_scene_fidelity(
       options.scenes, options.mode == "short", ProgressLine(console, "scenes"));
@@ -118,7 +118,7 @@ std::string share(size_t part, size_t whole) {
   return text;
 }
 
-// Certified and exact decisions alone, by the million.
+// Checks millions of certified and exact decisions and nothing else.
 Result<int> count_decisions(const AccuracyOptions& options,
                             const std::vector<accuracy::NamedKinds>& kinds,
                             const Console& console) {

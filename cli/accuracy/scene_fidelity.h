@@ -1,4 +1,4 @@
-// Scenes of the command line, measured by accuracy/scenes/fidelity.h.
+// Measures scenes of the command line with accuracy/scenes/fidelity.h.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace carom::cli {
 
-// Of the built-in scenes, and of `more` as the command line names them: up to 60 frames of each.
-// `before_scene(done, all)` is told how far it is.
+// Measures up to 60 frames of each built-in scene and of `more`, named as on the command line.
+// Calls `before_scene(done, all)` before each scene.
 Result<accuracy::FidelityReport> measure_scene_fidelity(
     const std::vector<std::string>& more, bool is_short,
     const std::function<void(size_t, size_t)>& before_scene);

@@ -1,4 +1,4 @@
-// What `carom tunnelling` measured, as JSON and as text.
+// The measurements of `carom tunnelling` as JSON and as text.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@ namespace {
 using accuracy::Deviation;
 using accuracy::Trial;
 
-// The shortest that reads back as this float; without an exponent where that is readable.
+// The shortest decimal that reads back as this float; without an exponent if that is readable.
 std::string shortest(float value) {
   char buffer[32];
   const auto format =
@@ -61,7 +61,7 @@ std::string outcomes(const SettingsChoice& choice, SettingGroup group) {
   return joined(parts, "; ");
 }
 
-// Half-diagonals of the error of both positions of a pair.
+// The greatest error of the relative position of a pair: half a step per axis and body.
 double float32_error(const SceneSurvey& survey) { return std::sqrt(3.0) * survey.float32_step; }
 
 AdviceRow tier_row(const Advice& advice) {

@@ -1,4 +1,4 @@
-// What `carom advise` says about a scene: settings, each with its measured reason.
+// The advice of `carom advise` for a scene: settings, each with its measured reason.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace carom::cli {
 
 struct AdviceRow {
   std::string what;
-  std::string value;  // of a setting; empty for what a scene does not need
+  std::string value;  // of a setting; empty for features that the scene does not need
   std::string reason;
 };
 
@@ -22,17 +22,17 @@ struct Advice {
   std::string isa;
   SceneSurvey survey;
   SettingsChoice choice;
-  // Made of these two:
-  bool meets = false;  // the choice, with what the standard tier itself may be off
+  // Derived from these two:
+  bool meets = false;  // the choice plus the standard tier's own error meets the tolerance
   std::vector<AdviceRow> settings;
   std::vector<AdviceRow> not_needed;
-  std::string command;  // that runs the scene like this
+  std::string command;  // runs the scene with these settings
 };
 
 Advice advise(const std::string& scene, double tolerance, SceneSurvey survey,
               SettingsChoice choice);
 
-// "carom run SCENE --tier ...", for a shell.
+// The shell command "carom run SCENE --tier ...".
 std::string run_command(const std::string& scene, const accuracy::Trial& trial);
 
 // As JSON if that is wanted, as text otherwise.

@@ -108,7 +108,7 @@ std::string kinds_text(const BodiesOfKind& kinds) {
   return list.empty() ? "none" : list;
 }
 
-// The most frequent ones.
+// Names the most frequent pairs of kinds.
 std::string pair_kinds_text(const PairSurvey& pairs) {
   constexpr size_t kNamed = 5;
   std::vector<PairSurvey::Kinds> kinds = pairs.kinds;

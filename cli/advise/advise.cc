@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Of all trials together.
+// For all trials together.
 constexpr std::chrono::seconds kBudget(20);
 constexpr size_t kFirstFrames = 3;
 constexpr int kMostRounds = 8;
@@ -26,7 +26,7 @@ struct AdviseOptions {
   std::string scene;
   double tolerance = 0;
   uint64_t frames = 30;
-  int threads = 0;  // 0: those of the machine
+  int threads = 0;  // 0: as many as the machine has
   std::string json;
 };
 

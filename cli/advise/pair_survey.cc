@@ -13,7 +13,7 @@
 namespace carom::cli {
 namespace {
 
-// Below this distance, by the pair's mean radius, float32 cannot tell; see FastKnobs.
+// Below this distance, as a share of the pair's mean radius, float32 may not decide; see FastKnobs.
 constexpr double kNear = 0x1p-17;
 
 BodyColumns columns_of(const LoadedScene& scene, const io::SceneFrame& frame) {
@@ -27,7 +27,7 @@ BodyColumns columns_of(const LoadedScene& scene, const io::SceneFrame& frame) {
   return columns;
 }
 
-// Candidates of one frame, on its own.
+// Candidate pairs of one frame, without earlier frames.
 Result<std::vector<Pair>> candidates(const LoadedScene& scene, size_t frame) {
   World world(
       {.positions = scene.positions(), .detail = Detail::pairs, .parallelism = Parallelism::none});
@@ -98,7 +98,7 @@ class PairCounter {
     return bodies.kind ? bodies.kind[body] : bodies.uniform_kind;
   }
 
-  // Of a half-space and another body that of the other.
+  // With a half-space: the other body's radius.
   double mean_radius(Pair pair) const {
     const double a = radius_[pair.a];
     const double b = radius_[pair.b];

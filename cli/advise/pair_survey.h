@@ -1,12 +1,12 @@
-// The candidate pairs of a scene and how near to touching they are.
+// Surveys the candidate pairs of a scene and how many are near touching.
 #pragma once
 
 #include "cli/advise/scene_survey.h"
 
 namespace carom::cli {
 
-// Of the first, the middle and the last frame that `scene` holds; `radius` has the bounding radius
-// of every body.
+// Surveys the first, middle and last loaded frame of `scene`; `radius` has the bounding radius of
+// every body.
 Result<PairSurvey> survey_pairs(const LoadedScene& scene, const std::vector<double>& radius);
 
 }  // namespace carom::cli

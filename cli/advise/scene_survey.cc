@@ -11,7 +11,7 @@
 namespace carom::cli {
 namespace {
 
-// Displacements that are kept for their spread: enough for a p99, and no more memory than frames.
+// The most displacements kept for the spread: enough for a p99, and no more memory than the frames.
 constexpr size_t kMostDisplacements = 4'000'000;
 
 template <class T>
@@ -66,7 +66,7 @@ const float* orientation_of(const io::SceneFrame& frame, size_t body) {
   return frame.orientation.empty() ? nullptr : &frame.orientation[4 * body];
 }
 
-// Only what turns with its body has a say.
+// Looks only at kinds that turn with their bodies.
 void survey_orientations(const LoadedScene& scene, SceneSurvey& survey) {
   survey.has_orientation = !scene.frame(0).orientation.empty();
   if (!survey.has_orientation) return;
@@ -81,7 +81,7 @@ void survey_orientations(const LoadedScene& scene, SceneSurvey& survey) {
   }
 }
 
-// The chord that a point at distance 1 from the centre describes: 2 sin(angle / 2).
+// The straight distance that a point at distance 1 from the centre moves: 2 sin(angle / 2).
 double turn_chord(const float* before, const float* now) {
   if (before == nullptr || std::equal(before, before + 4, now)) return 0;
   const Eigen::Vector4d p = Eigen::Map<const Eigen::Vector4f>(before).cast<double>();
@@ -110,7 +110,7 @@ double way(const std::vector<T>& before, const std::vector<T>& now, size_t body)
   return std::sqrt(square);
 }
 
-// The most that a point of the body moves from one frame to the next.
+// A bound of how far a point of the body moves from one frame to the next.
 double motion_of(const io::SceneFrame& before, const io::SceneFrame& now, size_t body,
                  double radius) {
   if (!now.boxes.empty()) {

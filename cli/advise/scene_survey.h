@@ -1,4 +1,4 @@
-// What a scene is: what its bodies are, where, how they move, and what their pairs are like.
+// Surveys a scene: kinds, positions and motion of its bodies, and its candidate pairs.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-// Of a list of numbers; all zero if it is empty.
+// Statistics of a list of numbers; all zero if it is empty.
 struct Spread {
   double least = 0;
   double median = 0;
@@ -19,7 +19,7 @@ struct Spread {
 };
 Spread spread_of(std::vector<double> values);
 
-// Candidates of a few frames.
+// The candidate pairs of a few frames.
 struct PairSurvey {
   struct Kinds {
     std::string name;  // "sphere-box"
@@ -27,10 +27,10 @@ struct PairSurvey {
     uint64_t overlaps = 0;
   };
   uint64_t frames = 0;  // that were looked at
-  uint64_t pairs = 0;   // sums over these
+  uint64_t pairs = 0;   // sums over these frames
   uint64_t overlaps = 0;
   uint64_t near = 0;         // |separation| <= 2^-17 of the pair's mean bounding radius
-  double error_bound = 0;    // by which standard separations may be off, metres
+  double error_bound = 0;    // error bound of standard separations, metres
   std::vector<Kinds> kinds;  // in the order of the codes
 };
 
@@ -44,23 +44,23 @@ struct SceneSurvey {
   uint64_t sensors = 0;
   bool has_filters = false;  // layers, masks or owners
   bool has_velocities = false;
-  bool has_orientation = false;  // that some body's kind reads
-  bool all_unturned = false;     // but it is the identity for all of these
+  bool has_orientation = false;  // the scene gives orientations that some body's kind reads
+  bool all_unturned = false;     // no body whose kind reads orientations is ever turned
 
   double farthest = 0;       // greatest coordinate of a position
   bool float64 = false;      // positions
   bool fits_float32 = true;  // every position is a float
   double float32_step = 0;   // between floats at `farthest`
 
-  Spread radius;        // of the ball about a body's position that holds it; half-spaces left out
+  Spread radius;        // of the ball about a body's position that contains it; without half-spaces
   Spread aspect;        // longest by shortest edge
-  Spread displacement;  // the most that a point of a body moves in a frame, of bodies that move
-  double moving_share = 0;  // of the bodies, in a frame
+  Spread displacement;  // bound of the movement of points in a frame, of moving bodies
+  double moving_share = 0;  // share of bodies that move in a frame
 
   PairSurvey pairs;
 };
 
-// Of the frames that `scene` holds.
+// Surveys the loaded frames of `scene`.
 Result<SceneSurvey> survey(const LoadedScene& scene);
 
 }  // namespace carom::cli

@@ -14,11 +14,11 @@ using accuracy::TrialResult;
 using Clock = std::chrono::steady_clock;
 using Apply = std::function<void(Trial&)>;
 
-constexpr double kRunsOfAScene = 50;  // about as many as all trials together make
+constexpr double kRunsOfAScene = 50;  // about as many as all trials together run
 constexpr size_t kLeastFrames = 4;
 constexpr uint64_t kMostForBrute = 5000;  // bodies
 
-// A change of settings that may pay.
+// A change of settings that may save time.
 struct Candidate {
   SettingGroup group;
   std::string name;
@@ -41,14 +41,14 @@ bool has_box_pairs(const SceneSurvey& survey) {
       survey, [](const std::string& name) { return name == "box-box" || name == "aabb-box"; });
 }
 
-// Whether some pair is of kinds that are no balls already.
+// Whether proxy spheres would change any pair.
 bool has_other_than_spheres(const SceneSurvey& survey) {
   return has_pairs_of(survey, [](const std::string& name) {
     return name != "sphere-sphere" && name != "sphere-halfspace";
   });
 }
 
-// Shapes that fill little of their boxes.
+// Whether shapes exist that may fill little of their bounding boxes.
 bool has_slanted_shapes(const SceneSurvey& survey) {
   const auto is_there = [&](ShapeKind kind) { return survey.kinds[static_cast<size_t>(kind)] > 0; };
   return is_there(ShapeKind::box) || is_there(ShapeKind::capsule) ||
@@ -68,7 +68,7 @@ void add_broadphases(const SceneSurvey& survey, BroadphaseMethod automatic,
   }
 }
 
-// Margins that a body needs some frames to cross, not larger than bodies are.
+// Margins that a median body crosses in 8 or 32 frames, up to the median radius.
 void add_margins(const SceneSurvey& survey, std::vector<Candidate>& candidates) {
   if (!moves(survey)) return;
   for (const double frames : {8.0, 32.0}) {
@@ -80,7 +80,7 @@ void add_margins(const SceneSurvey& survey, std::vector<Candidate>& candidates) 
   }
 }
 
-// What leaves all results as they are.
+// Candidates that do not change any result.
 std::vector<Candidate> lossless_candidates(const SceneSurvey& survey, BroadphaseMethod automatic,
                                            int threads) {
   std::vector<Candidate> candidates;
@@ -124,12 +124,12 @@ std::vector<Candidate> tier_candidates(const SceneSurvey& survey, double toleran
     candidates.push_back(
         knob("proxy spheres", [](FastKnobs& knobs) { knobs.proxy_spheres = true; }));
   }
-  // Separations are off by up to twice the tolerance of motion.
+  // The knob's error of separations is up to twice its motion tolerance.
   const auto motion = static_cast<float>(tolerance / 2);
   if (moves(survey) && motion > 0 && std::isfinite(motion)) {
     candidates.push_back(
         {SettingGroup::motion, text("motion tolerance %.3g", motion), [=](Trial& trial) {
-           trial.settings.carry_results = true;  // or there is nothing to keep
+           trial.settings.carry_results = true;  // otherwise there are no results to keep
            trial.settings.accuracy.tier = Tier::fast;
            trial.settings.accuracy.knobs.motion_tolerance = motion;
          }});
@@ -161,7 +161,7 @@ class SettingsSearch {
   }
 
  private:
-  // The time at which `part` of what there was is over.
+  // The time at which this part of the budget is spent.
   Clock::time_point deadline(double part) const {
     const std::chrono::duration<double> all = limits_.plan.deadline - begin_;
     return begin_ + std::chrono::duration_cast<Clock::duration>(part * all);
@@ -174,7 +174,8 @@ class SettingsSearch {
     return accuracy::run_trials(scene_, choice_.standard, trials, plan);
   }
 
-  // Tries the candidates beside the present choice, and adds the best of each group to it.
+  // Times the candidates in turns with the present choice; combine() then adds the best of each
+  // group to it.
   Result<void> improve(const std::vector<Candidate>& candidates, double until) {
     std::vector<Trial> trials = {choice_.chosen};
     for (const Candidate& candidate : candidates) {
@@ -207,7 +208,8 @@ class SettingsSearch {
     return saved > kWorthwhile * tried.frame_ms_beside && saved > kWorthwhileMs;
   }
 
-  // Knobs go together; of other groups one excludes the others.
+  // A faster candidate of the same group, or null. Knobs can be combined; in other groups one
+  // candidate excludes the others.
   const TriedSettings* rival(const TriedSettings& tried, size_t first) const {
     const auto is_better = [&](const TriedSettings& other) {
       return &other != &tried && other.group == tried.group && pays(other) &&
@@ -219,8 +221,9 @@ class SettingsSearch {
     return found == choice_.tried.end() ? nullptr : &*found;
   }
 
-  // The last candidates.size() of what was tried: all that pay together, if that meets the
-  // tolerance and is faster than the fastest of them alone, which is the choice otherwise.
+  // Combines all of the last candidates.size() tried settings that pay. The combination becomes the
+  // choice if it meets the tolerance and is faster than the fastest single one; otherwise that one
+  // does.
   Result<void> combine(const std::vector<Candidate>& candidates, double until) {
     const size_t first = choice_.tried.size() - candidates.size();
     const TriedSettings* fastest = nullptr;
@@ -249,7 +252,8 @@ class SettingsSearch {
     return {};
   }
 
-  // The choice beside the default, whatever time it takes; it has to be faster.
+  // Times the final choice against the default even after the deadline. The default wins unless the
+  // choice is faster.
   Result<void> settle() {
     const std::vector<Trial> trials = {choice_.tried.front().trial, choice_.chosen};
     accuracy::TrialPlan plan = limits_.plan;

@@ -1,4 +1,4 @@
-// Runs a scene with candidates of settings and chooses the cheapest that keep errors small.
+// Runs a scene with candidate settings and chooses the fastest that meet the tolerance.
 #pragma once
 
 #include <chrono>
@@ -11,8 +11,8 @@
 
 namespace carom::cli {
 
-// What a candidate is about. Of knobs several may be chosen, of tiers none: those are for
-// comparing.
+// What a candidate changes. Several knobs may be chosen together. Tiers are only compared, never
+// chosen.
 enum class SettingGroup : uint8_t {
   standard,
   cache,
@@ -21,26 +21,26 @@ enum class SettingGroup : uint8_t {
   dops,
   threads,
   knob,
-  motion,  // the knob that has a number
+  motion,  // motion tolerance, the knob with a number
   tier,
-  together,  // several of the others
+  together,  // a combination of others
 };
 
 struct TriedSettings {
   SettingGroup group;
   std::string name;
   accuracy::Trial trial;
-  std::optional<accuracy::TrialResult> result;  // none: there was no time for it
-  // Of what it was to better, measured in the same turns.
+  std::optional<accuracy::TrialResult> result;  // empty: there was no time for it
+  // Values of the choice that it should improve, measured in the same turns.
   double frame_ms_beside = 0;
   uint64_t tested_beside = 0;  // pairs
-  bool meets = false;          // the tolerance
+  bool meets = false;          // it meets the tolerance
 
   double ratio() const { return result->frame_ms / frame_ms_beside; }
 };
 
 struct SettingsChoice {
-  std::vector<TriedSettings> tried;  // in order; the first is what a world does by default
+  std::vector<TriedSettings> tried;  // in order; the first is a world's default
   accuracy::Trial chosen;
   double frame_ms = 0;  // of the choice and of the default, measured in the same turns
   double frame_ms_standard = 0;
@@ -50,17 +50,17 @@ struct SettingsChoice {
 
 struct TrialLimits {
   double tolerance = 0;  // metres
-  int threads = 1;       // to use at most
+  int threads = 1;       // the most to use
   accuracy::TrialPlan plan;
 };
 
-// What saves less is not chosen: this part of a frame, and as many milliseconds. Timing is no
-// better.
+// A setting must save more than this share of a frame and more than these milliseconds; timing is
+// not more precise.
 inline constexpr double kWorthwhile = 0.05;
 inline constexpr double kWorthwhileMs = 0.01;
 
-// Frames that `budget` has time for, of all the runs that choose_settings() makes; `scene` holds
-// some, and there is no use in more than `most`.
+// The number of frames, at most `most`, with which all runs of choose_settings() fit into `budget`.
+// Measures the frames already loaded in `scene`.
 Result<size_t> affordable_frames(const LoadedScene& scene, std::chrono::duration<double> budget,
                                  size_t most);
 

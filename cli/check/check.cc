@@ -49,7 +49,7 @@ void check_compound(const io::SceneShapes& shapes, ShapeReport& report) {
   }
 }
 
-// Why a shape that is no compound is not a valid one; empty if it is.
+// Why a shape (not a compound) is invalid; empty if it is valid.
 std::string problem_of(const io::SceneShapes& shapes, size_t index) {
   const Result<Shape> shape = convert_simple_shape(shapes, index);
   if (!shape) return "it is " + shape.error().message;

@@ -20,7 +20,7 @@ std::string counted(uint64_t count, const std::string& one, const std::string& m
   return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
-// One report, as text: rows of a name and what there is to say.
+// Prints one report as text: rows of a name and a value.
 class Printer {
  public:
   Printer(const ShapeReport& report, std::ostream& out) : report_(report), out_(out) {}

@@ -1,4 +1,4 @@
-// What `carom check` says of a shape.
+// The report of `carom check` on a shape.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,9 +19,9 @@ namespace carom::cli {
 
 struct ShapeReport {
   size_t index = 0;
-  std::string name;  // of files that name their meshes
+  std::string name;  // if the file names its meshes
   ShapeKind kind = ShapeKind::mesh;
-  std::string problem;                    // why it is no valid shape; empty if it is one
+  std::string problem;                    // why the shape is invalid; empty if it is valid
   std::vector<Eigen::Vector3f> vertices;  // hulls, meshes
   std::vector<std::array<uint32_t, 3>> triangles;
   size_t children = 0;  // compounds

@@ -23,7 +23,7 @@ Convexity::Convexity(std::span<const Vector3f> points) : points_(points) {
   middle_ = all.lower + (all.upper - all.lower) / 2;
   half_step_ = all.lower.cwiseAbs().cwiseMax(all.upper.cwiseAbs()) *
                (double{std::numeric_limits<float>::epsilon()} / 2);
-  // About as many blocks as points in each.
+  // About as many blocks as points in a block.
   const double root = std::sqrt(static_cast<double>(points.size()));
   divide(0, static_cast<uint32_t>(order_.size()), static_cast<uint32_t>(root) + 16);
 }
@@ -39,7 +39,7 @@ Convexity::Block Convexity::block(uint32_t begin, uint32_t end) const {
   return box;
 }
 
-// In halves along the longest axis.
+// Splits points into halves along the longest axis until a block has at most `most`.
 void Convexity::divide(uint32_t begin, uint32_t end, uint32_t most) {
   const Block whole = block(begin, end);
   if (end - begin <= most) {

@@ -1,4 +1,4 @@
-// Which points are in front of planes, by more than rounding may do.
+// Finds points in front of planes by more than float32 rounding explains.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,28 +15,28 @@ namespace carom::cli {
 struct ConvexPlane {
   Eigen::Vector3d origin;
   Eigen::Vector3d normal;  // unit
-  double rounding;         // by which a corner may be off along the normal
-  double altitude;         // the least of the triangle
+  double rounding;         // bound of a corner's error along the normal
+  double altitude;         // the least altitude of the triangle
 
-  // How far a point is in front, less what it may be in front of the plane before rounding:
-  // corners that are off tilt the plane.
+  // How far a point is in front of the plane beyond rounding. Errors of the corners also tilt the
+  // plane, so the allowance grows with the distance from the triangle.
   double excess(const Eigen::Vector3d& point) const;
 };
 
 class Convexity {
  public:
-  // The points must be finite, and outlive this. There is at least one.
+  // There must be at least one point, all finite; they must outlive this object.
   explicit Convexity(std::span<const Eigen::Vector3f> points);
 
   ConvexPlane plane(const std::array<Eigen::Vector3d, 3>& corners) const;
-  // Six times the volume between the triangle and the middle of all points: negative if its front
-  // looks there.
+  // Six times the volume of the tetrahedron of the triangle and the middle of all points; negative
+  // if the triangle's front faces the middle.
   double volume_below(const std::array<Eigen::Vector3d, 3>& corners) const;
-  // The point with the largest excess, if one has more than 0, and that excess.
+  // The point with the largest excess and that excess; the excess is 0 if no point has more.
   std::pair<uint32_t, double> highest(const ConvexPlane& plane) const;
 
  private:
-  // Points that are near each other.
+  // A group of points near each other, with its box.
   struct Block {
     uint32_t begin;
     uint32_t end;
@@ -51,7 +51,7 @@ class Convexity {
   std::vector<uint32_t> order_;
   std::vector<Block> blocks_;
   Eigen::Vector3d middle_;
-  Eigen::Vector3d half_step_;  // of a float at the largest coordinate of each axis
+  Eigen::Vector3d half_step_;  // half a float step at the largest coordinate of each axis
 };
 
 }  // namespace carom::cli

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Corners = std::array<uint32_t, 3>;
 
-// An edge by the places of its ends.
+// A directed edge of a triangle, by the places of its ends.
 struct HalfEdge {
   uint32_t low;
   uint32_t high;
@@ -83,14 +83,14 @@ class MeshChecker {
     return vertices_[triangles_[triangle][index]].cast<double>();
   }
 
-  // As the library sees it: it leaves these out.
+  // Collision leaves these triangles out; the same test as in the library.
   bool has_no_area(uint32_t triangle) const {
     const Vector3d u = corner(triangle, 1) - corner(triangle, 0);
     const Vector3d v = corner(triangle, 2) - corner(triangle, 0);
     return !(u.cross(v).norm() > kWithoutArea * (u.norm() * v.norm()));
   }
 
-  // Slivers without area may close a surface: they have edges.
+  // Includes slivers without area, because their edges may close a surface.
   std::vector<HalfEdge> half_edges() const {
     std::vector<HalfEdge> edges;
     for (uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -134,7 +134,7 @@ class MeshChecker {
     }
   }
 
-  // The corner of a triangle that is not on an edge.
+  // The corner of the edge's triangle that is not on the edge.
   uint32_t apex(const HalfEdge& edge) const {
     for (const uint32_t vertex : triangles_[edge.triangle]) {
       if (place_[vertex] != edge.low && place_[vertex] != edge.high) return vertex;
@@ -153,7 +153,7 @@ class MeshChecker {
     if (!report_.dent) find_dent(convexity);
   }
 
-  // With its front outwards.
+  // The plane of a triangle with its front outwards.
   ConvexPlane plane_of(const Convexity& convexity, uint32_t triangle) const {
     const size_t second = report_.inside_out ? 2 : 1;
     return convexity.plane(
@@ -182,7 +182,7 @@ class MeshChecker {
     }
   }
 
-  // Two triangles at an edge: the one that the edge names, and where the other one goes.
+  // Two triangles at an edge: the edge names one, `apex` is the free corner of the other.
   struct Bend {
     MeshEdge edge;
     uint32_t apex;
@@ -190,7 +190,7 @@ class MeshChecker {
 
   std::span<const Vector3f> vertices_;
   std::span<const Corners> triangles_;
-  std::vector<uint32_t> place_;  // of every vertex the first one there
+  std::vector<uint32_t> place_;  // for each vertex the first one at its place
   std::vector<uint32_t> faces_;  // triangles with an area
   std::vector<Bend> bends_;
   MeshReport report_;

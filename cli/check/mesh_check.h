@@ -1,4 +1,4 @@
-// What is wrong with a mesh, and where.
+// Finds the faults of a mesh and where they are.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-// How many there are, and the first few of them.
+// The number of findings and the first few of them.
 template <class T>
 struct Findings {
   static constexpr size_t kKept = 8;
@@ -24,20 +24,20 @@ struct Findings {
   }
 };
 
-// Vertices as given; of several at one place the first.
+// Indices of vertices as given; the first of several at one place.
 struct MeshEdge {
   uint32_t from;
   uint32_t to;
-  uint32_t triangle;   // one that has it, from `from` to `to`
-  uint32_t triangles;  // how many have it
+  uint32_t triangle;   // one that has the edge, from `from` to `to`
+  uint32_t triangles;  // how many triangles have it
 };
 
-// How far a vertex is in front of the plane of a triangle, beyond what rounding may do.
+// A vertex in front of the plane of a triangle, by more than rounding explains.
 struct Dent {
   double height = 0;  // metres
   uint32_t triangle = 0;
   uint32_t vertex = 0;
-  bool at_edge = false;  // both are at `edge`, which is bent inwards
+  bool at_edge = false;  // both are at `edge`, a concave edge
   MeshEdge edge{};
 };
 
@@ -46,13 +46,13 @@ struct MeshReport {
   uint64_t triangles = 0;
   uint64_t unused_vertices = 0;
   Findings<uint32_t> not_finite;                         // vertices
-  Findings<std::array<uint32_t, 2>> duplicate_vertices;  // and the first at the same place
+  Findings<std::array<uint32_t, 2>> duplicate_vertices;  // each with the first at the same place
   Findings<uint32_t> repeated_index;                     // triangles with a corner twice
-  Findings<uint32_t> without_area;                       // others that collision leaves out
-  Findings<MeshEdge> open_edges;                         // of one triangle
-  Findings<MeshEdge> crowded_edges;                      // of more than two
-  Findings<MeshEdge> opposed_edges;  // of two that look to different sides of the surface
-  bool inside_out = false;           // the fronts look inwards
+  Findings<uint32_t> without_area;   // other triangles that collision leaves out
+  Findings<MeshEdge> open_edges;     // edges of one triangle
+  Findings<MeshEdge> crowded_edges;  // edges of more than two
+  Findings<MeshEdge> opposed_edges;  // edges of two that face different sides
+  bool inside_out = false;           // the fronts face inwards
   std::optional<Dent> dent;          // the worst, if the mesh is not convex
 
   bool has_faces() const {
@@ -61,12 +61,12 @@ struct MeshReport {
   bool is_watertight() const {
     return has_faces() && open_edges.count + crowded_edges.count + opposed_edges.count == 0;
   }
-  // Every vertex is behind the plane of every triangle, up to the rounding of float32.
+  // Whether every vertex is behind the plane of every triangle, up to the rounding of float32.
   bool is_convex() const { return has_faces() && !dent; }
 };
 
-// Indices must lie inside the vertices. Corners at one place count as one, whatever their indices,
-// except for repeated_index. With vertices that are not finite nothing is said about shape.
+// Indices must be valid. Corners at one place count as one, whatever their indices, except for
+// repeated_index. If vertices are not finite, the report does not describe the surface.
 MeshReport check_mesh(std::span<const Eigen::Vector3f> vertices,
                       std::span<const std::array<uint32_t, 3>> triangles);
 

@@ -23,7 +23,7 @@ Matrix matrix_of(const aiMatrix4x4& m) {
   return matrix;
 }
 
-// a after b.
+// First b, then a.
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix result;
   result.leftCols<3>() = a.leftCols<3>() * b.leftCols<3>();
@@ -31,7 +31,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
   return result;
 }
 
-// Leaves of vertices at one place the first; returns where each of them is now.
+// Keeps the first of the vertices at each place; returns the new index of every vertex.
 std::vector<uint32_t> weld(std::vector<Vector3f>& vertices) {
   const std::vector<uint32_t> first = first_at_place(vertices);
   std::vector<uint32_t> place(vertices.size());

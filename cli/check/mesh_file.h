@@ -1,4 +1,4 @@
-// Meshes of other programs, by assimp: OBJ, STL and glTF.
+// Reads mesh files of other programs with assimp: OBJ, STL and glTF.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,12 +17,12 @@ struct MeshPart {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-// Whether the name ends in .obj, .stl, .gltf or .glb, in upper or lower case.
+// Whether the name ends in .obj, .stl, .gltf or .glb, ignoring case.
 bool names_mesh(const std::string& path);
 
-// The meshes of a file, each where the file's scene has it, as often as it is there. Polygons are
-// cut into triangles, points and lines left out. Vertices at one place are one vertex, whatever
-// their normals and colours.
+// The meshes of a file in the poses of its scene, once for each use there. Splits polygons into
+// triangles and drops points and lines. Merges vertices at one place, whatever their normals and
+// colours.
 Result<std::vector<MeshPart>> read_mesh_file(const std::string& path);
 
 }  // namespace carom::cli

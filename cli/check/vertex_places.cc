@@ -9,7 +9,7 @@ namespace carom::cli {
 using Eigen::Vector3f;
 
 std::vector<uint32_t> first_at_place(std::span<const Vector3f> vertices) {
-  // Those that are not finite come first, so that the others can be compared.
+  // Puts vertices that are not finite first, because NaN has no order.
   const auto is_before = [&](uint32_t i, uint32_t j) {
     const Vector3f &u = vertices[i], &v = vertices[j];
     const bool is_finite_u = u.allFinite(), is_finite_v = v.allFinite();

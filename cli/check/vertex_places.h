@@ -1,4 +1,4 @@
-// Vertices that lie in one place.
+// Finds vertices at the same place.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace carom::cli {
 
-// Of every vertex the index of the first one at its place: its own, where it is that, or is not
-// finite.
+// For every vertex the index of the first one at its place. A vertex that is not finite gets its
+// own index.
 std::vector<uint32_t> first_at_place(std::span<const Eigen::Vector3f> vertices);
 
 }  // namespace carom::cli

@@ -1,4 +1,4 @@
-// Bodies: balls, capsules, boxes and polygons, each geometry once, drawn as instances.
+// Draws bodies (balls, capsules, boxes and polygons) as instances; each geometry is stored once.
 'use strict';
 
 // corner.w is the end of a capsule that the corner belongs to, size.w half the length between the ends.
@@ -101,7 +101,7 @@ function loadBodies() {
   }
 }
 
-// The last number says when a body is drawn: what is fixed mostly stands around the others.
+// The last number gives the order of drawing: fixed bodies mostly surround the others.
 const drawn = {free: 0, fixed: 1, chosen: 2};
 
 function colourBodies() {

@@ -1,10 +1,10 @@
-// From where the scene is seen.
+// The camera.
 'use strict';
 
-// How far the smaller body of a contact reaches; infinite if neither does.
+// The reach of the smaller body of a contact; infinite if neither has one.
 const leastReach = i => Math.min(...[contact.a[i], contact.b[i]].map(index => reachOfBody(rowOf.get(index)) / radius).filter(reach => reach > 0));
 
-// Sees all contacts and the smaller body of each.
+// A view of all contacts and the smaller body of each.
 function firstPose() {
   const around = contacts ? boxAround(marks.map(mark => toView(mark.onA))) : {middle: [0, 0, 0], radius: 1};
   const touching = contact.a.map((_, i) => leastReach(i)).filter(Number.isFinite);
@@ -14,7 +14,7 @@ function firstPose() {
 
 const camera = {...firstPose(), eye: null, toClip: null};
 
-// From the target to the eye.
+// The vector from the target to the eye.
 const backwards = ({yaw, pitch}) => add(times(up, Math.sin(pitch)),
   times(add(times(east, Math.cos(yaw)), times(south, Math.sin(yaw))), Math.cos(pitch)));
 
@@ -53,7 +53,7 @@ function fly(to, instantly = false) {
   step(begin);
 }
 
-// From the side, so that the normal lies in the picture.
+// Looks from the side, so that the normal lies in the picture.
 function poseTowards(i) {
   const normal = three(contact.normal, i), points = marks.filter(mark => mark.contact === i).map(mark => toView(mark.onA));
   let back = backwards(camera);

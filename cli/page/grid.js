@@ -1,4 +1,4 @@
-// Half-spaces as grids.
+// Draws half-spaces as grids.
 'use strict';
 
 const gridVertex = 'in vec3 point; uniform mat4 toClip; void main() { gl_Position = toClip * vec4(point, 1); }';

@@ -1,4 +1,4 @@
-// Mouse and keyboard; begins the page.
+// Handles mouse and keyboard, and starts the page.
 'use strict';
 
 function nearestMark(x, y) {

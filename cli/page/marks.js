@@ -1,4 +1,4 @@
-// Contact points and normals.
+// Draws contact points and normals.
 'use strict';
 
 // A mark is one quad: a disc about the point, or a spike from it along the normal, in pixels.
@@ -43,7 +43,7 @@ function loadMarks() {
     colour: {size: 4, values: [], perInstance: true}});
 }
 
-// Of the chosen contact the points on B are shown, too; the others fade.
+// For the chosen contact the points on B are shown too; the other contacts fade.
 function colourMarks() {
   const values = marks.flatMap(mark => {
     const chosen = mark.contact === state.chosen, colour = depthColour(mark.depth);

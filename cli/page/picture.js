@@ -1,4 +1,4 @@
-// What is drawn, and in which order.
+// Draws the picture in its order.
 'use strict';
 
 const state = {chosen: null, opacity: 1, normals: true, hidden: true};
@@ -9,7 +9,7 @@ function drawSolid(part) {
   drawBodies(part, 1);
 }
 
-// Hides nothing, so that the order does not matter much.
+// Does not write depth, so that the order matters little.
 function drawGhosts(part, opacity) {
   gl.enable(gl.BLEND);
   gl.depthMask(false);

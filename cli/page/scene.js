@@ -1,4 +1,4 @@
-// The scene as parts and marks, and the space in which it is drawn.
+// The scene as parts and marks, and its view space.
 'use strict';
 
 // ------------------------------------------------------------ bodies as parts
@@ -11,7 +11,7 @@ const colours = {
   mesh: '#b4b9a9', compound: '#a8c3c6', halfspace: '#b3b7bb', triangle: '#c6a9a0'};
 const fixedColour = '#b3b7bb', colourOfA = '#f0901e', colourOfB = '#2f7fd0';
 
-// How far a shape reaches from its own origin.
+// The reach of a shape from its own origin.
 function reachOf(shape) {
   if (shape.radius !== undefined) return shape.radius + Math.max(length(shape.a ?? [0, 0, 0]), length(shape.b ?? [0, 0, 0]));
   if (shape.lower) return Math.max(length(shape.lower), length(shape.upper));
@@ -81,7 +81,7 @@ const origin = boxAround(finite.map(middleOf)).middle;
 const radius = finite.reduce((most, part) => Math.max(most, length(sub(part.position, origin)) + reaches[part.index]), 0) || 1;
 const toView = p => times(sub(p, origin), 1 / radius);
 
-// Away from what is fixed, along an axis; z where nothing fixed is touched.
+// The axis direction away from fixed bodies; z if no fixed body is touched.
 function upward() {
   let sum = [0, 0, 0];
   for (let i = 0; i < contacts; ++i) {

@@ -1,4 +1,4 @@
-// The target of --page: a page that shows the last frame of a run in 3D.
+// Writes --page: a page that shows the last frame of a run in 3D.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class ScenePage {
  public:
   static Result<ScenePage> create(const std::string& path);
 
-  // Writes the world as it is after its last step. To be called once.
+  // Writes the world after its last step. Call this once.
   Result<void> add_frame(const World& world, const std::string& scene, uint64_t frame);
   Result<void> finish() { return file_.commit(); }
 

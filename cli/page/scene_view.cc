@@ -27,8 +27,8 @@ struct BodyColumns {
   Json index = Json::array();
   Json shape = Json::array();
   Json motion = Json::array();
-  Json position = Json::array();     // three a body, in metres
-  Json orientation = Json::array();  // four
+  Json position = Json::array();     // three numbers a body, in metres
+  Json orientation = Json::array();  // four numbers a body
 
   void add(const World& world, BodyId id, ShapeTable& shapes) {
     index.push_back(id.index);
@@ -56,16 +56,16 @@ Json bodies_of(const World& world, ShapeTable& shapes) {
   return std::move(columns).json();
 }
 
-// Points are relative to the position of A; at detail contact its witness point is the only one.
+// Points are relative to the position of A. At detail contact the only point is the witness point.
 struct ContactColumns {
   Json a = Json::array();
   Json b = Json::array();
   Json separation = Json::array();
-  Json normal = Json::array();  // three a contact
+  Json normal = Json::array();  // three numbers a contact
   Json arm_a = Json::array();
   Json arm_b = Json::array();
-  Json points = Json::array();  // how many a contact
-  Json point = Json::array();   // three a point
+  Json points = Json::array();  // number of points of each contact
+  Json point = Json::array();   // three numbers a point
   Json point_separation = Json::array();
 
   void add(const Contact& contact) {

@@ -1,4 +1,4 @@
-// What the page of a scene shows of a world after a step.
+// The data of the scene page: a world after a step.
 #pragma once
 
 #include <cstdint>

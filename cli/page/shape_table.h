@@ -1,4 +1,4 @@
-// The different shapes of a world, each once.
+// A table of the distinct shapes of a world.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@ namespace carom::cli {
 
 class ShapeTable {
  public:
-  // The place of a shape, behind those of its children. Shapes have one place if all their numbers
-  // are the same, or they share a geometry.
+  // Adds a shape after its children and returns its place. Shapes with the same numbers or the same
+  // geometry share a place.
   size_t add(const Shape& shape);
 
   size_t size() const { return shapes_.size(); }
@@ -21,7 +21,7 @@ class ShapeTable {
 
  private:
   std::vector<Shape> shapes_;
-  std::unordered_map<std::string, size_t> places_;  // by kind and numbers, as bytes
+  std::unordered_map<std::string, size_t> places_;  // key: kind and numbers as bytes
 };
 
 }  // namespace carom::cli

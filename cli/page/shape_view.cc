@@ -20,7 +20,7 @@ Json numbers(const Eigen::Quaternionf& q) {
   return {shortest(q.x()), shortest(q.y()), shortest(q.z()), shortest(q.w())};
 }
 
-// Corners and the outlines of faces.
+// Collects corners and outlines of faces.
 class Faces {
  public:
   size_t add_point(double x, double y, double z) {
@@ -32,7 +32,7 @@ class Faces {
   }
   void add_face(Json outline) { faces_.push_back(std::move(outline)); }
 
-  // Reaches behind its front by the thickness.
+  // Adds a thick triangle, which extends behind its front by the thickness.
   void add_prism(const std::array<Eigen::Vector3f, 3>& corners, float thickness) {
     std::array<size_t, 3> front{}, back{};
     const Eigen::Vector3d depth = double{thickness} * front_normal(corners);
@@ -61,7 +61,7 @@ class Faces {
   Json faces_ = Json::array();
 };
 
-// Each view but for its kind.
+// The JSON view of each shape, without its kind.
 struct Viewer {
   ShapeTable& shapes;
 

@@ -1,4 +1,4 @@
-// Shapes as the page of a scene draws them.
+// Converts shapes for the scene page.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,13 +7,13 @@
 
 namespace carom::cli {
 
-// The shortest decimal number that is this float: a double would be written with digits that mean
-// nothing.
+// The shortest decimal number that reads back as this float; JSON would print the double with
+// meaningless digits.
 double shortest(float value);
 
-// The parameters of round shapes, boxes and half-spaces; corners ("points", three numbers each) and
-// outlines ("faces", counter-clockwise from outside) of all others; places and poses of children.
-// The shape must be valid.
+// The JSON of a shape. Round shapes, boxes and half-spaces have their parameters, compounds the
+// places and poses of their children. All others have corners ("points", three numbers each) and
+// outlines ("faces", counter-clockwise from outside). The shape must be valid.
 nlohmann::ordered_json view_of(const Shape& shape, ShapeTable& shapes);
 
 }  // namespace carom::cli

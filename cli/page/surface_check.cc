@@ -17,10 +17,10 @@ namespace {
 using Vec = oracle::Vec3<long double>;
 using oracle::vec3_as;
 
-// Finding the faces of a hull takes the oracle time with the cube of this.
+// The oracle's time to find the faces of a hull grows with the cube of its corners.
 constexpr size_t kMostCorners = 256;
 
-// From the frame of a body to that of what is turned in it.
+// Rotates from a body's frame into the frame of a child with orientation q.
 Vec turned_back(const Vec& v, const Eigen::Quaternionf& q) {
   return oracle::Rotation<long double>(q.conjugate())(v);
 }
@@ -39,7 +39,8 @@ bool is_too_large(const Shape& shape) {
   return hull != nullptr && hull->geometry->points().size() > kMostCorners;
 }
 
-// How far the point is from the box around a triangle, which is no more than from the triangle.
+// Distance of the point from the box around a triangle: a lower bound of its distance from the
+// triangle.
 double distance_to_box(const MeshGeometry& mesh, size_t index, const Vec& point) {
   const auto& [i, j, k] = mesh.triangles()[index];
   const auto vertices = mesh.vertices();
@@ -52,10 +53,10 @@ double distance_to_box(const MeshGeometry& mesh, size_t index, const Vec& point)
   return beyond.norm() - mesh.rules().thickness;
 }
 
-// Distances of points from surfaces, in the frame of the shape. Hulls are kept.
+// Distances of points from surfaces, in the frame of the shape. Caches hulls.
 class Surfaces {
  public:
-  // From the nearest part; nothing if a hull is too large.
+  // Distance from the nearest part; nothing if a hull is too large.
   std::optional<double> distance(const Shape& shape, const Vec& point) {
     if (const Compound* compound = std::get_if<Compound>(&shape)) {
       return to_children(*compound->geometry, point);

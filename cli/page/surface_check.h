@@ -1,4 +1,4 @@
-// How far the points of contacts lie from the surfaces that they are said to lie on.
+// Checks how far contact points are from the surfaces on which they should lie.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 namespace carom::cli {
 
 struct SurfaceDistances {
-  std::vector<double> metres;  // one a point and body
+  std::vector<double> metres;  // one for each point and body
   double greatest = 0;
   size_t furthest_contact = 0;  // an index of World::contacts()
 
   void add(double distance, size_t contact);
 };
 
-// Distances are those of the oracle: every face, edge and corner is tried, in long double; of
-// compounds and meshes those from the nearest part.
+// The oracle computes the distances by trying every face, edge and corner in long double. For
+// compounds and meshes it is the distance from the nearest part.
 struct SurfaceCheck {
-  // Witness points of both bodies, and the points of manifolds, which lie on A.
+  // Witness points of both bodies, and manifold points, which lie on A.
   SurfaceDistances on;
-  // Points of manifolds, moved by their separation along the normal of the contact, from B: where
-  // parts of a mesh or compound meet along other normals, B is not exactly there.
+  // Manifold points moved by their separation along the contact's normal, measured from B. They
+  // need not lie exactly on B if parts of a mesh or compound have other normals.
   SurfaceDistances across;
   uint64_t left_out = 0;  // points on bodies with a hull too large for the oracle
 };

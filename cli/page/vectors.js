@@ -21,8 +21,8 @@ const unitQuaternion = q => { const size = Math.hypot(...q) || 1; return q.map(x
 const product = (q, p) => [
   ...add(add(times(p, q[3]), times(q, p[3])), cross(q, p)), q[3] * p[3] - dot(q, p)];
 
-// Turns z to the unit vector v.
+// The rotation that turns z to the unit vector v.
 const turnFromZ = v => v[2] < -0.999999 ? [1, 0, 0, 0] : unitQuaternion([-v[1], v[0], 0, 1 + v[2]]);
 
-// A vector at right angles to the unit vector v.
+// A vector perpendicular to the unit vector v.
 const sideOf = v => unit(cross(v, Math.abs(v[0]) < 0.6 ? [1, 0, 0] : [0, 1, 0]));

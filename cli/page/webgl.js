@@ -1,4 +1,4 @@
-// What WebGL needs to be told.
+// Helpers for WebGL.
 'use strict';
 
 const canvas = document.getElementById('canvas');

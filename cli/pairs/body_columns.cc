@@ -5,7 +5,7 @@
 namespace carom::cli {
 namespace {
 
-// nullptr of shapes that have none.
+// nullptr for shapes without geometry.
 std::shared_ptr<const void> geometry_of(const Shape& shape) {
   if (const Hull* hull = std::get_if<Hull>(&shape)) return hull->geometry;
   if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->geometry;
@@ -59,7 +59,7 @@ void BodyColumns::push_rows(const Shape& shape, const Eigen::Quaternionf& orient
   first_row_.push_back(count ? static_cast<uint32_t>(rows_.size()) : 0);
   rows_.insert(rows_.end(), rows.begin(), rows.begin() + count);
   if (rows_.empty()) return;
-  orientation_.resize(size(), {0, 0, 0, 1});  // of the bodies before the first that has rows
+  orientation_.resize(size(), {0, 0, 0, 1});  // for bodies before the first with rows
   orientation_.push_back({orientation.x(), orientation.y(), orientation.z(), orientation.w()});
 }
 

@@ -11,7 +11,7 @@
 
 namespace carom::cli {
 
-// Keeps the geometries of its bodies.
+// Keeps the geometries of its bodies alive.
 class BodyColumns {
  public:
   explicit BodyColumns(PositionType positions) : positions_(positions) {}
@@ -21,14 +21,15 @@ class BodyColumns {
 
   size_t size() const { return kind_.size(); }
   PositionType positions() const { return positions_; }
-  // Whether some body is made of sub-shapes.
+  // Whether any body is made of sub-shapes.
   bool has_composites() const;
-  // As stored: float32 positions are rounded, and kinds without rows may have no orientation.
+  // The stored shape and pose: float32 positions are rounded, and kinds without rows may have lost
+  // their orientation.
   Shape shape(size_t index) const;
   Pose pose(size_t index) const;
 
-  // Kinds, and the first rows of bodies, are given one by one only where there is more than one
-  // kind; orientations and rows only where a kind has rows.
+  // Has a kind and a first row per body only if there are several kinds; has orientations and rows
+  // only if a kind has rows.
   Collidables view() const;
 
  private:
@@ -40,14 +41,14 @@ class BodyColumns {
   Eigen::Vector3d position(size_t index) const;
 
   PositionType positions_;
-  std::vector<float> record32_;  // x y z w, one of the two
+  std::vector<float> record32_;  // x y z w; one of these two is filled
   std::vector<double> record64_;
   std::vector<ShapeKind> kind_;
-  std::array<std::vector<float>, 3> lower_;  // zero where the body is no aabb
+  std::array<std::vector<float>, 3> lower_;  // zero if the body is not an aabb
   std::array<std::vector<float>, 3> upper_;
   std::vector<Row> rows_;
-  std::vector<uint32_t> first_row_;  // 0 where the kind has none
-  std::vector<Row> orientation_;     // empty as long as no kind has rows
+  std::vector<uint32_t> first_row_;  // 0 if the kind has none
+  std::vector<Row> orientation_;     // empty while no kind has rows
   std::set<std::shared_ptr<const void>> geometries_;
 };
 

@@ -1,4 +1,4 @@
-// Columns for times of impact, and for the contacts then.
+// Memory for times of impact and for the contacts at those times.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ class ImpactArrays {
  public:
   explicit ImpactArrays(const PairSet& pairs);
 
-  // To write to; sub-shapes only if there can be any.
+  // Columns to write to; sub-shapes only if a body can have them.
   ImpactColumns columns();
 
   struct Row {
@@ -28,7 +28,7 @@ class ImpactArrays {
   PairColumns contact_;
 };
 
-// Whether a time says that there is an impact.
+// Whether a time of impact means that the bodies meet.
 bool meets(float toi);
 
 }  // namespace carom::cli

@@ -15,7 +15,7 @@
 
 namespace carom::cli {
 
-// How the bodies of one side move. An array that is empty is zero for all.
+// The movement of the bodies of one side. An empty array means zero for all.
 struct Motions {
   std::vector<std::array<float, 3>> displacement;
   std::vector<std::array<float, 3>> rotation;
@@ -32,7 +32,7 @@ struct PairSet {
   Motions motions_b{};
 
   size_t size() const { return a.size(); }
-  // Whether a side has displacements, without which there is no time of impact to ask for.
+  // Whether a side has displacements; a time of impact needs them.
   bool has_motions() const {
     return !motions_a.displacement.empty() || !motions_b.displacement.empty();
   }
@@ -40,22 +40,22 @@ struct PairSet {
   bool has_composites() const { return a.has_composites() || b.has_composites(); }
 };
 
-// Reads a file of pairs. An orientation that is no rotation (NaN, infinite or zero) makes its body
-// invalid, whatever the kind: kernels do not read those of spheres and aabbs, so such a body gets a
-// NaN position.
+// Reads a file of pairs. An orientation that is not a rotation (NaN, infinite or zero) makes its
+// body invalid, whatever the kind. Kernels ignore orientations of spheres and aabbs, so this gives
+// such a body a NaN position.
 Result<PairSet> read_pair_set(const std::string& path);
 
-// Row i of A with row i of B, as a list: in the order of the rows, or with neighbours far apart, so
-// that they are in other lanes and other batches.
+// The list of pairs (row i of A, row i of B): in order, or with neighbours far apart, so that they
+// fall into other lanes and other batches.
 std::vector<Pair> rows_in_order(size_t count);
 std::vector<Pair> rows_spread_out(size_t count);
 
-// Memory for the results of pairs at a detail, with sub-shapes if there can be any.
+// Memory for the results of pairs at a detail; has sub-shapes if a body can have them.
 class PairColumns {
  public:
   PairColumns(const PairSet& pairs, Detail detail);
 
-  // To write to; columns that the detail lacks are nullptr.
+  // Columns to write to; nullptr for columns that the detail lacks.
   ResultColumns columns();
 
   struct Row {
@@ -70,10 +70,10 @@ class PairColumns {
     uint32_t sub_a = 0;
     uint32_t sub_b = 0;
   };
-  // Zero where the detail lacks it.
+  // Fields that the detail lacks are zero.
   Row row(size_t index) const;
 
-  // As the file holds them: places of a manifold that hold no point are NaN.
+  // Results in the form of the file: unused points of a manifold are NaN.
   io::PairResults results() const;
 
  private:

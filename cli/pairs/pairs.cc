@@ -23,8 +23,8 @@
 namespace carom::cli {
 namespace {
 
-// `distance` asks for nothing beyond what the contact kernels of these shapes give; `toi` has
-// contacts at the time of impact.
+// `distance` is the same as contact, because the contact kernels of these shapes also measure
+// separate pairs. `toi` gives the contacts at the time of impact.
 constexpr NamedDetail kDetails[] = {{"overlap", Detail::overlap},
                                     {"contact", Detail::contact},
                                     {"manifold", Detail::manifold},
@@ -41,8 +41,7 @@ struct PairsOptions {
 
 bool finds_impacts(const PairsOptions& options) { return options.engine.detail == "toi"; }
 
-// Times of impact are found in double precision at every tier: there is nothing to prove or to
-// loosen.
+// Every tier finds times of impact in double precision, so other tiers and knobs have no effect.
 Result<void> check_tier_of_impacts(const Accuracy& accuracy, const std::string& tier) {
   if (has_proofs(accuracy.tier)) {
     return Error{"--detail toi has the tier standard alone (--tier " + tier + " was given)"};
@@ -59,13 +58,13 @@ Result<void> check_motions(const PairSet& pairs, const std::string& path) {
       "is missing, and displacement_b as well (--detail toi needs one of them)");
 }
 
-// Results of the last run, and the nanoseconds a pair that each run took.
+// Results of the last run, and the nanoseconds per pair of each run.
 struct Tested {
   io::PairResults results;
   std::vector<double> ns_per_pair;
 };
 
-// Calls `test` with its parallelism `repeat` times, and takes the time.
+// Calls `test(parallelism)` `repeat` times and measures each call.
 template <class Test>
 Result<std::vector<double>> time_runs(size_t pairs, const PairsOptions& options,
                                       const Console& console, const Test& test) {

@@ -1,4 +1,4 @@
-// Runs a world through the frames of a scene and notes what happened.
+// Plays the frames of a scene into a world and records the results.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@
 
 namespace carom::cli {
 
-// One entry a frame in every list.
+// Every list has one entry for each frame.
 struct RunRecord {
-  std::vector<double> frame_ms;  // World::step() alone: reading and copying poses is left out
+  std::vector<double> frame_ms;  // World::step() alone, without reading and copying poses
   std::array<std::vector<double>, kStageCount> stage_ms;
   std::vector<uint64_t> pairs;
   std::vector<uint64_t> contacts;  // at detail overlap: overlapping pairs; at pairs: empty
@@ -26,7 +26,7 @@ struct RunRecord {
   std::vector<uint64_t> kept;
   std::vector<uint64_t> dropped;
   std::vector<uint64_t> quarantined;
-  // Of runs that look ahead; otherwise empty.
+  // Only if bodies look ahead; otherwise empty.
   std::vector<uint64_t> swept;
   std::vector<uint64_t> impacts;
   std::vector<uint64_t> speculative;
@@ -38,8 +38,8 @@ struct RunRecord {
   StateHash hash;
 };
 
-// Replays `frames` frames into an empty world, its dynamic bodies looked after as `detection` says;
-// `pairs_out` may be absent.
+// Replays `frames` frames into an empty world; its dynamic bodies get this detection. `pairs_out`
+// may be absent.
 Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
                          uint64_t frames, std::optional<PairsOutput>& pairs_out, Progress& progress,
                          Detection detection = Detection::discrete);

@@ -88,7 +88,7 @@ Result<Outputs> open_outputs(const RunOptions& options) {
   return outputs;
 }
 
-// A scene that says how its bodies move, if that counts.
+// Fails if the detection needs velocities and the scene has none.
 Result<void> check_velocities(const io::SceneInfo& info, const RunOptions& options,
                               Detection detection) {
   if (detection == Detection::discrete) return {};
@@ -163,7 +163,7 @@ void warn_of_quarantined(const std::vector<uint32_t>& bodies, const Console& con
   console.warning(text + (bodies.size() > kNamed ? ", ..." : ""));
 }
 
-// All but the JSON, which is written as it is finished.
+// Finishes all outputs except the JSON, which is complete when it is written.
 Result<void> finish(Outputs& outputs) {
   if (outputs.pairs) {
     if (Result<void> finished = outputs.pairs->finish(); !finished) return finished;

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Frame 0 builds everything for the first time and is left out, unless there is no other.
+// Drops frame 0, which builds everything for the first time, unless it is the only one.
 std::vector<double> steady(const std::vector<double>& frames) {
   return {frames.begin() + (frames.size() > 1), frames.end()};
 }
@@ -38,7 +38,7 @@ double bytes_per_body(const RunReport& report) {
   return share(report.memory.total(), report.bodies);
 }
 
-// Of the pairs of the last frame.
+// Memory per pair of the last frame.
 double bytes_per_pair(const RunReport& report) {
   const std::vector<uint64_t>& pairs = report.record.pairs;
   return share(report.memory.pairs_and_results, pairs.empty() ? 0 : pairs.back());
@@ -52,7 +52,7 @@ Json events_json(const RunRecord& record) {
   return events;
 }
 
-// What is not set is left out.
+// Adds only the knobs that are set.
 void add_knobs(const FastKnobs& knobs, Json& json) {
   const std::vector<std::string> names = names_of(knobs);
   if (!names.empty()) json["knobs"] = names;

@@ -1,4 +1,4 @@
-// What `carom run` reports, as JSON and as text.
+// The report of `carom run` as JSON and as text.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct RunReport {
   Accuracy accuracy;
   std::string detail;
   std::string detection;
-  std::vector<std::string> pair_kinds;  // that the bodies of the scene can make
+  std::vector<std::string> pair_kinds;  // possible with the scene's bodies
   float margin = 0;                     // metres
   int dop_bounds = 0;                   // directions; 0: none
   WorldMemory memory;                   // at the end
@@ -28,7 +28,7 @@ struct RunReport {
   RunRecord record;
 };
 
-// Memory of this process at its peak.
+// The peak memory of this process.
 uint64_t peak_rss_bytes();
 
 // As JSON if that is wanted, as text otherwise.

@@ -1,4 +1,4 @@
-// A 64-bit hash of everything that a run found.
+// A 64-bit hash of all results of a run.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace carom::cli {
 
 class StateHash {
  public:
-  // The length is part of what is hashed, so that lists cannot run into each other.
+  // Hashes the length too, so that moving an element to the next list changes the hash.
   template <class T>
   void add(std::span<const T> list) {
     mix(list.size());

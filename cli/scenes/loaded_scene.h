@@ -1,4 +1,4 @@
-// The first frames of a scene in memory, to be played as often as wanted.
+// The first frames of a scene in memory, which can be played any number of times.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,12 @@ namespace carom::cli {
 
 class LoadedScene : public accuracy::Playback {
  public:
-  // A scene as the command line names it, with its first frame; for worlds that look ahead with all
-  // velocities.
+  // Opens a scene named as on the command line and loads its first frame. Loads all velocities if
+  // worlds look ahead.
   static Result<std::unique_ptr<LoadedScene>> open(const std::string& source,
                                                    bool looks_ahead = false);
 
-  // Reads on until `frames` frames are held, or all that the scene has, or about `bytes` bytes.
+  // Reads until `frames` frames are loaded, the scene ends, or about `bytes` bytes are used.
   Result<void> load(size_t frames, size_t bytes = size_t{1} << 28);
 
   const Player& player() const { return player_; }

@@ -10,7 +10,7 @@
 namespace carom::cli {
 namespace {
 
-// Rows of 3 -> records of 4; the fourth stays as it is.
+// Copies rows of 3 into records of 4; the fourth number stays.
 template <class T>
 void write_positions(const std::vector<T>& rows, T* records) {
   for (size_t i = 0; i < rows.size() / 3; ++i) {
@@ -24,7 +24,7 @@ void write(const std::vector<float>& rows, std::span<Eigen::Vector3f> vectors) {
   }
 }
 
-// Spheres and aabbs are the same however they are turned.
+// Whether orientations matter: spheres and aabbs ignore them.
 bool reads_orientations(const io::SceneInfo& info, const std::vector<Shape>& shapes) {
   return info.has_orientation &&
          std::any_of(info.body_shape.begin(), info.body_shape.end(),

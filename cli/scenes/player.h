@@ -12,25 +12,25 @@ namespace carom::cli {
 
 class Player {
  public:
-  // Fails as convert_shapes() does. `info` has to live as long as the player; `source` names it in
-  // errors.
+  // Fails if convert_shapes() fails. `info` must outlive the player; errors name `source`.
   static Result<Player> create(const io::SceneInfo& info, const std::string& source);
 
   const io::SceneInfo& info() const { return *info_; }
   PositionType positions() const;
-  // How many bodies have which kind.
+  // The number of bodies of each kind.
   BodiesOfKind bodies_of_kind() const;
-  // The arrays of a frame that are read at this detail, by worlds that look ahead or do not.
+  // The arrays of a frame that worlds at this detail read; velocities if they look ahead.
   io::SceneArrays wanted(Detail detail, bool looks_ahead = false) const;
 
-  // The first frame of a world: adds all bodies in the order of the file, so that the index of a
-  // body is its index in the file. Dynamic ones are looked after as `detection` says.
+  // Puts the first frame into a world: adds all bodies in the order of the file, so that a body's
+  // index is its index in the file. Dynamic bodies get this detection.
   void start(const io::SceneFrame& frame, World& world,
              Detection detection = Detection::discrete) const;
-  // Any later frame: writes poses, and boxes of recordings, straight into the arrays.
+  // Puts a later frame into a world: writes poses, and boxes of recordings, straight into the
+  // arrays.
   void move(const io::SceneFrame& frame, World& world) const;
 
-  // Body `index` as it is in this frame.
+  // Body `index` in this frame.
   BodyDesc body(const io::SceneFrame& frame, size_t index) const;
 
  private:
@@ -43,7 +43,7 @@ class Player {
 
   const io::SceneInfo* info_;
   std::vector<Shape> shapes_;
-  bool oriented_;  // some body has a kind whose orientation matters, and the scene gives it
+  bool oriented_;  // the scene has orientations and some body's kind reads them
 };
 
 }  // namespace carom::cli

@@ -1,4 +1,4 @@
-// The world bounds of a scene's bodies, frame by frame, as boxes of a recording.
+// Computes the world bounds of a scene's bodies, frame by frame, as boxes of a recording.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace carom::cli {
 
 class SceneBounds {
  public:
-  // Of a scene whose bodies are of one kind, as generators make them. `info` has to live as long.
+  // All bodies must be of one kind, as in generated scenes. `info` must outlive this object.
   explicit SceneBounds(const io::SceneInfo& info);
 
   // min x y z 0, max x y z 0 a body; valid until the next call.
@@ -28,7 +28,7 @@ class SceneBounds {
   Columns negative_half_;
   Columns lower_;
   Columns upper_;
-  std::vector<Shape> shapes_;  // of kinds that have rows
+  std::vector<Shape> shapes_;  // only for kinds that have rows
   std::vector<std::array<float, 4>> rows_;
   std::vector<float> boxes_;
 };

@@ -1,4 +1,4 @@
-// A scene as the command line names it: a file or a generator.
+// Opens scenes named on the command line: a file or a generator.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,11 @@
 
 namespace carom::cli {
 
-// A file of that name comes first; otherwise a text such as "brownian:n=1000" is a generator.
+// Opens the file of that name if it exists; otherwise a text such as "brownian:n=1000" names a
+// generator.
 Result<std::unique_ptr<io::SceneReader>> open_source(const std::string& text);
 
-// Whether open_source() would take the text for a generator.
+// Whether open_source() would read the text as a generator.
 bool names_generator(const std::string& text);
 
 }  // namespace carom::cli

@@ -14,7 +14,7 @@ namespace {
 
 Eigen::Vector3f vector(const float* xyz) { return Eigen::Map<const Eigen::Vector3f>(xyz); }
 
-// The triangle's indices are relative to the mesh's vertices.
+// Indices are relative to the mesh's own vertices.
 Triangle only_triangle(const io::SceneShapes& shapes, size_t index) {
   const std::array<float, 8>& params = shapes.params[index];
   const std::array<uint32_t, 3>& indices = shapes.triangles[shapes.triangle_range[index][0]];
@@ -28,7 +28,7 @@ Triangle only_triangle(const io::SceneShapes& shapes, size_t index) {
   return triangle;
 }
 
-// A shape's own vertices.
+// The vertices of one shape.
 std::vector<Eigen::Vector3f> vertices_of(const io::SceneShapes& shapes, size_t index) {
   const auto [first, count] = shapes.vertex_range[index];
   std::vector<Eigen::Vector3f> points;
@@ -69,7 +69,7 @@ Result<Shape> convert_dop(const io::SceneShapes& shapes, size_t index) {
   return Error{std::string("a dop of k = ") + number + " (6, 14, 18 or 26 was expected)"};
 }
 
-// `converted` holds all shapes but compounds.
+// `converted` holds all shapes except compounds.
 Result<Shape> convert_compound(const io::SceneShapes& shapes, size_t index,
                                const std::vector<Shape>& converted) {
   const auto [first, count] = shapes.child_range[index];

@@ -1,4 +1,4 @@
-// Shapes of files -> shapes of the library.
+// Converts shapes of files to shapes of the library.
 #pragma once
 
 #include <string>
@@ -11,13 +11,14 @@
 namespace carom::cli {
 
 // `source` names the file in messages. A mesh of one triangle becomes a Triangle, a dop the slabs
-// of its vertices, a hull what io::build_hull() makes of them. Sizes are passed on as they are:
-// what is invalid is for the kernels to say, and a geometry that cannot be made of invalid numbers
-// is not there. Fails for shapes of nothing (a hull without vertices, a mesh without triangles, a
-// compound without children), unknown dops, and compounds with half-spaces.
+// of its vertices, a hull the result of io::build_hull(). Sizes are not checked, because the
+// kernels report invalid shapes; a geometry that cannot be built from invalid numbers is null.
+// Fails for empty shapes (a hull without vertices, a mesh without triangles, a compound without
+// children), unknown dops, and compounds with half-spaces.
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes, const std::string& source);
 
-// One of them, of any kind but compounds. The error says what it is: "a hull without vertices".
+// Converts one shape of any kind except compound. The error names the cause: "a hull without
+// vertices".
 Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index);
 
 }  // namespace carom::cli

@@ -19,7 +19,7 @@ Result<JsonOutput> JsonOutput::open(const std::string& target) {
 }
 
 Result<void> JsonOutput::write(const nlohmann::ordered_json& json, const Console& console) {
-  // Names come from files and may hold anything: bytes that are no UTF-8 are replaced.
+  // Replaces bytes that are not UTF-8: names come from files.
   std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
   if (standard_output_) console.out << text;
   if (!file_) return {};

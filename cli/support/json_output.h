@@ -12,7 +12,8 @@ namespace carom::cli {
 
 class JsonOutput {
  public:
-  // Empty: none; "-": standard output. Opened before the work, so that it cannot fail after it.
+  // An empty target means none, "-" standard output. Opened before the work, so that a bad target
+  // fails early.
   static Result<JsonOutput> open(const std::string& target);
 
   bool wanted() const { return file_ || standard_output_; }

@@ -1,4 +1,4 @@
-// Numbers in the text that people read.
+// Formats numbers for readable text.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace carom::cli {
 
-// One number as printf() writes it; no longer than 63 characters.
+// One number as printf() writes it; at most 63 characters.
 inline std::string number(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
 }
 
-// 0 of nothing.
+// part / whole; 0 if the whole is 0.
 inline double share(uint64_t part, uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }

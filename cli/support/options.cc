@@ -90,7 +90,7 @@ Result<void> set_knob(const std::string& name, KnobsOf served, FastKnobs& knobs)
   return unknown("knob", name, names);
 }
 
-// An empty list sets none.
+// An empty list sets no knob.
 Result<void> parse_knobs(const std::string& list, KnobsOf served, FastKnobs& knobs) {
   if (list.empty()) return {};
   for (size_t begin = 0; begin <= list.size();) {
@@ -106,7 +106,7 @@ Error needs_fast(const std::string& option, const std::string& tier) {
   return {option + " needs --tier fast, not " + tier};
 }
 
-// None for "auto".
+// Returns no set for "auto".
 Result<std::optional<Isa>> parse_isa(const std::string& name) {
   std::optional<Isa> isa;
   if (name == "auto") return isa;

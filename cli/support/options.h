@@ -1,4 +1,4 @@
-// Options that several commands share: their text, and what it means.
+// Options that several commands share: their text and their meaning.
 #pragma once
 
 #include <optional>
@@ -36,16 +36,16 @@ void add_json_option(Command& command, std::string& json);
 inline constexpr int kMaxThreads = 1024;
 Result<void> check_threads(int threads);
 
-// What a command serves of the knobs of the fast tier: those of collide(), or those of worlds, too.
+// The knobs of the fast tier that a command accepts: those of collide(), or also those of worlds.
 enum class KnobsOf { pairs, worlds };
-// Tier, knobs and tolerance; knobs go with the fast tier alone.
+// Parses tier, knobs and tolerance; knobs need the fast tier.
 Result<Accuracy> parse_accuracy(const EngineOptions& options, KnobsOf served);
-// Those that are set, as --knobs calls them; the tolerance is none of them.
+// The set knobs by their names in --knobs; without the tolerance.
 std::vector<std::string> names_of(const FastKnobs& knobs);
-// "fast: faces-only, motion tolerance 0.01 m", for people.
+// Readable text: "fast: faces-only, motion tolerance 0.01 m".
 std::string describe(const Accuracy& accuracy);
 
-// Metres, finite and not negative.
+// Checks that a margin (metres) is finite and not negative.
 Result<void> check_margin(double margin);
 // Directions of k-DOPs; 0: none.
 Result<std::optional<DopKind>> parse_dop_bounds(int directions);
@@ -59,18 +59,18 @@ struct NamedDetail {
   std::string_view name;
   Detail detail;
 };
-// Looks `text` up among what a command serves; a detail that only `carom pairs` has is refused as
-// such.
+// Finds `text` among a command's details. Refuses a detail that only `carom pairs` has with its own
+// message.
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known);
 
 struct OutputFile {
   std::string option;
   std::string name;  // empty: not given
 };
-// Refuses outputs that name the same file, however they are spelled. "-" of --json is no file.
+// Refuses outputs that name the same file, however they are spelled. "-" of --json is not a file.
 Result<void> check_apart(std::span<const OutputFile> outputs);
 
-// The library ignores a CAROM_ISA that it cannot use; whoever runs the program wants to know.
+// Fails if CAROM_ISA is unusable; the library ignores that silently.
 Result<void> check_isa_variable();
 
 // Forces an instruction set for as long as it lives; "auto" forces none.

@@ -1,4 +1,4 @@
-// Names of pairs of shape kinds that have a kernel.
+// Names the pairs of shape kinds that have a kernel.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace carom::cli {
 
 using BodiesOfKind = std::array<uint64_t, kShapeKindCount>;
 
-// "sphere-sphere", "sphere-box", ...: those that as many bodies of each kind can make, in the order
-// of the codes.
+// "sphere-sphere", "sphere-box", ...: the pairs that this many bodies of each kind can form, in the
+// order of the codes.
 std::vector<std::string> pair_kinds(const BodiesOfKind& bodies);
 
 }  // namespace carom::cli

@@ -1,4 +1,4 @@
-// A line on the terminal for what takes longer than about a second.
+// A progress line on the terminal for work that takes longer than about a second.
 #pragma once
 
 #include <chrono>

@@ -5,7 +5,7 @@
 
 namespace carom::cli {
 
-// The middle value; of an even number of values, the mean of the two in the middle. 0 if empty.
+// The middle value; for an even number the mean of the two in the middle; 0 if empty.
 double median(std::vector<double> values);
 
 struct Summary {

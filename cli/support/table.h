@@ -1,4 +1,4 @@
-// Text in aligned columns.
+// Prints text in aligned columns.
 #pragma once
 
 #include <ostream>

@@ -68,7 +68,8 @@ uint8_t exact_decision(const StatedBody& a, const StatedBody& b) {
     return simple_decision(a, b);
   }
   StatedBody near_a = a, near_b = b;
-  if (is_compound(a) || is_compound(b)) {  // children are placed near the pair
+  if (is_compound(a) ||
+      is_compound(b)) {  // children are computed near the origin, relative to the pair
     near_b.position = position(minus(numbers(b.position), numbers(a.position)));
     near_a.position = position({});
   }

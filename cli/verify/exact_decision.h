@@ -1,4 +1,4 @@
-// Whether two bodies overlap exactly as they are stored.
+// Decides whether two bodies overlap exactly as stored.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace carom::cli {
 
-// 1 or 0, proven in double precision or computed in exact arithmetic. Meshes and compounds by every
-// pair of their triangles and children: what a compound's children are is said beside
-// CompoundGeometry. The bodies must be valid.
+// Returns 1 or 0, proven in double precision or computed in exact arithmetic. Tests every pair of
+// triangles and children of meshes and compounds; CompoundGeometry defines a compound's children.
+// The bodies must be valid.
 uint8_t exact_decision(const StatedBody& a, const StatedBody& b);
 
 }  // namespace carom::cli

@@ -1,4 +1,4 @@
-// carom verify: everything against the scalar reference, bit for bit.
+// carom verify: compares everything with the scalar reference, bit for bit.
 #include "cli/verify/verify.h"
 
 #include <algorithm>
@@ -71,7 +71,7 @@ class Verification {
 
   bool differs() const { return difference_.has_value(); }
 
-  // Prints what was found; the exit code.
+  // Prints the findings and returns the exit code.
   int finish() const {
     if (rows_ > 0) table_.print(console_.out);
     if (difference_) {
@@ -89,7 +89,7 @@ class Verification {
     return verify_scene(system_, engines_, scene, source, frames, console_);
   }
 
-  // Whether it could be verified, and agrees.
+  // Notes an outcome; returns whether it could be verified and agreed.
   bool note(Result<VerifyOutcome> outcome) {
     if (!outcome) {
       failed_ = true;

@@ -1,4 +1,4 @@
-// The verify command, with the system to be verified as a parameter.
+// The verify command; the verified system is a parameter.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace carom::cli {
 
 struct VerifyOptions {
   std::vector<std::string> sources;  // scenes, generators, files of pairs; empty: the built-in set
-  uint64_t frames = 0;               // of every scene; 0: all
-  std::optional<int> threads;        // absent: as many as the machine runs at once, 2 to 8
+  uint64_t frames = 0;               // of each scene; 0: all
+  std::optional<int> threads;  // absent: the machine's hardware threads, at least 2, at most 8
 };
 
 // Exit code: 0 only if everything could be verified and agreed.

@@ -15,7 +15,8 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Body i of a mixed scene has shape i and motion i % kMotions: half-spaces are static.
+// In a mixed scene body i has shape i and motion i % kMotions. The stride is a multiple of
+// kMotions, so that half-spaces are static.
 constexpr uint32_t kMotions = 3;
 constexpr uint32_t kHalfspaceStride = 67 * kMotions;
 
@@ -25,7 +26,7 @@ std::unique_ptr<io::SceneReader> generate(const std::string& text) {
   return io::open_generator(*spec);
 }
 
-// Every other shape a sphere.
+// Makes every other shape a sphere.
 void make_spheres(io::SceneShapes& shapes) {
   for (size_t i = 0; i < shapes.kind.size(); i += 2) {
     shapes.kind[i] = static_cast<uint8_t>(ShapeKind::sphere);
@@ -65,7 +66,7 @@ void make_mesh(io::SceneShapes& shapes, size_t index, const std::array<float, 3>
   shapes.triangles.insert(shapes.triangles.end(), {{0, 2, 4}, {4, 2, 1}, {4, 1, 3}, {1, 5, 3}});
 }
 
-// A ball and a box beside each other; shapes of their own behind the others.
+// A ball and a box side by side; their shapes are appended after the others.
 void make_compound(io::SceneShapes& shapes, size_t index, const std::array<float, 3>& half) {
   const auto [x, y, z] = half;
   shapes.params[index] = {};
@@ -83,8 +84,8 @@ void make_compound(io::SceneShapes& shapes, size_t index, const std::array<float
   }
 }
 
-// The kind of shape `i` of a scene of all kinds: spheres, capsules, aabbs, boxes and triangles in
-// turn, fewer of others.
+// The kind of shape `i` in a scene of all kinds: spheres, capsules, aabbs, boxes and triangles in
+// turn, fewer of the others.
 ShapeKind kind_in_turn(size_t i) {
   constexpr std::array kKinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
                                  ShapeKind::box, ShapeKind::triangle};
@@ -103,7 +104,7 @@ ShapeKind kind_in_turn(size_t i) {
   }
 }
 
-// All from the half extents that `shapes` holds.
+// Makes all kinds from the half extents in `shapes`.
 void make_all_kinds(io::SceneShapes& shapes) {
   const size_t count = shapes.kind.size();
   shapes.vertex_range.resize(count);
@@ -111,7 +112,7 @@ void make_all_kinds(io::SceneShapes& shapes) {
   shapes.child_range.resize(count);
   for (size_t i = 0; i < count; ++i) {
     const ShapeKind kind = kind_in_turn(i);
-    // A file's triangle is a mesh of one.
+    // Files store a triangle as a mesh of one.
     shapes.kind[i] = static_cast<uint8_t>(kind == ShapeKind::triangle ? ShapeKind::mesh : kind);
     std::array<float, 8>& params = shapes.params[i];
     const std::array half = {params[0], params[1], params[2]};
@@ -129,8 +130,8 @@ void make_all_kinds(io::SceneShapes& shapes) {
   shapes.vertices[10][1] = kNan;  // of a hull
 }
 
-// A generated scene of boxes of which some become other kinds, with layers, masks, owners, sensors
-// and all kinds of motion, and with bodies that are ill-formed in some frames.
+// A generated scene of boxes, some changed to other kinds, with layers, masks, owners, sensors and
+// all kinds of motion. In some frames some bodies are ill-formed.
 class MixedScene : public io::SceneReader {
  public:
   // `oriented`: half of the bodies turn in every frame.
@@ -165,7 +166,7 @@ class MixedScene : public io::SceneReader {
   }
 
  private:
-  // Quaternions that are not unit.
+  // Writes quaternions that are not unit ones.
   void turn(std::vector<float>& orientations) const {
     orientations.clear();
     for (uint64_t i = 0; i < info_.bodies; ++i) {

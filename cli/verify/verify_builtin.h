@@ -1,5 +1,5 @@
-// What `carom verify` checks without arguments: small scenes of every generator and random pairs of
-// every kind, at rest and moving, ill-formed bodies included.
+// The built-in checks of `carom verify`: small scenes of every generator and random pairs of every
+// kind, at rest and moving, including ill-formed bodies.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ struct BuiltinPairs {
   PairSet pairs;
 };
 std::vector<BuiltinPairs> builtin_pairs();
-// Pairs that move.
+// Moving pairs.
 std::vector<BuiltinPairs> builtin_motions();
 
 }  // namespace carom::cli

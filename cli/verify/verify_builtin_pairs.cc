@@ -1,4 +1,4 @@
-// Random and special pairs of every two kinds that have a kernel, at rest and moving.
+// Makes random and special pairs of every two kinds that have a kernel, at rest and moving.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,12 +23,12 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
 
-// Kinds that are tested one at a time, or by their parts.
+// Kinds that are slow, because the library tests them one at a time or part by part.
 bool is_slow(ShapeKind a, ShapeKind b) {
   return has_geometry(a) || has_geometry(b) || a == ShapeKind::dop || b == ShapeKind::dop;
 }
 
-// Sizes over six decades, about half of the pairs overlapping.
+// Random pairs of sizes over six decades; about half of them overlap.
 class RandomPairs {
  public:
   RandomPairs(PositionType positions, uint64_t seed)
@@ -41,9 +41,9 @@ class RandomPairs {
     push(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
   }
 
-  // Bodies that come, turning or not, to where add() would have put them; some only after the
-  // interval, more of them where a half-space is hard to miss. Most of those that would begin with
-  // an overlap come from the opposite side.
+  // Adds bodies that move, turning or not, to where add() would place them. Some arrive after the
+  // interval, more of them with a half-space, which is hard to miss. If a pair would begin with an
+  // overlap, most of the time its motion is reversed.
   void add_moving(ShapeKind a, ShapeKind b) {
     const Placed pair = place(a, b);
     const bool hard_to_miss = a == ShapeKind::halfspace || b == ShapeKind::halfspace;
@@ -59,7 +59,7 @@ class RandomPairs {
     push(start.shape_a, start.pose_a, start.shape_b, start.pose_b, sweep_a, sweep_b);
   }
 
-  // Coincident, touching, empty and ill-formed bodies; of slow kinds along one axis each.
+  // Adds coincident, touching, empty and ill-formed bodies; slow kinds along one axis each.
   void add_special(ShapeKind a, ShapeKind b) {
     const Eigen::Quaternionf turns[] = {Eigen::Quaternionf::Identity(), {1, 0, 0, 1}, {4, 1, 2, 3}};
     for (float size : {0.0f, 1.0f, 1e-30f, 1e18f, 3 * kDenormal, -1.0f, kNan, kInfinity}) {
@@ -75,7 +75,7 @@ class RandomPairs {
     add_orientations(a, b);
   }
 
-  // Motions to exact touch, tiny, huge and ill-formed ones.
+  // Adds motions to exact touch, and tiny, huge and ill-formed ones.
   void add_special_motions(ShapeKind a, ShapeKind b) {
     const Eigen::Vector3f x = Eigen::Vector3f::UnitX();
     const Eigen::Vector3f y = Eigen::Vector3f::UnitY();
@@ -121,7 +121,7 @@ class RandomPairs {
     pair.pose_b.orientation = shapes_.orientation();
     switch (pairs_.size() % 4) {
       case 0:
-        break;  // as it comes
+        break;  // keep the random pose
       case 1:
         separate(pair, 0);
         break;
@@ -131,7 +131,7 @@ class RandomPairs {
     return pair;
   }
 
-  // Some do not move, and half do not turn.
+  // A random sweep; one in eight does not move, half do not turn.
   Sweep sweep(double size) {
     Sweep sweep;
     if (!shapes_.one_of(8)) sweep.displacement = shapes_.in_ball(6 * size).cast<float>();
@@ -155,7 +155,7 @@ class RandomPairs {
     pose.orientation = (by * pose.orientation.cast<double>()).cast<float>();
   }
 
-  // Orientations that are hardly one, or none.
+  // Adds orientations that are invalid or nearly so.
   void add_orientations(ShapeKind a, ShapeKind b) {
     const Eigen::Vector3d unit_y = Eigen::Vector3d::UnitY();
     for (const Eigen::Quaternionf& q : {Eigen::Quaternionf{0, 0, 0, 0},
@@ -182,18 +182,18 @@ class RandomPairs {
     pairs_.motions_b.push(sweep_b);
   }
 
-  // Compounds may be made of surfaces.
+  // Counts compounds as surfaces, because they may consist of them.
   static bool is_surface(ShapeKind kind) {
     return kind == ShapeKind::triangle || is_composite(kind);
   }
 
-  // How deep two shapes may overlap before they are apart again; surfaces have no inside.
+  // A depth of overlap that most pairs can have, as a share of the size; surfaces have no inside.
   static double depth(ShapeKind a, ShapeKind b) {
     return is_surface(a) || is_surface(b) ? 0.05 : 0.3;
   }
 
-  // As a share of the depth, so that half of all pairs overlap: one-sided surfaces often do not
-  // meet at all.
+  // The greatest separation, as a share of the depth. The values make half of all pairs overlap,
+  // because one-sided surfaces often do not meet at all.
   static double most_apart(ShapeKind a, ShapeKind b) {
     return 0.5 - 0.25 * (is_surface(a) + is_surface(b));
   }
@@ -203,7 +203,7 @@ class RandomPairs {
                               pairs_.a.positions());
   }
 
-  // Moves B along the normal until it is about this far from A, unless it comes from behind a
+  // Moves B along the normal until it is about this far from A. Does nothing if B is behind a
   // one-sided triangle.
   void separate(Placed& pair, double separation) const {
     const reference::PairResult now = collide(pair);
@@ -249,7 +249,7 @@ bool meets_all(ShapeKind a) {
   return std::all_of(kKinds.begin(), kKinds.end(), [&](ShapeKind b) { return supports(a, b); });
 }
 
-// Those that may all be in one set.
+// Pairs of kinds that may be in one set.
 std::vector<std::pair<ShapeKind, ShapeKind>> mixed_kinds() {
   std::vector<std::pair<ShapeKind, ShapeKind>> kinds;
   for (ShapeKind a : kKinds) {

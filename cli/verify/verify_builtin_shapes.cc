@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array kDopKinds = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 
-// A cube of which the corners are cut off.
+// A cube with its corners cut off.
 Dop even_dop(float size) {
   Dop dop{.kind = DopKind::k14};
   dop.lower.fill(-size);
@@ -20,7 +20,7 @@ Dop even_dop(float size) {
   return dop;
 }
 
-// What cannot be made is not valid.
+// Returns an invalid hull if none can be built.
 Hull hull_of(const std::vector<Eigen::Vector3f>& points) {
   Result<io::BuiltHull> hull = io::build_hull(points);
   return hull ? Hull{std::move(hull->geometry)} : Hull{};
@@ -89,7 +89,7 @@ Eigen::Quaternionf RandomShapes::orientation() {
   return {w, x, y, z};
 }
 
-// Each of the three flat at times.
+// Each of the three extents is sometimes 0.
 Eigen::Vector3f RandomShapes::half_extents(double size) {
   const auto edge = [&] {
     return one_of(16) ? 0 : static_cast<float>(size * random_.between(0.3, 1));
@@ -139,13 +139,13 @@ std::vector<Eigen::Vector3f> RandomShapes::some_points(size_t count, double size
   return points;
 }
 
-// Of a point and more.
+// The k-DOP of one or more points.
 Dop RandomShapes::dop(double size) {
   const std::vector<Eigen::Vector3f> points = some_points(1 + random_.below(12), size);
   return Dop::of_points(points, kDopKinds[random_.below(kDopKinds.size())]);
 }
 
-// Of a point and more, flat at times.
+// The hull of one or more points, sometimes flat.
 Hull RandomShapes::hull(double size) {
   std::vector<Eigen::Vector3f> points = some_points(1 + random_.below(20), size);
   if (one_of(8)) {

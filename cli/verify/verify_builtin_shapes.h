@@ -1,4 +1,4 @@
-// Shapes of the pairs that `carom verify` has built in.
+// Shapes for the built-in pairs of `carom verify`.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@ namespace carom::cli {
 // A shape whose numbers are all 0 or plus or minus `size`.
 Shape even_shape(ShapeKind kind, float size);
 
-// Random shapes, degenerate ones among them, and poses.
+// Random shapes, including degenerate ones, and poses.
 class RandomShapes {
  public:
   explicit RandomShapes(io::Random& random) : random_(random) {}
 
   // About as large as `size`.
   Shape shape(ShapeKind kind, double size);
-  // Most of them far from unit length.
+  // A quaternion, mostly far from unit length.
   Eigen::Quaternionf orientation();
   Eigen::Vector3d in_ball(double radius);
   bool one_of(uint32_t count) { return random_.below(count) == 0; }

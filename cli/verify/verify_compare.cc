@@ -24,7 +24,7 @@ Pair pair_of(const Contact& contact) { return {contact.a, contact.b}; }
 Pair pair_of(const Event& event) { return {event.a.index, event.b.index}; }
 Pair pair_of(BodyId id) { return {id.index, id.index}; }
 
-// Lists are sorted: where they part, the lesser pair is the one that the other list lacks.
+// Lists are sorted: at the first difference the other list lacks the lesser pair.
 template <class T>
 std::optional<Mismatch> compare_lists(const char* what, std::span<const T> expected,
                                       std::span<const T> actual) {
@@ -35,7 +35,7 @@ std::optional<Mismatch> compare_lists(const char* what, std::span<const T> expec
   return Mismatch{what, std::min(pair_of(expected[*index]), pair_of(actual[*index]))};
 }
 
-// One a pair; the pairs are known to agree.
+// One value for each pair; the pairs are known to agree.
 std::optional<Mismatch> compare_overlaps(const FrameView& expected, const FrameView& actual) {
   std::optional<size_t> index = first_difference(expected.overlaps, actual.overlaps);
   if (!index) return std::nullopt;
@@ -44,7 +44,7 @@ std::optional<Mismatch> compare_overlaps(const FrameView& expected, const FrameV
                   expected.pairs.empty() ? Pair{0, 0} : expected.pairs[std::min(*index, last)]};
 }
 
-// One a contact; the contacts are known to agree.
+// One value for each contact; the contacts are known to agree.
 std::optional<Mismatch> compare_manifolds(const FrameView& expected, const FrameView& actual) {
   std::optional<size_t> index = first_difference(expected.manifolds, actual.manifolds);
   if (!index) return std::nullopt;

@@ -1,4 +1,4 @@
-// The first place where the results of two frames differ.
+// Finds the first difference between the results of two frames.
 #pragma once
 
 #include <optional>

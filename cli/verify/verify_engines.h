@@ -1,4 +1,4 @@
-// One verifier, run on every engine until results differ.
+// Runs one verifier on every engine until results differ.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace carom::cli {
 
-// Joined for "compared: ...": the names of what is tried on every engine.
+// The names of the variants, joined for "compared: ...".
 template <class Variants>
 std::string compared_text(const Variants& variants) {
   std::string text;
@@ -20,8 +20,8 @@ std::string compared_text(const Variants& variants) {
   return text;
 }
 
-// `Verifier::verify(row, progress)` is false where there is a difference, which take_difference()
-// then gives.
+// `Verifier::verify(row, progress)` returns false at a difference; take_difference() then returns
+// it.
 template <class Verifier, class Variants>
 Result<VerifyOutcome> verify_engines(Verifier verifier, const Variants& variants,
                                      const Engines& engines, const std::string& source,

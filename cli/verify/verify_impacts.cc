@@ -26,7 +26,7 @@ constexpr std::array kVariants = {Variant{"times of impact", false, true},
                                   Variant{"impacts shuffled", true, true},
                                   Variant{"times alone", false, false}};
 
-// Points of a body frame are arms.
+// In body frames the contact's points are arms.
 Impact impact_of(const ImpactArrays::Row& row) {
   const PairColumns::Row& contact = row.contact;
   return {.toi = row.toi,
@@ -67,7 +67,7 @@ std::string text_of(const Impact& impact, bool with_contact) {
 
 class ImpactVerifier {
  public:
-  // The reference finds the impacts here; `progress` counts the pairs.
+  // Finds the impacts with the reference; `progress` counts the pairs.
   ImpactVerifier(System& system, const PairSet& pairs, Progress progress)
       : system_(system),
         pairs_(pairs),
@@ -82,7 +82,7 @@ class ImpactVerifier {
     }
   }
 
-  // False if there is a difference. `progress` counts the runs.
+  // Returns false at a difference. `progress` counts the runs.
   Result<bool> verify(VerifyRow& row, Progress& progress) {
     force_isa(row.engine.isa);
     for (const Variant& variant : kVariants) {

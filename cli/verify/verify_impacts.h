@@ -1,4 +1,4 @@
-// Sets of moving pairs: times of impact against the scalar reference.
+// Compares times of impact of sets of moving pairs with the scalar reference.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace carom::cli {
 
-// Looks for the impacts in the order of the rows and in another one, with and without the contacts,
-// and stops at the first difference. Kinds have to be such that meet.
+// Finds the impacts in the order of the rows and in another order, with and without the contacts.
+// Stops at the first difference. All pairs of kinds must be supported.
 Result<VerifyOutcome> verify_impacts(System& system, const Engines& engines, const PairSet& pairs,
                                      const std::string& source, const Console& console);
 

@@ -1,4 +1,4 @@
-// What was verified, with whom, and what was found.
+// The outcome of a verification: engines, counts and the first difference.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace carom::cli {
 
-// Everything is run by every instruction set with every number of threads.
+// An instruction set and a number of threads; every check runs on every engine.
 struct Engine {
   Isa isa;
   int threads;

@@ -64,7 +64,8 @@ bool is_invalid(const Row& row) { return row.status == static_cast<uint8_t>(Stat
 
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
-// position + arm as the library rounds it: a float64 position is a float32 and what that leaves.
+// position + arm, rounded as in the library: a float64 position is split into a float32 and its
+// remainder.
 std::array<float, 3> in_world(const std::array<float, 3>& arm, const Eigen::Vector3d& position,
                               PositionType positions) {
   std::array<float, 3> point{};
@@ -76,7 +77,7 @@ std::array<float, 3> in_world(const std::array<float, 3>& arm, const Eigen::Vect
   return point;
 }
 
-// The unused places of a manifold are zero in any frame.
+// Unused points of a manifold are zero in any frame, so they are not moved.
 ManifoldPoints in_world(ManifoldPoints manifold, size_t count, const Eigen::Vector3d& position,
                         PositionType positions) {
   for (size_t i = 0; i < count; ++i) {
@@ -99,7 +100,7 @@ std::string text_of(const Row& row) {
 
 class PairVerifier {
  public:
-  // The reference tests the pairs here; `progress` counts them.
+  // Tests the pairs with the reference; `progress` counts them.
   PairVerifier(System& system, const PairSet& pairs, Progress progress)
       : system_(system),
         pairs_(pairs),
@@ -114,7 +115,7 @@ class PairVerifier {
     }
   }
 
-  // False if there is a difference. `progress` counts the runs.
+  // Returns false at a difference. `progress` counts the runs.
   Result<bool> verify(VerifyRow& row, Progress& progress) {
     force_isa(row.engine.isa);
     for (const Variant& variant : kVariants) {
@@ -146,7 +147,7 @@ class PairVerifier {
             result.sub_b};
   }
 
-  // In exact arithmetic where double precision proves nothing; 0 for invalid pairs.
+  // Uses exact arithmetic if double precision proves nothing; 0 for invalid pairs.
   uint8_t exact_decision(size_t index) const {
     if (is_invalid(expected_[index])) return 0;
     const StatedBody a = stated_body(pairs_.a.view(), index);
@@ -158,9 +159,9 @@ class PairVerifier {
     return carom::stated_body(BodyReader{bodies}, index);
   }
 
-  // What a tier may say of a pair is what the exact decision is, or nothing. A proof about bodies
-  // with parts ends at the first part that overlaps, which need not be the one whose status the
-  // reference has.
+  // A proving tier must report the exact decision; the certified tier may report undecided. A proof
+  // about bodies with parts ends at the first overlapping part, whose status may differ from the
+  // part that the reference reports.
   bool is_as_promised(const Row& want, const Row& got, Tier tier) const {
     if (same_bits(want, got)) return true;
     if (!has_proofs(tier) || is_invalid(want) || is_invalid(got)) return false;
@@ -169,7 +170,7 @@ class PairVerifier {
     return abstains && want.status == got.status;
   }
 
-  // The reference's result of a pair, as a variant gives it.
+  // The reference's result of a pair in the form that a variant gives.
   Row expected(size_t index, const Variant& variant) const {
     Row row = expected_[index];
     if (has_proofs(variant.tier)) row.overlap = exact_[index];

@@ -1,4 +1,4 @@
-// Sets of pairs: carom's kernels against the scalar reference.
+// Compares Carom's kernels with the scalar reference on sets of pairs.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace carom::cli {
 
 // Tests the pairs row by row and in another order, at every detail, with witness points in both
-// frames, and stops at the first difference.
+// frames. Stops at the first difference.
 Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const PairSet& pairs,
                                    const std::string& source, const Console& console);
 

@@ -29,8 +29,8 @@ constexpr std::array kVariants = {
             Detail::manifold},
 };
 
-// Above this, comparing all boxes with all others on every engine would take minutes a frame. The
-// reference still does.
+// With more bodies the brute broadphase would take minutes a frame on every engine, so it is left
+// out. The reference still compares all boxes.
 constexpr uint64_t kMaxBruteBodies = 20'000;
 
 std::vector<Variant> variants_for(uint64_t bodies) {
@@ -50,14 +50,14 @@ std::string names_of(const std::vector<Variant>& variants) {
   return text;
 }
 
-// What the reference says at detail contact, where it has said it at detail manifold.
+// The reference's frame at detail contact, made from detail manifold.
 reference::Frame without_manifolds(reference::Frame frame) {
   frame.manifolds.clear();
   for (Contact& contact : frame.contacts) contact.manifold_count = 0;
   return frame;
 }
 
-// And at detail overlap.
+// The reference's frame at detail overlap.
 reference::Frame without_contacts(reference::Frame frame) {
   frame.contacts.clear();
   for (Event& event : frame.events) event.contact = kNoContact;
@@ -76,7 +76,7 @@ class SceneVerifier {
     }
   }
 
-  // False if there is a difference.
+  // Returns false at a difference.
   bool verify_frame(const io::SceneFrame& frame) {
     step_reference(frame);
     size_t next = 0;
@@ -143,7 +143,7 @@ class SceneVerifier {
   const Player& player_;
   std::vector<Variant> variants_;
   std::vector<VerifyRow> rows_;
-  std::vector<std::unique_ptr<Stepper>> steppers_;  // variants_.size() a row
+  std::vector<std::unique_ptr<Stepper>> steppers_;  // variants_.size() for each row
   std::vector<reference::Body> bodies_;
   reference::Frame expected_;  // at detail manifold
   reference::Frame expected_contact_;

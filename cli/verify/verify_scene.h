@@ -1,4 +1,4 @@
-// Every frame of a scene: carom's worlds against the scalar reference.
+// Compares Carom's worlds with the scalar reference in every frame of a scene.
 #pragma once
 
 #include <string>
@@ -10,9 +10,8 @@
 
 namespace carom::cli {
 
-// Runs one world a way of running (instruction set, threads, broadphase, with and without carried
-// results, at every detail that tests pairs) beside the reference, and stops at the first
-// difference.
+// Runs one world for each combination of instruction set, threads, broadphase and carried results,
+// at every detail that tests pairs, beside the reference. Stops at the first difference.
 Result<VerifyOutcome> verify_scene(System& system, const Engines& engines, io::SceneReader& scene,
                                    const std::string& source, uint64_t frames,
                                    const Console& console);

@@ -1,5 +1,5 @@
-// What `carom verify` compares with the scalar reference. Carom itself by default; a test puts a
-// broken one in its place to see that it is found out.
+// The system that `carom verify` compares with the scalar reference: Carom by default. A test
+// passes a broken one to see that its faults are found.
 #pragma once
 
 #include <memory>
@@ -21,11 +21,11 @@ struct FrameView {
   std::span<const BodyId> quarantined;
 };
 
-// A scene on its way through a world.
+// Plays a scene into a world.
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  // The next frame; the view is valid until the next call.
+  // Plays the next frame; the view is valid until the next call.
   virtual FrameView step(const io::SceneFrame& frame) = 0;
 };
 

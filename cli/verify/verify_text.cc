@@ -50,7 +50,7 @@ std::string parameters(const Dop& dop) {
   return text;
 }
 
-// The first ones, and how many there are.
+// The number of points and the first of them.
 std::string list(std::span<const Eigen::Vector3f> points) {
   constexpr size_t kMost = 64;
   std::string text = std::to_string(points.size()) + " points";

@@ -1,4 +1,4 @@
-// Inputs and results as text that loses no bit: floats are hexadecimal.
+// Writes inputs and results as text without loss: floats are hexadecimal.
 #pragma once
 
 #include <Eigen/Core>

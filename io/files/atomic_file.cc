@@ -31,7 +31,7 @@ bool change(Slot& slot, SlotState from, SlotState to) {
   return slot.state.compare_exchange_strong(from, to);
 }
 
-// -1 if there is no room: then the path is not noted.
+// Returns the slot, or -1 if there is no room and the path is not noted.
 int note_temporary(const std::string& path) {
   if (path.size() >= PATH_MAX) return -1;
   for (size_t i = 0; i < slots.size(); ++i) {
@@ -44,8 +44,8 @@ int note_temporary(const std::string& path) {
   return -1;
 }
 
-// While a file has a name that is not noted (any more), no signal handler runs in this thread, and
-// one in another thread waits.
+// Counts files that exist under a name that no slot holds. Their threads block signals, and a
+// signal handler in another thread waits for zero.
 std::atomic<int> creations = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -68,7 +68,7 @@ class Creation {
   sigset_t before_;
 };
 
-// Not for ever: the file system may hang.
+// Gives up after a second, because the file system may hang.
 void wait_for_creations() {
   const timespec millisecond{0, 1'000'000};
   for (int i = 0; i < 1000 && creations != 0; ++i) ::nanosleep(&millisecond, nullptr);
@@ -121,7 +121,7 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
   const Creation creation;
   for (int attempt = 0; attempt < 1000; ++attempt) {
     const std::string temporary = prefix + "-" + std::to_string(attempt);
-    // Not mkstemp: the file shall get the permissions that the umask grants.
+    // Not mkstemp: the file must get the permissions that the umask grants.
     File file(::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (file) return AtomicFile(path, temporary, std::move(file));
     if (errno != EEXIST) return system_error(path, "cannot be created", errno);
@@ -155,7 +155,7 @@ void AtomicFile::remove_temporary() {
   forget_temporary();
 }
 
-// After the file is gone or has its name: until then a signal finds it.
+// Called only after the file was removed or renamed: a signal handler can find it until then.
 void AtomicFile::forget_temporary() {
   if (slot_ >= 0) {
     change(slots[static_cast<size_t>(slot_)], SlotState::kLive, SlotState::kFree);
@@ -168,7 +168,7 @@ void remove_temporary_files() noexcept {
   const int error_number = errno;
   wait_for_creations();
   for (Slot& slot : slots) {
-    // A slot that is being removed stays so, so that nobody else fills it meanwhile.
+    // The slot stays in kRemoving, so that no thread fills it meanwhile.
     if (change(slot, SlotState::kLive, SlotState::kRemoving)) ::unlink(slot.path);
   }
   errno = error_number;

@@ -42,11 +42,11 @@ class AtomicFile {
   uint64_t offset_ = 0;
 };
 
-// Removes the temporary file of every AtomicFile there is. For the handler of a signal that ends
-// the process: safe at any moment and in any thread.
+// Removes the temporary file of every AtomicFile. A handler of a fatal signal calls this; it is
+// safe at any moment and in any thread.
 void remove_temporary_files() noexcept;
 
-// A file without a name in the folder of `path`, gone with its last descriptor.
+// An unnamed file in the folder of `path`; it disappears when its last descriptor is closed.
 Result<File> open_spool(const std::string& path);
 
 // Writes a whole text file (JSON output) or leaves everything as it was.

@@ -57,7 +57,7 @@ File::~File() {
 }
 
 Result<File> File::open(const std::string& path, const std::string& what) {
-  // Not to hang on a pipe without a writer; regular files ignore the flag.
+  // O_NONBLOCK: do not hang on a pipe without a writer. Regular files ignore the flag.
   File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file) return system_error(path, "cannot be opened", errno);
   struct stat status {};

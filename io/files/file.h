@@ -27,20 +27,20 @@ class File {
   int release() { return std::exchange(descriptor_, -1); }
 
   Result<uint64_t> size(const std::string& path) const;
-  // Fills `out` from `offset`; a file that ends before is an error. `path` is for the message.
+  // Fills `out` from `offset`; fails if the file ends before. The error names `path`.
   Result<void> read_at(uint64_t offset, std::span<std::byte> out, const std::string& path) const;
   Result<void> write_at(uint64_t offset, std::span<const std::byte> bytes,
                         const std::string& path) const;
-  // Closes now; says if the data did not reach the file.
+  // Closes now; fails if the data did not reach the file.
   Result<void> close(const std::string& path);
 
  private:
   int descriptor_ = -1;
 };
 
-// "path: text" as an error.
+// An error "path: text".
 Error file_error(const std::string& path, const std::string& text);
-// "path: text: reason of errno".
+// An error "path: text: reason of errno".
 Error system_error(const std::string& path, const std::string& text, int error_number);
 // Control characters become '?', so that a name read from a file cannot break a line.
 std::string printable(const std::string& text);
@@ -49,7 +49,7 @@ std::string printable(const std::string& text);
 std::string folder_of(const std::string& path);
 // The file's name without its folder and last extension.
 std::string stem_of(const std::string& path);
-// Whether the name ends so, in any case ("." included in `extension`).
+// Ignores case; `extension` includes the dot.
 bool has_extension(const std::string& path, const std::string& extension);
 
 }  // namespace carom::io

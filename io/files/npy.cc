@@ -14,7 +14,7 @@ constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr size_t kAlignment = 64;
 
 struct DTypeEntry {
-  const char* code;  // as in the header, without the byte order
+  const char* code;  // in the header, after the byte order
   const char* name;
   size_t size;
 };

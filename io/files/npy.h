@@ -60,7 +60,7 @@ struct NpyElement<std::array<T, kCount>> {
 
 using Shape = std::vector<uint64_t>;
 
-// An extent of an expected shape that may have any value.
+// In an expected shape: any extent.
 inline constexpr uint64_t kAny = UINT64_MAX;
 
 struct NpyHeader {

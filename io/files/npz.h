@@ -19,10 +19,10 @@
 
 namespace carom::io {
 
-// "path: member name: text" as an error.
+// An error "path: member name: text".
 Error member_error(const std::string& path, const std::string& name, const std::string& text);
 
-// What a reader expects of one member. Extents may be kAny.
+// The type and shape that a reader expects of one member. Extents may be kAny.
 struct Expected {
   DType dtype;
   Shape shape;
@@ -79,9 +79,9 @@ class NpzReader {
   template <class T>
   Result<std::vector<T>> read(const std::string& name, Shape expected) const;
 
-  // One member of a type and shape to be read in pieces.
+  // Opens a member of the expected type and shape for reading in pieces.
   Result<NpzStream> stream(const std::string& name, const Expected& expected) const;
-  // The same, of whatever type and shape it has.
+  // The same for any type and shape.
   Result<NpzStream> stream(const std::string& name) const;
 
  private:
@@ -93,8 +93,8 @@ class NpzReader {
 
 enum class Compression : uint8_t { kStored, kDeflated };
 
-// Writes an archive to a temporary file in the target's folder that takes the target's name in
-// finish(). Nothing is left behind if finish() fails or is never called.
+// Writes an archive to a temporary file in the target's folder; finish() gives it the target's
+// name. If finish() fails or is never called, no file is left.
 class NpzWriter {
  public:
   static Result<NpzWriter> create(const std::string& path,
@@ -110,9 +110,9 @@ class NpzWriter {
   template <class T>
   Result<void> add(const std::string& name, const std::vector<T>& values);
 
-  // Starts an array of shape (rows, row...) whose first extent is known only at finish(); its data
-  // are kept in an unnamed file, not in memory. Returns what append() takes, which may append any
-  // part of the data at a time (one row at a time if a row has no bytes).
+  // Starts an array of shape (rows, row...). finish() sets the first extent; until then an unnamed
+  // file keeps the data. Returns the index that append() takes. Each append() may add any part of
+  // the data, or one row if a row has no bytes.
   Result<size_t> begin(const std::string& name, DType dtype, const Shape& row);
   Result<void> append(size_t member, std::span<const std::byte> bytes);
 

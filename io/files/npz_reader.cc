@@ -8,7 +8,7 @@
 namespace carom::io {
 namespace {
 
-// Deflate cannot shrink data further than this, so a member that claims more lies.
+// Deflate cannot compress further than this, so a member that claims more is damaged.
 constexpr uint64_t kMaxDeflateRatio = 1032;
 
 constexpr const char* kSuffix = ".npy";
@@ -29,7 +29,7 @@ struct Member {
 
 std::string bytes_text(uint64_t bytes) { return std::to_string(bytes) + " bytes"; }
 
-// What is wrong with a member's entry in the archive's directory, or nothing.
+// The error in a member's directory entry, or an empty text.
 std::string entry_problem(const zip_stat_t& entry, uint64_t archive_bytes) {
   constexpr zip_uint64_t kNeeded = ZIP_STAT_SIZE | ZIP_STAT_COMP_SIZE | ZIP_STAT_COMP_METHOD;
   if ((entry.valid & kNeeded) != kNeeded) return "has an incomplete directory entry";
@@ -73,7 +73,7 @@ struct NpzStream::State {
   NpyHeader header;
   uint64_t header_bytes = 0;
   uint64_t data_bytes = 0;
-  uint64_t position = 0;  // in the data
+  uint64_t position = 0;
 
   Error error(const std::string& text) const { return member_error(reader->path, name, text); }
   Result<void> open();
@@ -192,7 +192,6 @@ Result<void> NpzStream::read(std::span<std::byte> out) {
   return {};
 }
 
-// Opens the member, or opens it again, and reads its header.
 Result<void> NpzStream::State::open() {
   zip_t* archive = reader->archive.get();
   file.reset(zip_fopen_index(archive, member.index, 0));

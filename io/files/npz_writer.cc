@@ -11,10 +11,11 @@
 namespace carom::io {
 namespace {
 
-// The slot in front of spooled data that the header fills at the end: room for every shape.
+// Bytes reserved in front of spooled data for the header, which is written last; enough for every
+// shape.
 constexpr uint64_t kSpoolHeaderBytes = 256;
 
-// 1980-01-01 00:00, so that the same arrays always make the same file.
+// 1980-01-01 00:00: a fixed date, so that the same arrays always make the same file.
 constexpr zip_uint16_t kDosDate = 1 << 5 | 1;
 
 struct PendingMember {
@@ -104,12 +105,12 @@ Result<void> NpzWriter::append(size_t member_index, std::span<const std::byte> b
       member.spool.write_at(kSpoolHeaderBytes + member.spooled, bytes, state_->file.path());
   if (!done) return done;
   member.spooled += bytes.size();
-  // A row of no bytes (a frame of no bodies) is a row all the same.
+  // A row without bytes (a frame without bodies) still counts as a row.
   member.rows = member.row_bytes == 0 ? member.rows + 1 : member.spooled / member.row_bytes;
   return {};
 }
 
-// Now that the length is known: puts the first extent into the shape, the header into its slot.
+// Sets the first extent, which is now known, and writes the header into its reserved bytes.
 Result<void> NpzWriter::State::complete_spool(PendingMember& member) const {
   if (member.rows * member.row_bytes != member.spooled) {
     return error(member, "holds " + std::to_string(member.spooled) +

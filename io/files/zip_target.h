@@ -1,5 +1,5 @@
-// Where libzip writes an archive: straight into an AtomicFile. Given a path, libzip would write to
-// a temporary file of its own, which nobody could remove when the program is interrupted.
+// Lets libzip write an archive straight into an AtomicFile. Given a path, libzip would write a
+// temporary file of its own, which an interrupted program could not remove.
 #pragma once
 
 #include <zip.h>
@@ -13,7 +13,7 @@ namespace carom::io {
 
 class ZipTarget {
  public:
-  // `file` has to live as long; this has to live as long as the archive.
+  // `file` must outlive this object, and this object the archive.
   explicit ZipTarget(AtomicFile& file) : file_(file) { zip_error_init(&error_); }
   ZipTarget(const ZipTarget&) = delete;
   ZipTarget& operator=(const ZipTarget&) = delete;
@@ -21,7 +21,7 @@ class ZipTarget {
 
   // A new archive; nullptr if libzip refuses.
   zip_t* open();
-  // Why the file could not be written, if that is what went wrong.
+  // The write error, or nothing if another step failed.
   const std::optional<Error>& failure() const { return failure_; }
 
  private:

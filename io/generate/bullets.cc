@@ -9,12 +9,12 @@ namespace carom::io {
 namespace {
 
 constexpr double kHalfRoom = 10;  // metres
-constexpr double kSpeed = 300;    // metres a second; the least is a sixth of the greatest
+constexpr double kSpeed = 300;    // metres a second, the greatest; the least is a sixth of it
 constexpr double kSpin = 200;     // radians a second
-constexpr double kThinnest = 0.02, kWidest = 0.1;  // bullets
-constexpr uint64_t kBulletShapes = 64;             // in turn
+constexpr double kThinnest = 0.02, kWidest = 0.1;  // of bullets, metres
+constexpr uint64_t kBulletShapes = 64;             // bullets use them in turn
 constexpr uint64_t kWalls = 6, kBoxes = 24, kSheets = 12;
-constexpr double kHalfBox = 0.01;  // of boxes, where they are thin
+constexpr double kHalfBox = 0.01;  // half the thickness of a box
 constexpr uint32_t kWallCells = 8, kSheetCells = 2;
 constexpr double kHalfSheet = 1.5;
 
@@ -60,7 +60,7 @@ void add_bullet_shape(ShapeKind kind, Random& random, SceneShapes& shapes) {
   }
 }
 
-// A square in the plane z = 0, its front towards +z, that only the front side of collides.
+// A square in the plane z = 0. It is one-sided: only its front, towards +z, collides.
 void add_sheet_shape(double half, uint32_t cells, SceneShapes& shapes) {
   add_shape(ShapeKind::mesh, shapes);
   shapes.params.back()[0] = 1;
@@ -82,7 +82,7 @@ void add_sheet_shape(double half, uint32_t cells, SceneShapes& shapes) {
   shapes.triangle_range.back() = {first_triangle, 2 * cells * cells};
 }
 
-// One entry a body in every list.
+// Every list has one entry for each body.
 struct Rows {
   std::vector<Vec3> position;
   std::vector<Quaternion> orientation;
@@ -168,7 +168,7 @@ class Bullets : public SceneReader {
     }
   }
 
-  // Of the last shape that was added.
+  // Adds a static body with the last added shape.
   void add_static(const Vec3& place, const Quaternion& turn) {
     first_.add(place, turn, {}, {});
     info_.body_shape.push_back(static_cast<uint32_t>(info_.shapes.kind.size() - 1));

@@ -1,5 +1,5 @@
-// Bullets in a room: what goes further in a frame than it is wide, and what is thin enough to be
-// missed so.
+// A generated scene of bullets in a room: bodies that move further in a frame than they are wide,
+// and obstacles so thin that discrete steps miss them.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace carom::io {
 
-// spec.bodies bullets first, then the walls, thin boxes and sheets. Bullets bounce off the walls
-// and fly through all the rest.
+// Bodies are spec.bodies bullets, then walls, thin boxes and sheets. Bullets bounce off the walls
+// and fly through everything else.
 std::unique_ptr<SceneReader> open_bullets(const GeneratorSpec& spec);
 
 }  // namespace carom::io

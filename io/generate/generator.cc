@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint64_t kSteeringStream = 16;
 constexpr uint64_t kMadeShapesStream = 17;
-constexpr uint64_t kMadeShapes = 16;  // of bodies of one size, in turn
+constexpr uint64_t kMadeShapes = 16;  // bodies of one size use them in turn
 
 std::array<float, 8> shape_params(ShapeKind shape, const Population& population, size_t body) {
   if (shape == ShapeKind::capsule) {
@@ -34,7 +34,7 @@ bool has_one_size(const GeneratorSpec& spec) {
   return spec.kind == GeneratorKind::brownian || spec.kind == GeneratorKind::still;
 }
 
-// How many shapes the bodies have; body i has shape i modulo that.
+// The number of shapes; body i has shape i modulo this.
 uint64_t shape_count(const GeneratorSpec& spec) {
   if (!has_one_size(spec) || spec.shape == ShapeKind::aabb) return spec.bodies;
   return is_made(spec.shape) ? std::min(kMadeShapes, spec.bodies) : 1;
@@ -130,7 +130,7 @@ class GeneratedScene : public SceneReader {
         turned(population_.orientation[body], population_.angular_velocity[body], spec_.dt);
   }
 
-  // A new velocity for a mover drawn at random; one may be drawn twice.
+  // Gives a new velocity to a random mover. It may draw the same mover twice.
   void steer() {
     uint64_t mover = steering_.below(static_cast<uint32_t>(population_.movers()));
     population_.velocity[mover * population_.mover_stride] = steering_.in_ball(population_.speed);

@@ -9,7 +9,7 @@
 namespace carom::io {
 namespace {
 
-// A sphere's surface, cut into triangles: an octahedron of which every triangle is cut in four.
+// A triangulated unit sphere: an octahedron whose triangles are each split into four.
 struct Surface {
   std::vector<Vec3> corners;  // unit vectors
   std::vector<std::array<uint32_t, 3>> triangles;
@@ -100,8 +100,8 @@ class ShapeMaker {
     count = static_cast<uint32_t>(shapes_.vertices.size()) - first;
   }
 
-  // No point of a child is further than half the radius from the child's own origin, or so far
-  // from the compound's.
+  // A child's points lie within half the radius of its own origin, and its origin within half the
+  // radius of the compound's, so all of it lies in the ball.
   void add_child(ShapeKind kind, const std::array<float, 8>& params) {
     const auto child = static_cast<uint32_t>(shapes_.kind.size());
     resize_shapes(kind, child + 1, shapes_);

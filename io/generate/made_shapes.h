@@ -1,4 +1,4 @@
-// Hulls, meshes and compounds of generated scenes.
+// Random hulls, meshes and compounds for generated scenes.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ constexpr bool is_made(ShapeKind kind) { return has_geometry(kind); }
 //   compound  a ball, a capsule, a box and a hull, some of them turned, that overlap
 void make_shape(ShapeKind kind, double diameter, Random& random, size_t index, SceneShapes& shapes);
 
-// Room in all arrays for so many shapes of that kind.
+// Resizes all arrays to `count` shapes; new ones have this kind.
 void resize_shapes(ShapeKind kind, size_t count, SceneShapes& shapes);
 
 }  // namespace carom::io

@@ -1,4 +1,4 @@
-// How generated bodies get from one frame to the next, and into its arrays.
+// Moves generated bodies from one frame to the next and stores them in the frame's arrays.
 #pragma once
 
 #include <cmath>

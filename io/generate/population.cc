@@ -23,7 +23,7 @@ double volume(const GeneratorSpec& spec, double edge) {
   return cube;
 }
 
-// Capsules are as long as the edge, and half as wide; what is made lies in the ball of that
+// A capsule is as long as the edge and half as wide. A made shape lies in a ball with the edge as
 // diameter.
 Vec3 half_extents(ShapeKind shape, const Vec3& edges, const Quaternion& orientation) {
   if (shape == ShapeKind::box) return half_extents_turned(edges, orientation);
@@ -33,7 +33,7 @@ Vec3 half_extents(ShapeKind shape, const Vec3& edges, const Quaternion& orientat
   return half;
 }
 
-// A body with these edges; `half` gets the room that it takes.
+// Draws a body with these edges and stores its half extents in `population.half`.
 void draw_body(const GeneratorSpec& spec, const Vec3& edges, Random& random, uint64_t body,
                Population& population) {
   Vec3& half = population.half[body];
@@ -64,7 +64,7 @@ double draw_cubes(const GeneratorSpec& spec, Population& population) {
   return sum;
 }
 
-// For the bodies that move.
+// Draws vectors for the moving bodies only.
 void draw_vectors(Random random, double greatest, uint64_t stride, std::vector<Vec3>& vectors) {
   for (uint64_t i = 0; i < vectors.size(); i += stride) vectors[i] = random.in_ball(greatest);
 }

@@ -15,11 +15,11 @@ struct Population {
   double speed = 0;           // the greatest, metres a second
   double spin = 0;            // the greatest, radians a second
   uint64_t mover_stride = 1;  // bodies 0, stride, 2 stride ... move, others never do
-  std::vector<Vec3> half;     // half the extents along the world's axes, as the scene starts
+  std::vector<Vec3> half;     // half the extents along the world's axes in the first frame
   std::vector<Vec3> position;
   std::vector<Vec3> velocity;
-  // Of shapes that turn; otherwise empty.
-  std::vector<Vec3> edges;  // of a box; others: the length or diameter, three times
+  // For shapes that turn; otherwise empty.
+  std::vector<Vec3> edges;  // a box's edges; others: length or diameter, three times
   std::vector<Quaternion> orientation;
   std::vector<Vec3> angular_velocity;
 

@@ -32,7 +32,7 @@ Vec3 Random::in_disc(double radius) {
 }
 
 Quaternion Random::rotation() {
-  // A direction in four dimensions is a uniform rotation.
+  // A uniform direction in four dimensions is a uniform rotation.
   for (;;) {
     double x = between(-1, 1);
     double y = between(-1, 1);
@@ -59,7 +59,7 @@ double LogUniform::draw(Random& random) const {
 
 double cube_root(double value) {
   if (!(value > 0)) return 0;
-  // Newton's method from above: falls until rounding stops it.
+  // Newton's method from above: the root decreases until rounding stops it.
   double root = value > 1 ? value : 1;
   for (;;) {
     double next = root - (root - value / (root * root)) / 3;

@@ -1,6 +1,6 @@
-// Random numbers that are the same with every compiler and on every machine: integer arithmetic,
-// and + - * / sqrt of doubles. Neither the distributions of the standard library nor functions of
-// the maths library, whose last bit differs between systems, are used in this folder.
+// Random numbers that are the same with every compiler and on every machine. This folder uses only
+// integer arithmetic and + - * / sqrt of doubles. It avoids the distributions of the standard
+// library and the maths library, whose last bits differ between systems.
 #pragma once
 
 #include <array>
@@ -33,9 +33,9 @@ class Random {
 
   // Uniform in the ball of that radius.
   Vec3 in_ball(double radius);
-  // Uniform among directions; its length between the two.
+  // Uniform direction, length between `inner` and `outer`.
   Vec3 in_shell(double inner, double outer);
-  // Uniform in the disc of that radius: x and z, y is 0.
+  // Uniform in the disc of that radius in the plane y = 0.
   Vec3 in_disc(double radius);
   // Uniform among all rotations; not a unit quaternion.
   Quaternion rotation();
@@ -45,7 +45,7 @@ class Random {
   uint64_t state_;
 };
 
-// Numbers whose logarithm is uniform.
+// Draws numbers whose logarithm is uniform.
 class LogUniform {
  public:
   LogUniform(double lower, double upper);
@@ -54,13 +54,13 @@ class LogUniform {
  private:
   static constexpr int kBits = 32;
   double lower_;
-  // (upper / lower)^(1/2), ^(1/4), ...: the powers that the bits of the exponent stand for.
+  // (upper / lower)^(1/2), ^(1/4), ...: the factor for each random bit of the exponent.
   std::array<double, kBits> roots_{};
 };
 
 double cube_root(double value);
 
-// Half the extents, along the world axes, of a box with these edges, turned about y at random.
+// Half the extents, along the world axes, of a box with these edges turned about y at random.
 Vec3 half_extents_turned_about_y(const Vec3& edges, Random& random);
 
 }  // namespace carom::io

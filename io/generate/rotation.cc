@@ -19,7 +19,7 @@ Quaternion normalized(const Quaternion& q) {
 Quaternion rotation_by(const Vec3& vector) {
   Vec3 half = {vector[0] / 2, vector[1] / 2, vector[2] / 2};
   double angle2 = (half[0] * half[0] + half[1] * half[1]) + half[2] * half[2];
-  // A small part of the rotation, by Taylor series, doubled again and again.
+  // Halves the angle until its Taylor series converges fast, and later doubles the rotation again.
   int doublings = 0;
   for (; angle2 > 0x1p-4; ++doublings) {
     for (double& x : half) x /= 2;

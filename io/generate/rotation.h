@@ -1,4 +1,4 @@
-// Rotations, by + - * / sqrt of doubles alone, like everything in this folder (see random.h).
+// Rotations with + - * / sqrt of doubles alone, like everything in this folder (see random.h).
 #pragma once
 
 #include <array>
@@ -7,11 +7,11 @@
 
 namespace carom::io {
 
-// The rotation a after the rotation b.
+// First rotation b, then rotation a.
 Quaternion product(const Quaternion& a, const Quaternion& b);
 Quaternion normalized(const Quaternion& q);
 
-// By |vector| radians about the vector, as a unit quaternion.
+// The unit quaternion of a rotation by |vector| radians about the vector.
 Quaternion rotation_by(const Vec3& vector);
 
 // Half the extents, along the world axes, of a turned box with these edges. The quaternion need not

@@ -58,7 +58,7 @@ std::optional<T> parse_number(std::string_view text) {
   return value;
 }
 
-// One key=value at a time.
+// Parses one key=value at a time.
 class SpecParser {
  public:
   explicit SpecParser(GeneratorSpec& spec) : spec_(spec) {}
@@ -74,7 +74,7 @@ class SpecParser {
     return assign_key();
   }
 
-  // What depends on more than one key.
+  // Checks conditions on more than one key.
   Result<void> check() const {
     if (!spec_.spin || spec_.has_orientation()) return {};
     return spec_error(spec_,

@@ -1,4 +1,4 @@
-// What scene to generate, as written on the command line: KIND[:key=value,...].
+// The specification of a generated scene, as written on the command line: KIND[:key=value,...].
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ enum class GeneratorKind : uint8_t {
   varied,    // cubes of sizes over 2.5 decades, moving freely
   level,     // "static": nine of ten boxes never move
   still,     // brownian without motion
-  bullets,   // small and fast, of several kinds, in a room of what is thin
+  bullets,   // small fast bodies of several kinds in a room of thin obstacles
 };
 
 struct GeneratorSpec {
-  std::string text;  // as it was given
+  std::string text;  // as given
   GeneratorKind kind = GeneratorKind::brownian;
-  uint64_t bodies = 10000;  // bullets: those that move
+  uint64_t bodies = 10000;  // bullets: only the moving ones
   uint64_t frames = 60;
   uint64_t seed = 1;
   std::optional<double> density;  // sum of volumes / world volume; static: bodies a square metre
@@ -39,7 +39,7 @@ struct GeneratorSpec {
 // The kinds, "brownian, varied, static, still, bullets".
 extern const char kGeneratorKinds[];
 
-// Whether the text is meant for a generator rather than for a file: one word, then the end or ':'.
+// Whether the text names a generator, not a file: one word, then the end or ':'.
 bool is_generator_text(const std::string& text);
 
 Result<GeneratorSpec> parse_generator(const std::string& text);

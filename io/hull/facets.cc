@@ -15,7 +15,7 @@ struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-// One run of Qhull, and what it holds.
+// One run of Qhull and its results.
 class QhullRun {
  public:
   // Messages go to `messages`. The points must live as long as the run.
@@ -28,7 +28,7 @@ class QhullRun {
     qh_memfreeshort(&qh_, &left, &bytes);
   }
 
-  // False if it failed.
+  // Returns false if Qhull failed.
   bool run(std::vector<double>& coordinates, const char* options) {
     std::string command = std::string("qhull ") + options;
     const int points = static_cast<int>(coordinates.size() / 3);

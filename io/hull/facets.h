@@ -1,4 +1,4 @@
-// Qhull: points of a solid -> facets.
+// Finds the facets of a solid point set with Qhull.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,16 +17,15 @@ struct Facet {
 
 struct Facets {
   std::vector<Facet> list;
-  // The furthest that a point lies outside of a facet, or a vertex inside of its own; infinite if
-  // that is not known.
+  // The largest distance of a point outside a facet, or of a facet's vertex below it; infinite if
+  // unknown.
   double thickness = 0;
 };
 
-// Points of about size one that do not lie in a plane, at most 2^31 - 1. With `joggle` the points
-// are moved by chance, by as little as makes it work: facets are triangles then. Nothing if Qhull
-// fails; never prints, never ends the program.
-// C. B. Barber et al., The Quickhull algorithm for convex hulls, ACM Transactions on Mathematical
-// Software 22(4), 1996.
+// `points` have size about one, do not lie in a plane, and are at most 2^31 - 1. With `joggle`
+// Qhull moves the points at random, as little as it needs to succeed; facets are then triangles.
+// Returns nothing if Qhull fails; never prints and never ends the program. C. B. Barber et al., The
+// Quickhull algorithm for convex hulls, ACM Transactions on Mathematical Software 22(4), 1996.
 std::optional<Facets> find_facets(std::span<const Eigen::Vector3d> points, bool joggle);
 
 }  // namespace carom::io

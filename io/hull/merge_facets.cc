@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// How much further than the rounding of one point counts as the same plane, since the plane
-// itself goes through rounded points; and how far at most.
+// Points count as coplanar within kSlack times the rounding of one point, because the plane itself
+// goes through rounded points, and never beyond kMostDistance.
 constexpr double kSlack = 8;
 constexpr double kMostDistance = 1e-4;
 
@@ -53,7 +53,7 @@ class FacetMerger {
     return order;
   }
 
-  // The corners of all facets around `seed` that lie in its plane, each once.
+  // The corners, each once, of `seed` and all connected facets that lie in its plane.
   std::vector<uint32_t> plane_of(uint32_t seed) {
     const Vector3d& normal = facets_[seed].normal;
     const Vector3d& origin = points_[facets_[seed].vertices.front()];

@@ -1,4 +1,4 @@
-// Facets of a hull -> polygons.
+// Merges coplanar facets of a hull into polygons.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@ namespace carom::io {
 
 struct HullFaces {
   std::vector<std::vector<uint32_t>> faces;  // outlines, counter-clockwise from outside
-  std::vector<bool> is_corner;               // one a point: a corner of some facet
+  std::vector<bool> is_corner;               // for each point: whether it is a corner of a facet
 };
 
-// Facets that lie in one plane, up to `rounding` of their coordinates in each axis, become one
-// face. Points of facets that are no corners of their outlines are no corners at all.
+// Merges facets that lie in one plane, up to `rounding` of the coordinates in each axis. A facet's
+// vertex that its outline drops (because it is on an edge) is not a corner.
 HullFaces merge_facets(std::span<const Eigen::Vector3d> points, const std::vector<Facet>& facets,
                        const Eigen::Vector3d& rounding);
 

@@ -17,8 +17,8 @@ struct Corner {
   uint32_t index;
 };
 
-// Whether b is to the right of the way from a to c, and by more than what counts as straight if it
-// is between the two.
+// Whether b lies to the right of the line from a to c. If b lies between the two, it must be off
+// the line by more than kFlat.
 bool is_corner(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d way = c - a;
   const Vector2d step = b - a;
@@ -28,7 +28,7 @@ bool is_corner(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return area > (is_between ? kFlat * way.norm() : 0);
 }
 
-// Puts the lower chain of sorted corners behind `out`, without its last corner.
+// Appends the lower chain of sorted corners to `out`, without its last corner.
 template <class Iterator>
 void append_chain(Iterator begin, Iterator end, std::vector<Corner>& out) {
   const size_t first = out.size();

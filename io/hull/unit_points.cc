@@ -16,7 +16,7 @@ bool is_before(const Vector3f& p, const Vector3f& q) {
   return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
 }
 
-// The first index of every point, ascending.
+// The first index of every distinct point, ascending.
 std::vector<uint32_t> distinct(std::span<const Vector3f> points) {
   std::vector<uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);

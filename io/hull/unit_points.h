@@ -1,4 +1,4 @@
-// Points of any size as points of size one.
+// Scales points of any size to size one.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,10 +9,10 @@
 namespace carom::io {
 
 struct UnitPoints {
-  // About the origin, every axis scaled by a power of two so that the extents along it are 1/2 to
-  // 1, or 0. Every point once.
+  // Distinct points, centred at the origin. Each axis is scaled by a power of two so that the
+  // extent along it is 1/2 to 1, or 0.
   std::vector<Eigen::Vector3d> point;
-  std::vector<uint32_t> source;  // the first index of each in what was given; ascending
+  std::vector<uint32_t> source;  // the first index of each among the given points; ascending
   Eigen::Vector3d rounding;      // half a step of a float at the largest coordinate of each axis
 };
 

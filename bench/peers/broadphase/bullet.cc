@@ -1,5 +1,5 @@
-// Bullet: the tree btDbvt by itself, the broadphase made of two such trees and a pair cache, and
-// sweep and prune with a pair cache. All count closed boxes.
+// Bullet: the tree btDbvt alone, the broadphase of two such trees with a pair cache, and sweep and
+// prune with a pair cache. All treat boxes as closed.
 #include <BulletCollision/BroadphaseCollision/btAxisSweep3.h>
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
@@ -16,7 +16,7 @@ uint32_t to_index(const void* pointer) {
   return static_cast<uint32_t>(reinterpret_cast<uintptr_t>(pointer));
 }
 
-// One tree without margins: exact pairs.
+// One tree without margins; it gives exact pairs.
 class TreePeer final : public Peer {
  public:
   TreePeer(const FrameBounds& first, const Box& /*world*/)
@@ -59,9 +59,9 @@ class TreePeer final : public Peer {
   std::vector<btDbvtNode*> leaves_;
 };
 
-// A broadphase with a pair cache: pairs live there from frame to frame, and are tested again here
-// because of margins, of the quantised coordinates of btAxisSweep3, and because btDbvtBroadphase
-// removes old ones over many frames.
+// A broadphase with a pair cache, which keeps pairs from frame to frame. find() tests them again
+// for three reasons: margins, the quantised coordinates of btAxisSweep3, and btDbvtBroadphase,
+// which removes old pairs over many frames.
 class CachePeer final : public Peer {
  public:
   CachePeer(std::unique_ptr<btBroadphaseInterface> broadphase, const FrameBounds& first)
@@ -103,7 +103,7 @@ std::unique_ptr<Peer> make_tree(const FrameBounds& first, const Box& world) {
   return std::make_unique<TreePeer>(first, world);
 }
 
-// Deferred: one search a frame, not one for every box that leaves its margin.
+// Deferred: one search for each frame instead of one for every box that leaves its margin.
 template <bool kDeferred>
 std::unique_ptr<Peer> make_two_trees(const FrameBounds& first, const Box& /*world*/) {
   auto broadphase = std::make_unique<btDbvtBroadphase>();
@@ -112,8 +112,8 @@ std::unique_ptr<Peer> make_two_trees(const FrameBounds& first, const Box& /*worl
 }
 
 std::unique_ptr<Peer> make_sweep(const FrameBounds& first, const Box& world) {
-  constexpr size_t kMostShort = 16'000;  // indices of 16 bits
-  constexpr bool kNoRaycasts = true;     // otherwise a btDbvtBroadphase is kept as well
+  constexpr size_t kMostShort = 16'000;  // its indices have 16 bits
+  constexpr bool kNoRaycasts = true;     // otherwise Bullet also maintains a btDbvtBroadphase
   const btVector3 lower = vector(world.lower);
   const btVector3 upper = vector(world.upper);
   const size_t handles = first.boxes.size() + 1;  // one is a sentinel
@@ -131,8 +131,8 @@ std::unique_ptr<Peer> make_sweep(const FrameBounds& first, const Box& world) {
 }  // namespace
 
 std::vector<PeerKind> bullet_kinds() {
-  // btAxisSweep3 inserts a box by moving it along all three axes, past those already there: minutes
-  // for 100,000.
+  // btAxisSweep3 inserts a box by moving it along all three axes past those already there. For
+  // 100,000 boxes that takes minutes.
   constexpr size_t kMostSwept = 20'000;
   return {{"bullet_dbvt", 1, kAnyNumber, make_tree},
           {"bullet_dbvt_broadphase", 1, kAnyNumber, make_two_trees<false>},

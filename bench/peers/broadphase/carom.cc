@@ -1,4 +1,4 @@
-// Carom's PairFinder, with the method it chooses itself.
+// Carom's PairFinder with the method that it chooses itself.
 #include "bench/peers/broadphase/peer.h"
 #include "carom/base/thread_arena.h"
 #include "carom/broadphase/find_pairs.h"

@@ -1,4 +1,4 @@
-// CGAL: box_self_intersection_d(), a hybrid of sweep and segment tree without state.
+// CGAL: box_self_intersection_d(), a stateless hybrid of sweep and segment tree.
 #include <CGAL/box_intersection_d.h>
 
 #include "bench/peers/broadphase/peer.h"
@@ -35,7 +35,7 @@ class CgalPeer final : public Peer {
     }
   }
 
-  // Closed, and every pair once.
+  // Boxes are closed; every pair is found once.
   void find(std::vector<Pair>& pairs) override {
     pairs.clear();
     const auto collect = [&](const IndexedBox& a, const IndexedBox& b) {

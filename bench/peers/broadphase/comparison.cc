@@ -25,7 +25,7 @@ void sort(std::vector<Pair>& pairs) {
   std::sort(pairs.begin(), pairs.end());
 }
 
-// The first difference between two sorted lists; empty: none.
+// The first difference between two sorted lists; empty if there is none.
 std::string difference(const std::vector<Pair>& got, const std::vector<Pair>& expected) {
   const auto [g, e] = std::mismatch(got.begin(), got.end(), expected.begin(), expected.end());
   if (e == expected.end()) return g == got.end() ? "" : text(*g) + " is no pair or there twice";
@@ -42,7 +42,7 @@ std::vector<Pair> brute_force(const FrameBounds& frame) {
   return reference::overlapping_pairs(boxes);
 }
 
-// What Carom finds: the pairs of the frames that are compared, and of all frames their number.
+// Carom's results: the pairs of the compared frames and the number of pairs of all frames.
 struct Expected {
   explicit Expected(const PeerScene& scene) {
     const std::unique_ptr<Peer> carom = carom_kinds().front().make(scene.frame(0), scene.world());
@@ -93,7 +93,8 @@ class Contestant {
     for (size_t frame = 0; frame + 1 < kComparedFrames; ++frame) cycle_.next();
   }
 
-  // Frames, fewer if they take long. The first is not timed: other peers have had the caches.
+  // Times some frames, fewer if they take long. The first is not timed, because the peer before has
+  // filled the caches.
   void take_turn(double most_seconds, const Expected& expected) {
     play_checked(expected);
     double used = 0;
@@ -121,7 +122,7 @@ class Contestant {
     return watch.seconds();
   }
 
-  // The next frame, whose pairs are counted.
+  // Plays the next frame and checks its number of pairs.
   double play_checked(const Expected& expected) {
     const size_t frame = cycle_.next();
     const double seconds = play(frame);
@@ -142,7 +143,7 @@ class Contestant {
   PeerResult result_;
 };
 
-// Why that peer is not even tried; empty: it is.
+// Why the peer is not tried at all; empty if it is.
 std::string foreseen(const PeerKind& kind, const PeerScene& scene, const TimeLimits& limits,
                      const SmallerScene& smaller) {
   if (scene.bodies() > kind.most_bodies) return "too many bodies for it";
@@ -151,8 +152,8 @@ std::string foreseen(const PeerKind& kind, const PeerScene& scene, const TimeLim
   return kind.name == std::string(kYardstick) ? "" : "from the time of a tenth of the bodies";
 }
 
-// In turns, so that the drift of a machine's clock meets all alike. Done when the yardstick has
-// used its budget; who has used more sits out.
+// Times the peers in turns, so that a drift of the machine's clock affects all of them. Ends when
+// the yardstick has used its budget; a peer that has used its own skips the remaining turns.
 void time_in_turns(std::vector<Contestant>& contestants, const TimeLimits& limits,
                    const Expected& expected) {
   const auto yardstick = std::find_if(contestants.begin(), contestants.end(),

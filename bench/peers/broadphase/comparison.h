@@ -1,4 +1,4 @@
-// All peers on one scene: first their pairs are compared, then they are timed in turns.
+// Compares all peers on one scene: first their pairs, then their times in turns.
 #pragma once
 
 #include <map>
@@ -12,14 +12,14 @@
 namespace carom::bench {
 
 struct TimeLimits {
-  double budget = 1;       // seconds of frames a peer
-  double frame_limit = 5;  // a peer that needs longer for a frame is left out
+  double budget = 1;       // seconds of frames for each peer
+  double frame_limit = 5;  // a slower peer is left out
 };
 
 enum class Outcome {
   timed,
   too_slow,   // or expected to be
-  different,  // not Carom's pairs
+  different,  // its pairs differ from Carom's
 };
 
 struct PeerResult {
@@ -36,16 +36,16 @@ struct SceneResult {
   std::string scene;
   size_t bodies = 0;
   size_t pairs = 0;         // of the second frame
-  std::string brute_force;  // how Carom differs from it; empty: not at all
+  std::string brute_force;  // Carom's difference from brute force; empty if none
   bool held_to_brute_force = false;
-  std::vector<PeerResult> peers;  // none where Carom is wrong
+  std::vector<PeerResult> peers;  // empty if Carom is wrong
 
   // The result of the peer on one thread, if it was timed.
   const PeerResult* timed(const std::string& peer) const;
   bool all_equal() const;
 };
 
-// The median seconds a frame of peers on a scene with a tenth of the bodies, by their names.
+// Median seconds per frame of each peer, by name, on a scene with a tenth of the bodies.
 using SmallerScene = std::map<std::string, double>;
 
 SceneResult compare(const PeerScene& scene, const std::vector<PeerKind>& kinds,

@@ -1,4 +1,5 @@
-// FCL: DynamicAABBTreeCollisionManager, a tree of boxes in double precision. Closed and exact.
+// FCL: DynamicAABBTreeCollisionManager, a tree of boxes in double precision. Boxes are closed;
+// pairs are exact.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision_object.h>
 
@@ -7,7 +8,7 @@
 namespace carom::bench {
 namespace {
 
-// A geometry that is nothing but its bounds: with the identity as transform FCL adds no rounding.
+// A geometry that has only bounds. With the identity as transform FCL adds no rounding.
 class BoundsGeometry final : public fcl::CollisionGeometryd {
  public:
   explicit BoundsGeometry(const Box& box) { set(box); }
@@ -34,9 +35,9 @@ class FclPeer final : public Peer {
     manager_.setup();
   }
 
-  // Few boxes that moved are inserted again; for many it is faster to fit the tree to all.
+  // Inserts moved boxes again if they are few; for many, refitting the whole tree is faster.
   void update(const FrameBounds& frame) override {
-    constexpr size_t kFew = 20;  // one of 20
+    constexpr size_t kFew = 20;  // fewer than one in 20
     moved_.clear();
     for (size_t i = 0; i < boxes_.size(); ++i) {
       if (boxes_[i] == frame.boxes[i]) continue;

@@ -31,8 +31,9 @@ struct Span {
   dReal centre;
   dReal half;
 
-  // ODE wants centres and lengths, which round; an ulp of the larger coordinate more, so that no
-  // touching pair is lost. And never nothing: ODE leaves out boxes with an edge of length zero.
+  // ODE takes centres and lengths, which round. One ulp of the larger coordinate is added, so that
+  // no touching pair is lost. The length is never zero, because ODE ignores boxes with an edge of
+  // length zero.
   static Span covering(float lower, float upper) {
     using Limits = std::numeric_limits<float>;
     const dReal largest = std::max(std::abs(lower), std::abs(upper));
@@ -41,7 +42,7 @@ struct Span {
   }
 };
 
-// Pairs are tested again because boxes are given a little too large.
+// Tests pairs again, because the boxes are slightly too large.
 class OdePeer final : public Peer {
  public:
   OdePeer(dSpaceID space, const FrameBounds& first, const AxisOrder& order)
@@ -55,7 +56,7 @@ class OdePeer final : public Peer {
   }
   OdePeer(const OdePeer&) = delete;
   OdePeer& operator=(const OdePeer&) = delete;
-  ~OdePeer() override { dSpaceDestroy(space_); }  // and what is in it
+  ~OdePeer() override { dSpaceDestroy(space_); }  // and its geoms
 
   void update(const FrameBounds& frame) override {
     for (size_t i = 0; i < boxes_.size(); ++i) {
@@ -101,7 +102,7 @@ dSpaceID hash_space(const FrameBounds& /*first*/, const Box& /*world*/, const Ax
   return dHashSpaceCreate(nullptr);
 }
 
-// As many leaves as boxes, about.
+// About as many leaves as boxes.
 dSpaceID quadtree_space(const FrameBounds& first, const Box& world, const AxisOrder& order) {
   const int depth = static_cast<int>(std::log2(static_cast<double>(first.boxes.size())) / 2);
   dVector3 centre = {};
@@ -128,7 +129,7 @@ std::unique_ptr<Peer> make(const FrameBounds& first, const Box& world) {
 }  // namespace
 
 std::vector<PeerKind> ode_kinds() {
-  constexpr size_t kMostHashed = 100'000;  // the hash space keeps a bit for every two boxes
+  constexpr size_t kMostHashed = 100'000;  // the hash space keeps one bit for every pair of boxes
   return {{"ode_hash", 1, kMostHashed, make<hash_space>},
           {"ode_quadtree", 1, kAnyNumber, make<quadtree_space>},
           {"ode_sweep", 1, kAnyNumber, make<sweep_space>}};

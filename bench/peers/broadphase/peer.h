@@ -1,5 +1,5 @@
-// What a broadphase has to do to be compared. Nothing here includes Eigen: some of the files that
-// include this one have compiler flags of their own.
+// The interface of a broadphase in the comparison. Nothing here includes Eigen, because some
+// including files have their own compiler flags.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace carom::bench {
 
-// A closed box, laid out as recordings of bounds store it; the fourth components are zero.
+// A closed box in the layout of recordings of bounds; the fourth components are zero.
 struct Box {
   std::array<float, 4> lower;
   std::array<float, 4> upper;
@@ -27,22 +27,22 @@ inline bool overlap(const Box& a, const Box& b) {
   return true;
 }
 
-// The boxes of a frame twice, as an array of boxes and as six columns: every peer reads what suits
-// it.
+// The boxes of a frame, both as an array of boxes and as six columns; every peer reads the form
+// that suits it.
 struct FrameBounds {
   std::span<const Box> boxes;
   std::array<const float*, 3> lower;
   std::array<const float*, 3> upper;
 };
 
-// Made from the first frame. The time of a frame is that of update() and find(): from new boxes to
-// pairs. Peers that keep state are told of the boxes that changed alone, as their users would do.
-// Those that yield too many pairs, because they keep margins or quantise, have each pair tested
-// again with overlap(): their users need that, too, so it counts.
+// A peer is made from the first frame. The time of a frame is update() plus find(): from new boxes
+// to pairs. Peers that keep state get only the changed boxes, as from a user of the library. Peers
+// with margins or quantised coordinates find too many pairs; overlap() tests these again, and the
+// time counts because users need the test too.
 class Peer {
  public:
   virtual ~Peer() = default;
-  // The next frame, of as many boxes; valid until the next call.
+  // Takes the next frame, with the same number of boxes; it is valid until the next call.
   virtual void update(const FrameBounds& frame) = 0;
   // Replaces `pairs` by the pairs of closed boxes that overlap, each once, in any order.
   virtual void find(std::vector<Pair>& pairs) = 0;
@@ -51,16 +51,16 @@ class Peer {
 struct PeerKind {
   const char* name;
   int threads;
-  size_t most_bodies;  // with more it takes minutes or does not fit into memory
+  size_t most_bodies;  // more take minutes or do not fit into memory
   std::unique_ptr<Peer> (*make)(const FrameBounds& first, const Box& world);
 };
 
 inline constexpr size_t kAnyNumber = ~size_t{0};
 
-// The yardstick.
+// The peer whose time the others are compared with.
 inline constexpr char kYardstick[] = "cgal";
 
-// NAME.cc
+// Each is defined in NAME.cc.
 std::vector<PeerKind> carom_kinds();
 std::vector<PeerKind> cgal_kinds();
 std::vector<PeerKind> bullet_kinds();

@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// How many times faster than the yardstick; 0: unknown.
+// Speed relative to the yardstick; 0 if unknown.
 double times_yardstick(const SceneResult& result, const PeerResult& peer) {
   const PeerResult* yardstick = result.timed(kYardstick);
   return yardstick ? yardstick->median_seconds / peer.median_seconds : 0;

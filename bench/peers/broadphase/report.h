@@ -1,4 +1,4 @@
-// Scenes as a table and as JSON.
+// Writes the results of scenes as a table and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

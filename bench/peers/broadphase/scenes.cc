@@ -9,7 +9,7 @@
 namespace carom::bench {
 namespace {
 
-constexpr size_t kMostFrames = 64;  // of a recording
+constexpr size_t kMostFrames = 64;  // read from a recording
 
 static_assert(sizeof(Box) == io::kFloatsPerBox * sizeof(float));
 

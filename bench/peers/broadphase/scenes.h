@@ -1,4 +1,4 @@
-// The frames that all peers are given.
+// The frames that all peers get.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace carom::bench {
 class PeerScene {
  public:
   explicit PeerScene(const SceneSpec& spec);
-  // A recording of bounds, its first frames.
+  // Reads the first frames of a recording of bounds.
   static Result<PeerScene> open(const std::string& path);
 
   const std::string& name() const { return name_; }
@@ -29,7 +29,7 @@ class PeerScene {
   void add_frame(std::vector<Box> boxes);
 
   std::string name_;
-  std::vector<std::vector<Box>> boxes_;  // frame by frame, as are the
+  std::vector<std::vector<Box>> boxes_;  // frame by frame, like the columns
   std::vector<BoundsArrays> columns_;
   Box world_{};
 };

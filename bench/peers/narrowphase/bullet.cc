@@ -1,5 +1,5 @@
-// Bullet: the algorithm that its dispatcher picks for two kinds, and the detectors inside those
-// algorithms: for the decision of boxes, and for distances.
+// Bullet: the algorithm that its dispatcher chooses for two kinds, and the detectors inside these
+// algorithms for the decision of boxes and for distances.
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -25,8 +25,8 @@
 namespace carom::bench {
 namespace {
 
-// By margins Bullet rounds the corners of boxes, and makes triangles thicker. With this one, a
-// thousandth of the smallest shape, it answers the question that Carom does.
+// Bullet rounds the corners of boxes and thickens triangles by a margin. This margin, a thousandth
+// of the smallest shape, makes its question nearly the same as Carom's.
 constexpr btScalar kMargin = 2.5e-4f;
 
 btVector3 vector(const float* v) { return {v[0], v[1], v[2]}; }
@@ -37,7 +37,8 @@ std::shared_ptr<btCollisionShape> with_margin(std::shared_ptr<btCollisionShape> 
   return shape;
 }
 
-// Of spheres and capsules the margin is the radius. Bullet adds it to hulls: those have none.
+// The margin of spheres and capsules is the radius. Hulls have none, because Bullet would add it
+// outside.
 std::shared_ptr<btCollisionShape> make_shape(PeerShape shape, const std::array<float, 9>& size) {
   switch (shape) {
     case PeerShape::sphere:
@@ -101,7 +102,7 @@ class Bodies {
   btCollisionShape* shape(size_t i) const { return shapes_[i].get(); }
   const btTransform& transform(size_t i) const { return transforms_[i]; }
 
-  // Makes `object` body i.
+  // Gives `object` the shape and pose of body i.
   void put(size_t i, btCollisionObject& object) const {
     object.setCollisionShape(shape(i));
     object.setWorldTransform(transform(i));
@@ -112,8 +113,8 @@ class Bodies {
   std::vector<btTransform> transforms_;
 };
 
-// As btCollisionDispatcher::defaultNearCallback() tests a new pair, but for the algorithm and its
-// manifold, which are made once for all pairs.
+// Tests new pairs like btCollisionDispatcher::defaultNearCallback(), but makes the algorithm and
+// its manifold once for all pairs.
 class AlgorithmPairs final : public PairPeer {
  public:
   AlgorithmPairs(const PeerBodies& a, const PeerBodies& b) : a_(a), b_(b) {
@@ -166,7 +167,7 @@ class AlgorithmPairs final : public PairPeer {
     }
   }
 
-  // Bullet also keeps points of bodies that are still a little apart.
+  // Counts touching points only; Bullet also keeps points of bodies slightly separate.
   int touching_points() {
     int touching = 0;
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
@@ -200,7 +201,7 @@ struct Decision final : Detector::Result {
   bool touches = false;
 };
 
-// The detector of boxes, without a manifold to put points into.
+// The detector of boxes without a manifold for its points.
 class BoxBoxTest {
  public:
   void operator()(const btConvexShape* a, const btConvexShape* b,
@@ -210,7 +211,7 @@ class BoxBoxTest {
   }
 };
 
-// GJK, and EPA for pairs that overlap.
+// GJK, and EPA for overlapping pairs.
 class GjkTest {
  public:
   void operator()(const btConvexShape* a, const btConvexShape* b,
@@ -250,7 +251,7 @@ class DetectorPairs final : public PairPeer {
   Test test_;
 };
 
-// Bullet's casts, made anew for every pair as its world makes them.
+// Bullet's casts, constructed for every pair, as in its world.
 class ContinuousCast {
  public:
   btContinuousConvexCollision operator()(const btConvexShape* a, const btConvexShape* b) {

@@ -18,9 +18,9 @@
 namespace carom::bench {
 namespace {
 
-constexpr double kBand = 1e-3;           // of the mean bounding radius: nearer touch is excluded
-constexpr double kMostDifferent = 1e-3;  // of Bullet's decisions
-constexpr double kMostWrong = 1e-5;      // of that radius, of separations
+constexpr double kBand = 1e-3;  // of the mean bounding radius; pairs nearer to touch are excluded
+constexpr double kMostDifferent = 1e-3;  // share of Bullet's decisions
+constexpr double kMostWrong = 1e-5;      // error of separations, as a share of that radius
 constexpr int kTurns = 5;
 
 double mean_radius(const PlacedShape& a, const PlacedShape& b) {
@@ -52,7 +52,7 @@ void compare_decisions(const MeshStream& stream, std::span<const uint8_t> bullet
   }
 }
 
-// Why Carom's results are not those of its reference.
+// Why Carom's results differ from its reference; empty if they do not.
 template <class Stream>
 std::string difference(const Stream& stream, Detail detail) {
   ResultArrays results(stream.spec().count);
@@ -69,7 +69,8 @@ std::string difference(const Stream& stream, Detail detail) {
   return "";
 }
 
-// Why results with features of the step before are not those without, within the stated error.
+// Why results with features of the last step differ from results without, beyond the stated error;
+// empty if they do not.
 std::string difference_again(const PairStream& stream, const PeerStreamSpec& spec) {
   const size_t count = stream.spec().count;
   std::vector<uint64_t> features(count);
@@ -100,7 +101,7 @@ PeerDetail peer_detail(const PeerStreamSpec& spec) {
   return spec.detail == Detail::overlap ? PeerDetail::overlap : PeerDetail::contact;
 }
 
-// Of this process, so that other programs on the machine do not count.
+// Processor time of this process, which other programs do not disturb.
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 class TimedRunner {
@@ -108,7 +109,7 @@ class TimedRunner {
   TimedRunner(std::string name, std::function<void()> pass, std::optional<Isa> isa = std::nullopt)
       : name_(std::move(name)), pass_(std::move(pass)), isa_(isa) {}
 
-  // The first pass is not timed: others have had the caches.
+  // The first pass is not timed, because the runner before has filled the caches.
   void take_turn(double seconds) {
     if (isa_) force_isa(*isa_);
     pass_();
@@ -132,8 +133,7 @@ class TimedRunner {
   std::vector<double> times_;
 };
 
-// So that the drift of a machine's clock meets all alike.
-// One pass of Carom. Of pairs that come again every other one is a step further.
+// One pass of Carom. With `again` every other pass uses bodies one step further.
 template <class Stream>
 class CaromPass {
  public:
@@ -164,8 +164,8 @@ class CaromPass {
   bool is_next_ = false;
 };
 
-// Bullet, then every instruction set, in turns. `reference_seconds` was measured when the stream
-// was made.
+// Times all runners in turns, so that a drift of the machine's clock affects all of them.
+// `reference_seconds` was measured when the stream was made.
 std::vector<RunnerResult> time_in_turns(std::vector<TimedRunner> runners, double budget,
                                         double reference_seconds) {
   for (int turn = 0; turn < kTurns; ++turn) {
@@ -236,8 +236,8 @@ std::string difference(const MotionStream& stream) {
   return "";
 }
 
-// Bullet's casts give up on some impacts, and count near misses: how many is shown, and not held
-// against either.
+// Bullet's casts give up on some impacts and count some near misses. The report shows how many;
+// they are not faults.
 StreamResult compare_motions(const PeerStreamSpec& spec, size_t pairs, double budget) {
   const MotionStream stream({.kind_a = spec.a, .kind_b = spec.b, .count = pairs});
   BulletCasts bullet(spec, stream);

@@ -1,5 +1,5 @@
-// What another library is given of a stream of pairs. Nothing here includes Eigen, as in
-// broadphase/peer.h.
+// The bodies of a stream in the form for another library, and its interface. Nothing here includes
+// Eigen, as in broadphase/peer.h.
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ struct PeerBody {
   // sphere: radius; capsule: radius and half the length, along y; box: half extents; triangle:
   // three corners
   std::array<float, 9> size;
-  size_t hull = 0;  // which of the hulls; bodies share them
+  size_t hull = 0;  // index into the hulls; bodies share them
 };
 
 struct PeerBodies {
   PeerShape shape;
   std::vector<PeerBody> bodies = {};
   std::vector<std::vector<std::array<float, 3>>> hulls = {};  // points
-  std::vector<std::array<float, 3>> vertices = {};            // of the mesh that all bodies share
+  std::vector<std::array<float, 3>> vertices = {};            // of the mesh; all bodies share it
   std::vector<std::array<uint32_t, 3>> triangles = {};
 };
 
@@ -40,17 +40,17 @@ class PairPeer {
   virtual size_t run(std::span<uint8_t> overlaps) = 0;
 };
 
-// bullet.cc. At PeerDetail::overlap boxes alone; at PeerDetail::distance the points that are
-// nearest of separate pairs, and the depth of the others.
+// Defined in bullet.cc. PeerDetail::overlap is for boxes only. PeerDetail::distance finds the
+// nearest points of separate pairs and the depth of the others.
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
                                             PeerDetail detail);
 
-// Which of Bullet's casts: the one that its world's sweep test runs, or the one without turning,
-// which is faster.
+// One of Bullet's casts: the one that its world's sweep test runs, or the faster one without
+// rotation.
 enum class PeerCast { continuous, gjk };
 
-// bullet.cc. B moves by a displacement; "overlaps" are impacts, and as many are returned. Convex
-// shapes alone.
+// Defined in bullet.cc. B moves by a displacement; run() writes impacts as "overlaps" and returns
+// their number. Convex shapes only.
 std::unique_ptr<PairPeer> make_bullet_casts(const PeerBodies& a, const PeerBodies& b,
                                             std::vector<std::array<float, 3>> displacements,
                                             PeerCast cast);

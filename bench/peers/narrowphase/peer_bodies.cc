@@ -18,7 +18,7 @@ std::array<float, 9> peer_size(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   return {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()};
 }
-// Hulls have points in place of sizes; of the others there are no streams.
+// Hulls have points instead of sizes; there are no streams of the other kinds.
 template <class Other>
 std::array<float, 9> peer_size(const Other& /*shape*/) {
   return {};
@@ -39,12 +39,12 @@ PeerShape peer_shape(ShapeKind kind) {
   }
 }
 
-// Each geometry once.
+// Collects the points of hulls, each geometry once.
 class PeerHulls {
  public:
   explicit PeerHulls(std::vector<std::vector<std::array<float, 3>>>& all) : all_(all) {}
 
-  // 0 of what is no hull.
+  // Index of a shape's hull; 0 for other shapes.
   size_t place_of(const Shape& shape) {
     const auto* hull = std::get_if<Hull>(&shape);
     if (!hull) return 0;

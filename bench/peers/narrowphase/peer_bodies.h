@@ -1,4 +1,4 @@
-// Bodies of streams as other libraries are given them.
+// Converts bodies of streams for other libraries.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace carom::bench {
 
-// Boxes along the axes are boxes that are not turned.
+// Aabbs become boxes without rotation.
 PeerBodies peer_bodies(ShapeKind kind, const std::vector<PlacedShape>& bodies);
 
-// The same terrain so many times.
+// `count` bodies with the same terrain.
 PeerBodies peer_ground(const Terrain& terrain, size_t count);
 
 }  // namespace carom::bench

@@ -12,7 +12,7 @@ double ns_per_pair(const StreamResult& result, double seconds) {
   return 1e9 * seconds / static_cast<double>(result.pairs);
 }
 
-// How many times faster than Bullet.
+// Speed relative to Bullet.
 double times_bullet(const StreamResult& result, const RunnerResult& runner) {
   return result.timed("bullet")->median_seconds / runner.median_seconds;
 }

@@ -1,4 +1,4 @@
-// Streams as a table and as JSON.
+// Writes the results of streams as a table and as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
