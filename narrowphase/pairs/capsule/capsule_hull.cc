@@ -1,4 +1,5 @@
-// Capsule against hull: GJK in lanes, and searches over any two cores for what that leaves.
+// Capsule against hull: GJK in lanes, and the search over any two cores for the rows that it
+// defers.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -13,7 +14,7 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void capsule_hull(const Batch& batch) {
-  run_batch<CoreKernel<CapsuleLanes, HullLanes, Pass::distance>>(batch);  // whatever is asked for
+  run_batch<CoreKernel<CapsuleLanes, HullLanes, Pass::distance>>(batch);  // also for the test pass
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Sphere against hull: GJK in lanes, and searches over any two cores for what that leaves.
+// Sphere against hull: GJK in lanes, and the search over any two cores for the rows that it defers.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -13,7 +13,7 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 void sphere_hull(const Batch& batch) {
-  run_batch<CoreKernel<SphereLanes, HullLanes, Pass::distance>>(batch);  // whatever is asked for
+  run_batch<CoreKernel<SphereLanes, HullLanes, Pass::distance>>(batch);  // also for the test pass
 }
 
 }  // namespace
