@@ -69,7 +69,7 @@ SeparatingAxis<Real> best_face(const BoxPair<Real>& p) {
 template <class Real>
 struct EdgeAxis {
   Real signed_square = -1;  // of the gap along the cross product
-  Real squared = 0;         // length of the cross product; 0: no two edges have a common normal
+  Real squared = 0;         // of the cross product; 0: no two edges have a common normal
   int a = -1, b = -1;
 
   bool is_less_than(Real other_square, Real other_squared) const {
