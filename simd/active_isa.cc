@@ -1,5 +1,5 @@
-// active_isa() asks a dispatched function which target it was compiled for: what is reported is
-// what runs.
+// active_isa() calls a dispatched function that returns the target it was compiled for, so it
+// reports what really runs.
 #include "carom/simd/isa.h"
 #include "simd/targets.h"
 

@@ -1,4 +1,4 @@
-// Choosing one of the three axes, lane by lane.
+// Selection of one of the three axes, lane by lane.
 #if defined(CAROM_SIMD_AXIS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_SIMD_AXIS_INL_H_
 #undef CAROM_SIMD_AXIS_INL_H_
@@ -28,12 +28,12 @@ HWY_INLINE AxisMasks first_of(Mask x, Mask y_not_z) {
   return {x, y, hn::Not(hn::Or(x, y))};
 }
 
-// The axis of the least component; the first of equals.
+// The axis of the least component; ties go to the first axis.
 HWY_INLINE AxisMasks least_axis(const F3& v) {
   return first_of(hn::And(hn::Le(v.x, v.y), hn::Le(v.x, v.z)), hn::Le(v.y, v.z));
 }
 
-// The axis of the greatest component; the first of equals.
+// The axis of the greatest component; ties go to the first axis.
 HWY_INLINE AxisMasks greatest_axis(const F3& v) {
   return first_of(hn::And(hn::Ge(v.x, v.y), hn::Ge(v.x, v.z)), hn::Ge(v.y, v.z));
 }
@@ -42,7 +42,7 @@ HWY_INLINE F pick(const AxisMasks& axis, const F3& v) {
   return hn::IfThenElse(axis.x, v.x, hn::IfThenElse(axis.y, v.y, v.z));
 }
 
-// The unit vector along the axis, against it where `negative`; zeros elsewhere are +0.
+// The unit vector along the axis, reversed where `negative`. The other components are +0.
 HWY_INLINE F3 signed_axis(const AxisMasks& axis, const Mask3& negative) {
   const F3 unit = select(negative, splat3(-1), splat3(1));
   return {hn::IfThenElseZero(axis.x, unit.x), hn::IfThenElseZero(axis.y, unit.y),

@@ -1,4 +1,4 @@
-// Packing of the lanes that a mask selects.
+// Packs the lanes that a mask selects.
 #if defined(CAROM_SIMD_COMPRESS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_SIMD_COMPRESS_INL_H_
 #undef CAROM_SIMD_COMPRESS_INL_H_
@@ -17,8 +17,9 @@ namespace carom::HWY_NAMESPACE {
 using IndexTag = hn::RebindToUnsigned<FloatTag>;
 using Indices = hn::Vec<IndexTag>;
 
-// Where the ISA has an instruction for it, or one lane, Highway's Compress is as good as any. Else
-// g++ 12 copies Highway's table of 1 KiB to the stack on every call.
+// AVX-512 has an instruction for Compress, and the scalar target has one lane. On all other targets
+// g++ 12 copies Highway's table of 1 KiB to the stack on every call, so a table of our own is
+// faster.
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_AVX3
 #define CAROM_COMPRESS_BY_TABLE 0
 #else
@@ -27,8 +28,8 @@ using Indices = hn::Vec<IndexTag>;
 
 #if CAROM_COMPRESS_BY_TABLE
 
-// For every mask the lanes that it selects, one byte each; behind them any lanes. `place` of the
-// k-th selected lane.
+// One entry for every mask: byte place(k) is the number of the k-th selected lane; the other bytes
+// are 0.
 template <class Place>
 constexpr auto compress_table(const Place& place) {
   std::array<std::array<uint8_t, kLanes>, size_t{1} << kLanes> table{};
@@ -43,8 +44,8 @@ constexpr auto compress_table(const Place& place) {
 
 inline constexpr auto kInOrder = compress_table([](size_t k) { return k; });
 
-// So that interleaving within 128-bit blocks brings them into order: the lower halves of all
-// blocks come first.
+// The order that InterleaveLower and InterleaveUpper turn into 0, 1, 2, ... They work within
+// 128-bit blocks, so the first half of the selected lanes fills the lower halves of all blocks.
 inline constexpr auto kForInterleaving = compress_table([](size_t k) {
   constexpr size_t kHalf = kLanes / 2;
   return k % kHalf / 2 * 4 + k / kHalf * 2 + k % 2;
@@ -66,7 +67,7 @@ HWY_INLINE size_t bits_of(Mask mask) {
 
 #endif
 
-// Writes the selected lanes to `to` and returns how many they are. Whole vectors may be written.
+// Writes the selected lanes to `to` and returns their number. May write a whole vector.
 HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
   const IndexTag tag;
 #if CAROM_COMPRESS_BY_TABLE
@@ -78,8 +79,8 @@ HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
 #endif
 }
 
-// Writes the pairs (smaller, larger) of `one` and the selected lanes of `others` and returns how
-// many they are. Two whole vectors may be written.
+// Writes a pair (smaller, larger) of `one` and each selected lane of `others`, and returns the
+// number of pairs. May write two whole vectors.
 HWY_INLINE size_t store_pairs(Indices one, Indices others, Mask mask, uint32_t* to) {
   const IndexTag tag;
 #if CAROM_COMPRESS_BY_TABLE

@@ -7,14 +7,14 @@
 
 namespace carom::simd {
 
-// Carom's own choice, apart from Highway's process-wide one: forcing an ISA here changes nothing
+// Carom's own choice, separate from Highway's process-wide one: forcing an ISA here changes nothing
 // for other libraries that use Highway.
 hwy::ChosenTarget& chosen_target();
 
 }  // namespace carom::simd
 
-// CAROM_DISPATCH(f)(args): f from the HWY_EXPORT table of the ISA in use. A macro, since Highway's
-// tables are named by one.
+// CAROM_DISPATCH(f)(args) calls f from the HWY_EXPORT table of the ISA in use. It is a macro
+// because Highway's macro builds the name of the table.
 #if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
 #define CAROM_DISPATCH(function) HWY_STATIC_DISPATCH(function)
 #else

@@ -1,5 +1,5 @@
-// Records of four floats at any addresses -> four vectors of lanes. Plain 16-byte loads and a
-// transpose beat hardware gathers by about four times.
+// Loads records of four floats from any addresses into four vectors of lanes. Plain 16-byte loads
+// and a transpose are about four times as fast as hardware gathers.
 #if defined(CAROM_SIMD_GATHER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_SIMD_GATHER_INL_H_
 #undef CAROM_SIMD_GATHER_INL_H_
@@ -12,7 +12,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Records i = 0 ... kLanes - 1 of a source -> their components in lanes. A source gives record i as
+// transpose_records() loads the records 0 ... kLanes - 1 of a source and writes their components as
+// lanes. A source gives record i as
 //   hn::Vec<Quad> quad(size_t i)         on ISAs with vectors
 //   float component(size_t i, size_t c)  on the scalar one
 #if HWY_TARGET != HWY_SCALAR

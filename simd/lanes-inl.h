@@ -36,8 +36,8 @@ inline constexpr size_t kDoubleLanes = HWY_LANES(double);
 
 HWY_INLINE D splat_double(double value) { return hn::Set(DoubleTag(), value); }
 
-// a < b ? a : b and a > b ? a : b, to the bit: of equal operands (+0 and -0) the second. Highway's
-// own Min and Max do that on x86 only.
+// a < b ? a : b and a > b ? a : b, to the bit: the second operand if the two are equal (+0 and -0).
+// Highway's own Min and Max do that on x86 only.
 template <class V>
 HWY_INLINE V min(V a, V b) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR
@@ -58,7 +58,7 @@ HWY_INLINE V max(V a, V b) {
 
 HWY_INLINE F clamp_to_finite(F v) { return min(max(v, splat(-FLT_MAX)), splat(FLT_MAX)); }
 
-// g++ 12 copies structs of vectors through memory, in pieces, and stalls on it: hand them on by
+// g++ 12 copies structs of vectors through memory in pieces, and stalls on it. So pass them by
 // reference and return them, but do not make them members of other results.
 template <class V>
 struct Lanes3 {
@@ -112,7 +112,8 @@ HWY_INLINE V largest_component(const Lanes3<V>& v) {
   return max(max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
-// 2^k with the exponent of a magnitude, kept where both 2^k and 2^-k are normal floats.
+// up = 2^k and down = 2^-k, where 2^k is the power of two in `magnitude`, clamped so that both are
+// normal floats.
 HWY_INLINE void power_of_two(F magnitude, F& up, F& down) {
   const FloatTag tag;
   const IntTag bits;
@@ -122,16 +123,16 @@ HWY_INLINE void power_of_two(F magnitude, F& up, F& down) {
   down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 0x7f000000), exponent));
 }
 
-// The length of a vector and its direction. `is_zero`: the vector is exactly zero, and the
-// direction not a number.
+// The length of a vector and its unit direction. `is_zero`: the vector is exactly zero, and the
+// direction is NaN.
 struct Length {
   F length;
   F3 direction;
   Mask is_zero;
 };
 
-// Scales by a power of two first (exact), so that squares neither overflow nor vanish: right for
-// every finite vector. A length beyond the largest float is the largest float.
+// Scales by a power of two first (exact), so that squares neither overflow nor vanish: correct for
+// every finite vector. Lengths beyond the largest float are clamped to it.
 HWY_INLINE Length measure(const F3& v) {
   F up, down;
   power_of_two(largest_component(v), up, down);

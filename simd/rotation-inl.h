@@ -1,4 +1,4 @@
-// Products of vectors in lanes, and rotations.
+// Products of vectors, quaternions and rotations, in lanes.
 #if defined(CAROM_SIMD_ROTATION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_SIMD_ROTATION_INL_H_
 #undef CAROM_SIMD_ROTATION_INL_H_
@@ -30,7 +30,7 @@ HWY_INLINE V clamp(V v, V low, V high) {
   return min(max(v, low), high);
 }
 
-// x, y, z, w; any length but zero.
+// x, y, z, w; of any length but zero.
 template <class V>
 struct QuaternionOf {
   Lanes3<V> v;
@@ -43,7 +43,7 @@ HWY_INLINE V squared_norm(const QuaternionOf<V>& q) {
   return hn::Add(dot(q.v, q.v), hn::Mul(q.w, q.w));
 }
 
-// Columns: where the axes go.
+// Columns: the rotated axes.
 template <class V>
 struct RotationOf {
   Lanes3<V> x, y, z;
@@ -71,7 +71,7 @@ HWY_INLINE RotationOf<V> rotation_of(const QuaternionOf<V>& q) {
           {hn::Add(xz, wy), hn::Sub(yz, wx), hn::Sub(one, hn::Add(xx, yy))}};
 }
 
-// conj(a) * b: from the frame of b to that of a.
+// conj(a) * b: rotates from the frame of b to that of a.
 template <class V>
 HWY_INLINE QuaternionOf<V> relative_rotation(const QuaternionOf<V>& a, const QuaternionOf<V>& b) {
   return {(b.v * a.w - a.v * b.w) - cross(a.v, b.v), hn::Add(hn::Mul(a.w, b.w), dot(a.v, b.v))};
@@ -87,7 +87,7 @@ HWY_INLINE Lanes3<V> rotate_back(const RotationOf<V>& r, const Lanes3<V>& v) {
   return {dot(r.x, v), dot(r.y, v), dot(r.z, v)};
 }
 
-// Of bodies A and B: where B is, seen from A, in world axes, and how both are turned.
+// The position of B relative to A in world axes (d), and both orientations.
 struct PoseLanes {
   F3 d;
   Quaternion a, b;

@@ -7,9 +7,9 @@
 //   static constexpr Unsure kUnsure
 // test() calls
 //   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
-// once; names, frames and signs as in Contact. It is branch-free, the same at every detail: what a
-// detail does not store, the compiler drops. Lanes in `unsure` are those that float32 cannot
-// decide.
+// once; names, frames and signs as in Contact. test() is branch-free and the same at every detail:
+// the compiler drops everything that a detail does not store. `unsure`: the lanes that float32
+// cannot decide.
 #if defined(CAROM_NARROWPHASE_BATCH_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
@@ -27,7 +27,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Changes the units and returns the metres a unit.
+// Changes the units and returns the metres in a unit.
 template <Units kUnits, class A, class B>
 HWY_INLINE F to_units(PoseLanes& pose, A& a, B& b) {
   if constexpr (kUnits == Units::metres) return splat(1);
@@ -44,7 +44,7 @@ HWY_INLINE Mask is_plain(const Quaternion& q) {
   return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
 }
 
-// Scales those that are not plain, and no others: subnormal components would lose bits.
+// Scales only the lanes that are not plain: in others, subnormal components would lose bits.
 HWY_INLINE void make_plain(Quaternion& q) {
   F up, down;
   power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
@@ -53,14 +53,15 @@ HWY_INLINE void make_plain(Quaternion& q) {
   q.w = hn::Mul(q.w, scale);
 }
 
-// The identity in lanes that are not valid; elsewhere squares neither vanish nor overflow.
+// Sets lanes that are not valid to the identity, and scales the others so that squares neither
+// vanish nor overflow.
 HWY_INLINE void clear_unless(Mask valid, Quaternion& q) {
   make_plain(q);
   q.v = zero_unless(valid, q.v);
   q.w = hn::IfThenElse(valid, q.w, splat(1));
 }
 
-// One comparison for everything that must be finite: NaN and infinity survive the sum.
+// One comparison tests everything that must be finite: NaN and infinity survive the sum.
 template <class A, class B>
 HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) {
   const F sum = hn::Add(sum_of_sizes(pose.d), hn::Add(a.size(), b.size()));
@@ -70,7 +71,7 @@ HWY_INLINE Mask is_plainly_valid(const PoseLanes& pose, const A& a, const B& b) 
   return valid;
 }
 
-// Everything of a vector of pairs, in metres.
+// Loads positions, shapes and orientations of a vector of pairs, in metres.
 template <class Records, class A, class B, class Bodies>
 HWY_INLINE void load_pairs(const Batch& batch, const Bodies& bodies, PositionLanes& positions,
                            PoseLanes& pose, A& a, B& b) {
@@ -90,8 +91,8 @@ struct BatchLoop {
 
   static void run(const Batch& batch) {
     const size_t whole = batch.count - batch.count % kLanes;
-    // A copy that nothing else can see: stores of bytes might change `batch`, for all the compiler
-    // knows, and would make it read every field again.
+    // A copy that nothing else can see: otherwise the compiler must assume that stores of bytes
+    // change `batch`, and reads every field again.
     const Batch local = batch;
     bool is_done = false;
     if constexpr (Records::kHasDenseLoop) {
@@ -125,7 +126,8 @@ struct BatchLoop {
     load_pairs<Records>(batch, bodies, positions, pose, a, b);
     const Mask plain = is_plainly_valid(pose, a, b);
     Mask valid = plain;
-    // A lane is invalid, or so large that a sum overflowed. The others get what they always get.
+    // Some lane is invalid, or so large that a sum overflowed. The results of the other lanes do
+    // not change.
     const bool is_odd = !hn::AllTrue(FloatTag(), plain);
     if (HWY_UNLIKELY(is_odd)) {
       valid = valid_lanes(source, row);
@@ -151,7 +153,7 @@ struct BatchLoop {
     }
   }
 
-  // A batch of one whole vector, filled up by repeating the last pair.
+  // Runs the last rows as a batch of one whole vector, filled up by repeating the last pair.
   static HWY_NOINLINE void run_tail(const Batch& batch, size_t first_row) {
     const size_t count = batch.count - first_row;
     Pair pairs[kLanes];
@@ -208,8 +210,8 @@ void run_with_records(const Batch& batch) {
   }
 }
 
-// Kernels of a few operations are compiled for every layout; for the others looking at it in the
-// loop costs nothing that counts, and compiling them takes long.
+// Short kernels are compiled for every layout. In the others a branch on the layout in the loop
+// costs nothing that counts, and compiling every layout takes long.
 template <class Kernel>
 void run_batch(const Batch& batch) {
   if constexpr (Kernel::kUnits == Units::scaled) {

@@ -1,4 +1,4 @@
-// One batch: pairs of one pair of kinds, and where their data lies.
+// A batch: pairs of one pair of kinds, and where their data lies.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ enum class PositionLayout : uint8_t {
   records64,  // x, y, z, w float64
 };
 
-// One side of the batch. Names as in Collidables, restricted to what kernels load. There is always
-// an orientation: one for all with stride 0 where nothing is turned.
+// One side of the batch. Names as in Collidables, restricted to what kernels load. `orientation`
+// always has data: bodies that are not turned share one identity, with stride 0.
 struct BatchSide {
   const void* records = nullptr;
   size_t record_stride = 0;
@@ -28,36 +28,36 @@ struct BatchSide {
   ShapeRows rows;
 };
 
-// What a run of a batch does. All pairs are tested; some kinds leave work for rows that need it.
+// What one run of a batch does. Every pass takes all pairs of the batch.
 enum class Pass : uint8_t {
-  direction,  // whether pairs are apart along a direction, and need no test
-  recall,     // the contact columns of pairs that are nearest where they were; others are unsure
-  test,      // decision, and the contact of overlapping pairs; where there is no distance pass, all
-  distance,  // the contact columns of separate pairs; of kinds that measure at once, of all
-  clearance,  // of those kinds: decision, and the contact columns of separate pairs
-  manifold,   // points of overlapping pairs, whose results are in `tested`
+  direction,  // overlap 0: the pair is separate along its old direction and needs no test
+  recall,     // results of pairs whose closest features are those in `features`; others are unsure
+  test,       // decision and contact; separate pairs may have none if there is a distance pass
+  distance,   // contact columns of separate pairs; for GJK kinds, all columns of all pairs
+  clearance,  // GJK kinds only: decision, and the contact columns of separate pairs
+  manifold,   // manifold points of overlapping pairs, whose contacts are in `tested`
 };
 
-// The passes of a kind beside the test. A direction pass pays where the test tries many axes. Kinds
-// whose way to a decision is the beginning of their way to a distance measure at once: their
-// distance pass, and a clearance pass, are run in place of the test.
+// The passes of a kind beside the test. A direction pass pays if the test tries many axes. For GJK
+// kinds the overlap test is the first part of the distance search, so the distance pass or the
+// clearance pass replaces the test.
 enum class MorePasses : uint8_t {
   none,
   manifold,
   direction_and_manifold,
-  distance,             // and those
-  clearance,            // and those, which measures at once
-  recall_and_clearance  // and those
+  distance,             // direction, distance and manifold
+  clearance,            // GJK kinds: direction, distance, clearance and manifold
+  recall_and_clearance  // GJK kinds: recall, and those of `clearance`
 };
 
-// Lists of pairs, and what else is read by row, may be read up to a multiple of this. (The test
-// pass reads no further than `count`.)
+// Kernels may read lists of pairs, and other input by row, up to the next multiple of this. (The
+// test pass reads no further than `count`.)
 inline constexpr size_t kMostLanes = 16;
 
 struct OpenSearches;
 
-// Row i tests a[pairs[i].a] against b[pairs[i].b]; the result goes to row i of `out`, which has
-// every column that the detail fills.
+// Row i tests a[pairs[i].a] against b[pairs[i].b] and writes to row i of `out`. `out` has every
+// column that the detail fills.
 struct Batch {
   BatchSide a;
   BatchSide b;
@@ -69,21 +69,22 @@ struct Batch {
   WitnessFrame frame = WitnessFrame::world;
   Pass pass = Pass::test;
   ResultColumns out;
-  // One a row, zero before; set where the decision was not beyond the doubt of float32, whatever
-  // was made of it then; at Pass::manifold where points are left to find. nullptr: nobody asks.
+  // One byte a row, zero on entry: 1 where float32 could not decide, even if double precision
+  // settled it later. At Pass::manifold: 1 where the kernel defers the points. nullptr: the caller
+  // does not need it.
   uint8_t* unsure = nullptr;
   bool single_precision = false;        // FastKnobs
   bool faces_only = false;              // FastKnobs
-  const uint32_t* direction = nullptr;  // Pass::direction alone: packed_direction.h
-  uint64_t* features = nullptr;         // read by Pass::recall, written by distance and clearance
-  OpenSearches* open = nullptr;         // of hulls: core_stages-inl.h
-  // Pass::manifold alone.
+  const uint32_t* direction = nullptr;  // Pass::direction only: packed_direction.h
+  uint64_t* features = nullptr;         // Pass::recall reads it, distance and clearance write it
+  OpenSearches* open = nullptr;         // of the second stage: hulls/core_stages-inl.h
+  // Pass::manifold only.
   ResultColumns tested;                    // separation, normal and point_a, relative to A
-  const uint16_t* manifold_row = nullptr;  // the row of `out` that row i goes to
+  const uint16_t* manifold_row = nullptr;  // the row of `out` for row i
 };
 
-// In Batch::unsure, where other kernels set one: the cores surely overlap, and the depth is to be
-// found.
+// The value in Batch::unsure of a deferred row whose cores surely overlap: only its depth is still
+// to be found.
 inline constexpr uint8_t kDeep = 2;
 
 // run_NAME(batch) for every pair kind, on the ISA in use.

@@ -1,4 +1,4 @@
-// What a kernel says about itself, for all targets.
+// What a kernel states about itself, for all targets.
 #pragma once
 
 namespace carom {
@@ -9,12 +9,12 @@ enum class Units {
   scaled,  // a power of two: the greatest coordinate of the pair lies between one and two
 };
 
-// What is computed again in double precision, one lane at a time, where float32 cannot decide.
+// What the report computes again in double precision, one lane at a time, in unsure lanes.
 enum class Unsure {
   nothing,     // the kernel is exact near touch
-  separation,  // the separation alone: the normal is good
+  separation,  // only the separation: the normal is good
   everything,
-  left,  // nothing here: what is marked, and that alone, is tested again elsewhere
+  left,  // nothing: the kernel defers its unsure rows to another test
 };
 
 // Which columns a kernel is compiled to write. `Kernel::kColumns`; per_detail where it says

@@ -1,4 +1,4 @@
-// Loads of a batch: bodies by index -> lanes.
+// Loads the bodies of a batch, by index, into lanes.
 #if defined(CAROM_NARROWPHASE_BATCH_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_LOAD_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_LOAD_INL_H_
@@ -19,7 +19,7 @@ namespace carom::HWY_NAMESPACE {
 
 enum class Role { a, b };
 
-// Where the bodies of kLanes pairs are: by a list of pairs, or row after row.
+// The bodies of kLanes pairs: given by a list of pairs, or (DenseRows) body row + i on both sides.
 struct Listed {
   const Pair* pairs;
 
@@ -29,7 +29,7 @@ struct Listed {
   }
 };
 
-// Records and columns are dense: every address is a constant away from the first.
+// Records and columns are dense, so every address is a constant away from the first.
 struct DenseRows {
   size_t row;
 
@@ -39,12 +39,12 @@ struct DenseRows {
   }
 };
 
-// Positions of the pairs in the lanes: b - a, subtracted in the type of the positions so that the
-// distance from the origin costs no accuracy, and each side's own position as high + low.
+// Positions of the pairs, in world axes: b - a, subtracted in the type of the positions so that the
+// distance from the origin costs no accuracy, and the position of each side as high + low.
 struct PositionLanes {
   F3 relative;
   F3 a, b;
-  F3 a_low, b_low;       // float64 only: what rounding to float32 left
+  F3 a_low, b_low;       // float64 only: the remainder of rounding to float32
   F radius_a, radius_b;  // of spheres; otherwise any finite value
 };
 
@@ -85,7 +85,7 @@ struct HighSource : RecordSource<double, kRole, Bodies> {
   }
 };
 
-// What that rounding left.
+// The remainder of that rounding.
 template <Role kRole, class Bodies>
 struct LowSource : RecordSource<double, kRole, Bodies> {
 #if HWY_TARGET != HWY_SCALAR
@@ -125,7 +125,7 @@ struct RelativeSource {
   }
 };
 
-// Boxes given in world coordinates.
+// No positions: both sides are boxes in world coordinates.
 struct NoRecords {
   static constexpr bool kHasDenseLoop = true;
   static constexpr bool kHasLow = false;
@@ -179,12 +179,12 @@ struct AnyRecords {
       Records64::load(batch, bodies, out);
     } else {
       Records32::load(batch, bodies, out);
-      out.a_low = out.b_low = splat3(-0.0f);  // which changes no sum, not even of zeros
+      out.a_low = out.b_low = splat3(-0.0f);  // adding -0 changes no number, not even +0
     }
   }
 };
 
-// Row k of the shapes' parameters, `kRows` rows a shape.
+// Row k of the parameters of each shape, which has `kRows` rows.
 template <Role kRole, uint32_t kRows, class Bodies>
 struct RowSource {
   const BatchSide& side;
@@ -232,8 +232,8 @@ HWY_INLINE F sum_of_sizes(const F3& v) {
   return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
-// Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite; it may
-// be valid without, if its size overflows. Kernels that work in scaled units use
+// Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite. A lane
+// whose size overflows may still be valid. Kernels that work in scaled units use
 //   extent()    the greatest coordinate
 //   scale(F s)  makes the shape s times as large
 struct SphereLanes {
@@ -418,7 +418,7 @@ struct TriangleLanes {
   }
 };
 
-// With a unit normal.
+// The normal is made a unit vector on loading.
 struct HalfspaceLanes {
   static constexpr ShapeKind kKind = ShapeKind::halfspace;
   static constexpr bool kIsOriented = true;
@@ -440,8 +440,8 @@ struct HalfspaceLanes {
     plane.offset = hn::Div(hn::Mul(plane.offset, down), length);
     return plane;
   }
-  // A normal of zero gives an offset that is not a number, and one too far to count an infinite
-  // one.
+  // A zero normal gives an offset or a size() that is NaN or infinite; so does an offset beyond
+  // float32.
   HWY_INLINE Mask is_ordered() const { return hn::Eq(offset, offset); }
   HWY_INLINE F size() const { return hn::Add(sum_of_sizes(normal), hn::Abs(offset)); }
   HWY_INLINE void clear_unless(Mask keep) {
@@ -452,12 +452,12 @@ struct HalfspaceLanes {
   HWY_INLINE void scale(F s) { offset = hn::Mul(offset, s); }
 };
 
-// Points stay where they are until they are asked for.
+// Kernels read the points later, from `geometry`.
 struct HullLanes {
   static constexpr ShapeKind kKind = ShapeKind::hull;
   static constexpr bool kIsOriented = true;
   const HullGeometry* geometry[kLanes];  // nullptr in lanes that are not valid
-  F largest;                             // coordinate, not yet scaled
+  F largest;                             // greatest coordinate, before scaling
   F scaling;
 
   static bool is_dense(const BatchSide&) { return true; }

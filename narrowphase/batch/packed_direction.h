@@ -1,4 +1,5 @@
-// Unit vectors in 32 bits, ten a component: near enough to show that shapes are still apart.
+// Unit vectors in 32 bits, ten a component: precise enough to test whether two shapes are still
+// separate along them.
 #pragma once
 
 #include <array>
@@ -7,11 +8,11 @@
 
 namespace carom {
 
-inline constexpr float kDirectionSteps = 486;  // from zero to one; rounding may make it 1.05
+inline constexpr float kDirectionSteps = 486;  // from 0 to 1; components up to 1.05 still fit
 inline constexpr float kDirectionZero = 512;
 inline constexpr uint32_t kNoDirection = 0;
 
-// kNoDirection for what is no unit vector.
+// kNoDirection if n is not a unit vector.
 inline uint32_t pack_direction(const std::array<float, 3>& n) {
   const float squared = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2];
   const bool is_unit = squared > 0.9f && squared < 1.1f;

@@ -1,4 +1,5 @@
-// What a kernel says of its lanes -> columns of results.
+// Writes what a kernel reports for its lanes to columns of results, after it has settled unsure
+// lanes in double precision.
 #if defined(CAROM_NARROWPHASE_BATCH_REPORT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
@@ -30,22 +31,22 @@ struct LaneReport {
   // Whether more is stored than the decision.
   static constexpr bool kHasContact = kColumns != Columns::decision;
 
-  const Batch& batch;   // a private copy
-  const Batch& source;  // of this one
+  const Batch& batch;   // a private copy of `source`
+  const Batch& source;  // the batch it is a copy of
   size_t row;
   const PositionLanes& positions;
-  F up;        // metres a unit
+  F up;        // metres in a unit
   Mask plain;  // finite and of usual size
   Mask valid;
   bool is_odd;  // not all lanes are plain
 
-  // Whether somebody asks which lanes are unsure; those of kernels that are refined always count.
+  // Whether the caller wants to know the unsure lanes. Kernels that refine need them in any case.
   HWY_INLINE bool marks_unsure() const { return batch.unsure != nullptr; }
 
   HWY_INLINE void operator()(Mask overlap, Mask unsure, Mask degenerate, F separation,
                              const F3& normal, const F3& arm_a, const F3& arm_b) const {
     AnswerLanes answer = in_metres(separation, normal, arm_a, arm_b);
-    // What is a gap in other units may be none in metres.
+    // A gap in scaled units may vanish in metres.
     if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
     unsure = hn::And(unsure, valid);
     if (HWY_UNLIKELY(marks_unsure())) mark_unsure(unsure, answer.separation);
@@ -67,7 +68,7 @@ struct LaneReport {
     return {scaled(separation, up), normal, arm_a * up, arm_b * up};
   }
 
-  // Gaps that vanished in metres, and numbers so large that they were clamped, are unsure, too.
+  // Gaps that vanished in metres, and lanes so large that numbers were clamped, are unsure, too.
   HWY_INLINE void mark_unsure(Mask unsure, F separation) const {
     if constexpr (Kernel::kUnsure != Unsure::left) {
       unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
@@ -90,7 +91,8 @@ struct LaneReport {
     overlap = hn::Le(answer.separation, splat(0));
   }
 
-  // NaN where there is no answer; in world coordinates, too, since 0 + NaN is that NaN.
+  // NaN in lanes without an answer. Points in world coordinates stay NaN, since 0 + NaN is that
+  // NaN.
   HWY_INLINE void blot_out_invalid(AnswerLanes& answer, Mask& overlap, I& status) const {
     const F3 nan = splat3(std::numeric_limits<float>::quiet_NaN());
     overlap = hn::And(overlap, valid);
@@ -115,8 +117,9 @@ struct LaneReport {
     }
   }
 
-  // Of what float32 has found: not of triangles, which are unsure where the kernel does not know
-  // them, not of half-spaces, which may be far away, and not without a normal, where one is stored.
+  // Whether FastKnobs::single_precision may keep the float32 answer. Not for triangles: special
+  // ones, which the kernel does not test, are unsure. Not for half-spaces, which may be far away.
+  // Not without a unit normal, if the detail stores one.
   static HWY_INLINE Mask is_good_enough(const AnswerLanes& answer) {
     constexpr auto kNeedsMore = [](ShapeKind kind) {
       return kind == ShapeKind::triangle || kind == ShapeKind::halfspace;

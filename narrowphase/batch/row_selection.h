@@ -1,4 +1,4 @@
-// Some rows of a batch, as a batch of their own, which kernels may read in whole vectors.
+// Selects rows of a batch as a batch of their own, which kernels may read in whole vectors.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class RowSelection {
     pad();
   }
 
-  // Those in a list.
+  // Selects the rows of a list.
   void select(const uint32_t* rows, size_t count) {
     count_ = count;
     for (size_t i = 0; i < count; ++i) {
@@ -36,10 +36,10 @@ class RowSelection {
   }
 
   size_t count() const { return count_; }
-  // And the last row again, up to whole vectors.
+  // count(), rounded up to whole vectors; the last row is repeated to fill them.
   size_t padded_count() const { return (count_ + kMostLanes - 1) / kMostLanes * kMostLanes; }
 
-  // Without unsure rows and features.
+  // The selected rows as a batch for `pass`. `unsure` and `features` are nullptr.
   Batch batch(Pass pass) const {
     Batch selected = batch_;
     selected.pass = pass;
@@ -61,7 +61,7 @@ class RowSelection {
   void scatter(const T* from, T* to) const {
     for (size_t i = 0; i < count_; ++i) to[rows_[i]] = from[i];
   }
-  // The results at this detail.
+  // Copies the columns that the detail has.
   void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail) const {
     scatter(from.overlap, to.overlap);
     scatter(from.status, to.status);

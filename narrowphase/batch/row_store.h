@@ -1,4 +1,4 @@
-// Results of pairs that are tested one at a time, as rows of a batch's columns.
+// Stores results of pairs that are tested one at a time, as rows of the columns of a batch.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ class RowStore {
         a_(view_of(batch.a, batch.layout, kind_a)),
         b_(view_of(batch.b, batch.layout, kind_b)) {}
 
-  // The answer is separation, normal, arm_a, arm_b.
+  // The first ten numbers of `answer`: separation, normal, arm_a, arm_b.
   template <size_t kCount>
   void put(size_t row, Status status, const std::array<float, kCount>& answer) const {
     static_assert(kCount >= 10);

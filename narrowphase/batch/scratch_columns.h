@@ -1,4 +1,4 @@
-// Results of a block of pairs, or of a part of it, in working memory.
+// Working memory for the results of a block of pairs, or of a part of it.
 #pragma once
 
 #include <array>
@@ -12,7 +12,6 @@ namespace carom {
 // Small enough for the scratch of a block to stay in L2, large enough to amortise a task.
 inline constexpr size_t kPairsPerBlock = 1024;
 
-// Results of a block or a part of it.
 struct ScratchColumns {
   std::array<uint8_t, kPairsPerBlock> overlap, status;
   std::array<std::array<float, kPairsPerBlock>, 10> floats;

@@ -1,4 +1,5 @@
-// The rare paths of a batch, one pair at a time: who is valid, and who touches.
+// The rare paths of a batch, one pair at a time: validity, unsure rows in double precision, and
+// manifold points that a kernel defers.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ namespace carom {
 // One side as a set of bodies.
 Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind);
 
-// Where both are as the kernels see it: from one subtraction in the type of the positions.
+// The pose as the kernels see it, from one subtraction in the type of the positions.
 scalar::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair);
 
 // Whether both bodies of row `row` are valid.
@@ -29,8 +30,8 @@ float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind
 std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
                                    size_t row);
 
-// How many points the manifold of row `row` has, and the points, relative to A; `batch.tested` has
-// the contact. Both bodies are valid and overlap.
+// Writes the manifold points of row `row`, relative to A, and returns their number. `batch.tested`
+// has the contact. Both bodies are valid and overlap.
 uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
                         ManifoldPoints& points);
 

@@ -1,4 +1,4 @@
-// One body as it is stored, for what is computed of it alone.
+// One body read out of its columns, for code that takes bodies one at a time.
 #pragma once
 
 #include "carom/shapes/body.h"
@@ -12,7 +12,7 @@ struct StatedBody {
   Row orientation;  // x, y, z, w; any length but zero
 };
 
-// The greatest number of a shape, in metres, within a factor of two.
+// An upper bound of the coordinates of a shape, in metres, within a factor of two.
 double size_of(const Shape& shape);
 
 Shape shape_of(const BodyReader& body, size_t index);

@@ -1,4 +1,4 @@
-// Stores of a batch: lanes -> columns.
+// Stores lanes to columns of results.
 #if defined(CAROM_NARROWPHASE_BATCH_STORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_STORE_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_STORE_INL_H_
@@ -33,7 +33,7 @@ HWY_INLINE void store_bytes(I v, uint8_t* column, size_t row) {
   hn::StoreU(hn::DemoteTo(bytes, v), bytes, column + row);
 }
 
-// Room for the results of one vector, of which the first `count` rows are wanted.
+// The results of one vector; the batch wants only the first `count` rows.
 class TailColumns {
  public:
   ResultColumns columns() {

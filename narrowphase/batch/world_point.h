@@ -1,5 +1,5 @@
-// Witness points of single bodies in world coordinates, as the kernels compute them: a float64
-// position is a float32 and what that leaves. NaN (no answer) stays the one NaN it is.
+// Witness points of single bodies in world coordinates, computed as the kernels do: a float64
+// position is split into a float32 and the remainder. A NaN (no answer) keeps its bits.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-// Layouts that kernels read in place.
+// The layout of both sides, if kernels can read it in place.
 std::optional<PositionLayout> common_layout(const PositionView& a, const PositionView& b) {
   if (!a.data && !b.data) return PositionLayout::none;
   const bool records = a.data && b.data && a.type == b.type &&
@@ -22,7 +22,7 @@ std::optional<PositionLayout> common_layout(const PositionView& a, const Positio
   return a.type == PositionType::float64 ? PositionLayout::records64 : PositionLayout::records32;
 }
 
-// Of bodies that are not turned.
+// The orientation of bodies that are not turned.
 constexpr float kIdentity[4] = {0, 0, 0, 1};
 
 OrientationView orientation_of(const Collidables& bodies) {
@@ -34,7 +34,7 @@ BatchSide side_of(const Collidables& bodies) {
           bodies.box_slot,      orientation_of(bodies), bodies.rows};
 }
 
-// The side as seen from body `first` on; all bodies are of one kind.
+// The side with body `first` as body 0. All bodies are of one kind.
 BatchSide from_body(BatchSide side, ShapeKind kind, size_t first) {
   side.orientation.data += first * (side.orientation.stride / sizeof(float));
   if (side.rows.first) {
@@ -59,14 +59,14 @@ BatchSide from_body(BatchSide side, ShapeKind kind, size_t first) {
   return side;
 }
 
-// (0, 0), (1, 1), ...: rows as a list of pairs.
+// (0, 0), (1, 1), ...: the list of pairs for a batch whose row i is bodies i and i.
 constexpr auto kRowPairs = [] {
   std::array<Pair, kPairsPerBlock> pairs{};
   for (uint32_t i = 0; i < pairs.size(); ++i) pairs[i] = {i, i};
   return pairs;
 }();
 
-// Every column that the detail fills is there.
+// Whether `out` has every column that the detail fills.
 bool is_complete(const ResultColumns& out, Detail detail) {
   if (!out.overlap || !out.status) return false;
   if (detail == Detail::overlap) return true;
@@ -78,7 +78,7 @@ bool is_complete(const ResultColumns& out, Detail detail) {
   return complete;
 }
 
-// Bodies copied out of a layout that kernels do not read.
+// Bodies copied out of a layout that kernels cannot read.
 template <class T>
 struct PackedSide {
   std::array<std::array<T, 4>, kPairsPerBlock> records;
@@ -107,7 +107,8 @@ struct PackedSide {
   }
 };
 
-// The pairs of a block, sorted into one batch a pair of kinds and flip.
+// Sorts the pairs of a block into one batch for every pair of kinds and order of sides, and runs
+// them.
 class BlockRunner {
  public:
   explicit BlockRunner(const PairBlock& block)
@@ -130,7 +131,8 @@ class BlockRunner {
   }
 
  private:
-  // Manifolds are found relative to the bodies.
+  // Kernels find manifolds relative to the bodies, so points in world coordinates are moved
+  // afterwards.
   bool moves_points() const {
     return block_.detail == Detail::manifold && block_.frame == WitnessFrame::world;
   }
@@ -155,7 +157,7 @@ class BlockRunner {
     return batch;
   }
 
-  // All pairs of one kind, readable as they lie: no copies at all.
+  // Runs a block of one pair of kinds without any copies.
   void run_in_place(PairKindRef kind) const {
     Batch whole = batch(kind);
     whole.pairs = block_.pairs;
@@ -234,7 +236,7 @@ class BlockRunner {
     return columns;
   }
 
-  // Back to the rows of the block; what was flipped is turned round.
+  // Copies results to the rows of the block, and exchanges the sides of flipped pairs.
   void scatter(PairKindRef kind, size_t count) {
     ResultColumns from = scratch();
     const ResultColumns& to = block_.out;
@@ -264,9 +266,11 @@ class BlockRunner {
     std::swap(columns.point_a, columns.point_b);
   }
 
-  // From the kernel's A to the point of its B that faces it, relative to B.
+  // A kernel's manifold point is on its A and relative to it. The caller's A is the kernel's B, so
+  // this moves the point along the normal to that side and makes it relative to that body.
   void move_to_other_side(const ResultColumns& columns, size_t i, size_t k) const {
-    const std::array<float, 3> d = relative_position(pair(rows_[i]));  // of A, seen from B
+    const std::array<float, 3> d =
+        relative_position(pair(rows_[i]));  // of the kernel's A relative to its B
     std::array<float, 3>& point = columns.manifold[i].point[k];
     const float separation = columns.manifold[i].separation[k];
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -274,7 +278,7 @@ class BlockRunner {
     }
   }
 
-  // The position of B less that of A, in float32.
+  // The position of the caller's B relative to its A, in float32.
   std::array<float, 3> relative_position(Pair p) const {
     const BodyReader a{block_.a};
     const BodyReader b{block_.b};
@@ -289,7 +293,8 @@ class BlockRunner {
     return {finite(b.x - a.x), finite(b.y - a.y), finite(b.z - a.z)};
   }
 
-  // From the bodies' frames to the world, if points are wanted there and are not there yet.
+  // Moves points from relative to the bodies to world coordinates, if the caller wants that and the
+  // kernels have not done it.
   template <class PairAt>
   void move_points(const ResultColumns& columns, size_t count, const PairAt& pair_at) const {
     if (!moves_points()) return;
@@ -324,7 +329,7 @@ class BlockRunner {
     for (size_t i = 0; i < count; ++i) to[rows_[i]] = from[i];
   }
 
-  // NaN (no answer) stays the one NaN it is.
+  // A NaN (no answer) keeps its bits.
   static void negate(float* column, size_t count) {
     for (size_t i = 0; i < count; ++i) {
       if (column[i] == column[i]) column[i] = -column[i];

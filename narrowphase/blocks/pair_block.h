@@ -1,4 +1,4 @@
-// A block of pairs of any kinds and layouts: the step between the public call and the kernels.
+// Runs a block of pairs of any kinds and layouts: the step between the public call and the kernels.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@ struct PairBlock {
   Detail detail;
   WitnessFrame frame;
   Measured measured = Measured::all;
-  uint32_t* direction = nullptr;  // of the block's rows; see run_passes()
+  uint32_t* direction = nullptr;  // one for each row of the block; see run_passes()
   Accuracy accuracy;
   ResultColumns out;  // of the block
 };
 
-// All pairs of kinds in the block must have a kernel.
+// Every pair of kinds in the block must have a kernel.
 void run_pair_block(const PairBlock& block);
 
 // The columns from row `row` on.

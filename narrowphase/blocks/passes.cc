@@ -19,7 +19,7 @@ bool is_invalid(const Batch& batch, size_t row) {
 
 using RowFlags = std::array<uint8_t, kPairsPerBlock>;
 
-// Of the separate pairs. `of_invalid_pairs`: the columns of these as well.
+// Measures the separate pairs. `of_invalid_pairs`: writes the columns of invalid pairs as well.
 void run_distances(const PairKind& kind, const Batch& batch, bool of_invalid_pairs) {
   RowSelection separate(batch);
   separate.select([&](size_t row) {
@@ -33,7 +33,7 @@ void run_distances(const PairKind& kind, const Batch& batch, bool of_invalid_pai
   separate.scatter(distances.out, batch.out, batch.detail);
 }
 
-// Writes to `open` which rows need a test.
+// Writes to `open` which rows still need a test: all that are not separate along their direction.
 void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* direction,
                     RowFlags& open) {
   open.fill(1);
@@ -50,7 +50,8 @@ void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* di
   known.scatter(known_open.data(), open.data());
 }
 
-// Of the pairs that were tested; without branches, which would be taken at random.
+// Stores the normals of the tested separate pairs. Without branches: they would be taken at random,
+// and predicted badly.
 void remember_directions(const Batch& batch, const RowFlags& tested, uint32_t* direction) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
@@ -61,8 +62,8 @@ void remember_directions(const Batch& batch, const RowFlags& tested, uint32_t* d
   }
 }
 
-// Writes to `open` which rows need a test, and the results of the others. `finds_depths`: of
-// overlapping pairs there is more to find than that they are.
+// Writes to `open` which rows still need a test, and the results of the others. `finds_depths`:
+// overlapping pairs need a depth, which a recall cannot find.
 void run_recall(const PairKind& kind, const Batch& batch, bool finds_depths, RowFlags& open) {
   open.fill(1);
   const size_t most = finds_depths ? kMostFeatures - 1 : kMostFeatures;
@@ -103,7 +104,7 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
   tested.scatter(test.out, batch.out, batch.detail);
 }
 
-// The test, but for pairs that are still apart in a direction that is known.
+// Tests the pairs that are no longer separate along their known direction.
 void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
   RowFlags open;
   run_directions(kind, batch, direction, open);
@@ -113,7 +114,8 @@ void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
   remember_directions(batch, open, direction);
 }
 
-// One point: the witness. Without branches, since half of the pairs may overlap.
+// The manifold of an overlapping pair is its witness point. Without branches, since half of the
+// pairs may overlap.
 void copy_witnesses(const Batch& batch) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
@@ -153,7 +155,8 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint3
                 const Accuracy& accuracy) {
   RowFlags unsure;
   Batch batch = asked;
-  // A proof may find apart what rounding made overlap.
+  // A proof may turn an overlapping row into a separate one, so overlapping rows need contact
+  // columns, too.
   const bool is_proven = has_proofs(accuracy.tier);
   const Measured measured = is_proven && wanted == Measured::separate ? Measured::all : wanted;
   if (accuracy.tier == Tier::fast) {

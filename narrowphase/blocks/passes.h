@@ -1,4 +1,4 @@
-// All that a detail asks for of one batch: the test, and what it leaves to rows that need more.
+// Runs all passes that a detail needs on one batch.
 #pragma once
 
 #include "carom/results/tier.h"
@@ -7,10 +7,10 @@
 
 namespace carom {
 
-// Runs `batch`, of at most kPairsPerBlock pairs, whose `out` has every column that the detail
-// fills. `direction`: none, or of every row a direction in which the pair may be apart, as packed
-// by packed_direction.h. At details with contacts it is tried first, and what was found is
-// remembered; separate pairs must not be measured then.
+// Runs `batch` of at most kPairsPerBlock pairs; its `out` has every column that the detail fills.
+// `direction`: nullptr, or for every row a direction in which the pair may be separate
+// (packed_direction.h). At details with contacts the direction pass tests it first, and
+// run_passes() writes the new directions back; `measured` must then be Measured::overlapping.
 void run_passes(const PairKind& kind, const Batch& batch, Measured measured, uint32_t* direction,
                 const Accuracy& accuracy);
 

@@ -1,5 +1,5 @@
-// Separating axes of a box and another convex shape, in lanes. The box lies about the origin along
-// the coordinate axes. Sources and reasons: axis_search_ref.h.
+// Separating axes of a box and another convex shape, in lanes. The box is centred at the origin,
+// along the coordinate axes. Sources and reasons: axis_search_scalar.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_AXIS_SEARCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_AXIS_SEARCH_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_AXIS_SEARCH_INL_H_
@@ -14,22 +14,22 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// From the nearest coordinate of the box to x: zero where x is not beyond the box.
+// From the nearest coordinate of the box to x; zero if x is not beyond the box.
 HWY_INLINE F beyond(F x, F half) { return hn::Sub(x, min(max(x, hn::Neg(half)), half)); }
 
 HWY_INLINE F3 beyond(const F3& x, const F3& half) {
   return {beyond(x.x, half.x), beyond(x.y, half.y), beyond(x.z, half.z)};
 }
 
-// Extent of the box along n, from its centre.
+// How far the box reaches along n from its centre.
 HWY_INLINE F reach(const F3& half, const F3& n) {
   return dot(half, {hn::Abs(n.x), hn::Abs(n.y), hn::Abs(n.z)});
 }
 
-// Keeps the axis of the greatest gap; of equal ones the first.
+// Keeps the axis with the greatest gap; ties go to the first axis.
 class AxisSearch {
  public:
-  // By the faces of the box; the other shape reaches from `low` to `high`.
+  // Starts with the face normals of the box. The other shape reaches from `low` to `high`.
   HWY_INLINE AxisSearch(const F3& half, const F3& low, const F3& high) : half_(half) {
     const F3 above = low - half;
     const F3 below = -half - high;
@@ -56,7 +56,8 @@ class AxisSearch {
     key_ = hn::IfThenElse(is_better, next_key, key_);
   }
 
-  // Across an edge of the box and an edge of the other shape.
+  // Tries the cross products of `edge` and the edges of the box. `u` and `v`: as in the scalar
+  // form.
   HWY_INLINE void try_crosses(const F3& edge, const F3& u, const F3& v) {
     const F3 along_u = cross(edge, u);
     const F3 along_v = cross(edge, v);
@@ -73,7 +74,7 @@ class AxisSearch {
              hn::Add(hn::Mul(half_.x, size.y), hn::Mul(half_.y, size.x)), low.z, high.z);
   }
 
-  // The gap of the best axis, and its unit vector from the box to the other shape.
+  // The gap along the best axis, and that axis: unit, from the box to the other shape.
   HWY_INLINE void best(F& gap, F3& normal) const {
     const F to_unit = hn::Div(splat(1), hn::Sqrt(squared_));
     gap = hn::Mul(gap_, to_unit);
@@ -88,8 +89,9 @@ class AxisSearch {
   F squared_, gap_, key_;
 };
 
-// From an axis (`gap` and `normal`) and a pair of nearest points, `way` apart, whose direction
-// parts the cores by `certain`: the separation and the normal. Returns the lanes that are unsure.
+// Chooses between the best axis (`gap` and `normal`) and the direction of `way`, the vector between
+// the nearest points. `certain` is the gap along that direction. Writes the separation and the
+// normal, and returns the unsure lanes.
 HWY_INLINE Mask choose_normal(const F3& way, F certain, F gap, F3& normal, F& separation) {
   const F distance = hn::Sqrt(dot(way, way));
   const Mask overlap = hn::Le(gap, splat(0));

@@ -1,9 +1,9 @@
-// Separating axes of a box and another convex shape, scalar. The box lies about the origin along
-// the coordinate axes.
+// Separating axes of a box and another convex shape, scalar form. The box is centred at the origin,
+// along the coordinate axes.
 //
-// Source: S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for Rapid
-// Interference Detection, SIGGRAPH 1996, for the axes; every shape is projected in full, so that an
-// axis that rounding has turned still gives a bound.
+// Source of the axes: S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: A Hierarchical Structure for
+// Rapid Interference Detection, SIGGRAPH 1996. Every shape is projected in full, so that an axis
+// that rounding has turned still gives a bound.
 #pragma once
 
 #include "base/tolerances.h"
@@ -11,7 +11,7 @@
 
 namespace carom::scalar {
 
-// The way from the nearest point of the box to x: zero in axes in which x is not beyond the box.
+// The vector from the nearest point of the box to x; zero in axes in which x is not beyond the box.
 template <class Real>
 Vector3<Real> beyond(const Vector3<Real>& x, const Vector3<Real>& half) {
   Vector3<Real> way;
@@ -19,32 +19,32 @@ Vector3<Real> beyond(const Vector3<Real>& x, const Vector3<Real>& half) {
   return way;
 }
 
-// Extent of the box along n, from its centre.
+// How far the box reaches along n from its centre.
 template <class Real>
 Real reach(const Vector3<Real>& half, const Vector3<Real>& n) {
   return (half.x() * std::fabs(n.x()) + half.y() * std::fabs(n.y())) + half.z() * std::fabs(n.z());
 }
 
-// Extent of the other shape along an axis.
+// The projection of the other shape on an axis.
 template <class Real>
 struct Interval {
   Real low;
   Real high;
 };
 
-// An axis of the box and the other shape.
+// An axis between the box and the other shape.
 template <class Real>
 struct BoxAxis {
   Real gap;              // between the projections; negative: they overlap by that much
   Vector3<Real> normal;  // unit, from the box to the other shape
 };
 
-// Keeps the axis of the greatest gap; of equal ones the first. Axes need not be unit vectors: gaps
-// are compared as squares with their sign, over squared lengths, so that the search takes no roots.
+// Keeps the axis with the greatest gap; ties go to the first axis. Axes need not be unit vectors:
+// the search compares signed squares of gaps over squared lengths, so it takes no roots.
 template <class Real>
 class AxisSearch {
  public:
-  // By the faces of the box.
+  // Starts with the face normals of the box. The other shape reaches from `low` to `high`.
   AxisSearch(const Vector3<Real>& half, const Vector3<Real>& low, const Vector3<Real>& high)
       : half_(half) {
     for (int i = 0; i < 3; ++i) {
@@ -66,8 +66,9 @@ class AxisSearch {
     if (is_axis && key(next) * best_.squared > key(best_) * next.squared) best_ = next;
   }
 
-  // Across an edge of the box and an edge of the other shape with components of about one, which
-  // projects to a point; `u` and `v` are the corners between which the other shape lies.
+  // Tries the cross products of `edge`, an edge of the other shape with components of about one,
+  // and the edges of the box. The edge projects to a point on these axes; `u` and `v` are the
+  // corners between whose projections the other shape lies.
   void try_crosses(const Vector3<Real>& edge, const Vector3<Real>& u, const Vector3<Real>& v) {
     const Vector3<Real> along_u = cross(edge, u);
     const Vector3<Real> along_v = cross(edge, v);
@@ -96,7 +97,7 @@ class AxisSearch {
   Candidate best_;
 };
 
-// The normal of two shapes that are apart, from an axis and a pair of nearest points.
+// The normal of two separate shapes, from an axis and a pair of nearest points.
 template <class Real>
 struct CoreNormal {
   Real distance;
@@ -104,9 +105,9 @@ struct CoreNormal {
   bool is_unsure;
 };
 
-// `way` leads from the nearest point of the box to that of the other shape; its direction parts the
-// two by `certain`. The axis is the better normal where both agree (faces, crossing edges), and the
-// only one where the cores overlap.
+// `way` is the vector from the nearest point of the box to that of the other shape; `certain` is
+// the gap along its direction. If the two normals agree (faces, crossing edges), the axis is the
+// better one; if the cores overlap, it is the only one.
 template <class Real>
 CoreNormal<Real> core_normal(const BoxAxis<Real>& axis, const Vector3<Real>& way, Real certain) {
   constexpr bool kIsFloat = std::is_same_v<Real, float>;

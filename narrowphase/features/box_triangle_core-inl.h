@@ -1,5 +1,5 @@
-// Box against triangle in lanes. The box lies about the origin along the coordinate axes. Sources
-// and reasons: box_triangle_core_ref.h.
+// Box against triangle in lanes. The box is centred at the origin, along the coordinate axes.
+// Sources and reasons: box_triangle_core_scalar.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_BOX_TRIANGLE_CORE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_BOX_TRIANGLE_CORE_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_BOX_TRIANGLE_CORE_INL_H_
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// In the frame of the box: every edge from its corner to the next.
+// The triangle in the frame of the box: three edges, each from its corner to the next.
 struct PlacedTriangle {
   DirectedSegment ab, bc, ca;
   F3 sizes;  // greatest components of the edges
@@ -42,14 +42,14 @@ struct PlacedTriangle {
   }
 };
 
-// Edges are differences of the corners before these are moved: short ones keep their direction.
+// Takes differences before it moves the corners: so short edges keep their direction.
 HWY_INLINE PlacedTriangle place_triangle(const TriangleLanes& t, const Rotation& turn,
                                          const F3& position) {
   return {rotate(turn, t.a) + position, rotate(turn, t.b - t.a), rotate(turn, t.c - t.b),
           rotate(turn, t.a - t.c)};
 }
 
-// Normal of the plane, of any length and to either side; zero if the triangle is a segment.
+// The normal of the plane, of any length and to either side; zero if the triangle is a segment.
 HWY_INLINE F3 plane_normal(const PlacedTriangle& triangle) {
   const F3& size = triangle.sizes;
   const F3& ab = triangle.ab.direction;
@@ -100,7 +100,7 @@ class NearestPair {
     keep_if(hn::Gt(rank, rank_), point, way, certain, rank);
   }
 
-  // The corner of the box that is nearest to the plane, if the face of the triangle is over it.
+  // Tries the corner of the box that is nearest to the plane, if it projects into the triangle.
   HWY_INLINE void try_face(const F3& normal) {
     const F zero = splat(0);
     const F squared = dot(normal, normal);
@@ -119,13 +119,14 @@ class NearestPair {
     keep_if(hn::And(is_over, hn::Ge(rank, rank_)), corner + n * gap, n * gap, gap, rank);
   }
 
-  const F3& point() const { return point_; }  // of the triangle
+  const F3& point() const { return point_; }  // on the triangle
   const F3& way() const { return way_; }      // from the box
-  F certain() const { return certain_; }      // how much its direction parts the two
+  F certain() const { return certain_; }      // the gap along its direction
 
  private:
-  // Never above zero but for rounding, and near it if the direction parts the two by all of the
-  // distance; where they overlap, if the points are near each other.
+  // The pair with the greatest rank is the best. Of separate shapes: the gap along the direction
+  // less the distance, which is zero for the nearest points and less for all others, up to
+  // rounding. Of overlapping shapes: minus the distance.
   HWY_INLINE F rank_of(F distance, F certain) const {
     return hn::IfThenElse(overlap_, hn::Neg(distance), hn::Sub(certain, distance));
   }
@@ -165,8 +166,8 @@ class NearestPair {
   F certain_, rank_;
 };
 
-// A triangle that overlaps the box is moved out first: the nearest points then are where it
-// touches.
+// Moves an overlapping triangle out of the box first; the nearest points are then the contact
+// location.
 HWY_INLINE void box_triangle_contact(PlacedTriangle& triangle, const F3& half,
                                      BoxContact& contact) {
   const F3 plane = plane_normal(triangle);
@@ -188,7 +189,7 @@ HWY_INLINE void box_triangle_contact(PlacedTriangle& triangle, const F3& half,
   contact.unsure = hn::Or(near_touch, no_normal);
 }
 
-// The greatest gap, which decides.
+// The greatest gap, which is the decision.
 HWY_INLINE F gap_of(const PlacedTriangle& triangle, const F3& half) {
   F gap;
   F3 axis;

@@ -1,4 +1,4 @@
-// Box against triangle, scalar. The box lies about the origin along the coordinate axes.
+// Box against triangle, scalar form. The box is centred at the origin, along the coordinate axes.
 #pragma once
 
 #include <type_traits>
@@ -12,13 +12,13 @@
 
 namespace carom::scalar {
 
-// In the frame of the box; edge i leads from corner i to the next.
+// The triangle in the frame of the box; edge i leads from corner i to the next.
 template <class Real>
 struct PlacedTriangle {
   std::array<Vector3<Real>, 3> corners;
   std::array<Vector3<Real>, 3> edges;
 
-  // Differences are taken before the corners are moved: short edges keep their direction.
+  // Takes differences before it moves the corners: so short edges keep their direction.
   template <class Turn>
   PlacedTriangle(const TriangleShape<Real>& shape, const Vector3<Real>& position,
                  const Turn& turn) {
@@ -36,8 +36,9 @@ struct PlacedTriangle {
   }
 };
 
-// Normal of the plane, of any length and to either side; zero if the triangle is a segment. From
-// the shortest edge and the longest, to which it is perpendicular however thin the triangle is.
+// The normal of the plane, of any length and to either side; zero if the triangle is a segment.
+// Computed from the shortest and the longest edge; it is perpendicular to the longest edge however
+// thin the triangle is.
 template <class Real>
 Vector3<Real> plane_normal(const PlacedTriangle<Real>& triangle,
                            const std::array<DirectedSegment<Real>, 3>& edges) {
@@ -66,16 +67,16 @@ BoxAxis<Real> separating_axis(const PlacedTriangle<Real>& triangle,
   return search.best();
 }
 
-// The best pair of points so far. Of shapes that are apart, the nearest pair is the one whose
-// direction parts them by all of its distance; that tells neighbouring features apart where their
-// distances are equal up to rounding. Shapes that touch do so where a pair is nearest to each
-// other.
+// The best pair of points so far. Of separate shapes, the nearest pair is the one along whose
+// direction the gap equals the distance; this also decides between neighbouring features whose
+// distances are equal up to rounding. Overlapping shapes, once moved out, touch at the pair with
+// the least distance.
 template <class Real>
 struct NearestPair {
-  Vector3<Real> point;  // of the triangle
+  Vector3<Real> point;  // on the triangle
   Vector3<Real> way;    // from the box
-  Real certain;         // how much the direction parts the two
-  Real rank;
+  Real certain;         // the gap along the direction
+  Real rank;            // separate: certain - distance; overlapping: -distance; greatest is best
 };
 
 // The nearest points of an edge and the box.
@@ -91,7 +92,7 @@ NearestPair<Real> pair_of_edge(const DirectedSegment<Real>& edge,
   return {nearest.point, nearest.way, certain, overlap ? -distance : certain - distance};
 }
 
-// Whether the corner of the box, seen along the plane's normal, lies in the triangle.
+// Whether the corner of the box projects into the triangle along the normal of the plane.
 template <class Real>
 bool is_over(const Vector3<Real>& corner, const Vector3<Real>& normal,
              const PlacedTriangle<Real>& triangle,
@@ -103,7 +104,7 @@ bool is_over(const Vector3<Real>& corner, const Vector3<Real>& normal,
   return min(min(side[0], side[1]), side[2]) >= 0 || max(max(side[0], side[1]), side[2]) <= 0;
 }
 
-// The corner of the box that is nearest to the plane, if the face of the triangle is over it.
+// Tries the corner of the box that is nearest to the plane, if it projects into the triangle.
 template <class Real>
 void try_face(NearestPair<Real>& best, const Vector3<Real>& normal,
               const PlacedTriangle<Real>& triangle,
@@ -122,8 +123,8 @@ void try_face(NearestPair<Real>& best, const Vector3<Real>& normal,
   }
 }
 
-// A triangle that overlaps the box is moved out first: the nearest points then are where it
-// touches.
+// Moves an overlapping triangle out of the box first; the nearest points are then the contact
+// location.
 template <class Real>
 BoxContact<Real> box_triangle(PlacedTriangle<Real> triangle, const Vector3<Real>& half) {
   std::array<DirectedSegment<Real>, 3> edges = {
@@ -133,7 +134,8 @@ BoxContact<Real> box_triangle(PlacedTriangle<Real> triangle, const Vector3<Real>
   const Vector3<Real> normal = plane_normal(triangle, edges);
   const BoxAxis<Real> axis = separating_axis(triangle, edges, normal, half);
 
-  // Directions between points that nearly touch tell nothing. (In float the pair is unsure then.)
+  // The direction between points that nearly touch is only rounding. (In float such a pair is
+  // unsure.)
   const bool overlap = axis.gap <= (std::is_same_v<Real, double> ? Real(0x1p-36) : Real(0));
   const Vector3<Real> inwards = axis.normal * min(axis.gap, Real(0));
   for (int i = 0; i < 3; ++i) {

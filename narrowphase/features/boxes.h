@@ -1,5 +1,5 @@
-// Two boxes -> their separation: overlapping along the best separating axis, apart by their
-// distance.
+// The separation of two boxes: overlapping ones along the best separating axis, separate ones by
+// their distance.
 #pragma once
 
 #include "narrowphase/features/boxes_distance.h"

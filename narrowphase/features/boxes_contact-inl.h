@@ -1,5 +1,5 @@
-// Nearest points of two oriented boxes, in lanes: along a separating axis, and of boxes apart
-// (boxes_contact_ref.h and boxes_distance_ref.h say how and why).
+// Nearest points of two oriented boxes, in lanes: along a separating axis, and for separate boxes.
+// Sources and reasons: boxes_contact_scalar.h and boxes_distance.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_
@@ -28,7 +28,7 @@ HWY_INLINE Mask3 are_across(const F3& direction) {
           hn::Le(hn::Abs(direction.z), splat(kAcross<float>))};
 }
 
-// `half` with the signs of a direction; minus where that is zero.
+// The corner of a box along a direction; the minus side in axes in which the direction is zero.
 HWY_INLINE F3 corner_towards(const F3& half, const F3& direction) {
   const F zero = splat(0);
   return {hn::IfThenElse(hn::Gt(direction.x, zero), half.x, hn::Neg(half.x)),
@@ -62,7 +62,8 @@ HWY_INLINE F3 replace(const AxisMasks& axis, const F3& v, F value) {
   return select(axis, {value, value, value}, v);
 }
 
-// The nearest points of two edges, along these axes, that face each other along `normal`.
+// The nearest points of edge_a of A and edge_b of B, of the edges that face each other along
+// `normal`.
 HWY_INLINE void facing_edges(const BoxPairLanes& p, const F3& normal, const AxisMasks& edge_a,
                              const AxisMasks& edge_b, F3& on_a, F3& on_b) {
   const F3 v = select_axis(edge_b, p.turn);
@@ -78,7 +79,8 @@ HWY_INLINE void facing_edges(const BoxPairLanes& p, const F3& normal, const Axis
   on_a = replace(edge_a, on_a, clamp(pick(edge_a, on_b), hn::Neg(half_a), half_a));
 }
 
-// Whether the features along an edge axis are edges, and not faces that they belong to.
+// Whether the support features along an edge axis are really edges, not the faces that they belong
+// to.
 HWY_INLINE Mask is_edge_contact(const BoxPairLanes& p, const SeparatingAxisLanes& axis) {
   const Mask3 across_a = are_across(axis.normal);
   const Mask3 across_b = are_across(rotate_back(p.turn, axis.normal));
@@ -90,8 +92,8 @@ HWY_INLINE Mask is_edge_contact(const BoxPairLanes& p, const SeparatingAxisLanes
                     axis.is_edge);
 }
 
-// Where the boxes are nearest to each other if that is along the axis. `unsure`: axes tie, and
-// float32 cannot tell along which of them the boxes meet.
+// The nearest points of the boxes if the normal is the axis. `unsure`: several axes have equal
+// gaps, and float32 cannot tell along which of them the boxes meet.
 HWY_INLINE void witness_along(const BoxPairLanes& p, const SeparatingAxisLanes& axis, F3& on_a,
                               F3& on_b, Mask& unsure) {
   F3 edge_on_a, edge_on_b, feature_on_a, feature_on_b;
@@ -104,14 +106,15 @@ HWY_INLINE void witness_along(const BoxPairLanes& p, const SeparatingAxisLanes& 
   unsure = hn::Gt(dot(off_axis, off_axis), splat(kOffAxisSquared));
 }
 
-// --- Boxes apart ---
+// --- Separate boxes ---
 
 struct NearestCornerLanes {
   F squared;
   F3 corner;
 };
 
-// The corner of a box at `centre`, with half axes `h`, that is nearest to a box about the origin.
+// The corner of a box, with its centre at `centre` and half axes hx, hy, hz, that is nearest to a
+// box about the origin.
 HWY_INLINE NearestCornerLanes nearest_corner(const F3& half, const F3& centre, const F3& hx,
                                              const F3& hy, const F3& hz) {
   NearestCornerLanes nearest;
@@ -155,7 +158,7 @@ HWY_INLINE NearestCornerLanes nearest_corner_of_a(const BoxPairLanes& p) {
                         rows.y * p.half_a.y, rows.z * p.half_a.z);
 }
 
-// A point of A near the nearest one.
+// A point of A near the nearest one, to start the projections from.
 HWY_INLINE F3 start_on_a(const BoxPairLanes& p, const BestEdges& edges) {
   const NearestCornerLanes of_b = nearest_corner_of_b(p);
   const NearestCornerLanes of_a = nearest_corner_of_a(p);
@@ -172,7 +175,7 @@ HWY_INLINE F3 start_on_a(const BoxPairLanes& p, const BestEdges& edges) {
   return select(hn::Lt(dot(way, way), least), on_a, x);
 }
 
-// How many coordinates are not held by the surface.
+// Coordinates strictly inside the box: 0 corner, 1 edge, 2 face, 3 interior.
 HWY_INLINE F free_axes(const F3& x, const F3& half) {
   const auto is_free = [](F coordinate, F limit) HWY_ATTR {
     return hn::IfThenElseZero(hn::Lt(hn::Abs(coordinate), limit), splat(1));
@@ -187,7 +190,7 @@ HWY_INLINE F gap_along(const BoxPairLanes& p, const F3& n) {
   return hn::Sub(dot(n, p.centre), hn::Add(reach_a, reach_b));
 }
 
-// The distance of boxes that are apart, their normal and nearest points.
+// The distance of separate boxes, their normal and nearest points.
 HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
                             const SeparatingAxisLanes& axis, F& distance, F3& normal, F3& on_a,
                             F3& on_b, Mask& unsure) {
@@ -203,7 +206,7 @@ HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
   const F length = hn::Sqrt(dot(way, way));
   const F3 direction = way * hn::Div(splat(1), length);
 
-  // The better normal is the one that keeps the boxes further apart; rounding tilts short ways.
+  // The better normal is the one with the greater gap. Rounding tilts short vectors.
   const F gap = gap_along(p, direction);
   const Mask by_points = hn::Gt(gap, axis.gap);
   const Mask tilted = hn::Lt(gap, hn::Sub(length, splat(CoreTolerance<float>::kTilt)));
@@ -219,7 +222,7 @@ HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
 
 // --- Reports ---
 
-// Results in the frame of A -> world axes. `centre_a`: relative to A's position.
+// Reports results in the frame of A, turned to world axes. `centre_a`: relative to A's position.
 template <class Report>
 HWY_INLINE void report_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
                              F axis_gap, F separation, const F3& normal, const F3& on_a,
@@ -248,7 +251,7 @@ HWY_INLINE void test_boxes(const BoxPairLanes& p, const Rotation& turn_a, const 
                hn::And(unsure, overlap), report);
 }
 
-// All, of boxes that are apart.
+// The distance pass: all results of separate boxes.
 template <class Report>
 HWY_INLINE void measure_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
                               Report& report) {

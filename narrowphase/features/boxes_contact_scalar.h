@@ -1,4 +1,4 @@
-// Nearest points of two oriented boxes: along a separating axis, and of boxes apart.
+// Nearest points of two oriented boxes along a separating axis.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace carom::scalar {
 template <class Real>
 struct BoxWitness {
   Vector3<Real> on_a, on_b;
-  bool is_unsure = false;  // axes tie, and Real cannot tell along which of them the boxes meet
+  bool is_unsure = false;  // axes have equal gaps: Real cannot tell along which the boxes meet
 };
 
-// Of the face, edge or corner of a box that lies furthest along `direction`, the point nearest to
-// `target`; all in the frame of the box.
+// The point nearest to `target` on the support feature of a box along `direction`: its face, edge
+// or corner that lies furthest that way. All in the frame of the box.
 template <class Real>
 Vector3<Real> on_feature(const Vector3<Real>& half, const Vector3<Real>& direction,
                          const Vector3<Real>& target) {
@@ -44,8 +44,8 @@ Vector3<Real> clamp_to_box(const Vector3<Real>& x, const Vector3<Real>& half) {
           clamp<Real>(x.z(), -half.z(), half.z())};
 }
 
-// Points of both features that face each other along the normal: alternating projections, which end
-// after one step where one of the features is a corner (von Neumann).
+// Points of the two support features along the normal, by alternating projections (von Neumann).
+// These end after one step if one of the features is a corner.
 template <class Real>
 BoxWitness<Real> project_features(const BoxPair<Real>& p, const Vector3<Real>& normal) {
   const Vector3<Real> from_b_out = -rotate_back(p.turn, normal);
@@ -70,7 +70,7 @@ BoxWitness<Real> facing_features(const BoxPair<Real>& p, const Vector3<Real>& no
   return project_features(p, normal);
 }
 
-// Of the face, edge or corner of a box that lies furthest along `direction`, the corners.
+// The corners of the support feature of a box along `direction`.
 inline Meeting::Points feature_corners(const Vector3d& half, const Vector3d& direction) {
   Meeting::Points corners;
   for (int i = 0; i < 8; ++i) {
@@ -83,7 +83,7 @@ inline Meeting::Points feature_corners(const Vector3d& half, const Vector3d& dir
   return corners;
 }
 
-// The middle of where both features meet.
+// The middle of the region in which the two features meet.
 inline BoxWitness<double> middle_of_features(const BoxPair<double>& p, const Vector3d& normal) {
   const Vector3d from_b_out = -rotate_back(p.turn, normal);
   Meeting::Points b = feature_corners(p.half_b, from_b_out);
@@ -94,8 +94,8 @@ inline BoxWitness<double> middle_of_features(const BoxPair<double>& p, const Vec
   return w;
 }
 
-// Two steps do not lead to where faces meet that cross like strips, or lie on each other almost
-// edge to edge, slightly turned.
+// Two projections do not reach the contact location of faces that cross like strips, or that touch
+// almost edge to edge and are slightly turned. Then it takes the middle.
 template <>
 inline BoxWitness<double> facing_features(const BoxPair<double>& p, const Vector3d& normal) {
   const BoxWitness<double> projected = project_features(p, normal);
@@ -124,7 +124,8 @@ BoxWitness<Real> facing_edges(const BoxPair<Real>& p, const SeparatingAxis<Real>
   return w;
 }
 
-// Whether the features along an edge axis are edges, and not faces that they belong to.
+// Whether the support features along an edge axis are really edges, not the faces that they belong
+// to.
 template <class Real>
 bool is_edge_contact(const BoxPair<Real>& p, const SeparatingAxis<Real>& axis) {
   if (axis.edge_a < 0) return false;
@@ -137,7 +138,7 @@ bool is_edge_contact(const BoxPair<Real>& p, const SeparatingAxis<Real>& axis) {
   return is_edge;
 }
 
-// Where the boxes are nearest to each other if that is along the axis.
+// The nearest points of the boxes if the normal is the axis.
 template <class Real>
 BoxWitness<Real> witness_along(const BoxPair<Real>& p, const SeparatingAxis<Real>& axis) {
   const BoxWitness<Real> found =

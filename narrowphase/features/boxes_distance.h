@@ -1,8 +1,8 @@
-// The distance of two boxes that are apart.
+// The distance of two separate boxes.
 //
-// The nearest points are on two faces or edges that face each other along a separating axis, or one
-// of them is a corner: so the least distance of 16 corners from the other box and of the two edges
-// on the best edge axis is the distance (weak duality: no separating axis promises more).
+// Two separate boxes attain their distance at a corner of one of them, or at two crossing edges. So
+// the distance is the least of the distances of 16 corners from the other box and of the two edges
+// on the best edge axis. (Weak duality: no separating axis has a greater gap than the distance.)
 #pragma once
 
 #include "narrowphase/features/boxes_contact_scalar.h"
@@ -16,7 +16,8 @@ struct BoxDistance {
   BoxWitness<Real> witness;
 };
 
-// The corner of a box at `centre`, with half axes h, that is nearest to a box about the origin.
+// The corner of a box, with its centre at `centre` and half axes h, that is nearest to a box about
+// the origin.
 template <class Real>
 struct NearestCorner {
   Real squared = std::numeric_limits<Real>::infinity();
@@ -55,7 +56,7 @@ NearestCorner<Real> nearest_corner_of_a(const BoxPair<Real>& p) {
           {row_x * p.half_a.x(), row_y * p.half_a.y(), row_z * p.half_a.z()}};
 }
 
-// A point of A near the nearest one.
+// A point of A near the nearest one, to start the projections from.
 template <class Real>
 Vector3<Real> start_on_a(const BoxPair<Real>& p) {
   const NearestCorner<Real> of_b = nearest_corner_of_b(p);
@@ -77,7 +78,7 @@ Vector3<Real> start_on_a(const BoxPair<Real>& p) {
   return x;
 }
 
-// How many coordinates are not held by the surface.
+// Coordinates strictly inside the box: 0 corner, 1 edge, 2 face, 3 interior.
 template <class Real>
 int free_axes(const Vector3<Real>& x, const Vector3<Real>& half) {
   int count = 0;
@@ -97,8 +98,8 @@ Real gap_along(const BoxPair<Real>& p, const Vector3<Real>& n) {
 template <class Real>
 BoxDistance<Real> distance_of(const BoxPair<Real>& p, const SeparatingAxis<Real>& axis) {
   Vector3<Real> x = start_on_a(p);
-  // Two steps of alternating projection: of corners that are equally near to rounding, any may have
-  // been found.
+  // Two steps of alternating projection, because rounding may have chosen any of several corners
+  // that are equally near.
   Vector3<Real> q, y;
   for (int round = 0; round < 2; ++round) {
     q = to_b(p, x);
@@ -109,15 +110,15 @@ BoxDistance<Real> distance_of(const BoxPair<Real>& p, const SeparatingAxis<Real>
   const Vector3<Real> q_on_b = clamp_to_box(q, p.half_b);
   y = from_b(p, q_on_b);
 
-  // The way from A to B in the frame of the box that it leaves along a face or an edge: it is
-  // perpendicular to that exactly.
+  // Computes the vector from A to B in the frame of the box whose nearest feature has more free
+  // axes: in that frame its components along the feature are exactly zero.
   const bool in_frame_b = free_axes(q, p.half_b) > free_axes(y, p.half_a);
   const Vector3<Real> way =
       in_frame_b ? rotate<Real>(p.turn, q_on_b - q) : Vector3<Real>(y - clamp_to_box(y, p.half_a));
   const Real distance = std::sqrt(dot(way, way));
   const Vector3<Real> normal = way * (1 / distance);
-  // The better normal is the one that keeps the boxes further apart, whichever has the nearer
-  // points. Rounding tilts short ways.
+  // The better normal is the one with the greater gap, whichever has the nearer points. Rounding
+  // tilts short vectors.
   const Real gap = gap_along(p, normal);
   if (!(gap > axis.gap)) return {axis.gap, axis.normal, witness_along(p, axis)};
   const bool is_tilted = gap < distance - CoreTolerance<Real>::kTilt;

@@ -1,4 +1,5 @@
-// Two oriented boxes by the separating axis theorem, in lanes (boxes_sat_ref.h has the sources).
+// Two oriented boxes by the separating axis theorem, in lanes. Sources and reasons:
+// boxes_sat_scalar.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_BOXES_SAT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_BOXES_SAT_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_BOXES_SAT_INL_H_
@@ -13,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// In the frame of A, about its centre.
+// Two boxes in the frame of A, with the origin at the centre of A.
 struct BoxPairLanes {
   F3 centre;      // of B
   Rotation turn;  // of B
@@ -56,14 +57,14 @@ HWY_INLINE AxisMasks axis_number(F number) {
   return {hn::Eq(number, splat(0)), hn::Eq(number, splat(1)), hn::Eq(number, splat(2))};
 }
 
-// e_i cross v.
+// Unit vector of the axis, cross v.
 HWY_INLINE F3 axis_cross(const AxisMasks& axis, const F3& v) {
   const F zero = splat(0);
   return select(axis.x, F3{zero, hn::Neg(v.z), v.y},
                 select(axis.y, F3{v.z, zero, hn::Neg(v.x)}, F3{hn::Neg(v.y), v.x, zero}));
 }
 
-// The greatest gap along normals of faces, and which one: 0 to 2 of A, 3 to 5 of B.
+// The greatest gap along a face normal, and its number: 0 to 2 of A, 3 to 5 of B.
 struct BestFace {
   F gap;
   F number;
@@ -111,8 +112,8 @@ HWY_INLINE F3 face_normal(const BoxPairLanes& p, F number) {
   return select(hn::Lt(number, splat(3)), of_a, of_b);
 }
 
-// The greatest gap along cross products of edges: its square with its sign, and the squared length
-// of the cross product, so that no axis needs a division.
+// The greatest gap along cross products of edges, as the square of the gap with its sign, over the
+// squared length of the cross product. So no axis needs a division.
 struct BestEdges {
   F signed_square;
   F squared;
@@ -173,7 +174,7 @@ HWY_INLINE BestEdges best_edges(const BoxPairLanes& p) {
   return best;
 }
 
-// Not a number or minus infinity where no two edges have a direction.
+// Minus infinity if no two edges have a common normal.
 HWY_INLINE F edge_gap(const BestEdges& edges) {
   const F magnitude = hn::Sqrt(hn::Div(hn::Abs(edges.signed_square), edges.squared));
   return hn::IfThenElse(hn::Gt(edges.signed_square, splat(0)), magnitude, hn::Neg(magnitude));

@@ -1,9 +1,9 @@
 // Two oriented boxes by the separating axis theorem.
 //
 // Source: S. Gottschalk, M. Lin, D. Manocha, OBBTree, SIGGRAPH 1996; C. Ericson, Real-Time
-// Collision Detection, 2005, section 4.4.1. Other than there, both boxes are projected in full on
-// the cross products of edges: these are exact in the frame of A, and what is found along them is a
-// bound of the separation for any rounding of the rotation, however nearly parallel the edges are.
+// Collision Detection, 2005, section 4.4.1. Unlike there, this test projects both boxes in full on
+// the cross products of edges. These axes are exact in the frame of A, so the gap along them bounds
+// the separation however the rotation was rounded and however nearly parallel the edges are.
 #pragma once
 
 #include "base/tolerances.h"
@@ -11,7 +11,7 @@
 
 namespace carom::scalar {
 
-// In the frame of A, about its centre.
+// Two boxes in the frame of A, with the origin at the centre of A.
 template <class Real>
 struct BoxPair {
   Vector3<Real> centre;  // of B
@@ -32,7 +32,7 @@ const Vector3<Real>& column(const Rotation<Real>& r, int j) {
   return j == 0 ? r.x : j == 1 ? r.y : r.z;
 }
 
-// e_i cross v.
+// Unit vector of axis i, cross v.
 template <class Real>
 Vector3<Real> axis_cross(int i, const Vector3<Real>& v) {
   if (i == 0) return {0, -v.z(), v.y()};
@@ -45,7 +45,7 @@ Real signed_square(Real x) {
   return x * std::fabs(x);
 }
 
-// The faces of A, then those of B; of equal gaps the first.
+// The best face normal: first those of A, then those of B; ties go to the first.
 template <class Real>
 SeparatingAxis<Real> best_face(const BoxPair<Real>& p) {
   SeparatingAxis<Real> best{-std::numeric_limits<Real>::infinity(), {}};
@@ -69,7 +69,7 @@ SeparatingAxis<Real> best_face(const BoxPair<Real>& p) {
 template <class Real>
 struct EdgeAxis {
   Real signed_square = -1;  // of the gap along the cross product
-  Real squared = 0;         // length of the cross product; 0: no pair of edges has a direction
+  Real squared = 0;         // of the cross product; 0: no two edges have a common normal
   int a = -1, b = -1;
 
   bool is_less_than(Real other_square, Real other_squared) const {
@@ -77,7 +77,7 @@ struct EdgeAxis {
   }
 };
 
-// The gap along e_i cross axis j of B, times the length of that.
+// The gap along (axis i of A) x (axis j of B), times the length of that vector.
 template <class Real>
 Real edge_gap(const BoxPair<Real>& p, int i, int j) {
   const int k = (i + 1) % 3, l = (i + 2) % 3;

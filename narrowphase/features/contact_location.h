@@ -1,4 +1,4 @@
-// The point that stands for where two convex shapes meet.
+// The contact location of two convex shapes: one point for the region in which they meet.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace carom::scalar {
 
-// Of two flat convex sets that lie in planes across n, given by points: the middle of where they
-// meet, seen along n, in the plane of the first. Of sets that do not meet, of the first's points
-// that are nearest.
+// The contact location of two flat convex sets of points, each in a plane perpendicular to the unit
+// vector n. Seen along n, it is the mean of the corners of the region in which the sets meet; if
+// they do not meet, the mean of the points of A nearest to B. It lies in the plane of A.
 class Meeting {
  public:
   using Points = FewOf<Vector3d, DopPolytope::kMostPoints>;
@@ -23,13 +23,13 @@ class Meeting {
     crossing_edges();
   }
 
-  // Seen along n, of the two sets from each other: zero if they meet.
+  // The distance of the two sets, seen along n: zero if they meet.
   double distance() const { return least_; }
 
   Vector3d point() const { return sum_ / count_ + normal_ * height_; }
 
  private:
-  // Seen along n, without height.
+  // Seen along n: the component along n is removed.
   struct Edge {
     Vector3d from, to;
   };
@@ -60,7 +60,7 @@ class Meeting {
     });
   }
 
-  // But for rounding.
+  // Whether all points lie to the left of the line, up to rounding.
   bool are_to_the_left(const Points& points, const Vector3d& from, const Vector3d& to) const {
     const Vector3d along = to - from;
     const double least = -kInPlane * largest_component(along);
@@ -89,7 +89,7 @@ class Meeting {
     }
   }
 
-  // By more than rounding: points on the edges are found there.
+  // Whether p is inside by more than rounding; points_and_edges() finds the points on the edges.
   bool is_inside(const Vector3d& p, const Outline& outline) const {
     for (const Edge& edge : outline.edges) {
       const Vector3d along = edge.to - edge.from;
@@ -136,7 +136,7 @@ class Meeting {
   double count_ = 0;
 };
 
-// The points furthest along n.
+// All support points along n, up to rounding.
 inline Meeting::Points furthest(const Polytope& shape, const Vector3d& n) {
   double greatest = -HUGE_VAL;
   for (const Vector3d& p : shape.points) greatest = max(greatest, dot(n, p));

@@ -1,4 +1,5 @@
-// Convex shapes over the plane of a half-space, in lanes (Ericson 2005, 5.2.2 and 5.2.3).
+// Convex shapes against a half-space, in lanes (Ericson 2005, 5.2.2 and 5.2.3). Reasons:
+// halfspace_scalar.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_HALFSPACE_INL_H_
@@ -12,15 +13,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The plane of a half-space that is turned by q, its position at `d` from another body: the unit
-// normal in world axes, the height over the other body's position along it, and the size of the
-// numbers that were rounded.
+// The plane of a half-space that is turned by q, with its position at `d` from another body.
+// `normal`: unit, in world axes. `height`: of the plane over the other body's position, along the
+// normal. `size`: of the numbers that were rounded.
 HWY_INLINE void place_plane(const HalfspaceLanes& halfspace, const Quaternion& q, const F3& d,
                             F3& normal, F& height, F& size) {
   normal = rotate(rotation_of(q), halfspace.normal);
   const F3 along = {hn::Mul(normal.x, d.x), hn::Mul(normal.y, d.y), hn::Mul(normal.z, d.z)};
   height = hn::Add(hn::Add(hn::Add(along.x, along.y), along.z), halfspace.offset);
-  // A normal that no rotation has rounded does not care how far away the position is sideways.
+  // If no rotation has rounded the normal, the sideways distance of the position adds no error.
   const Mask is_turned = hn::Ne(sum_of_sizes(q.v), splat(0));
   size = hn::Add(sum_of_sizes(select(is_turned, d, along)), hn::Abs(halfspace.offset));
 }

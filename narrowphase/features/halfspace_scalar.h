@@ -1,4 +1,4 @@
-// Convex shapes over the plane of a half-space: the lowest point decides.
+// Convex shapes against a half-space: the lowest point over its plane decides.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, section 5.2.2 and 5.2.3 (the least
 // height of a shape over a plane).
@@ -20,22 +20,22 @@ struct Plane {
   Real size;             // of the numbers that were rounded
 };
 
-// Turned by q, its position at `d` from the other body.
+// The half-space is turned by q, with its position at `d` from the other body.
 template <class Real>
 Plane<Real> plane_of(const HalfspaceShape<Real>& halfspace, const Quaternion<Real>& q,
                      const Vector3<Real>& d) {
   const Vector3<Real> normal = rotate(rotation_of(q), halfspace.normal);
   const Vector3<Real> along = normal.cwiseProduct(d);
   const Real height = ((along.x() + along.y()) + along.z()) + halfspace.offset;
-  // A normal that no rotation has rounded does not care how far away the position is sideways.
+  // If no rotation has rounded the normal, the sideways distance of the position adds no error.
   const Vector3<Real> rounded = q.v.isZero(0) ? along : d;
   const Real size = ((std::fabs(rounded.x()) + std::fabs(rounded.y())) + std::fabs(rounded.z())) +
                     std::fabs(halfspace.offset);
   return {normal, height, size};
 }
 
-// The shape (A) whose lowest point is `lowest`, relative to its own position, against the
-// half-space (B) at `d` from it. `size`: of the shape.
+// The separation of a shape (A) from the half-space (B) at `d` from it. `lowest`: its lowest point,
+// relative to its own position. `size`: of the shape.
 template <class Real>
 SeparationAs<Real> over_plane(const Plane<Real>& plane, Real separation,
                               const Vector3<Real>& lowest, Real size, const Vector3<Real>& d) {
@@ -50,7 +50,8 @@ SeparationAs<Real> over_plane(const Plane<Real>& plane, Real separation,
   return result;
 }
 
-// The same of the hull of some points: the mean of those that are as low as the lowest.
+// The same for the convex hull of some points. Its witness point is the mean of all points that are
+// as low as the lowest.
 template <class Real, class Points>
 SeparationAs<Real> points_over_plane(const Plane<Real>& plane, const Points& points, Real size,
                                      const Vector3<Real>& d) {

@@ -1,4 +1,4 @@
-// Shapes that are a core (point, segment, triangle, box) grown by a radius, in lanes.
+// Shapes made of a core (point, segment, triangle, box) grown by a radius, in lanes.
 #if defined(CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_ROUNDED_INL_H_
@@ -17,8 +17,8 @@ HWY_INLINE Mask is_near_touch(F separation) {
   return hn::Le(hn::Abs(separation), splat(kNearTouchScaled));
 }
 
-// Reports two grown cores of which `core_a` and `core_b` are the nearest points, relative to A, and
-// `distance` apart. `unsure` and `degenerate` beside what follows from the separation.
+// Reports two grown cores. `core_a` and `core_b` are the nearest points of the cores, relative to
+// A, and `distance` apart. `unsure` and `degenerate` add to what follows from the separation.
 template <class Report>
 HWY_INLINE void report_grown(const F3& core_a, const F3& core_b, const F3& normal, F distance,
                              F radius_a, F radius_b, const PoseLanes& pose, Mask unsure,

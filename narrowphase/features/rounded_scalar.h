@@ -1,4 +1,4 @@
-// Shapes that are a core (point, segment, triangle, box) grown by a radius.
+// Shapes made of a core (point, segment, triangle, box) grown by a radius.
 #pragma once
 
 #include "base/tolerances.h"
@@ -13,8 +13,8 @@ bool is_near_touch(Real separation) {
   return std::fabs(separation) <= Real(kNearTouchScaled);
 }
 
-// The result of two grown cores of which `core_a` and `core_b` are the nearest points, relative
-// to A, and `distance` apart.
+// The result of two grown cores. `core_a` and `core_b` are the nearest points of the cores,
+// relative to A, and `distance` apart.
 template <class Real>
 SeparationAs<Real> grown(const Vector3<Real>& core_a, const Vector3<Real>& core_b,
                          const Vector3<Real>& normal, Real distance, Real radius_a, Real radius_b,

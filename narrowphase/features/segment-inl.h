@@ -13,17 +13,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// a / b where b > 0, elsewhere 0; clamped to [0, 1].
+// a / b clamped to [0, 1]; 0 unless b > 0.
 HWY_INLINE F clamped_ratio(F a, F b) {
   return hn::IfThenElseZero(hn::Gt(b, splat(0)), clamp(hn::Div(a, b), splat(0), splat(1)));
 }
 
-// Neither of the two ends.
+// Whether the parameter t of a segment is at neither end.
 HWY_INLINE Mask is_inside(F t) { return hn::And(hn::Gt(t, splat(0)), hn::Lt(t, splat(1))); }
 
-// The point of the segment from a to b that is nearest to p, and the way there: where that is not
-// an end (`is_across`) it is perpendicular to the segment, since what rounding leaves along it
-// would tilt the normal.
+// The point of the segment from a to b that is nearest to p, and the vector to it. If the point is
+// not an end (`is_across`), the vector is made perpendicular to the segment: what rounding leaves
+// along the segment would tilt the normal.
 HWY_INLINE void nearest_on_segment(const F3& p, const F3& a, const F3& b, F3& point, F3& delta,
                                    Mask& is_across) {
   const F3 d = b - a;
@@ -35,9 +35,9 @@ HWY_INLINE void nearest_on_segment(const F3& p, const F3& a, const F3& b, F3& po
   delta = select(is_across, way - d * hn::Div(dot(way, d), squared), way);
 }
 
-// Where p + d s and q + e t, r being q - p, are nearest, and the way there. The first s in a form
-// that keeps the error of the distance at that of the coordinates, however near parallel the two
-// are.
+// The parameters s and t at which p + d s and q + e t are nearest (r = q - p), and the vector
+// between the two points. The form of the first s keeps the error of the distance at that of the
+// coordinates, however nearly parallel the segments are.
 HWY_INLINE void nearest_of_segments(const F3& r, const F3& d, F dd, const F3& e, F ee, F& s, F& t,
                                     F3& delta) {
   const F3 n = cross(d, e);
@@ -47,8 +47,9 @@ HWY_INLINE void nearest_of_segments(const F3& r, const F3& d, F dd, const F3& e,
   delta = (r + e * t) - d * s;
 }
 
-// The direction of `delta`, not a unit vector, from the features that are nearest: across both
-// segments inside both (the sign is any), across one inside one. Returns where it is across both.
+// Recomputes the direction of `delta`, not a unit vector, from the nearest features: perpendicular
+// to both segments if both points are inside them (its sign is arbitrary), perpendicular to one if
+// only that point is. Returns the lanes in which it is perpendicular to both.
 HWY_INLINE Mask way_between(const F3& d, F dd, const F3& e, F ee, F s, F t, const F3& delta,
                             F3& way) {
   using Tolerance = CoreTolerance<float>;
@@ -59,7 +60,8 @@ HWY_INLINE Mask way_between(const F3& d, F dd, const F3& e, F ee, F s, F t, cons
   const Mask in_e = is_inside(t);
   const Mask across = hn::And(hn::And(in_d, in_e), hn::Gt(dot(n, n), least));
   way = select(across, n, delta);
-  // Rounding left something along the segment. Once across d, n is across e up to rounding.
+  // Removes what rounding left along the segment. Once perpendicular to d, n is perpendicular to e
+  // up to rounding.
   const F3 edge = select(in_d, d, e);
   const F share = hn::Div(dot(way, edge), hn::IfThenElse(in_d, dd, ee));
   way = select(hn::Or(in_d, in_e), way - edge * share, way);

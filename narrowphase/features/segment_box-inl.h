@@ -1,5 +1,5 @@
-// Segment against box in lanes. The box lies about the origin along the coordinate axes. Sources
-// and reasons: segment_box_ref.h.
+// Segment against box in lanes. The box is centred at the origin, along the coordinate axes.
+// Sources and reasons: segment_box_scalar.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_SEGMENT_BOX_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_SEGMENT_BOX_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_SEGMENT_BOX_INL_H_
@@ -12,8 +12,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// start + s direction for s from 0 to `length`. Components of the direction are about one, however
-// short the segment is.
+// start + s direction for s from 0 to `length`. The direction is scaled so that its greatest
+// component is about one, however short the segment is.
 struct DirectedSegment {
   F3 start, direction;
   F length;
@@ -32,7 +32,8 @@ struct Bracket {
   F low, high;
   F slope_low, slope_high;
 
-  // By the ends; one point, where the distance only grows or only shrinks from end to end.
+  // From the ends of the segment. It is one point if the distance only grows or only shrinks from
+  // end to end.
   HWY_INLINE Bracket(const DirectedSegment& segment, const F3& half) {
     const F zero = splat(0);
     slope_low = dot(beyond(segment.start, half), segment.direction);
@@ -44,7 +45,8 @@ struct Bracket {
     high = hn::IfThenZeroElse(grows, segment.length);
   }
 
-  // By the plane of a face at s; start, direction and half extents in the other two axes.
+  // Narrows by the slope at s, where the segment crosses the plane of a face. The other arguments:
+  // start, direction and half extents in the other two axes.
   HWY_INLINE void narrow(F s, F start_u, F start_v, F u, F v, F half_u, F half_v) {
     const F slope = hn::Add(hn::Mul(beyond(hn::Add(start_u, hn::Mul(u, s)), half_u), u),
                             hn::Mul(beyond(hn::Add(start_v, hn::Mul(v, s)), half_v), v));
@@ -58,7 +60,7 @@ struct Bracket {
     slope_high = hn::IfThenElse(is_high, slope, slope_high);
   }
 
-  // By both faces of one axis.
+  // Narrows by both faces of one axis.
   HWY_INLINE void narrow_axis(F start, F d, F half, F start_u, F start_v, F u, F v, F half_u,
                               F half_v) {
     const F inverse = hn::IfThenElseZero(hn::Ne(d, splat(0)), hn::Div(splat(1), d));
@@ -66,7 +68,7 @@ struct Bracket {
     narrow(hn::Mul(hn::Sub(half, start), inverse), start_u, start_v, u, v, half_u, half_v);
   }
 
-  // Where a linear slope has its zero.
+  // The parameter at which a linear slope is zero.
   HWY_INLINE F zero() const {
     const F share = hn::IfThenElseZero(hn::Lt(slope_low, splat(0)),
                                        hn::Div(slope_low, hn::Sub(slope_low, slope_high)));
@@ -84,14 +86,15 @@ HWY_INLINE Bracket bracket_of(const DirectedSegment& segment, const F3& half) {
   return bracket;
 }
 
-// The point of a segment that is nearest to the box, and the way to it from the nearest point of
+// The point of a segment that is nearest to the box, and the vector to it from the nearest point of
 // the box.
 HWY_INLINE void nearest_to_box(const DirectedSegment& segment, const F3& half, F3& point, F3& way) {
   const Bracket bracket = bracket_of(segment, half);
   const F s = bracket.zero();
   point = segment.at(s);
 
-  // Where the segment is beyond the box all along the bracket: nothing else changes the way.
+  // Only axes in which the segment is beyond the box all along the bracket contribute to the
+  // vector.
   const F middle = hn::Mul(hn::Add(bracket.low, bracket.high), splat(0.5f));
   const F3 in_bracket = beyond(segment.at(middle), half);
   const F zero = splat(0);
@@ -107,13 +110,14 @@ HWY_INLINE void nearest_to_box(const DirectedSegment& segment, const F3& half, F
   way = way + free * step;
 }
 
-// The unit vector along `way`, and its length; zero if it is zero.
+// The unit vector along `way`, and its length; zero if `way` is zero.
 HWY_INLINE F3 direction_of(const F3& way, F& length) {
   length = hn::Sqrt(dot(way, way));
   return way * hn::IfThenElseZero(hn::Gt(length, splat(0)), hn::Div(splat(1), length));
 }
 
-// Where a box and another shape touch or are nearest; the normal leads from the box to the shape.
+// The contact location or nearest points of a box and another shape. The normal leads from the box
+// to the shape.
 struct BoxContact {
   F separation;
   F3 normal, on_box, on_other;

@@ -1,12 +1,12 @@
-// Segment against box, scalar. The box lies about the origin along the coordinate axes.
+// Segment against box, scalar form. The box is centred at the origin, along the coordinate axes.
 #pragma once
 
 #include "narrowphase/features/axis_search_scalar.h"
 
 namespace carom::scalar {
 
-// start + s direction for s from 0 to `length`. Components of the direction are about one, however
-// short the segment is.
+// start + s direction for s from 0 to `length`. The direction is scaled so that its greatest
+// component is about one, however short the segment is.
 template <class Real>
 struct DirectedSegment {
   Vector3<Real> start;
@@ -40,8 +40,8 @@ struct Bracket {
   }
 };
 
-// Slopes are those of half the squared distance; at the ends of the segment, where it leads away
-// from the box or only towards it, the bracket is one point.
+// Slopes are those of half the squared distance. The bracket is one point, an end of the segment,
+// if the distance only grows or only shrinks from end to end.
 template <class Real>
 Bracket<Real> bracket_of_ends(const DirectedSegment<Real>& segment, const Vector3<Real>& half) {
   const Vector3<Real> end = segment.at(segment.length);
@@ -52,7 +52,7 @@ Bracket<Real> bracket_of_ends(const DirectedSegment<Real>& segment, const Vector
   return ends;
 }
 
-// Between the planes of the box's faces the slope is linear.
+// Narrows the bracket to one between planes of the box's faces: there the slope is linear.
 template <class Real>
 Bracket<Real> narrow_to_faces(Bracket<Real> bracket, const DirectedSegment<Real>& segment,
                               const Vector3<Real>& half) {
@@ -77,8 +77,9 @@ struct NearestToBox {
 };
 
 // The distance to a convex set is convex along the segment, so its slope tells on which side of
-// every face the nearest point is (S. Boyd, L. Vandenberghe, Convex Optimization, 2004, 3.1.3 and
-// 3.2.5). The last step makes the way perpendicular to the segment, as far as the box allows.
+// every face plane the nearest point is (S. Boyd, L. Vandenberghe, Convex Optimization, 2004, 3.1.3
+// and 3.2.5). The last step makes the vector perpendicular to the segment, as far as the box
+// allows.
 template <class Real>
 NearestToBox<Real> nearest_to_box(const DirectedSegment<Real>& segment, const Vector3<Real>& half) {
   const Bracket<Real> bracket = narrow_to_faces(bracket_of_ends(segment, half), segment, half);
@@ -89,7 +90,8 @@ NearestToBox<Real> nearest_to_box(const DirectedSegment<Real>& segment, const Ve
   const Vector3<Real> point = segment.at(s);
   Vector3<Real> way = beyond(point, half);
 
-  // Where the segment is beyond the box all along the bracket: nothing else changes the way.
+  // Only axes in which the segment is beyond the box all along the bracket contribute to the
+  // vector.
   const Vector3<Real> in_bracket =
       beyond(segment.at((bracket.low + bracket.high) * Real(0.5)), half);
   Vector3<Real> free = segment.direction;
@@ -102,7 +104,7 @@ NearestToBox<Real> nearest_to_box(const DirectedSegment<Real>& segment, const Ve
   return {point + segment.direction * step, way + free * step};
 }
 
-// Where a box and another shape touch or are nearest.
+// The contact location or nearest points of a box and another shape.
 template <class Real>
 struct BoxContact {
   Real separation;       // of the cores
@@ -111,7 +113,8 @@ struct BoxContact {
   bool is_unsure;
 };
 
-// A segment that overlaps the box is moved out first: the nearest points then are where it touches.
+// Moves an overlapping segment out of the box first; the nearest points are then the contact
+// location.
 template <class Real>
 BoxContact<Real> segment_box(const Vector3<Real>& start, const Vector3<Real>& d,
                              const Vector3<Real>& half) {

@@ -1,4 +1,4 @@
-// Nearest points of segments, scalar.
+// Nearest points of segments, scalar form.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, sections 5.1.2 and 5.1.9.
 #pragma once
@@ -12,8 +12,8 @@ namespace carom::scalar {
 template <class Real>
 struct ToSegment {
   Vector3<Real> point;  // the nearest
-  Vector3<Real> delta;  // to it
-  bool is_across;       // not to an end, and perpendicular to the segment
+  Vector3<Real> delta;  // from the given point to it
+  bool is_across;       // `point` is not an end; `delta` is perpendicular to the segment
 };
 
 template <class Real>
@@ -30,29 +30,29 @@ ToSegment<Real> nearest_on_segment(const Vector3<Real>& p, const Vector3<Real>& 
   return {point, delta, is_across};
 }
 
-// a / b where b > 0, else 0; clamped to [0, 1].
+// a / b clamped to [0, 1]; 0 unless b > 0.
 template <class Real>
 Real clamped_ratio(Real a, Real b) {
   return b > 0 ? clamp<Real>(a / b, 0, 1) : 0;
 }
 
-// Neither of the two ends.
+// Whether the parameter t of a segment is at neither end.
 template <class Real>
 bool is_inside(Real t) {
   return t > Real(0) && t < Real(1);
 }
 
-// Where two segments, p + d s and q + e t, are nearest.
+// The nearest points p + d s and q + e t of two segments.
 template <class Real>
 struct NearestOfSegments {
   Vector3<Real> d, e;
   Real dd, ee;  // their squares
   Real s, t;
-  Vector3<Real> delta;  // from the one to the other
+  Vector3<Real> delta;  // from p + d s to q + e t
 };
 
-// r is q - p. The first s is found in a form that keeps the error of the distance at that of the
-// coordinates, however near parallel the two are; a c - b^2 would not.
+// r = q - p. The form of the first s keeps the error of the distance at that of the coordinates,
+// however nearly parallel the segments are; a c - b^2 would not.
 template <class Real>
 NearestOfSegments<Real> nearest_of_segments(const Vector3<Real>& r, const Vector3<Real>& d,
                                             const Vector3<Real>& e) {
@@ -66,7 +66,7 @@ NearestOfSegments<Real> nearest_of_segments(const Vector3<Real>& r, const Vector
   return result;
 }
 
-// Whether a cross product of d and e says anything.
+// Whether n = d x e is more than rounding. `dd`, `ee`: squared lengths of d and e.
 template <class Real>
 bool have_common_normal(const Vector3<Real>& n, Real dd, Real ee) {
   using Tolerance = CoreTolerance<Real>;
@@ -76,18 +76,19 @@ bool have_common_normal(const Vector3<Real>& n, Real dd, Real ee) {
 template <class Real>
 struct WayBetween {
   Vector3<Real> way;  // not a unit vector
-  bool is_across;     // across both segments; the sign is any
+  bool is_across;     // perpendicular to both segments; the sign is arbitrary
 };
 
-// The direction of `delta` from the features that are nearest: across both segments inside both,
-// across one inside one.
+// Recomputes the direction of `delta` from the nearest features: perpendicular to both segments if
+// both points are inside them, perpendicular to one if only that point is.
 template <class Real>
 WayBetween<Real> way_between(const NearestOfSegments<Real>& near) {
   const Vector3<Real> n = cross(near.d, near.e);
   const bool in_d = is_inside(near.s), in_e = is_inside(near.t);
   const bool is_across = in_d && in_e && have_common_normal(n, near.dd, near.ee);
   Vector3<Real> way = is_across ? n : near.delta;
-  // Rounding left something along the segment. Once across d, n is across e up to rounding.
+  // Removes what rounding left along the segment. Once perpendicular to d, n is perpendicular to e
+  // up to rounding.
   if (in_d) {
     way -= near.d * (dot(way, near.d) / near.dd);
   } else if (in_e) {

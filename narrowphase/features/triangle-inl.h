@@ -1,4 +1,5 @@
-// Triangles as cores, and the nearest point of one to a point, in lanes (Ericson 2005, 5.1.5).
+// Triangles as cores, and the nearest point of a triangle to a point, in lanes. Sources and
+// reasons: triangle_scalar.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_TRIANGLE_INL_H_
@@ -12,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
 // Corners in the order of the triangle, starting with its longest edge; edge i leads from corner i
-// to the next. Without a face (no area) the third corner is the first again: the longest edge is
-// all.
+// to the next. A triangle without a face (no area) is its longest edge: its third corner is set to
+// the first.
 struct TriangleCore {
   F3 corner[3];
   F3 edge[3];
@@ -24,8 +25,8 @@ struct TriangleCore {
   HWY_INLINE TriangleCore(const F3& a, const F3& b, const F3& c) : corner{a, b, c} {
     start_with_longest();
     normal = cross(edge[1], edge[2]);
-    // The third corner of a sliver is as near to the longest edge as rounding leaves the normal
-    // uncertain about it; but it must be at right angles to it.
+    // Rounding of a sliver's third corner may turn the normal about the longest edge; but the
+    // normal must be perpendicular to that edge.
     const F share =
         hn::IfThenElseZero(hn::Gt(squared[0], splat(0)), hn::Div(dot(normal, edge[0]), squared[0]));
     normal = normal - edge[0] * share;
@@ -59,9 +60,9 @@ struct TriangleCore {
 // One edge as a point sees it.
 struct EdgeView {
   F3 way;           // to the nearest point of the edge's line
-  Mask is_before;   // of the first end, or there
-  Mask is_past;     // of the second end, or there
-  Mask is_outside;  // the triangle lies beyond the edge
+  Mask is_before;   // projects before the first end, or on it
+  Mask is_past;     // projects past the second end, or on it
+  Mask is_outside;  // the triangle lies on the far side of the edge
 
   // `from` and `past`: from the two ends to the point.
   HWY_INLINE EdgeView(const F3& from, const F3& past, const TriangleCore& triangle, size_t i) {
@@ -79,8 +80,9 @@ struct EdgeView {
   HWY_INLINE Mask is_nearest() const { return hn::AndNot(hn::Or(is_before, is_past), is_outside); }
 };
 
-// From a point to the nearest point of a triangle: the direction, not a unit vector, and the length
-// of the way. Returns where that is the face: where p is over no edge and no corner.
+// From a point to the nearest point of a triangle: the direction, not a unit vector, and the
+// distance. Returns the lanes in which the nearest feature is the face: those whose point is in the
+// region of no edge and no corner.
 HWY_INLINE Mask nearest_on_triangle(const F3& p, const TriangleCore& triangle, F3& way,
                                     F& distance) {
   const F3 from[3] = {p - triangle.corner[0], p - triangle.corner[1], p - triangle.corner[2]};

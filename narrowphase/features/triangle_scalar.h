@@ -1,8 +1,8 @@
-// Triangles as cores, and the nearest point of one to a point, scalar.
+// Triangles as cores, and the nearest point of a triangle to a point, scalar form.
 //
-// Source of the regions: C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5. Here every
-// region is told by signs that are right relative to the way to its feature, so that close to the
-// triangle, too, the direction is that of a feature on whose far side the whole triangle lies.
+// Source of the regions: C. Ericson, Real-Time Collision Detection, 2005, section 5.1.5. Here signs
+// relative to the vector to a feature decide its region. So, even close to the triangle, the
+// direction belongs to a feature on whose far side the whole triangle lies.
 #pragma once
 
 #include <type_traits>
@@ -15,8 +15,8 @@
 namespace carom::scalar {
 
 // Corners in the order of the triangle, starting with its longest edge; `edge[i]` leads from corner
-// i to the next. Without a face (no area) the third corner is the first again: the longest edge is
-// all.
+// i to the next. A triangle without a face (no area) is its longest edge: its third corner is set
+// to the first.
 template <class Real>
 struct TriangleCore {
   using Vector = Vector3<Real>;
@@ -30,8 +30,8 @@ struct TriangleCore {
   explicit TriangleCore(const std::array<Vector, 3>& corners) : corner(corners) {
     start_with_longest();
     normal = cross(edge[1], edge[2]);
-    // The third corner of a sliver is as near to the longest edge as rounding leaves the normal
-    // uncertain about it; but it must be at right angles to it.
+    // Rounding of a sliver's third corner may turn the normal about the longest edge; but the
+    // normal must be perpendicular to that edge.
     if (squared[0] > 0) normal -= edge[0] * (dot(normal, edge[0]) / squared[0]);
     using Tolerance = CoreTolerance<Real>;
     has_face = dot(normal, normal) >
@@ -63,7 +63,7 @@ struct TriangleCore {
 // From a point to the nearest point of a triangle.
 template <class Real>
 struct ToTriangle {
-  Vector3<Real> way;  // its direction, not a unit vector
+  Vector3<Real> way;  // direction to that point, not a unit vector
   Real distance;
   bool is_face;
 };
@@ -72,9 +72,9 @@ struct ToTriangle {
 template <class Real>
 struct EdgeView {
   Vector3<Real> way;  // to the nearest point of the edge's line
-  bool is_before;     // of the first end, or there
-  bool is_past;       // of the second end, or there
-  bool is_outside;    // the triangle lies beyond the edge
+  bool is_before;     // projects before the first end, or on it
+  bool is_past;       // projects past the second end, or on it
+  bool is_outside;    // the triangle lies on the far side of the edge
 
   EdgeView(const Vector3<Real>& p, const TriangleCore<Real>& triangle, size_t i) {
     const Vector3<Real>& edge = triangle.edge[i];
@@ -88,8 +88,8 @@ struct EdgeView {
   }
 };
 
-// The face if p is over no edge and no corner, and in double precision also where those are too
-// near to have a direction; float leaves these to double.
+// Takes the face if p is in the region of no edge and no corner. In double precision also if the
+// nearest edge or corner is too near to give a direction; float leaves such points to double.
 template <class Real>
 ToTriangle<Real> nearest_on_triangle(const Vector3<Real>& p, const TriangleCore<Real>& triangle) {
   using Vector = Vector3<Real>;

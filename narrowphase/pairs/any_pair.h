@@ -1,4 +1,4 @@
-// Any pair of shapes that has a scalar test, by the kinds of its shapes.
+// Runs the scalar test of any pair of shapes, chosen by their kinds.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace carom::scalar {
 
-// Whether there is separation(a, b, pose) in this order of the shapes.
+// Whether a test exists for the shapes in this order.
 template <class A, class B, class Real>
 concept HasSeparation = requires(A a, B b, PairPose<Real> pose) {
   separation(a, b, pose);
@@ -37,8 +37,8 @@ SeparationAs<Real> separation_of(const Shape& a, const Shape& b, const PairPose<
       a, b);
 }
 
-// Squares of what is used neither vanish nor overflow.
-template <class Real>  // as a call it would wait for what was just stored
+// Scales q by a power of two if its squares could vanish or overflow.
+template <class Real>  // inlined: a call would wait for numbers that were just stored
 [[gnu::always_inline]] inline Quaternion<Real> quaternion_as(const Eigen::Vector4f& q) {
   const float norm = dot(q.head<3>().eval(), q.head<3>().eval()) + q.w() * q.w();
   Eigen::Vector4f scaled = q;

@@ -38,7 +38,8 @@ std::array<float, 10> numbers_of(const scalar::Separation& s) {
           s.arm_a.y(),  s.arm_a.z(),  s.arm_b.x(),  s.arm_b.y(),  s.arm_b.z()};
 }
 
-// Proofs of shapes whose points are rounded by more than a rotation are not for these bounds.
+// The error bounds of the double test hold for points that only a rotation has rounded: not for the
+// computed corners of k-DOPs, and not for special triangles.
 template <class T>
 bool has_exact_points(const T& shape) {
   if constexpr (std::is_same_v<T, scalar::DopShape<double>>) return false;
@@ -46,7 +47,7 @@ bool has_exact_points(const T& shape) {
   return true;
 }
 
-// Tests the rows of a batch that lanes have left, one at a time.
+// Tests the deferred rows of a batch, one at a time.
 template <class A, class B>
 class RowTester {
  public:
@@ -71,7 +72,7 @@ class RowTester {
   }
 
  private:
-  // Between solids, in float32, if that is sure.
+  // Finds the depth of two solids in float32. Stores nothing and returns false if it is unsure.
   bool put_depth(size_t row) const {
     if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
       const Pair pair = batch_.pairs[row];
@@ -87,7 +88,8 @@ class RowTester {
     return false;
   }
 
-  // In double precision.
+  // Tests in double precision. Marks the row as unsure unless the test's error bound proves the
+  // decision.
   void put_separation(size_t row) const {
     const Pair pair = batch_.pairs[row];
     const Position<double> p = a_.template position<double>(pair.a);
@@ -110,10 +112,10 @@ class RowTester {
   const Collidables view_a_, view_b_;
   const BodyReader a_{view_a_}, b_{view_b_};
   const RowStore store_;
-  const HullSteps& steps_ = hull_steps_in_lanes();  // choosing an ISA a row would show
+  const HullSteps& steps_ = hull_steps_in_lanes();  // dispatching for every row would cost too much
   const scalar::CoreTest test_;
-  // Of separate pairs no more is stated than that they are: the distance pass says how far, and
-  // whether that is a bound.
+  // The test pass of a kind that has a distance pass only states that a pair is separate. The
+  // distance pass finds how far, and the status.
   const bool decides_separate_;
 };
 
@@ -150,7 +152,8 @@ void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
       if (left[row] == 0) rows.put_invalid(row);
     }
   }
-  // Listed first: whether a row is left is as random as whether pairs overlap.
+  // Lists the deferred rows first, without branches: they are as random as overlaps, and would be
+  // predicted badly.
   std::array<uint16_t, kPairsPerBlock + 1> list;
   size_t count = 0;
   for (size_t row = 0; row < batch.count; ++row) {

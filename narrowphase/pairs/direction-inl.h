@@ -1,5 +1,5 @@
-// The direction pass of a batch: whether shapes are still apart along the direction in which they
-// were apart before. A few products against the axes of a whole test.
+// The direction pass of a batch: whether shapes are still separate along the direction that
+// separated them before. It takes a few products; a whole test tries many axes.
 #if defined(CAROM_NARROWPHASE_PAIRS_DIRECTION_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_PAIRS_DIRECTION_INL_H_
 #undef CAROM_NARROWPHASE_PAIRS_DIRECTION_INL_H_
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// As pack_direction() made them.
+// Unpacks what pack_direction() packed.
 HWY_INLINE F3 load_directions(const uint32_t* packed) {
   const IntTag tag;
   const I bits = hn::LoadU(tag, reinterpret_cast<const int32_t*>(packed));
@@ -28,7 +28,7 @@ HWY_INLINE F3 load_directions(const uint32_t* packed) {
           component(hn::ShiftRight<20>(bits))};
 }
 
-// The rotation's inverse, without its matrix.
+// Rotates by the inverse of q, without a matrix.
 HWY_INLINE F3 rotate_back(const Quaternion& q, const F3& v) {
   const F3 t = cross(v, q.v) * hn::Div(splat(2), squared_norm(q));
   return (v + t * q.w) + cross(t, q.v);
@@ -65,8 +65,8 @@ HWY_INLINE Mask has_rules(const Shape&) {
 }
 HWY_INLINE Mask has_rules(const TriangleLanes& triangle) { return triangle.is_special; }
 
-// Writes to `overlap` whether a test is needed: 0 says that the shapes are apart. So says the test
-// then, too: they are further apart than it may err.
+// Writes to `overlap` 1 if a pair needs a test, 0 if the shapes are separate. The test would find
+// the latter separate, too: their gap is greater than its error.
 template <class A, class B>
 void run_direction(const Batch& batch) {
   for (size_t row = 0; row < batch.count; row += kLanes) {

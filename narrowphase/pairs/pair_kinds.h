@@ -19,7 +19,7 @@ struct PairKind {
     return more == MorePasses::direction_and_manifold || has_distance_pass();
   }
   bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
-  // Whether the distance pass finds what the test does, for all rows.
+  // Whether the distance pass replaces the test: it fills every row (GJK kinds).
   bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
   bool has_distance_pass() const { return more == MorePasses::distance || measures_at_once(); }
   bool has_manifold_pass() const { return more != MorePasses::none; }
@@ -32,8 +32,8 @@ inline constexpr std::array kPairKinds = {
 #undef CAROM_PAIR
 };
 
-// Which kernel tests a against b. `flipped`: with the sides exchanged, since kernels exist for one
-// order only.
+// The kernel that tests a against b. `flipped`: with the sides exchanged, since kernels exist for
+// one order only.
 struct PairKindRef {
   uint8_t index = 0xff;
   bool flipped = false;
@@ -41,7 +41,7 @@ struct PairKindRef {
   bool exists() const { return index != 0xff; }
 };
 
-// By the kinds of both sides.
+// Indexed by the kinds of both sides.
 inline constexpr auto kPairKindTable = [] {
   std::array<std::array<PairKindRef, kShapeKindCount>, kShapeKindCount> table{};
   for (size_t i = 0; i < kPairKinds.size(); ++i) {

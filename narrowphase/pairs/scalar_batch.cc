@@ -16,7 +16,8 @@ void test_rows(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b) {
     const std::array<float, 11> answer = exact_answer(batch, kind_a, kind_b, row);
     const Status status = answer[10] != 0 ? Status::degenerate : Status::ok;
     store.put(row, status, answer);
-    if (batch.unsure) batch.unsure[row] = 1;  // there is no proof beside it
+    if (batch.unsure)
+      batch.unsure[row] = 1;  // the test gives no error bound that would prove the decision
   }
 }
 

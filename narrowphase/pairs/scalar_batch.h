@@ -1,5 +1,5 @@
 // Batches of kinds that have no kernel in lanes: one pair at a time, in double precision, by the
-// scalar tests. The bits are those of the reference on every ISA.
+// scalar tests. The results have the bits of the reference on every ISA.
 #pragma once
 
 #include "narrowphase/batch/batch.h"
@@ -8,7 +8,7 @@ namespace carom {
 
 void run_scalar_batch(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
 
-// The manifold pass of such a batch, or of any other; of all rows, or of those that are `wanted`.
+// The manifold pass of such a batch, or of any other. `wanted`: one flag a row; nullptr: all rows.
 void run_scalar_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
                           const uint8_t* wanted = nullptr);
 

@@ -18,7 +18,7 @@ Position<double> difference(const Position<double>& a, const Position<double>& b
 
 double square(const Position<double>& v) { return (v.x * v.x + v.y * v.y) + v.z * v.z; }
 
-// sqrt(distance^2) - reach without cancellation; 0 only if the two are equal in double.
+// sqrt(distance_squared) - reach without cancellation; 0 only if the two are equal in double.
 float gap(double distance_squared, double reach) {
   constexpr double kLargest = std::numeric_limits<float>::max();
   if (distance_squared > 4 * kLargest * kLargest) return std::numeric_limits<float>::max();
@@ -45,7 +45,7 @@ float sphere_box_separation(const BodyReader& box, size_t box_index, const Posit
   return static_cast<float>(0 - (way_out + radius));
 }
 
-// Of a sphere and a sphere or aabb.
+// The separation of a sphere (A) and a sphere or aabb (B), in double precision.
 float sphere_separation(const Batch& batch, ShapeKind kind_b, size_t row) {
   const Pair pair = batch.pairs[row];
   const Collidables view_a = view_of(batch.a, batch.layout, ShapeKind::sphere);

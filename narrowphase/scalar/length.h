@@ -1,4 +1,4 @@
-// Three-vectors for the scalar reference: one written order of summation, and lengths that neither
+// Three-vectors of the scalar tests: one written order of summation, and lengths that neither
 // overflow nor underflow.
 //
 // Source of the scaling: J. L. Blue, "A Portable Fortran Program to Find the Euclidean Norm of a
@@ -17,11 +17,12 @@ using Eigen::Vector3f;
 
 inline constexpr float kLargest = std::numeric_limits<float>::max();
 
-// The second operand where the two are equal: the two zeros are, but their bits are not.
+// The second operand if the two are equal, as in lanes: +0 and -0 are equal, but their bits are
+// not.
 inline float max(float a, float b) { return a > b ? a : b; }
 inline float min(float a, float b) { return a < b ? a : b; }
 
-// Infinities, from sums beyond the range of float, become the largest number of their sign.
+// Infinities, from sums beyond the range of float, become the largest float of their sign.
 inline float clamp_to_finite(float x) { return min(max(x, -kLargest), kLargest); }
 
 // Three terms are added in this order everywhere; a library's own order may change with its
@@ -30,8 +31,8 @@ inline float dot(const Vector3f& a, const Vector3f& b) {
   return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
 }
 
-// b - a, from one subtraction in the type of the positions: close bodies lose nothing far from the
-// origin (Sterbenz: the difference of numbers within a factor of two is exact).
+// b - a, from one subtraction in the type of the positions: close bodies far from the origin lose
+// no digits (Sterbenz: the difference of numbers within a factor of two is exact).
 template <class Vector>
 Vector3f relative_position(const Vector& a, const Vector& b) {
   const Vector3f difference = (b - a).template cast<float>();
@@ -42,7 +43,8 @@ inline float largest_component(const Vector3f& v) {
   return max(max(std::fabs(v.x()), std::fabs(v.y())), std::fabs(v.z()));
 }
 
-// 2^k and 2^-k, where 2^k is the power of two in `magnitude`, kept where both are normal numbers.
+// up = 2^k and down = 2^-k, where 2^k is the power of two in `magnitude`, clamped so that both are
+// normal floats.
 struct Scale {
   float up;
   float down;

@@ -1,4 +1,5 @@
-// Which ways out of a triangle its front and its inner edges leave.
+// One-sided triangle rules: the penetration directions that the front and the inner edges of a
+// triangle allow.
 #pragma once
 
 #include <array>
@@ -11,25 +12,27 @@ namespace carom::scalar {
 
 using Eigen::Vector3d;
 
-// Of a triangle: what its front and its inner edges exclude.
+// The rules of one triangle, in world axes.
 struct FrontRules {
-  Vector3d front = Vector3d::Zero();   // unit; zero: there is no front, and no rule
-  Vector3d corner = Vector3d::Zero();  // the first
-  std::array<Vector3d, 2> sides;       // from there to the others
+  Vector3d front = Vector3d::Zero();   // unit normal; zero: no area, so no rules
+  Vector3d corner = Vector3d::Zero();  // the first corner
+  std::array<Vector3d, 2> sides;       // from `corner` to the other corners
   double thickness = 0;
   bool one_sided = false;
   uint8_t inner_edges = 0;
 
-  // Whether some ways out are closed.
+  // Whether the rules forbid some directions.
   bool close_ways() const { return one_sided || inner_edges > 0; }
 };
 
+// `middle`: of the other shape. One that lies behind the back of a one-sided triangle never
+// touches.
 inline bool comes_from_behind(const FrontRules& rules, const Vector3d& middle) {
   return rules.one_sided &&
          dot(rules.front, Vector3d(middle - rules.corner)) < -rules.thickness - kInPlane;
 }
 
-// The corners furthest along `way`, as bits.
+// The corners furthest along `way`, as bits; ties within rounding included.
 inline unsigned corners_towards(const FrontRules& rules, const Vector3d& way) {
   const double height[] = {0, dot(way, rules.sides[0]), dot(way, rules.sides[1])};
   const double size = largest_component(rules.sides[0]) + largest_component(rules.sides[1]);
@@ -39,7 +42,8 @@ inline unsigned corners_towards(const FrontRules& rules, const Vector3d& way) {
   return corners;
 }
 
-// Whether the other shape may leave this way.
+// Whether the other shape may leave the triangle along `way`: not to the back of a one-sided
+// triangle, and not over an inner edge or over a corner between two of them.
 inline bool allows(const FrontRules& rules, const Vector3d& way) {
   if (rules.one_sided && dot(rules.front, way) < -kInPlane) return false;
   if (rules.inner_edges == 0) return true;

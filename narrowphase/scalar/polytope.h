@@ -1,5 +1,5 @@
-// Shapes as the hull of a few points, grown by a radius: for tests in double precision that take
-// any two of them, clear rather than fast.
+// Shapes as the convex hull of a few points, grown by a radius: for tests in double precision that
+// take any two shapes, clear rather than fast.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace carom::scalar {
 
-// Zero for a vector of zero.
+// v / |v|, or zero if v is zero.
 inline Vector3d unit_or_zero(const Vector3d& v) {
   const double scale = largest_component(v);
   if (!(scale > 0)) return Vector3d::Zero();
-  const Vector3d scaled = v / scale;  // squares of what is tiny would vanish
+  const Vector3d scaled = v / scale;  // squares of tiny components would vanish
   return scaled / std::sqrt(dot(scaled, scaled));
 }
 
@@ -26,16 +26,16 @@ struct PolytopeEdge {
   Vector3d direction;  // unit, or zero
 };
 
-// World axes. The points' hull grown by `radius` is the shape.
+// The shape is the convex hull of `points`, grown by `radius`; world axes.
 struct Polytope {
-  // As many as a k-DOP may have.
+  // Room for a k-DOP, which has the most.
   FewOf<Vector3d, DopPolytope::kMostPoints> points;
   FewOf<PolytopeEdge, DopPolytope::kMostEdges> edges;
   FewOf<Vector3d, 25> directions;       // of the edges, each once
   FewOf<Vector3d, kMostSlabs> normals;  // of the faces, each once
   double radius = 0;
-  Vector3d middle = Vector3d::Zero();  // where one-sided triangles take the shape to be
-  double inner_radius = 0;             // of a ball about the middle that the hull contains
+  Vector3d middle = Vector3d::Zero();  // tells one-sided triangles on which side it is
+  double inner_radius = 0;             // of a ball about `middle` inside the hull
   FrontRules rules;
 
   void add_edge(size_t i, size_t j) {
@@ -101,8 +101,8 @@ inline Polytope polytope_of(const BoxShape<double>& box, const Quaternion<double
   return polytope_of_box(-box.half, box.half, rotation_of(q));
 }
 
-// Unit, on the side from which the corners run counter-clockwise; zero if there is no area but what
-// rounding may have made. Taken between the two shorter sides, where rounding counts least.
+// The unit normal on the side from which the corners run counter-clockwise; zero if the area may be
+// all rounding. Computed from the two shortest sides, where rounding counts least.
 inline Vector3d front_of(const std::array<Vector3d, 3>& corners) {
   Vector3d best = Vector3d::Zero();
   double least = HUGE_VAL;
@@ -119,7 +119,7 @@ inline Vector3d front_of(const std::array<Vector3d, 3>& corners) {
   return unit_or_zero(best);
 }
 
-// Thickness makes it a prism: the corners, and behind them the same again.
+// A thick triangle is a prism: the corners, and the same again at `thickness` behind the front.
 inline Polytope polytope_of(const TriangleShape<double>& triangle, const Quaternion<double>& q) {
   const Rotation<double> turn = rotation_of(q);
   const Vector3d front = rotate(turn, front_of(triangle.corners));
@@ -150,20 +150,20 @@ inline Polytope polytope_of(const TriangleShape<double>& triangle, const Quatern
   return p;
 }
 
-// The directions of edges are cross products of two directions of slabs: few, however many edges
-// there are.
+// Unit normals and edge directions of a turned k-DOP. An edge direction is a cross product of two
+// slab directions, so there are few of them; the polytope gets each once.
 class DopAxes {
  public:
   DopAxes(DopKind kind, const Rotation<double>& turn) : slabs_(slab_directions(kind)), turn_(turn) {
     known_.fill(-1);
   }
 
-  // Unit, out of the polytope.
+  // Unit, out of the polytope, in world axes.
   Vector3d normal(size_t plane) const {
     return rotate(turn_, unit_or_zero(slab(plane))) * sign_of_plane(plane);
   }
 
-  // Unit, along the edge of two planes.
+  // Unit, along the edge where the two planes meet. Adds it to p.directions if it is new.
   Vector3d edge(const std::array<uint8_t, 2>& planes, Polytope& p) {
     Vector3d way = cross(slab(planes[0]), slab(planes[1]));
     if (way.x() < 0 || (way.x() == 0 && (way.y() < 0 || (way.y() == 0 && way.z() < 0)))) way = -way;

@@ -1,4 +1,4 @@
-// One pair in scaled units, in float32, and again in double precision where float32 cannot decide.
+// Runs the test of one pair in scaled units, in float or in double.
 #pragma once
 
 #include <limits>
@@ -20,7 +20,8 @@ inline DoubleScale scale_of(double magnitude) {
   return {std::ldexp(1.0, exponent), std::ldexp(1.0, -exponent)};
 }
 
-// separate(a, b, pose) in units in which the greatest coordinate lies between one and two.
+// Returns separate(a, b, pose), run in units in which the greatest coordinate lies between one and
+// two; the result is in metres again.
 template <class Real, class A, class B, class Separate>
 SeparationAs<Real> in_scaled_units(const A& a, const B& b, const PairPose<Real>& pose,
                                    const Separate& separate) {
@@ -33,7 +34,7 @@ SeparationAs<Real> in_scaled_units(const A& a, const B& b, const PairPose<Real>&
   return result;
 }
 
-// To the nearest float, except that what is not zero keeps its sign.
+// Rounds to the nearest float, except that a gap stays above zero and a finite number finite.
 inline float round_separation(double separation) {
   constexpr float kSmallest = std::numeric_limits<float>::denorm_min();
   if (separation > kLargest)

@@ -1,4 +1,4 @@
-// What the reference tests of a pair of shapes yield.
+// The result of a scalar test of one pair.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,13 +18,15 @@ struct SeparationAs {
   Vector arm_a;
   Vector arm_b;
   Status status = Status::ok;
-  // Real is too coarse: the pair lies within rounding of touching, or has no good normal in it.
+  // Real could not decide: the pair lies within rounding of touching, or has no good normal in
+  // Real.
   bool is_unsure = false;
 };
 
 using Separation = SeparationAs<float>;
 
-// The same with A and B exchanged. NaN (no answer) stays the one NaN it is.
+// The same result with A and B exchanged. A NaN (no answer) keeps its bits: its sign is not
+// flipped.
 template <class Real>
 SeparationAs<Real> flipped(const SeparationAs<Real>& s) {
   const auto negated = [](Real x) { return std::isnan(x) ? x : -x; };

@@ -1,4 +1,4 @@
-// Shapes of the scalar tests, in float and in double, scaled to the unit of the test.
+// The shapes that the scalar tests take, in float and in double, scaled to the unit of the test.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace carom::scalar {
 
 // Every shape has
-//   size()        a bound of all coordinates, within a factor of two
-//   scaled(s)     itself, s times as large
+//   size()        an upper bound of all coordinates, within a factor of two
+//   scaled(s)     the shape, s times as large
 template <class Real>
 struct SphereShape {
   Real radius;
@@ -46,7 +46,7 @@ struct BoxShape {
   BoxShape scaled(Real s) const { return {half * s}; }
 };
 
-// Slabs in double in any case: corners are not found in less.
+// Slabs are double for either Real: finding the corners needs it.
 template <class Real>
 struct DopShape {
   DopSlabs slabs;
@@ -62,7 +62,7 @@ struct DopShape {
   }
 };
 
-// Points as they are stored; they are turned in double in any case.
+// Refers to the stored points; tests apply `scale` when they turn the points.
 template <class Real>
 struct HullShape {
   const HullGeometry* geometry;
@@ -72,7 +72,7 @@ struct HullShape {
   HullShape scaled(Real s) const { return {geometry, scale * s}; }
 };
 
-// Meshes and compounds, which are tested part by part: there is no test of the whole.
+// Meshes and compounds. The library tests them part by part, so there is no test of the whole.
 template <class Real>
 struct CompositeShape {
   Real size() const { return 0; }
@@ -85,9 +85,9 @@ struct TriangleShape {
   Real thickness;
   bool one_sided;
   uint8_t inner_edges;
-  bool has_properties;  // one of the three above, whatever scaling makes of the thickness
+  bool has_properties;  // has one of the three above; stays when scaling rounds `thickness` to 0
 
-  // What the kernels do not test: the general test in double precision does.
+  // Kernels do not test special triangles; the general test in double precision does.
   bool is_special() const { return has_properties; }
 
   Real size() const {
@@ -103,7 +103,7 @@ struct TriangleShape {
   }
 };
 
-// With a unit normal.
+// The normal is a unit vector.
 template <class Real>
 struct HalfspaceShape {
   Vector3<Real> normal;
@@ -113,7 +113,7 @@ struct HalfspaceShape {
   HalfspaceShape scaled(Real s) const { return {normal, offset * s}; }
 };
 
-// From the shape as given.
+// shape_as<Real>(shape): the public shape as a shape of the tests.
 template <class Real>
 SphereShape<Real> shape_as(const Sphere& s) {
   return {s.radius};
@@ -155,7 +155,7 @@ TriangleShape<Real> shape_as(const Triangle& t) {
           t.inner_edges,
           t.thickness > 0 || t.one_sided || t.inner_edges > 0};
 }
-// Normals are scaled by a power of two first, so that their squares neither vanish nor overflow.
+// Scales the normal by a power of two first, so that its squares neither vanish nor overflow.
 template <class Real>
 HalfspaceShape<Real> shape_as(const Halfspace& h) {
   const Scale scale = scale_of(largest_component(h.normal));

@@ -15,7 +15,7 @@ using Vector3 = Eigen::Matrix<Real, 3, 1>;
 inline double max(double a, double b) { return a > b ? a : b; }
 inline double min(double a, double b) { return a < b ? a : b; }
 
-// Sums beyond the range of float become its largest number; double holds all of them.
+// Sums beyond the range of float are clamped to its largest number; double holds all of them.
 inline float finite(float x) { return clamp_to_finite(x); }
 inline double finite(double x) { return x; }
 
@@ -39,21 +39,21 @@ Real largest_component(const Vector3<Real>& v) {
   return max(max(std::fabs(v.x()), std::fabs(v.y())), std::fabs(v.z()));
 }
 
-// x, y, z, w; any length but zero.
+// x, y, z, w; of any length but zero.
 template <class Real>
 struct Quaternion {
   Vector3<Real> v;
   Real w;
 };
 
-// Columns: where the axes go.
+// Columns: the rotated axes.
 template <class Real>
 struct Rotation {
   Vector3<Real> x, y, z;
 };
 
 // M(q) / |q|^2. Source: K. Shoemake, Animating Rotation with Quaternion Curves, SIGGRAPH 1985.
-template <class Real>  // as a call it would pass all columns through memory
+template <class Real>  // inlined: a call would pass all columns through memory
 [[gnu::always_inline]] inline Rotation<Real> rotation_of(const Quaternion<Real>& q) {
   const Real s = Real(2) / (dot(q.v, q.v) + q.w * q.w);
   const Vector3<Real> scaled = q.v * s;
@@ -65,13 +65,13 @@ template <class Real>  // as a call it would pass all columns through memory
           {xz + wy, yz - wx, 1 - (xx + yy)}};
 }
 
-// conj(a) * b: from the frame of b to that of a.
+// conj(a) * b: rotates from the frame of b to that of a.
 template <class Real>
 Quaternion<Real> relative_rotation(const Quaternion<Real>& a, const Quaternion<Real>& b) {
   return {(b.v * a.w - a.v * b.w) - cross(a.v, b.v), a.w * b.w + dot(a.v, b.v)};
 }
 
-template <class Real>  // as a call it would pass all columns through memory
+template <class Real>  // inlined: a call would pass all columns through memory
 [[gnu::always_inline]] inline Vector3<Real> rotate(const Rotation<Real>& r,
                                                    const Vector3<Real>& v) {
   return (r.x * v.x() + r.y * v.y()) + r.z * v.z();
@@ -82,15 +82,15 @@ Vector3<Real> rotate_back(const Rotation<Real>& r, const Vector3<Real>& v) {
   return {dot(r.x, v), dot(r.y, v), dot(r.z, v)};
 }
 
-// Of bodies A and B: where B is, seen from A, in world axes, and how both are turned.
+// The position of B relative to A in world axes (d), and both orientations.
 template <class Real>
 struct PairPose {
   Vector3<Real> d;
   Quaternion<Real> a, b;
-  Vector3<Real> back = -d;  // where A is, seen from B: -d but for the signs of zeros
+  Vector3<Real> back = -d;  // of A relative to B: -d but for the signs of zeros
 };
 
-// The same seen from B.
+// The same pose seen from B.
 template <class Real>
 PairPose<Real> flipped(const PairPose<Real>& pose) {
   return {pose.back, pose.b, pose.a, pose.d};

@@ -1,5 +1,5 @@
-// Vectors of any number type: of exact numbers where decisions are proven, of doubles where they
-// are prepared.
+// Vectors of any number type: exact numbers for the proofs of decisions, doubles for what prepares
+// them.
 #pragma once
 
 namespace carom {

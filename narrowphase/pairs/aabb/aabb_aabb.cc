@@ -53,7 +53,7 @@ struct AabbAabb {
   }
 
  private:
-  // Three roundings of numbers of that size decided.
+  // Whether the decision is within rounding: three roundings of numbers of this size.
   static HWY_INLINE Mask is_near_touch(const F3& d, const A& a, const B& b, const F3& gap) {
     const F size = hn::Add(largest_component(d), max(a.extent(), b.extent()));
     const F greatest = max(max(gap.x, gap.y), gap.z);

@@ -10,13 +10,14 @@
 
 namespace carom::scalar {
 
-// One axis of two boxes, each relative to its position; B's is at `d` from A's.
+// The gap of two boxes along one axis, each box relative to its position; B is at `d` from A.
 struct AxisGap {
   float gap;      // of the two intervals; negative: they overlap by that much
-  bool is_right;  // B goes to the right to separate (or lies there), otherwise to the left
+  bool is_right;  // B lies, or separates, towards greater coordinates
 };
 
-// The same for (B, A) but for the side: either way `d` is added to the same difference.
+// (B, A) gives the same gap and the other side, because either way `d` is added to the same
+// difference.
 inline AxisGap axis_gap(float lower_a, float upper_a, float lower_b, float upper_b, float d) {
   const float right = (lower_b - upper_a) + d;
   const float left = (lower_a - upper_b) - d;
@@ -24,7 +25,8 @@ inline AxisGap axis_gap(float lower_a, float upper_a, float lower_b, float upper
   return {is_right ? right : left, is_right};
 }
 
-// Corners are relative to the position of their body, and `d` is the position of B relative to A's.
+// Corners are relative to the position of their body; `d` is the position of B relative to that of
+// A.
 inline Separation aabb_aabb(const Vector3f& lower_a, const Vector3f& upper_a,
                             const Vector3f& lower_b, const Vector3f& upper_b, const Vector3f& d) {
   const Vector3f moved_lower_b = lower_b + d;
@@ -39,7 +41,7 @@ inline Separation aabb_aabb(const Vector3f& lower_a, const Vector3f& upper_a,
   const bool is_separate = !distance.is_zero;
   const auto sign = [&](int i, float x) { return axes[i].is_right ? x : -x; };
 
-  // Of equal overlaps the first axis.
+  // The axis of the least overlap; ties go to the first axis.
   const int axis = axes[0].gap >= axes[1].gap && axes[0].gap >= axes[2].gap ? 0
                    : axes[1].gap >= axes[2].gap                             ? 1
                                                                             : 2;
@@ -56,7 +58,8 @@ inline Separation aabb_aabb(const Vector3f& lower_a, const Vector3f& upper_a,
       result.arm_a[i] = axes[i].is_right ? upper_a[i] : lower_a[i];
       result.arm_b[i] = axes[i].is_right ? lower_b[i] : upper_b[i];
     } else {
-      // The middle of what the intervals share; halved first, as the sum could overflow.
+      // The middle of the intersection of the intervals; halved first, since the sum could
+      // overflow.
       result.arm_a[i] =
           0.5f * max(lower_a[i], moved_lower_b[i]) + 0.5f * min(upper_a[i], moved_upper_b[i]);
       result.arm_b[i] = result.arm_a[i] - d[i];

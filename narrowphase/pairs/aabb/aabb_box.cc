@@ -20,7 +20,8 @@ struct AabbBoxBase {
   static constexpr Units kUnits = Units::scaled;
   static constexpr Unsure kUnsure = Unsure::everything;
 
-  // Seen from both corners first, so that a box far from its position loses nothing.
+  // Subtracts both corners before it takes the mean, so that a box far from its position loses no
+  // digits.
   static HWY_INLINE BoxPairLanes boxes(const PoseLanes& pose, const A& a, const B& b) {
     const F half = splat(0.5f);
     return {((pose.d - a.lower) + (pose.d - a.upper)) * half, rotation_of(pose.b),
@@ -60,7 +61,7 @@ void aabb_box(const Batch& batch) {
       return run_batch<AabbBoxDistance>(batch);
     case Pass::manifold:
       return run_manifold<AabbLanes, BoxLanes>(batch);
-    case Pass::clearance:  // of hulls alone
+    case Pass::clearance:  // only for GJK kinds
     case Pass::recall:
       return;
   }

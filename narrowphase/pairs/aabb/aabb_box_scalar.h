@@ -10,7 +10,8 @@ template <class Real>
 SeparationAs<Real> separation(const AabbShape<Real>& a, const BoxShape<Real>& b,
                               const PairPose<Real>& pose) {
   const Vector3<Real> half = (a.upper - a.lower) * Real(0.5);
-  // Seen from both corners first, so that a box far from its position loses nothing.
+  // Subtracts both corners before it takes the mean, so that a box far from its position loses no
+  // digits.
   const Vector3<Real> centre = ((pose.d - a.lower) + (pose.d - a.upper)) * Real(0.5);
   const Rotation<Real> world{Vector3<Real>::UnitX(), Vector3<Real>::UnitY(),
                              Vector3<Real>::UnitZ()};

@@ -1,4 +1,4 @@
-// Aabb against k-DOP: searches over any two cores.
+// Aabb against k-DOP: the search in double precision over any two cores.
 #include "narrowphase/pairs/core_batch.h"
 
 namespace carom {

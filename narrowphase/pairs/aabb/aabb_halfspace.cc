@@ -1,4 +1,5 @@
-// Axis-aligned box against half-space: the lowest corner, or the middle of what lies flat.
+// Axis-aligned box against half-space: the lowest corner, or the middle of the edge or face that
+// lies flat.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -1,4 +1,4 @@
-// Aabb against hull: GJK in lanes, and searches over any two cores for what that leaves.
+// Aabb against hull: GJK in lanes, and the search over any two cores for the rows that it defers.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

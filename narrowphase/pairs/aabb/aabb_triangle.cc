@@ -22,7 +22,7 @@ struct AabbTriangleBase {
 
   static HWY_INLINE F3 half_of(const A& box) { return (box.upper - box.lower) * splat(0.5f); }
 
-  // Of the triangle's body, seen from the centre of the box.
+  // The position of the triangle's body relative to the centre of the box.
   static HWY_INLINE F3 position_of(const PoseLanes& pose, const A& box) {
     return ((pose.d - box.lower) + (pose.d - box.upper)) * splat(0.5f);
   }
@@ -44,7 +44,7 @@ struct AabbTriangle : AabbTriangleBase {
   }
 };
 
-// At Detail::overlap.
+// The kernel for Detail::overlap.
 struct AabbTriangleDecision : AabbTriangleBase {
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,

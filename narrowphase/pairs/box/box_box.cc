@@ -55,7 +55,7 @@ void box_box(const Batch& batch) {
       return run_batch<BoxBoxDistance>(batch);
     case Pass::manifold:
       return run_manifold<BoxLanes, BoxLanes>(batch);
-    case Pass::clearance:  // of hulls alone
+    case Pass::clearance:  // only for GJK kinds
     case Pass::recall:
       return;
   }

@@ -1,4 +1,4 @@
-// Box against half-space: the lowest corner, or the middle of what lies flat.
+// Box against half-space: the lowest corner, or the middle of the edge or face that lies flat.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -40,7 +40,7 @@ struct BoxHalfspace {
   }
 
  private:
-  // The lower end of an axis of the box, its middle if it lies flat.
+  // The lower end of an axis of the box; its middle if it lies flat.
   static HWY_INLINE F lower_end(F slope, F drop, F half, F flat) {
     const F end = hn::IfThenElse(hn::Gt(slope, splat(0)), hn::Neg(half), half);
     return hn::IfThenElseZero(hn::Gt(drop, flat), end);

@@ -42,7 +42,7 @@ struct BoxTriangle : BoxTriangleBase {
   }
 };
 
-// At Detail::overlap.
+// The kernel for Detail::overlap.
 struct BoxTriangleDecision : BoxTriangleBase {
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,

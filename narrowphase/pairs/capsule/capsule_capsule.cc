@@ -41,7 +41,8 @@ struct CapsuleCapsule {
     const F length = hn::Sqrt(dot(way, way));
     const F to_unit = hn::Div(splat(1), length);
     const F distance = hn::IfThenElse(is_across, hn::Mul(hn::Abs(height), to_unit), length);
-    // A core on the other may leave in any direction across both: double precision decides.
+    // If the cores intersect, the capsules may separate in any direction across both: double
+    // precision decides.
     const Mask coincide = hn::AndNot(is_across, hn::Le(distance, splat(kCoincident)));
     const F3 normal = way * to_unit;
     report_grown(p + d * s, q + e * t, normal, distance, a.radius, b.radius, pose,

@@ -1,8 +1,8 @@
 // Capsule against capsule: the nearest points of their segments.
 //
-// Source: C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9. The normal is found from
-// the features that are nearest, then checked: a gap along it that is less than the distance tells
-// that float has lost it.
+// Source: C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9. The normal is computed
+// from the nearest features and then checked: if the gap along it is less than the distance, float
+// has lost the normal.
 #pragma once
 
 #include "narrowphase/features/rounded_scalar.h"
@@ -11,7 +11,8 @@
 
 namespace carom::scalar {
 
-// A normal of two segments that touch: across both, or across the longer one of parallel ones.
+// The normal of two segments that touch: perpendicular to both or, if they are parallel, to the
+// longer one.
 template <class Real>
 Vector3<Real> normal_of_touching(const NearestOfSegments<Real>& near) {
   const Vector3<Real> n = cross(near.d, near.e);
@@ -21,7 +22,7 @@ Vector3<Real> normal_of_touching(const NearestOfSegments<Real>& near) {
   return n * (1 / std::sqrt(dot(n, n)));
 }
 
-// The gap between the projections on the unit vector n of p + d s and q + e t.
+// The gap between the projections of p + d s and q + e t on the unit vector n (r = q - p).
 template <class Real>
 Real gap_of_segments(const Vector3<Real>& n, const Vector3<Real>& r, const Vector3<Real>& d,
                      const Vector3<Real>& e) {

@@ -1,4 +1,4 @@
-// Capsule against half-space: the lower end of the segment, the middle of one that lies flat.
+// Capsule against half-space: the lower end of the segment, or the middle of one that lies flat.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

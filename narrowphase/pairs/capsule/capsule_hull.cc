@@ -1,4 +1,5 @@
-// Capsule against hull: GJK in lanes, and searches over any two cores for what that leaves.
+// Capsule against hull: GJK in lanes, and the search over any two cores for the rows that it
+// defers.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

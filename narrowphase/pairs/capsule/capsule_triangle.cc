@@ -1,5 +1,6 @@
-// Capsule against triangle: the capsule's segment against the triangle. Their difference is a
-// prism; the nearest of its sides is the separation of the cores (Ericson 2005, 5.1.10 and 5.3.4).
+// Capsule against triangle: the capsule's segment against the triangle. Their Minkowski difference
+// is a prism; the distance to its nearest side is the separation of the cores (Ericson 2005, 5.1.10
+// and 5.3.4).
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -15,7 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// The edge of a triangle that is nearest to the segment d, and the edge that ends where it starts.
+// The edge of a triangle that is nearest to the segment d, and the edge that ends where that one
+// starts (`last`).
 struct NearestEdge {
   F squared, s, ee;
   F t;
@@ -75,7 +77,7 @@ struct CapsuleTriangle {
     const F height_q = hn::Add(height_p, dot(d, unit_normal));
     const Mask through = passes_through(r, d, core, height_p, height_q);
 
-    // The end that is nearer to the plane, over the face, if no edge is nearer.
+    // Takes the face if the end that is nearer to the plane is over it, and no edge is nearer.
     const Mask starts_nearer = hn::Le(hn::Abs(height_p), hn::Abs(height_q));
     const F height = hn::IfThenElse(starts_nearer, height_p, height_q);
     const F far_height = hn::IfThenElse(starts_nearer, height_q, height_p);
@@ -86,7 +88,8 @@ struct CapsuleTriangle {
     F3 way;
     const Mask is_across =
         way_between(d, dd, nearest.edge, nearest.ee, nearest.s, nearest.t, nearest.delta, way);
-    // Across the edge the triangle lies on the far side of it.
+    // If `way` is perpendicular to the edge and the segment, its sign is that for which the third
+    // corner of the triangle lies ahead.
     const F3 ahead = negate_if(through, nearest.delta);
     const F3 far = ahead - zero_unless(is_across, nearest.last);
     way = negate_if(hn::Lt(dot(way, far), zero), way);
@@ -101,7 +104,7 @@ struct CapsuleTriangle {
         select(is_face, negate_if(hn::Ge(far_height, zero), unit_normal), way * to_unit);
     const F end = hn::IfThenElse(starts_nearer, zero, splat(1));
     const F3 point = p + d * hn::IfThenElse(is_face, end, nearest.s);
-    // So near to an edge float cannot tell on which side of it the segment is.
+    // So near to an edge, float32 cannot tell on which side of it the segment is.
     const Mask near_edge = hn::AndNot(is_face, hn::Le(distance, splat(Tolerance::kNearEdges)));
     const Mask unsure =
         hn::Or(hn::Or(near_edge, is_tilted(normal, r, d, core_separation)), triangle.is_special);
@@ -110,8 +113,8 @@ struct CapsuleTriangle {
   }
 
  private:
-  // The ends on both sides, and the line on the same side of all edges. A segment in the plane does
-  // not pass through it, for all that can be told.
+  // Whether the ends are on both sides of the plane, and the line on the same side of all edges. A
+  // segment that lies in the plane, up to rounding, does not pass through it.
   static HWY_INLINE Mask passes_through(const F3* r, const F3& d, const TriangleCore& core,
                                         F height_p, F height_q) {
     const F zero = splat(0);
@@ -127,7 +130,8 @@ struct CapsuleTriangle {
     return hn::And(hn::And(core.has_face, crosses), inside);
   }
 
-  // Whether the end of the segment is over the face; r: from its start to the corners.
+  // Whether the end of the segment is over the face; r: from the start of the segment to the
+  // corners.
   static HWY_INLINE Mask is_over(const F3* r, const F3& end, const TriangleCore& core) {
     Mask outside = hn::Not(core.has_face);
     for (size_t i = 0; i < 3; ++i) {

@@ -1,9 +1,10 @@
 // Capsule (A) against triangle (B): the capsule's segment against the triangle.
 //
-// The difference of a segment and a triangle is a prism, whose surface is made of the differences
-// of the segment's ends and the triangle, and of the segment and the edges. The nearest of these is
-// the separation of the cores, negative if the segment passes through the triangle (C. Ericson,
-// Real-Time Collision Detection, 2005, sections 5.1.10 and 5.3.4).
+// The Minkowski difference of a segment and a triangle is a prism. Its surface is made of the
+// differences of the segment's ends and the triangle, and of the segment and the edges. The
+// distance to the nearest of these is the separation of the cores, negative if the segment passes
+// through the triangle (C. Ericson, Real-Time Collision Detection, 2005, sections 5.1.10 and
+// 5.3.4).
 #pragma once
 
 #include "narrowphase/doubles/special_triangle.h"
@@ -12,7 +13,7 @@
 
 namespace carom::scalar {
 
-// The segment p + d s, s from 0 to 1, against a triangle; corners relative to the same point.
+// The segment p + d s, s from 0 to 1, against a triangle; corners relative to the same origin.
 template <class Real>
 class SegmentTriangle {
  public:
@@ -39,7 +40,7 @@ class SegmentTriangle {
   bool is_degenerate() const { return is_degenerate_; }
   Real core_separation() const { return passes_through_ ? -distance_ : distance_; }
   const Vector& normal() const { return normal_; }
-  Vector point() const { return p_ + d_ * s_; }  // of the segment
+  Vector point() const { return p_ + d_ * s_; }  // on the segment
 
   // Whether the gap along the normal is less than the separation.
   bool is_tilted() const {
@@ -61,8 +62,8 @@ class SegmentTriangle {
     }
   }
 
-  // The ends on both sides, and the line on the same side of all edges. A segment in the plane does
-  // not pass through it, for all that can be told.
+  // Whether the ends are on both sides of the plane, and the line on the same side of all edges. A
+  // segment that lies in the plane, up to rounding, does not pass through it.
   bool passes_through() const {
     if (!(std::fabs(height_q_ - height_p_) > Tolerance::kShallow)) return false;
     const Real zero = 0;
@@ -82,12 +83,12 @@ class SegmentTriangle {
     for (size_t i = 0; i < 3; ++i) {
       if (dot(Vector(r_[i] - end), cross(triangle_.normal, triangle_.edge[i])) > 0) return false;
     }
-    // An edge below the end is as near, but for rounding.
+    // An edge below the end is equally near, up to rounding: then it takes the face.
     const Real height = starts_nearer() ? height_p_ : height_q_;
     return height * height <= edge_squared_ * Tolerance::kTie;
   }
 
-  // The other end tells the side.
+  // The other end tells on which side of the face the segment lies.
   void take_face() {
     is_face_ = true;
     s_ = starts_nearer() ? Real(0) : Real(1);
@@ -99,7 +100,8 @@ class SegmentTriangle {
   void take_edge() {
     auto [way, is_across] = way_between(nearest_);
     s_ = nearest_.s;
-    // Across the edge the triangle lies on the far side of it.
+    // If `way` is perpendicular to the edge and the segment, its sign is that for which the third
+    // corner of the triangle lies ahead.
     const Vector ahead = passes_through_ ? Vector(-nearest_.delta) : nearest_.delta;
     const Vector far = is_across ? Vector(ahead - triangle_.edge[(edge_ + 2) % 3]) : ahead;
     if (dot(way, far) < 0) way = -way;
@@ -112,7 +114,7 @@ class SegmentTriangle {
     }
   }
 
-  // The way between cores that touch is lost: the features give the normal.
+  // Between cores that touch there is no good direction: the nearest features give the normal.
   void take_normal_of_touching() {
     const Vector n = cross(d_, nearest_.e);
     const bool is_across = have_common_normal(n, nearest_.dd, nearest_.ee);
@@ -131,8 +133,8 @@ class SegmentTriangle {
   const TriangleCore<Real>& triangle_;
   Vector unit_normal_;
   Vector r_[3];               // from p to the corners
-  Real height_p_, height_q_;  // of the ends over the face
-  size_t edge_ = 0;           // the nearest
+  Real height_p_, height_q_;  // of the ends over the plane of the face
+  size_t edge_ = 0;           // the number of the nearest edge
   Real edge_squared_ = 0;     // its squared distance
   NearestOfSegments<Real> nearest_;
   bool passes_through_;

@@ -1,4 +1,4 @@
-// K-DOP against k-DOP: searches over any two cores.
+// K-DOP against k-DOP: the search in double precision over any two cores.
 #include "narrowphase/pairs/core_batch.h"
 
 namespace carom {

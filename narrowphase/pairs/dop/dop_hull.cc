@@ -1,4 +1,4 @@
-// K-DOP against hull: searches over any two cores.
+// K-DOP against hull: the search in double precision over any two cores.
 #include "narrowphase/pairs/core_batch.h"
 
 namespace carom {

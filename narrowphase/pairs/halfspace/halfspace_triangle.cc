@@ -1,4 +1,4 @@
-// Half-space against triangle: the lowest corner, or the middle of what lies flat.
+// Half-space against triangle: the lowest corner, or the middle of the edge or face that lies flat.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

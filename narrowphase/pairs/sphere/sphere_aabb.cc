@@ -1,5 +1,5 @@
 // Sphere against axis-aligned box: by the point of the box nearest to the centre (Ericson 2005,
-// 5.2.5), or out through the nearest face if the centre is inside.
+// 5.2.5), or through the nearest face if the centre is inside.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -27,8 +27,8 @@ struct SphereAabb {
     const Length outside = measure(clamp_to_finite(nearest - centre));
     const Mask inside = outside.is_zero;
 
-    // A centre inside the box leaves by the nearest face: ties go to the first axis and to its
-    // lower side. The normal points into the box, against the way out.
+    // A centre inside the box leaves through the nearest face; ties go to the first axis and its
+    // lower side. The normal points into the box, against the penetration direction.
     const F3 below = centre - box.lower;
     const F3 above = box.upper - centre;
     const F3 way_out = min(below, above);

@@ -1,8 +1,8 @@
 // Sphere (A) against a box along the world axes (B): the nearest point of the box to the centre.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, sections 5.1.3 (the point of a box that
-// is closest to a point) and 5.2.5 (sphere against box). For a centre inside the box, where that
-// point is the centre itself, the way out through the nearest face takes its place.
+// is closest to a point) and 5.2.5 (sphere against box). For a centre inside the box that point is
+// the centre itself; then the nearest face gives the penetration direction.
 #pragma once
 
 #include "narrowphase/scalar/length.h"
@@ -11,8 +11,8 @@
 
 namespace carom::scalar {
 
-// A centre inside the box leaves through the nearest face; of equally near ones along the first
-// axis, downwards. `closest` equals `centre`, but for the signs of zeros.
+// A centre inside the box leaves through the nearest face; ties go to the first axis and its lower
+// side. `closest` equals `centre`, but for the signs of zeros.
 inline Separation sphere_inside_aabb(float radius, const Vector3f& lower, const Vector3f& upper,
                                      const Vector3f& centre, const Vector3f& closest) {
   const Vector3f below = centre - lower;
@@ -22,7 +22,7 @@ inline Separation sphere_inside_aabb(float radius, const Vector3f& lower, const 
   const int axis = exit.x() <= exit.y() && exit.x() <= exit.z() ? 0 : exit.y() <= exit.z() ? 1 : 2;
   const bool leaves_upwards = above[axis] < below[axis];
 
-  // The normal points from the sphere to the box, against the sphere's way out.
+  // The normal points from the sphere into the box, against the penetration direction.
   Vector3f normal = Vector3f::Zero();
   normal[axis] = leaves_upwards ? -1.0f : 1.0f;
   Vector3f on_face = closest;
@@ -30,7 +30,7 @@ inline Separation sphere_inside_aabb(float radius, const Vector3f& lower, const 
   return {-exit[axis] - radius, normal, radius * normal, on_face};
 }
 
-// The separation alone, in double precision.
+// Only the separation, in double precision.
 inline float sphere_aabb_near_touch(float radius, const Vector3f& lower, const Vector3f& upper,
                                     const Vector3d& centre) {
   Vector3d delta;

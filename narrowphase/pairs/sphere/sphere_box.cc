@@ -40,7 +40,7 @@ struct SphereBox {
 
     const F separation = hn::Sub(gap, sphere.radius);
     const F3 normal = -rotate(turn, out);
-    // The squares of a way so short vanish.
+    // The squares of so short a vector vanish.
     const Mask vanishing = hn::AndNot(inside, hn::Le(distance, splat(kCoincident)));
     report(hn::Le(separation, zero), hn::Or(is_near_touch(separation), vanishing), no_lanes(),
            separation, normal, normal * sphere.radius, rotate(turn, on_box));

@@ -12,7 +12,7 @@
 
 namespace carom::scalar {
 
-// Of equally near faces the first, and its lower side. Normals lead from the box to the centre.
+// Ties go to the first axis and its lower side. Normals lead from the box to the centre.
 template <class Real>
 BoxAxis<Real> way_out_of_box(const Vector3<Real>& centre, const Vector3<Real>& half) {
   int axis = 0;
@@ -31,7 +31,7 @@ SeparationAs<Real> separation(const SphereShape<Real>& sphere, const BoxShape<Re
   const Vector3<Real> centre = rotate_back<Real>(turn, -pose.d);
   const Vector3<Real> way = beyond(centre, box.half);
   const Real distance = std::sqrt(dot(way, way));
-  // In double a way whose square vanishes is none.
+  // In double, a vector whose square vanishes counts as zero.
   const bool inside =
       largest_component(way) == 0 || (std::is_same_v<Real, double> && distance == 0);
 
@@ -44,7 +44,7 @@ SeparationAs<Real> separation(const SphereShape<Real>& sphere, const BoxShape<Re
   result.normal = -rotate(turn, out.normal);
   result.arm_a = result.normal * sphere.radius;
   result.arm_b = rotate(turn, on_box);
-  // The squares of a way so short vanish.
+  // The squares of so short a vector vanish.
   result.is_unsure = is_near_touch(result.separation) || (!inside && distance <= Real(kCoincident));
   return result;
 }

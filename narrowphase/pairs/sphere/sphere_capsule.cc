@@ -31,7 +31,8 @@ struct SphereCapsule {
     nearest_on_segment(centre, a, b, nearest, delta, is_across);
     const F distance = hn::Sqrt(dot(delta, delta));
 
-    // A centre on the segment may leave in any direction across it: double precision decides.
+    // A centre on the segment may leave in any direction perpendicular to it: double precision
+    // decides.
     const F least = hn::IfThenElse(is_across, splat(kNearSegment<float>), splat(kCoincident));
     const Mask coincide = hn::Le(distance, least);
     report_grown(centre, nearest, delta * hn::Div(splat(1), distance), distance, sphere.radius,

@@ -19,7 +19,7 @@ SeparationAs<Real> separation(const SphereShape<Real>& sphere, const CapsuleShap
   const ToSegment<Real> nearest = nearest_on_segment(centre, a, b);
   const Real distance = std::sqrt(dot(nearest.delta, nearest.delta));
 
-  // A centre on the segment may leave in any direction across it.
+  // A centre on the segment may leave in any direction perpendicular to it.
   const Real least = nearest.is_across ? kNearSegment<Real> : Real(kCoincident);
   const bool coincide = distance <= least;
   const Vector3<Real> normal =

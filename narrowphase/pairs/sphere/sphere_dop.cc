@@ -1,4 +1,4 @@
-// Sphere against k-DOP: searches over any two cores.
+// Sphere against k-DOP: the search in double precision over any two cores.
 #include "narrowphase/pairs/core_batch.h"
 
 namespace carom {

@@ -1,5 +1,4 @@
-// Sphere against sphere: centres apart by more than the sum of the radii, or not
-// (Ericson 2005, 4.3.1).
+// Sphere against sphere: the distance of the centres less both radii (Ericson 2005, 4.3.1).
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -24,7 +23,7 @@ struct SphereSphere {
     // The larger radius first: that difference is exact near touch (Sterbenz), and so is the next.
     const F separation =
         hn::Sub(hn::Sub(distance.length, max(a.radius, b.radius)), min(a.radius, b.radius));
-    // Coincident centres: every direction is as good, +x is the convention.
+    // Coincident centres separate equally well in every direction: +x, by convention.
     const F3 normal =
         select(distance.is_zero, F3{splat(1), splat(0), splat(0)}, distance.direction);
     const Mask near_touch =

@@ -20,7 +20,7 @@ inline Separation sphere_sphere(float radius_a, float radius_b, const Vector3f& 
   if (is_near_touch(separation, distance.length)) {
     separation = gap_to_ball(squared_length(exact_d), double{radius_a} + double{radius_b});
   }
-  // Concentric spheres separate equally well in every direction: x, by convention.
+  // Concentric spheres separate equally well in every direction: +x, by convention.
   const Vector3f normal = distance.is_zero ? Vector3f(1, 0, 0) : distance.direction;
   return {separation, normal, radius_a * normal, -(radius_b * normal),
           distance.is_zero ? Status::degenerate : Status::ok};

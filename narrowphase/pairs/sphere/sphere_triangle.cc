@@ -28,7 +28,7 @@ struct SphereTriangle {
     F distance;
     const Mask is_face = nearest_on_triangle(rotate_back(turn, -pose.d), core, local, distance);
 
-    // So near to an edge the way to it is mostly rounding: double precision decides.
+    // So near to an edge, the vector to it is mostly rounding: double precision decides.
     const Mask is_near_edge =
         hn::AndNot(is_face, hn::Le(distance, splat(CoreTolerance<float>::kNearEdges)));
     const F3 way = rotate(turn, local);

@@ -16,14 +16,14 @@ SeparationAs<Real> separation(const SphereShape<Real>& sphere, const TriangleSha
   const TriangleCore<Real> core(triangle.corners);
   const ToTriangle<Real> nearest = nearest_on_triangle(rotate_back(turn, Vector(-pose.d)), core);
 
-  // A centre on a triangle without a face may leave in any direction.
+  // A centre on a triangle without a face may leave in any direction perpendicular to its edge.
   const bool coincide = !nearest.is_face && nearest.distance <= Real(kCoincident);
   const Vector way = rotate(turn, nearest.way);
   const Vector normal = coincide ? any_perpendicular(rotate(turn, core.edge[0]))
                                  : Vector(way * (1 / std::sqrt(dot(way, way))));
   SeparationAs<Real> result = grown<Real>(Vector::Zero(), normal * nearest.distance, normal,
                                           nearest.distance, sphere.radius, 0, pose);
-  // So near to an edge the way to it is mostly rounding.
+  // So near to an edge, the vector to it is mostly rounding.
   const bool is_near_edge = !nearest.is_face && nearest.distance <= CoreTolerance<Real>::kNearEdges;
   result.is_unsure = result.is_unsure || is_near_edge;
   if (coincide) result.status = Status::degenerate;

@@ -1,6 +1,6 @@
-// Triangle against triangle: separating axes tell whether and how deep they cross, features how far
-// they are apart (Ericson 2005, 5.2.10 and 5.1.10). Where they cross, the features are those of B
-// moved out of A: what touches then is where they meet.
+// Triangle against triangle: separating axes tell whether they cross and how deep, features how far
+// apart they are (Ericson 2005, 5.2.10 and 5.1.10). If they cross, B is moved out of A first: the
+// nearest features are then the contact location.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -25,7 +25,8 @@ HWY_INLINE F3 unit_normal(const TriangleCore& triangle) {
   return triangle.normal * hn::IfThenElseZero(triangle.has_face, scale);
 }
 
-// The axis of the greatest gap between the projections of two triangles; of equal ones the first.
+// The axis with the greatest gap between the projections of two triangles; ties go to the first
+// axis.
 class TriangleAxes {
  public:
   F gap = splat(0);
@@ -46,7 +47,7 @@ class TriangleAxes {
     return hn::And(exists_, hn::Lt(gap, splat(-Tolerance::kShallow)));
   }
 
-  // From A to B along the unit vector n.
+  // The gap from A to B along the unit vector n.
   HWY_INLINE F gap_along(const F3& n) const {
     F low_a, high_a, low_b, high_b;
     project(n, low_a, high_a, low_b, high_b);
@@ -58,7 +59,8 @@ class TriangleAxes {
     const F3 n = cross(edge, other);
     const F least = max(hn::Mul(splat(Tolerance::kSameDirection), hn::Mul(squared, other_squared)),
                         splat(Tolerance::kVanishing));
-    // Once across this edge, n is across the other up to rounding, however near parallel they are.
+    // Once perpendicular to this edge, n is perpendicular to the other up to rounding, however
+    // nearly parallel they are.
     try_axis(n - edge * hn::Div(dot(n, edge), squared), hn::Gt(dot(n, n), least));
   }
 
@@ -91,7 +93,7 @@ class TriangleAxes {
   Mask exists_ = no_lanes();
 };
 
-// The corner that is nearest to a face, among those over it.
+// The corner that is nearest to a face, among the corners that project into it.
 struct CornerOverFace {
   Mask found = no_lanes();
   F height = splat(0);
@@ -123,10 +125,10 @@ struct CornerOverFace {
 struct NearestOfTriangles {
   F distance;
   F3 normal;  // from A to B
-  F3 point;   // of A
+  F3 point;   // on A
 
   HWY_INLINE NearestOfTriangles(const TriangleCore& a, const TriangleCore& b) {
-    // An edge below a corner is as near, but for rounding.
+    // An edge below a corner is equally near, up to rounding: then it takes the face.
     F bound = hn::Mul(take_edges(a, b), splat(Tolerance::kTie));
     const CornerOverFace over_a(a, b.corner);
     const Mask at_a = hn::And(over_a.found, hn::Le(over_a.squared(), bound));
@@ -143,7 +145,7 @@ struct NearestOfTriangles {
   }
 
  private:
-  // Returns the squared distance.
+  // Sets the results to those of the nearest edges, and returns their squared distance.
   HWY_INLINE F take_edges(const TriangleCore& a, const TriangleCore& b) {
     F squared = splat(FLT_MAX), s = splat(0), t = s, aa = s, bb = s;
     F3 delta = splat3(0), edge_a = delta, edge_b = delta;

@@ -2,8 +2,8 @@
 // they are apart.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, sections 5.2.10 (axes) and 5.1.10
-// (distance). Where they cross, the features are those of B moved out of A: what touches then is
-// where they meet.
+// (distance). If they cross, B is moved out of A first: the nearest features are then the contact
+// location.
 #pragma once
 
 #include "narrowphase/doubles/special_triangle.h"
@@ -19,7 +19,8 @@ Vector3<Real> unit_normal(const TriangleCore<Real>& triangle) {
   return triangle.normal * (triangle.has_face ? 1 / std::sqrt(squared) : 0);
 }
 
-// The axis of the greatest gap between the projections of two triangles; of equal ones the first.
+// The axis with the greatest gap between the projections of two triangles; ties go to the first
+// axis.
 template <class Real>
 class TriangleAxes {
  public:
@@ -39,7 +40,7 @@ class TriangleAxes {
   const Vector& normal() const { return normal_; }
   bool is_crossing() const { return exists_ && gap_ < -Tolerance::kShallow; }
 
-  // From A to B along the unit vector n.
+  // The gap from A to B along the unit vector n.
   Real gap_along(const Vector& n) const { return low_b(n) - high_a(n); }
 
  private:
@@ -60,7 +61,8 @@ class TriangleAxes {
     const Vector n = cross(edge, b_.edge[j]);
     const Real sizes = a_.squared[i] * b_.squared[j];
     if (!(dot(n, n) > max(Tolerance::kSameDirection * sizes, Tolerance::kVanishing))) return;
-    // Once across this edge, n is across the other up to rounding, however near parallel they are.
+    // Once perpendicular to this edge, n is perpendicular to the other up to rounding, however
+    // nearly parallel they are.
     try_axis(n - edge * (dot(n, edge) / a_.squared[i]));
   }
 
@@ -82,7 +84,7 @@ class TriangleAxes {
   Vector normal_ = Vector::Zero();
 };
 
-// The corner that is nearest to a face, among those over it.
+// The corner that is nearest to a face, among the corners that project into it.
 template <class Real>
 struct CornerOverFace {
   bool found = false;
@@ -122,11 +124,11 @@ struct NearestOfTriangles {
 
   Real distance;
   Vector normal;  // from A to B
-  Vector point;   // of A
+  Vector point;   // on A
 
   NearestOfTriangles(const TriangleCore<Real>& a, const TriangleCore<Real>& b) {
     const Real edge_squared = take_edges(a, b);
-    // An edge below a corner is as near, but for rounding.
+    // An edge below a corner is equally near, up to rounding: then it takes the face.
     Real bound = edge_squared * CoreTolerance<Real>::kTie;
     const CornerOverFace<Real> over_a(a, b.corner);
     if (over_a.found && over_a.squared() <= bound) {
@@ -201,7 +203,7 @@ SeparationAs<Real> separation(const TriangleShape<Real>& a, const TriangleShape<
   Vector normal = is_crossing ? axes.normal() : nearest.normal;
   bool is_degenerate = false;
   if constexpr (std::is_same_v<Real, double>) {
-    // The way between triangles that touch is lost: an axis gives the normal.
+    // Between triangles that touch there is no good direction: an axis gives the normal.
     if (!is_crossing && nearest.distance <= Tolerance::kNearEdges) {
       is_degenerate = !axes.exists() && nearest.distance <= Real(kCoincident);
       if (axes.exists()) normal = axes.normal();
