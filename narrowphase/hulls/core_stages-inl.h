@@ -1,5 +1,6 @@
-// Tests by GJK in lanes in two stages. A vector takes as many rounds as the slowest of its lanes:
-// when few are left open they leave it, and go on together with those of other vectors.
+// Runs GJK in lanes in two stages. A vector takes as many rounds as its slowest lane. So the first
+// stage stops when few lanes are open, and the second packs the open lanes of many vectors
+// together.
 #if defined(CAROM_NARROWPHASE_HULLS_CORE_STAGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_CORE_STAGES_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_CORE_STAGES_INL_H_
@@ -39,7 +40,7 @@ void run_rest(const Batch& batch, OpenSearches& open) {
   if (batch.features) left.scatter(features.data(), batch.features);
 }
 
-// As CoreKernel in one stage. Somebody asks which rows are unsure.
+// Gives the same result as CoreKernel in one stage. batch.unsure must not be null.
 template <class A, class B, Pass kPass>
 void run_core(const Batch& batch) {
   if constexpr (kFewOpen == 0) {
