@@ -82,9 +82,8 @@ class NearestOfCorners {
     Vector3f normal;
     float height;  // of the plane over zero, times the normal's length
     float squared_normal;
-    bool is_towards_first,
-        is_towards_second;  // zero is on that side of the other one
-    bool is_over;           // zero projects into the triangle
+    bool is_towards_first, is_towards_second;  // zero is on that side of the other one
+    bool is_over;                              // zero projects into the triangle
   };
 
   Vector3f last_;
