@@ -1,12 +1,13 @@
-// When two convex shapes that move and turn meet: conservative advancement. Along a fixed direction
-// the gap between the shapes' furthest points is never more than their distance; as long as it is
-// proven to be positive, they do not touch. From the direction in which they are nearest at a time
-// the search goes on to where the gap along it closes, and there asks for the direction again.
+// The time of impact of two convex shapes that move and rotate: conservative advancement. Along a
+// fixed direction the gap between the shapes is never more than their distance. While the gap is
+// proven positive, the shapes do not touch. From the direction of the nearest points at one time,
+// the search goes to the time at which the gap along it closes, and finds the direction again
+// there.
 //
 // Sources: B. Mirtich, "Timewarp Rigid Body Simulation", SIGGRAPH 2000, for advancement by a bound
 // of the motion along the direction; E. Catto, "Continuous Collision", GDC 2013, for going to the
-// root of the gap along a fixed direction. What makes the latter conservative is a bound of second
-// derivatives: over a time s a function lies no more than M s^2 / 8 below its chord.
+// root of the gap along a fixed direction. A bound of second derivatives makes the latter
+// conservative: over a time s a function lies at most M s^2 / 8 below its chord.
 #pragma once
 
 #include <algorithm>
@@ -20,25 +21,25 @@
 
 namespace carom::scalar {
 
-// A core that moves: its points at time t are turned by t * rotation, then moved. `arm`, too, is
-// turned, from where the body turns to where the core is; the core itself only if `turns`.
+// A moving core. At time t its points are rotated by t * rotation, then moved. `arm` leads from the
+// pivot of the body to the core and always rotates; the core itself rotates only if `turns`.
 struct MovingCore {
   const Core* core = nullptr;
   Vector3d arm = Vector3d::Zero();
   Vector3d rotation = Vector3d::Zero();
   bool turns = true;
-  double speed = 0;   // of turning, radians
-  double reach = 0;   // from where the body turns the furthest point that turns
-  double extent = 0;  // and the furthest of all
+  double speed = 0;   // of rotation, radians per interval
+  double reach = 0;   // from the pivot to the furthest rotating point
+  double extent = 0;  // from the pivot to the furthest point
 
-  // World axes at time t.
+  // The rotation from the start to time t.
   Rotation<double> turn(double t) const {
     if (!(speed > 0)) return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
     return rotation_of(turn_by(rotation, t));
   }
 };
 
-inline constexpr double kSpeedUpwards = 1 + 0x1p-40;  // more than lengths round
+inline constexpr double kSpeedUpwards = 1 + 0x1p-40;  // exceeds the rounding of lengths
 
 inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vector3d& rotation,
                               bool turns) {
@@ -60,7 +61,7 @@ inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vecto
           (size + arm_length) * kSpeedUpwards};
 }
 
-// The plane of a half-space as one of its points: it turns even if that is where it turns about.
+// The plane of a half-space, as one of its points. It rotates even if that point is the pivot.
 inline MovingCore turning_plane(const Core& point, const Vector3d& rotation) {
   MovingCore plane = moving_core(point, Vector3d::Zero(), rotation, true);
   plane.rotation = rotation;
@@ -68,7 +69,7 @@ inline MovingCore turning_plane(const Core& point, const Vector3d& rotation) {
   return plane;
 }
 
-// Two moving cores, B at `from` + t * `way`.
+// Two moving cores. B's position relative to A is `from` + t * `way`.
 struct MovingPair {
   MovingCore a, b;
   Vector3d from, way;
@@ -76,11 +77,11 @@ struct MovingPair {
   FurthestPoint furthest = nullptr;
 };
 
-// What a moving core reaches along a direction.
+// The support point of a moving core along a direction.
 struct MovingSupport {
   double height;
-  double rate;     // of the furthest point
-  Vector3d point;  // it, from where the body turns
+  double rate;     // of the support point along the direction
+  Vector3d point;  // from the body's pivot
 
   MovingSupport(const MovingCore& moving, const Rotation<double>& turn, const Vector3d& n,
                 FurthestPoint furthest) {
@@ -95,14 +96,14 @@ struct MovingSupport {
   }
 };
 
-// What a direction is fixed to: shapes that lie flat on each other keep a direction that turns with
-// the one whose face it is.
+// What a direction is fixed to. A shape that lies flat on a face needs a direction that rotates
+// with the face's body.
 enum class FixedTo { world, a, b };
 
-// The gap along a direction from A to B, radii included, as a function of time.
+// The gap along a direction from A to B, minus the radii, as a function of time.
 class DirectionGap {
  public:
-  // The direction is `n` at time t.
+  // The direction is `n` at time t, in world axes.
   DirectionGap(const MovingPair& pair, const Vector3d& n, double t, FixedTo fixed)
       : pair_(pair), fixed_(fixed), n_(n) {
     if (fixed == FixedTo::a) n_ = rotate_back(pair.a.turn(t), n);
@@ -129,7 +130,7 @@ class DirectionGap {
     return {(dot(n, place) - (a.height + b.height)) - pair_.radii, rate};
   }
 
-  // Bounds from t on: of how fast the gap closes, and of second derivatives.
+  // Bounds from t on: how fast the gap closes, and its second derivatives.
   double most_closing() const { return most_closing_; }
   double most_curved() const { return most_curved_; }
 
@@ -139,7 +140,7 @@ class DirectionGap {
     return length(cross(n, core.rotation)) * core.reach;
   }
 
-  // The points of what the direction is fixed to do not move along it.
+  // The points of the body that carries the direction do not move along it.
   void set_bounds(double t) {
     const MovingCore &a = pair_.a, &b = pair_.b;
     if (fixed_ == FixedTo::world) {
@@ -159,12 +160,12 @@ class DirectionGap {
 
   const MovingPair& pair_;
   const FixedTo fixed_;
-  Vector3d n_;  // in the frame of what it is fixed to
+  Vector3d n_;  // in the frame that it is fixed to
   double most_closing_ = 0, most_curved_ = 0;
 };
 
-// Whether a function with these values at both ends of a time s, and second derivatives of `curved`
-// at most, stays above `least` between them.
+// Whether a function stays above `least` over a time s. `first` and `last` are its values at both
+// ends; its second derivatives are at most `curved`.
 inline bool stays_above(double first, double last, double curved, double s, double least) {
   const double sag = curved * s * s / 2;
   const double lowest_at = sag > 0 ? 0.5 + (first - last) / (2 * sag) : -1;
@@ -172,12 +173,13 @@ inline bool stays_above(double first, double last, double curved, double s, doub
   return min(first, last) >= least;
 }
 
-inline constexpr double kBeyondEnd = 2;  // a time that is none
-inline constexpr int kMostSteps = 2;     // along one direction; more led no further in most rounds
+inline constexpr double kBeyondEnd = 2;  // a time after the interval
+inline constexpr int kMostSteps = 2;     // per direction; more steps rarely led further
 inline constexpr int kMostHalvings = 60;
 
-// From a time t at which the gap is positive to one before which it is positive all along, and
-// where it is about `tolerance`, or as far as a few steps lead; or beyond the end.
+// Goes from a time t with a positive gap to a later time; the gap is positive all the way. Stops
+// where the gap is about `tolerance`, or after kMostSteps steps. Returns kBeyondEnd if the gap
+// never closes.
 template <class Gap>
 double advance(const Gap& gap, double t, double tolerance) {
   const double aim = tolerance / 2, least = tolerance / 4;
@@ -187,20 +189,20 @@ double advance(const Gap& gap, double t, double tolerance) {
     const double sure = closing > 0 ? (now.gap - aim) / closing : kNever;
     if (sure >= left) return kBeyondEnd;
     double s = now.rate < 0 ? min((now.gap - aim) / -now.rate, left) : left;
-    // Further the chord proves nothing, whatever the gap is there.
+    // Beyond this time the chord proves nothing, whatever the gap is there.
     if (gap.most_curved() > 0) s = min(s, std::sqrt(8 * now.gap / gap.most_curved()));
     auto then = now;
     for (int halving = 0;; ++halving) {
       if (s <= sure || halving == kMostHalvings) s = sure;
       then = gap.at(t + s);
       if (s <= sure || stays_above(now.gap, then.gap, gap.most_curved(), s, least)) break;
-      // Gaps between corners are concave, mostly: they close behind where their chord does.
+      // Gaps between corners are mostly concave, so they close later than their chord.
       const double chord = (now.gap - aim) / (now.gap - then.gap);
       const bool closes_late = halving == 0 && chord > 0.5 && chord < 1;
       s = max(s * (closes_late ? chord : 0.5), sure);
     }
     if (s >= left) return kBeyondEnd;
-    if (!(t + s > t)) break;  // no further in double precision
+    if (!(t + s > t)) break;  // no progress in double precision
     t += s;
     now = then;
   }
@@ -212,7 +214,7 @@ struct AdvancementResult {
   Status status = Status::ok;
 };
 
-// The cores as they are at a time, for the search of their distance.
+// Places the core at time t, for the search of the distance.
 inline void place(const MovingCore& moving, const Vector3d& at, double t, Core& placed) {
   const Rotation<double> turn = moving.turn(t);
   const Vector3d offset = rotate(turn, moving.arm) + at;
@@ -227,7 +229,7 @@ inline void place(const MovingCore& moving, const Vector3d& at, double t, Core& 
   placed.middle = core_vector(moved(eigen_vector(moving.core->middle)));
 }
 
-// Memory for the cores of one pair, used again for the next.
+// The cores of one pair; the memory serves the next pair too.
 struct CoreScratch {
   Core a, b, placed_a, placed_b;
 };
@@ -237,8 +239,8 @@ inline CoreScratch& core_scratch_of_thread() {
   return scratch;
 }
 
-// From t on along the direction; with `spinning` ones that turn with either body are tried as well,
-// and the one that leads furthest counts.
+// Advances from t along the direction. With `spinning` it also tries directions that rotate with
+// either body, and takes the one that leads furthest.
 inline double advance_along(const MovingPair& pair, const Vector3d& n, double t, double tolerance,
                             bool spinning) {
   double next = advance(DirectionGap(pair, n, t, FixedTo::world), t, tolerance);
@@ -251,13 +253,12 @@ inline double advance_along(const MovingPair& pair, const Vector3d& n, double t,
   return next;
 }
 
-inline constexpr int kMostRounds =
-    256;  // grazing halves the gap at each; most pairs need one to five
-inline constexpr int kEasyRounds = 6;  // most have met by then: spinning directions cost more
+inline constexpr int kMostRounds = 256;  // grazing pairs halve the gap per round; most need 1 to 5
+inline constexpr int kEasyRounds = 6;  // most pairs have met by then; spinning directions cost more
 
-// The unit vector along which the cores are nearest. Of a way to the inside of an edge what
-// rounding has left along that edge is taken out: of cores that all but touch it is most of what is
-// wrong, and the gap along the edge's ends would be none.
+// The unit vector between the nearest points. If it ends inside an edge, its part along that edge
+// is rounding and is removed. For cores that nearly touch it is most of the error, and the gap at
+// the ends of the edge would vanish.
 inline Vector3d direction_of(const NearestWay& nearest) {
   Vector3d way = eigen_vector(nearest.way);
   if (nearest.corners.size() == 2) {
@@ -267,14 +268,14 @@ inline Vector3d direction_of(const NearestWay& nearest) {
   return way / std::sqrt(dot(way, way));
 }
 
-// When the balls meet in which the cores turn; they do not before. (A third of all rounds is
-// saved.)
+// The time at which the balls around the rotating cores meet; the cores cannot meet earlier. This
+// saves a third of all rounds.
 inline double time_of_balls(const MovingPair& pair, double tolerance) {
   const double reach = (pair.a.extent + pair.b.extent) + (pair.radii + tolerance);
   return meets_ball(MovingPoint(pair.from, pair.way), reach);
 }
 
-// `tolerance`: the distance at which they have met.
+// `tolerance`: cores that are this close count as touching.
 inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
                                        CoreScratch& scratch) {
   double t = time_of_balls(pair, tolerance);
@@ -295,8 +296,8 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
   return {t, Status::budget};
 }
 
-// A is a half-space, as the one point of its plane that is furthest along the unit normal n: the
-// direction is known, and turns with it.
+// A is a half-space, given as the point of its plane that is furthest along the unit normal n. The
+// direction is known and rotates with A.
 inline AdvancementResult time_over_plane(const MovingPair& pair, const Vector3d& n,
                                          double tolerance) {
   const DirectionGap gap(pair, n, 0, FixedTo::a);

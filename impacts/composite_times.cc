@@ -13,7 +13,7 @@ namespace {
 
 using Float3 = std::array<float, 3>;
 
-// One side of the pairs of parts, and how each of its bodies moves.
+// One side of the pairs of parts, and the motion of each body.
 struct MovingParts {
   PartColumns columns;
   std::array<Float3, kPairsPerBlock> displacement, rotation;
@@ -54,7 +54,8 @@ BodySweep sweep_of(const MovingReader& side, size_t i) {
   return {{d.x, d.y, d.z}, {w.x, w.y, w.z}};
 }
 
-// The first of the pairs of parts of each pair of bodies; those of many bodies share a batch.
+// Finds the first time among the pairs of parts of each pair of bodies. Pairs of parts of many
+// bodies share a batch.
 class CompositeTimes {
  public:
   CompositeTimes(std::span<FirstTime> times, Scratch& scratch) : times_(times), scratch_(scratch) {
@@ -89,7 +90,7 @@ class CompositeTimes {
                       scratch_.count, {scratch_.time.data(), scratch_.status.data()});
   }
 
-  // Of equal times the first by the indices of the parts, whatever the order of the search.
+  // Among equal times the parts with the lowest indices win, whatever the order of the search.
   void keep(size_t owner, const FirstTime& found) {
     FirstTime& first = times_[owner];
     const auto order = [](const FirstTime& t) { return std::tuple(t.time, t.parts); };

@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// Two bodies as they are at the start, B seen from A; with parts where they have them.
+// Two bodies at the start, B relative to A, with their parts if they have any.
 struct PlacedBodies {
   Part part_a, part_b;
   PlacedPart a, b;
@@ -19,7 +19,7 @@ struct PlacedBodies {
   PlacedBodies& operator=(const PlacedBodies&) = delete;
 };
 
-// Element i of `times` is that of row rows[i] of the pairs.
+// Finds the first time of the pairs in `rows`; times[i] belongs to pairs[rows[i]].
 void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
                           std::span<const uint16_t> rows, std::span<FirstTime> times);
 

@@ -1,5 +1,5 @@
-// When two simple shapes on their way meet for the first time, whatever their kinds: by a closed
-// form where there is one, by advancement otherwise.
+// The first time of impact of two moving simple shapes of any kinds: by a closed form where there
+// is one, by advancement otherwise.
 #pragma once
 
 #include <variant>
@@ -14,18 +14,19 @@ namespace carom::scalar {
 struct MovingShape {
   const Shape& shape;
   Quaternion<double> q;
-  Vector3d arm;       // from the body's position to the part's
+  Vector3d arm;       // from the pivot to the shape's position
   Vector3d rotation;  // over the interval
 };
 
-// Kinds whose orientation does not count.
+// Whether the orientation of a kind matters.
 inline bool turns(ShapeKind kind) { return kind != ShapeKind::sphere && kind != ShapeKind::aabb; }
 
 inline bool moves_in_a_line(const MovingShape& moving) {
   return moving.rotation.isZero(0) || (!turns(kind_of(moving.shape)) && moving.arm.isZero(0));
 }
 
-// What has a closed form: an aabb as a box about its middle, nothing that is thick.
+// The shapes as the closed forms take them: an aabb becomes a box about its middle. linear_time()
+// rules out thick triangles.
 struct NotLinear {};
 inline SphereShape<double> linear_shape(const Sphere& s) { return shape_as<double>(s); }
 inline CapsuleShape<double> linear_shape(const Capsule& c) { return shape_as<double>(c); }
@@ -45,19 +46,19 @@ inline bool is_thick(const Shape& shape) {
   return triangle && triangle->thickness > 0;
 }
 
-// From the body's position to the middle about which the linear shape lies.
+// From the body's position to the middle of the linear shape.
 inline Vector3d linear_offset(const Shape& shape) {
   const auto* box = std::get_if<Aabb>(&shape);
   if (!box) return Vector3d::Zero();
   return (box->lower.cast<double>() + box->upper.cast<double>()) * 0.5;
 }
 
-// The identity for kinds whose orientation does not count.
+// The orientation; the identity for kinds whose orientation does not matter.
 inline Quaternion<double> linear_turn(const MovingShape& moving) {
   return turns(kind_of(moving.shape)) ? moving.q : Quaternion<double>{Vector3d::Zero(), 1};
 }
 
-// The greatest coordinate of a shape; of a half-space its offset, of an aabb that of the box.
+// The greatest coordinate of a linear shape; for a half-space its offset.
 inline double linear_size(const Shape& shape) {
   return std::visit(
       [](const auto& s) -> double {
@@ -76,7 +77,7 @@ concept HasLinearTime = requires(A a, B b, LinearPose pose) {
   linear_time(a, b, pose);
 };
 
-// Or kNoClosedForm.
+// The time of impact by a closed form, or kNoClosedForm.
 inline double linear_time(const MovingShape& a, const MovingShape& b, const Vector3d& from,
                           const Vector3d& way) {
   if (!moves_in_a_line(a) || !moves_in_a_line(b) || is_thick(a.shape) || is_thick(b.shape)) {
@@ -102,13 +103,13 @@ inline double linear_time(const MovingShape& a, const MovingShape& b, const Vect
       a.shape, b.shape);
 }
 
-// --- Everything else, in units in which the greatest coordinate lies between one and two ---
+// --- All other pairs, in units in which the greatest coordinate is between one and two ---
 
 inline double size_of_shape(const Shape& shape) {
   return std::visit([](const auto& s) { return shape_as<double>(s).size(); }, shape);
 }
 
-// Without radius the core of a body, about its own position.
+// Makes the core of a body relative to its own position. Half-spaces and composites have none.
 inline void make_core(const MovingShape& moving, double scale, Core& core) {
   std::visit(
       [&](const auto& s) {
@@ -126,8 +127,8 @@ inline MovingCore moving_core(const MovingShape& moving, double scale, Core& cor
   return moving_core(core, moving.arm * scale, moving.rotation, turns(kind_of(moving.shape)));
 }
 
-// The distance at which shapes have met, in these units: above what GJK takes for touching, and
-// what the arithmetic rounds.
+// Shapes that are this close count as touching, in these units. It exceeds the touching distance of
+// GJK and the rounding of the arithmetic.
 inline double meeting_distance(const MovingPair& pair) {
   const double lengths = largest_component(pair.from) + largest_component(pair.way) +
                          (pair.a.reach + pair.b.reach) + pair.radii;
@@ -151,7 +152,7 @@ inline AdvancementResult advancement_time(const MovingShape& a, const MovingShap
   pair.way = way * scale;
   pair.furthest = furthest;
   if (plane) {
-    // Seen from the half-space.
+    // The half-space takes the place of A.
     pair.from = -pair.from;
     pair.way = -pair.way;
     const HalfspaceShape<double> half = shape_as<double>(*plane);
@@ -169,14 +170,14 @@ inline AdvancementResult advancement_time(const MovingShape& a, const MovingShap
   return time_of_cores(pair, meeting_distance(pair), scratch);
 }
 
-// --- Triangles that are one-sided ---
+// --- One-sided triangles ---
 
 inline bool is_one_sided(const Shape& shape) {
   const auto* triangle = std::get_if<Triangle>(&shape);
   return triangle && triangle->one_sided;
 }
 
-// The middle of a shape, turned, from its position.
+// The middle of a shape in world axes, relative to its position.
 inline Vector3d middle_of(const MovingShape& moving, double scale) {
   if (const auto* triangle = std::get_if<Triangle>(&moving.shape)) {
     return polytope_of(shape_as<double>(*triangle).scaled(scale), moving.q).middle;
@@ -186,7 +187,7 @@ inline Vector3d middle_of(const MovingShape& moving, double scale) {
   return eigen_vector(core.middle);
 }
 
-// At the time of impact, B at `from`: whether B comes from behind the triangle A.
+// Whether B comes from behind the triangle A. Both are given at the time of impact, B at `from`.
 inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const Vector3d& from) {
   if (!is_one_sided(a.shape)) return false;
   const auto triangle = shape_as<double>(std::get<Triangle>(a.shape));
@@ -200,7 +201,7 @@ inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const
   return comes_from_behind(rules, middle_of(b, scale) + from * scale);
 }
 
-// The shape where it is at time t, from where it turns.
+// The shape at time t, relative to its pivot.
 inline MovingShape at_time(const MovingShape& moving, double t) {
   const Quaternion<double> turn = turn_by(moving.rotation, t);
   return {moving.shape, product(turn, moving.q), rotate(rotation_of(turn), moving.arm),

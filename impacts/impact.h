@@ -1,4 +1,4 @@
-// What is known of a pair of bodies before its contact is found.
+// First times of impact, and the parts that meet then.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct FirstTime {
   std::array<uint64_t, 2> parts{};  // that meet (PlacedPart::order()); zero for simple shapes
 };
 
-// Of the pairs of a block; parts of those alone that have any.
+// The first times of the pairs of a block. `parts` is set for pairs with composites only.
 struct FirstTimes {
   const double* time;
   const std::array<uint64_t, 2>* parts;
@@ -32,7 +32,7 @@ inline PlacedPart part_at(const PlacedPart& body, uint64_t order) {
   return result;
 }
 
-// As results name it: the child of a compound, the triangle of a mesh.
+// The number by which results name a part: the child of a compound, or the triangle of a mesh.
 inline uint32_t sub_shape(ShapeKind kind, uint64_t order) {
   return static_cast<uint32_t>(kind == ShapeKind::compound ? order >> 32 : order);
 }

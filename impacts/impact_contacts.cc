@@ -13,10 +13,10 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// Where a body, or a part of one, is at a time.
+// The pose of a body, or of a part, at a time.
 struct PlaceInTime {
   Double3 position;
-  Double3 arm;  // from where the body turns
+  Double3 arm;  // from the pivot of the body
   Row orientation;
 };
 
@@ -35,13 +35,12 @@ PlaceInTime place_at(const Double3& pivot, const Double3& arm, const Row& orient
   return {plus(moved, arm_then), arm_then, product(as_row, orientation)};
 }
 
-// Whole simple bodies where they are at the time of impact, dense; their shapes stay where they
-// are.
+// Simple bodies at their times of impact, packed. Their shape rows stay in the caller's arrays.
 class PlacedSide {
  public:
   void clear() { count_ = 0; }
 
-  // At `position` at the start.
+  // `position` is that at the start.
   void put(const MovingReader& side, size_t body, const Double3& position, double t) {
     const BodyReader reader = side.body();
     const PlaceInTime place = place_at(position, {}, reader.orientation(body), side, body, t);
@@ -142,7 +141,7 @@ class ImpactContacts {
 
   void add_bodies(size_t row) {
     scratch_.row[scratch_.count++] = static_cast<uint16_t>(row);
-    // Seen from A, so that the contact does not depend on where both are.
+    // Positions are relative to A, so the contact does not depend on where both are.
     const Pair pair = pairs_[row];
     scratch_.a.put(a_, pair.a, {}, first_.time[row]);
     scratch_.b.put(b_, pair.b, place_between(a_, b_, pair), first_.time[row]);
@@ -164,7 +163,7 @@ class ImpactContacts {
     for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {});
   }
 
-  // The parts that meet, placed in the frame of A at the start.
+  // Adds the two parts that meet. Positions are relative to A at the start.
   void add_parts(size_t row) {
     const PlacedBodies bodies(side_a_, side_b_, pairs_[row]);
     const size_t i = scratch_.parts.count();
@@ -175,7 +174,8 @@ class ImpactContacts {
     scratch_.parts.add(row, a, b);
   }
 
-  // A part of a body at `pivot`; returns its arm then.
+  // Moves a part to its time of impact; `pivot` is its body's pivot at the start. Returns the arm
+  // then.
   Double3 place(PlacedPart& part, const Double3& pivot, const MovingReader& side, size_t body,
                 size_t row) {
     const PlaceInTime place =
@@ -193,7 +193,7 @@ class ImpactContacts {
     }
   }
 
-  // `arms`: from the bodies' positions then to those that the points were found from.
+  // `arms`: from the bodies' positions at the time of impact to the origins of the found points.
   void write(size_t row, const ResultColumns& found, size_t i, std::array<Double3, 2> arms) {
     if (frame_ == WitnessFrame::world) {
       arms[0] = plus(position_then(a_, pairs_[row].a, first_.time[row]), arms[0]);

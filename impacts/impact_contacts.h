@@ -9,9 +9,9 @@
 
 namespace carom {
 
-// Fills the contact columns of `out` for all rows: those that have a time in [0, 1], and not a
-// number for the others. The contact is that of the bodies (of composites: of the two parts)
-// placed where they are then, by the kernels of the narrow phase.
+// Fills the contact columns of `out` for all rows: with NaN if the row has no time in [0, 1]. The
+// kernels of the narrow phase find the contact of the bodies (for composites, of the two parts) at
+// their poses of that time.
 void find_impact_contacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
                           const FirstTimes& first, WitnessFrame frame, const ImpactColumns& out);
 

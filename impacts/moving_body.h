@@ -1,4 +1,4 @@
-// Single bodies of a view with their sweeps.
+// Reads single bodies of a view with their sweeps.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct MovingReader {
     return is_finite(body().position<double>(i)) && is_finite(displacement(i)) &&
            is_finite(rotation(i));
   }
-  // False of one whose rotation is not a number.
+  // A NaN rotation counts as turning if the orientation of the kind matters.
   bool moves_in_a_line(size_t i) const {
     const Position<float> w = rotation(i);
     if (w.x == 0 && w.y == 0 && w.z == 0) return true;
@@ -50,8 +50,8 @@ struct MovingReader {
   }
 };
 
-// No bodies are further apart than this counts: none of finite size and sweep could meet. (Squares
-// of distances between float64 positions would overflow.)
+// Components of the distance between bodies are clamped to this. Bodies of finite size and sweep
+// that are further apart cannot meet, and the squares of larger distances would overflow.
 inline constexpr double kFurthestApart = 1e40;
 
 inline double apart(double from, double to) {

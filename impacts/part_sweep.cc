@@ -19,7 +19,7 @@ PartBox box_around(const Parts& parts) {
   return {scaled(plus(lower, upper), 0.5), scaled(minus(upper, lower), 0.5)};
 }
 
-// In the part's own frame; of the triangle of a mesh that triangle's.
+// A box in the part's own frame; for a triangle of a mesh, that of the triangle.
 PartBox own_box(const PlacedPart& placed) {
   if (placed.kind() == ShapeKind::compound) return box_around(placed.compound());
   if (placed.triangle == PlacedPart::kWhole) return box_of(*placed.part);
@@ -29,7 +29,7 @@ PartBox own_box(const PlacedPart& placed) {
   return box_of(triangle);
 }
 
-// A part on its way.
+// A moving part.
 struct SweptPart {
   const PlacedPart& placed;
   const BodySweep& sweep;
@@ -37,7 +37,7 @@ struct SweptPart {
   Double3 pivot() const { return minus(placed.position, placed.arm); }
 };
 
-// Where a part is, seen from another one, over the whole interval: a box in the other's frame.
+// The region that a part sweeps during the interval, as a box in the frame of another part, `tree`.
 class SweptRegion {
  public:
   SweptRegion(const SweptPart& tree, const SweptPart& part)
@@ -65,8 +65,8 @@ class SweptRegion {
     }
   }
 
-  // A part that turns stays in a ball about where it turns. Seen from a tree that turns by an angle
-  // all is moved by that times its distance from where the tree turns, at most.
+  // A rotating part stays in a ball about its pivot. In the frame of a tree that rotates by an
+  // angle, every point moves by at most that angle times its distance from the tree's pivot.
   void see_ball(const SweptPart& tree, const SweptPart& part) {
     const PartBox own = own_box(part.placed);
     const double own_reach = length(part.placed.arm) + (length(own.middle) + length(own.half));
@@ -89,7 +89,8 @@ class SweptRegion {
   Double3 middle_, half_;
 };
 
-// Which parts of a tree a half-space may reach: those with a corner below a plane.
+// Calls use() for the items of a tree that a half-space may reach: those with a corner below a
+// plane.
 template <class Use>
 void for_each_below(const SweptPart& tree, const SweptPart& halfspace, const Use& use) {
   constexpr double kEverything = HUGE_VAL;
@@ -122,7 +123,7 @@ class PartSweep {
   }
 
  private:
-  // Compounds before meshes, whose triangles are many; of equals A.
+  // Takes compounds apart before meshes, because meshes have many triangles; A first on a tie.
   static bool takes_apart(const SweptPart& a, const SweptPart& b) {
     if (!a.placed.has_parts()) return false;
     return !b.placed.has_parts() || a.placed.kind() >= b.placed.kind();

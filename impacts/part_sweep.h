@@ -1,5 +1,5 @@
-// Two moving bodies, at least one of which is made of parts -> the pairs of their parts that may
-// meet during the interval.
+// Finds the pairs of parts of two moving bodies that may meet during the interval. At least one of
+// the bodies is composite.
 #pragma once
 
 #include "base/parallel.h"
@@ -7,18 +7,18 @@
 
 namespace carom {
 
-// How a whole body moves; its parts move with it.
+// The motion of a whole body; its parts move with it.
 struct BodySweep {
   Double3 displacement{}, rotation{};
 
   bool is_turning() const { return rotation != Double3{}; }
 };
 
-// Parts that have no parts themselves.
+// Receives two parts that have no parts themselves.
 using PartPairMet = FunctionRef<void(const PlacedPart& a, const PlacedPart& b)>;
 
-// All pairs of parts that come within rounding of each other, and some that do not. Both bodies are
-// placed as they are at the start, in one frame.
+// Reports all pairs of parts that come within rounding of each other, and some that do not. Both
+// bodies are given at the start, in one frame.
 void find_swept_part_pairs(const PlacedPart& a, const BodySweep& sweep_a, const PlacedPart& b,
                            const BodySweep& sweep_b, PartPairMet met);
 

@@ -25,7 +25,7 @@ constexpr size_t kGroups = kAdvanced + 1;
 struct Scratch {
   std::array<uint8_t, kRowsPerBlock> group;
   std::array<uint16_t, kRowsPerBlock> row;
-  std::array<size_t, kGroups + 1> first;  // of each group in `row`
+  std::array<size_t, kGroups + 1> first;  // first place of each group in `row`
   std::array<uint32_t, LinearRows::kMost> body_a, body_b;
   LinearRows rows;
   std::array<bool, LinearRows::kMost> valid;
@@ -92,7 +92,7 @@ class SimpleTimes {
     return group_of(kind_of(a_, pair.a), kind_of(b_, pair.b));
   }
 
-  // Of all rows: where all bodies of a side are of one kind, and none turns.
+  // The common group of all rows, if each side has bodies of one kind only and none rotates.
   static std::optional<uint8_t> group_of_all(const MovingSide& a, const MovingSide& b) {
     const auto is_uniform = [](const MovingSide& side) {
       const bool is_triangle = side.bodies.uniform_kind == ShapeKind::triangle;  // may be thick
@@ -174,7 +174,7 @@ class SimpleTimes {
     write(row, result.t, result.status);
   }
 
-  // One-sided triangles do not meet what comes from behind.
+  // Removes impacts of shapes that come from behind a one-sided triangle.
   void leave_out_what_passes() {
     if (!has_triangles(a_) && !has_triangles(b_)) return;
     for (size_t row = 0; row < count_; ++row) {
@@ -198,7 +198,7 @@ class SimpleTimes {
   }
 
   const MovingReader a_, b_;
-  const FurthestPoint furthest_ = furthest_point_in_lanes();  // looked up once a block
+  const FurthestPoint furthest_ = furthest_point_in_lanes();  // looked up once per block
   const std::optional<uint8_t> shared_group_;
   const Pair* pairs_;
   const size_t count_;

@@ -12,20 +12,20 @@
 
 namespace carom {
 
-// Bodies and how they move.
+// Bodies with their motions.
 struct MovingSide {
   const Collidables& bodies;
   SweepView sweep;
-  const Double3* arm = nullptr;  // one a body: from where it turns to its position; nullptr: zero
+  const Double3* arm = nullptr;  // per body: from its pivot to its position; nullptr: zero
 };
 
-// In doubles, before the rounding of the answer.
+// Times in double precision, before they are rounded to float.
 struct TimeColumns {
   double* time;     // infinite: never; NaN: no answer
   uint8_t* status;  // Status
 };
 
-// Row i is the pair a[pairs[i].a], b[pairs[i].b], none of which has parts.
+// Row i is the pair a[pairs[i].a], b[pairs[i].b]. No body may be composite.
 void find_simple_times(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
                        const TimeColumns& out);
 

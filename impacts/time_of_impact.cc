@@ -18,7 +18,7 @@ struct Scratch {
   std::array<double, kPairsPerBlock> time;
   std::array<uint8_t, kPairsPerBlock> status;
   std::array<std::array<uint64_t, 2>, kPairsPerBlock> parts;  // of rows with composites
-  // Rows of two kinds, where both occur.
+  // Rows without and with composites, if a block may have both.
   std::array<uint16_t, kPairsPerBlock> simple, composite;
   std::array<Pair, kPairsPerBlock> simple_pairs;
   std::array<double, kPairsPerBlock> simple_time;
@@ -30,7 +30,7 @@ bool may_have_parts(const Collidables& bodies) {
   return bodies.kind || is_composite(bodies.uniform_kind);
 }
 
-// A block of pairs.
+// One block of pairs.
 class ImpactBlock {
  public:
   ImpactBlock(const MovingSide& a, const MovingSide& b, std::span<const Pair> pairs,
@@ -95,7 +95,7 @@ class ImpactBlock {
     if (!out_.toi) return;
     for (size_t row = 0; row < pairs_.size(); ++row) {
       const double time = scratch_.time[row];
-      const auto as_float = static_cast<float>(time);  // infinite, or not a number
+      const auto as_float = static_cast<float>(time);  // may be infinite or NaN
       out_.toi[row] = time <= 1 ? round_downwards(time) : as_float;
     }
   }

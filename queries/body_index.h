@@ -1,4 +1,4 @@
-// Bodies as queries search them: by the tree of their bounds, and half-spaces one by one.
+// An index of bodies for queries: a tree of their bounds, and a list of half-spaces.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,22 @@
 namespace carom {
 
 struct BodyIndex {
-  BoxTree tree;  // of bounds that have been grown by what tests of a pair may err
+  BoxTree tree;  // of bounds, grown by the error of pair tests
   std::vector<WorldHalfspace> halfspaces;
 
   size_t bytes() const { return tree.bytes() + halfspaces.capacity() * sizeof(WorldHalfspace); }
 };
 
-// Of bodies with these bounds, which are empty for half-spaces and what takes no part.
+// Indexes bodies with these bounds. The bounds of half-spaces and of bodies that take no part are
+// empty.
 BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds,
                        std::span<const WorldHalfspace> halfspaces, Parallelism parallelism);
 
-// Of all valid bodies of the view.
+// Indexes all valid bodies of the view.
 BodyIndex index_bodies(const Collidables& bodies, Parallelism parallelism);
 
-// Bodies with their index, and which of them queries meet: those whose layer (nullptr: all bits)
-// has a bit of the mask.
+// Bodies with their index. Queries meet a body if its layer (nullptr: all bits) has a bit of the
+// mask.
 struct SearchedBodies {
   const Collidables& bodies;
   const BodyIndex& index;

@@ -1,4 +1,4 @@
-// World bounds of bodies, with their memory.
+// World bounds of bodies, and the memory of them.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class BoundsOf {
         {column(0), column(1), column(2)}, {column(3), column(4), column(5)}, columns_[0].size()};
   }
 
-  // Body i takes no part any more.
+  // Empties the bounds of body i, so that it takes no part any more.
   void empty(size_t i) {
     for (size_t axis = 0; axis < 3; ++axis) {
       columns_[axis][i] = std::numeric_limits<float>::infinity();

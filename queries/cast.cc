@@ -13,11 +13,11 @@
 namespace carom {
 namespace {
 
-// Few candidates at first, since the first ones are mostly the ones that are met.
+// The first round tests few candidates, because the hit is mostly among the first.
 constexpr RoundSizes kForClosest = {.first = 2, .most = 8};
 constexpr RoundSizes kForAll = {.first = 64, .most = 64};
 
-// Results of time_of_impact(), a row a candidate.
+// Results of time_of_impact(), one row per candidate.
 struct Impacts {
   std::vector<float> toi, separation;
   std::vector<uint8_t> status;
@@ -95,7 +95,7 @@ class Caster {
     return found;
   }
 
-  // The times of all candidates, then the contacts of those that are met first.
+  // Finds the times of all candidates, then the contacts of the first hits.
   Result<void> find_closest(size_t first, size_t count) {
     std::vector<float> limit(count, 1.0f);
     std::vector<uint32_t> best(count, kNone);

@@ -15,7 +15,7 @@ namespace {
 constexpr RoundSizes kRounds = {.first = 2, .most = 4};
 constexpr uint32_t kNone = 0xffffffffu;
 
-// Results of collide(), a row a candidate.
+// Results of collide(), one row per candidate.
 class Distances {
  public:
   ResultColumns columns(size_t count) {

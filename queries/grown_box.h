@@ -1,5 +1,5 @@
-// Boxes grown by more than tests of the shapes in them may err, so that what a test finds is never
-// left out by the search for candidates.
+// Boxes grown by more than the tests of their shapes may err, so that the search for candidates
+// never misses what a test would find.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace carom {
 
-// Of a distance that is travelled; kImpactSlack is a twentieth of it.
+// A share of the travelled distance; kImpactSlack is a twentieth of it.
 inline constexpr double kTravelSlack = 0x1p-32;
 
-// Grows the box of a body by a share of how far it reaches from the body's position, which is what
-// tests compute with, and a smaller one of the way that it goes.
+// Grows the box of a body by a share of its reach from the body's position, the origin of the
+// tests, and by a smaller share of the travelled distance.
 inline TreeBox grown(const TreeBox& box, const Position<double>& position, double travel = 0) {
   const std::array<double, 3> origin = {position.x, position.y, position.z};
   double reach = 0;

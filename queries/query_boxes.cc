@@ -24,8 +24,8 @@ bool turns(ShapeKind kind) {
   return kind != ShapeKind::sphere && kind != ShapeKind::aabb && kind != ShapeKind::halfspace;
 }
 
-// No point is further from the position than the furthest corner of the bounds, and none leaves
-// its place by more than an arc.
+// The box of a body that rotates in place. No point is further from the position than the furthest
+// corner of the bounds, and no point moves by more than an arc.
 TreeBox turned_box(const BodyReader& reader, size_t i, double angle, double& arc) {
   const Extent extent = extent_of(reader, i);
   Float3 furthest;

@@ -1,4 +1,4 @@
-// Where queries are, and where they go: boxes that hold them.
+// Boxes around queries and their motions.
 #pragma once
 
 #include <array>
@@ -14,14 +14,15 @@ namespace carom {
 
 class QueryBoxes {
  public:
-  // Without a sweep queries stand still.
+  // With an empty sweep the queries stand still.
   QueryBoxes(const Collidables& queries, const SweepView& sweep, Parallelism parallelism)
       : queries_(queries), sweep_(sweep), bounds_(queries, parallelism) {}
 
   const Collidables& queries() const { return queries_; }
   size_t count() const { return queries_.count; }
 
-  // Grown by more than tests may err. None if the query or its sweep is not valid.
+  // The box of a query, grown by more than tests may err. None if the query or its sweep is
+  // invalid.
   std::optional<MovingBox> box(size_t query) const;
 
  private:

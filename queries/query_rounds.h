@@ -1,5 +1,5 @@
-// Searches of many queries side by side, in rounds: each query goes on until it has a few more
-// candidates, the candidates of all are tested at once, and what was found limits the next round.
+// Searches many queries at once, in rounds. In each round every query collects a few more
+// candidates, one call tests the candidates of all queries, and the results limit the next round.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,24 @@
 namespace carom {
 
 enum class SearchFor {
-  met,   // what the moving box of the query meets; limits are times
-  near,  // what is near the box of the query; limits are distances
+  met,   // bodies that the moving box of the query meets; limits are times
+  near,  // bodies near the box of the query; limits are distances
 };
 
-struct RoundSizes {  // candidates of a query
+struct RoundSizes {  // candidates per query
   size_t first;
   size_t most;  // each round has twice as many as the last one, up to this
 };
 
-// Of one round, and tells each query's limit for the next.
+// Tests the candidates of one round, and updates the limits of the queries for the next.
 using TestCandidates = FunctionRef<Result<void>(std::span<const Pair> candidates)>;
 
-// So many queries make full batches for the kernels, and their searches fit the cache.
+// This many queries make full batches for the kernels, and their searches fit the cache.
 inline constexpr size_t kQueriesAtOnce = 4096;
 
-// Queries [first, first + limit.size()), kQueriesAtOnce at most, with one limit each. Every body
-// is a candidate of a query once, unless it is beyond its limit, and has no layer that is met.
-// Half-spaces come in the first round. Candidates are in order of the query.
+// Searches queries [first, first + limit.size()), at most kQueriesAtOnce, with one limit each.
+// Every body within a query's limit becomes a candidate of it once, if a layer of the body is met.
+// Half-spaces come in the first round. The candidates of a round are in order of the query.
 Result<void> search_in_rounds(const QueryBoxes& queries, const SearchedBodies& bodies,
                               SearchFor what, RoundSizes sizes, size_t first,
                               std::span<const float> limit, Parallelism parallelism,

@@ -1,4 +1,4 @@
-// The searches behind the queries of arrays and of worlds: bodies come with their index.
+// The searches behind the queries of arrays and of worlds. The bodies come with their index.
 #pragma once
 
 #include <vector>

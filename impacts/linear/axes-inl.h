@@ -1,5 +1,5 @@
-// When convex polytopes that move in a straight line overlap along every axis that could part them,
-// a pair a lane (axes_ref.h is the reference).
+// Separating axes of convex polytopes that move in a straight line, one pair per lane
+// (axes_scalar.h is the scalar form).
 #if defined(CAROM_IMPACTS_LINEAR_AXES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_IMPACTS_LINEAR_AXES_INL_H_
 #undef CAROM_IMPACTS_LINEAR_AXES_INL_H_
@@ -52,7 +52,7 @@ HWY_INLINE D3 axis_cross(const D3& v) {
   return {hn::Neg(v.y), v.x, zero()};
 }
 
-// What moves past a box, and the box that it may meet.
+// A box B that moves past a box A, in the frame of A.
 struct PassingBox {
   D3 at, way;
   D3 half_a, half_b;
@@ -65,7 +65,8 @@ HWY_INLINE void add_axis(const PassingBox& box, const D3& n, D reach, AxisTimes&
             hn::Add(reach, hn::Mul(box.slack, sum_of_magnitudes(n))));
 }
 
-// Axis kAxis of A across `axis` of B, whose two other axes follow with their half extents.
+// Adds the cross product of axis kAxis of A and `axis` of B. The two other axes of B follow, with
+// their half extents.
 template <int kAxis>
 HWY_INLINE void add_cross(const PassingBox& box, const D3& axis, const D3& next, D half_next,
                           const D3& last, D half_last, AxisTimes& times) {

@@ -1,5 +1,6 @@
-// When two convex polytopes that move in a straight line overlap along every axis that could part
-// them: the first time of impact, since these axes are the faces of their difference.
+// The first time of impact of two convex polytopes that move in a straight line: the first time at
+// which they overlap along every separating axis. This is exact, because these axes are the normals
+// of the faces of their difference.
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, section 5.5.1 (separating axes of moving
 // polytopes).
@@ -41,16 +42,16 @@ inline double reach_of_box(const Vector3d& half, const Vector3d& n) {
   return (half.x() * std::fabs(n.x()) + half.y() * std::fabs(n.y())) + half.z() * std::fabs(n.z());
 }
 
-// e_axis cross v: exact but for signs.
+// e_axis cross v. Exact: it only moves components and flips signs.
 inline Vector3d axis_cross(int axis, const Vector3d& v) {
   if (axis == 0) return {0, -v.z(), v.y()};
   if (axis == 1) return {v.z(), 0, -v.x()};
   return {-v.y(), v.x(), 0};
 }
 
-// Two boxes about their positions in the frame of A: that of B, `at`, moves by `way`; its axes are
-// the columns of `turn`. Cross products of axes are as short as the axes are parallel: what rounds
-// in the projections is short with them, since both boxes are projected in full.
+// Two boxes in the frame of A. The middle of B starts at `at` and moves by `way`; its axes are the
+// columns of `turn`. Cross products of nearly parallel axes are short, but the rounding errors of
+// the projections are short with them, since both boxes are projected in full.
 inline double boxes_meet(const Vector3d& at, const Vector3d& way, const Vector3d& half_a,
                          const Vector3d& half_b, const Rotation<double>& turn, double slack) {
   const std::array<Vector3d, 3> axes_b = {turn.x, turn.y, turn.z};
@@ -99,7 +100,7 @@ inline double box_meets_triangle(const std::array<Vector3d, 3>& corners, const V
   return times.first();
 }
 
-// What moves over the plane of a half-space, its lowest point at `height`.
+// The time at which a body meets the plane of a half-space. Its lowest point starts at `height`.
 inline double meets_plane(double height, double rate, double slack) {
   if (height <= slack) return 0;
   if (!(rate < 0)) return kNever;

@@ -1,5 +1,5 @@
-// When balls and capsules that move in a straight line meet boxes, in the frame of the box, a pair
-// a lane (box_ref.h is the reference).
+// Times at which balls and capsules that move in a straight line meet boxes, in the frame of the
+// box, one pair per lane (box_scalar.h is the scalar form).
 #if defined(CAROM_IMPACTS_LINEAR_BOX_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_IMPACTS_LINEAR_BOX_INL_H_
 #undef CAROM_IMPACTS_LINEAR_BOX_INL_H_
@@ -75,7 +75,7 @@ HWY_INLINE DoubleMask passes_through_box(const D3& from, const D3& edge, const D
 
 HWY_INLINE D with_sign(D half, bool positive) { return positive ? half : hn::Neg(half); }
 
-// The corner of a box that bit k of the number puts at the upper end of axis k.
+// Corner number `corner` of a box: bit k puts it at the upper end of axis k.
 HWY_INLINE D3 corner_of_box(const D3& half, int corner) {
   return {with_sign(half.x, corner & 1), with_sign(half.y, corner & 2),
           with_sign(half.z, corner & 4)};

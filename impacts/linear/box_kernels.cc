@@ -1,5 +1,5 @@
-// Linear times of impact of boxes: against spheres and capsules by the pieces of the box, against
-// boxes and triangles by separating axes (linear_ref.h is the reference).
+// Linear times of impact of boxes: against spheres and capsules piece by piece, against boxes and
+// triangles by separating axes (linear.h is the scalar form).
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

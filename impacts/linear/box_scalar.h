@@ -1,9 +1,10 @@
-// When a ball or a capsule that moves in a straight line meets a box, in the frame of the box.
+// The time at which a ball or a capsule that moves in a straight line meets a box, in the frame of
+// the box.
 //
-// The squared distance of a moving point from a box is a sum over the three axes of what it lies
-// beyond the slab of each. Where the point enters and leaves the slabs the line is cut into seven
-// pieces at most; in each of them it is one square of a line, whose crossing is known
-// (crossing_ref.h).
+// The squared distance of a point from a box is the sum over the axes of the squared distance from
+// each slab. The times at which the point enters and leaves the slabs cut its path into at most
+// seven pieces. On each piece the sum is the squared distance from one moving point, whose crossing
+// is known (crossing_scalar.h).
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@
 
 namespace carom::scalar {
 
-// One axis: the times between which the point is inside the slab, and how far it is beyond it
-// before and after at t = 0.
+// One axis: the times between which the point is inside the slab. `before` and `after` are its
+// distance from the lower or upper end at t = 0, for the path before it enters and after it leaves.
 struct SlabPassage {
   double enters, leaves;
   double before, after;
@@ -34,7 +35,7 @@ struct SlabPassage {
   double next(double t) const { return t < enters ? enters : t < leaves ? leaves : kNever; }
 };
 
-// A point that comes within reach of a box about zero.
+// The time at which a point comes within reach of a box about zero.
 inline double meets_box(const MovingPoint& point, const Vector3d& half, double reach) {
   const SlabPassage x(point.from.x(), point.way.x(), half.x());
   const SlabPassage y(point.from.y(), point.way.y(), half.y());
@@ -63,8 +64,8 @@ inline bool passes_through_box(const Vector3d& from, const Vector3d& edge, const
   return enters <= leaves;
 }
 
-// The four edges of the box along one axis, swept by `depth`: the faces that they leave. Each has a
-// side of 2 `half` and the depth for the other.
+// The four edges of the box along one axis, swept by `depth`, are parallelograms. Their sides are 2
+// * half[axis] along the axis, and `depth`.
 inline double meets_swept_edges(const MovingPoint& point, const Vector3d& half,
                                 const Vector3d& depth, int axis, double reach, double slack) {
   Vector3d side = Vector3d::Zero();
@@ -82,7 +83,7 @@ inline double meets_swept_edges(const MovingPoint& point, const Vector3d& half,
   return first;
 }
 
-// The eight corners of the box swept by `depth`.
+// The eight corners of the box, swept by `depth`.
 inline double meets_swept_corners(const MovingPoint& point, const Vector3d& half,
                                   const Vector3d& depth, double reach) {
   double first = kNever;
@@ -94,7 +95,7 @@ inline double meets_swept_corners(const MovingPoint& point, const Vector3d& half
   return first;
 }
 
-// A segment from the point along `edge` that comes within reach of a box about zero.
+// The time at which a segment from the point along `edge` comes within reach of a box about zero.
 inline double meets_box(const MovingPoint& point, const Vector3d& edge, const Vector3d& half,
                         double reach, double slack) {
   const Vector3d depth = -edge;

@@ -1,5 +1,5 @@
-// When points that move along lines come within reach of balls, edges and faces, a pair a lane
-// (crossing_ref.h is the reference, and has the sources).
+// Times at which points that move along lines come within reach of balls, edges and faces, one pair
+// per lane (crossing_scalar.h is the scalar form and has the sources).
 #if defined(CAROM_IMPACTS_LINEAR_CROSSING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_IMPACTS_LINEAR_CROSSING_INL_H_
 #undef CAROM_IMPACTS_LINEAR_CROSSING_INL_H_
@@ -60,7 +60,7 @@ HWY_INLINE D meets_ball(const MovingPoint& point, D reach) {
   return first_time(crossing.entry, crossing.exit, crossing.meets);
 }
 
-// Whether it lies in [0, 1], but for a seam.
+// Whether the share is in [0, 1], with a seam.
 HWY_INLINE DoubleMask is_along(D share) {
   return hn::And(hn::Ge(share, splat_double(-kSeam)), hn::Le(share, splat_double(1 + kSeam)));
 }

@@ -1,9 +1,10 @@
-// When a point that moves along a line comes within reach of a ball, an edge or a face. The hull of
-// some points, grown by a radius, is the union of these: whichever is met first.
+// Times at which a point that moves along a line comes within reach of a ball, an edge or a face.
+// The hull of some points, grown by a radius, is a union of these, so the first one met gives the
+// time.
 //
-// Sources: C. Ericson, Real-Time Collision Detection, 2005, section 5.3; for the distance from the
-// ball's centre to the line in place of the discriminant, which rounds far less: E. Haines et al.,
-// "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
+// Sources: C. Ericson, Real-Time Collision Detection, 2005, section 5.3; E. Haines et al.,
+// "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, for the distance
+// from the ball's centre to the line in place of the discriminant, which rounds far less.
 #pragma once
 
 #include <cmath>
@@ -19,16 +20,16 @@ inline constexpr double kNever = HUGE_VAL;
 
 inline double inverse_or_zero(double x) { return x > 0 ? 1 / x : 0; }
 
-// A time in [0, 1], of the interval [entry, exit] the first; or never.
+// The first time of [entry, exit] that lies in [0, 1], or kNever.
 inline double first_time(double entry, double exit, bool meets) {
   const double t = max(entry, 0.0);
   return meets && exit >= 0 && t <= 1 ? t : kNever;
 }
 
-// A point at `from` + t * `way`, as seen from what it is to meet.
+// A point at `from` + t * `way`, relative to the feature that it may meet.
 struct MovingPoint {
   Vector3d from, way;
-  double inverse;  // of the way's square; 0 if there is none
+  double inverse;  // 1 / |way|^2; 0 if the point stands still
 
   MovingPoint(const Vector3d& start, const Vector3d& motion)
       : from(start), way(motion), inverse(inverse_or_zero(dot(motion, motion))) {}
@@ -40,7 +41,7 @@ struct MovingPoint {
   }
 };
 
-// The times between which it is within reach of zero: from minus infinity, if it stands there.
+// The times between which the point is within reach of zero. They are infinite if it stands still.
 struct Crossing {
   double entry, exit;
   bool meets;
@@ -61,7 +62,7 @@ inline double meets_ball(const MovingPoint& point, double reach) {
   return first_time(crossing.entry, crossing.exit, crossing.meets);
 }
 
-// An edge from zero: its side alone, without the balls at the ends.
+// An edge from zero: only the cylinder around it, without the balls at its ends.
 inline double meets_edge(const MovingPoint& point, const Vector3d& edge, double reach) {
   const double inverse = inverse_or_zero(dot(edge, edge));
   const double start = dot(point.from, edge) * inverse, rate = dot(point.way, edge) * inverse;
@@ -75,10 +76,10 @@ inline double meets_edge(const MovingPoint& point, const Vector3d& edge, double 
 struct Face {
   Vector3d u, v;    // its sides
   Vector3d normal;  // not a unit vector
-  double squared;   // of the normal
-  double sides;     // square of both sides, multiplied
+  double squared;   // |normal|^2
+  double sides;     // |u|^2 |v|^2
   bool is_thin;
-  bool is_slanted;  // neither thin nor of a good normal
+  bool is_slanted;  // not thin, but its normal is too rounded
 
   Face(const Vector3d& side_u, const Vector3d& side_v)
       : u(side_u), v(side_v), normal(cross(side_u, side_v)), squared(dot(normal, normal)) {
@@ -87,7 +88,7 @@ struct Face {
     is_slanted = !is_thin && squared < (kSlantedFace * kSlantedFace) * sides;
   }
 
-  // What its edges must be grown by if it is thin, since it is not met itself.
+  // A thin face is not tested; its edges are grown by this width instead.
   double width() const {
     return is_thin ? std::sqrt(squared * inverse_or_zero(max(dot(u, u), dot(v, v)))) : 0.0;
   }
@@ -95,7 +96,7 @@ struct Face {
 
 enum class FaceKind { parallelogram, triangle };
 
-// `slack`: what all lengths may be off by.
+// `slack`: the error of all lengths.
 inline double meets_face(const MovingPoint& point, const Face& face, FaceKind kind, double reach,
                          double slack) {
   const double height = dot(face.normal, point.from), rate = dot(face.normal, point.way);

@@ -1,4 +1,5 @@
-// Column by column, so that what a view looks like is asked once a column and not once a body.
+// Fills column by column, so that the layout of a view is examined once per column and not once per
+// body.
 #include "impacts/linear/gather_linear.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ class Strided {
   size_t stride_;
 };
 
-// The numbers of one body, from column to column.
+// Writes the numbers of one body, one per column.
 class RowWriter {
  public:
   RowWriter(LinearRows& rows, size_t column, size_t row) : next_(rows.column(column) + row) {}
@@ -48,7 +49,8 @@ class RowWriter {
   double* next_;
 };
 
-// The bodies of a side; the view is copied, so that what is written cannot be a part of it.
+// The bodies of a side. The view is copied, so that the compiler knows that writes do not change
+// it.
 struct Side {
   const Collidables bodies;
   const SweepView sweep;
@@ -102,7 +104,7 @@ struct Side {
   bool is_turned_box(size_t i) const { return reader().kind(i) == ShapeKind::box; }
 
  private:
-  // A number at a time: rows that are copied whole are taken apart by shifts.
+  // Reads one number at a time; a row that is copied whole would be taken apart by shifts.
   static Row row_at(const float* data, size_t stride, size_t i) {
     const char* row = reinterpret_cast<const char*>(data) + i * stride;
     const auto number = [&](size_t k) { return load_strided<float>(row, sizeof(float), k); };
@@ -135,7 +137,7 @@ class LinearGather {
  private:
   void check(size_t row, bool is_valid) { valid_[row] = valid_[row] & is_valid; }
 
-  // between(component of A, component of B) of every row, in three columns.
+  // Writes between(component of A, component of B) of every row into three columns.
   template <class OfA, class OfB, class Between>
   void put_between(const OfA& of_a, const uint32_t* a, const OfB& of_b, const uint32_t* b,
                    size_t column, const Between& between) {
@@ -155,7 +157,7 @@ class LinearGather {
     std::fill_n(valid_, count_, true);
     a.with_positions([&](const auto& of_a) {
       b.with_positions([&](const auto& of_b) {
-        // Plus zero, as if every kind had a middle: no zero is negative.
+        // Adds zero, as for kinds with a middle, so that no zero is negative.
         put_between(of_a, a.body, of_b, b.body, 0,
                     [](double from, double to) { return apart(from, to) + 0.0; });
       });
@@ -167,7 +169,7 @@ class LinearGather {
                 [](double of_a, double of_b) { return of_b - of_a; });
   }
 
-  // Of bodies that do not turn, whatever their rotation.
+  // Rotations must be finite even if the bodies do not turn.
   void check_rotations(const Side& side) {
     if (!side.sweep.rotation) return;
     const Strided<Position<float>> rotation = side.rotation();
@@ -212,7 +214,7 @@ class LinearGather {
     });
   }
 
-  // Points, the radius of a capsule, and a quaternion.
+  // Writes points, the radius of a capsule, and a quaternion.
   template <ShapeKind kKind>
   void put_turned(const Side& side, size_t column) {
     for (size_t i = 0; i < count_; ++i) {
@@ -255,7 +257,7 @@ class LinearGather {
     return is_valid;
   }
 
-  // Half-spaces seen from the other bodies, whose places are in the first columns.
+  // Half-spaces relative to the other bodies, whose positions are in the first columns.
   void put_planes(const Side& side, size_t column) {
     const auto vector_at = [&](size_t first, size_t i) {
       return Eigen::Vector3d{rows_.column(first)[i], rows_.column(first + 1)[i],

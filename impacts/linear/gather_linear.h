@@ -1,4 +1,4 @@
-// Bodies of a view -> columns of linear pairs.
+// Gathers bodies of a view into columns of linear pairs.
 #pragma once
 
 #include <cstdint>
@@ -8,15 +8,15 @@
 
 namespace carom {
 
-// The body of every row, all of one linear kind that moves in a straight line.
+// The body of every row. All are of one linear kind and move in a straight line.
 struct LinearSide {
   const MovingSide& side;
   LinearKind kind;
   const uint32_t* body;
 };
 
-// Writes `count` rows of A and B in this order, and whether both bodies are valid. There is a
-// kernel for their kinds.
+// Writes `count` rows of A and B in this order. valid[i] says whether both bodies of row i are
+// valid. Their kinds must have a kernel.
 void gather_linear(const LinearSide& a, const LinearSide& b, size_t count, LinearRows& rows,
                    bool* valid);
 

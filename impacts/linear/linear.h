@@ -1,5 +1,6 @@
-// When two shapes that move in a straight line, without turning, meet: closed forms. Seen from one
-// of the two the other's position moves; the difference of their cores stands still.
+// Closed forms of the time of impact of two shapes that move in a straight line without turning.
+// Relative to one shape the position of the other moves, and the difference of their cores stands
+// still.
 #pragma once
 
 #include "impacts/linear/axes_scalar.h"
@@ -10,12 +11,12 @@
 namespace carom::scalar {
 
 struct LinearPose {
-  Vector3d from, way;       // of B, seen from A, in world axes
-  Quaternion<double> a, b;  // how both are turned
-  double slack;             // what all lengths may be off by
+  Vector3d from, way;       // of B relative to A, in world axes
+  Quaternion<double> a, b;  // orientations
+  double slack;             // error of all lengths
 };
 
-// A capsule's core, or a triangle's, in world axes.
+// The core of a capsule in world axes, relative to its position. PlacedFace is that of a triangle.
 struct PlacedEdge {
   Vector3d start, edge;
 
@@ -112,7 +113,7 @@ inline double linear_time(const BoxShape<double>& a, const TriangleShape<double>
   return box_meets_triangle(corners, rotate_back(frame, pose.way), a.half, pose.slack);
 }
 
-// The plane of a half-space, and the other body's position over it.
+// The plane of a half-space, and the height of the other body's position over it.
 struct LinearPlane {
   Vector3d normal;
   double height, rate;
@@ -123,7 +124,7 @@ struct LinearPlane {
         rate(-dot(normal, pose.way)) {}
 };
 
-// The lowest point of each body along a normal, from the body's position.
+// The height of a body's lowest point along a normal, relative to the body's position.
 inline double lowest(const SphereShape<double>& sphere, const Quaternion<double>&,
                      const Vector3d&) {
   return -sphere.radius;

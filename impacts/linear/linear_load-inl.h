@@ -1,4 +1,4 @@
-// Rows of linear pairs in lanes, and the loop over them.
+// Loads rows of linear pairs into lanes, and loops over them.
 #if defined(CAROM_IMPACTS_LINEAR_LINEAR_LOAD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_IMPACTS_LINEAR_LINEAR_LOAD_INL_H_
 #undef CAROM_IMPACTS_LINEAR_LINEAR_LOAD_INL_H_
@@ -13,7 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Columns from the first on, at a row.
+// Reads the columns of a row, from column `first` on.
 class RowReader {
  public:
   HWY_INLINE RowReader(const LinearRows& rows, size_t first, size_t row)
@@ -39,10 +39,10 @@ class RowReader {
 
 struct LinearPair {
   D3 from, way;
-  D slack;  // what all lengths may be off by
+  D slack;  // error of all lengths
 };
 
-// Bodies; `size` is their greatest coordinate.
+// `size` of a body is its greatest coordinate.
 struct LinearSphere {
   D radius;
 
@@ -122,7 +122,8 @@ HWY_INLINE LinearPair load_pair(RowReader in, D sizes) {
   return {from, way, hn::Mul(splat_double(kSweepSlack), lengths)};
 }
 
-// Kernel: A, B and kKindA, whose numbers come first; time(pair, a, b).
+// A Kernel has types A and B, kKindA (the kind of A, whose numbers come first), and time(pair, a,
+// b).
 template <class Kernel>
 void run_rows(LinearRows& rows, size_t count) {
   using A = typename Kernel::A;

@@ -1,5 +1,5 @@
-// Pairs that move in a straight line, as columns of doubles: what the kernels of linear times of
-// impact read, one vector of rows after the other.
+// Pairs that move in a straight line, as columns of doubles: the input of the kernels of linear
+// times of impact.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace carom {
 
-// Kinds of bodies by their numbers. An aabb is a box that is not turned, about its middle.
+// Kinds of bodies by the numbers that they store. An aabb is an unrotated box about its middle.
 enum class LinearKind : uint8_t { sphere, capsule, box, triangle, plane, none };
 
 constexpr LinearKind linear_kind(ShapeKind kind) {
@@ -47,8 +47,8 @@ constexpr size_t number_count(LinearKind kind) {
 class LinearRows {
  public:
   static constexpr size_t kMost = 256;  // rows; a multiple of all vectors
-  // From column to column, in numbers: a power of two would put all of a row into a few sets of the
-  // cache (capsules: 100 to 59 ns a pair).
+  // Distance between columns, in numbers. A power of two would put a whole row into a few sets of
+  // the cache (capsules: 100 instead of 59 ns per pair).
   static constexpr size_t kStride = kMost + 8;
   static constexpr size_t kPairColumns = 6;  // from (3), way (3)
   static constexpr size_t kMostColumns = kPairColumns + 11 + 13;
@@ -72,11 +72,11 @@ class LinearRows {
   alignas(64) std::array<double, kMost> times_;
 };
 
-// Writes the times of `count` rows, and may write behind them up to a multiple of eight, whose
-// columns must hold numbers.
+// Writes the times of `count` rows. It may write on up to a multiple of eight rows, whose columns
+// must hold numbers.
 using LinearKernel = void (*)(LinearRows& rows, size_t count);
 
-// By method, on the ISA in use; nullptr: not by this one.
+// The kernels by method, for the ISA in use; nullptr: the method does not serve these kinds.
 LinearKernel rounded_kernel(LinearKind a, LinearKind b);
 LinearKernel box_kernel(LinearKind a, LinearKind b);
 LinearKernel plane_kernel(LinearKind a);

@@ -1,4 +1,4 @@
-// Linear times of impact with half-spaces (linear_ref.h is the reference).
+// Linear times of impact with half-spaces (linear.h is the scalar form).
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// The lowest point of each body along the plane's normal, from the body's position.
+// The height of a body's lowest point along the plane's normal, relative to the body's position.
 HWY_INLINE D lowest(const LinearSphere& sphere, const D3&) { return hn::Neg(sphere.radius); }
 
 HWY_INLINE D lowest(const LinearCapsule& capsule, const D3& n) {

@@ -1,5 +1,5 @@
-// When points come within reach of segments, parallelograms, triangles and prisms, a pair a lane
-// (rounded_ref.h is the reference).
+// Times at which points come within reach of segments, parallelograms, triangles and prisms, one
+// pair per lane (rounded_scalar.h is the scalar form).
 #if defined(CAROM_IMPACTS_LINEAR_ROUNDED_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_IMPACTS_LINEAR_ROUNDED_INL_H_
 #undef CAROM_IMPACTS_LINEAR_ROUNDED_INL_H_

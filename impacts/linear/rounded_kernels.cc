@@ -1,4 +1,4 @@
-// Linear times of impact of spheres, capsules and triangles (linear_ref.h is the reference).
+// Linear times of impact of spheres, capsules and triangles (linear.h is the scalar form).
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE

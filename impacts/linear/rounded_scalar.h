@@ -1,5 +1,5 @@
-// When a moving point comes within reach of a segment, a parallelogram, a triangle or a prism: the
-// difference of two cores that move in a straight line.
+// Times at which a moving point comes within reach of a segment, a parallelogram, a triangle or a
+// prism. These are the differences of two cores that move in a straight line.
 #pragma once
 
 #include "impacts/linear/crossing_scalar.h"
@@ -24,7 +24,7 @@ inline double meets_parallelogram(const MovingPoint& point, const Vector3d& u, c
   return face.is_slanted ? kNoClosedForm : min(inside, min(sides, ends));
 }
 
-// Whatever its face is like. The corners are 0, u and v; the edges are grown by edge_reach.
+// The corners are 0, u and v; the edges are grown by edge_reach. The caller checks face.is_slanted.
 inline double meets_triangle(const MovingPoint& point, const Face& face, double reach,
                              double edge_reach, double slack) {
   const MovingPoint from_u = point.seen_from(face.u);

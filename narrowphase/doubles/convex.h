@@ -1,9 +1,9 @@
-// Any two convex shapes of a few flat faces, grown by radii, in double precision: clear rather than
-// fast, for triangles that have rules (special_triangle_ref.h).
+// Any two convex shapes with a few flat faces, grown by radii, in double precision. It serves
+// special triangles (special_triangle.h) and is clear rather than fast.
 //
-// The nearest points of two shapes that are apart tell where to look; the answer is one of the
-// directions that their features there allow, exactly. Shapes that overlap leave along a face or
-// across two edges.
+// For separate shapes, the nearest points show where to look; the answer is exactly one of the
+// directions that the features there allow. Overlapping shapes separate along the normal of a face
+// or across two edges.
 #pragma once
 
 #include <limits>
@@ -17,7 +17,7 @@
 namespace carom::scalar {
 namespace convex {
 
-// What of a shape is furthest along n, whose angle may be off by a little.
+// The features of a shape that are furthest along n, where the angle of n may err by `angle`.
 inline Polytope part_towards(const Polytope& shape, const Vector3d& n, double angle) {
   double most = -HUGE_VAL, size = 0;
   for (const Vector3d& p : shape.points) {
@@ -40,7 +40,8 @@ inline Polytope part_towards(const Polytope& shape, const Vector3d& n, double an
   return part;
 }
 
-// Whether the cores are apart, and then the greatest gap.
+// Finds the greatest gap of separate cores. False if the cores are not separate, or the features
+// near the nearest points do not give the gap.
 inline bool find_nearest(const Polytope& a, const Polytope& b, GapSearch& search) {
   const Vector3d way = nearest_way(a, b);
   const double distance = std::sqrt(dot(way, way));
@@ -55,7 +56,8 @@ inline bool find_nearest(const Polytope& a, const Polytope& b, GapSearch& search
   return distance - search.greatest().size <= kSameDistance;
 }
 
-// Cores that are further apart than `least` may have any way between them.
+// Tries all features. The gap of cores that are further apart than `least` may have any direction,
+// so directions between points and edges are tried too.
 inline void find_everything(const Polytope& a, const Polytope& b, double least, GapSearch& search) {
   search.try_faces_and_edges(a, b);
   if (search.greatest().size > least || !search.greatest().is_found()) search.try_ways(a, b);
@@ -73,7 +75,7 @@ inline Gap greatest_allowed_gap(const Polytope& a, const Polytope& b) {
   return search.greatest_allowed();
 }
 
-// What comes from behind a triangle.
+// The result for a shape that comes from behind a one-sided triangle.
 inline SeparationAs<double> never() {
   const Vector3d nan = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   return {HUGE_VAL, nan, nan, nan};
@@ -104,7 +106,7 @@ SeparationAs<double> separation_of(const A& a, const B& b, const PairPose<double
 
 }  // namespace convex
 
-// Nothing in float but that it is unsure.
+// In float this test only reports that it is unsure.
 template <class Real>
 SeparationAs<Real> not_in_float() {
   const Vector3<Real> zero = Vector3<Real>::Zero();

@@ -1,5 +1,5 @@
-// A convex shape as the hull of points, grown by a radius: what the searches over any two convex
-// shapes read.
+// A convex shape as the hull of points, grown by a radius: the input of the searches over any two
+// convex shapes.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,16 @@ namespace carom {
 
 using CoreVector = VectorOf<double>;
 
-// Points in columns of doubles, kCoreLanes at a time: places behind the last repeat the first.
+// Points are stored in columns of doubles, kCoreLanes at a time; the places after the last point
+// repeat the first.
 inline constexpr size_t kCoreLanes = 8;
 
 class Core {
  public:
   double radius = 0;
-  CoreVector middle{0, 0, 0};  // any point inside, to begin with
+  CoreVector middle{0, 0, 0};  // any point inside; the search starts there
 
-  // The points are to be set.
+  // The caller sets the points afterwards.
   void resize(size_t count) {
     count_ = count;
     padded_ = (count + kCoreLanes - 1) / kCoreLanes * kCoreLanes;
@@ -51,7 +52,7 @@ class Core {
   size_t count_ = 0, padded_ = 0;
 };
 
-// The index of the point of the core that is furthest along `way`; of equals the first.
+// The index of the support point of the core along `way`; the first of equals.
 using FurthestPoint = size_t (*)(const Core& core, const CoreVector& way);
 
 }  // namespace carom

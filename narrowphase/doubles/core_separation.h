@@ -1,4 +1,5 @@
-// Any two convex shapes as cores, in double precision: distances by GJK, depths by the way out.
+// Any two convex shapes as cores, in double precision: distances by GJK, depths by the penetration
+// search.
 #pragma once
 
 #include <type_traits>
@@ -12,23 +13,23 @@
 
 namespace carom::scalar {
 
-// How to test: with which furthest points, and whether the decision alone is wanted.
+// Which function finds support points, and whether the caller wants the decision alone.
 struct CoreTest {
   FurthestPoint furthest = &furthest_point;
   bool decides_only = false;
 };
 
-// How far the cores are apart along a unit vector from A to B, radii left out.
+// The gap between the cores along a unit vector from A to B, without radii.
 struct CoreGap {
   double size;
   CoreVector normal;
   bool is_flat = false;
-  bool is_proven = false;  // that they are apart, or overlap by more than rounding
+  bool is_proven = false;  // separate, or overlapping by more than rounding
   bool has_ended = true;
-  bool is_at_corners = false;  // that face each other, up to rounding far below kFacing
+  bool is_at_corners = false;  // the witness points face each other within far less than kFacing
 };
 
-// How far zero is inside of the tetrahedron, or less than zero.
+// The distance of zero from the faces of the tetrahedron; negative outside.
 inline double depth_of_zero(const NearestPoint::Corners& y) {
   double least = HUGE_VAL;
   for (size_t i = 0; i < 4; ++i) {
@@ -49,7 +50,7 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
   }
   const double distance = std::sqrt(dot(nearest.way, nearest.way));
   const double parted = distance > kTouchingCores ? nearest.gap / distance : -HUGE_VAL;
-  // Rounding may have ended GJK too early, at corners of shapes that are all but flat.
+  // Rounding may have ended GJK too early, at corners of nearly flat shapes.
   const bool is_distance = distance - parted <= kSameGap;
   if (is_distance && distance > kTouchingWay) {
     return {.size = distance,
@@ -58,7 +59,7 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
             .is_at_corners = distance > kFarFromTouching};
   }
   WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
-  // Of a difference without volume no more than one way out is tried.
+  // For a difference without volume, the penetration search tries only one direction.
   if (parted - out.gap > kSameWayOut) {
     out = {.normal = nearest.way * (1 / distance), .gap = parted};
   }
@@ -70,7 +71,8 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
           .has_ended = out.has_ended && is_close};
 }
 
-// The points of a core that are furthest along n, up to a slack; some of them where there are many.
+// The furthest points of a core along n, up to a slack. If there are too many, an even sample of
+// them.
 inline Meeting::Points furthest_points(const Core& core, const CoreVector& n, double slack,
                                        FurthestPoint furthest) {
   const double least = dot(n, core.point(furthest(core, n))) - slack;
@@ -87,8 +89,8 @@ inline Meeting::Points furthest_points(const Core& core, const CoreVector& n, do
   return points;
 }
 
-// Of two edges seen along n: the point of the first where they cross. None if they do not cross
-// well inside.
+// The crossing of two edges seen along n, as a point of the first. False if they do not cross well
+// inside both, or are nearly parallel.
 inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, const Vector3d& n,
                           Vector3d& point) {
   const Vector3d u = a[1] - a[0], v = b[1] - b[0], between = b[0] - a[0];
@@ -100,9 +102,9 @@ inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, co
   return slope * slope > kParallelEdges * (dot(u, u) * dot(v, v));
 }
 
-// Where they meet, on A. The normal is rounded, most of all between shapes that are close: points
-// that should face each other need not be the furthest by a little, so that the slack grows until
-// they are.
+// The contact location on A. The normal is rounded, most of all for shapes that are close. So the
+// points that should face each other may miss the furthest height by a little, and the slack grows
+// until they face each other.
 inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
                               FurthestPoint furthest) {
   const Vector3d n = eigen_vector(gap.normal);
@@ -111,7 +113,7 @@ inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
   for (double slack = kInPlane; slack <= kMostSlack; slack *= 256) {
     const Meeting::Points on_a = furthest_points(a, gap.normal, slack, furthest);
     const Meeting::Points on_b = furthest_points(b, -gap.normal, slack, furthest);
-    // Most pairs meet at a corner, or where two edges cross.
+    // Most pairs touch at a corner, or where two edges cross.
     if (gap.is_at_corners && on_a.size() == 1) return on_a[0];
     if (gap.is_at_corners && on_b.size() == 1) return on_b[0] - n * gap.size;
     if (on_a.size() == 2 && on_b.size() == 2 && find_crossing(on_a, on_b, n, best)) return best;
@@ -125,7 +127,7 @@ inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
   return best;
 }
 
-// B is placed at d.
+// `d` is the position of B relative to A.
 inline SeparationAs<double> core_separation(const Core& a, const Core& b, const CoreGap& gap,
                                             const Vector3d& d, const CoreTest& test) {
   const Vector3d n = eigen_vector(gap.normal);
@@ -143,7 +145,7 @@ inline SeparationAs<double> core_separation(const Core& a, const Core& b, const 
   return result;
 }
 
-// Memory for the cores of one pair, used again for the next.
+// The cores of one pair; the memory serves the next pair too.
 struct CorePair {
   Core a, b;
 };
@@ -163,7 +165,7 @@ SeparationAs<double> core_separation(const A& a, const B& b, const PairPose<doub
   return core_separation(cores.a, cores.b, gap, pose.d, test);
 }
 
-// Nothing in float but that it is unsure.
+// In float this test only reports that it is unsure.
 template <class Real, class A, class B>
 SeparationAs<Real> separation_of_cores(const A& a, const B& b, const PairPose<Real>& pose) {
   if constexpr (std::is_same_v<Real, float>) {

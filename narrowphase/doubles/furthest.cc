@@ -1,4 +1,4 @@
-// Points in lanes: each lane keeps its best, and the best of all lanes is the answer.
+// Each lane keeps its best point; then the best of all lanes is the support point.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, kCoreLanes>;
 using Heights = hn::Vec<Tag>;
 
-// Of the lanes with the greatest height, the first point.
+// The first point among the lanes with the greatest height.
 HWY_INLINE size_t best_of(Heights most, Heights first) {
   const Tag tag;
   const auto is_best = hn::Eq(most, hn::MaxOfLanes(tag, most));
@@ -32,7 +32,7 @@ size_t furthest_point(const Core& core, const CoreVector& way) {
   const Tag tag;
   const Heights x = hn::Set(tag, way.x), y = hn::Set(tag, way.y), z = hn::Set(tag, way.z);
   Heights most = hn::Set(tag, -HUGE_VAL);
-  // Indices as doubles, so that they follow the same masks.
+  // The indices are doubles, so that the same masks select them.
   Heights index = hn::Iota(tag, 0), first = index;
   const Heights step = hn::Set(tag, static_cast<double>(hn::MaxLanes(tag)));
   for (size_t i = 0; i < core.padded_size(); i += hn::MaxLanes(tag)) {

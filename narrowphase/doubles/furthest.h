@@ -1,11 +1,11 @@
-// The point of a core that is furthest along a direction, on the ISA in use.
+// The support point of a core, in lanes, for the ISA in use.
 #pragma once
 
 #include "narrowphase/doubles/core.h"
 
 namespace carom {
 
-// The same index as scalar::furthest_point() gives, on every ISA. To be asked for once a batch.
+// Gives the same index as scalar::furthest_point() on every ISA. Ask for it once per batch.
 FurthestPoint furthest_point_in_lanes();
 
 }  // namespace carom

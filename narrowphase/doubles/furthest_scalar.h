@@ -1,4 +1,4 @@
-// The point of a core that is furthest along a direction, scalar.
+// The support point of a core: the scalar form.
 #pragma once
 
 #include <cmath>

@@ -1,9 +1,10 @@
-// The direction along which two convex shapes are furthest apart, by trying all that it can be.
+// The direction with the greatest gap between two convex shapes. The search tries all directions
+// that can have it.
 //
-// The separation of convex shapes is the greatest gap between their projections, over all
-// directions: a distance if they are apart, the least way out if they overlap. It is attained in
-// one of few directions: normals of faces, common normals of edges and, if the shapes are apart,
-// the ways from points to edges and points.
+// The separation of convex shapes is the greatest gap between their projections over all
+// directions: the distance of separate shapes, and minus the penetration depth of overlapping ones.
+// One of a few directions attains it: normals of faces, common normals of edges and, for separate
+// shapes, the directions from points to edges and to points.
 //
 // Sources: C. Ericson, Real-Time Collision Detection, 2005, section 5.2.1 (separating axes);
 // S. Cameron and R. Culley, Determining the Minimum Translational Distance between Two Convex
@@ -20,7 +21,7 @@ namespace carom::scalar {
 struct Gap {
   double size = -HUGE_VAL;
   Vector3d normal;
-  bool is_flat = false;  // none of the two reaches into the other either way
+  bool is_flat = false;  // there is no overlap along `normal`, in either order
 
   bool is_found() const { return size > -HUGE_VAL; }
 };
@@ -34,13 +35,14 @@ class GapSearch {
         between_(b.middle - a.middle),
         inner_radii_(a.inner_radius + b.inner_radius) {}
 
-  // Of all that were tried, and of those that the rules of both leave.
+  // The greatest gap of all directions tried, and of those that the one-sided triangle rules of
+  // both shapes allow.
   const Gap& greatest() const { return greatest_; }
   const Gap& greatest_allowed() const {
     return greatest_allowed_.is_found() ? greatest_allowed_ : greatest_;
   }
 
-  // Of parts of A and B: where shapes that overlap can leave.
+  // Tries the directions along which overlapping shapes can separate, from parts of A and B.
   void try_faces_and_edges(const Polytope& a, const Polytope& b) {
     for (const Vector3d& n : b.normals) try_both_ways(n);
     for (const Vector3d& n : a.normals) try_both_ways(n);
@@ -52,7 +54,7 @@ class GapSearch {
     }
   }
 
-  // What else can be the way between cores that are apart, or touch, or are flat.
+  // Tries the other directions of the shortest vector between separate, touching or flat cores.
   void try_ways(const Polytope& a, const Polytope& b) {
     for (const Vector3d& p : a.points) {
       for (const PolytopeEdge& edge : b.edges) try_way(across(edge.start - p, edge.direction));
@@ -63,7 +65,7 @@ class GapSearch {
     for (const Vector3d& p : a.points) {
       for (const Vector3d& q : b.points) try_way(q - p);
     }
-    // Points or segments in one line: any way across will do.
+    // For points or segments in one line, any perpendicular direction will do.
     for (const Polytope* shape : {&a, &b}) {
       for (const Vector3d& u : shape->directions) try_both_ways(any_perpendicular(u));
     }
@@ -87,7 +89,7 @@ class GapSearch {
     keep({backwards, -n, is_flat});
   }
 
-  // Balls inside the two are no further apart.
+  // The gap of the shapes is at most the gap of balls inside them.
   bool cannot_be_greater(const Vector3d& n) const {
     return !has_rules_ && std::fabs(dot(n, between_)) - inner_radii_ <= greatest_.size;
   }

@@ -1,4 +1,4 @@
-// How far the hulls of two cores are apart, and which way, in double precision: GJK.
+// The nearest vector between the hulls of two cores, in double precision: GJK.
 //
 // Sources: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A Fast Procedure for Computing the
 // Distance between Complex Objects in Three-Dimensional Space", IEEE J. Robotics and Automation
@@ -20,8 +20,8 @@ inline CoreVector difference_point(const Core& a, const Core& b, const CoreVecto
   return b.point(furthest(b, -way)) - a.point(furthest(a, way));
 }
 
-// Of a simplex of up to four points: its point nearest to zero, and the corners that span it. The
-// last corner is one of these: without it nothing would be nearer than before.
+// The point of a simplex that is nearest to zero, and the corners that span it. The last corner is
+// always one of them: without it no point would be nearer than before.
 class NearestPoint {
  public:
   using Corners = FewOf<CoreVector, 4>;
@@ -46,7 +46,7 @@ class NearestPoint {
   bool is_around_zero() const { return corners_.size() == 4; }
 
  private:
-  // `others`: which corners beside the last span the point, as bits.
+  // `others`: bits of the corners that span the point besides the last one.
   void keep(const CoreVector& point, unsigned others) {
     const double squared = dot(point, point);
     if (!(squared < squared_)) return;
@@ -67,7 +67,8 @@ class NearestPoint {
   static Plane plane_from(const CoreVector& a, const CoreVector& b, const CoreVector& c) {
     return {a, cross(b - a, c - a)};
   }
-  // Seen from the corner nearest to zero, rounding moves the plane of a sliver least where zero is.
+  // Rounding moves the plane of a sliver least near the corner from which it is computed, so start
+  // at the corner nearest to zero.
   static Plane plane_of(const CoreVector& a, const CoreVector& b, const CoreVector& c) {
     const double of_a = dot(a, a), of_b = dot(b, b), of_c = dot(c, c);
     if (of_a <= of_b && of_a <= of_c) return plane_from(a, b, c);
@@ -82,8 +83,8 @@ class NearestPoint {
     if (is_over) keep(n * (dot(n, plane.point) / dot(n, n)), others);
   }
 
-  // Zero is inside if it is on the side of every face on which the fourth corner is. Of corners in
-  // one plane rounding would say anything.
+  // Zero is inside if, for every face, it is on the same side as the fourth corner. Corners in one
+  // plane count as outside, because rounding would decide for them.
   void try_tetrahedron(const CoreVector& p, const CoreVector& q, const CoreVector& r) {
     const bool is_inside = is_beside(p, q, r, last_) && is_beside(q, r, last_, p) &&
                            is_beside(r, last_, p, q) && is_beside(last_, p, q, r);
@@ -114,16 +115,16 @@ inline bool holds(const NearestPoint::Corners& corners, const CoreVector& point)
   });
 }
 
-// What GJK found. `way` leads from A to B; its length is never less than their distance, and about
-// zero if they touch or overlap.
+// The result of GJK. `way` leads from A to B. It is never shorter than the distance, and about zero
+// if the cores touch or overlap.
 struct NearestWay {
   CoreVector way;
-  NearestPoint::Corners corners;  // of B - A, that span it; four: zero lies among them
-  double gap = 0;  // of the projections on the way, times its length; 0 if they touch
+  NearestPoint::Corners corners;  // of B - A, that span `way`; four: zero lies inside
+  double gap = 0;  // between the projections on `way`, times its length; 0 if the cores touch
 };
 
 inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
-  constexpr int kMostRounds = 128;  // a dozen will do
+  constexpr int kMostRounds = 128;  // a dozen is usual
   NearestPoint nearest({difference_point(a, b, b.middle - a.middle, furthest)});
   for (int round = 0;; ++round) {
     const CoreVector& way = nearest.point();
@@ -132,7 +133,7 @@ inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthe
     }
     const CoreVector next = difference_point(a, b, way, furthest);
     const double gap = dot(way, next);
-    // To the very last point: the way is as good as the corners it ends at.
+    // Search to the very last point, because `way` is only as good as the corners at its end.
     const bool has_ended = gap >= nearest.squared() || holds(nearest.corners(), next);
     if (has_ended || round == kMostRounds) return {way, nearest.corners(), gap};
     NearestPoint::Corners corners = nearest.corners();

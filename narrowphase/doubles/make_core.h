@@ -1,4 +1,4 @@
-// Shapes as cores: points in world axes, relative to the body's position.
+// Shapes as cores: points in world axes, relative to the body's position plus `offset`.
 #pragma once
 
 #include "narrowphase/doubles/core.h"
@@ -9,7 +9,7 @@ namespace carom::scalar {
 inline CoreVector core_vector(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 inline Vector3d eigen_vector(const CoreVector& v) { return {v.x, v.y, v.z}; }
 
-// All at `offset`.
+// `offset` is added to every point.
 inline void make_core(const SphereShape<double>& sphere, const Quaternion<double>&,
                       const Vector3d& offset, Core& core) {
   core.resize(1);
@@ -89,7 +89,7 @@ inline void make_core(const DopShape<double>& dop, const Quaternion<double>& q,
   make_core_of_points(points, offset, core);
 }
 
-// The compiler turns the loop into lanes: columns in, columns out.
+// Reads and writes columns, so that the compiler vectorizes the loop.
 inline void make_core(const HullShape<double>& hull, const Quaternion<double>& q,
                       const Vector3d& offset, Core& core) {
   const Rotation<double> turn = rotation_of(q);

@@ -1,4 +1,4 @@
-// How far the hulls of two sets of points are apart, about.
+// The nearest vector between the hulls of two point sets, approximately.
 //
 // Sources: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, "A Fast Procedure for Computing the
 // Distance between Complex Objects in Three-Dimensional Space", IEEE J. Robotics and Automation
@@ -10,8 +10,8 @@
 
 namespace carom::scalar {
 
-// The point nearest to zero of the hull of up to four points, and those of them that span it. The
-// last point is one of these: without it, nothing would be nearer than before.
+// The point of the hull of up to four points that is nearest to zero, and the points that span it.
+// The last point is always one of them: without it no point would be nearer than before.
 class NearestOfSimplex {
  public:
   using Points = FewOf<Vector3d, 4>;
@@ -52,7 +52,7 @@ class NearestOfSimplex {
     if (is_over) keep(n * (dot(n, last_) / dot(n, n)), {p, q, last_});
   }
 
-  // Zero is inside if it is on the side of every face on which the fourth corner is.
+  // Zero is inside if, for every face, it is on the same side as the fourth corner.
   void try_tetrahedron(const Vector3d& p, const Vector3d& q, const Vector3d& r) {
     const bool is_inside = is_beside(p, q, r, last_) && is_beside(q, r, last_, p) &&
                            is_beside(r, last_, p, q) && is_beside(last_, p, q, r);
@@ -70,10 +70,10 @@ class NearestOfSimplex {
   Points points_;
 };
 
-// The way from A to B; its length is never less than the distance of the two. About zero if they
-// touch or overlap.
+// The nearest vector from A to B. It is never shorter than the distance, and about zero if the
+// shapes touch or overlap.
 inline Vector3d nearest_way(const Polytope& a, const Polytope& b) {
-  constexpr int kMostSteps = 64;  // a dozen will do
+  constexpr int kMostSteps = 64;  // a dozen is usual
   const auto furthest = [](const Polytope& shape, const Vector3d& n) {
     const Vector3d* best = shape.points.begin();
     double most = -HUGE_VAL;

@@ -1,8 +1,8 @@
-// The shortest way out of each other of two cores that overlap or touch: the face of their
-// difference B - A that is nearest to zero, by a polytope inside it that grows where it is nearest.
+// The penetration search for two cores that overlap or touch: it finds the face of the difference B
+// - A that is nearest to zero. A polytope inside B - A grows at its nearest face (EPA).
 //
-// The polytope need not hold zero to begin with: a face that has zero in front of it is nearer than
-// all others, and grows first.
+// The polytope need not contain zero at the start: a face with zero in front of it has a negative
+// height, so it is the nearest face and grows first.
 //
 // Source: G. van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game
 // Objects", Game Developers Conference, 2001.
@@ -20,13 +20,13 @@
 
 namespace carom {
 
-// `normal` is unit and leads from A to B; `gap` is how far the projections on it lie apart:
-// negative by the depth if they overlap.
+// The penetration direction. `normal` is unit and leads from A to B. `gap` is the gap of the
+// projections on it: negative by the depth if the cores overlap.
 struct WayOut {
   CoreVector normal{1, 0, 0};
   double gap = -HUGE_VAL;
-  bool is_flat = false;   // B - A has no volume: the shapes leave both ways
-  bool has_ended = true;  // otherwise there may be a shorter way
+  bool is_flat = false;   // B - A has no volume: -normal is as good
+  bool has_ended = true;  // false: there may be a direction with less depth
 };
 
 class WayOutSearch {
@@ -34,7 +34,7 @@ class WayOutSearch {
   WayOutSearch(const Core& a, const Core& b, FurthestPoint furthest)
       : a_(a), b_(b), furthest_(furthest) {}
 
-  // From what nearest_way() found.
+  // Starts from the corners that nearest_way() found.
   WayOut run(const NearestPoint::Corners& known) {
     for (const CoreVector& corner : known) add_if_beside(corner);
     if (!complete_tetrahedron()) return best_;
@@ -46,7 +46,7 @@ class WayOutSearch {
       const CoreVector point = try_way(normal);
       if (is_shortest(nearest)) return best_;
       if (is_corner(point)) {
-        // Rounding has put the face too low.
+        // Rounding had put the face too low.
         height_[nearest] = dot(normal, point);
       } else if (corners_.is_full() || !grow(nearest, point)) {
         best_.has_ended = false;
@@ -57,25 +57,25 @@ class WayOutSearch {
 
  private:
   static constexpr size_t kMostCorners = 256;
-  // Of a polytope of triangles, and some on the way.
+  // A polytope of triangles has fewer than 2 * kMostCorners; the rest is room during growth.
   static constexpr size_t kMostFaces = 2 * kMostCorners + 64;
 
-  // An edge as a side of a face: from its corner `side` to the next.
+  // An edge as a side of a face: from the face's corner number `side` to the next one.
   struct Side {
     uint16_t face;
     uint8_t side;
   };
   struct Face {
-    CoreVector normal;               // unit, outwards; zero of a face without area
+    CoreVector normal;               // unit, outwards; zero if the face has no area
     std::array<uint16_t, 3> corner;  // counter-clockwise seen from outside
-    std::array<Side, 3> across;      // what lies beyond its sides
+    std::array<Side, 3> across;      // the neighbour across each side
     bool is_seen;                    // from the point that is being added
   };
 
   static double length(const CoreVector& v) { return std::sqrt(dot(v, v)); }
   static CoreVector unit(const CoreVector& v) { return v * (1 / length(v)); }
 
-  // Unit, across u.
+  // A unit vector perpendicular to u.
   static CoreVector perpendicular(const CoreVector& u) {
     const double x = std::fabs(u.x), y = std::fabs(u.y), z = std::fabs(u.z);
     const CoreVector least = x <= y && x <= z ? CoreVector{1, 0, 0}
@@ -84,7 +84,7 @@ class WayOutSearch {
     return unit(cross(u, least));
   }
 
-  // The point of B - A that is furthest along n; keeps the gap along -n.
+  // The point of B - A that is furthest along n. Keeps the gap along -n if it is the best.
   CoreVector try_way(const CoreVector& n) {
     const CoreVector point = difference_point(a_, b_, -n, furthest_);
     const double gap = -dot(n, point);
@@ -95,7 +95,7 @@ class WayOutSearch {
     return point;
   }
 
-  // No face can come nearer to zero than the nearest one inside.
+  // B - A has no face nearer to zero than the nearest face of the polytope inside it.
   bool is_shortest(size_t nearest) const { return -best_.gap - height_[nearest] <= kSameWayOut; }
 
   bool is_corner(const CoreVector& point) const {
@@ -108,7 +108,7 @@ class WayOutSearch {
 
   CoreVector edge(size_t i) const { return corners_[i] - corners_[0]; }
 
-  // Unless the point lies in the point, line or plane of the corners that there are.
+  // Adds the point unless it lies in the point, line or plane of the present corners.
   bool add_if_beside(const CoreVector& point) {
     if (distance_from_corners(point) <= kFlatDifference) return false;
     corners_.push_back(point);
@@ -123,7 +123,7 @@ class WayOutSearch {
     return std::fabs(dot(unit(cross(edge(1), edge(2))), way));
   }
 
-  // The furthest point of B - A that way, or the other way.
+  // Adds the furthest point of B - A along `way`, or else along -way.
   bool add_towards(const CoreVector& way) {
     return add_if_beside(try_way(way)) || add_if_beside(try_way(-way));
   }
@@ -169,7 +169,7 @@ class WayOutSearch {
 
   // --- The polytope ---
 
-  // A face without area is never the nearest, and nothing sees it.
+  // A face without area is never the nearest, and no point sees it.
   void set_face(uint16_t face, const std::array<uint16_t, 3>& corner) {
     const CoreVector &p = corners_[corner[0]], &q = corners_[corner[1]], &r = corners_[corner[2]];
     const CoreVector u = q - p, v = r - p, n = cross(u, v);
@@ -185,8 +185,8 @@ class WayOutSearch {
     return static_cast<size_t>(std::min_element(height_.begin(), height_.end()) - height_.begin());
   }
 
-  // Replaces all faces that the point sees, `first` among them. False if there is no room, or the
-  // horizon is not one ring, which only rounding can do.
+  // Replaces all faces that the point sees, `first` among them. False if there is no room, or if
+  // rounding made the horizon something other than one ring.
   bool grow(size_t first, const CoreVector& point) {
     seen_.clear();
     horizon_.clear();
@@ -200,7 +200,7 @@ class WayOutSearch {
     seen_.push_back(face);
   }
 
-  // From one seen face to the next, so that the horizon comes in its own order.
+  // Walks from one seen face to the next, so that the sides of the horizon come in ring order.
   void look_across(const Side& into, const CoreVector& point) {
     const Face& face = faces_[into.face];
     if (face.is_seen || horizon_.is_full()) return;
@@ -213,8 +213,8 @@ class WayOutSearch {
     look_across(face.across[(into.side + 2) % 3], point);
   }
 
-  // A face from every side of the horizon to the point. Those that were seen are used again: there
-  // are always two more new ones.
+  // Adds a face from every side of the horizon to the point. The seen faces are reused; there are
+  // always two more new faces than those.
   bool close_horizon(const CoreVector& point) {
     const auto apex = static_cast<uint16_t>(corners_.size());
     corners_.push_back(point);
@@ -253,7 +253,7 @@ class WayOutSearch {
   WayOut best_;
   FewOf<CoreVector, kMostCorners> corners_;  // points of B - A
   FewOf<Face, kMostFaces> faces_;
-  FewOf<double, kMostFaces> height_;  // of the plane of each face over zero
+  FewOf<double, kMostFaces> height_;  // of each face's plane over zero
   FewOf<uint16_t, kMostFaces> seen_, ring_;
   FewOf<Side, kMostCorners> horizon_;
 };

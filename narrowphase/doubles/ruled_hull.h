@@ -1,5 +1,5 @@
-// Hulls against triangles that are thick, one-sided or inside a mesh (special_triangle_ref.h has
-// the rules), in double precision: pairs are rare, and tested one at a time.
+// Hulls against special triangles: thick, one-sided or inside a mesh (special_triangle.h has the
+// rules). Double precision, one pair at a time, because such pairs are rare.
 #pragma once
 
 #include "narrowphase/doubles/convex.h"
@@ -7,7 +7,8 @@
 
 namespace carom::scalar {
 
-// The shortest way out that the triangle (B) leaves open, of those that faces and edges allow.
+// The penetration direction with the least depth among those that faces and edges give and the
+// rules of the triangle (B) allow.
 class OpenWays {
  public:
   OpenWays(const Core& a, const Core& b, const FrontRules& rules, FurthestPoint furthest)
@@ -19,7 +20,7 @@ class OpenWays {
     keep(core_vector(-n));
   }
 
-  // `otherwise` if all ways are closed.
+  // `otherwise` if the rules close all directions.
   CoreGap best_or(const CoreGap& otherwise) const {
     return best_.size > -HUGE_VAL ? best_ : otherwise;
   }
@@ -38,7 +39,7 @@ class OpenWays {
   CoreGap best_{.size = -HUGE_VAL, .normal = {1, 0, 0}};
 };
 
-// The normals of the faces of a hull, and the directions of its edges, against those of a triangle.
+// Tries the normals of all faces, and the cross products of the hull's and the triangle's edges.
 inline void try_faces_and_edges(const HullShape<double>& hull, const Rotation<double>& turn,
                                 const Polytope& triangle, OpenWays& ways) {
   const HullGeometry& geometry = *hull.geometry;
@@ -63,7 +64,7 @@ inline void try_faces_and_edges(const HullShape<double>& hull, const Rotation<do
     ways.try_both_ways(unit_or_zero(normal));
     for (size_t i = 0; i < corners.size(); ++i) {
       const uint32_t from = corners[i], to = corners[(i + 1) % corners.size()];
-      if (from < to) try_edge(from, to);  // the other face of the edge has it the other way round
+      if (from < to) try_edge(from, to);  // the edge's other face has it in reverse
     }
   }
   if (geometry.faces().empty()) {

@@ -1,19 +1,21 @@
-// Triangles that are thick, one-sided or inside a mesh, against any convex shape, in double
-// precision: pairs are rare, and tested one at a time.
+// Special triangles (thick, one-sided or inside a mesh) against any convex shape, in double
+// precision. Such pairs are rare and are tested one at a time.
 //
 //   thickness    The shape is the prism between the triangle and its copy moved by the thickness
 //                against the unit normal of the front.
-//   one_sided    What comes from behind does not collide: if the middle of the other shape (of its
-//                segment, box or corners) lies behind the triangle's back, the pair never touches:
-//                its separation is infinite, its normal and points are not numbers. Half-spaces
-//                have no middle: they come from behind if their normal looks to the front's side.
-//                All others leave towards the front's side.
-//   inner_edges  Nothing leaves over an inner edge, or over a corner between two of them: contacts
-//                there have the normal of the face, and the separation is measured along it.
+//   one_sided    A shape that comes from behind does not collide. It comes from behind if its
+//   middle
+//                (of its segment, box or corners) lies behind the triangle's back. Its separation
+//                is then infinite, and its normal and points are NaN. A half-space has no middle:
+//                it comes from behind if its normal points to the front's side. All other shapes
+//                are pushed towards the front's side.
+//   inner_edges  No shape is pushed over an inner edge, or over a corner between two of them.
+//                Contacts there have the normal of the face, and the separation is measured along
+//                it.
 //
-// Apart from what comes from behind, the last two change neither whether shapes overlap nor how far
-// they are apart: they choose the way out of overlaps. Where no way is left they do not count. A
-// triangle without area has no front, and none of the three.
+// Except for shapes from behind, the last two rules change neither the decision nor the distance of
+// separate shapes: they only choose the penetration direction. If they leave no direction, they are
+// ignored. A triangle without area has no front, and none of the three properties.
 #pragma once
 
 #include "narrowphase/doubles/convex.h"
@@ -21,7 +23,7 @@
 namespace carom::scalar {
 namespace convex {
 
-// All that is known of a triangle, and where the other one is.
+// All numbers of a triangle, and the position of the other one.
 inline std::array<double, 19> numbers_of(const TriangleShape<double>& t,
                                          const Quaternion<double>& q, const Vector3d& d) {
   const auto& [a, b, c] = t.corners;
@@ -46,7 +48,8 @@ inline std::array<double, 19> numbers_of(const TriangleShape<double>& t,
           d.z()};
 }
 
-// In one order, whichever is asked for: the rules may turn a rounding into another way out.
+// Tests both orders of a pair in the same order, because the rules may turn a rounding difference
+// into another penetration direction.
 inline SeparationAs<double> separation_of(const TriangleShape<double>& a,
                                           const TriangleShape<double>& b,
                                           const PairPose<double>& pose) {
@@ -68,8 +71,8 @@ inline SeparationAs<double> separation_of(const HalfspaceShape<double>& halfspac
 
 }  // namespace convex
 
-// A (a triangle may itself be special) against a special triangle, or a special triangle against a
-// plain one.
+// Any shape against a special triangle, or a special triangle against a plain one. In float it only
+// reports that it is unsure.
 template <class Real, class A>
 SeparationAs<Real> special_triangle(const A& a, const TriangleShape<Real>& b,
                                     const PairPose<Real>& pose) {

@@ -1,5 +1,5 @@
-// The way that a few corners span, and what all points of two cores say of it
-// (spanned_way_ref.h is the reference).
+// The closest feature of two cores in lanes: the nearest vector that one to three corners span, and
+// whether all points of both cores confirm it (closest_feature_scalar.h is the scalar form).
 #if defined(CAROM_NARROWPHASE_HULLS_CLOSEST_FEATURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_CLOSEST_FEATURE_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_CLOSEST_FEATURE_INL_H_
@@ -16,7 +16,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Along a way: how high the furthest point is, and how many are as high as `height` up to a slack.
+// Support of a core along a direction: the greatest height, and the number of points that reach
+// `height` up to kFacingSlack.
 struct FacingCount {
   F most, count;
 
@@ -37,7 +38,7 @@ HWY_INLINE FacingCount count_facing(const CoreLanes& core, const F3& way, F heig
   return facing;
 }
 
-// The corners of a simplex that are in use, to the front; behind them anything.
+// Moves the used corners of a simplex to the front; the unused places behind them hold any corner.
 struct FrontCorners {
   CornerLanes p, q, r;
   Mask has_two, has_three;
@@ -59,7 +60,7 @@ struct FrontCorners {
   }
 };
 
-// Where the cores are nearest to each other.
+// The closest points of two cores.
 struct NearestCores {
   F distance;
   F3 normal;  // unit, from A to B
@@ -67,23 +68,24 @@ struct NearestCores {
   Mask is_sure;
 };
 
-// One to three corners, as far as they differ in the front places, and the way to their difference.
+// The vector from zero to the span of one to three corners of B - A. The places that a lane does
+// not use may hold anything.
 class SpannedWay {
  public:
-  // p, and q where there are two, and r where there are three.
+  // Uses p always, q where has_two or has_three, r where has_three.
   HWY_INLINE SpannedWay(const CornerLanes& p, const CornerLanes& q, const CornerLanes& r,
                         Mask has_two, Mask has_three)
       : p_(p), has_three_(has_three), u_(q.point - p.point), v_(r.point - p.point) {
-    // One corner.
+    // One corner: the nearest vector ends there.
     way_ = p.point;
     on_a_ = p.on_a;
-    // Two: across the side between them.
+    // Two corners: the vector is perpendicular to the side between them.
     const F uu = dot(u_, u_);
     const F along = hn::Div(hn::Neg(dot(p.point, u_)), uu);
     const F3 on_side = p.point + u_ * along;
     way_ = select(has_two, on_side - u_ * hn::Div(dot(on_side, u_), uu), way_);
     on_a_ = select(has_two, p.on_a + (q.on_a - p.on_a) * along, on_a_);
-    // Three: across their plane.
+    // Three corners: the vector is perpendicular to their plane.
     const F3 n = cross(u_, v_);
     const F nn = dot(n, n);
     const F3 foot = n * hn::Div(dot(n, p.point), nn), along_plane = foot - p.point;
@@ -107,22 +109,22 @@ class SpannedWay {
 
   HWY_INLINE F distance() const { return distance_; }
   HWY_INLINE const F3& normal() const { return normal_; }       // unit, from A to B
-  HWY_INLINE Mask ends_inside() const { return ends_inside_; }  // of the span of the corners
-  // Of a corner's points, along the normal of either.
+  HWY_INLINE Mask ends_inside() const { return ends_inside_; }  // of the span
+  // Heights of the two points behind corner p: A's along the normal, B's against it.
   HWY_INLINE F height_of_a() const { return dot(normal_, p_.on_a); }
   HWY_INLINE F height_of_b() const { return hn::Neg(dot(normal_, on_b())); }
 
-  // Where the cores are nearest to each other, if they are nowhere nearer; of_a along the normal,
-  // of_b against it.
+  // Compares the vector with the support of all points: `of_a` along the normal, `of_b` against it.
+  // It is sure if no points of the cores are nearer and the witness points are unique.
   HWY_INLINE NearestCores confirmed_by(const FacingCount& of_a, const FacingCount& of_b) const {
     const F gap = hn::Neg(hn::Add(of_a.most, of_b.most));
     const Mask is_shortest = hn::Le(hn::Abs(hn::Sub(distance_, gap)), splat(kSameGapInFloat));
-    // One point faces the other core, or two edges cross: there is no other place to meet.
+    // The witness points are unique if one core has a single facing point, or two edges cross.
     const Mask crosses = hn::And(is_wide_, hn::And(of_a.is_two(), of_b.is_two()));
     const Mask is_unique = hn::Or(hn::Or(of_a.is_one(), of_b.is_one()), crosses);
     F3 on_a = select(of_a.is_one(), p_.on_a, on_a_);
     on_a = select(of_b.is_one(), on_b() - normal_ * distance_, on_a);
-    // Rounding tilts the plane of a needle: its corners are not equally far then.
+    // Rounding tilts the plane of a needle; its corners then have different heights.
     const Mask is_tilted = hn::AndNot(hn::And(is_level(u_), is_level(v_)), has_three_);
     const Mask is_sure = hn::And(hn::Gt(distance_, splat(kNearCores)),
                                  hn::And(is_shortest, hn::AndNot(is_tilted, is_unique)));

@@ -1,4 +1,5 @@
-// The way that a few corners of a difference span, and what all points of two cores say of it.
+// The closest feature of two cores: the nearest vector that one to three corners of B - A span, and
+// whether all points of both cores confirm it.
 #pragma once
 
 #include <cmath>
@@ -10,7 +11,8 @@
 
 namespace carom::scalar {
 
-// Along a way: how high the furthest point is, and how many are as high as `height` up to a slack.
+// Support of a core along a direction: the greatest height, and the number of points that reach
+// `height` up to kFacingSlack.
 struct FacingCount {
   float most = -kLargest;
   size_t count = 0;
@@ -27,7 +29,7 @@ inline FacingCount count_facing(const FloatCore& core, const Vector3f& way, floa
   return facing;
 }
 
-// Where the cores are nearest to each other.
+// The closest points of two cores.
 struct NearestCores {
   float distance;
   Vector3f normal;  // unit, from A to B
@@ -35,13 +37,13 @@ struct NearestCores {
   bool is_sure;
 };
 
-// One to three corners, and the way to their difference.
+// The vector from zero to the span of one to three corners of B - A.
 class SpannedWay {
  public:
   explicit SpannedWay(const FewOf<Corner, 3>& ends) : p_(ends[0]) {
     Vector3f way = p_.point;
     on_a_ = p_.on_a;
-    if (ends.size() == 2) {  // across the side between them
+    if (ends.size() == 2) {  // perpendicular to the side between them
       const Corner& q = ends[1];
       const Vector3f u = q.point - p_.point;
       const float uu = dot(u, u), along = -dot(p_.point, u) / uu;
@@ -50,7 +52,7 @@ class SpannedWay {
       on_a_ = p_.on_a + (q.on_a - p_.on_a) * along;
       ends_inside_ = along > 0 && along < 1;
     }
-    if (ends.size() == 3) {  // across their plane
+    if (ends.size() == 3) {  // perpendicular to their plane
       const Corner &q = ends[1], &r = ends[2];
       const Vector3f u = q.point - p_.point, v = r.point - p_.point, n = cross(u, v);
       const float nn = dot(n, n);
@@ -64,7 +66,7 @@ class SpannedWay {
     }
     distance_ = std::sqrt(dot(way, way));
     normal_ = way * (1 / distance_);
-    // Rounding tilts the plane of a needle: its corners are not equally far then.
+    // Rounding tilts the plane of a needle; its corners then have different heights.
     const auto is_level = [&](const Corner& corner) {
       return std::fabs(dot(normal_, corner.point - p_.point)) <= kSameGapInFloat;
     };
@@ -73,17 +75,17 @@ class SpannedWay {
 
   float distance() const { return distance_; }
   const Vector3f& normal() const { return normal_; }  // unit, from A to B
-  bool ends_inside() const { return ends_inside_; }   // of the span of the corners
-  // Of a corner's points, along the normal of either.
+  bool ends_inside() const { return ends_inside_; }   // strictly inside the span of the corners
+  // Heights of the two points behind the first corner: A's along the normal, B's against it.
   float height_of_a() const { return dot(normal_, p_.on_a); }
   float height_of_b() const { return -dot(normal_, on_b()); }
 
-  // Where the cores are nearest to each other, if they are nowhere nearer; of_a along the normal,
-  // of_b against it.
+  // Compares the vector with the support of all points: `of_a` along the normal, `of_b` against it.
+  // It is sure if no points of the cores are nearer and the witness points are unique.
   NearestCores confirmed_by(const FacingCount& of_a, const FacingCount& of_b) const {
     const float gap = -(of_a.most + of_b.most);
     const bool is_shortest = std::fabs(distance_ - gap) <= kSameGapInFloat;
-    // One point faces the other core, or two edges cross: there is no other place to meet.
+    // The witness points are unique if one core has a single facing point, or two edges cross.
     const bool crosses = is_wide_ && of_a.count <= 2 && of_b.count <= 2;
     const bool is_unique = of_a.count <= 1 || of_b.count <= 1 || crosses;
     Vector3f on_a = on_a_;

@@ -1,4 +1,4 @@
-// The test of two kinds of which one is a hull, by GJK in lanes.
+// The kernel for a hull and another kind, by GJK in lanes.
 #if defined(CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_CORE_KERNEL_INL_H_
@@ -20,7 +20,7 @@ HWY_INLINE Mask is_same(const F3& p, const F3& q) {
   return hn::And(hn::Eq(p.x, q.x), hn::And(hn::Eq(p.y, q.y), hn::Eq(p.z, q.z)));
 }
 
-// Which point of the core it is, as `is_it` says; of several the first.
+// Index of the first point of the core for which `is_it` holds, in each lane; 0 if there is none.
 template <class IsIt>
 HWY_INLINE F place_of(const CoreLanes& core, const IsIt& is_it) {
   F place = splat(0);
@@ -30,7 +30,7 @@ HWY_INLINE F place_of(const CoreLanes& core, const IsIt& is_it) {
   return place;
 }
 
-// Writes `count` of the corners, a lane each, as features.
+// Packs the first `count` corners of each lane into its feature word.
 HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
                                const std::array<const CornerLanes*, kMostFeatures>& corners,
                                F count, uint64_t* features) {
@@ -54,7 +54,8 @@ HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b,
   }
 }
 
-// Those around zero, or those that are nearest, where either is sure.
+// Stores the corners around zero of deep lanes, the nearest corners of sure separate lanes, and
+// none elsewhere.
 HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
                                Mask is_nearest, const GjkLanes& gjk, Mask is_around,
                                uint64_t* features) {
@@ -67,8 +68,9 @@ HWY_INLINE void write_features(const CoreLanes& a, const CoreLanes& b, const Fro
                  features);
 }
 
-// `radius`: of both, of which A has `radius_a`. Whose cores overlap is unsure: depths are found
-// elsewhere. Lanes that go on later are neither.
+// `radius` is the sum of both radii; A has `radius_a` of it. Lanes whose cores overlap are unsure,
+// because other searches find their depth. Lanes in `goes_on` are not unsure: the second stage
+// reports them.
 template <class Report>
 HWY_INLINE void report_nearest(const NearestCores& nearest, F radius, F radius_a, const F3& d,
                                Mask goes_on, Report& report) {
@@ -81,16 +83,16 @@ HWY_INLINE void report_nearest(const NearestCores& nearest, F radius, F radius_a
          arm_a, arm_b);
 }
 
-// Scales at which float32 may decide. `up`: metres a unit.
+// Whether float32 may decide at this scale. `up`: metres per unit.
 HWY_INLINE Mask is_usual_scale(F up) {
   return hn::And(hn::Ge(up, splat(1 / kGreatestScale)), hn::Le(up, splat(kGreatestScale)));
 }
 
-// Tests run as a whole, or in two stages (core_stages-inl.h).
+// A test runs as a whole, or in two stages (core_stages-inl.h).
 enum class Stage { whole, first, rest };
 
-// No more lanes of a vector than these leave it at the end of the first stage: three of sixteen,
-// and none of four, which would cost more than it saves.
+// The first stage of a vector ends once no more than this many lanes are open: 3 of 16, 1 of 8, and
+// none of 4, where a second stage would cost more than it saves.
 inline constexpr size_t kFewOpen = 3 * kLanes / 16;
 
 // The test of two kinds of which one is a hull. Marks as unsure whatever is left to other tests,
@@ -167,7 +169,7 @@ struct CoreKernel {
   static HWY_INLINE void report_decision(const GjkLanes& gjk, F radius, Mask is_known, Mask goes_on,
                                          Report& report) {
     const F reach = hn::Sub(radius, splat(kSureGap));
-    // Cores that all but touch may be flat, which is for others to say.
+    // Cores that nearly touch may be flat; a slower test decides them.
     const Mask is_within =
         hn::And(hn::Gt(gjk.squared, splat(kNearCores * kNearCores)),
                 hn::And(hn::Gt(reach, splat(0)), hn::Lt(gjk.squared, hn::Mul(reach, reach))));

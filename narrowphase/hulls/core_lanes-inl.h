@@ -1,5 +1,5 @@
-// Shapes as cores in lanes: the points of one core a lane, in world axes, relative to the position
-// of A, grown by a radius.
+// Shapes as cores in lanes. A core is the convex hull of points, grown by a radius. Each lane holds
+// one core, in world axes, relative to the position of A.
 #if defined(CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_CORE_LANES_INL_H_
@@ -16,16 +16,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Cores with fewer points than others repeat their last one.
+// All lanes have room for the same number of points; a core with fewer repeats its last point.
 class CoreLanes {
  public:
   F radius;
-  F3 middle;       // any point inside, to begin with
-  Mask has_space;  // those that have no more than there is room for, and no rules
+  F3 middle;       // any point inside; the search starts there
+  Mask has_space;  // the points fit, and the triangle is a plain one
 
-  // The same number of points in every lane.
+  // All lanes have `count` points.
   HWY_INLINE void begin(size_t count) { begin(count, count, splat(static_cast<float>(count))); }
-  // `each`: how many of them it has, at least `least`.
+  // `each`: the number of points of each lane, from `least` to `count`, or more if they do not fit.
   HWY_INLINE void begin(size_t count, size_t least, F each) {
     count_ = count;
     least_ = least;
@@ -41,7 +41,7 @@ class CoreLanes {
   }
 
   size_t count() const { return count_; }
-  size_t least() const { return least_; }  // that are no repetitions in any lane
+  size_t least() const { return least_; }  // no lane repeats points before this index
   HWY_INLINE Mask has(size_t i) const { return hn::Lt(splat(static_cast<float>(i)), each_); }
   HWY_INLINE F3 point(size_t i) const {
     const FloatTag tag;
@@ -108,7 +108,7 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
-// Records of the hull of each lane: its points, then the middle.
+// Reads the records of each lane's hull: its points, then its middle.
 class HullRecords {
  public:
   explicit HWY_INLINE HullRecords(const HullLanes& hull) {
@@ -122,7 +122,7 @@ class HullRecords {
     }
   }
 
-  // use(i, point i of each hull, or its last one), i < count.
+  // Calls use(i, p) for i < count. p is point i of each hull, or its last point.
   template <class Use>
   HWY_INLINE void for_each_point(size_t count, const Use& use) const {
     size_t i = 0;
@@ -131,7 +131,7 @@ class HullRecords {
       use(i, read([i, this](size_t lane) { return std::min(i, points_[lane] - 1); }));
     }
   }
-  // Point `places[lane]` of each, or its last one.
+  // Point `places[lane]` of each hull, or its last point.
   HWY_INLINE F3 points_at(const std::array<uint8_t, kLanes>& places) const {
     return read([&](size_t lane) { return std::min<size_t>(places[lane], points_[lane] - 1); });
   }
@@ -139,16 +139,16 @@ class HullRecords {
     return read([this](size_t lane) { return points_[lane]; });
   }
 
-  // Points.
+  // Numbers of points, without the middle.
   size_t most() const { return most_; }
   size_t least() const { return least_; }
   HWY_INLINE F count_lanes() const {
-    if (least_ == most_) return splat(static_cast<float>(most_));  // as most often
+    if (least_ == most_) return splat(static_cast<float>(most_));  // the usual case
     return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
   }
 
  private:
-  // Record place(lane) of each lane.
+  // Reads record place(lane) of each lane.
   template <class Place>
   struct Source {
     const HullRecords& hulls;
@@ -177,7 +177,8 @@ class HullRecords {
   size_t least_ = kMostLanePoints;
 };
 
-// Turns and scales: by a power of two, so that it does not matter which factor it goes with.
+// A rotation that also scales. The scale is a power of two, so rounding is the same whichever
+// factor takes it.
 HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
   Rotation turn = rotation_of(q);
   for (F3* column : {&turn.x, &turn.y, &turn.z}) *column = *column * hull.scaling;

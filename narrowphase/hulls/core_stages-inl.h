@@ -1,5 +1,6 @@
-// Tests by GJK in lanes in two stages. A vector takes as many rounds as the slowest of its lanes:
-// when few are left open they leave it, and go on together with those of other vectors.
+// Runs GJK in lanes in two stages. A vector takes as many rounds as its slowest lane. So the first
+// stage stops when few lanes are open, and the second packs the open lanes of many vectors
+// together.
 #if defined(CAROM_NARROWPHASE_HULLS_CORE_STAGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_CORE_STAGES_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_CORE_STAGES_INL_H_

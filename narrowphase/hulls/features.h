@@ -1,4 +1,4 @@
-// By which corners two hulls are nearest, or overlap, in 64 bits a pair.
+// The corners by which two hulls are nearest, or overlap, packed into 64 bits per pair.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@ namespace carom {
 
 inline constexpr uint64_t kNoFeatures = 0;
 inline constexpr size_t kMostFeatures = 4;
-inline constexpr size_t kFeatureBits = 7;  // of a place
+inline constexpr size_t kFeatureBits = 7;  // per point index
 static_assert(kMostLanePoints <= size_t{1} << kFeatureBits);
 
-// Point of_a[i] of A and point of_b[i] of B, i < count, make corners of B - A: one to three that
-// span what is nearest to zero, or four that have zero inside.
+// Point of_a[i] of A and point of_b[i] of B make corner i of B - A. One to three corners span the
+// point nearest to zero; four corners have zero inside.
 struct Features {
   size_t count = 0;
   std::array<uint8_t, kMostFeatures> of_a{}, of_b{};
 };
 
-// The places from the lowest bits on; the highest byte is the count.
+// The indices fill the word from the lowest bit; the highest byte is the count.
 inline uint64_t pack_features(const Features& features) {
   uint64_t packed = uint64_t{features.count} << 56;
   for (size_t i = 0; i < features.count; ++i) {
@@ -33,7 +33,7 @@ inline uint64_t pack_features(const Features& features) {
 
 inline size_t feature_count(uint64_t packed) { return static_cast<size_t>(packed >> 56); }
 
-// Of any number; the count may be anything, too.
+// Accepts any word; the count is not checked.
 inline Features unpack_features(uint64_t packed) {
   constexpr uint64_t kMask = (1 << kFeatureBits) - 1;
   Features features{feature_count(packed)};

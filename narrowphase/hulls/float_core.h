@@ -1,4 +1,4 @@
-// Shapes as cores in float32: points, grown by a radius.
+// Shapes as cores in float32. A core is the convex hull of points, grown by a radius.
 #pragma once
 
 #include "base/few_of.h"
@@ -15,7 +15,7 @@ struct FloatCore {
   FewOf<Vector3f, kMostLanePoints> points;
   float radius = 0;
   Vector3f middle = Vector3f::Zero();
-  bool has_space = true;  // for all points; and there are no rules
+  bool has_space = true;  // the points fit, and the triangle is a plain one
 };
 
 inline FloatCore float_core(const SphereShape<float>& sphere, const Quaternion<float>&,
@@ -65,7 +65,8 @@ inline FloatCore float_core(const TriangleShape<float>& triangle, const Quaterni
   return core;
 }
 
-// Turns and scales: by a power of two, so that it does not matter which factor it goes with.
+// A rotation that also scales. The scale is a power of two, so rounding is the same whichever
+// factor takes it.
 inline Rotation<float> placing_turn(const HullShape<float>& hull, const Quaternion<float>& q) {
   Rotation<float> turn = rotation_of(q);
   for (Vector3f* column : {&turn.x, &turn.y, &turn.z}) *column *= static_cast<float>(hull.scale);

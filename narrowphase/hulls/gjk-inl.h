@@ -1,5 +1,5 @@
-// GJK in lanes, in float32 and scaled units: each lane has a simplex of its own (gjk_ref.h says
-// what is found, and when it is sure).
+// GJK in lanes, in float32 and scaled units; each lane has its own simplex. gjk_scalar.h is the
+// scalar form and says when a result is sure.
 #if defined(CAROM_NARROWPHASE_HULLS_GJK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_GJK_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_GJK_INL_H_
@@ -19,18 +19,18 @@ namespace carom::HWY_NAMESPACE {
 
 struct GjkLanes {
   F3 way;             // from A to B
-  F squared;          // of its length
-  SimplexLanes ends;  // the corners that span it
-  CornerLanes last;   // with three of those: around zero, if that is asked for
-  Mask is_apart;      // surely, by more than the radius; found by whoever asks for no more
-  F gap;              // there: of the projections on the way, times its length
-  Mask is_around;     // zero is surely inside of B - A
-  Mask has_ended;     // at the shortest way
+  F squared;          // of the vector's length
+  SimplexLanes ends;  // the corners that span `way`
+  CornerLanes last;   // the fourth corner around zero, if goal.keeps_last
+  Mask is_apart;      // surely separate by more than the radius; set by the overlap test only
+  F gap;              // between the projections on `way`, times its length; overlap test only
+  Mask is_around;     // zero is surely inside B - A
+  Mask has_ended;     // the vector cannot become shorter
 };
 
 struct SearchGoal {
-  F sure_squared;   // who only decides: of a gap that surely parts
-  bool keeps_last;  // who measures: of the corners around zero
+  F sure_squared;   // for the overlap test: square of a gap that surely separates
+  bool keeps_last;  // for the distance search: also keep the fourth corner around zero
 };
 
 // `radius`: of both together. `keeps_last`: the corners around zero.
@@ -39,7 +39,7 @@ HWY_INLINE SearchGoal goal_at(F radius, bool keeps_last) {
   return {hn::Mul(sure, sure), keeps_last};
 }
 
-// A search, and how far it is.
+// The state of a search between rounds.
 struct GjkSearch {
   GjkLanes gjk;
   Mask is_open;
@@ -54,7 +54,7 @@ template <bool kDecides>
 void begin_search(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal,
                   GjkSearch& search);
 
-// Until no more than `few` lanes are open.
+// Runs rounds until no more than `few` lanes are open.
 template <bool kDecides>
 void go_on(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal, size_t few,
            GjkSearch& search);
@@ -63,7 +63,7 @@ void go_on(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal, size_
 void nearest_cores(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
                    NearestCores& nearest);
 
-// use(column, lanes) of the numbers that a search goes on with.
+// Calls use(column, lanes) for every float column that the second stage needs.
 template <class Search, class Use>
 HWY_INLINE void for_each_column(Search& search, const Use& use) {
   const auto use3 = [&](size_t column, auto& v) HWY_ATTR {
@@ -80,10 +80,10 @@ HWY_INLINE void for_each_column(Search& search, const Use& use) {
     use3(8 + 6 * i, corner.on_a);
   }
 }
-inline constexpr size_t kUsedCorners = 23;  // the column of bits beside those
+inline constexpr size_t kUsedCorners = 23;  // the column of `used` bits, after the float columns
 static_assert(kUsedCorners + 1 == OpenSearches::kColumns);
 
-// The lanes of `row` and those behind it that go on later.
+// Appends the lanes in `leaves` to `open`. `row` is the row of the first lane.
 HWY_INLINE void leave(const GjkSearch& search, Mask leaves, size_t row, OpenSearches& open) {
   const IndexTag bits;
   for_each_column(search, [&](size_t column, const F& v) HWY_ATTR {

@@ -1,7 +1,7 @@
-// GJK in float32 and scaled units: distances that are sure, and decisions; all else is left to
-// searches in double precision. The kernels in lanes do the same, operation for operation.
+// GJK in float32 and scaled units. It gives sure distances and sure decisions; searches in double
+// precision settle all other rows. The kernels in lanes do the same, operation for operation.
 //
-// Sources: as of nearest_way.h.
+// Sources: see narrowphase/doubles/gjk.h.
 #pragma once
 
 #include <cmath>
@@ -36,8 +36,8 @@ inline Corner difference_corner(const FloatCore& a, const FloatCore& b, const Ve
 struct Gjk {
   Vector3f way;  // from A to B
   float squared;
-  Simplex ends;            // the corners that span it
-  bool is_around = false;  // zero is surely inside of B - A
+  Simplex ends;            // the corners that span `way`
+  bool is_around = false;  // zero is surely inside B - A
   bool has_ended = false;
 };
 
@@ -86,15 +86,15 @@ inline Separation separation_of(const NearestCores& nearest, float radius_a, flo
   return result;
 }
 
-// Scales at which float32 may decide. `up`: metres a unit.
+// Whether float32 may decide at this scale. `up`: metres per unit.
 inline bool is_usual_scale(double up) { return up >= 1 / kGreatestScale && up <= kGreatestScale; }
 
 struct FloatTest {
   Separation separation;
-  bool is_deep = false;  // surely: the cores themselves overlap
+  bool is_deep = false;  // the cores themselves surely overlap
 };
 
-// `up`: metres a unit.
+// `up`: metres per unit.
 inline FloatTest nearest_separation(const FloatCore& a, const FloatCore& b, const Vector3f& d,
                                     float up) {
   FloatTest test{not_in_float<float>()};

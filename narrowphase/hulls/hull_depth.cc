@@ -9,19 +9,19 @@ namespace {
 
 using namespace scalar;
 
-// One solid, in its own frame, and the other one's points there.
+// One solid, in its own frame, and the points of the other one there.
 struct Side {
   const Solid& solid;
   const HullPoints& others;
-  Ball inside;  // of the other one
+  Ball inside;  // a ball inside the other solid
   FaceBounds& bounds;
 };
 
-// Up to so many points, times faces in groups, trying all faces costs less than choosing among
+// Up to this product of points and groups of faces, trying all faces costs less than choosing among
 // them.
 constexpr size_t kFewFeatures = 64;
 
-// In the frame of A.
+// An edge in the frame of A.
 struct CrossedEdge {
   Vector3f direction, from;
 };
@@ -65,7 +65,7 @@ class DepthSearch {
     EdgeColumns edges_a, edges_b;
   };
 
-  // Not inlined: its address would be looked up again in every loop.
+  // Not inlined, because every loop would look up its address again.
   [[gnu::noinline]] static Memory& memory_of_thread() {
     thread_local Memory memory;
     return memory;
@@ -88,7 +88,7 @@ class DepthSearch {
 
   // --- Faces ---
 
-  // The best of those that are better than the least gap.
+  // The best face whose gap is greater than `least`.
   BestFace try_faces(const Side& side, float least) {
     if (!has_few_features(side)) return try_best_faces(side, least);
     const BestFace best = steps_.try_all(side.solid, side.others, side.bounds);
@@ -102,7 +102,8 @@ class DepthSearch {
            side.others.count * groups <= kFewFeatures;
   }
 
-  // The most promising first: the point that each finds says something of the others.
+  // Tries the face with the greatest bound first. The point it finds lowers the bounds of the
+  // others.
   BestFace try_best_faces(const Side& side, float least) {
     FaceBounds& bounds = side.bounds;
     bounds.count = 0;
@@ -133,8 +134,8 @@ class DepthSearch {
 
   // --- Edges ---
 
-  // Those beside which some axis may be better than the best face, or as good up to rounding: no
-  // ball settles both faces. Without branches, which nobody could predict.
+  // Finds the edges whose axes may be better than the best face, or as good up to rounding: no ball
+  // settles both faces. The loop has no branches, because they would be unpredictable.
   void find_edges_to_cross(const Side& side, Edges& edges) const {
     steps_.settle(side.solid, gap_ - kSameGapInFloat, side.bounds);
     const auto& settled = side.bounds.settled;
@@ -231,7 +232,7 @@ class DepthSearch {
     return result;
   }
 
-  // In the frame of the solid, up to rounding.
+  // Whether the point is inside, up to rounding; in the frame of the solid.
   static bool is_inside(const Solid& solid, const Vector3f& point) {
     for (size_t f = 0; f < solid.face_count; ++f) {
       if (dot(solid.normal(f), point) - solid.height(f) > kSameGapInFloat) return false;
@@ -242,16 +243,17 @@ class DepthSearch {
   const Solid &a_, &b_;
   const PairPose<float>& pose_;
   const HullSteps& steps_;
-  Rotation<float> turn_a_, turn_;  // of A to the world, of B to A
-  Vector3f centre_;                // of B, in the frame of A
+  Rotation<float> turn_a_, turn_;  // from A to the world, from B to A
+  Vector3f centre_;                // position of B in the frame of A
   bool is_doubtful_ = false;
   // The best axis, in the frame of A.
   float gap_ = 0;
   Vector3f normal_;
-  // An axis across two edges is as good as that of a face up to rounding, or better: the point that
-  // faces the other solid may lie beside that face then, the further the more parallel they are.
+  // An axis of two edges is as good as that of a face up to rounding, or better. The point that
+  // faces the other solid may then lie beside that face, the further the more parallel the edges
+  // are.
   bool may_cross_ = false;
-  // The best one across two edges.
+  // The best axis of two edges.
   bool has_crossing_ = false;
   CrossedEdge edge_a_, edge_b_;
   Vector3f across_;

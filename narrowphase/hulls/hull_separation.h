@@ -1,5 +1,5 @@
-// A hull against any convex shape but k-DOPs and half-spaces: by GJK and depths in float32,
-// where they are sure, and as cores in double precision.
+// A hull against any convex shape but k-DOPs and half-spaces. float32 uses GJK and the depth
+// search; rows that are unsure are computed again in double precision.
 #pragma once
 
 #include "narrowphase/doubles/core_separation.h"
@@ -8,7 +8,7 @@
 
 namespace carom::scalar {
 
-// By how much the scale of the test has made a pair smaller: hulls keep it.
+// Metres per unit of the scaled test; hulls store the scale.
 template <class A, class B>
 float metres_a_unit(const A& a, const B& b) {
   if constexpr (std::is_same_v<A, HullShape<float>>) {

@@ -1,4 +1,4 @@
-// Points and faces of solids in lanes (hull_steps_ref.h is the reference).
+// The steps of the float32 penetration search in lanes (hull_steps_scalar.h is the scalar form).
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -35,7 +35,7 @@ void place_points(const Solid& solid, const scalar::Rotation<float>& turn, const
   }
 }
 
-// The planes of some faces of a hull.
+// The planes of kLanes faces, from face i on.
 struct FaceLanes {
   F3 normal;
   F height;
@@ -52,7 +52,7 @@ HWY_INLINE F above(const FaceLanes& faces, const F3& point) {
   return hn::Sub(dot(faces.normal, point), faces.height);
 }
 
-// What one ball says of a vector of faces.
+// The bounds of one ball for a vector of faces (see FaceBounds).
 struct BoundLanes {
   F gap, between;
 };
@@ -153,7 +153,8 @@ FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   return {furthest, found};
 }
 
-// Some edges of a column; behind the last, edges without direction, which cross no other.
+// kLanes edges of a column. The places after the last edge hold edges without direction, which
+// cross no other.
 struct EdgeLanes {
   F3 from, direction, left, right;
 
@@ -176,7 +177,7 @@ HWY_INLINE F3 in_all_lanes(const EdgeColumns::Column3& column, size_t i) {
   return {splat(column[0][i]), splat(column[1][i]), splat(column[2][i])};
 }
 
-// One vector of edges of B, in the frame of A.
+// Crosses all edges of A with one vector of edges of B, in the frame of A.
 HWY_INLINE void cross_with(const EdgeColumns& a, const EdgeLanes& b, F index, FirstOfMost& best,
                            Mask& doubtful) {
   const F zero = splat(0);

@@ -1,4 +1,4 @@
-// The steps of the search for depths in lanes, on the ISA in use.
+// The steps of the float32 penetration search in lanes, for the ISA in use.
 #pragma once
 
 #include "narrowphase/hulls/hull_depth.h"

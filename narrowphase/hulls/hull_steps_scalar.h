@@ -1,4 +1,4 @@
-// The steps of the search for depths, scalar.
+// The steps of the float32 penetration search: the scalar form.
 #pragma once
 
 #include "narrowphase/hulls/hull_depth.h"
@@ -53,8 +53,8 @@ inline void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
   }
 }
 
-// Whether the arc of the first crosses that of the other one, turned round: there is an axis across
-// both then.
+// Two edges have a common axis if the arc of A's edge on the sphere of normals crosses the negated
+// arc of B's edge.
 inline Crossing cross_edges(const EdgeColumns& a, const EdgeColumns& b, const Rotation<float>& turn,
                             float gap) {
   const auto of = [](const EdgeColumns::Column3& column, size_t k) -> Vector3f {

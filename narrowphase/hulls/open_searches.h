@@ -1,5 +1,5 @@
-// Searches of a batch that are still open when most of their vector have ended, packed, so that
-// they can go on in full vectors.
+// The searches of a batch that are still open when most lanes of their vector have ended. They are
+// packed, so that the second stage continues them in full vectors.
 #pragma once
 
 #include <array>
@@ -12,13 +12,13 @@
 namespace carom {
 
 struct OpenSearches {
-  // Room for whole vectors behind the last.
+  // With room for a whole vector after the last search.
   static constexpr size_t kMost = kPairsPerBlock + kMostLanes;
   static constexpr size_t kColumns = 24;
 
   size_t count = 0;
   std::array<uint32_t, kMost> row;                           // of the batch
-  std::array<std::array<uint32_t, kMost>, kColumns> column;  // bits of what GJK goes on with
+  std::array<std::array<uint32_t, kMost>, kColumns> column;  // bits of the search's state
 };
 
 }  // namespace carom

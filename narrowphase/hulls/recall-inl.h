@@ -1,5 +1,5 @@
-// Pairs of hulls that are nearest, or overlap, by the same corners as the last time: nothing is
-// searched for (recall_ref.h says what is sure).
+// Tests in lanes whether hulls are still nearest, or still overlap, by the corners of the last
+// time, without a search (recall_scalar.h says when that is sure).
 #if defined(CAROM_NARROWPHASE_HULLS_RECALL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_RECALL_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_RECALL_INL_H_
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// A hull whose points stay where they are stored: few of them are placed.
+// A hull whose points stay where they are stored; only the few corners are placed in the world.
 class StoredHull {
  public:
   HWY_INLINE StoredHull(const HullLanes& hull, const Quaternion& q, const F3& offset)
@@ -48,7 +48,7 @@ class StoredHull {
   const F3 offset_;
 };
 
-// Those of each lane.
+// The features of each lane.
 class FeatureLanes {
  public:
   explicit HWY_INLINE FeatureLanes(const uint64_t* packed) {
@@ -81,8 +81,8 @@ HWY_INLINE ZeroInside zero_inside(const std::array<F3, 4>& corner) {
                     dot(pq, r), corner);
 }
 
-// Marks as unsure whatever is nearest elsewhere, or not surely there. Of pairs that overlap there
-// is the decision alone.
+// Marks a row unsure unless its corners surely hold. Pairs that overlap get the decision only, no
+// depth.
 template <class ShapeA, class ShapeB>
 struct RecallKernel {
   using A = ShapeA;

@@ -1,10 +1,10 @@
-// Pairs of hulls that are nearest, or overlap, by the same corners as the last time: one look at
-// all points shows whether they are. The kernel in lanes does the same, operation for operation.
+// Tests whether hulls are still nearest, or still overlap, by the corners of the last time. One
+// pass over all points shows it. The kernel in lanes does the same, operation for operation.
 //
-// What is believed of the corners is what GJK's result has to show, too (gjk_ref.h): zero well
-// inside of four; or projections of all points on the way that its corners span that lie as far
-// apart as it is long, and a way that ends between the corners. So it does not matter which
-// corners are tried.
+// The corners are trusted only if they show what a result of GJK must show (gjk_scalar.h). Either
+// zero lies well inside four corners. Or the projections of all points on the spanned vector are as
+// far apart as the vector is long, and the vector ends strictly inside the span. So a wrong guess
+// of corners costs time, never the result.
 #pragma once
 
 #include "narrowphase/hulls/features.h"
@@ -12,7 +12,7 @@
 
 namespace carom::scalar {
 
-// A hull whose points stay where they are stored: few of them are placed.
+// A hull whose points stay where they are stored; only the few corners are placed in the world.
 class StoredHull {
  public:
   StoredHull(const HullShape<float>& hull, const Quaternion<float>& q, const Vector3f& offset)
@@ -54,8 +54,8 @@ inline ZeroInside zero_inside(const std::array<Vector3f, 4>& corner) {
                     corner);
 }
 
-// Unsure unless the pair is nearest, or overlaps, by these corners. Of overlapping pairs there is
-// the decision alone.
+// Unsure unless the pair is nearest, or overlaps, by these corners. Pairs that overlap get the
+// decision only, no depth.
 inline Separation recalled_separation(const HullShape<float>& a, const HullShape<float>& b,
                                       const PairPose<float>& pose, uint64_t packed) {
   const Features features = unpack_features(packed);

@@ -1,4 +1,4 @@
-// Corners of the difference of two cores in lanes, and what of them is nearest to zero.
+// Simplices of B - A in lanes, and their point nearest to zero.
 #if defined(CAROM_NARROWPHASE_HULLS_SIMPLEX_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_SIMPLEX_INL_H_
 #undef CAROM_NARROWPHASE_HULLS_SIMPLEX_INL_H_
@@ -23,7 +23,7 @@ HWY_INLINE CornerLanes select(Mask mask, const CornerLanes& yes, const CornerLan
   return {select(mask, yes.point, no.point), select(mask, yes.on_a, no.on_a)};
 }
 
-// Whether bit `i` is set: of which corners are meant.
+// Whether bit `i` is set. Each bit stands for a corner.
 HWY_INLINE Mask has_bit(I bits, size_t i) {
   return hn::RebindMask(FloatTag(), hn::TestBit(bits, hn::Set(IntTag(), 1 << i)));
 }
@@ -32,20 +32,21 @@ HWY_INLINE I select(Mask mask, I yes, I no) {
   return hn::IfThenElse(hn::RebindMask(IntTag(), mask), yes, no);
 }
 
-// Up to three corners, in any of the places; which of them there are differs from lane to lane, a
-// bit a place (a mask each costs more than the arithmetic).
+// Up to three corners, in any places. `used` has a bit per place, because the used places differ
+// from lane to lane and a mask for each costs more than the arithmetic.
 struct SimplexLanes {
   std::array<CornerLanes, 3> corner;
   I used;
 };
 
-// Whether zero is inside of four corners: if its coordinates in them have one sign.
+// Whether zero is inside the tetrahedron of four corners: its barycentric coordinates have one
+// sign.
 struct ZeroInside {
   Mask is_inside;
-  Mask is_sure;  // and deep enough to be sure
+  Mask is_sure;  // and deeper than float32 rounding
 
-  // `of`: of zero with all corners but the first, the second, the third; `volume`: of the sides
-  // from the last one.
+  // `of[i]`: volume of zero with all corners but the i-th. `volume`: of the whole tetrahedron, from
+  // the sides at its last corner. Six times the volume, signed.
   HWY_INLINE ZeroInside(const std::array<F, 3>& of, F volume, const std::array<F3, 4>& corner) {
     const F of_last = hn::Neg(hn::Add(volume, hn::Add(hn::Add(of[0], of[1]), of[2])));
     const F least = min(min(of[0], of[1]), min(of[2], of_last));
@@ -58,17 +59,18 @@ struct ZeroInside {
   }
 };
 
-// Of a simplex and one more corner: the point nearest to zero, if the new corner is among those
-// that span it, and which others do.
+// The point nearest to zero among all faces, sides and the corner itself that hold the new corner,
+// and the old corners that span it too.
 struct NearestLanes {
   F3 point;
   F squared;
-  I kept;               // a bit a place
-  Mask is_around;       // zero lies inside of all four
-  Mask is_sure_around;  // and deep enough to be sure
+  I kept;               // a bit per place
+  Mask is_around;       // zero lies inside the tetrahedron
+  Mask is_sure_around;  // and deeper than float32 rounding
 };
 
-// kPlaces: of those of the simplex, how many may be used. The first rounds save most of the work.
+// kPlaces: how many places of the simplex may be used. The first rounds use fewer, which saves most
+// of their work.
 template <size_t kPlaces>
 class NearestSearch {
  public:
@@ -104,13 +106,13 @@ class NearestSearch {
   HWY_INLINE const NearestLanes& nearest() const { return best_; }
 
  private:
-  // From the last corner to another. Without length where there is none: zero is then neither
-  // beside it nor over its triangles.
+  // From the last corner to another one. An unused place gives a side without length: zero is then
+  // neither beside it nor over its triangles.
   struct Side {
     F3 way;
-    F along;  // how far zero is along it, times its length
+    F along;  // projection of zero on the side, times its length
     F squared;
-    F towards;  // positive if zero is on its triangles' side of it
+    F towards;  // positive if zero is on the inner side of it in some triangle
 
     HWY_INLINE Mask has_zero_beside() const {
       return hn::AndNot(hn::Gt(towards, splat(0)),
@@ -118,10 +120,9 @@ class NearestSearch {
     }
   };
 
-  // Of a triangle.
   struct Plane {
     F3 normal;
-    F height;  // of its corners, from zero
+    F height;  // of the plane over zero, times the normal's length
   };
 
   HWY_INLINE Side side_to(const SimplexLanes& simplex, size_t i) const {
@@ -129,7 +130,7 @@ class NearestSearch {
     return {way, hn::Neg(dot(last_, way)), dot(way, way), splat(0)};
   }
 
-  // The triangle of two sides; by Lagrange's identity: no more products than dot products of those.
+  // Tries the triangle of two sides. Lagrange's identity needs only dot products of the sides.
   HWY_INLINE Plane try_triangle(Side& p, Side& q, int32_t kept) {
     const F pq = dot(p.way, q.way);
     const F of_p = hn::Sub(hn::Mul(q.squared, p.along), hn::Mul(q.along, pq));
@@ -146,7 +147,7 @@ class NearestSearch {
     return {normal, height};
   }
 
-  // The first of them that zero is beside.
+  // Tries the first side that has zero beside it.
   template <class... More>
   HWY_INLINE void try_sides(const Side& p, const Side& q, const More&... r) {
     Side side = p;

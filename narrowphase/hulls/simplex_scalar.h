@@ -1,5 +1,5 @@
-// Corners of the difference of two cores, and what of them is nearest to zero. Of a simplex every
-// point, side and face with the last corner is tried: lanes have no branches to save.
+// Simplices of B - A, and their point nearest to zero. The search tries every side and face at the
+// last corner, because the form in lanes has no branches that could save them.
 #pragma once
 
 #include <array>
@@ -16,19 +16,20 @@ struct Corner {
   Vector3f point, on_a;
 };
 
-// Up to three corners, in any of the places.
+// Up to three corners, in any places.
 struct Simplex {
   std::array<Corner, 3> corner;
   std::array<bool, 3> is_used{};
 };
 
-// Whether zero is inside of four corners: if its coordinates in them have one sign.
+// Whether zero is inside the tetrahedron of four corners: its barycentric coordinates have one
+// sign.
 struct ZeroInside {
   bool is_inside;
-  bool is_sure;  // and deep enough to be sure
+  bool is_sure;  // and deeper than float32 rounding
 
-  // `of`: of zero with all corners but the first, the second, the third; `volume`: of the sides
-  // from the last one.
+  // `of[i]`: volume of zero with all corners but the i-th. `volume`: of the whole tetrahedron, from
+  // the sides at its last corner. Six times the volume, signed.
   ZeroInside(const std::array<float, 3>& of, float volume, const std::array<Vector3f, 4>& corner) {
     const float of_last = -(volume + ((of[0] + of[1]) + of[2]));
     const float least = min(min(of[0], of[1]), min(of[2], of_last));
@@ -41,8 +42,8 @@ struct ZeroInside {
   }
 };
 
-// Of a simplex and one more corner: the point nearest to zero, if the new corner is among those
-// that span it, and which others do.
+// The point nearest to zero among all faces, sides and the corner itself that hold the new corner,
+// and the old corners that span it too.
 class NearestOfCorners {
  public:
   NearestOfCorners(const Simplex& simplex, const Vector3f& last)
@@ -71,18 +72,18 @@ class NearestOfCorners {
   // From the last corner to another.
   struct Side {
     Vector3f way;
-    float along;  // how far zero is along it, times its length
+    float along;  // projection of zero on the side, times its length
     float squared;
     bool is_used;
   };
 
-  // Of the last corner and two others.
+  // The triangle of the last corner and two others.
   struct Triangle {
     Vector3f normal;
-    float height;  // of the last corner, from zero
+    float height;  // of the plane over zero, times the normal's length
     float squared_normal;
-    bool is_towards_first, is_towards_second;  // zero is on that corner's side of the other's side
-    bool is_over;                              // zero is over the triangle, or below it
+    bool is_towards_first, is_towards_second;  // zero is on that side of the other one
+    bool is_over;                              // zero projects into the triangle
   };
 
   Vector3f last_;
@@ -91,8 +92,8 @@ class NearestOfCorners {
   Vector3f point;
   float squared;
   std::array<bool, 3> is_kept{};
-  bool is_around = false;       // zero lies inside of all four
-  bool is_sure_around = false;  // and deep enough to be sure
+  bool is_around = false;       // zero lies inside the tetrahedron
+  bool is_sure_around = false;  // and deeper than float32 rounding
 
  private:
   Side side_to(const Vector3f& corner, bool is_used) const {
@@ -100,7 +101,7 @@ class NearestOfCorners {
     return {way, -dot(last_, way), dot(way, way), is_used};
   }
 
-  // By Lagrange's identity: no more products than dot products of the sides.
+  // Lagrange's identity needs only dot products of the sides.
   Triangle triangle_of(const Side& p, const Side& q) const {
     if (!p.is_used || !q.is_used) return {};
     const float pq = dot(p.way, q.way);
@@ -116,7 +117,7 @@ class NearestOfCorners {
     return t;
   }
 
-  // `is_left_out`: zero is nearer to triangles at the side.
+  // `is_left_out`: zero is nearer to a triangle at that side.
   void try_sides(const std::array<Side, 3>& sides, const std::array<bool, 3>& is_left_out) {
     for (size_t i = 0; i < 3; ++i) {
       const Side& s = sides[i];

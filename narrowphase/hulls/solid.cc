@@ -36,12 +36,12 @@ SmallSolid::SmallSolid(const scalar::TriangleShape<float>& triangle) {
   const Eigen::Vector3d u = corner(1) - corner(0), v = corner(2) - corner(0);
   const Eigen::Vector3d n = scalar::cross(u, v);
   const double nn = scalar::dot(n, n);
-  // As flat as that, its edges say no more of its plane than rounding.
+  // The edges of a flatter triangle give its plane no better than rounding.
   if (!(nn > kFlatTriangle * scalar::dot(u, u) * scalar::dot(v, v))) return;
   put_triangle(triangle.corners, (n * (1 / std::sqrt(nn))).cast<float>());
 }
 
-// Face 2 k has the lower end of axis k, face 2 k + 1 the upper one.
+// Face 2k lies at the lower end of axis k, face 2k + 1 at the upper end.
 void SmallSolid::put_box(const Vector3f& lower, const Vector3f& upper) {
   const std::array<Vector3f, 2> ends = {lower, upper};
   for (size_t i = 0; i < 8; ++i) {

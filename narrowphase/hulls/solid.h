@@ -1,4 +1,4 @@
-// Solids as searches over separating axes see them: points, faces and edges, in the solid's frame.
+// Solids for the separating-axis search: points, faces and edges, in the solid's own frame.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@ namespace carom {
 
 using Eigen::Vector3f;
 
-// A view; `scale` times its lengths are those of the pair. Columns go on up to a multiple of
-// sixteen.
+// A view of columns. Multiply lengths by `scale` to get those of the pair. Columns are padded to a
+// multiple of sixteen.
 struct Solid {
   static constexpr size_t kMostFaces = 2 * kMostLanePoints;
   static constexpr size_t kMostEdges = 3 * kMostLanePoints;
   using Edge = HullFeatures::Edge;
 
-  size_t point_count = 0;  // 0: its features are not known
+  size_t point_count = 0;  // 0: the features are unknown
   size_t face_count = 0;
-  std::array<const float*, 3> point;  // behind the last the first
-  std::array<const float*, 4> plane;  // normal, height; behind the last faces out of reach
+  std::array<const float*, 3> point;  // padded with the first point
+  std::array<const float*, 4> plane;  // normal, height; padded with faces out of reach
   std::span<const Edge> edges;
   std::span<const std::array<uint16_t, 2>> sides;  // the faces beside each edge
   Vector3f middle;                                 // inside
-  float inner_radius;                              // of a ball around it, inside
+  float inner_radius;                              // of a ball around `middle` inside the solid
   float scale = 1;
   bool is_turned = true;
 
@@ -43,13 +43,13 @@ struct Solid {
   float height(size_t face) const { return plane[3][face] * scale; }
 };
 
-// Features of boxes and triangles, made for one pair. A triangle counts as a solid without height:
-// two faces, and a third one along each edge.
+// Features of a box or triangle, made for one pair. A triangle counts as a solid without height: it
+// has two faces, and one more face along each edge.
 class SmallSolid {
  public:
   explicit SmallSolid(const scalar::BoxShape<float>& box);
   explicit SmallSolid(const scalar::AabbShape<float>& box);
-  // Unknown if it has rules, or no area.
+  // Unknown for special triangles and triangles without area.
   explicit SmallSolid(const scalar::TriangleShape<float>& triangle);
 
   SmallSolid(const SmallSolid&) = delete;
@@ -74,7 +74,7 @@ class SmallSolid {
   FewOf<std::array<uint16_t, 2>, 12> sides_;
 };
 
-// The features of a hull are its own.
+// A hull stores its features; this only views them.
 class SolidHull {
  public:
   explicit SolidHull(const scalar::HullShape<float>& hull);

@@ -1,5 +1,5 @@
-// Two polygons seen along a line: where they cover one another, and how far apart they are there
-// (Liang and Barsky 1984).
+// Clips two polygons seen along a line: the region that both cover, and the gap between them there
+// (Liang and Barsky 1984). clip_scalar.h is the scalar form.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_CLIP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_CLIP_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_CLIP_INL_H_
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The s of a point that is none; its x is not a number, so that comparisons pass it over.
+// The s of an unused place. Its x is NaN, so it fails every comparison.
 inline constexpr float kNoPoint = 1;
 static_assert(kNoPoint > kTouchingPoint);
 
@@ -22,12 +22,13 @@ HWY_INLINE Mask is_point(F s) { return hn::Lt(s, splat(kNoPoint)); }
 
 HWY_INLINE F s_where(Mask is_one, F s) { return hn::IfThenElse(is_one, s, splat(kNoPoint)); }
 
-// Points of the plane of a face, and how far the other polygon is above them along the view.
+// Points in the plane of a face. s is the height of the other polygon above each point, along the
+// view.
 template <size_t kCount>
 struct ClipPoints {
   F x[kCount], y[kCount], s[kCount];
 
-  // One point, if `is_one` and B is not farther than `touching`.
+  // Stores a point in the lanes of `is_one` where its s is at most `touching`.
   HWY_INLINE void put(size_t i, Mask is_one, F at_x, F at_y, F at_s, F touching) {
     const Mask counts = hn::And(is_one, hn::Le(at_s, touching));
     x[i] = hn::IfThenElse(counts, at_x, splat(std::numeric_limits<float>::quiet_NaN()));
@@ -40,7 +41,7 @@ struct ClipPoints {
 struct FaceView {
   const FaceFrame& frame;
   F along_x, along_y, inverse;
-  Mask is_open;  // not seen from the edge
+  Mask is_open;  // the face is not seen edge-on
 
   HWY_INLINE FaceView(const FaceFrame& of, const F3& m)
       : frame(of), along_x(dot(of.u, m)), along_y(dot(of.v, m)) {
@@ -63,13 +64,13 @@ struct FaceView {
   }
 };
 
-// Corners of the other polygon, in the coordinates of the face.
+// Corners of the other polygon, projected along the view into coordinates of the face.
 template <size_t kCount>
 struct Seen {
   F x[kCount], y[kCount], s[kCount];
 };
 
-// One of its edges: corners `from` and `to`, and the way from the one to the other.
+// An edge of the other polygon: corner `to` minus corner `from`.
 struct SeenWay {
   F x, y, s;
 };
@@ -78,7 +79,7 @@ HWY_INLINE F crossing(F rate) {
   return hn::IfThenElse(hn::Gt(hn::Abs(rate), splat(kLeastCrossing)), rate, splat(kLeastCrossing));
 }
 
-// Between two parallel sides.
+// Clips an edge to the strip between two parallel sides, widened by kClipSlack.
 HWY_INLINE void clip_between(F from, F rate, F lower, F upper, F& near, F& far) {
   const F slack = splat(kClipSlack);
   const F inverse = hn::Div(splat(1), crossing(rate));
@@ -88,7 +89,7 @@ HWY_INLINE void clip_between(F from, F rate, F lower, F upper, F& near, F& far) 
   far = min(far, max(t_lower, t_upper));
 }
 
-// From `near` to `far` an edge is in sight.
+// Clips an edge to the face. The rest goes from `near` to `far`, as shares of the edge.
 template <size_t kSeen>
 HWY_INLINE void clip_edge(const Rectangle& face, const Seen<kSeen>& seen, size_t from, size_t,
                           const SeenWay& way, F& near, F& far) {
@@ -96,16 +97,17 @@ HWY_INLINE void clip_edge(const Rectangle& face, const Seen<kSeen>& seen, size_t
   clip_between(seen.y[from], way.y, face.lower_y, face.upper_y, near, far);
 }
 
-// Twice the area to the left of an edge, of the triangle up to the point at (x, y) from its start.
+// Twice the area of the triangle between an edge (dx, dy) and the point (x, y), both from the
+// edge's start. Positive on the left.
 HWY_INLINE F area_left(F dx, F dy, F x, F y) { return hn::Sub(hn::Mul(dx, y), hn::Mul(dy, x)); }
 
-// What may be missing of it.
+// How far below zero that area may be for a point that still counts as inside.
 HWY_INLINE F slack_of_edge(F dx, F dy) {
   return hn::Mul(splat(kClipSlack), hn::Add(hn::Abs(dx), hn::Abs(dy)));
 }
 
-// What the slack of two sides adds to the sharp corner between them is long: it ends where the
-// corners end.
+// The slack of two sides would lengthen a sharp corner a lot, so the extent of the corners limits
+// it.
 template <size_t kSeen>
 HWY_INLINE void clip_to_extent(const TriangleFace& face, const Seen<kSeen>& seen, size_t from,
                                const SeenWay& way, F& near, F& far) {
@@ -142,7 +144,7 @@ HWY_INLINE void clip_edge(const Face& face, const Seen<kSeen>& seen, size_t from
   }
 }
 
-// Points of an edge are moved by less than the slack.
+// Moves an end of a clipped edge onto the face, by less than the slack.
 HWY_INLINE void confine(const Rectangle& face, F& x, F& y) {
   x = clamp(x, face.lower_x, face.upper_x);
   y = clamp(y, face.lower_y, face.upper_y);
@@ -150,7 +152,8 @@ HWY_INLINE void confine(const Rectangle& face, F& x, F& y) {
 template <class Face>
 HWY_INLINE void confine(const Face&, F&, F&) {}
 
-// The ends of what is in sight of an edge -> points `first` and `first + 1`; exact where it is all.
+// Clips an edge to the face and stores the ends as points `first` and `first + 1`. An end that was
+// not clipped is exact.
 template <class Face, size_t kCount, size_t kSeen>
 HWY_INLINE void put_edge(const Face& face, Mask is_open, const Seen<kSeen>& seen, size_t from,
                          size_t to, const SeenWay& way, size_t first, ClipPoints<kCount>& out) {
@@ -178,7 +181,7 @@ HWY_INLINE void way_between(const Seen<kSeen>& seen, size_t from, size_t to, See
   way.s = hn::Sub(seen.s[to], seen.s[from]);
 }
 
-// The face of a box in the coordinates of another, and its sides.
+// Projects the face of a box, and its sides, into the coordinates of another face.
 HWY_INLINE void see(const FaceView& view, const Rectangle& face, Seen<4>& seen, SeenWay& way_u,
                     SeenWay& way_v) {
   const FaceFrame& frame = face.frame;
@@ -203,8 +206,8 @@ HWY_INLINE void see(const FaceView& view, const Rectangle& face, Seen<4>& seen, 
   way_v.s = hn::Mul(v.s, size_v);
 }
 
-// Corners of the face that a rectangle covers, which it does between its pairs of sides -> points
-// from kFirst on.
+// Stores the corners of the face that a rectangle covers, from point kFirst on. They lie between
+// both pairs of its sides.
 template <size_t kFirst, size_t kCount>
 HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& seen,
                             const SeenWay& u, const SeenWay& v, ClipPoints<kCount>& out) {
@@ -233,7 +236,7 @@ HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& 
   }
 }
 
-// Corners of the face that a polygon with this normal covers -> points from kFirst on.
+// Stores the corners of the face that a polygon with this normal covers, from point kFirst on.
 template <size_t kFirst, class Face, size_t kSeen, size_t kCount>
 HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, const F3& m,
                             const Seen<kSeen>& seen, const SeenWay (&ways)[kSeen],
@@ -283,8 +286,8 @@ HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, co
   }
 }
 
-// Where a face of another box is not above a face along m, a unit vector: the corners of that
-// region.
+// The corners of the region that two box faces cover, seen along m, a unit vector. Corners where
+// the other face is more than kTouchingPoint above are left out.
 HWY_INLINE void clip(const Rectangle& face, const Rectangle& other, const F3& m,
                      ClipPoints<12>& out) {
   const FaceView view(face.frame, m);
@@ -299,7 +302,7 @@ HWY_INLINE void clip(const Rectangle& face, const Rectangle& other, const F3& m,
   put_corners<8>(face, is_open, seen, u, v, out);
 }
 
-// The same of another polygon, of which the normal is zero if it has no area.
+// The same for another polygon. Its normal is zero if it has no area.
 template <class Face, class OtherFace, size_t kCount>
 HWY_INLINE void clip(const Face& face, const FaceSide<OtherFace>& other, const F3& m,
                      ClipPoints<kCount>& out) {

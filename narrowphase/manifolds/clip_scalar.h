@@ -1,4 +1,4 @@
-// Two polygons seen along a line: where they cover one another, and how far apart they are there.
+// Clips two polygons seen along a line: the region that both cover, and the gap between them there.
 //
 // Source of the clipping of edges: Y.-D. Liang and B. A. Barsky, "A New Concept and Method for Line
 // Clipping", ACM TOG 3(1), 1984.
@@ -8,15 +8,15 @@
 
 namespace carom::scalar {
 
-// A point of the plane of a face, and how far the other polygon is above it along the view.
+// A point in the plane of a face. s is the height of the other polygon above it, along the view.
 struct ClipPoint {
   float x, y, s;
 };
 
-// Two for every edge of one polygon, one for every corner of the other.
+// Each edge of one polygon gives up to two points, each corner of the other one point.
 using ClipPoints = FewOf<ClipPoint, 3 * DopFace::kMostCorners>;
 
-// Seen along the view: the corners of a polygon.
+// The corners of a polygon, projected along the view.
 using SeenPolygon = FewOf<ClipPoint, DopFace::kMostCorners>;
 
 inline Point2 xy(const ClipPoint& c) { return {c.x, c.y}; }
@@ -48,10 +48,10 @@ class FaceView {
   float along_x_, along_y_, along_n_, inverse_;
 };
 
-// An edge of the other polygon, in the coordinates of the face.
+// An edge of the other polygon, in coordinates of the face.
 struct SeenEdge {
   ClipPoint from, to;
-  ClipPoint way;  // from the one to the other
+  ClipPoint way;  // to - from
 };
 
 inline SeenEdge edge_between(const ClipPoint& from, const ClipPoint& to) {
@@ -77,7 +77,7 @@ Extent2 extent_of(const Points& points) {
   return extent;
 }
 
-// The part of an edge that is in sight, from 0 to 1.
+// The part of an edge that is left after clipping, as shares of the edge.
 struct Span {
   float near = 0;
   float far = 1;
@@ -87,7 +87,7 @@ inline float crossing(float rate) {
   return std::fabs(rate) > kLeastCrossing ? rate : kLeastCrossing;
 }
 
-// Between two parallel sides.
+// Clips an edge to the strip between two parallel sides, widened by kClipSlack.
 inline void clip_between(float from, float rate, float lower, float upper, Span& span) {
   const float inverse = 1 / crossing(rate);
   const float t_lower = ((lower - kClipSlack) - from) * inverse;
@@ -103,18 +103,18 @@ inline Span clip_edge(const Rectangle& face, const SeenEdge& edge) {
   return span;
 }
 
-// Twice the area to the left of the edge from a to b, of the triangle up to (x, y).
+// Twice the area of the triangle a, b, (x, y). Positive if the point is to the left of the edge.
 inline float area_left(Point2 a, Point2 b, float x, float y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-// What may be missing of it.
+// How far below zero that area may be for a point that still counts as inside.
 inline float slack_of_edge(Point2 a, Point2 b) {
   return kClipSlack * (std::fabs(b.x - a.x) + std::fabs(b.y - a.y));
 }
 
-// What the slack of two sides adds to the sharp corner between them is long: it ends where the
-// corners end.
+// The slack of two sides would lengthen a sharp corner a lot, so the extent of the corners limits
+// it.
 inline void clip_to_extent(const TriangleFace& face, const SeenEdge& edge, Span& span) {
   clip_between(edge.from.x, edge.way.x, 0, face.points[1].x, span);
 }
@@ -144,7 +144,7 @@ Span clip_edge(const Face& face, const SeenEdge& edge) {
   return span;
 }
 
-// Points of an edge are moved by less than the slack.
+// Moves an end of a clipped edge onto the face, by less than the slack.
 inline void confine(const Rectangle& face, ClipPoint& c) {
   c.x = clamp(c.x, face.lower.x, face.upper.x);
   c.y = clamp(c.y, face.lower.y, face.upper.y);
@@ -156,7 +156,7 @@ inline void keep(const ClipPoint& c, float touching, ClipPoints& out) {
   if (c.s <= touching) out.push_back(c);
 }
 
-// The ends of what is in sight of an edge; exact where it is all.
+// Clips an edge to the face and adds its ends. An end that was not clipped is exact.
 template <class Face>
 void add_edge(const Face& face, const SeenEdge& edge, ClipPoints& out) {
   const Span span = clip_edge(face, edge);
@@ -172,7 +172,7 @@ void add_edge(const Face& face, const SeenEdge& edge, ClipPoints& out) {
   keep(far, kTouchingPoint, out);
 }
 
-// The face of a box in the coordinates of another.
+// The face of a box, projected into the coordinates of another face.
 struct SeenRectangle {
   std::array<ClipPoint, 4> corners;
   ClipPoint way_u, way_v;  // its sides
@@ -192,7 +192,7 @@ struct SeenRectangle {
     way_v = {v.x * size_v, v.y * size_v, v.s * size_v};
   }
 
-  // Opposite ones run the same way.
+  // Opposite edges have the same direction.
   std::array<SeenEdge, 4> edges() const {
     return {{{corners[0], corners[1], way_u},
              {corners[3], corners[2], way_u},
@@ -207,7 +207,7 @@ inline float slack_of_way(const ClipPoint& way) {
   return kClipSlack * (std::fabs(way.x) + std::fabs(way.y));
 }
 
-// Corners of the face that a rectangle covers, which it does between its pairs of sides.
+// Adds the corners of the face that a rectangle covers. They lie between both pairs of its sides.
 inline void add_corners(const Rectangle& face, const SeenRectangle& seen, ClipPoints& out) {
   const ClipPoint& u = seen.way_u;
   const ClipPoint& v = seen.way_v;
@@ -228,7 +228,7 @@ inline void add_corners(const Rectangle& face, const SeenRectangle& seen, ClipPo
   }
 }
 
-// Corners of the face that a polygon with this normal covers.
+// Adds the corners of the face that a polygon with this normal covers.
 template <class Face>
 void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
                  const SeenPolygon& seen, ClipPoints& out) {
@@ -263,8 +263,8 @@ void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
   }
 }
 
-// Where a face of another box is not above a face along m, a unit vector: the corners of that
-// region.
+// The corners of the region that two box faces cover, seen along m, a unit vector. Corners where
+// the other face is more than kTouchingPoint above are left out.
 inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vector3f& m) {
   ClipPoints out;
   const FaceView view(face.frame, m);
@@ -275,7 +275,7 @@ inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vect
   return out;
 }
 
-// The same of a polygon with this normal, or zero if it has no area.
+// The same for a polygon with this normal, which is zero if it has no area.
 template <class Face, class Corners>
 ClipPoints clip(const Face& face, const Corners& corners, const Vector3f& normal,
                 const Vector3f& m) {

@@ -1,5 +1,5 @@
-// Points of an overlap by the kinds of the two shapes, in lanes: where the faces that they turn
-// towards each other along the contact's normal cover one another.
+// Contact points of overlapping pairs in lanes, by the kinds of the shapes: the corners of the
+// region that their facing faces both cover, seen along the contact's normal.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_
@@ -13,12 +13,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Both bodies in scaled units, seen from A.
+// Both bodies in scaled units, relative to the position of A.
 struct PlacedPair {
   Placed a, b;
 };
 
-// ClipPoints of a frame that is at A's surface.
+// Reduces clip points to four and moves them to space. The frame lies on A's surface.
 template <size_t kCount>
 HWY_INLINE void put_on_frame(const FaceFrame& frame, const ClipPoints<kCount>& all, F limit,
                              PointLanes& out) {
@@ -45,7 +45,7 @@ HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
   put_on_frame(face.frame, all, splat(kSamePoint), out);
 }
 
-// Of a box and another face.
+// A box against another face.
 template <AnyBox A, class OtherFace>
 HWY_INLINE void touch_box(const A& a, const Placed& placed, const FaceSide<OtherFace>& other,
                           const ContactLanes& contact, PointLanes& out) {
@@ -86,7 +86,7 @@ HWY_INLINE void swap_rest(Mask mask, PolygonFace<kMost>& a, PolygonFace<kMost>& 
   swap_where(mask, a.upper_y, b.upper_y);
 }
 
-// Their heights are the same.
+// Heights of the frames need no swap, because both are zero.
 template <class Face>
 HWY_INLINE void swap_where(Mask mask, FaceSide<Face>& a, FaceSide<Face>& b) {
   swap_where(mask, a.face.frame.origin, b.face.frame.origin);
@@ -101,8 +101,9 @@ HWY_INLINE void swap_where(Mask mask, FaceSide<Face>& a, FaceSide<Face>& b) {
   swap_rest(mask, a.face, b.face);
 }
 
-// Points on A where two polygons cover one another. The face is that which the normal meets more
-// squarely; of equals that of A. The sides may be exchanged.
+// Points on A where two polygons cover one another. They are clipped on the face that is more
+// nearly perpendicular to the normal, or A's if both are equal. Lanes that use B's face swap `a`
+// and `b`.
 template <class Face>
 HWY_INLINE void touch_faces(FaceSide<Face>& a, FaceSide<Face>& b, const ContactLanes& contact,
                             PointLanes& out) {
@@ -168,8 +169,8 @@ HWY_INLINE void contact_points(const CapsuleLanes& a, const HalfspaceLanes&,
 
 HWY_INLINE F same_point_limit(F size) { return hn::Mul(splat(kSamePoint), hn::Mul(size, size)); }
 
-// The corners of a face over a plane, measured from the lowest of them: however far the plane's
-// body is, that rounds no more than the shape itself.
+// The corners of a box face over a plane. Their depths are measured from the lowest corner, so that
+// the distance to the plane's body adds no rounding.
 template <AnyBox A>
 HWY_INLINE void contact_points(const A& a, const HalfspaceLanes&, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
@@ -194,7 +195,7 @@ HWY_INLINE void contact_points(const A& a, const HalfspaceLanes&, const PlacedPa
   put_on_frame(face.frame, all, same_point_limit(size), out);
 }
 
-// A plane through a point (Duff et al. 2017).
+// The frame of a plane through a point (Duff et al. 2017).
 HWY_INLINE void plane_frame(const F3& point, const F3& n, FaceFrame& frame) {
   const F one = splat(1);
   const F sign = hn::CopySign(one, n.z);
@@ -208,7 +209,7 @@ HWY_INLINE void plane_frame(const F3& point, const F3& n, FaceFrame& frame) {
   frame.height = splat(0);
 }
 
-// The plane is A: points are the feet of the corners.
+// A is the half-space; the points are the projections of the triangle's corners on its plane.
 HWY_INLINE void contact_points(const HalfspaceLanes&, const TriangleLanes& b,
                                const PlacedPair& placed, const ContactLanes& contact,
                                PointLanes& out) {

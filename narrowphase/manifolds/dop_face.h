@@ -1,4 +1,4 @@
-// The face that a k-DOP turns towards another shape, scalar.
+// The face that a k-DOP turns towards another shape: the scalar form.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace carom::scalar {
 
 using FaceCorners = FewOf<Vector3f, DopFace::kMostCorners>;
 
-// Of a k-DOP without faces an edge; of a point that.
+// The facing side of a shape. A k-DOP without faces gives an edge, or a point.
 struct FacingSide {
   PolygonFace face;
-  FaceCorners corners;  // seen from the position of A
+  FaceCorners corners;  // relative to the position of A
 };
 
 class DopSideFinder {
@@ -26,8 +26,9 @@ class DopSideFinder {
         placed_(placed),
         same_point_(double{kSameCorner} * dop.greatest) {}
 
-  // Of the faces that reach as far along m as any point does, chosen as of hulls (hull_face_ref.h).
-  // If there are only edges and points, one of those.
+  // Chooses among the faces that contain a furthest point along m. The rules are those for hulls
+  // (hull_face.h), but faces with more distinct corners (up to three) come first. So a flat k-DOP
+  // gives an edge or a point.
   FacingSide towards(const Vector3f& m, float depth) const {
     const Vector3f along = rotate_back(placed_.turn, m);
     double most = -HUGE_VAL;
@@ -37,7 +38,7 @@ class DopSideFinder {
       return std::count_if(corners.begin(), corners.end(),
                            [&](const Double3& x) { return height(along, x) >= limit; });
     };
-    using Rank = std::pair<size_t, bool>;  // corners, and whether two of them touch
+    using Rank = std::pair<size_t, bool>;  // number of corners; two of them touch
     Corners best;
     Rank best_rank{};
     size_t plane = 0;

@@ -1,4 +1,4 @@
-// The face that a hull turns towards another shape, scalar.
+// The face that a hull turns towards another shape: the scalar form.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@ class HullSideFinder {
   HullSideFinder(const HullShape<float>& hull, const Placed& placed)
       : hull_(*hull.geometry), scale_(static_cast<float>(hull.scale)), placed_(placed) {}
 
-  // Of the faces that reach as far along m as any point does, and that have two corners no more
-  // than `depth` below it, or if there are none of the others, that whose normal is nearest to m;
-  // of equals the first. (Beside a ridge may be a flatter face that has one end of it.) Where there
-  // are none, the points that reach as far: one, or two ends.
+  // Chooses among the faces that contain a furthest point along m. Faces with two corners within
+  // `depth` of the furthest height come first, because beside a ridge a flatter face may hold just
+  // one end of it. Among them it takes the face whose normal is nearest to m; the first of equals.
+  // A hull without faces gives its furthest points: one, or the two ends.
   FacingSide towards(const Vector3f& m, float depth) const {
     const Vector3f along = rotate_back(placed_.turn, m);
     thread_local std::vector<float> heights;
@@ -49,7 +49,7 @@ class HullSideFinder {
  private:
   Vector3f point(uint32_t i) const { return hull_.points()[i] * scale_; }
 
-  // Corners.
+  // Counts corners whose height is at least `least`.
   size_t count_above(const HullGeometry::Face& face, const std::vector<float>& heights,
                      float least) const {
     const auto corners = hull_.corners(face);
@@ -74,7 +74,7 @@ class HullSideFinder {
     return unit_or_zero(sum).cast<float>();
   }
 
-  // Of outlines with many corners some.
+  // Outlines with too many corners are sampled evenly.
   FacingSide side_of(const HullGeometry::Face& face, const Vector3f& n) const {
     const auto corners = hull_.corners(face);
     const size_t step = (corners.size() + FaceCorners::kCapacity - 1) / FaceCorners::kCapacity;

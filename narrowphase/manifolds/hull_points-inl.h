@@ -1,5 +1,5 @@
-// Points of an overlap with a hull, in lanes: where the faces that the shapes turn towards each
-// other cover one another.
+// Contact points of overlapping pairs with a hull, in lanes: the corners of the region that their
+// facing faces both cover.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_HULL_POINTS_INL_H_
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// use(number of corners as a constant) that is enough; triangles are the most frequent by far.
+// Calls use(n) with a constant n that is at least `most`. Triangles are the most frequent by far.
 template <class Use>
 HWY_INLINE void with_corners(size_t most, const Use& use) {
   if (most <= 3) return use(std::integral_constant<size_t, 3>());
@@ -28,7 +28,7 @@ HWY_INLINE FacingFaces faces_towards(const F3& m, const HullLanes& hull, const P
   return FacingFaces(hull, rotate_back(placed.turn, m), hn::Neg(contact.separation));
 }
 
-// Each yields which lanes it knows the points of; the others are left to the reference.
+// Each function returns the lanes whose points it knows. The scalar form finds the others.
 
 HWY_INLINE Mask contact_points(const HullLanes& a, const HullLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {

@@ -1,4 +1,4 @@
-// The faces that hulls turn towards other shapes, in lanes (hull_face_ref.h is the reference).
+// The faces that hulls turn towards other shapes, in lanes (hull_face.h is the scalar form).
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_HULL_SIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_HULL_SIDE_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_HULL_SIDE_INL_H_
@@ -21,10 +21,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Of faces with more corners, and of hulls whose features are not known, the reference tells.
+// The scalar form handles faces with more corners, and hulls whose features are unknown.
 inline constexpr size_t kMostSideCorners = 8;
 
-// One hull, searched along one way, in its own frame. `depth`: of the contact.
+// Searches one hull along one direction, in its own frame. `depth` is that of the contact.
 class FacingFaceSearch {
  public:
   FacingFaceSearch(const HullGeometry& hull, float scale, const F3& along, float depth)
@@ -51,7 +51,8 @@ class FacingFaceSearch {
     }
   }
 
-  // The face that the reference finds. Mostly it is the one whose normal is nearest to the way.
+  // The same face as in the scalar form. It is nearly always the first one tried, whose normal is
+  // nearest to the direction.
   std::optional<size_t> run() {
     std::optional<size_t> found;
     while (true) {
@@ -66,7 +67,7 @@ class FacingFaceSearch {
   }
 
  private:
-  // Points.
+  // Counts the points that touch.
   size_t count_touching() const {
     const FloatTag tag;
     const F count = splat(static_cast<float>(hull_.points().size()));
@@ -100,16 +101,16 @@ class FacingFaceSearch {
 
   const HullGeometry& hull_;
   float least_, touching_;  // heights
-  size_t most_corners_;     // that touch, of one face; two are enough
+  size_t most_corners_;     // the most that can touch of one face, at most 2
   HWY_ALIGN float heights_[kMostLanePoints];
   HWY_ALIGN float cosines_[2 * kMostLanePoints];
 };
 
-// Of each lane's hull: the outline of the face that is turned to a way, as places of points, and
-// its normal in the frame of the hull.
+// For each lane's hull: the outline of its facing face, as indices of points, and the face's normal
+// in the frame of the hull.
 class FacingFaces {
  public:
-  // `along`: in the frames of the hulls.
+  // `along` is in the frames of the hulls.
   FacingFaces(const HullLanes& hull, const F3& along, F depth) {
     const FloatTag tag;
     HWY_ALIGN float ways[3][kLanes];
@@ -162,7 +163,7 @@ class FacingFaces {
   std::array<std::array<uint8_t, kLanes>, kMostSideCorners> place_;
 };
 
-// `found` has no more corners than kMost.
+// `found` has at most kMost corners.
 template <size_t kMost>
 HWY_INLINE void hull_side(const HullLanes& hull, const Placed& placed, const FacingFaces& found,
                           FaceSide<PolygonFace<kMost>>& side) {
@@ -192,7 +193,7 @@ HWY_INLINE void hull_side(const HullLanes& hull, const Placed& placed, const Fac
   }
 }
 
-// A triangle as a polygon: its outline alone bounds y.
+// A triangle as a polygon. As in clip_to_extent(), only x has bounds.
 template <size_t kMost>
 HWY_INLINE void triangle_as_polygon(const FaceSide<TriangleFace>& triangle,
                                     FaceSide<PolygonFace<kMost>>& side) {

@@ -1,4 +1,4 @@
-// Manifolds of capsules in lanes: two points at most.
+// Manifolds of capsules in lanes: at most two points.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_LINE_CONTACT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_LINE_CONTACT_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_LINE_CONTACT_INL_H_
@@ -11,15 +11,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Scaled, as the shapes are.
+// The contact in scaled units.
 struct ContactLanes {
   F separation;
   F3 normal;  // from A to B
   F3 arm_a;
 };
 
-// Points on A, the used ones first, and how far B is from there along the normal. Unless two or
-// more are used there is the witness alone.
+// Points on A, the used ones first. s is the gap from there to B along the normal. With fewer than
+// two used points the manifold is the witness point alone.
 struct PointLanes {
   F3 point[4];
   F s[4];
@@ -34,14 +34,14 @@ HWY_INLINE void witness_only(PointLanes& out) {
   }
 }
 
-// Two points on A that may be used, with an s of kNoPoint if not.
+// Two candidate points on A; s is kNoPoint for a point that does not exist.
 struct TwoPoints {
   F3 point[2];
   F s[2];
 };
 
-// The witness, or the deeper of the two if that is as deep; and the one farthest from it. `limit`
-// as for reduce().
+// Takes the deeper of the two points if it is as deep as the witness point, else the witness point;
+// then the point farthest from that. `limit`: see reduce().
 HWY_INLINE void reduce_line(const ContactLanes& contact, const TwoPoints& two, F touching, F limit,
                             PointLanes& out) {
   witness_only(out);
@@ -67,13 +67,13 @@ HWY_INLINE void reduce_line(const ContactLanes& contact, const TwoPoints& two, F
   out.used[1] = hn::Gt(hn::IfThenElse(takes_b, to_b, to_a), limit);
 }
 
-// On the surface of a capsule, along its axis.
+// A line on the surface of a capsule, parallel to its axis.
 struct SurfaceLine {
   F3 a, b;
   Mask exists;
 };
 
-// The one that faces `m`, a unit vector. Seen along its axis a capsule has none.
+// The line that faces `m`, a unit vector. A capsule seen along its axis has none.
 HWY_INLINE void line_towards(const F3& m, const CapsuleLanes& capsule, const Placed& placed,
                              SurfaceLine& line) {
   const F3 a = rotate(placed.turn, capsule.a) + placed.origin;
@@ -108,7 +108,8 @@ HWY_INLINE void touch_face(const SurfaceLine& line, const Face& face, const Cont
   reduce_line(contact, two, splat(kTouchingPoint), splat(kSamePoint), out);
 }
 
-// A capsule (A) on a plane. Its own size counts, not the distance of the plane's body.
+// A capsule (A) on a plane. Tolerances follow the capsule's own size, not the distance of the
+// plane's body.
 HWY_INLINE void touch_plane(const CapsuleLanes& capsule, const Placed& placed,
                             const ContactLanes& contact, PointLanes& out) {
   const F3& m = contact.normal;
@@ -129,7 +130,8 @@ HWY_INLINE void touch_plane(const CapsuleLanes& capsule, const Placed& placed,
   reduce_line(contact, two, touching, hn::Mul(splat(kSamePoint), hn::Mul(size, size)), out);
 }
 
-// From a point along n to where that enters the cylinder about an axis; not beyond its ends.
+// The length along n from a point to the cylinder around an axis; kNoPoint if it misses, or hits
+// beyond the ends.
 HWY_INLINE F enter_cylinder(const F3& point, const F3& n, const F3& start, const F3& axis, F radius,
                             Mask exists) {
   const F zero = splat(0);
@@ -151,7 +153,7 @@ HWY_INLINE F enter_cylinder(const F3& point, const F3& n, const F3& start, const
   return s_where(hn::And(hit, hn::Le(s, splat(kTouchingPoint))), s);
 }
 
-// Two capsules, along each other if their axes are nearly parallel.
+// Two capsules. They have two points if their axes are nearly parallel.
 HWY_INLINE void touch_capsule(const CapsuleLanes& capsule_a, const Placed& placed_a,
                               const CapsuleLanes& capsule_b, const Placed& placed_b,
                               const ContactLanes& contact, PointLanes& out) {

@@ -1,11 +1,11 @@
-// Manifolds of capsules: two points at most.
+// Manifolds of capsules: at most two points.
 #pragma once
 
 #include "narrowphase/manifolds/clip_scalar.h"
 
 namespace carom::scalar {
 
-// Scaled, as the shapes are.
+// The contact in scaled units.
 struct ScaledContact {
   float separation;
   Vector3f normal;  // from A to B
@@ -14,18 +14,18 @@ struct ScaledContact {
 
 struct ContactPoint {
   Vector3f point;  // on A
-  float s;         // from there to B along the normal
+  float s;         // gap from there to B along the normal
 };
 
 using ContactPoints = FewOf<ContactPoint, 4>;
 
-// On the surface of a capsule, along its axis.
+// A line on the surface of a capsule, parallel to its axis.
 struct SurfaceLine {
   Vector3f a, b;
   bool exists;
 };
 
-// The one that faces `m`, a unit vector. Seen along its axis a capsule has none.
+// The line that faces `m`, a unit vector. A capsule seen along its axis has none.
 inline SurfaceLine line_towards(const Vector3f& m, const CapsuleShape<float>& capsule,
                                 const Placed& placed) {
   const Vector3f a = rotate(placed.turn, capsule.a) + placed.origin;
@@ -37,9 +37,9 @@ inline SurfaceLine line_towards(const Vector3f& m, const CapsuleShape<float>& ca
   return {a + way, b + way, squared > kEndOn};
 }
 
-// The witness, or the deeper of two other points if that is as deep; and the one farthest from it.
-// One point alone is the witness. Points with an s beyond `touching` do not count; `limit` as for
-// reduce().
+// Takes the deeper of the two points if it is as deep as the witness point, else the witness point;
+// then the point farthest from that. A single point is always the witness point. Points with an s
+// beyond `touching` do not count. `limit`: see reduce().
 inline ContactPoints reduce_line(const ScaledContact& contact, const ContactPoints& two,
                                  float touching, float limit) {
   ContactPoint first = {contact.arm_a, contact.separation};
@@ -76,7 +76,8 @@ ContactPoints touch_face(const SurfaceLine& line, const Face& face, const Scaled
   return reduce_line(contact, two, kTouchingPoint, kSamePoint);
 }
 
-// A capsule (A) on a plane. Its own size counts, not the distance of the plane's body.
+// A capsule (A) on a plane. Tolerances follow the capsule's own size, not the distance of the
+// plane's body.
 inline ContactPoints touch_plane(const CapsuleShape<float>& capsule, const Placed& placed,
                                  const ScaledContact& contact) {
   const Vector3f& m = contact.normal;
@@ -93,7 +94,8 @@ inline ContactPoints touch_plane(const CapsuleShape<float>& capsule, const Place
   return reduce_line(contact, two, kTouchingPoint * size, kSamePoint * (size * size));
 }
 
-// From a point along n to where that enters the cylinder about an axis; not beyond its ends.
+// The length along n from a point to the cylinder around an axis; kMissed if it misses, or hits
+// beyond the ends.
 inline ContactPoint enter_cylinder(const Vector3f& point, const Vector3f& n, const Vector3f& start,
                                    const Vector3f& axis, float radius) {
   constexpr float kMissed = 1;
@@ -113,7 +115,7 @@ inline ContactPoint enter_cylinder(const Vector3f& point, const Vector3f& n, con
   return {point, hit ? s : kMissed};
 }
 
-// Two capsules, along each other if their axes are nearly parallel.
+// Two capsules. They have two points if their axes are nearly parallel.
 inline ContactPoints touch_capsule(const CapsuleShape<float>& capsule_a, const Placed& placed_a,
                                    const CapsuleShape<float>& capsule_b, const Placed& placed_b,
                                    const ScaledContact& contact) {

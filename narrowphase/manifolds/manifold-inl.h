@@ -1,4 +1,5 @@
-// The manifold pass of a batch: rows that overlap, with their contacts -> up to four points each.
+// The manifold pass of a batch: takes overlapping rows with their contacts, and gives up to four
+// points per row.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_
@@ -15,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The results of one vector.
+// The manifolds of one vector of rows.
 struct ManifoldRows {
   uint8_t count[kLanes];
   HWY_ALIGN float records[4][kLanes][4];  // quarters of ManifoldPoints
@@ -53,7 +54,7 @@ class ManifoldLoop {
     const F down = hn::Div(splat(1), up);
     PlacedPair placed;
     place<A>(pose.a, splat3(0), placed.a);
-    // The sum turns -0, which depends on who is A, into 0.
+    // Adding 0 turns -0 into 0, because the sign of zero depends on which body is A.
     place<B>(pose.b, pose.d + splat3(0), placed.b);
 
     const FloatTag tag;
@@ -87,13 +88,14 @@ class ManifoldLoop {
     }
   }
 
-  // Marks the rows that the reference is to find points of.
+  // Marks the rows whose points the scalar form must find.
   static HWY_INLINE void leave_unless(Mask is_known, const Batch& batch, size_t row) {
     if (HWY_LIKELY(hn::AllTrue(FloatTag(), is_known))) return;
     store_bytes(bytes_where(hn::Not(is_known), 1), batch.unsure, row);
   }
 
-  // Back in metres; none deeper than the contact, none apart. One point alone is the witness.
+  // Converts to metres. No point is deeper than the contact, and none is separate. A single point
+  // is the witness point.
   static HWY_INLINE void put_records(PointLanes& points, const ContactLanes& contact, F up,
                                      ManifoldRows& rows) {
     const Mask has_more = points.used[1];
@@ -118,7 +120,7 @@ class ManifoldLoop {
   }
 };
 
-// Pass::manifold of the kernels.
+// Runs Pass::manifold.
 template <class A, class B>
 void run_manifold(const Batch& batch) {
   if (batch.layout != PositionLayout::none) return ManifoldLoop<A, B, AnyRecords>::run(batch);

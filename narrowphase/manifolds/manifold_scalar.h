@@ -1,5 +1,5 @@
-// Up to four points of an overlap, scalar: where the faces that two shapes turn towards each other
-// along the contact's normal cover one another.
+// Up to four contact points of an overlap: the corners of the region that the facing faces of two
+// shapes both cover, seen along the contact's normal. This is the scalar form.
 #pragma once
 
 #include <type_traits>
@@ -18,7 +18,7 @@ struct Manifold {
   ManifoldPoints points{};
 };
 
-// Both bodies in scaled units, seen from A.
+// Both bodies in scaled units, relative to the position of A.
 struct PlacedPair {
   Placed a, b;
 };
@@ -27,20 +27,20 @@ inline ContactPoints witness_only(const ScaledContact& contact) {
   return {{contact.arm_a, contact.separation}};
 }
 
-// Points of a frame that is at A's surface.
+// Moves clip points to space. The frame lies on A's surface.
 inline ContactPoints on_frame(const FaceFrame& frame, const ClipPoints& clipped) {
   ContactPoints points;
   for (const ClipPoint& c : clipped) points.push_back({frame.point(c.x, c.y), c.s});
   return points;
 }
 
-// One point alone is the witness.
+// A single point is replaced by the witness point.
 inline ContactPoints or_witness(const ContactPoints& points, const ScaledContact& contact) {
   return points.size() < 2 ? witness_only(contact) : points;
 }
 
 template <AnyBox A, AnyBox B>
-requires(std::is_same_v<A, AabbShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
+requires(std::is_same_v<A, AabbShape<float>> || std::is_same_v<A, B>)  // as in pair_list.inc
     ContactPoints
     manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
@@ -60,8 +60,8 @@ ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPa
   return or_witness(on_frame(face.frame, points), contact);
 }
 
-// Points on A where two polygons cover one another. The face is that which the normal meets more
-// squarely; of equals that of A.
+// Points on A where two polygons cover one another. They are clipped on the face that is more
+// nearly perpendicular to the normal, or A's if both are equal.
 template <class FaceA, class CornersA, class FaceB, class CornersB>
 ContactPoints touch_faces(const FaceA& face_a, const CornersA& corners_a, const FaceB& face_b,
                           const CornersB& corners_b, const ScaledContact& contact) {
@@ -90,13 +90,13 @@ inline ContactPoints manifold(const TriangleShape<float>& a, const TriangleShape
   return touch_faces(face_a, corners_a, face_b, corners_b, contact);
 }
 
-// Shapes with faces of any outline.
+// Shapes whose faces may have any outline.
 template <class Shape>
 concept AnyFaced =
     std::is_same_v<Shape, DopShape<float>> || std::is_same_v<Shape, HullShape<float>>;
 
 template <AnyFaced A, AnyFaced B>
-requires(std::is_same_v<A, DopShape<float>> || std::is_same_v<A, B>)  // as in the list of pairs
+requires(std::is_same_v<A, DopShape<float>> || std::is_same_v<A, B>)  // as in pair_list.inc
     ContactPoints
     manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
   const FacingSide side_a = side_towards(contact.normal, -contact.separation, a, placed.a);
@@ -155,8 +155,8 @@ inline ContactPoints manifold(const CapsuleShape<float>& a, const HalfspaceShape
   return touch_plane(a, placed.a, contact);
 }
 
-// The corners of a face over a plane, measured from the lowest of them: however far the plane's
-// body is, that rounds no more than the shape itself.
+// The corners of a box face over a plane. Their depths are measured from the lowest corner, so that
+// the distance to the plane's body adds no rounding.
 template <AnyBox A>
 ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
                        const ScaledContact& contact) {
@@ -175,8 +175,8 @@ ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPai
   return or_witness(on_frame(face.frame, reduce(all, kSamePoint * (size * size))), contact);
 }
 
-// A plane through a point. Source of the axes: T. Duff et al., "Building an Orthonormal Basis,
-// Revisited", JCGT 6(1), 2017.
+// The frame of a plane through a point. Source of the axes: T. Duff et al., "Building an
+// Orthonormal Basis, Revisited", JCGT 6(1), 2017.
 inline FaceFrame plane_frame(const Vector3f& point, const Vector3f& n) {
   const float sign = std::copysign(1.0f, n.z());
   const float share = -1 / (sign + n.z());
@@ -186,7 +186,7 @@ inline FaceFrame plane_frame(const Vector3f& point, const Vector3f& n) {
   return {point, u, v, n, 0};
 }
 
-// The plane is A: points are the feet of the corners.
+// A is the half-space; the points are the projections of the triangle's corners on its plane.
 inline ContactPoints manifold(const HalfspaceShape<float>&, const TriangleShape<float>& b,
                               const PlacedPair& placed, const ScaledContact& contact) {
   const std::array<Vector3f, 3> corners = corners_of(b, placed.b);
@@ -208,7 +208,7 @@ inline ContactPoints manifold(const HalfspaceShape<float>&, const TriangleShape<
   return or_witness(on_frame(frame, reduce(all, kSamePoint * (size * size))), contact);
 }
 
-// Corners of a face over the plane, as with boxes. The contact is at the lowest.
+// The corners of a face over a plane, as for boxes. The contact is at the lowest corner.
 template <AnyFaced A>
 ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
                        const ScaledContact& contact) {
@@ -240,7 +240,7 @@ Placed placed_at(const Vector3f& origin, const Quaternion<float>& q) {
   return {rotation_of(q), origin};
 }
 
-// Back in metres; none deeper than the contact, none apart.
+// Converts to metres. No point is deeper than the contact, and none is separate.
 inline Manifold in_metres(const ContactPoints& points, const ScaledContact& contact, float up) {
   Manifold result;
   for (const ContactPoint& p : points) {
@@ -251,7 +251,7 @@ inline Manifold in_metres(const ContactPoints& points, const ScaledContact& cont
   return result;
 }
 
-// The shapes in the order of the list of pairs.
+// A and B come in the order of pair_list.inc.
 template <class A, class B>
 requires HasFaces<A, B> Manifold manifold_in_order(const A& a, const B& b,
                                                    const PairPose<float>& pose,
@@ -259,7 +259,7 @@ requires HasFaces<A, B> Manifold manifold_in_order(const A& a, const B& b,
   const Scale scale = scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
   const ScaledContact scaled = {contact.separation * scale.down, contact.normal,
                                 contact.arm_a * scale.down};
-  // The sum turns -0, which depends on who is A, into 0.
+  // Adding 0 turns -0 into 0, because the sign of zero depends on which body is A.
   const Vector3f d = pose.d * scale.down + Vector3f::Zero();
   const PlacedPair placed = {placed_at<A>(Vector3f::Zero(), pose.a), placed_at<B>(d, pose.b)};
   return in_metres(manifold(a.scaled(scale.down), b.scaled(scale.down), placed, scaled), scaled,
@@ -282,7 +282,7 @@ concept HasManifold = requires(A a, B b, PairPose<float> pose, Separation contac
   manifold_in_order(a, b, pose, contact);
 };
 
-// Points on A of a manifold found with A and B exchanged.
+// Turns a manifold found with A and B exchanged into points on A.
 inline Manifold flipped(Manifold manifold, const Vector3f& d, const Separation& contact) {
   for (size_t k = 0; k < manifold.count; ++k) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -306,7 +306,7 @@ Manifold manifold_of_kinds(const A& a, const B& b, const PairPose<float>& pose,
   }
 }
 
-// Of an overlap: in metres, on A's surface, relative to its position.
+// The manifold of an overlap, in metres, on A's surface, relative to A's position.
 inline Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<float>& pose,
                             const Separation& contact) {
   return std::visit(

@@ -1,4 +1,4 @@
-// Contacts of many parts of two bodies -> the manifold of the bodies.
+// Merges the contacts of many parts of two bodies into one manifold.
 #pragma once
 
 #include <algorithm>
@@ -15,17 +15,16 @@
 
 namespace carom {
 
-// What two parts have in common: normal, separation, and the points of their manifold, relative to
-// the position of body A.
+// The contact of two parts. The points are relative to the position of body A.
 struct PartContact {
-  std::array<uint64_t, 2> parts;  // in the order of sub-shapes
+  std::array<uint64_t, 2> parts;  // ordered by sub-shape
   std::array<float, 3> normal;
   float separation;
   uint8_t count;
   ManifoldPoints points;
-  bool is_over_edge;  // the way out leads over an inner edge
+  bool is_over_edge;  // the penetration direction leads over an inner edge
 
-  // The deeper one first; those over inner edges last.
+  // Deeper contacts come first; contacts over inner edges come last.
   friend bool operator<(const PartContact& x, const PartContact& y) {
     return std::tie(x.is_over_edge, x.separation, x.parts) <
            std::tie(y.is_over_edge, y.separation, y.parts);
@@ -37,7 +36,7 @@ struct MergedManifold {
   ManifoldPoints points{};
 };
 
-// The deepest kMostPartsOfManifold of them.
+// The kMostPartsOfManifold deepest contacts.
 inline std::span<PartContact> deepest_of(std::span<PartContact> contacts) {
   if (contacts.size() <= kMostPartsOfManifold) return contacts;
   const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kMostPartsOfManifold);
@@ -47,7 +46,7 @@ inline std::span<PartContact> deepest_of(std::span<PartContact> contacts) {
 
 namespace merging {
 
-// Seen along the normal.
+// A contact point; u and v are its coordinates across the normal.
 struct SeenPoint {
   double u, v;
   float separation;
@@ -62,8 +61,8 @@ inline double squared_distance(const SeenPoint& a, const SeenPoint& b) {
   return (b.u - a.u) * (b.u - a.u) + (b.v - a.v) * (b.v - a.v);
 }
 
-// Two directions across a unit vector, after T. Duff et al., Building an Orthonormal Basis,
-// Revisited, JCGT 6(1), 2017.
+// Two unit vectors perpendicular to a unit vector, after T. Duff et al., Building an Orthonormal
+// Basis, Revisited, JCGT 6(1), 2017.
 inline std::array<Double3, 2> across(const Double3& n) {
   const double sign = std::copysign(1.0, n[2]);
   const double a = -1 / (sign + n[2]);
@@ -79,8 +78,9 @@ const SeenPoint& greatest(const Points& points, const Value& value) {
       [&](const SeenPoint& x, const SeenPoint& y) { return value(x) < value(y); });
 }
 
-// Of all parts whose normals are about that of the contact, which is the first. (A body that is
-// tilted a little on a flat mesh meets most triangles over their inner edges.)
+// Collects the points of all parts whose normals are close to that of the deepest contact,
+// contacts[0]. Contacts over inner edges count too, because a body that is tilted a little on a
+// flat mesh meets most triangles over their inner edges.
 inline void see_points(std::span<const PartContact> contacts, std::vector<SeenPoint>& seen,
                        double& size) {
   const PartContact& deepest = contacts[0];
@@ -100,7 +100,8 @@ inline void see_points(std::span<const PartContact> contacts, std::vector<SeenPo
   }
 }
 
-// Where depths are equal to rounding, the one farthest from the middle: it is a corner.
+// The deepest point. Among points that are equally deep up to rounding it is the one farthest from
+// the middle, because that is a corner.
 inline SeenPoint first_point(const std::vector<SeenPoint>& seen, double size) {
   SeenPoint middle{0, 0, seen[0].separation, {}};
   for (const SeenPoint& p : seen) {
@@ -116,8 +117,8 @@ inline SeenPoint first_point(const std::vector<SeenPoint>& seen, double size) {
 
 }  // namespace merging
 
-// Up to four points: the deepest, the one farthest from it, and on either side of the line through
-// them the one farthest from that. `seen` is scratch.
+// Up to four points: the deepest, the point farthest from it, and on each side of the line through
+// both the point farthest from that line. `seen` is scratch.
 inline MergedManifold merged_manifold(std::span<PartContact> all,
                                       std::vector<merging::SeenPoint>& seen) {
   using merging::SeenPoint;

@@ -1,4 +1,4 @@
-// The faces that two shapes turn towards each other, in lanes.
+// The facing faces of boxes and triangles, in lanes.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_POLYGON_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_POLYGON_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_POLYGON_INL_H_
@@ -16,13 +16,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// A body, seen from the position of A.
+// The pose of a body, relative to the position of A.
 struct Placed {
   Rotation turn;
   F3 origin;
 };
 
-// Coordinates of a plane.
+// A plane with coordinates.
 struct FaceFrame {
   F3 origin, u, v, n;  // u, v, n: unit vectors, perpendicular
   F height;            // of the plane along n
@@ -41,7 +41,7 @@ struct Rectangle {
   static HWY_INLINE Mask where(size_t, Mask mask) { return mask; }
 };
 
-// A triangle, its longest edge along x. Without area it has only zeros.
+// A triangle with its longest edge along x. Without area all its numbers are zero.
 struct TriangleFace {
   static constexpr size_t kCorners = 3;
   FaceFrame frame;
@@ -52,27 +52,27 @@ struct TriangleFace {
   static HWY_INLINE Mask where(size_t, Mask mask) { return mask; }
 };
 
-// A face with as many corners as `count` says, three at least; behind the last the first again, so
-// that it is the next one of the last.
+// A face with `count` corners, at least three. The places after the last corner repeat the first,
+// so that it follows the last.
 template <size_t kMost>
 struct PolygonFace {
   static constexpr size_t kCorners = kMost;
   FaceFrame frame;
   F x[kMost], y[kMost];  // counter-clockwise
   F count;
-  // No part of an edge beyond these is in sight.
+  // Edges are clipped to these bounds too.
   F lower_x, lower_y, upper_x, upper_y;
 
   HWY_INLINE F corner_x(size_t i) const { return x[i]; }
   HWY_INLINE F corner_y(size_t i) const { return y[i]; }
-  // Where there is a corner i as well.
+  // The lanes of `mask` that have a corner i.
   HWY_INLINE Mask where(size_t i, Mask mask) const {
     if (i < 3) return mask;
     return hn::And(mask, hn::Gt(count, splat(static_cast<float>(i))));
   }
 };
 
-// A face, and its corners as they are seen from the position of A.
+// A face, and its corners relative to the position of A.
 template <class Face>
 struct FaceSide {
   Face face;
@@ -86,7 +86,7 @@ HWY_INLINE F3 pick(const AxisMasks& axis, const F3& x, const F3& y, const F3& z)
   return select(axis.x, x, select(axis.y, y, z));
 }
 
-// The axis after the one that is set, and the one after that.
+// The axis after `axis`, in cyclic order.
 HWY_INLINE AxisMasks next(const AxisMasks& axis) { return {axis.z, axis.x, axis.y}; }
 
 HWY_INLINE void pick_bounds(const AxisMasks& axis, const AabbLanes& box, F& lower, F& upper) {
@@ -98,7 +98,7 @@ HWY_INLINE void pick_bounds(const AxisMasks& axis, const BoxLanes& box, F& lower
   lower = hn::Neg(upper);
 }
 
-// The face whose normal is nearest to m; of equals that of the first axis.
+// The face whose normal is nearest to m; on a tie the face of the first axis.
 template <AnyBox Box>
 HWY_INLINE void face_towards(const F3& m, const Box& box, const Placed& placed, Rectangle& face) {
   const Rotation& turn = placed.turn;
@@ -123,8 +123,8 @@ HWY_INLINE void corners_of(const TriangleLanes& triangle, const Placed& placed, 
   corners[2] = rotate(placed.turn, triangle.c) + placed.origin;
 }
 
-// Axes from the longest edge, since the tilt about it, which is all that is uncertain of a sliver,
-// moves no point far.
+// The axes start from the longest edge. The normal of a sliver is uncertain only by a tilt about
+// that edge, which moves no point far.
 HWY_INLINE void triangle_face(const F3 (&corners)[3], TriangleFace& face) {
   const F3 edge_a = corners[1] - corners[0];
   const F3 edge_b = corners[2] - corners[1];
@@ -135,7 +135,7 @@ HWY_INLINE void triangle_face(const F3 (&corners)[3], TriangleFace& face) {
   const F3 back = pick(first, edge_c, edge_a, edge_b);
   const F squared_length = pick(first, squares);
   const F3 raw = cross(back, along);
-  // Whatever is along the longest edge is rounding.
+  // Any part along the longest edge is rounding.
   const F3 across = raw - along * hn::Div(dot(raw, along), squared_length);
   const F squared = dot(across, across);
   const Mask has_area =
@@ -159,7 +159,7 @@ HWY_INLINE void triangle_side(const TriangleLanes& triangle, const Placed& place
   triangle_face(side.corners, side.face);
 }
 
-// Special triangles are seen from the front only; `toward` leads to the other shape.
+// Special triangles have a face on their front side only. `toward` leads to the other shape.
 HWY_INLINE Mask shows_face(const TriangleLanes& triangle, const F3& normal, const F3& toward) {
   return hn::Or(hn::Not(triangle.is_special), hn::Gt(dot(normal, toward), splat(kFront)));
 }

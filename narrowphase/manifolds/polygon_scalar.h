@@ -1,4 +1,4 @@
-// The faces that two shapes turn towards each other, scalar.
+// The facing faces of boxes and triangles: the scalar form.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace carom::scalar {
 
-// A body, seen from the position of A.
+// The pose of a body, relative to the position of A.
 struct Placed {
   Rotation<float> turn;
   Vector3f origin;
 };
 
-// Coordinates of a plane.
+// A plane with coordinates.
 struct FaceFrame {
   Vector3f origin, u, v, n;  // u, v, n: unit vectors, perpendicular
   float height;              // of the plane along n
@@ -37,7 +37,7 @@ struct Rectangle {
   }
 };
 
-// A triangle, its longest edge along x. Without area it has only zeros.
+// A triangle with its longest edge along x. Without area all its numbers are zero.
 struct TriangleFace {
   FaceFrame frame;
   std::array<Point2, 3> points;  // counter-clockwise
@@ -45,7 +45,7 @@ struct TriangleFace {
   const std::array<Point2, 3>& corners() const { return points; }
 };
 
-// The face of a k-DOP. Without area it has no points, and its normal is zero.
+// The face of a k-DOP or hull. Without area it has no points, and its normal is zero.
 struct PolygonFace {
   FaceFrame frame;
   FewOf<Point2, DopFace::kMostCorners> points;  // counter-clockwise
@@ -73,7 +73,7 @@ inline constexpr bool kIsBox<BoxShape<float>> = true;
 template <class Shape>
 concept AnyBox = kIsBox<Shape>;
 
-// The face whose normal is nearest to m; of equals that of the first axis.
+// The face whose normal is nearest to m; on a tie the face of the first axis.
 template <AnyBox Box>
 Rectangle face_towards(const Vector3f& m, const Box& box, const Placed& placed) {
   const Vector3f along = rotate_back(placed.turn, m);
@@ -96,8 +96,8 @@ inline std::array<Vector3f, 3> corners_of(const TriangleShape<float>& triangle,
   return corners;
 }
 
-// Axes from the longest edge, since the tilt about it, which is all that is uncertain of a sliver,
-// moves no point far.
+// The axes start from the longest edge. The normal of a sliver is uncertain only by a tilt about
+// that edge, which moves no point far.
 inline TriangleFace triangle_face(const std::array<Vector3f, 3>& corners) {
   std::array<Vector3f, 3> edges;
   std::array<float, 3> squares;
@@ -112,7 +112,7 @@ inline TriangleFace triangle_face(const std::array<Vector3f, 3>& corners) {
   const Vector3f back = edges[(first + 2) % 3];
   const float squared_length = squares[first];
   const Vector3f raw = cross<float>(back, along);
-  // Whatever is along the longest edge is rounding.
+  // Any part along the longest edge is rounding.
   const Vector3f across = raw - along * (dot(raw, along) / squared_length);
   const float squared = dot(across, across);
   TriangleFace face;
@@ -132,7 +132,7 @@ inline TriangleFace triangle_face(const std::array<Vector3f, 3>& corners) {
   return face;
 }
 
-// Special triangles are seen from the front only; `toward` leads to the other shape.
+// Special triangles have a face on their front side only. `toward` leads to the other shape.
 inline bool shows_face(const TriangleShape<float>& triangle, const Vector3f& normal,
                        const Vector3f& toward) {
   return !triangle.is_special() || dot(normal, toward) > kFront;

@@ -1,4 +1,4 @@
-// The few points that stand for many, in lanes.
+// Reduces many contact points to at most four, in lanes.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_REDUCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_REDUCE_INL_H_
 #undef CAROM_NARROWPHASE_MANIFOLDS_REDUCE_INL_H_
@@ -27,7 +27,8 @@ HWY_INLINE void put_deepest(const ClipPoints<kCount>& all, ClipPoints<4>& few) {
   for (size_t i = 1; i < kCount; ++i) move_where(hn::Lt(all.s[i], few.s[0]), all, i, few, 0);
 }
 
-// The square of how far the second is from the first. What is no point fails every comparison.
+// Returns the squared distance from the first point to the second. Unused places fail every
+// comparison.
 template <size_t kCount>
 HWY_INLINE F put_farthest(const ClipPoints<kCount>& all, ClipPoints<4>& few) {
   const F x = few.x[0];
@@ -46,8 +47,8 @@ HWY_INLINE F put_farthest(const ClipPoints<kCount>& all, ClipPoints<4>& few) {
   return farthest;
 }
 
-// On either side of the line through the first two, the one farthest from that. Yields the greatest
-// and the least of the areas that they span with it.
+// On each side of the line through the first two points, the point farthest from it. `most` and
+// `least` are twice the signed areas that the two span with the line.
 template <size_t kCount>
 HWY_INLINE void put_sides(const ClipPoints<kCount>& all, ClipPoints<4>& few, F& most, F& least) {
   const F x = few.x[0];
@@ -69,9 +70,9 @@ HWY_INLINE void put_sides(const ClipPoints<kCount>& all, ClipPoints<4>& few, F& 
   }
 }
 
-// Up to four: the deepest, the one farthest from it, and on either side of the line through them
-// the one farthest from that. `limit`: the square of the distance at which points are one. Those
-// that are used come first; if the first is not, there are none.
+// Up to four points: the deepest, the point farthest from it, and on each side of the line through
+// both the point farthest from that line. `limit`: the squared distance below which points count as
+// one. The used places come first; if the first is unused, all are.
 template <size_t kCount>
 HWY_INLINE void reduce(const ClipPoints<kCount>& all, F limit, ClipPoints<4>& few,
                        Mask (&used)[4]) {

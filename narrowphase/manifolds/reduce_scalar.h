@@ -1,12 +1,13 @@
-// The few points that stand for many, scalar.
+// Reduces many contact points to at most four: the scalar form.
 #pragma once
 
 #include "narrowphase/manifolds/clip_scalar.h"
 
 namespace carom::scalar {
 
-// Up to four: the deepest, the one farthest from it, and on either side of the line through them
-// the one farthest from that. `limit`: the square of the distance at which points are one.
+// Up to four points: the deepest, the point farthest from it, and on each side of the line through
+// both the point farthest from that line. `limit`: the squared distance below which points count as
+// one.
 inline ClipPoints reduce(const ClipPoints& all, float limit) {
   if (all.empty()) return {};
   ClipPoint first = all[0];

@@ -17,7 +17,7 @@ uint8_t decide(const StatedBody& a, const StatedBody& b, Tier tier) {
   return exact_overlap(a, b);
 }
 
-// The next row that is marked, or count. Hardly any is: eight are looked at at a time.
+// The next unsure row, or count. Unsure rows are rare, so the loop skips eight rows at a time.
 size_t next_marked(const uint8_t* marks, size_t row, size_t count) {
   while (row < count) {
     uint64_t eight = 0;
@@ -29,7 +29,8 @@ size_t next_marked(const uint8_t* marks, size_t row, size_t count) {
   return std::min(row, count);
 }
 
-// A separation that rounding put on the wrong side is as good as none; so is what overflowed.
+// Replaces a separation with the wrong sign, or NaN from overflow, by the smallest one with the
+// right sign.
 float with_sign_of(uint8_t overlap, float separation) {
   if (overlap == 1 && !(separation <= 0)) return 0;
   if (overlap == 0 && !(separation > 0)) return std::numeric_limits<float>::denorm_min();

@@ -1,4 +1,4 @@
-// Decisions that float32 did not make beyond doubt, made again with a proof.
+// Decides the rows that are unsure in float32, with a proof.
 #pragma once
 
 #include "carom/results/tier.h"
@@ -7,8 +7,8 @@
 
 namespace carom {
 
-// Of the rows that batch.unsure marks; their bodies are valid. Overlaps are written, and the sign
-// of the separation follows where that is there.
+// Decides the rows that batch.unsure marks; their bodies must be valid. Writes the overlap, and
+// corrects the sign of the separation if the batch has one.
 void decide_unsure(const PairKind& kind, const Batch& batch, Tier tier);
 
 }  // namespace carom

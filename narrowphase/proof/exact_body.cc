@@ -13,7 +13,7 @@ ExactVector exact(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 ExactVector exact(const Position<double>& p) { return {p.x, p.y, p.z}; }
 
-// M(q), whose columns are |q|^2 long.
+// The rotation matrix M(q) of a quaternion of any length. Its columns are |q|^2 long.
 struct ExactRotation {
   ExactVector x, y, z;
   Dyadic squared_norm;
@@ -33,7 +33,7 @@ ExactVector rotate(const ExactRotation& turn, const ExactVector& v) {
   return (turn.x * v.x + turn.y * v.y) + turn.z * v.z;
 }
 
-// The core in the body's own frame.
+// Builds the core in the body's own frame.
 struct CoreMaker {
   ExactBody& body;
 
@@ -67,7 +67,7 @@ struct CoreMaker {
   void operator()(const Hull& hull) const {
     for (const Eigen::Vector3f& p : hull.geometry->points()) body.points.push_back(exact(p));
   }
-  // Their parts are decided one by one.
+  // The parts of meshes and compounds are decided one by one.
   void operator()(const Mesh&) const {}
   void operator()(const Compound&) const {}
 
@@ -86,8 +86,8 @@ bool is_turned(const StatedBody& body) {
   return has_orientation && (q[0] != 0 || q[1] != 0 || q[2] != 0);
 }
 
-// The unit normal has a root in its length, which is left as it is: everything is multiplied by its
-// square.
+// The unit normal contains the root of its squared length. The root stays symbolic
+// (depth_radicand), and everything else is multiplied by the squared length.
 void thicken(ExactBody& body) {
   const Dyadic squared = dot(body.front, body.front);
   body.depth = body.front * (-Dyadic(body.thickness) * body.unit);
@@ -106,7 +106,7 @@ ExactBody exact_body(const StatedBody& stated) {
     for (ExactVector& p : body.points) p = rotate(turn, p);
     body.front = rotate(turn, body.front);
     body.unit = body.unit * turn.squared_norm;
-    // Of n . x <= c both sides grow: n is turned, and c follows.
+    // The plane is n . x <= c. The rotation scales n, so c must scale too.
     if (body.is_halfspace) body.offset = body.offset * turn.squared_norm;
   }
   if (body.thickness > 0) thicken(body);

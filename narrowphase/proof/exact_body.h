@@ -1,4 +1,4 @@
-// A body in exact numbers: the corners of its core, turned, and its radius.
+// A body in exact numbers: the rotated corners of its core, and its radius.
 #pragma once
 
 #include <vector>
@@ -11,29 +11,29 @@ namespace carom {
 
 using ExactVector = VectorOf<Dyadic>;
 
-// Lengths times `unit`, which is positive, about the body's position.
+// Lengths are multiplied by `unit`, which is positive. The origin is the body's position.
 struct ExactBody {
-  std::vector<ExactVector> points;  // the corners of the core; of a thick triangle those in front
+  std::vector<ExactVector> points;  // corners of the core; for a thick triangle those in front
   Dyadic unit{1.0};
   Dyadic radius;         // in metres
   ExactVector middle{};  // the sum of all points
 
-  // Triangles: the front's normal, of any length, and zero without area.
+  // Triangles: the normal of the front, of any length; zero without area.
   ExactVector front{};
   bool is_one_sided = false;
-  // Thick ones reach from each corner p to p + depth sqrt(depth_radicand), too.
-  double thickness = 0;  // in metres; zero where there is no front
+  // A thick triangle also has the corners p + depth sqrt(depth_radicand), for each corner p.
+  double thickness = 0;  // in metres; zero without a front
   ExactVector depth{};
   Dyadic depth_radicand;
 
-  // Half-spaces have no points: all x with front . x <= offset, in these units.
+  // A half-space has no points. It holds all x with front . x <= offset, in these units.
   bool is_halfspace = false;
   Dyadic offset;
 };
 
 ExactBody exact_body(const StatedBody& body);
 
-// B - A of the positions.
+// Position of B minus position of A.
 ExactVector exact_way(const StatedBody& a, const StatedBody& b);
 
 }  // namespace carom

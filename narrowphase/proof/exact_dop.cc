@@ -20,8 +20,8 @@ Number along(const VectorOf<int>& n, const VectorOf<Number>& x) {
   return (x.x * Number(n.x) + x.y * Number(n.y)) + x.z * Number(n.z);
 }
 
-// How far both ends of a slab move outwards: shares of the end itself, and of the greatest number
-// of the three slabs along the axes.
+// How far both ends of a slab move outwards: a share of the end itself, and a share of the greatest
+// number of the three axis slabs.
 struct Widening {
   double of_end = 0;
   double of_size = 0;
@@ -44,7 +44,7 @@ std::vector<Plane> planes_of(const Dop& dop, const Widening& wider) {
   return planes;
 }
 
-// Where three planes meet, times kDopUnit.
+// The intersection of three planes, times kDopUnit.
 template <class Number>
 VectorOf<Number> meeting(const Plane& a, const Plane& b, const Plane& c, int volume) {
   const auto part = [volume](const Plane& of, const VectorOf<int>& n) -> VectorOf<Number> {
@@ -57,7 +57,7 @@ VectorOf<Number> meeting(const Plane& a, const Plane& b, const Plane& c, int vol
          part(c, cross(a.normal, b.normal));
 }
 
-// A double says of most points that they are no corners.
+// Finds the corners. Doubles rule out most intersections; exact numbers decide the rest.
 class CornerSearch {
  public:
   explicit CornerSearch(std::vector<Plane> planes) : planes_(std::move(planes)) {

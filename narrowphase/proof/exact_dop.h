@@ -9,13 +9,13 @@
 
 namespace carom {
 
-// Every corner is a quotient by this or a divisor of it: three of the slabs' directions span a
-// volume of 1, 2, 3 or 4.
+// The denominator of every corner divides this number: three slab directions span a volume of 1, 2,
+// 3 or 4.
 inline constexpr int kDopUnit = 12;
 
-// Each corner once, times kDopUnit; at least one of a valid k-DOP. Slabs that have no point in
-// common count as half a unit in the last place wider at both ends, as everywhere, or if that is
-// not enough (where an end is zero) wider by that share of the k-DOP's size.
+// Each corner once, times kDopUnit; a valid k-DOP has at least one. Slabs without a common point
+// count as half a unit in the last place wider at both ends, as everywhere in the library. If that
+// is not enough (where an end is zero), they count as wider by that share of the k-DOP's size.
 std::vector<VectorOf<Dyadic>> exact_corners(const Dop& dop);
 
 }  // namespace carom

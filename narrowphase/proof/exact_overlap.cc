@@ -7,15 +7,15 @@
 namespace carom {
 namespace {
 
-// Two bodies in one unit: that of A times that of B.
+// Two bodies. Their common unit is A's unit times B's unit.
 struct ExactPair {
   ExactBody a, b;
   ExactVector way;  // B - A of the positions, in metres
 };
 
-// --- What comes from behind a one-sided triangle ---
+// --- Shapes from behind a one-sided triangle ---
 
-// `way` leads from the triangle's position to the other's, in metres.
+// `way` leads from the triangle's position to the other position, in metres.
 bool comes_from_behind(const ExactBody& triangle, const ExactBody& other, const ExactVector& way) {
   if (!triangle.is_one_sided) return false;
   if (other.is_halfspace) return sign_of(dot(triangle.front, other.front)) > 0;
@@ -61,7 +61,7 @@ VectorOf<Number> vector_of(const ExactVector& a, const ExactVector& b, const Dya
   return v;
 }
 
-// Moved by `shift` (in the unit of the result) after scaling.
+// Scales the hull, then moves it by `shift`, which is in units of the result.
 template <class Number>
 GrownHull<Number> hull_of(const ExactBody& body, const Dyadic& scale, const ExactVector& shift,
                           Root root) {
@@ -86,7 +86,7 @@ bool hulls_overlap(const ExactPair& pair) {
   return OverlapSearch<Number>(a, b).run().overlap;
 }
 
-// A is the half-space.
+// Whether B reaches into A, the half-space.
 template <class Number>
 bool reaches_into(const ExactPair& pair) {
   const ExactBody &plane = pair.a, &body = pair.b;

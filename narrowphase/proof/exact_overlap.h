@@ -6,7 +6,8 @@
 
 namespace carom {
 
-// Some microseconds; more for k-DOPs and thick triangles, and for sizes that differ by many orders.
+// Takes some microseconds; more for k-DOPs, for thick triangles, and for sizes that differ by many
+// orders of magnitude.
 bool exact_overlap(const StatedBody& a, const StatedBody& b);
 
 }  // namespace carom

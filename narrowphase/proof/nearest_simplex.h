@@ -1,5 +1,5 @@
-// The point of a simplex that is nearest to the origin, in any number type and without a division:
-// exact where the numbers are.
+// The point of a simplex that is nearest to the origin, in any number type and without division.
+// With exact numbers it is exact.
 //
 // Source of the regions: C. Ericson, Real-Time Collision Detection (2005), 5.1.5 and 5.1.6.
 #pragma once
@@ -23,11 +23,11 @@ template <class Number>
 struct NearestOfSimplex {
   using Vector = VectorOf<Number>;
 
-  // The points that carry the nearest one, as places in the simplex that was given.
+  // The points that span the nearest one, as indices into the given simplex.
   FewOf<uint8_t, 4> carriers;
-  // Of the nearest point's direction from the origin; any length.
+  // The direction of the nearest point from the origin, of any length.
   Vector way{};
-  // The square of its distance is a quotient.
+  // The squared distance, as a quotient.
   Number numerator{0.0}, denominator{1.0};
 
   bool is_origin() const { return sign_of(numerator) == 0; }
@@ -37,7 +37,7 @@ struct NearestOfSimplex {
   }
 };
 
-// Of one to four points that do not lie in one plane, line or point.
+// The nearest point of one to four points that are affinely independent.
 template <class Number>
 class SimplexSearch {
  public:
@@ -67,7 +67,7 @@ class SimplexSearch {
     return point;
   }
 
-  // Between its ends.
+  // The nearest point lies between the ends.
   static Nearest of_line(const Points& y, uint8_t i, uint8_t j) {
     const Vector along = y[j] - y[i];
     const Vector moment = cross(y[i], along);
@@ -120,7 +120,8 @@ class SimplexSearch {
     return of_plane(y, i, j, k, cross(ab, ac));
   }
 
-  // Of the faces that part the origin from the fourth point, the nearest; the origin if none does.
+  // The nearest of the faces that separate the origin from the fourth point; the origin if there is
+  // none.
   static Nearest of_tetrahedron(const Points& y) {
     static constexpr std::array<std::array<uint8_t, 4>, 4> kFaces = {
         {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}}};

@@ -1,6 +1,6 @@
-// Whether two hulls of points, each grown by a radius, have a point in common: GJK in any number
-// type, without a division. In exact numbers it always ends, with the right answer: every round
-// comes nearer to the origin, and there are finitely many simplices.
+// Whether two hulls of points, each grown by a radius, have a common point: GJK in any number type,
+// without division. In exact numbers it always ends with the right answer, because every round
+// comes nearer to the origin and there are finitely many simplices.
 //
 // Source: E. G. Gilbert, D. W. Johnson, S. S. Keerthi, A Fast Procedure for Computing the Distance
 // Between Complex Objects in Three-Dimensional Space, IEEE J. Robotics and Automation 4(2), 1988.
@@ -20,13 +20,13 @@ struct GrownHull {
   Number radius{0.0};
 };
 
-// What was found last, for proofs: a way along which the hulls are apart, or points of the
-// difference B - A among which the origin lies, or near enough.
+// The last state of the search, for proofs: a direction that separates the hulls, or points of B -
+// A that contain the origin or come near enough.
 template <class Number>
 struct OverlapEvidence {
   bool overlap = false;
   VectorOf<Number> way{};
-  FewOf<VectorOf<Number>, 4> simplex;  // that the nearest point lies in
+  FewOf<VectorOf<Number>, 4> simplex;  // contains the nearest point
 };
 
 template <class Number>
@@ -36,7 +36,7 @@ class OverlapSearch {
   using Hull = GrownHull<Number>;
   using Evidence = OverlapEvidence<Number>;
 
-  // `most_rounds`: numbers that round may go round in circles.
+  // `most_rounds`: a limit for number types that round, because they may cycle; -1: none.
   OverlapSearch(const Hull& a, const Hull& b, int most_rounds = -1)
       : a_(a.points), b_(b.points), reach_(a.radius + b.radius), rounds_left_(most_rounds) {
     for (const Points* points : {&a_, &b_}) greatest_ = std::max(greatest_, points->greatest);
@@ -81,14 +81,14 @@ class OverlapSearch {
     simplex_ = kept;
   }
 
-  // The point of B - A that is least far along the way.
+  // The point of B - A with the least height along `way`.
   Vector support(const Vector& way) const {
     const VectorOf<double> rough = {approximately(way.x), approximately(way.y),
                                     approximately(way.z)};
     return b_.exact[furthest(b_, -way, -rough)] - a_.exact[furthest(a_, way, rough)];
   }
 
-  // Doubles tell most points away; what they cannot tell apart is compared as it is.
+  // Doubles rule out most points. Points that doubles cannot distinguish are compared exactly.
   size_t furthest(const Points& points, const Vector& way, const VectorOf<double>& rough) const {
     const double reach = (magnitude(way.x) + magnitude(way.y) + magnitude(way.z)) * greatest_;
     const bool rough_is_good = reach > 1e-250 && reach < 1e250;

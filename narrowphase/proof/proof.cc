@@ -1,11 +1,12 @@
-// GJK says what the answer probably is, and why: a direction along which the shapes are apart, or
-// points of their difference around the origin. Whichever it is gets checked:
-//   separate  The projections on the direction lie apart by more than rounding.
-//   overlap   The simplex has a point, a convex combination of its corners with weights that are
-//             positive beyond rounding, that is nearer to the origin than the radii reach; or, of
-//             shapes without radii, it holds the origin by more than rounding. Each corner is a
-//             point of B less a point of A, up to rounding, so that the shapes have a point in
-//             common.
+// GJK in doubles finds the likely answer and a reason: a direction that separates the shapes, or
+// points of their difference around the origin. Then the reason is checked:
+//   separate  The projections on the direction are apart by more than rounding.
+//   overlap   The simplex has a point that is nearer to the origin than the radii reach. The point
+//   is
+//             a convex combination of the corners with weights that are positive beyond rounding.
+//             Or, for shapes without radii, the simplex contains the origin by more than rounding.
+//             Each corner is a point of B minus a point of A, up to rounding, so the shapes have a
+//             common point.
 #include "narrowphase/proof/proof.h"
 
 #include <cmath>
@@ -24,24 +25,24 @@ using Vector = VectorOf<double>;
 using PointHull = GrownHull<double>;
 using scalar::Polytope;
 
-// In units in which the greatest coordinate lies between one and two, points are off by less than
-// this, rotation and all: some dozen roundings of 2^-52 each.
+// With the greatest coordinate between one and two, points err by less than this, including the
+// rotation: some dozen roundings of 2^-52 each.
 constexpr double kRounding = 0x1p-44;
-// Corners of k-DOPs are found to within kDopRounding, the normals of triangles by which they are
-// thick to within 2^-52 over the sine of their angle.
+// Corners of k-DOPs are found to within kDopRounding. The normal of a thick triangle errs by 2^-52
+// over the sine of its angle.
 constexpr double kRoundingOfDops = 4 * kDopRounding;
 constexpr double kLeastDop = 0x1p-20;
 constexpr double kRoundingOfFronts = 0x1p-30;
 constexpr double kLeastSine = 0x1p-16;
 
-// Volumes of three differences of points, each below 2^5, round to less than this.
+// Rounding of a volume of three differences of points, each below 2^5, stays below this.
 constexpr double kRoundingOfVolumes = 0x1p-34;
 
-// Sizes that can be scaled: those of all floats, and of distances that are squared.
+// Sizes that can be scaled: all floats, and squared distances of them.
 constexpr double kLeastSize = 0x1p-400;
 constexpr double kGreatestSize = 0x1p400;
 
-// GJK in doubles is over after some ten rounds, or goes round in circles.
+// GJK in doubles ends after some ten rounds, or cycles.
 constexpr int kMostRounds = 32;
 
 // --- The shapes in scaled units ---
@@ -53,7 +54,7 @@ struct ProofBody {
   Vector3d middle = Vector3d::Zero();
   scalar::FrontRules rules;
   double rounding = kRounding;
-  bool is_known = true;  // how far off it may be
+  bool is_known = true;  // false: there is no bound of its rounding
 
   ProofBody() = default;
   explicit ProofBody(const Polytope& polytope) : middle(polytope.middle), rules(polytope.rules) {
@@ -84,7 +85,7 @@ struct BodyMaker {
     body.middle = scalar::eigen_vector(core.middle);
     return body;
   }
-  // Only what is solid: of slabs that hardly have a point in common the corners say nothing.
+  // Only solid k-DOPs: the corners of slabs that hardly intersect have no error bound.
   ProofBody operator()(const Dop& dop) const {
     const Polytope polytope =
         scalar::polytope_of(scalar::shape_as<double>(dop).scaled(scale), turn);
@@ -105,7 +106,7 @@ struct BodyMaker {
   ProofBody operator()(const Mesh&) const { return nothing(); }
   ProofBody operator()(const Compound&) const { return nothing(); }
 
-  // Their parts are proven one by one.
+  // The parts of meshes and compounds are proven one by one.
   static ProofBody nothing() {
     ProofBody body;
     body.is_known = false;
@@ -129,7 +130,7 @@ Vector3d way_between(const StatedBody& a, const StatedBody& b) {
   return {b.position.x - a.position.x, b.position.y - a.position.y, b.position.z - a.position.z};
 }
 
-// --- What comes from behind a one-sided triangle ---
+// --- Shapes from behind a one-sided triangle ---
 
 enum class Side { front, behind, unknown };
 
@@ -154,8 +155,8 @@ bool is_apart_along(const PointHull& a, const PointHull& b, const Vector& way, d
   return bottom - top > length(n) * ((a.radius + b.radius) + rounding);
 }
 
-// The nearest point to the origin as a combination of the corners. Whatever the weights are, as
-// long as none is negative and they sum to one, it is a point of the simplex.
+// The point nearest to the origin, as a combination of the corners. With any non-negative weights
+// that sum to one it is a point of the simplex.
 Vector nearest_by_weights(const FewOf<Vector, 4>& y) {
   std::array<double, 4> weight{};
   if (y.size() == 2) {
@@ -177,7 +178,7 @@ Vector nearest_by_weights(const FewOf<Vector, 4>& y) {
   return v;
 }
 
-// Whether the origin lies further inside of all four faces than the corners may be off.
+// Whether the origin is inside all four faces by more than the corners may err.
 bool holds_origin(const FewOf<Vector, 4>& y, double rounding) {
   if (y.size() < 4) return false;
   for (size_t i = 0; i < 4; ++i) {

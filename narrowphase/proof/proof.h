@@ -1,4 +1,4 @@
-// Whether two shapes overlap exactly as they are stored, proven in double precision where that can.
+// Tries to prove in double precision whether two shapes overlap, exactly as they are stored.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace carom {
 
-// 1 overlap, 0 separate, kUndecided. Never wrong: what was found is only believed if it holds by
-// more than all that rounding may have done to it.
+// 1 overlap, 0 separate, kUndecided. Never wrong: it trusts a result only if the margin exceeds
+// every rounding error that may have gone into it.
 uint8_t prove_overlap(const StatedBody& a, const StatedBody& b);
 
 }  // namespace carom

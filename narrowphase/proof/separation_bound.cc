@@ -26,9 +26,9 @@ float rounded_up(double x) {
 
 }  // namespace
 
-// Differences, a root, and another difference or two: 5 roundings of 2^-24 of numbers that are
-// below three times the size. Rotations and what follows make 30 roundings of numbers below twice
-// the size (base/tolerances.h), and rounding to float once more.
+// Unrotated shapes: differences, a root, and one or two more differences make 5 roundings of 2^-24
+// of numbers below three times the size. Rotated shapes: rotations and the rest make 30 roundings
+// of numbers below twice the size (base/tolerances.h). The result is rounded to float once more.
 double separation_share(ShapeKind a, ShapeKind b) {
   return is_upright(a) && is_upright(b) ? 0x1p-20 : 0x1p-18;
 }

@@ -1,4 +1,4 @@
-// How far off a separation may be: forward bounds of the kernels.
+// Forward error bounds of the separations that the kernels compute.
 #pragma once
 
 #include "narrowphase/batch/batch.h"
@@ -6,7 +6,8 @@
 
 namespace carom {
 
-// In shares of the pair's size, the greatest number of its shapes and of the way between them.
+// The bound as a share of the pair's size: the greatest number of its shapes and of the vector
+// between their positions.
 double separation_share(ShapeKind a, ShapeKind b);
 
 // Fills batch.out.separation_bound.
