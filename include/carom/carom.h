@@ -1,4 +1,5 @@
-// All of Carom's public interface.
+/// @file
+/// Includes all of Carom's public interface.
 #pragma once
 
 #include "carom/base/parallelism.h"
