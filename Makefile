@@ -3,7 +3,7 @@ SHELL := /bin/bash
 .NOTPARALLEL:
 JOBS ?= $(shell nproc)
 
-.PHONY: run test bench peers grid lint format asan tsan fuzz clean help
+.PHONY: run test bench peers grid lint format docs asan tsan fuzz clean help
 
 help: ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-7s %s\n", $$1, $$2}' Makefile
@@ -31,6 +31,9 @@ lint: setup-dev ## check format, clang-tidy and include directions
 
 format: setup-dev ## format all sources
 	@scripts/format.sh
+
+docs: setup-docs ## reference pages of the public headers (build/docs/html)
+	@scripts/docs.sh
 
 asan: setup-dev build-asan ## run the tests under AddressSanitizer and UBSan
 	ctest --preset asan -j $(JOBS)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# setup.sh build|dev|peers|ci: installs missing packages (Debian 12, Ubuntu 24.04 or later).
+# setup.sh build|dev|peers|docs|ci: installs missing packages (Debian 12, Ubuntu 24.04 or later).
 # build: what building, testing and benchmarking need. dev: clang and its tools as well.
-# peers: build, and the libraries Carom is compared with. ci: all, and a cross compiler for AArch64.
+# peers: build, and the libraries Carom is compared with. docs: build, and doxygen. ci: all, and a
+# cross compiler for AArch64.
 set -euo pipefail
 
 build_packages=(
@@ -12,14 +13,15 @@ build_packages=(
 )
 dev_packages=(clang clang-format clang-tidy libclang-rt-dev)
 peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev)
-ci_packages=("${dev_packages[@]}" "${peer_packages[@]}" g++-aarch64-linux-gnu)
+ci_packages=("${dev_packages[@]}" "${peer_packages[@]}" doxygen g++-aarch64-linux-gnu)
 
 case "${1:-build}" in
   build) packages=("${build_packages[@]}") ;;
   dev) packages=("${build_packages[@]}" "${dev_packages[@]}") ;;
   ci) packages=("${build_packages[@]}" "${ci_packages[@]}") ;;
   peers) packages=("${build_packages[@]}" "${peer_packages[@]}") ;;
-  *) echo "usage: setup.sh build|dev|ci|peers" >&2; exit 2 ;;
+  docs) packages=("${build_packages[@]}" doxygen) ;;
+  *) echo "usage: setup.sh build|dev|ci|peers|docs" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

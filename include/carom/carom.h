@@ -1,4 +1,24 @@
-// All of Carom's public interface.
+/// @file
+/// Includes all of Carom's public interface.
+
+/// @namespace carom
+/// The public names of the library.
+
+/// @mainpage
+/// Carom is a SIMD collision-detection library: bodies (shape + pose) go in as flat arrays;
+/// candidate pairs, contacts and events come out.
+/// - carom::World keeps bodies and finds pairs, contacts, events and impacts step by step.
+/// - carom::compute_bounds(), carom::find_pairs(), carom::collide() and carom::time_of_impact() are
+///   the same stages on the caller's own arrays (carom::Collidables), without state.
+/// - carom::cast(), carom::find_overlaps() and carom::find_nearest() query bodies that stand still.
+/// - carom::Shape lists the shapes; carom::make_hull(), carom::make_mesh() and
+///   carom::make_compound() build those with a geometry.
+/// - carom::reference is all of it as plain scalar C++.
+///
+/// Conventions: lengths in metres, world frame unless stated. Normals point from body A to body B.
+/// A separation of 0 or less is an overlap. Errors are carom::Result; the library neither prints,
+/// aborts nor throws on data, and asserts on programming mistakes. Functions on the caller's arrays
+/// may run on several threads at once if their outputs differ.
 #pragma once
 
 #include "carom/base/parallelism.h"

@@ -1,5 +1,8 @@
+/// @file
+/// The macro that marks the exported names of the shared libraries.
 #pragma once
 
+/// @def CAROM_EXPORT
 /// Marks what the shared libraries export; everything else is hidden. Users of the static
 /// libraries get CAROM_STATIC from the CMake package or from pkg-config.
 #if defined(CAROM_STATIC)

@@ -1,4 +1,4 @@
-// What the judge takes for the truth.
+// ExactPair, the judge of carom accuracy: what it takes for the exact answer.
 #include "accuracy/pairs/exact_pair.h"
 
 #include <gtest/gtest.h>
@@ -20,16 +20,16 @@ TEST(ExactPair, DecidesWhatLongDoubleCannot) {
   EXPECT_EQ(ExactPair(spheres(3, 1, 2)).truth(), Truth::overlap);
   EXPECT_EQ(ExactPair(spheres(std::nextafter(3, 4), 1, 2)).truth(), Truth::apart);
   EXPECT_EQ(ExactPair(spheres(std::nextafter(3, 2), 1, 2)).truth(), Truth::overlap);
-  // 3e-20 apart, below what long double sees beside 3.
+  // The surfaces are 3e-20 apart, which long double cannot resolve beside 3.
   ConvexPair grazing = spheres(3, 1, 2);
   grazing.pose_b.position.y() = 4e-10;
   EXPECT_EQ(ExactPair(grazing).truth(), Truth::apart);
-  // 1e-647 apart.
+  // The surfaces are 1e-647 apart.
   grazing.pose_b.position.y() = 5e-324;
   EXPECT_EQ(ExactPair(grazing).truth(), Truth::apart);
 }
 
-// The claim about the margin beyond which long double decides: 1e-17 of the extent.
+// ExactPair trusts long double for separations beyond 1e-17 of the extent: this tests that margin.
 TEST(ExactPair, LongDoubleIsCloseEnoughTo100Digits) {
   for (const NamedKinds& kinds : kAllKinds) {
     if (kinds.kinds.a == ShapeKind::dop || kinds.kinds.b == ShapeKind::dop) continue;

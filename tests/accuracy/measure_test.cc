@@ -53,7 +53,7 @@ TEST_P(MeasuredKinds, BreakNoPromise) {
   ASSERT_FALSE(gaps.empty());
   EXPECT_EQ(gaps[0]["steps"].size(), gaps[0]["missed"].size());
   ASSERT_EQ(distances.size(), 2u);
-  // What float32 positions cannot express, float64 ones can.
+  // float32 positions cannot express these distances, float64 positions can.
   const double far32 = distances[0]["error_worst"].back();
   const double far64 = distances[1]["error_worst"].back();
   EXPECT_GT(far32, 1);

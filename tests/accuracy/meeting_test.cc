@@ -1,4 +1,5 @@
-// The reference of carom tunnelling: against times known by hand, and against every pose of many.
+// The reference of carom tunnelling, against times known by hand and against a dense sequence of
+// poses.
 #include "accuracy/tunnelling/meeting.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ MeetingTime meeting_of(const MovingBody& a, const MovingBody& b, int substeps = 
   return search(a, moving_parts(a), b, moving_parts(b));
 }
 
-// Of both orders.
+// Tests (A, B) and (B, A).
 void expect_meeting(const MovingBody& a, const MovingBody& b, Meeting meeting, double time) {
   for (const MeetingTime& found : {meeting_of(a, b), meeting_of(b, a)}) {
     EXPECT_EQ(found.meeting, meeting);
@@ -60,12 +61,12 @@ TEST(Meeting, GrazesAreToldApart) {
   expect_meeting(ball, passes_at(1e-6), Meeting::none, kNever);
   expect_meeting(ball, passes_at(1e-8), Meeting::grazing, kNever);
   expect_meeting(ball, passes_at(-1e-8), Meeting::grazing, kNever);
-  // The balls meet when their middles are half a metre apart.
+  // The balls meet when their centres are half a metre apart.
   const double before = std::sqrt(0.25 - std::pow(0.5 - 1e-6, 2));
   expect_meeting(ball, passes_at(-1e-6), Meeting::certain, (1 - before) / 2);
 }
 
-// Nothing but turning brings them together.
+// Only the rotation brings them together.
 TEST(Meeting, ARodThatTurns) {
   const auto half_turn = static_cast<float>(std::numbers::pi);
   const MovingBody rod =
@@ -89,10 +90,10 @@ TEST(Meeting, OneSidedTrianglesLetPassWhatComesFromBehind) {
   expect_meeting(up, mesh(false), Meeting::certain, 0.25);
 }
 
-// Every pose of many, none left out; orientations rounded to float32.
+// Tests a dense sequence of poses without skipping any; orientations are rounded to float32.
 struct EveryPose {
   double least = kNever;
-  double first = kNever;  // with an overlap that is more than rounding
+  double first = kNever;  // the first pose with an overlap beyond rounding
 
   EveryPose(const MovingBody& a, const MovingBody& b, int substeps) {
     for (int i = 0; i <= substeps; ++i) {
@@ -140,7 +141,7 @@ TEST(Meeting, NothingThatAnyPoseShowsIsMissed) {
   }
   EXPECT_GT(met, kPairs / 3);
   EXPECT_LT(met, kPairs * 9 / 10);
-  // Overlaps that last for less than the time between two poses.
+  // Dense poses miss overlaps that last for less than the time between two poses.
   EXPECT_LT(missed_by_poses + early, kPairs / 20);
 }
 

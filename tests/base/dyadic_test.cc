@@ -17,7 +17,7 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-// Of all sizes that doubles have, subnormal ones included, and integers, so that sums cancel.
+// Doubles of all magnitudes, subnormal ones included, and integers, so that sums cancel.
 double draw(Random& random) {
   if (random.chance(0.2)) return static_cast<double>(random.below(9)) - 4;
   const int exponent = static_cast<int>(random.below(2000)) - 1070;
@@ -66,7 +66,7 @@ TEST(Dyadic, IsAboutItsValue) {
   }
 }
 
-// (a + b sqrt(s))(c + d sqrt(s)) - e, and its sign by squaring in rationals.
+// (a + b sqrt(s))(c + d sqrt(s)) - e: the sign is checked by squaring in rationals.
 TEST(Surd, SignsAreExact) {
   Random random(3);
   const auto small = [&] { return static_cast<double>(random.below(15)) - 7; };

@@ -163,7 +163,8 @@ TEST(BlockLists, StartEmptyAndKeepTheirMemory) {
 
 // --- The floating-point mode ---
 
-// What the mode does to numbers; volatile, since compilers compute with the default mode.
+// How arithmetic behaves in the current mode. Volatile, since compilers compute with the default
+// mode.
 struct Behaviour {
   bool flushes_results, flushes_inputs, rounds_up, rounds_down;
   bool operator==(const Behaviour&) const = default;

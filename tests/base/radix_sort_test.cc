@@ -16,13 +16,14 @@ using Items = std::vector<uint64_t>;
 
 bool key_less(uint64_t x, uint64_t y) { return x >> 32 < y >> 32; }
 
-// Keys of `bits` random bits, at the top or at the bottom; items are told apart by their order.
+// Keys of `bits` random bits, at the top or at the bottom. The order of the input tells items
+// apart.
 Items make_items(size_t count, int bits, bool at_top, uint64_t seed) {
   Random random(seed);
   Items items(count);
   for (size_t i = 0; i < count; ++i) {
     const uint64_t key = bits == 0 ? 0 : (random.bits() & 0xffffffffu) >> (32 - bits);
-    // Below the key, numbers that descend: a sort by all 64 bits would show.
+    // The bits below the key descend, so a sort by all 64 bits would fail the test.
     items[i] = (at_top && bits > 0 ? key << (32 - bits) : key) << 32 | (0xffffffffu - i);
   }
   return items;
@@ -32,7 +33,7 @@ void expect_sorted(const Items& items, Parallelism parallelism) {
   Items expected = items;
   std::stable_sort(expected.begin(), expected.end(), key_less);
   Items sorted = items;
-  Items scratch(7, 42);  // left over from something else
+  Items scratch(7, 42);  // contents of an earlier call
   std::vector<uint32_t> histograms(3, 42);
   radix_sort_by_key(sorted, scratch, histograms, parallelism);
   EXPECT_TRUE(sorted == expected) << items.size() << " items";

@@ -1,5 +1,5 @@
-// World bounds: the lanes of every instruction set against scalar sums, those against rational
-// numbers, and both against the reference.
+// World bounds: every instruction set against scalar sums, the sums against rational numbers, and
+// both against the reference.
 #include "carom/bounds/bounds.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST(OutwardSum, IsTheNearestFloatOnItsSide) {
   for (int i = 0; i < 20000; ++i) {
     const float a = random.any_float();
     if (!std::isnormal(a)) continue;
-    // Exponents near each other, so that both parts of the sum matter.
+    // Exponents near each other, so that both summands matter.
     const int exponent = std::ilogb(a) + static_cast<int>(random.below(60)) - 30;
     const float b = random.chance(0.5)
                         ? random.any_float()
@@ -152,7 +152,7 @@ std::vector<Layout> box_layouts() {
   return layouts;
 }
 
-// Half of them from the family, the others of any bits.
+// Half of the bodies come from the family, the others have random bits.
 Bodies make_bodies(Sides sides, const Family& family, PositionType positions, size_t count,
                    uint64_t seed = 1) {
   Bodies bodies;
@@ -193,7 +193,7 @@ TEST(Bounds, OfMixedKinds) {
   });
 }
 
-// Whole vectors of one kind between vectors of both.
+// Whole vectors of one kind between vectors of both kinds.
 TEST(Bounds, OfKindsInRuns) {
   for_each_isa([] {
     Random random(7);
@@ -213,7 +213,7 @@ TEST(Bounds, OfKindsInRuns) {
   });
 }
 
-// Slots in order, nearly in order and in none.
+// Box slots in order, nearly in order and in random order.
 TEST(Bounds, OfBoxesWithSlots) {
   constexpr size_t kCount = 300;
   Random random(8);
@@ -304,11 +304,11 @@ TEST(Bounds, InvalidBodiesAreEmptyAndCounted) {
       }
     }
   });
-  // Too far for float32, not for float64.
+  // The position overflows float32, but not float64.
   expect_bounds(Bodies(1, sphere(1e39, 0, 0, 1)), {.positions = PositionType::float64});
 }
 
-// Everything at the edge of what floats hold.
+// Positions and sizes at the limits of float32.
 Bodies extremes() {
   const float values[] = {0.0f, -0.0f,         1e-45f,  -1e-45f, 0x1p-126f, -0x1p-126f, 1,
                           -1,   0x1.fffffep0f, 0x1p24f, FLT_MAX, -FLT_MAX,  3e38f,      -3e38f};

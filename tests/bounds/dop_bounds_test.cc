@@ -1,5 +1,5 @@
-// World-space k-DOPs: they hold the shape and little more, have the same bits on every ISA, and
-// drop the pairs that a slab parts.
+// World-space k-DOPs: they contain the shape tightly, have the same bits on every ISA, and drop the
+// pairs that a slab separates.
 #include "carom/bounds/dop_bounds.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ std::string as_bytes(const Floats& floats) {
   return {reinterpret_cast<const char*>(floats.data()), floats.size() * sizeof(float)};
 }
 
-// The slab that holds the shape exactly, and what may be added to it.
+// The exact extent of the shape along a slab, and the slack that the slab may have.
 struct ExactSlab {
   Real lower, upper, slack;
 };
@@ -102,7 +102,7 @@ ExactSlab exact_slab(const PlacedShape& body, const std::array<int8_t, 3>& direc
 
 Real three_floats(float x) { return 3 * (std::nextafter(std::fabs(x), kInfinity) - std::fabs(x)); }
 
-// Thick triangles with hardly any area do not know their back, and have a radius instead; k-DOPs
+// Thick triangles with hardly any area have no reliable back and are given a radius instead; k-DOPs
 // and hulls have the slabs of their box.
 bool is_tight(const PlacedShape& body, const ConvexFamily& family) {
   const ShapeKind kind = kind_of(body.shape);
@@ -150,7 +150,8 @@ TEST(DopBounds, SmallerKindsHaveTheSlabsOfTheLargest) {
   const Floats all = dops_of(bodies, DopKind::k26);
   for (const DopKind kind : {DopKind::k14, DopKind::k18}) {
     const Floats some = dops_of(bodies, kind);
-    const size_t shift = kind == DopKind::k18 ? 4 : 0;  // the corners of the cube are left out
+    // a k18 does not have the slabs of the cube's corners
+    const size_t shift = kind == DopKind::k18 ? 4 : 0;
     for (size_t i = 0; i < bodies.size(); ++i) {
       for (size_t s = kBoundsSlabs; s < slab_count(kind); ++s) {
         const Ends got = ends_of(some, kind, i, s),
@@ -275,7 +276,7 @@ std::vector<uint8_t> overlaps(const Floats& records, DopKind kind, const std::ve
   return result;
 }
 
-// Records of small integers, so that many ends touch; some empty, some infinite, some no number.
+// Records of small integers, so that many ends touch. Some slabs are empty, infinite or NaN.
 Floats random_records(DopKind kind, size_t bodies, Random& random) {
   Floats records;
   for (size_t i = 0; i < bodies; ++i) {
@@ -321,7 +322,7 @@ TEST(DopPairs, AreThoseOfTheScalarTestOnEveryIsaAtAnyCount) {
 }
 
 TEST(DopPairs, TouchingIsOverlap) {
-  // Along (1, 1, 1) the edges of the cubes are all that meets.
+  // Along (1, 1, 1) the nearest features of the two cubes are edges.
   for (const double gap : {0.0, 0.001}) {
     const Eigen::Quaternionf turned(Eigen::AngleAxisf(0.785398185f, Eigen::Vector3f::UnitZ()));
     const double way = 2 + gap;
@@ -335,7 +336,7 @@ TEST(DopPairs, TouchingIsOverlap) {
   }
 }
 
-// Whatever a test calls touching must not be dropped.
+// A pair that a test calls touching must not be dropped.
 TEST(DopPairs, OfWhichTheReferenceSaysThatTheyOverlapAreKept) {
   size_t overlapping = 0, dropped = 0;
   for (const ConvexFamily& family : convex_families()) {

@@ -1,6 +1,6 @@
-// World bounds of capsules, boxes, k-DOPs, triangles and half-spaces: the bits of the reference on
-// every ISA, alone and mixed with spheres and aabbs. What the reference's are worth is tested in
-// tests/reference.
+// World bounds of capsules, boxes, k-DOPs, triangles and half-spaces: they have the bits of the
+// reference on every ISA, alone and mixed with spheres and aabbs. tests/reference tests the
+// reference itself.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -23,7 +23,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule, ShapeKind::box, ShapeKind::dop,
                                        ShapeKind::triangle, ShapeKind::halfspace};
 
-// Some from the family, as many of any bits.
+// Half of the bodies come from the family, the others have random bits.
 Bodies make_bodies(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,
                    uint64_t seed = 1) {
   const KindPair kinds{ShapeKind::sphere, kind};

@@ -1,4 +1,5 @@
-// Geometries of meshes and compounds: what is refused, what is skipped, and what they say.
+// Geometries of meshes and compounds: which inputs are refused, which triangles are skipped, and
+// what the accessors return.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ TEST(MeshGeometry, BoundsHoldTheThickness) {
 TEST(MeshGeometry, TrianglesWithoutAreaAreCounted) {
   std::vector<Vector3f> vertices = kSquare;
   vertices.push_back({2, 0, 0});
-  vertices.push_back({1, 0, 0});  // again
+  vertices.push_back({1, 0, 0});  // the same vertex again
   const auto mesh = *make_mesh(
       vertices, Triangles{{0, 1, 2}, {0, 1, 4}, {3, 3, 3}, {1, 2, 1}, {1, 5, 2}, {0, 2, 3}});
   EXPECT_EQ(mesh->degenerate_count(), 4u);
@@ -71,8 +72,8 @@ TEST(MeshGeometry, TrianglesWithoutAreaAreCounted) {
 TEST(MeshGeometry, FlatEdgesAreInnerFromBothSides) {
   const auto mesh = *make_mesh(kSquare, kHalves);
   for (const bool from_front : {true, false}) {
-    EXPECT_EQ(mesh->inner_edges(0, from_front), 0b100);  // 2 -> 0
-    EXPECT_EQ(mesh->inner_edges(1, from_front), 0b001);  // 0 -> 2
+    EXPECT_EQ(mesh->inner_edges(0, from_front), 0b100);  // the edge from corner 2 to 0
+    EXPECT_EQ(mesh->inner_edges(1, from_front), 0b001);  // the edge from corner 0 to 2
   }
 }
 
@@ -97,7 +98,7 @@ TEST(MeshGeometry, BentEdgesAreInnerFromInside) {
   }
 }
 
-// The neighbour's corners may run the other way round: only where it lies counts.
+// The neighbour's winding does not matter, only its position.
 TEST(MeshGeometry, NeighboursMayLookTheOtherWay) {
   const auto mesh = *make_mesh(kSquare, Triangles{{0, 1, 2}, {0, 3, 2}});
   EXPECT_EQ(mesh->inner_edges(0, true), 0b100);

@@ -60,13 +60,13 @@ std::vector<TestPair> make_mixed_pairs(size_t count, PositionType positions, uin
   while (pairs.size() < count) {
     const ShapeKind a = kEveryKind[composites.random().below(8)];  // no half-spaces on this side
     const ShapeKind b = kEveryKind[composites.random().below(std::size(kEveryKind))];
-    if (a == ShapeKind::dop || b == ShapeKind::dop) continue;  // they take long
+    if (a == ShapeKind::dop || b == ShapeKind::dop) continue;  // k-DOPs are slow
     pairs.push_back(composites.pair(a, b, positions, 1, 5));
   }
   return pairs;
 }
 
-// Where sums of coordinates are infinite, and differences.
+// Sums and differences of coordinates overflow.
 TEST(CompositeBits, AtTheEndOfDoublePrecision) {
   const Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   const Capsule capsule{{0, 0, 0}, {1, 0, 0}, 1};
@@ -105,7 +105,7 @@ std::vector<TestPair> repeated(const std::vector<TestPair>& some, size_t count) 
   return pairs;
 }
 
-// Blocks are full of parts before they are full of pairs.
+// Blocks fill up with parts before they fill up with pairs.
 TEST(CompositeBits, ManyPairsAndThreads) {
   const std::vector<TestPair> some = make_mixed_pairs(97, PositionType::float32);
   const std::vector<TestPair> pairs = repeated(some, 2500);
@@ -122,7 +122,8 @@ TEST(CompositeBits, ManyPairsAndThreads) {
   }
 }
 
-// Of pairs that are apart the decision alone is sure, and that is the same.
+// With Measured::overlapping all decisions stay the same, and so do the contacts of overlapping
+// pairs.
 TEST(CompositeBits, DecidedPairsHaveTheSameContacts) {
   const std::vector<TestPair> pairs = make_mixed_pairs(rounds(300), PositionType::float32, 4);
   Call call;
@@ -162,7 +163,7 @@ TEST(CompositeBits, LayoutsAndColumnsLeftOut) {
   }
 }
 
-// Both tiers decide as the standard one where that is not in doubt, and exactly where it is.
+// Both proven tiers agree with the standard tier where that is sure, and are exact everywhere else.
 TEST(CompositeBits, ProvenTiersAgree) {
   const std::vector<TestPair> pairs = make_mixed_pairs(rounds(150), PositionType::float32, 6);
   Call call;

@@ -1,4 +1,4 @@
-// What meshes and compounds answer in cases where the answer is known.
+// Meshes and compounds in cases with a known answer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using Eigen::Quaternionf;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// The result of the reference, which those of all ISAs and both orders equal.
+// The result of the reference, after checking that all ISAs and both orders give the same.
 reference::PairResult result_of(const TestPair& pair,
                                 PositionType positions = PositionType::float32) {
   for (const TestPair& each : {pair, swapped(pair)}) {
@@ -34,7 +34,7 @@ void expect_near(const Vector3f& actual, const Vector3f& expected, float toleran
       << actual.transpose() << " instead of " << expected.transpose();
 }
 
-// CASES.md 64.
+// Case 64 of CASES.md.
 TEST(CompositeCases, SphereOverAnInnerEdgeGetsTheNormalOfThePlane) {
   const Mesh ground = flat_grid(4, 5);
   for (const double x : {0.0, 1e-6, -0.3, 2.5, 4.999, 5.0}) {
@@ -52,14 +52,14 @@ TEST(CompositeCases, SphereOverAnInnerEdgeGetsTheNormalOfThePlane) {
   }
 }
 
-// The same from below: the back of a plane has no ghosts either.
+// The same from below: contacts at the back of a plane keep the plane's normal, too.
 TEST(CompositeCases, SphereUnderAnInnerEdgeGetsTheNormalOfThePlane) {
   const auto result = result_of({{flat_grid(4, 5), {0, 0, 0}}, sphere(0.2, -0.2, -2.9, 3)});
   EXPECT_TRUE(result.overlap);
   expect_near(result.normal, {0, 0, -1});
 }
 
-// CASES.md 45.
+// Case 45 of CASES.md.
 TEST(CompositeCases, SegmentThroughTheMiddleOfATriangleHits) {
   const std::vector<Vector3f> corners = {{2832.862f, 200, -641.5822f},
                                          {2834.611f, 200.0066f, -643.3685f},
@@ -95,12 +95,13 @@ TEST(CompositeCases, BoxesThatSlideOverAGridMeetThePlaneAlone) {
   }
 }
 
-// All four corners of a box that lies on many triangles.
+// A box lies on many triangles: the manifold has all four of its corners.
 TEST(CompositeCases, ManifoldsSpreadOverAllTriangles) {
   const auto result = result_of(
       {{flat_grid(9, 0.5f), {0, 0, 0}}, oriented_box({0.1, -0.1, 0.45}, {1.5f, 1.25f, 0.5f})});
   ASSERT_EQ(result.manifold_count, 4);
-  // One to each corner; triangles that a corner lies in have more points than four.
+  // Every point is at another corner; a triangle that contains a corner may give more points than
+  // four.
   std::array<int, 4> corners{};
   for (const auto& point : result.manifold.point) {
     EXPECT_NEAR(std::fabs(point[0] - 0.1), 1.5, 0.1);
@@ -110,7 +111,7 @@ TEST(CompositeCases, ManifoldsSpreadOverAllTriangles) {
   EXPECT_EQ(corners, (std::array{1, 1, 1, 1}));
 }
 
-// Of the points of the manifold, seen from above.
+// The area of the manifold's points, seen from above.
 double area_of(const reference::PairResult& result) {
   std::vector<Vector3d> points;
   Vector3d middle = Vector3d::Zero();
@@ -131,7 +132,8 @@ double area_of(const reference::PairResult& result) {
   return area;
 }
 
-// Tilted as little as rounding does, a body leaves most triangles over their inner edges.
+// A body is tilted by as little as rounding. Its contacts with most triangles are then over their
+// inner edges.
 TEST(CompositeCases, ManifoldsOfTiltedBodiesStaySpread) {
   oracle::Random random(17);
   const Shape shapes[] = {Box{{0.5f, 0.5f, 0.5f}}, oracle::hull_of(cube_corners(0.5f))};
@@ -152,14 +154,14 @@ TEST(CompositeCases, ManifoldsOfTiltedBodiesStaySpread) {
   }
 }
 
-// A step up in a floor keeps its edge: what comes from its side is stopped.
+// A step in a floor keeps its edge: it stops a body that comes from the side.
 TEST(CompositeCases, OuterEdgesAreNotLeftOut) {
   const auto result = result_of({{flat_grid(2, 1), {0, 0, 0}}, sphere(1.4, 0.1, 0, 0.5)});
   EXPECT_TRUE(result.overlap);
   expect_near(result.normal, {1, 0, 0});
 }
 
-// Nor do the triangles behind them count, however many are reached.
+// Triangles behind the edge of a sheet do not count, however many the body reaches.
 TEST(CompositeCases, SheetsAreMetEdgeOn) {
   const auto result = result_of({{flat_grid(20, 0.1f), {0, 0, 0}}, sphere(1.6, 0.13, 0.05, 1)});
   EXPECT_TRUE(result.overlap);
@@ -167,7 +169,7 @@ TEST(CompositeCases, SheetsAreMetEdgeOn) {
 }
 
 TEST(CompositeCases, ConcaveEdgesGiveTheNormalsOfFaces) {
-  // A valley of 45 degrees on either side.
+  // A valley with slopes of 45 degrees.
   const Mesh valley = grid_mesh(2, 1, [](float x, float) { return std::fabs(x); });
   const auto result = result_of({{valley, {0, 0, 0}}, sphere(0.01, 0.3, 0.69, 0.5)});
   EXPECT_TRUE(result.overlap);
@@ -192,7 +194,7 @@ TEST(CompositeCases, ThickMeshesReachBehindTheirFront) {
   expect_near(result.normal, {0, 0, -1});
 }
 
-// Triangles without area change nothing but indices.
+// Triangles without area only take up indices.
 TEST(CompositeCases, DegenerateTrianglesTakeNoPart) {
   const std::vector<Vector3f> corners = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, 5}};
   const Mesh good = mesh_of(corners, {{0, 1, 2}});
@@ -250,7 +252,7 @@ TEST(CompositeCases, CompoundsNameTheirDeepestChild) {
       compound_of({{Sphere{1}, {-3, 0, 0}, Quaternionf::Identity()},
                    {Capsule{{-3, 0, 0}, {3, 0, 0}, 0.1f}, {0, 0, 0}, Quaternionf::Identity()},
                    {Sphere{1}, {3, 0, 0}, Quaternionf::Identity()}});
-  // Turned by a quarter about z: the last sphere is at y = 3.
+  // A quarter turn about z puts the last sphere at y = 3.
   const Quaternionf quarter(1, 0, 0, 1);
   const auto result =
       result_of({{dumbbell, {10, 0, 0}, quarter}, oriented_box({10, 4.4, 0}, {0.5f, 0.5f, 0.5f})});
@@ -260,7 +262,7 @@ TEST(CompositeCases, CompoundsNameTheirDeepestChild) {
   EXPECT_NEAR(result.separation, -0.1, 1e-5);
   expect_near(result.normal, {0, 1, 0});
   expect_near(result.arm_a, {0, 4, 0});
-  // Apart, nearest to the capsule.
+  // The bodies are separate; the capsule is the nearest child.
   const auto apart = result_of({{dumbbell, {10, 0, 0}, quarter}, sphere(12, 0, 0, 0.5)});
   EXPECT_FALSE(apart.overlap);
   EXPECT_EQ(apart.sub_a, 1u);

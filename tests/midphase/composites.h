@@ -1,4 +1,5 @@
-// Random meshes, compounds, and pairs with them; results with sub-shapes, against the reference.
+// Random meshes and compounds, pairs with them, and checks of their rows and sub-shapes against the
+// reference.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ inline Compound compound_of(const std::vector<CompoundChild>& children) {
   return {*make_compound(children)};
 }
 
-// n x n squares of one side, each of two triangles, about the origin; `height` at every corner.
+// n x n squares about the origin, each of two triangles; `height` gives the z of every corner.
 template <class Height>
 Mesh grid_mesh(int n, float side, const Height& height, const MeshRules& rules = {}) {
   std::vector<Eigen::Vector3f> vertices;
@@ -55,7 +56,7 @@ class Composites {
 
   oracle::Random& random() { return random_; }
 
-  // A soup of triangles, some of them without area, or a terrain; of about that size.
+  // A random set of triangles, some without area, or a terrain; about `size` large.
   Mesh mesh(double size, size_t most_triangles = 24) {
     const MeshRules rules = {
         .one_sided = random_.chance(0.2),
@@ -100,7 +101,7 @@ class Composites {
 
   Eigen::Quaternionf orientation() { return shapes_.orientation(); }
 
-  // Two bodies that overlap about half of the time.
+  // Two bodies, of which about half of the pairs overlap.
   TestPair pair(ShapeKind a, ShapeKind b, PositionType positions, double size, double distance) {
     TestPair pair;
     pair.a = {shape(a, size), stored(random_.direction() * distance, positions), orientation()};
@@ -128,7 +129,7 @@ inline constexpr ShapeKind kEveryKind[] = {
     ShapeKind::dop,       ShapeKind::hull,    ShapeKind::mesh, ShapeKind::compound,
     ShapeKind::halfspace, ShapeKind::triangle};
 
-// In both orders; one of them is a mesh or a compound.
+// All ordered pairs of kinds of which one is a mesh or a compound.
 inline std::vector<std::array<ShapeKind, 2>> composite_kind_pairs() {
   std::vector<std::array<ShapeKind, 2>> all;
   for (const ShapeKind a : kEveryKind) {
@@ -141,7 +142,7 @@ inline std::vector<std::array<ShapeKind, 2>> composite_kind_pairs() {
 
 using SubShapes = std::array<uint32_t, 2>;
 
-// The sub-shapes that a call names.
+// The sub-shapes that a call writes.
 inline std::vector<SubShapes> run_sub_shapes(std::span<const TestPair> pairs, const Call& call) {
   const LaidOut a(side_a(pairs), call.layout_a);
   const LaidOut b(side_b(pairs), call.layout_b);
@@ -169,7 +170,7 @@ inline std::vector<SubShapes> expected_sub_shapes(std::span<const TestPair> pair
   return all;
 }
 
-// Rows, in both ways to call, and sub-shapes are those of the reference, on every ISA.
+// Rows (from both ways to call) and sub-shapes equal those of the reference, on every ISA.
 inline void expect_reference(std::span<const TestPair> pairs, const Call& call) {
   const PositionType positions = call.layout_a.positions;
   const std::vector<Row> expected = expected_rows(pairs, positions, call.detail, call.frame);

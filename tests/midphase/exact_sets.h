@@ -24,7 +24,7 @@ class ExactSets {
   explicit ExactSets(uint64_t seed)
       : random_(seed), shapes_({}, random_), slender_({.aspect = 1e3}, random_) {}
 
-  // In either order. Of sizes that are not only 1, up to a million sizes from the origin.
+  // A pair in random order, of size 1e-3, 1 or 1e4, up to a million sizes from the origin.
   ExactPair next(ShapeKind kind_a, ShapeKind kind_b) {
     static constexpr double kSizes[] = {1, 1e-3, 1e4};
     static constexpr double kDistances[] = {0, 1e3, 1e6};
@@ -43,8 +43,8 @@ class ExactSets {
   }
 
  private:
-  // A quarter anywhere, a quarter moved to overlap or be apart by up to a third of the size, the
-  // rest by a ten-thousandth of it at most.
+  // A quarter is placed anywhere. The others are moved along the normal to a given separation or
+  // depth: some up to a third of the size, most a ten-thousandth of it or less.
   void place(TestPair& pair, double size) {
     const Eigen::Vector3d direction = random_.direction();
     const bool is_anywhere = random_.chance(0.25);
@@ -59,7 +59,7 @@ class ExactSets {
       pair.b.position = pair.a.position + direction * (6 * size);
       exact = CompositeOracle(pair).separations();
     }
-    // All other parts stay at least that far apart.
+    // Moving along the normal leaves all other parts at least that far apart.
     const auto way = static_cast<double>(gap - exact.all);
     const auto& n = exact.normal;
     pair.b.position += Eigen::Vector3d(double(n.x), double(n.y), double(n.z)) * way;
@@ -71,7 +71,7 @@ class ExactSets {
     return (random_.chance(0.2) ? slender_ : shapes_).shape(kind, size);
   }
 
-  // A terrain or a closed surface, 18 to 176 triangles; two-sided, some thick.
+  // A terrain or a closed surface, 18 to 176 triangles, two-sided, some thick.
   Mesh mesh(double size, int most) {
     const double thickness = random_.chance(0.3) ? size * random_.uniform(0.02, 0.2) : 0;
     const MeshRules rules = {.one_sided = false, .thickness = static_cast<float>(thickness)};
@@ -87,7 +87,7 @@ class ExactSets {
         [&](float, float) { return random_.uniform(-bumps, bumps); }, rules);
   }
 
-  // Two poles and n - 1 rings, of n + 2 corners each; round, or with bumps.
+  // Two poles and n - 1 rings of n + 2 corners each; round, or with bumps.
   Mesh globe(double size, int n, const MeshRules& rules) {
     const double bumps = random_.chance(0.5) ? 0 : 0.15;
     const auto corners = static_cast<uint32_t>(n + 2), rings = static_cast<uint32_t>(n - 1);

@@ -11,13 +11,13 @@ namespace {
 
 using Number = long double;
 
-// Of L + gap: decisions further from touching than this are right at the standard tier.
+// In units of L + gap: the standard tier decides right beyond this distance from touching.
 constexpr Number kDecisions = 4 * 0x1p-23L;
-// Of L: the error of any separation, and of 99.9 % of them.
+// In units of L: the error of any separation, and of 99.9 % of them.
 constexpr Number kWorst = 1e-5L;
 constexpr Number kUsual = 1e-6L;
-// Of L. Children are placed in double precision and exactly here: decisions nearer to touching than
-// this would be about something else. No pair comes near to it.
+// In units of L. Kernels place children in double precision, the oracle places them exactly: a
+// decision closer to touching than this is about another pose. No pair comes near it.
 constexpr Number kPlacing = 0x1p-44L;
 
 // Errors of separations, in units of L.
@@ -26,7 +26,7 @@ class Errors {
   void add(Number error) { all_.push_back(std::fabs(error)); }
   size_t count() const { return all_.size(); }
   Number worst() const { return share(1); }
-  // The least that so large a share is not beyond.
+  // The error that the share `part` of all errors does not exceed.
   Number share(double part) const {
     if (all_.empty()) return 0;
     std::vector<Number> sorted = all_;
@@ -41,11 +41,14 @@ class Errors {
 struct Figures {
   size_t pairs = 0;
   size_t overlapping = 0;
-  size_t undecided_by_floats = 0;  // decided wrong at the standard tier, within its bound
-  size_t undecided = 0;            // at the certified tier
-  size_t passed_over = 0;          // overlapping pairs whose deepest parts met over an inner edge
-  size_t over_edges = 0;           // overlapping pairs that meet over inner edges alone, or may
-  size_t unclear = 0;              // other ones of which that is not clear of the deepest parts
+  size_t undecided_by_floats = 0;  // pairs that the standard tier decides wrong, within its bound
+  size_t undecided = 0;            // pairs that the certified tier leaves undecided
+  size_t passed_over = 0;          // overlapping pairs whose deepest parts meet over an inner edge
+  // overlapping pairs of which all parts meet over inner edges, or may
+  size_t over_edges = 0;
+  // other overlapping pairs where rounding decides whether the deepest parts meet over an inner
+  // edge
+  size_t unclear = 0;
   Errors separate, depths;
 };
 
@@ -78,9 +81,9 @@ class Checks {
     EXPECT_LE(named().all - pair_.exact.all, kWorst * scale_);
   }
 
-  // The deepest of the pairs of parts that do not meet over an inner edge, if there are such. Of
-  // some it is not clear whether they do, where several ways out are about as short: those may
-  // count.
+  // The separation is that of the deepest pair of parts that does not meet over an inner edge, if
+  // there is one. Where several penetration directions are about equally short, it is unclear
+  // whether a pair meets over one; such pairs may count or not.
   void check_depth() {
     const ExactSeparations& exact = pair_.exact;
     const Number slack = kWorst * scale_;
@@ -99,8 +102,8 @@ class Checks {
     }
   }
 
-  // Of the deepest of all, if they all meet over inner edges. The least way out may not be allowed,
-  // the pair is that deep at least.
+  // If all parts meet over inner edges, the separation is that of the deepest pair or deeper, since
+  // its penetration direction may not be allowed.
   void check_depth_over_edges() {
     const Number slack = kWorst * scale_;
     ++figures_.over_edges;
@@ -125,7 +128,7 @@ std::vector<TestPair> pairs_of(const std::vector<ExactPair>& set) {
   return pairs;
 }
 
-// On every ISA, and where nothing but the decision is asked for.
+// The same on every ISA, and when only the decision is asked for.
 void check_same(const std::vector<TestPair>& pairs, const Call& call, const std::vector<Row>& rows,
                 const std::vector<SubShapes>& subs) {
   Call decisions = call;

@@ -99,7 +99,7 @@ TEST(ReferenceBounds, InvalidBodiesAreEmpty) {
       EXPECT_FALSE(reference::overlap(box, box));
     }
   }
-  // Too far for float32, not for float64.
+  // The position overflows float32, but not float64.
   EXPECT_FALSE(reference::is_valid(Sphere{1}, {{1e39, 0, 0}}, PositionType::float32));
   EXPECT_TRUE(reference::is_valid(Sphere{1}, {{1e39, 0, 0}}, PositionType::float64));
   EXPECT_TRUE(reference::is_valid(Sphere{-0.0f}, {{0, 0, 0}}, PositionType::float32));

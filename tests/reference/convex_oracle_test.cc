@@ -1,4 +1,5 @@
-// The oracle itself: closed forms, itself with 50 digits, and what duality says of any answer.
+// The oracle of convex shapes, against closed forms, against itself with 50 digits, and against
+// bounds from duality.
 #include "oracle/convex_oracle.h"
 
 #include <gtest/gtest.h>
@@ -37,12 +38,12 @@ Shape triangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::
   return Triangle{{a, b, c}, thickness};
 }
 
-// Beyond double, which EXPECT_NEAR is for.
+// EXPECT_NEAR works in double, which is too coarse here.
 void expect_near(long double x, long double expected, long double tolerance) {
   EXPECT_LE(std::fabs(x - expected), tolerance) << x << " instead of " << expected;
 }
 
-// Both ways round.
+// Tests (A, B) and (B, A).
 void expect_separation(const ConvexPair& pair, long double expected, long double tolerance) {
   expect_near(pair.oracle().separation().value, expected, tolerance);
   expect_near(swapped(pair).oracle().separation().value, expected, tolerance);
@@ -61,7 +62,7 @@ TEST(ConvexOracle, Spheres) {
   expect_normal({r25, at(0, 0, 0), r25, at(0, 9, 0)}, {0, 1, 0});
 }
 
-// On both sides of the surface, and of what has but one.
+// On both sides of the surface, and for shapes without an inside.
 TEST(ConvexOracle, DistancesFromSurfaces) {
   const auto distance = [](const Shape& shape, double x, double y, double z) {
     const Vec point{x, y, z};
@@ -143,7 +144,7 @@ TEST(ConvexOracle, Halfspaces) {
   EXPECT_TRUE(std::isinf(crossed.oracle().separation().value));
 }
 
-// Outlines as sets of points, which may begin anywhere.
+// Outlines as sets of points; an outline may begin at any corner.
 std::vector<std::vector<uint32_t>> from_least(const HullFaces& found) {
   std::vector<std::vector<uint32_t>> faces = found.faces();
   for (auto& face : faces) {
@@ -176,7 +177,8 @@ TEST(HullFaces, OfKnownHulls) {
   EXPECT_EQ(HullFaces(point).corners().size(), 1u);
 }
 
-// Euler's formula, every edge once each way, and no point in front of a face.
+// Checks Euler's formula, that every edge occurs once in each direction, and that no point is in
+// front of a face.
 void expect_closed(const HullFaces& found, std::span<const Eigen::Vector3f> points) {
   std::vector<std::pair<uint32_t, uint32_t>> edges;
   for (const auto& face : found.faces()) {
@@ -200,7 +202,8 @@ TEST(HullFaces, AreClosedAndConvex) {
   size_t solids = 0;
   for (const ConvexFamily& family : convex_families()) {
     SCOPED_TRACE(family.name);
-    if (family.smallest != 0.5 || family.aspect > 10) continue;  // 50 digits hold those
+    // 50 digits suffice for the other families
+    if (family.smallest != 0.5 || family.aspect > 10) continue;
     for (const ConvexPair& pair :
          make_convex_pairs(family, {ShapeKind::hull, ShapeKind::hull}, PositionType::float32, 40)) {
       const auto points = std::get<Hull>(pair.shape_a).geometry->points();
@@ -243,9 +246,9 @@ TEST(ConvexOracle, Hulls) {
   expect_separation({flat, at(0, 0, 0), box(2, 2, 2), at(0, 0, 1)}, -1, 0);
 }
 
-// Two edges that cross at a small angle, one above the other: the gap is that of the two planes.
-// Faces are triangles to the oracle: found by hull_fuzz, which had a point over the seam of two,
-// and over neither of them.
+// Two edges that cross at a small angle, one above the other: the gap is that of their planes. The
+// oracle splits faces into triangles. hull_fuzz found this case: a point above the seam of two
+// triangles counted as above neither.
 TEST(ConvexOracle, PointsOverSeamsOfFaces) {
   Random random(1);
   const auto vector = [&] {
@@ -333,13 +336,13 @@ TEST_P(ConvexOracleFamilies, NoAxisIsBetter) {
   });
 }
 
-// So what is said of a gap is proven: a point of each so far apart, and an axis that parts them so.
+// This proves the gap: two points are that far apart, and an axis separates the shapes by as much.
 TEST_P(ConvexOracleFamilies, TheNormalAttainsTheSeparation) {
   each(20, PositionType::float32, [](const ConvexPair& pair) {
     const ConvexOracle<> oracle = pair.oracle();
     const auto [value, normal] = oracle.separation();
     const long double regret = value - oracle.gap_along(normal);
-    // The way between points is as good a direction as the gap is large.
+    // The direction between two points is only as accurate as their distance is large.
     const long double cores = value + oracle.a.radius + oracle.b.radius;
     const long double blur = cores > 0 ? kTight * size_of(oracle) / cores : 0;
     EXPECT_LE(regret, size_of(oracle) * (kTight + std::min(blur, 1e-9L))) << value;
@@ -354,7 +357,8 @@ TEST_P(ConvexOracleFamilies, OrderDoesNotMatter) {
   });
 }
 
-// Half of the free pairs overlap, and those near touch are within a few floats of it.
+// Half of the free pairs overlap, and the separations of the near_touch pairs are within a few
+// floats of zero.
 TEST_P(ConvexOracleFamilies, PairsAreWhatTheyAreMeantToBe) {
   int overlaps = 0, near = 0, total = 0;
   each(40, PositionType::float32, [&](const ConvexPair& pair) {

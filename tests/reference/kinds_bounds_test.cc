@@ -18,8 +18,8 @@ using Exact = ConvexShape<Real>;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// `bound` is below `exact`, by no more than 4e-6 of the size and the spacing of its floats. The
-// exact number itself is one of a hundred digits.
+// `bound` is below `exact` by at most 4e-6 of the size and the spacing of its floats. `exact`
+// itself has only a hundred digits.
 void expect_tight_below(float bound, const Real& exact, const Real& size) {
   EXPECT_LE(Real(bound), exact + size * Real(1e-60)) << hex(bound);
   if (!std::isfinite(bound)) return;
@@ -87,7 +87,7 @@ TEST(KindsReferenceBounds, OfHalfspacesAreInfinite) {
   }
 }
 
-// CASES 61.
+// Case 61 of CASES.md.
 TEST(KindsReferenceBounds, ContainTheShapeFarFromTheOrigin) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {

@@ -1,5 +1,5 @@
-// The oracle of moving shapes against itself: what it finds passes its judgement, and what is late,
-// early or missed does not.
+// The oracle of moving shapes against itself: it accepts the times that it finds, and rejects late,
+// early and missed ones.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -19,8 +19,8 @@ float rounded_down(double x) {
 
 Fault fault(const MovedPair& pair, float toi) { return judge(pair, toi).fault; }
 
-// At the first time of impact shapes close in by this much of size and travel, or more, up to the
-// next one.
+// Whether the pair is clearly separate at `from` and clearly overlaps at `to`, by more than 1e-8 of
+// size and travel.
 bool is_plain(const MovingPair<double>& pair, double from, double to) {
   const MotionMoment<double> before(pair, from, 0), after(pair, to, 0);
   const double least = 1e-8 * (pair.size() + pair.travel());

@@ -10,10 +10,10 @@ namespace carom::test {
 namespace {
 
 constexpr double kEps = 0x1p-23;
-// Half the spacing of floats near zero, rounded several times.
+// Half the spacing of floats near zero, for several roundings.
 constexpr double kSubnormal = 4 * 0x1p-149;
 
-// What no float32 result can be better than, in a pair of this size and gap.
+// The error that no float32 result can avoid, for a pair of this size and gap.
 Real rounding(const ExactPair& pair) { return kEps * (pair.scale + abs(pair.separation)); }
 
 void check_decision(const ExactPair& exact, const reference::PairResult& result) {
@@ -80,7 +80,8 @@ TEST_P(Oracle, AgreesWithin) {
   }
 }
 
-// Along an axis distances are exact, and then the decision is, however the radii round when added.
+// Along an axis distances are exact. The decision then is exact, too, however the sum of the radii
+// rounds.
 TEST(ExactDecision, OfSpheresAlongAnAxis) {
   Random random(3);
   int hits = 0;

@@ -1,5 +1,5 @@
-// Pairs, filters, contacts and events of the reference against the simplest program that could
-// compute them.
+// Pairs, filters, contacts and events of the reference against the simplest program that computes
+// them.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using reference::Body;
 using reference::Frame;
 
-// Bodies that come, go, move, change and are spoilt from frame to frame.
+// Bodies that are added, removed, moved, changed and made invalid from frame to frame.
 class Crowd {
  public:
   Crowd(size_t count, uint64_t seed) : random_(seed) {
@@ -34,7 +34,8 @@ class Crowd {
   }
 
  private:
-  // Half of the bodies have sizes and places in quarters: bounds and shapes touch exactly.
+  // Half of the bodies have sizes and positions in quarters, so that bounds and shapes touch
+  // exactly.
   Body make(BodyId id) {
     Body body;
     body.id = id;
@@ -66,7 +67,7 @@ class Crowd {
 
 bool is_spoilt(const Body& body) { return std::isnan(body.desc.position.x()); }
 
-// Exact in double, for the sizes and places of a Crowd, but for rounding outwards.
+// Exact in double for the sizes and positions of a Crowd, except for the rounding outwards.
 bool boxes_overlap(const Body& a, const Body& b, PositionType positions) {
   const RoundedBox shape_a = rounded_box(a.desc.shape);
   const RoundedBox shape_b = rounded_box(b.desc.shape);
@@ -139,7 +140,7 @@ std::set<EventKey> simple_events(const Touching& before, const Touching& now) {
   return events;
 }
 
-// Sorted by indices; at equal ones the end of the old pair first.
+// Sorted by indices; for equal indices the end of the old pair comes first.
 void expect_sorted(const std::vector<Event>& events) {
   const auto key = [](const Event& e) {
     return std::tuple(e.a.index, e.b.index, e.kind != EventKind::end);
@@ -244,8 +245,7 @@ TEST(ReferenceStep, LesserDetails) {
   EXPECT_TRUE(pairs.events.empty());
 }
 
-// Boxes and half-spaces whose numbers are quarters, turned by quarters of a turn: every height is
-// exact.
+// Boxes and half-spaces with sizes in quarters, turned by quarter turns: every height is exact.
 class Quarters {
  public:
   explicit Quarters(uint64_t seed) : random_(seed) {}
@@ -277,7 +277,7 @@ class Quarters {
   Random random_;
 };
 
-// Of the lowest corner of the body above the plane.
+// The height of the body's lowest corner above the plane.
 double height_above(const BodyDesc& body, const BodyDesc& plane) {
   const auto& halfspace = std::get<Halfspace>(plane.shape);
   const Eigen::Matrix3d rotation = plane.orientation.cast<double>().normalized().toRotationMatrix();
@@ -308,7 +308,7 @@ TEST(ReferenceStep, HalfspacesMeetWhatReachesIntoThem) {
       }
       EXPECT_EQ(frame.pairs, expected);
       EXPECT_GT(expected.size(), 200u);
-      // Boxes along the axes fill their bounds.
+      // Boxes along the axes fill their bounds, so every pair overlaps.
       EXPECT_EQ(frame.overlaps, std::vector<uint8_t>(expected.size(), 1));
     }
   }

@@ -1,4 +1,4 @@
-// The small types that everything is made of.
+// The small types that all stages share.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST(Result, HoldsAValueOrAReason) {
   EXPECT_EQ(Result<void>(Error{"no"}).error().message, "no");
 }
 
-// The rule of what is valid is that of the reference, in every layout.
+// The reader's validity rule equals that of the reference, in every layout.
 TEST(BodyReader, ReadsWhatWasWritten) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<PlacedShape> bodies = {sphere(1, 2, 3, 4),         sphere(nan, 0, 0, 1),

@@ -19,7 +19,7 @@ using Points = std::vector<Eigen::Vector3f>;
 
 constexpr DopKind kKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 
-// All slabs of one width, as a share of the length of their direction times `scale`.
+// A k-DOP whose slabs all have the same width, `scale` times the length of their direction.
 Dop even_dop(DopKind kind, double scale) {
   Dop dop{.kind = kind};
   for (size_t i = 0; i < slab_count(kind); ++i) {
@@ -37,7 +37,7 @@ size_t area_faces(const DopPolytope& polytope) {
   return count;
 }
 
-// Euler's formula, and what it makes of the most that there can be.
+// The counts fit Euler's formula, and are the greatest possible ones.
 TEST(DopPolytope, OfEvenSlabs) {
   const std::array<std::array<size_t, 3>, 4> expected = {
       {{8, 12, 6}, {24, 36, 14}, {32, 48, 18}, {48, 72, 26}}};
@@ -56,13 +56,13 @@ double along(const std::array<int8_t, 3>& d, const Double3& x) {
   return d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
 }
 
-// Points are in all slabs, and every slab that is as tight as can be has one at each end.
+// Every point lies in all slabs, and every tight slab has a point at each end.
 void expect_tight(const Dop& dop) {
   const DopPolytope polytope{DopSlabs(dop)};
   ASSERT_FALSE(polytope.is_empty());
   double size = 0;
   for (const Double3& x : polytope.points()) size = std::max(size, greatest(x));
-  // Rounding of the slabs to floats is all that may be missing.
+  // The only difference is the rounding of the slabs to floats.
   const double rounding = size * 0x1p-21;
   for (size_t i = 0; i < slab_count(dop.kind); ++i) {
     double lower = HUGE_VAL, upper = -HUGE_VAL;
@@ -89,7 +89,7 @@ TEST(DopPolytope, OfPoints) {
   }
 }
 
-// Both planes of an edge hold it, and corners run counter-clockwise.
+// Both faces of an edge contain it, and corners run counter-clockwise.
 TEST(DopPolytope, EdgesAndFacesFitTogether) {
   Random random(2);
   for (const DopKind kind : kKinds) {
@@ -132,7 +132,7 @@ TEST(DopPolytope, OfRedundantSlabs) {
   EXPECT_EQ(area_faces(cube), 6u);
 }
 
-// An octahedron whose axes nobody has bounded.
+// An octahedron whose axis slabs are so wide that they do not bound it.
 TEST(DopPolytope, OfFarOffSlabs) {
   for (const float far : {3.0f, 1e9f, 1e30f, FLT_MAX}) {
     Dop dop{.kind = DopKind::k14};
@@ -165,7 +165,7 @@ TEST(DopPolytope, OfFlatSlabs) {
 TEST(DopPolytope, WhatHasNoPointIsNotValid) {
   Dop dop = even_dop(DopKind::k18, 1);
   EXPECT_TRUE(is_valid_dop(dop));
-  dop.lower[3] = 3;  // x + y beyond the corners of the cube
+  dop.lower[3] = 3;  // x + y lies beyond the corners of the cube
   dop.upper[3] = 4;
   EXPECT_FALSE(is_valid_dop(dop));
   EXPECT_TRUE(DopPolytope(DopSlabs(dop)).is_empty());
@@ -175,7 +175,8 @@ TEST(DopPolytope, WhatHasNoPointIsNotValid) {
   EXPECT_FALSE(is_valid_dop(dop));
 }
 
-// Ends of slabs are rounded apart: points count as half a unit wider.
+// Rounding leaves the slabs of a point without a common point; the polytope is computed from slabs
+// widened by half a unit.
 TEST(DopPolytope, OfAnySinglePoint) {
   Random random(3);
   for (const DopKind kind : kKinds) {

@@ -1,4 +1,4 @@
-// Faces and edges of hulls, and hulls that have none of use.
+// Faces and edges of hulls, and hulls without usable features.
 #include "shapes/hull_features.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Faces = std::vector<std::vector<uint32_t>>;
 
-// Bit k of a corner: at the upper end of axis k.
+// Bit k of a corner is set if it is at the upper end of axis k.
 const Faces kFacesOfCube = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                             {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
@@ -47,7 +47,7 @@ TEST(HullFeatures, OfACube) {
   }
 }
 
-// The direction of an edge is that across its faces' normals, from a point on both.
+// An edge runs across the normals of its two faces and lies in both of their planes.
 TEST(HullFeatures, EdgesLieBetweenTheirFaces) {
   oracle::Random random(1);
   for (int round = 0; round < 50; ++round) {

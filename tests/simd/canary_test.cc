@@ -1,5 +1,5 @@
-// Canaries for the compiler flags that bit equality stands on: every operation is rounded, and
-// rounded once.
+// Canaries for the compiler flags that equal bits rest on: every operation is rounded, and rounded
+// once.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -10,8 +10,8 @@
 namespace carom {
 namespace {
 
-// Inlined into their callers and given values the compiler knows nothing about: what contraction
-// and vectorisation look for.
+// These functions are inlined into callers with values that the compiler does not know: there it
+// could contract or vectorise.
 template <class T>
 T multiply_add(T a, T b, T c) {
   return a * b + c;
@@ -22,7 +22,7 @@ T multiply_subtract(T a, T b, T c) {
   return c - a * b;
 }
 
-// Values that only look as if they could change.
+// Values that the compiler must treat as variable.
 template <class T>
 [[gnu::noinline]] std::array<T, 16> opaque(T value) {
   std::array<T, 16> values;
@@ -31,8 +31,8 @@ template <class T>
   return values;
 }
 
-// (1 + e)^2 - (1 + 2 e) is 0 with two roundings, and e^2 with one. Sum and difference have products
-// of their own: one that is used twice is not contracted.
+// (1 + e)^2 - (1 + 2 e) is 0 with two roundings, and e^2 with one. Sum and difference compute their
+// own product, since a product that is used twice is not contracted.
 template <class T>
 void expect_two_roundings(T e) {
   const std::array<T, 16> factors = opaque<T>(1 + e);
@@ -57,7 +57,7 @@ TEST(Canary, ProductsAreRoundedBeforeTheyAreAdded) {
   expect_two_roundings<double>(0x1p-30);
 }
 
-// Three neighbours, as SLP vectorisation likes them: g++ 12 drops the rounding to float there.
+// Three adjacent members invite SLP vectorisation: g++ 12 then drops the rounding to float.
 struct Triple {
   double x, y, z;
 };
@@ -68,7 +68,7 @@ struct Triple {
           static_cast<double>(static_cast<float>(v.z))};
 }
 
-// What a body's position leaves when it is rounded to float32.
+// The remainders of a body's position after rounding to float32.
 [[gnu::noinline]] Triple low_parts(const Triple& v) {
   return {v.x - static_cast<float>(v.x), v.y - static_cast<float>(v.y),
           v.z - static_cast<float>(v.z)};
@@ -91,7 +91,7 @@ TEST(Canary, DoublesAreRoundedToFloatOnTheWayToDouble) {
   for (const double value : through_float) EXPECT_EQ(value, 1);
 }
 
-// TwoSum is zero for a compiler that believes in algebra.
+// A compiler that reassociates sums turns TwoSum into zero.
 TEST(Canary, SumsAreNotReassociated) {
   const float a = opaque(1.0f)[0];
   const float b = opaque(0x1p-30f)[0];

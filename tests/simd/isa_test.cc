@@ -12,7 +12,7 @@ namespace {
 
 constexpr Isa kAllIsas[] = {Isa::scalar, Isa::sse4, Isa::avx2, Isa::avx512, Isa::neon};
 
-// Sets CAROM_ISA (nullptr: not set) and chooses anew; puts both back at the end.
+// Sets CAROM_ISA (nullptr: unset) and chooses anew; restores both at the end.
 class ScopedEnvironment {
  public:
   explicit ScopedEnvironment(const char* value) {

@@ -1,4 +1,4 @@
-// Six columns of bounds, each of which ends where its memory ends.
+// Six columns of bounds in guarded memory: reading past the end of a column crashes.
 #pragma once
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// One pair in every way: on every ISA, both ways round, against the exact answer.
+// Checks one pair on every ISA and in both orders against the exact answer.
 #pragma once
 
 #include "tests/support/isas.h"
@@ -7,7 +7,7 @@
 
 namespace carom::test {
 
-// The result of (A, B).
+// Returns the result of (A, B).
 inline reference::PairResult checked_everywhere(const TestPair& pair,
                                                 PositionType positions = PositionType::float32) {
   for (const TestPair& each : {pair, swapped(pair)}) {

@@ -1,6 +1,5 @@
-// Exact answers about meshes and compounds: every part is placed by itself in long double, and
-// every pair of parts is tried by the oracle of convex shapes, but for those that bounds leave out.
-// Nothing of it is shared with the midphase.
+// Exact answers about meshes and compounds: the oracle of convex shapes tests every pair of parts
+// in long double, except for pairs that bounds rule out. It shares no code with the midphase.
 #pragma once
 
 #include <algorithm>
@@ -22,9 +21,9 @@ struct ExactPart {
   using Vec = oracle::Vec3<Number>;
 
   oracle::ConvexShape<Number> shape;
-  uint32_t sub;                   // what it is called: the child, or the triangle of a mesh
-  std::optional<ExactFlap> flap;  // of triangles of meshes
-  Vec middle;                     // of its box in its own frame
+  uint32_t sub;                   // index of the child or triangle
+  std::optional<ExactFlap> flap;  // of triangles of meshes only
+  Vec middle;                     // middle of the part's box in the part's frame
   Vec centre, lower, upper;       // a ball and a box around it
   Number radius = 0;
 
@@ -57,7 +56,7 @@ struct ExactPart {
     if (const auto* hull = std::get_if<Hull>(&of)) {
       points.assign(hull->geometry->points().begin(), hull->geometry->points().end());
     }
-    if (points.empty()) return {};  // spheres and boxes
+    if (points.empty()) return {};  // spheres and boxes have none
     Eigen::Vector3f low = points[0], high = points[0];
     for (const Eigen::Vector3f& p : points) {
       low = low.cwiseMin(p);
@@ -67,7 +66,7 @@ struct ExactPart {
   }
 };
 
-// What a body is made of.
+// All parts of a body.
 class ExactParts {
  public:
   using Number = ExactPart::Number;
@@ -91,8 +90,8 @@ class ExactParts {
   Number bounding_radius() const { return bounding_radius_; }  // about the position of the body
 
  private:
-  // Turned by the product of the quaternions, rounded to float32. An aabb lies along the axes of
-  // the compound.
+  // The child's orientation is the product of the quaternions, rounded to float32. An aabb lies
+  // along the axes of the compound.
   void add_child(const CompoundChild& child, const PlacedShape& body, const Vec& position,
                  uint32_t index) {
     const oracle::Rotation<Number> turn(body.orientation);
@@ -137,9 +136,9 @@ struct ExactSeparations {
   static constexpr long double kNone = std::numeric_limits<long double>::infinity();
 
   long double all = kNone;
-  oracle::Vec3<long double> normal;  // from A to B, of that pair
-  long double open = kNone;          // of those that surely do not meet over an inner edge
-  long double not_closed = kNone;    // of those that may do
+  oracle::Vec3<long double> normal;  // from A to B, of the pair with the least separation of all
+  long double open = kNone;          // least among pairs that surely do not meet over an inner edge
+  long double not_closed = kNone;    // least among pairs that do not surely meet over one
 };
 
 class CompositeOracle {
@@ -152,21 +151,21 @@ class CompositeOracle {
         b_(pair.b,
            oracle::vec3_as<Number>(pair.b.position) - oracle::vec3_as<Number>(pair.a.position)) {}
 
-  // Mean of the bounding radii.
+  // L: the mean of the bounding radii.
   Number scale() const { return (a_.bounding_radius() + b_.bounding_radius()) / 2; }
 
   ExactSeparations separations() const {
     return least([](const ExactPart&, const ExactPart&) { return true; });
   }
 
-  // Of parts of these names alone.
+  // The separations of the parts with these indices only.
   ExactSeparations separations(uint32_t sub_a, uint32_t sub_b) const {
     return least(
         [=](const ExactPart& a, const ExactPart& b) { return a.sub == sub_a && b.sub == sub_b; });
   }
 
  private:
-  // Of L: depths that tests in float32 may take for each other.
+  // In units of L: float32 tests may confuse penetration directions whose depths differ by less.
   static constexpr Number kAlike = 1e-5L;
 
   struct Candidate {
@@ -175,7 +174,7 @@ class CompositeOracle {
     const ExactPart* b;
   };
 
-  // Nearest bounds first, until what is left cannot matter.
+  // Visits pairs of parts in the order of their bounds, and stops when the rest cannot matter.
   template <class Filter>
   ExactSeparations least(const Filter& filter) const {
     ExactSeparations found;
@@ -222,8 +221,9 @@ class CompositeOracle {
     return std::max(over(a, b, way), over(b, a, -way));
   }
 
-  // All directions, from A to B, in which the two part by about as little; none if that is unclear.
-  // Cores that are well apart have one alone, those that overlap the axes of their faces and edges.
+  // All directions from A to B along which the depth is about the least; none if that is unclear.
+  // Cores that are clearly separate have a single direction; for overlapping cores the candidates
+  // are the axes of their faces and edges.
   std::vector<Vec> ways_out(const ExactPart& a, const ExactPart& b,
                             const oracle::ConvexSeparation<Number>& answer) const {
     const Number cores = answer.value + a.shape.radius + b.shape.radius;
@@ -254,7 +254,8 @@ class CompositeOracle {
     }
   }
 
-  // Those that are no further apart than two points of parts are, in the order of their bounds.
+  // The pairs of parts whose lower bound is at most the least distance of two points of parts, in
+  // the order of the bounds.
   template <class Filter>
   std::vector<Candidate> candidates(const Filter& filter) const {
     std::vector<Candidate> all;
@@ -274,7 +275,7 @@ class CompositeOracle {
     return all;
   }
 
-  // The gap along any direction is never more than the separation.
+  // The gap along any direction is a lower bound of the separation.
   static Number gap_along(const ExactPart& a, const ExactPart& b, const Vec& n) {
     return -b.shape.support(-n) - a.shape.support(n);
   }

@@ -1,4 +1,4 @@
-// Families of random pairs: the shapes of tests, and the ways in which inputs are hard.
+// Families of random pairs: which shapes tests use, and in which respects their inputs are hard.
 #pragma once
 
 #include <limits>
@@ -26,17 +26,17 @@ inline const char* name(Sides sides) {
 }
 
 enum class Placement {
-  free,        // anywhere between concentric and twice as far as touch
+  free,        // anywhere from concentric to twice the touching distance
   near_touch,  // touching, then moved by a few floats
-  coincident,  // same position
-  lattice,     // small integers: true ties
+  coincident,  // at the same position
+  lattice,     // small integers: exact ties
 };
 
 struct Family {
   const char* name;
   double smallest = 0.5;  // sizes, log-uniform
   double largest = 2;
-  double ratio = 1;      // of the sizes of the two
+  double ratio = 1;      // greatest ratio of the two sizes
   double aspect = 4;     // of boxes
   double distance = 10;  // of A from the origin, in metres or in sizes
   bool distance_in_sizes = false;
@@ -151,17 +151,17 @@ class PairMaker {
     if (family_.placement == Placement::near_touch) nudge(pair);
   }
 
-  // A few steps of float32 from one.
+  // Within a few float32 steps of one.
   double near_one() { return 1 + 0x1p-23 * (static_cast<double>(random_.below(17)) - 8); }
 
-  // A relative position at which the shapes share the middle of both.
+  // A relative position at which the centres of both shapes coincide.
   static Eigen::Vector3d common_centre(const TestPair& pair) {
     const RoundedBox a = rounded_box(pair.a.shape);
     const RoundedBox b = rounded_box(pair.b.shape);
     return (a.lower + a.upper - b.lower - b.upper) / 2;
   }
 
-  // Any direction, or one towards a face, an edge or a corner of flat and long boxes.
+  // A random direction, or one towards a face, an edge or a corner of a flat or long box.
   Eigen::Vector3d way(const TestPair& pair) {
     Eigen::Vector3d direction = random_.direction();
     if (random_.chance(0.5)) return direction;
@@ -187,7 +187,7 @@ class PairMaker {
     return high;
   }
 
-  // Moves one coordinate of B by up to four of its floats.
+  // Moves one coordinate of B by up to four float steps.
   void nudge(TestPair& pair) {
     double& x = pair.b.position[random_.below(3)];
     const double towards = random_.chance(0.5) ? 1e300 : -1e300;
@@ -214,7 +214,7 @@ inline std::vector<TestPair> make_pairs(const Family& family, Sides sides, Posit
   return pairs;
 }
 
-// Floats of any bits at all, most of them valid: only bit equality can be asked for.
+// Floats with random bits, most of them valid: tests can only compare bits.
 inline std::vector<TestPair> make_nonsense(Sides sides, size_t count, uint64_t seed = 1) {
   std::vector<TestPair> pairs = make_pairs({.name = ""}, sides, PositionType::float32, count, seed);
   Random random(seed);

@@ -1,4 +1,4 @@
-// Memory that ends at a page which nobody may touch: reading or writing past the end crashes.
+// Memory that ends at an inaccessible page: reading or writing past the end crashes.
 #pragma once
 
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
-// Pairs of hulls with each other and with boxes and triangles, many of them with a face on a face:
-// faces with three to very many corners, and hulls without any.
+// Pairs of hulls with hulls, boxes and triangles, many of them face on face: faces with three to
+// very many corners, and hulls without features.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace carom::test {
 
-// --- Hulls, of a size of about one ---
+// --- Hulls, about one in size ---
 
 inline Points bipyramid(size_t sides) {
   Points points = prism(sides, 1, 0);
@@ -28,7 +28,7 @@ inline Points repeated(const Points& points, size_t times) {
   return all;
 }
 
-// With the faces that it is known to have: the search for those is slow.
+// Made with its known faces, since searching for those is slow.
 inline Hull fine_prism(size_t sides) {
   const Points points = prism(sides, 1, 0.5f);
   std::vector<std::vector<uint32_t>> faces(2);
@@ -41,7 +41,8 @@ inline Hull fine_prism(size_t sides) {
   return {*make_hull(points, faces)};
 }
 
-// A cube with corners in the middle of all edges, too: faces of eight corners, some along a line.
+// A cube with additional corners in the middle of all edges: faces have eight corners, some of them
+// collinear.
 inline Hull cube_with_corners_on_edges() {
   Points points = cube_corners();
   std::vector<std::vector<uint32_t>> faces;
@@ -82,7 +83,7 @@ inline std::vector<Hull> solid_hulls() {
   return all;
 }
 
-// Without known features, or with more points than lanes take.
+// Hulls without features, or with more points than the kernels in lanes take.
 inline std::vector<Hull> hulls_of_unknown_faces() {
   Random random(2);
   std::vector<Hull> all = {oracle::hull_of({{0, 0, 0}}), oracle::hull_of({{-1, 0, 0}, {1, 0, 0}}),
@@ -97,7 +98,7 @@ inline std::vector<Hull> hulls_of_unknown_faces() {
 
 // --- Pairs ---
 
-// Of a hull with another shape, many of them with a face upon a face.
+// Makes pairs of a hull with another shape, many of them face on face.
 class HullPairMaker {
  public:
   HullPairMaker(KindPair kinds, PositionType positions, uint64_t seed)
@@ -140,7 +141,7 @@ class HullPairMaker {
     return result;
   }
 
-  // Normals of hulls that have none known are across what they lie in.
+  // A hull without features gets a normal across the points that it lies in.
   Eigen::Vector3d any_normal(const Shape& shape) {
     const double sign = random_.chance(0.5) ? 1 : -1;
     if (const auto* triangle = std::get_if<Triangle>(&shape)) {
@@ -175,7 +176,8 @@ class HullPairMaker {
     return corners;
   }
   static double reach(const PlacedShape& body, const Eigen::Vector3d& way) {
-    if (const auto* box = std::get_if<Aabb>(&body.shape)) {  // of which two corners are not enough
+    // two corners are not enough for an aabb
+    if (const auto* box = std::get_if<Aabb>(&body.shape)) {
       return box->lower.cast<double>()
           .cwiseProduct(way)
           .cwiseMax(box->upper.cast<double>().cwiseProduct(way))
@@ -193,14 +195,14 @@ class HullPairMaker {
     return sum / static_cast<double>(corners.size());
   }
 
-  // A small angle, or none at all.
+  // A small angle, or zero.
   double tilt() { return random_.chance(0.3) ? 0 : random_.log_uniform(1e-7, 1e-2); }
 
   Eigen::Quaterniond any_rotation() {
     return Eigen::Quaterniond(Eigen::AngleAxisd(random_.uniform(0, 3), random_.direction()));
   }
 
-  // In three of four cases a face of the one lies on one of the hull; a little above or below.
+  // In three of four cases a face of `one` lies on a face of `hull`, or a little above or below it.
   void place(PlacedShape& one, PlacedShape& hull, double size) {
     Eigen::Quaterniond turn_one = Eigen::Quaterniond::Identity(), turn_hull = any_rotation();
     if (kind_of(one.shape) != ShapeKind::aabb && random_.chance(0.7)) turn_one = any_rotation();

@@ -1,4 +1,4 @@
-// Hulls that are easy to think of.
+// Hulls of simple form.
 #pragma once
 
 #include <numbers>
@@ -33,12 +33,12 @@ inline Points box_corners(const Eigen::Vector3f& half) {
 
 inline Points cube_corners(float half = 1) { return box_corners(Eigen::Vector3f::Constant(half)); }
 
-// A square of z = 0 with sides of 2, and a tip above it.
+// A square at z = 0 with sides of 2, and an apex above it.
 inline Points pyramid(float height) {
   return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, height}};
 }
 
-// About the z axis; half the height each way.
+// A prism about the z axis, from -half_height to half_height.
 inline Points prism(size_t sides, float radius, float half_height) {
   Points points;
   for (size_t i = 0; i < sides; ++i) {
@@ -50,7 +50,7 @@ inline Points prism(size_t sides, float radius, float half_height) {
   return points;
 }
 
-// On an ellipsoid.
+// Random points on an ellipsoid.
 inline Points round_points(size_t count, const Eigen::Vector3f& half, oracle::Random& random) {
   Points points(count);
   for (Eigen::Vector3f& p : points) p = random.direction().cast<float>().cwiseProduct(half);

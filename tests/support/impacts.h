@@ -97,7 +97,7 @@ class ImpactTable {
   std::vector<GuardedArray> columns_;
 };
 
-// What it leaves of a row.
+// Keeps only the columns of a row that are not in `missing`.
 inline void forget_columns(ImpactRow& row, unsigned missing) {
   for (int c = 0; c < ImpactTable::kColumns; ++c) {
     if ((missing >> c & 1) == 0) continue;
@@ -106,7 +106,7 @@ inline void forget_columns(ImpactRow& row, unsigned missing) {
   }
 }
 
-// Sweeps as columns, `stride` bytes apart; absent if all are zero and `stride` is 0.
+// Sweeps as columns, `stride` bytes apart; a column is absent if all are zero and `stride` is 0.
 class LaidOutSweeps {
  public:
   LaidOutSweeps(std::span<const Sweep> sweeps, size_t stride)
@@ -148,12 +148,12 @@ class LaidOutSweeps {
 
 struct ImpactCall {
   Layout layout;
-  size_t sweep_stride = 3 * sizeof(float);  // 0: absent where all are zero
+  size_t sweep_stride = 3 * sizeof(float);  // 0: a column is absent if all its sweeps are zero
   WitnessFrame frame = WitnessFrame::body;
   Parallelism parallelism = Parallelism::none;
   unsigned missing = 0;  // columns left out
   FloatMode mode = kDefaultMode;
-  bool backwards = false;  // the list of pairs, not the bodies
+  bool backwards = false;  // reverses the list of pairs, not the bodies
 };
 
 inline ImpactCall impact_call(PositionType positions) {
@@ -187,7 +187,7 @@ inline Result<void> try_impacts(std::span<const MovedPair> pairs, const ImpactCa
   return result;
 }
 
-// Row i is pair i.
+// Runs time_of_impact(); row i is the result of pair i.
 inline std::vector<ImpactRow> run_impacts(std::span<const MovedPair> pairs,
                                           const ImpactCall& call) {
   std::vector<ImpactRow> rows;
@@ -208,8 +208,8 @@ inline ImpactRow row_of(const reference::Impact& impact) {
           static_cast<uint32_t>(impact.status)};
 }
 
-// What every way of calling has to write, to the bit: the reference's answers; in world
-// coordinates, which it does not have, those of each pair by itself, without vectors.
+// The bits that every way of calling must write: the answers of the reference. The reference has no
+// world coordinates; these come from calls with single pairs, which use no full vectors.
 inline std::vector<ImpactRow> expected_impacts(std::span<const MovedPair> pairs,
                                                const ImpactCall& call) {
   const ForcedIsa scalar(Isa::scalar);

@@ -1,4 +1,5 @@
-// Which contacts of a mesh come over inner edges, for the oracle: found from the corners alone.
+// For the oracle: which contacts of a mesh are over inner edges. It is found from the corners
+// alone.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 
 namespace carom::test {
 
-// Bit i: the edge from corner i to the next. What rounding may decide is in `maybe` alone.
+// Bit i stands for the edge from corner i to the next. Edges that rounding decides are in `maybe`
+// only.
 struct InnerBits {
   uint8_t surely = 0;
   uint8_t maybe = 0;
@@ -23,7 +25,7 @@ struct FlapEdges {
   InnerBits from_front, from_back;
 };
 
-// Edges that two triangles share, and that are flat or bent inwards.
+// Finds the edges that exactly two triangles share and where the surface is flat or bent inwards.
 class InnerEdges {
  public:
   using Number = long double;
@@ -52,7 +54,7 @@ class InnerEdges {
     uint8_t index;
   };
 
-  // Less than a twentieth of a degree is flat.
+  // A bend of less than a twentieth of a degree counts as flat.
   static constexpr Number kFlat = 0x1p-10L;
 
   Place place(uint32_t triangle, size_t i) const {
@@ -92,7 +94,7 @@ class ExactFlap {
   using Number = long double;
   using Vec = oracle::Vec3<Number>;
 
-  // The first three points of the shape are its corners.
+  // The first three points of the shape are the corners of the triangle.
   ExactFlap(const oracle::ConvexShape<Number>& triangle, const FlapEdges& edges) : edges_(edges) {
     for (size_t i = 0; i < 3; ++i) corners_[i] = triangle.points[i];
     const Vec u = corners_[1] - corners_[0], v = corners_[2] - corners_[0];
@@ -100,13 +102,13 @@ class ExactFlap {
     size_ = std::max(length(u), length(v));
   }
 
-  // Whether it has inner edges for what has its middle there.
+  // Whether the triangle may have inner edges, as seen from a body with this middle.
   bool may_be_left_over_inner_edges(const Vec& middle) const {
     return edges_towards(middle).maybe != 0;
   }
 
-  // Whether what has its middle there leaves the triangle that way, a unit vector, over an inner
-  // edge or over a corner between two.
+  // Whether a body with this middle meets the triangle over an inner edge, or over a corner between
+  // two, if the triangle's furthest points along `way` (a unit vector) are the contact.
   OverEdge over_inner_edge(const Vec& middle, const Vec& way) const {
     const InnerBits edges = edges_towards(middle);
     if (edges.maybe == 0) return OverEdge::no;
@@ -126,7 +128,7 @@ class ExactFlap {
             static_cast<uint8_t>(front.maybe | back.maybe)};
   }
 
-  // Those that are furthest along the way, as bits. False if rounding may tell.
+  // The corners that are furthest along `way`, as bits. False if rounding decides.
   bool corners_towards(const Vec& way, unsigned& corners) const {
     std::array<Number, 3> heights;
     for (size_t i = 0; i < 3; ++i) heights[i] = dot(corners_[i], way);

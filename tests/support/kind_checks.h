@@ -1,4 +1,4 @@
-// What the library states of a result, against the oracle.
+// Checks of the accuracy that the library states, against the oracle.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace carom::test {
 
 using namespace oracle;
 
-// The exact answer of one pair as it is stored, and the sizes that errors are measured in.
+// The exact answer for a pair as it is stored, and the sizes by which errors are measured.
 struct ExactKinds {
   using Number = long double;
   using Vec = Vec3<Number>;
@@ -20,10 +20,10 @@ struct ExactKinds {
   ConvexOracle<Number> oracle;
   ConvexSeparation<Number> answer;
   Vec origin_b;  // position of B relative to A's
-  Number scale;  // mean of the bounding radii; half-spaces count for next to nothing
-  Number gap;    // how far apart the two are, or overlap
-  Number least;  // spacing of floats near zero, rounded several times
-  Number arms;   // rounding of arms that reach far beyond the sizes: those of half-spaces
+  Number scale;  // mean of the bounding radii; half-spaces count almost nothing
+  Number gap;    // magnitude of the separation
+  Number least;  // spacing of floats near zero, for several roundings
+  Number arms;   // rounding of the arms of half-spaces, which reach far beyond the sizes
 
   ExactKinds(const TestPair& pair, PositionType positions)
       : oracle(oracle_of(pair, positions)), answer(oracle.separation()) {
@@ -40,8 +40,7 @@ struct ExactKinds {
   Number tolerance_with_gap(Number of_size) const { return of_size * (scale + gap) + least; }
 
  private:
-  // Points beside far-off half-spaces are told apart in double precision, but their arms are
-  // floats.
+  // Half-spaces far from a body are tested in double precision, but arms are floats.
   void measure_halfspace() {
     const auto& plane = oracle.a.is_halfspace ? oracle.a : oracle.b;
     const Number reach = length(origin_b) + plane.bounding_radius;
@@ -120,7 +119,7 @@ inline void check_result(const ExactKinds& exact, const reference::PairResult& r
   check_manifold(exact, result);
 }
 
-// Everything of the reference's result, which it returns.
+// Checks every part of the reference's result and returns it.
 inline reference::PairResult checked_result(const TestPair& pair, PositionType positions) {
   SCOPED_TRACE(show(pair) + "\n" + name(positions));
   const ExactKinds exact(pair, positions);

@@ -17,7 +17,7 @@ namespace carom::test {
 
 using namespace oracle;
 
-// In both orders.
+// All supported pairs of kinds, in both orders.
 inline std::vector<KindPair> supported_kind_pairs() {
   std::vector<KindPair> all;
   for (const ShapeKind a : kConvexKinds) {
@@ -28,7 +28,7 @@ inline std::vector<KindPair> supported_kind_pairs() {
   return all;
 }
 
-// What GoogleTest calls a test of a family.
+// The name of a family in GoogleTest.
 inline std::string family_name(const testing::TestParamInfo<ConvexFamily>& info) {
   std::string text = info.param.name;
   const auto is_other = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; };
@@ -54,8 +54,8 @@ inline std::vector<TestPair> make_kind_pairs(const ConvexFamily& family, const K
   return pairs;
 }
 
-// Pairs of all kinds in turn, in no order that suits lanes. Half-spaces are among the second sides
-// alone: sets of which both hold some cannot meet.
+// Pairs of all kinds in turn, so that neighbours never share a kind. Half-spaces are only among the
+// second bodies, since two half-spaces have no test.
 inline std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family,
                                                    PositionType positions, size_t count,
                                                    uint64_t seed = 1) {
@@ -72,7 +72,7 @@ inline std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family,
   return pairs;
 }
 
-// One of each family.
+// One pair of each family.
 inline std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,
                                                     size_t count_each = 1, uint64_t seed = 1) {
   std::vector<TestPair> pairs;
@@ -84,7 +84,7 @@ inline std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, Posit
   return pairs;
 }
 
-// The hull with its points changed, each by itself, and the same faces.
+// A hull with every point changed on its own, and the same faces.
 template <class Change>
 Hull with_points(const Hull& hull, const Change& change) {
   std::vector<Eigen::Vector3f> points(hull.geometry->points().begin(),
@@ -98,7 +98,7 @@ Hull with_points(const Hull& hull, const Change& change) {
   return {*make_hull(points, faces)};
 }
 
-// Turns numbers of a body into floats of any bits at all; most bodies stay valid.
+// Replaces numbers of a body by floats with random bits; most bodies stay valid.
 class Spoiler {
  public:
   explicit Spoiler(uint64_t seed) : random_(seed) {}
@@ -167,8 +167,8 @@ class Spoiler {
     if (random_.chance(0.05)) dop.kind = static_cast<DopKind>(random_.below(256));
   }
 
-  // Points that nobody could make a hull of stay as they are. The faces are those of before: what
-  // they then are not good for must do no harm.
+  // If no hull can be made of the new points, the old ones stay. The faces are the old ones, even
+  // if they no longer fit: that must do no harm.
   void spoil_shape(Hull& hull) {
     if (random_.chance(0.02)) hull.geometry = nullptr;
     if (!hull.geometry || random_.chance(0.5)) return;
@@ -184,7 +184,7 @@ class Spoiler {
   Random random_;
 };
 
-// Only bit equality can be asked for.
+// Pairs with random bits: tests can only compare bits.
 inline std::vector<TestPair> make_kind_nonsense(const KindPair& kinds, size_t count,
                                                 uint64_t seed = 1) {
   std::vector<TestPair> pairs =
@@ -194,7 +194,7 @@ inline std::vector<TestPair> make_kind_nonsense(const KindPair& kinds, size_t co
   return pairs;
 }
 
-// Triangles that are one-sided and have inner edges, at random.
+// Makes triangles one-sided and gives them inner edges, at random.
 inline void vary_triangles(std::vector<TestPair>& pairs, uint64_t seed = 1) {
   Random random(seed);
   for (TestPair& pair : pairs) {

@@ -1,4 +1,4 @@
-// Bodies laid out in a caller's arrays, in every way that views allow, in guarded memory.
+// Lays out bodies in a caller's arrays, in every way that the views allow, in guarded memory.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 
 namespace carom::test {
 
-// Where the rows of a body's parameters are.
+// How the rows of the bodies' parameters are ordered.
 enum class RowOrder : uint8_t {
-  dense,      // in the order of bodies; without `first` if all are of one kind
-  backwards,  // found by `first`
-  shared,     // found by `first`; equal shapes have the same
+  dense,      // in the order of bodies; without `first` if all bodies have one kind
+  backwards,  // in reverse order, with `first`
+  shared,     // with `first`; equal shapes share their rows
 };
 
 struct Layout {
@@ -27,8 +27,8 @@ struct Layout {
   size_t stride = 0;  // 0: dense
   size_t radius_stride = sizeof(float);
   size_t box_stride = sizeof(float);
-  bool box_slots = false;                         // boxes in an order of their own
-  bool always_kinds = false;                      // a kind a body even if all are the same
+  bool box_slots = false;                         // box rows in an order of their own
+  bool always_kinds = false;                      // one kind a body even if all are the same
   size_t orientation_stride = 4 * sizeof(float);  // 0: absent if no body is turned
   RowOrder rows = RowOrder::dense;
 
@@ -126,7 +126,7 @@ class LaidOutBoxes {
     for (int column = 0; column < 6; ++column) {
       columns_.emplace_back(rows, sizeof(float), layout.box_stride);
     }
-    // Slots run backwards, so that no order of bodies is the order of boxes.
+    // Slots run backwards, so that the order of boxes is never that of bodies.
     for (uint32_t i = 0; i < bodies.size(); ++i) {
       const uint32_t slot = !is_box(bodies[i]) ? 0xffffffffu : layout.box_slots ? --count : i;
       if (layout.box_slots) slots_.set(i, slot);
@@ -158,7 +158,7 @@ class LaidOutBoxes {
   std::vector<GuardedArray> columns_;
 };
 
-// Orientations; those of spheres and aabbs are whatever the bodies say.
+// Orientations of all bodies; those of spheres and aabbs are copied, too.
 class LaidOutOrientations {
  public:
   LaidOutOrientations(std::span<const PlacedShape> bodies, size_t stride)
@@ -217,7 +217,7 @@ class LaidOutRows {
  private:
   static constexpr size_t kRowSize = 4 * sizeof(float);
 
-  // The first row of each; bodies that have none get a number that nobody may use.
+  // The first row of each body. Bodies without rows get an index that must never be read.
   static std::vector<uint32_t> places(std::span<const PlacedShape> bodies, RowOrder order) {
     std::vector<uint32_t> places(bodies.size(), 0xffffffffu);
     std::map<std::string, uint32_t> known;
@@ -254,7 +254,7 @@ class LaidOutRows {
   std::vector<uint32_t> places_;
   GuardedArray rows_;
   GuardedArray first_;
-  std::vector<Shape> alive_;  // geometries that rows hold the address of
+  std::vector<Shape> alive_;  // owns the geometries whose addresses are in the rows
 };
 
 class LaidOut {

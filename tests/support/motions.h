@@ -1,4 +1,5 @@
-// Random pairs of moving bodies, for every two kinds, and the ways in which motions are hard.
+// Random pairs of moving bodies of every two kinds, in families that say in which respects the
+// motions are hard.
 #pragma once
 
 #include <algorithm>
@@ -35,13 +36,13 @@ inline Judgement judge(const MovedPair& pair, float toi) {
   return judge_impact(a.shape, a.pose(), pair.sweep_a, b.shape, b.pose(), pair.sweep_b, toi);
 }
 
-// Whether they meet before a time that may be any earlier one.
+// Judges a time that may be early by any amount.
 inline Judgement judge_bound(const MovedPair& pair, float toi) {
   const auto moving = moving_pair<long double>(pair);
   return ImpactJudge<long double>(moving).late(toi);
 }
 
-// When they meet first; in long double where double does not tell.
+// Brackets the time of impact; long double where double cannot decide.
 inline ImpactBracket<double> impact(const MovedPair& pair) {
   const ImpactBracket<double> found = bracket_impact(moving_pair<double>(pair));
   if (found.meeting != Meeting::unknown) return found;
@@ -58,12 +59,12 @@ inline std::string show(const MovedPair& pair) {
 }
 
 enum class MotionPlan {
-  aimed,       // at each other, or past each other
-  grazing,     // least separation within 1e-12 to 1e-3 of the size of zero
-  sliding,     // starts as near as that, and moves nearly along the surface
-  touching,    // starts that near to touching, and moves anywhere
-  parting,     // starts apart, and moves away
-  coincident,  // starts in the same position
+  aimed,       // towards each other, or past each other
+  grazing,     // the least separation is within 1e-12 to 1e-3 sizes of zero
+  sliding,     // starts within that distance of touching, and moves nearly along the surface
+  touching,    // starts within that distance of touching, and moves in any direction
+  parting,     // starts separate, and moves away
+  coincident,  // starts at the same position
 };
 
 struct MotionFamily {
@@ -72,21 +73,21 @@ struct MotionFamily {
   PositionType positions = PositionType::float32;
   double smallest = 0.5;  // sizes, log-uniform
   double largest = 2;
-  double ratio = 1;              // of the sizes of the two
-  double aspect = 4;             // of lengths, radii and halves
+  double ratio = 1;              // greatest ratio of the two sizes
+  double aspect = 4;             // greatest ratio of lengths, radii and half extents
   double least_travel = 4;       // displacements in sizes, log-uniform
   double most_travel = 20;       // 0: none
-  double most_turn = 0;          // radians, of each
+  double most_turn = 0;          // greatest rotation of each body, radians
   double distance = 0;           // of A from the origin, in sizes
   bool degenerate = false;       // zero radii, zero lengths, flat boxes, triangles without area
-  bool near_parallel = false;    // rotations that differ by 0, 1e-8 or 1e-4
-  bool through_contact = false;  // B turns about an axis through where it is nearest to A
+  bool near_parallel = false;    // orientations of the two differ by 0, 1e-8 or 1e-4
+  bool through_contact = false;  // B turns about an axis through its point nearest to A
 };
 
-// Names tests that fail.
+// The name of a family in failures.
 inline void PrintTo(const MotionFamily& family, std::ostream* out) { *out << family.name; }
 
-// Aimed motions that tests of hit rates can rely on.
+// Aimed motions of simple kinds, for tests that count hits and misses.
 inline std::vector<MotionFamily> plain_motions() {
   using enum PositionType;
   return {
@@ -212,7 +213,7 @@ class MotionMaker {
     b().position = a().position;
   }
 
-  // New ones mostly at first, then known ones mostly: hulls take long to make.
+  // Mostly new shapes at first, then mostly known ones, since hulls are slow to make.
   const Shapes& some_shapes() {
     constexpr size_t kEnough = 256;
     const bool is_full = stock_.size() == kEnough;
@@ -243,7 +244,7 @@ class MotionMaker {
 
   Vec turn() { return random_.direction() * random_.uniform(0, family_.most_turn); }
 
-  // As seen from A, in sizes. A moves in one of two pairs.
+  // Motion of B relative to A, in sizes. In half of the pairs A moves, too.
   void move(const Vec& way) {
     const double share = random_.chance(0.5) ? 0 : random_.uniform(-1, 1);
     const Vec both = random_.direction() * way.norm() * share * size_;
@@ -257,13 +258,13 @@ class MotionMaker {
 
   // ---- placing B
 
-  // Round shapes fill what they reach.
+  // Spheres fill their bounding ball, so they need a larger miss.
   double most_miss() const {
     return kinds_.a == ShapeKind::sphere || kinds_.b == ShapeKind::sphere ? 2.5 : 1.5;
   }
 
-  // A point of each meets at some time, or passes by as far as `miss` times both sizes. What moves
-  // into a half-space may reach it after the end.
+  // Makes a point of each body coincide at some time, or miss by up to `miss` times the reach of
+  // both. A body that moves into a half-space may reach it after the interval.
   void aim(double miss) {
     const bool has_plane = is_plane(a()) || is_plane(b());
     if (has_plane) move_inwards();
@@ -278,7 +279,7 @@ class MotionMaker {
     if (out.dot(velocity()) > 0) std::swap(pair_.sweep_a.displacement, pair_.sweep_b.displacement);
   }
 
-  // How far both reach from their positions; of half-spaces it does not count.
+  // The sum of both bounding radii; half-spaces do not count.
   double reach() const {
     double sum = 0;
     for (const PlacedShape* body : {&pair_.bodies.a, &pair_.bodies.b}) {
@@ -288,7 +289,7 @@ class MotionMaker {
     return sum;
   }
 
-  // Of the core, or of the plane, at a time; relative to the position.
+  // A random point of the core, or of the plane, at time t, relative to the position.
   Vec point_in(const PlacedShape& body, const Sweep& sweep, double t) {
     const MovingShape<double> shape(body.shape, body.pose(), sweep);
     Vec point = random_.direction() * size_;
@@ -305,20 +306,21 @@ class MotionMaker {
     return eigen(shape.turn(t)({point.x(), point.y(), point.z()}));
   }
 
-  // The separation that some positions near to touching have.
+  // A separation near zero, in sizes; some are 0, some negative.
   double near_gap() {
     if (random_.chance(0.2)) return 0;
     const double size = random_.chance(0.3) ? 1e-6 : random_.log_uniform(1e-12, 1e-3);
     return random_.chance(0.8) ? size : -size;
   }
 
-  // B beside A, this far from it in sizes.
+  // Places B beside A with this separation, in sizes.
   void place_near(double gap) {
     b().position = a().position + way_out(2 * reach() + size_);
     pull(0, gap);
   }
 
-  // Moves B by the least separation until a time, which is to be positive.
+  // Moves B by the least separation until time `until`, so that `gap` remains. The least separation
+  // must be positive.
   void pull(double until, double gap) {
     const MovingPair<double> moving = moving_pair<double>(pair_);
     const LeastSeparation<double> least = least_separation<double>(moving, 0, until);
@@ -326,7 +328,8 @@ class MotionMaker {
     b().position = stored(b().position - normal_ * (least.value - gap * size_));
   }
 
-  // From A to where B is clear of it, if both reach as far as this.
+  // A vector from A to a position where B is separate, if both bodies together reach as far as
+  // `reach`.
   Vec way_out(double reach) {
     const Vec any = random_.direction() * reach;
     if (is_plane(a())) return any * 0.9 + out_of(a(), 2 * reach);
@@ -341,7 +344,7 @@ class MotionMaker {
     return eigen(MovingShape<double>(plane.shape, plane.pose(), Sweep{}).normal());
   }
 
-  // As far from its way as it takes to pass by, and back again.
+  // Moves B so far off its path that it passes A by, and then back until it grazes A.
   void graze() {
     const Vec v = velocity();
     Vec way = way_out(2 * reach() + v.norm());
@@ -380,7 +383,7 @@ class MotionMaker {
   std::vector<Shapes> stock_;
   MovedPair pair_;
   double size_ = 1;
-  Vec normal_ = Vec::UnitX();  // from A to B, where B was placed beside it
+  Vec normal_ = Vec::UnitX();  // from A to B, after B was placed beside A
 };
 
 inline std::vector<MovedPair> make_motions(const MotionFamily& family, const KindPair& kinds,

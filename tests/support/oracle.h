@@ -1,5 +1,5 @@
-// Exact answers: every float is taken as the number it is, and computed with 100 decimal digits.
-// Not fast; nothing of it is shared with the library.
+// Exact answers for spheres and boxes: every float is taken as the exact number, and arithmetic has
+// 100 decimal digits. Slow; it shares no code with the library.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Real3 exact(const Vector& v) {
   return {Real(v[0]), Real(v[1]), Real(v[2])};
 }
 
-// Sphere and box as a box grown by a radius.
+// A sphere or a box, as a box grown by a radius.
 struct ExactShape {
   Real3 lower{};
   Real3 upper{};
@@ -37,7 +37,7 @@ struct ExactShape {
     }
   }
 
-  // Largest n . x over the shape, n being a unit vector.
+  // The largest n . x over the shape; n is a unit vector.
   Real support(const Real3& n) const {
     Real sum = radius;
     for (int i = 0; i < 3; ++i) sum += std::max<Real>(lower[i] * n[i], upper[i] * n[i]);
@@ -78,7 +78,7 @@ struct ExactPair {
     separation = exact_separation();
   }
 
-  // The gap between the projections on a direction; never more than the separation.
+  // The gap between the projections on a direction, a lower bound of the separation.
   Real gap_along(const Real3& normal) const {
     const Real length = norm(normal);
     const Real3 n = {normal[0] / length, normal[1] / length, normal[2] / length};
@@ -86,7 +86,7 @@ struct ExactPair {
   }
 
  private:
-  // The origin's signed distance from the box of all (point of B) - (point of A), less the radii.
+  // The origin's signed distance from the box of all (point of B) - (point of A), minus the radii.
   Real exact_separation() const {
     ExactShape difference{Shape{Sphere{}}};
     for (int i = 0; i < 3; ++i) {

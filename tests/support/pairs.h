@@ -32,7 +32,7 @@ inline PlacedShape sphere(double x, double y, double z, double radius) {
   return {Sphere{static_cast<float>(radius)}, {x, y, z}};
 }
 
-// A box along the axes of these half extents.
+// A box along the axes with these half extents.
 inline PlacedShape box(const Eigen::Vector3d& position, const Eigen::Vector3f& half) {
   return {Aabb::from_half_extents(half), position};
 }
@@ -60,14 +60,14 @@ inline PlacedShape halfspace(const Eigen::Vector3d& position, const Eigen::Vecto
   return {Halfspace{normal, offset}, position};
 }
 
-// Whether a body of this kind is described by rows of parameters, and turns with its orientation.
+// Whether a body of this kind has rows of parameters and an orientation.
 inline bool has_rows(const Shape& shape) { return row_count(kind_of(shape)) > 0; }
 
 inline reference::PairResult reference_result(const TestPair& pair, PositionType positions) {
   return reference::collide(pair.a.shape, pair.a.pose(), pair.b.shape, pair.b.pose(), positions);
 }
 
-// The position as it is stored.
+// The position after rounding to the stored type.
 inline Eigen::Vector3d stored(const Eigen::Vector3d& position, PositionType positions) {
   if (positions == PositionType::float64) return position;
   return position.cast<float>().cast<double>();

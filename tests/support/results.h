@@ -1,4 +1,5 @@
-// Rows of results: what the reference says they are, what a call wrote, and how they differ.
+// Rows of results: the rows that the reference expects, the rows that a call wrote, and their
+// differences.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,8 +50,8 @@ inline std::string show(const Row& row) {
          " manifold " + std::to_string(row.manifold_count) + show(row.manifold);
 }
 
-// A witness point in world coordinates: the position as the sum of two floats, so that nothing is
-// lost before the last addition.
+// A witness point in world coordinates. The position is a sum of two floats, so that only the last
+// addition rounds.
 inline float world_coordinate(double position, float arm, PositionType positions) {
   const float high = static_cast<float>(position);
   if (positions == PositionType::float32) return high + arm;
@@ -69,7 +70,7 @@ std::array<float, 3> witness(const PlacedShape& body, const Arm& arm, PositionTy
   return point;
 }
 
-// What a result of the reference is as a row.
+// A result of the reference as a row.
 inline Row row_of(const reference::PairResult& result, const TestPair& pair, PositionType positions,
                   Detail detail, WitnessFrame frame) {
   Row row;
@@ -96,7 +97,7 @@ inline Row row_of(const reference::PairResult& result, const TestPair& pair, Pos
   return row;
 }
 
-// What the reference says.
+// The row of the reference for this pair.
 inline Row expected_row(const TestPair& pair, PositionType positions, Detail detail,
                         WitnessFrame frame) {
   return row_of(reference_result(pair, positions), pair, positions, detail, frame);
@@ -110,7 +111,7 @@ class Columns {
   }
 
   static constexpr int kColumns = 14;
-  // Of their elements, and where those are in a Row.
+  // Sizes of the elements of each column, and their offsets in a Row.
   static constexpr size_t kSizes[kColumns] = {1, 1, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 1, 64};
   static constexpr size_t kOffsets[kColumns] = {0, 1, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 2, 44};
 
@@ -159,7 +160,7 @@ class Columns {
   std::vector<GuardedArray> columns_;
 };
 
-// Leaves columns of a row as they were before the call, those of the bits of `missing`.
+// Resets the columns in `missing` to their state before the call.
 inline void forget_columns(Row& row, unsigned missing) {
   for (int column = 0; column < Columns::kColumns; ++column) {
     if ((missing >> column & 1) == 0) continue;

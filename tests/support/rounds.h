@@ -1,12 +1,12 @@
-// How often random tests try.
+// How many rounds random tests run.
 #pragma once
 
 #include <cstdint>
 
 namespace carom::test {
 
-// Sanitizers make a round ten times slower and look at memory, which differs little from one to the
-// next.
+// Sanitizers make a round ten times slower and check memory accesses, which hardly differ between
+// rounds.
 constexpr uint32_t rounds(uint32_t count) {
 #ifdef CAROM_TEST_SANITIZED
   return count / 8;

@@ -42,7 +42,7 @@ inline std::vector<PlacedShape> side_b(std::span<const TestPair> pairs) {
   return bodies;
 }
 
-// Runs `work` in the float mode of the call alone.
+// Runs `work` in the float mode of the call.
 template <class Work>
 void expect_success(const Call& call, const Work& work) {
   const Result<void> result = [&] {
@@ -52,7 +52,7 @@ void expect_success(const Call& call, const Work& work) {
   if (!result) ADD_FAILURE() << result.error().message;
 }
 
-// Pair i is (a[i], b[i]) of two sets.
+// Calls collide_rows(): pair i is (a[i], b[i]) of two sets.
 inline std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& call) {
   const LaidOut a(side_a(pairs), call.layout_a);
   const LaidOut b(side_b(pairs), call.layout_b);
@@ -70,7 +70,8 @@ inline bool hold_halfspaces(std::span<const PlacedShape> bodies) {
   });
 }
 
-// Row i of the list is pair i; `to_first` and `to_second` say where its bodies are in their sets.
+// A list whose row i is pair i; `to_first` and `to_second` give the places of its bodies in their
+// sets.
 template <class First, class Second>
 std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, const Call& call,
                            const First& to_first, const Second& to_second) {
@@ -85,8 +86,8 @@ std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, con
   return columns.rows();
 }
 
-// All bodies in one set, the second sides before the first ones, and a list of pairs. Sets that
-// hold half-spaces cannot meet themselves: then there are two, one of them backwards.
+// Calls collide() with all bodies in one set, the second bodies before the first ones. A set with
+// half-spaces cannot be tested against itself: then there are two sets, one of them reversed.
 inline std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call) {
   std::vector<PlacedShape> firsts = side_a(pairs);
   std::vector<PlacedShape> seconds = side_b(pairs);

@@ -53,7 +53,7 @@ inline std::string show(const Hull& hull) {
   return text;
 }
 
-// Tests that fail with composites say themselves how they were made.
+// Meshes and compounds are too long to print: tests that use them print how to make them.
 inline std::string show(const Mesh& mesh) {
   if (!mesh.geometry) return "without geometry";
   return std::to_string(mesh.geometry->triangles().size()) + " triangles";

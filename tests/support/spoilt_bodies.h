@@ -14,7 +14,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float kBad[] = {kNan, kInfinity, -kInfinity};
 
-// Bodies like `body` but for one number that is out of the question.
+// Copies of `body` in which one number is invalid.
 class SpoiltBodies {
  public:
   explicit SpoiltBodies(const PlacedShape& body) : body_(body) {
@@ -112,7 +112,7 @@ class SpoiltBodies {
       add_shape(dop, [&](Dop& d) { d.kind = static_cast<DopKind>(kind); });
     }
     if (last < 3) return;
-    add_shape(dop, [&](Dop& d) {  // in order, and nothing in common
+    add_shape(dop, [&](Dop& d) {  // in order, but without a common point
       d.lower[last] =
           8 * (std::fabs(d.upper[1]) + std::fabs(d.lower[1]) + 1 + std::fabs(d.upper[0]) +
                std::fabs(d.lower[0]) + std::fabs(d.upper[2]) + std::fabs(d.lower[2]));
@@ -120,7 +120,7 @@ class SpoiltBodies {
     });
   }
 
-  // Its numbers are checked when it is made.
+  // make_hull() checks the numbers of a hull, so they cannot be invalid.
   void add_shapes(const Hull& hull) {
     add_shape(hull, [](Hull& h) { h.geometry = nullptr; });
   }

@@ -1,4 +1,4 @@
-// Bodies for what is proven of single pairs.
+// Makes the stored bodies that the proofs of single pairs take.
 #pragma once
 
 #include "carom/shapes/body.h"

@@ -1,4 +1,4 @@
-// Signed distance in double, written as simply as can be: to steer generators, never to judge.
+// Signed distances in double, as simple as possible: for generators only, never to judge a result.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace carom::test {
 
-// Sphere and aabb as a box grown by a radius.
+// A sphere or an aabb, as a box grown by a radius.
 struct RoundedBox {
   Eigen::Vector3d lower;
   Eigen::Vector3d upper;
@@ -25,7 +25,7 @@ inline RoundedBox rounded_box(const Shape& shape) {
   return {box.lower.cast<double>(), box.upper.cast<double>(), 0};
 }
 
-// Of two shapes, `d` being the position of B relative to A's.
+// The separation of two shapes; `d` is the position of B relative to A's.
 inline double textbook_separation(const Shape& shape_a, const Shape& shape_b,
                                   const Eigen::Vector3d& d) {
   const RoundedBox a = rounded_box(shape_a);
@@ -35,7 +35,7 @@ inline double textbook_separation(const Shape& shape_a, const Shape& shape_b,
   return core - a.radius - b.radius;
 }
 
-// Radius of the ball about the body's origin that contains it, or its bounds; 0 of
+// The radius of the ball about the body's position that contains it, or its bounds; 0 for
 // half-spaces.
 inline double bounding_radius(const Sphere& sphere) { return sphere.radius; }
 inline double bounding_radius(const Aabb& box) {

@@ -1,4 +1,4 @@
-// Trees of boxes: what a search finds is what brute force finds, on every ISA.
+// Trees of boxes: a search finds the same items as brute force, on every ISA.
 #include "trees/tree.h"
 
 #include <gtest/gtest.h>
@@ -33,8 +33,8 @@ struct Style {
   const char* name;
   double spread = 10;       // of middles
   double size = 1;          // of boxes
-  double distance = 0;      // of all from the origin
-  bool on_lattice = false;  // many boxes at one place
+  double distance = 0;      // distance of all boxes from the origin
+  bool on_lattice = false;  // many boxes at the same position
   bool flat = false;
   double empty = 0;
 };
@@ -118,7 +118,8 @@ double squared_distance(const TreeBox& a, const TreeBox& b) {
   return sum;
 }
 
-// All that is within the radius, and nothing much further; a ball, if the box is a point.
+// The search finds all items within the radius and hardly any beyond it. If the box is a point, the
+// region is a ball.
 TEST(BoxTree, FindsWhatIsNearABox) {
   for (const Style& style : kStyles) {
     SCOPED_TRACE(style.name);
@@ -143,7 +144,8 @@ TEST(BoxTree, FindsWhatIsNearABox) {
         for (uint32_t k = 0; k < count; ++k) {
           const double squared = squared_distance(boxes[k], box);
           const bool is_within = !is_empty(boxes[k]) && squared <= radius * radius;
-          // Beyond the squares of float32 the box is grown: its corners are further away.
+          // Beyond the range of squared floats the region is a grown box, whose corners are further
+          // away.
           const double most = radius * radius * (is_round ? 1 + 1e-5 : 3 + 1e-5);
           const bool is_beyond = is_empty(boxes[k]) || squared > most + 1e-80;
           ASSERT_TRUE(!is_within || all.count(k) == 1);
@@ -153,7 +155,7 @@ TEST(BoxTree, FindsWhatIsNearABox) {
           Items again;
           tree.find_touching(rounded_outwards(middle, half, radius),
                              [&](uint32_t item) { again.push_back(item); });
-          EXPECT_EQ(again, found);  // in this order
+          EXPECT_EQ(again, found);  // in the same order
         });
       }
     }
@@ -184,7 +186,8 @@ TEST(BoxTree, FindsWhatIsBelowAPlane) {
   }
 }
 
-// Items whose turned boxes touch are all found; those found touch once they are boxed again.
+// The search finds all items whose turned boxes touch. Every item that it finds touches the box
+// around the turned box.
 TEST(BoxTree, TwoTreesFindAllThatTouch) {
   for (const Style& style : kStyles) {
     SCOPED_TRACE(style.name);
@@ -226,13 +229,13 @@ TEST(BoxTree, TwoTreesFindAllThatTouch) {
   }
 }
 
-// Looks at a small part of the tree: the number of nodes that a box touches bounds the work.
+// A query visits a small part of the tree: the number of nodes that a box touches bounds the work.
 TEST(BoxTree, IsBalanced) {
   Random random(4);
   const size_t count = 20000;
   const BoxTree tree(make_boxes({.name = "", .spread = 1000}, count, random));
   EXPECT_LT(tree.nodes().size(), count / 3);
-  // Middles of exponentially growing distance are the worst for bins.
+  // Centres at exponentially growing distances are the worst case for bins.
   std::vector<TreeBox> boxes(1000);
   for (size_t i = 0; i < boxes.size(); ++i) {
     const float x = std::ldexp(1.0f, static_cast<int>(i % 250) - 125);

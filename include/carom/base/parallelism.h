@@ -1,13 +1,15 @@
-// Whether a call may use more than the calling thread. Results do not depend on it.
+/// @file
+/// Whether a call may use more threads than the calling one. Results do not depend on it.
 #pragma once
 
 #include <cstdint>
 
 namespace carom {
 
+/// The threads that a call may use.
 enum class Parallelism : uint8_t {
-  none,   // the calling thread alone; no scheduler is touched
-  arena,  // the oneTBB arena of the caller, with its concurrency
+  none,   ///< the calling thread alone; the call touches no scheduler
+  arena,  ///< the oneTBB arena of the calling thread, with its concurrency
 };
 
 }  // namespace carom

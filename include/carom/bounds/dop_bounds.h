@@ -1,5 +1,6 @@
-// World-space k-DOPs of bodies: bounds tighter than boxes, to drop pairs of overlapping boxes
-// before they are tested.
+/// @file
+/// World-space k-DOPs of bodies: bounds tighter than boxes, which rule out pairs with overlapping
+/// boxes before the narrow phase tests them.
 #pragma once
 
 #include <cstddef>
@@ -14,37 +15,41 @@
 
 namespace carom {
 
-// The first three slabs of a k-DOP are the world bounds (compute_bounds); the others are found
-// here.
+/// The first three slabs of a k-DOP are the world bounds, which compute_bounds() finds; the other
+/// ("extra") slabs are found here.
 inline constexpr size_t kBoundsSlabs = 3;
+
+/// How many slabs of a k-DOP are not world bounds.
 constexpr size_t extra_slab_count(DopKind kind) { return slab_count(kind) - kBoundsSlabs; }
 
-// How many floats a body has: its extra slabs in fours, first four lower ends, then four upper
-// ones. Pairs come in any order: a record is one cache line or two where columns would be many.
+/// Floats in the record of one body: its extra slabs in fours, first four lower ends, then four
+/// upper ends. Pairs come in any order, and a record is one or two cache lines where columns would
+/// be many.
 constexpr size_t dop_record_size(DopKind kind) { return (extra_slab_count(kind) + 3) / 4 * 8; }
 
-// Where the record of a body has the lower end of an extra slab; the upper one is 4 floats on.
+/// Index in a record of the lower end of an extra slab; its upper end is 4 floats further on.
 constexpr size_t place_in_record(size_t extra_slab) { return extra_slab / 4 * 8 + extra_slab % 4; }
 
-// One record a body, one after the other.
+/// The records of all bodies, one after the other in the order of the bodies.
 struct DopRecords {
-  DopKind kind = DopKind::k14;
-  float* data = nullptr;
+  DopKind kind = DopKind::k14;  ///< the k-DOP of every record
+  float* data = nullptr;        ///< dop_record_size(kind) floats a body
 };
 
-// Writes the record of every body, or of those whose byte in `which` (one a body) is not zero. The
-// slabs hold the shape, and bodies that a test calls touching have slabs that overlap. Of boxes and
-// capsules, which are computed in float32, an end is at most 2^-15 of the shape's size and 2^-20 of
-// the position's coordinates further out than it has to be, of others a few floats. Half-spaces get
-// -inf to +inf. A body with NaN, infinity, a negative size, or a quaternion or normal of zero gets
-// empty slabs (+inf to -inf). Kinds that are none of sphere, aabb, capsule, box and triangle get
-// the slabs of their box along the world axes.
+/// Writes the record of every body, or, if `which` is not empty, of every body whose byte in
+/// `which` (one a body) is not zero. The slabs contain the shape, and the slabs of two bodies that
+/// a test calls touching overlap. Boxes and capsules are computed in float32: an end lies at most
+/// 2^-15 of the shape's size plus 2^-20 of the position's coordinates too far out. The ends of
+/// other kinds lie at most a few floats too far out. Half-spaces get -inf to +inf. A body with NaN,
+/// infinity, a negative size, or a quaternion or normal of zero gets empty slabs (+inf to -inf).
+/// Kinds other than sphere, aabb, capsule, box and triangle get the slabs of their world-axis box.
 CAROM_EXPORT void compute_dops(const Collidables& bodies, const DopRecords& out,
                                Parallelism parallelism = Parallelism::none,
                                std::span<const uint8_t> which = {});
 
-// Writes 1 for every pair of bodies of which all extra slabs overlap, touching ones included, and 0
-// where one slab parts them. Returns how many pairs overlap.
+/// Compares the extra slabs of every pair of bodies. Writes to `overlap` (one entry a pair) 1 where
+/// all of them overlap or touch, and 0 where one slab separates the bodies. Returns how many pairs
+/// overlap.
 CAROM_EXPORT size_t drop_separate_dops(const DopRecords& records, std::span<const Pair> pairs,
                                        uint8_t* overlap,
                                        Parallelism parallelism = Parallelism::none);

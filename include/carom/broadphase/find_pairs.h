@@ -1,4 +1,5 @@
-// Bounds -> pairs whose closed boxes overlap.
+/// @file
+/// The broadphase: finds all pairs of bounds that overlap.
 #pragma once
 
 #include <cstdint>
@@ -14,61 +15,66 @@
 
 namespace carom {
 
+/// How a search finds its pairs. All methods find the same ones.
 enum class BroadphaseMethod : uint8_t {
-  automatic,
-  brute,  // every box against every other; the reference
-  sweep,  // sort and sweep along the axis of largest spread
-  grid,   // boxes sorted into cells of their size; what rests is kept from call to call
+  automatic,  ///< the search chooses for the boxes of the call
+  brute,      ///< every box against every other; the reference
+  sweep,      ///< sort and sweep along the axis of largest spread
+  grid,       ///< boxes sorted into cells of their size; resting boxes keep their pairs
 };
 
-// "auto", "brute", "sweep", "grid".
+/// "auto", "brute", "sweep", "grid".
 CAROM_EXPORT const char* name(BroadphaseMethod method);
 
-// Who may meet whom; one entry a box, nullptr: everybody. Decided inside the search, so that
-// filtered pairs cost no output.
+/// Which boxes may be paired: dense columns with one entry a box. A column that is nullptr forbids
+/// nothing. The search itself filters, so that forbidden pairs cost no output.
 struct PairFilter {
-  const uint32_t* layer = nullptr;  // with mask: (layer_a & mask_b) and (layer_b & mask_a)
-  const uint32_t* mask = nullptr;   // both or neither
-  const uint32_t* owner = nullptr;  // the same non-zero owner: never
-  const Motion* motion = nullptr;   // two fixed boxes: never
+  const uint32_t* layer = nullptr;  ///< a pair needs (layer_a & mask_b) and (layer_b & mask_a)
+  const uint32_t* mask = nullptr;   ///< goes with `layer`: give both or neither
+  const uint32_t* owner = nullptr;  ///< boxes with the same non-zero owner are never paired
+  const Motion* motion = nullptr;   ///< two fixed boxes are never paired
 };
 
-// What a search did.
+/// What a search did.
 struct PairSearch {
-  BroadphaseMethod method = BroadphaseMethod::automatic;  // that ran
-  const char* reason = "";                                // why, in words
-  size_t pairs = 0;                                       // that there are
-  bool complete = true;  // false: more than the limit, and none were written
-  size_t changed = 0;    // boxes that differ from those of the last call, where that is known
-  size_t searched = 0;   // boxes whose pairs were searched for; those of all others were kept
-  size_t grids = 0;      // of the grid method: one for each range of sizes that needs its own
+  BroadphaseMethod method = BroadphaseMethod::automatic;  ///< the method that ran
+  const char* reason = "";                                ///< why that one, in words
+  size_t pairs = 0;                                       ///< how many pairs there are
+  bool complete = true;  ///< false: `pairs` is above the limit, and none were written
+  size_t changed = 0;    ///< boxes that differ from those of the last call, where that is known
+  size_t searched = 0;   ///< boxes searched for pairs; the search kept the pairs of all others
+  size_t grids = 0;      ///< grids of BroadphaseMethod::grid, one for each range of sizes
 };
 
-// Finds pairs again and again: keeps its memory, and the order or the pairs of boxes that rest,
-// which makes the next call cheaper. The pairs depend on the arguments alone.
+/// Finds pairs again and again. It keeps its memory, and the order or the pairs of resting boxes,
+/// which makes the next call cheaper. The pairs depend on the arguments alone. One thread at a time
+/// may use a finder.
 class CAROM_EXPORT PairFinder {
  public:
+  /// A finder without memory of earlier boxes.
   PairFinder();
   ~PairFinder();
+  /// Moves the state.
   PairFinder(PairFinder&&) noexcept;
+  /// Moves the state.
   PairFinder& operator=(PairFinder&&) noexcept;
 
-  // Replaces `out` by all pairs a < b whose boxes overlap and which the filter lets through,
-  // sorted. Boxes that are empty or hold a NaN meet nothing. At most 2^29 boxes.
+  /// Replaces `out` by all pairs a < b whose closed boxes overlap and which the filter allows,
+  /// sorted by (a, b). Boxes that are empty or hold a NaN overlap nothing. At most 2^29 boxes.
   PairSearch find(const BoundsView& bounds, const PairFilter& filter, std::vector<Pair>& out,
                   BroadphaseMethod method = BroadphaseMethod::automatic,
                   Parallelism parallelism = Parallelism::none);
 
-  // Forgets the boxes of the last call, not the memory.
+  /// Forgets the boxes of the last call, but keeps the memory.
   void forget();
 
-  // A search that finds more pairs counts them, and gives none: boxes that all overlap make
-  // n (n - 1) / 2 pairs, more than a machine holds. A pair takes about 28 bytes while it is found.
-  // Less than 2^32.
+  /// The default limit of pairs. Boxes that all overlap make n (n - 1) / 2 pairs, more than a
+  /// machine holds; a pair takes about 28 bytes while it is found.
   static constexpr size_t kMostPairs = size_t{1} << 28;
+  /// Sets the limit of pairs, less than 2^32. A search that finds more counts them and gives none.
   void set_most_pairs(size_t pairs);
 
-  // Memory held, in bytes.
+  /// Memory held, in bytes.
   size_t bytes() const;
 
  private:
@@ -76,8 +82,8 @@ class CAROM_EXPORT PairFinder {
   std::unique_ptr<State> state_;
 };
 
-// Without state: writes the sorted pairs to `out` and returns how many there are. If they do not
-// fit, nothing is written: call again with room for the number returned.
+/// Finds pairs without state: writes the sorted pairs to `out` and returns how many there are. If
+/// they do not fit, it writes none: call again with room for the number returned.
 CAROM_EXPORT size_t find_pairs(const BoundsView& bounds, const PairFilter& filter,
                                std::span<Pair> out,
                                BroadphaseMethod method = BroadphaseMethod::automatic,

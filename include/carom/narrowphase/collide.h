@@ -1,4 +1,5 @@
-// Pairs + shapes -> results, over the caller's own arrays.
+/// @file
+/// The narrow phase on the caller's own arrays: pairs and shapes in, results out.
 #pragma once
 
 #include <span>
@@ -13,32 +14,35 @@
 
 namespace carom {
 
-// Whether a kernel exists for these two kinds, in either order.
+/// Whether a kernel exists for these two kinds, in either order.
 CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 
-// Tests pair i = (a[pairs[i].a], b[pairs[i].b]) and writes row i of `out`; `a` and `b` may be the
-// same set. Columns of `out` hold pairs.size() entries. At Detail::overlap only overlap and status
-// are written, at Detail::contact all but the manifolds; Detail::pairs writes nothing. Indices must
-// lie inside their sets. What comes from behind a one-sided triangle is separate by +infinity, with
-// a normal and points that are not a number; so are all of these of invalid pairs.
-//
-// A mesh or a compound overlaps what one of its parts overlaps. The contact is that of the deepest
-// pair of parts (the nearest, if they are apart), of equal ones the first by their indices, which
-// sub_a and sub_b name. The manifold joins the points of all parts that are met in about the same
-// direction. Bodies without parts (all triangles of the mesh have no area) are separate by
-// +infinity. Parts that meet over an inner edge of a mesh come after all others: what lies across
-// the edge is met as well. Where there are no others, the normal is one that the triangle allows.
-//
-// float32 throughout, after one subtraction of the positions in their own type: the error does not
-// depend on the distance from the origin. Bits are the same on every instruction set and for any
-// number of threads, and do not depend on a pair's place in the list. Distances between positions
-// count as the largest float at most: shapes of about that size may be found to overlap from
-// further away.
-// At Tier::certified and Tier::exact `overlap` is right for the shapes as they are stored
-// (carom/results/tier.h), and the sign of the separation goes with it: 0 or less of overlapping
-// pairs, more than 0 of separate ones. Of undecided pairs the separation is the standard one, and
-// there are no manifold points.
-// Fails if a pair is of kinds that no kernel exists for; nothing is written then.
+/// Tests pair i = (a[pairs[i].a], b[pairs[i].b]) and writes row i of `out`. `a` and `b` may be the
+/// same set. Columns of `out` hold pairs.size() entries. At Detail::overlap only overlap and status
+/// are written, at Detail::contact all but the manifolds, at Detail::pairs nothing. Indices must
+/// lie inside their sets. A body behind a one-sided triangle is separate from it by +infinity, with
+/// NaN as normal and points; an invalid pair has NaN in all of these.
+///
+/// A mesh or a compound overlaps a body if one of its parts does. The contact is that of the pair
+/// of parts with the least separation (the deepest one, or else the nearest); among equal ones it
+/// is the first by indices. `sub_a` and `sub_b` name the two parts. The manifold joins the points
+/// of all parts whose contacts have about the same normal. Bodies without parts (a mesh in which no
+/// triangle has an area) are separate by +infinity. A contact over an inner edge of a mesh counts
+/// only if the bodies have no other, since the neighbouring triangle has the correct normal; its
+/// normal is then one that the triangle allows.
+///
+/// All arithmetic is float32 after one subtraction of the positions in their own type, so the error
+/// does not depend on the distance from the origin. Results have the same bits on every instruction
+/// set and for any number of threads, and do not depend on a pair's place in the list. Differences
+/// of positions are clamped to the largest float: shapes of about that size may be reported as
+/// overlapping from further away.
+///
+/// At Tier::certified and Tier::exact `overlap` is right for the shapes as they are stored
+/// (carom/results/tier.h), and the sign of the separation agrees with it: 0 or less for overlapping
+/// pairs, more than 0 for separate ones. Undecided pairs have the separation of the standard tier,
+/// and no manifold points.
+///
+/// Fails, and writes nothing, if no kernel exists for the kinds of a pair (supports()).
 CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
                                   const ResultColumns& out,
@@ -46,7 +50,7 @@ CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   Parallelism parallelism = Parallelism::none,
                                   Measured measured = Measured::all, const Accuracy& accuracy = {});
 
-// The same for pair i = (a[i], b[i]), i < a.count == b.count: no list of pairs is read.
+/// Does the same for pair i = (a[i], b[i]), i < a.count == b.count, without a list of pairs.
 CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                                        const ResultColumns& out,
                                        WitnessFrame frame = WitnessFrame::world,

@@ -1,5 +1,6 @@
-// The whole of Carom again, as plain scalar C++ that can be read beside a textbook: bounds, brute
-// force pairs, one test a pair, contacts, events. The kernels give the same bits.
+/// @file
+/// All of Carom once more, as plain scalar C++ that can be read beside a textbook: bounds, brute
+/// force pairs, one test a pair, contacts, events. The kernels give the same bits.
 #pragma once
 
 #include <span>
@@ -15,92 +16,95 @@
 #include "carom/shapes/body.h"
 #include "carom/shapes/views.h"
 
+/// The scalar reference (library carom_reference).
 namespace carom::reference {
 
-// A box in world coordinates; lower = +inf, upper = -inf is empty.
+/// A box in world coordinates, metres; lower = +inf, upper = -inf is empty.
 struct Box {
-  Eigen::Vector3f lower;
-  Eigen::Vector3f upper;
+  Eigen::Vector3f lower;  ///< lower corner
+  Eigen::Vector3f upper;  ///< upper corner
 };
 
-// What one pair test yields; names and signs as in Contact.
+/// The result of one pair test; names and signs as in Contact.
 struct PairResult {
-  bool overlap;
-  Status status;
-  float separation;
-  Eigen::Vector3f normal;
-  Eigen::Vector3f arm_a;
-  Eigen::Vector3f arm_b;
-  uint8_t manifold_count;     // 0 for separate pairs
-  ManifoldPoints manifold{};  // relative to the position of A
-  uint32_t sub_a = 0;         // child or triangle; 0 for simple shapes
-  uint32_t sub_b = 0;
+  bool overlap;               ///< touching is overlap
+  Status status;              ///< how the result came about
+  float separation;           ///< metres; <= 0: overlap by that much
+  Eigen::Vector3f normal;     ///< unit, world frame, from A to B
+  Eigen::Vector3f arm_a;      ///< witness point of A, relative to its position, world axes
+  Eigen::Vector3f arm_b;      ///< witness point of B, relative to its position, world axes
+  uint8_t manifold_count;     ///< 0 for separate pairs
+  ManifoldPoints manifold{};  ///< relative to the position of A
+  uint32_t sub_a = 0;         ///< child or triangle of A; 0 for simple shapes
+  uint32_t sub_b = 0;         ///< child or triangle of B; 0 for simple shapes
 };
 
-// A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the
-// body is not valid, infinite for half-spaces. `positions` says in which type the position is
-// stored: float32 positions are rounded first.
+/// A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the
+/// body is not valid, infinite for half-spaces. `positions` says in which type the position is
+/// stored: for float32 the position is rounded first.
 CAROM_EXPORT Box bounds(const Shape& shape, const Pose& pose, PositionType positions);
 
-// Finite pose, finite and not negative size.
+/// Whether the pose is finite, the size finite and not negative, and the geometry present. Only the
+/// kinds that have an orientation need a non-zero quaternion.
 CAROM_EXPORT bool is_valid(const Shape& shape, const Pose& pose, PositionType positions);
 
-// Closed boxes: touching is overlap.
+/// Whether two closed boxes overlap: touching is overlap.
 CAROM_EXPORT bool overlap(const Box& a, const Box& b);
 
-// Whether layers, masks, owners and motion let two bodies meet.
+/// Whether layers, masks, owners and motion let two bodies meet.
 CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b);
 
-// Tests A against B, whatever their kinds; carom::supports() must be true of them.
+/// Tests A against B. carom::supports() must be true of their kinds.
 CAROM_EXPORT PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
                                 const Pose& pose_b, PositionType positions);
 
-// When two bodies that move meet, and the contact then; names and signs as in ImpactColumns, arms
-// relative to the bodies' positions at that time.
+/// When two moving bodies meet, and the contact at that time; names and signs as in ImpactColumns.
 struct Impact {
-  float toi;
-  Status status;
-  float separation;
-  Eigen::Vector3f normal;
-  Eigen::Vector3f arm_a;
-  Eigen::Vector3f arm_b;
-  uint32_t sub_a = 0;
-  uint32_t sub_b = 0;
+  float toi;               ///< in [0, 1]; +infinity: they do not meet; NaN: there is no answer
+  Status status;           ///< ok, budget or invalid
+  float separation;        ///< metres; about zero, or minus the depth of an overlap at the start
+  Eigen::Vector3f normal;  ///< unit, world frame, from A to B
+  Eigen::Vector3f arm_a;   ///< witness point of A, relative to its position at the time of impact
+  Eigen::Vector3f arm_b;   ///< witness point of B, relative to its position at the time of impact
+  uint32_t sub_a = 0;      ///< part of A that meets first
+  uint32_t sub_b = 0;      ///< part of B that meets first
 };
 
-// Every pair of parts is looked at.
+/// The first time at which the two bodies touch while they move as their sweeps say. Tests every
+/// pair of parts.
 CAROM_EXPORT Impact time_of_impact(const Shape& shape_a, const Pose& pose_a, const Sweep& sweep_a,
                                    const Shape& shape_b, const Pose& pose_b, const Sweep& sweep_b,
                                    PositionType positions);
 
-// A body as the world sees it in one frame. bodies[i].id.index need not be i, but must ascend.
+/// A body as the world has it in one frame.
 struct Body {
-  BodyId id;
-  BodyDesc desc;
+  BodyId id;      ///< its name
+  BodyDesc desc;  ///< its shape, pose and properties in this frame
 };
 
-// The results of one frame, as those of World after step().
+/// The results of one frame, as those of World after step().
 struct Frame {
-  std::vector<Pair> pairs;
-  std::vector<uint8_t> overlaps;
-  std::vector<Contact> contacts;
-  std::vector<ManifoldPoints> manifolds;  // at Detail::manifold one a contact, else none
-  std::vector<carom::Impact> impacts;
-  std::vector<Contact> speculative;
-  std::vector<Event> events;
-  std::vector<BodyId> quarantined;
-  std::vector<Event> touching;  // what the next frame needs of this one: the overlaps with ids
+  std::vector<Pair> pairs;                ///< World::pairs()
+  std::vector<uint8_t> overlaps;          ///< World::overlaps()
+  std::vector<Contact> contacts;          ///< World::contacts()
+  std::vector<ManifoldPoints> manifolds;  ///< at Detail::manifold one a contact, else none
+  std::vector<carom::Impact> impacts;     ///< World::impacts()
+  std::vector<Contact> speculative;       ///< World::speculative_contacts()
+  std::vector<Event> events;              ///< World::events()
+  std::vector<BodyId> quarantined;        ///< World::quarantined()
+  std::vector<Event> touching;            ///< the overlaps with ids, which the next frame needs
 };
 
-// What a frame looks ahead by: as WorldSettings say.
+/// How a frame looks ahead: the settings of the same names in WorldSettings.
 struct Ahead {
-  double dt = 1.0 / 60;
-  float fast_share = 0.5f;
-  Impacts impacts = Impacts::earliest;
+  double dt = 1.0 / 60;                 ///< seconds
+  float fast_share = 0.5f;              ///< from which motion on Detection::automatic looks ahead
+  Impacts impacts = Impacts::earliest;  ///< which impacts are kept
 };
 
-// `previous` is the frame before; nullptr: there was none. `velocities`: contacts carry normal
-// velocities. Every pair of boxes is looked at: O(n^2).
+/// The results of World::step() for these bodies. Their indices must ascend, but bodies[i].id.index
+/// need not be i. `previous` is the frame before; nullptr: there was none. If `velocities`,
+/// contacts carry normal velocities. Compares every pair of boxes: O(n^2).
 CAROM_EXPORT Frame step(std::span<const Body> bodies, PositionType positions, Detail detail,
                         bool velocities, const Frame* previous, const Ahead& ahead = {});
 

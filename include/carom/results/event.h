@@ -1,4 +1,5 @@
-// What changed between the last step and this one.
+/// @file
+/// Events: what changed between the last step and this one.
 #pragma once
 
 #include <cstdint>
@@ -7,29 +8,32 @@
 
 namespace carom {
 
+/// What happened to a pair.
 enum class EventKind : uint8_t {
-  begin,    // overlap now, did not before
-  persist,  // overlap now and before
-  end,      // overlapped before; do not now, or one of them was removed, replaced or quarantined
-  impact,   // will meet within the interval ahead: World::impacts()
+  begin,    ///< overlaps now and did not before
+  persist,  ///< overlaps now and did before
+  end,      ///< overlapped before and does not now, or a body was removed, replaced or quarantined
+  impact,   ///< will meet within the interval ahead: World::impacts()
 };
 
+/// How many kinds of events there are.
 inline constexpr int kEventKindCount = 4;
 
+/// The contact index of an event without contact.
 inline constexpr uint32_t kNoContact = 0xffffffffu;
 
-// Events are sorted by (a.index, b.index); where a body was replaced by another at the same index,
-// the end of the old pair comes before the begin of the new one. Behind them all follow those of
-// impacts, one each, in the order of World::impacts().
+/// One event of a step. Events are sorted by (a.index, b.index); if a body was replaced by another
+/// at the same index, the end of the old pair comes before the begin of the new one. The events of
+/// impacts follow after all others, one each, in the order of World::impacts().
 struct Event {
-  BodyId a;  // the ids at the time of the overlap
-  BodyId b;
-  // Index into World::contacts(), of impacts into World::impacts(); kNoContact for ends, and for
-  // overlaps with sensors or at detail overlap.
+  BodyId a;  ///< the id of the first body at the time of the overlap
+  BodyId b;  ///< the id of the second body at the time of the overlap
+  /// Index into World::contacts(), for impacts into World::impacts(); kNoContact for ends, and for
+  /// overlaps with sensors or at Detail::overlap.
   uint32_t contact;
-  EventKind kind;
-  bool sensor;            // one of the two is a sensor
-  uint16_t reserved = 0;  // zero, so that events compare and hash as bytes
+  EventKind kind;         ///< what happened
+  bool sensor;            ///< one of the two is a sensor
+  uint16_t reserved = 0;  ///< zero, so that events compare and hash as bytes
 };
 static_assert(sizeof(Event) == 24);
 

@@ -1,4 +1,5 @@
-// Pairs of bodies, the common currency of broadphase, cache and narrow phase.
+/// @file
+/// Pairs of bodies, as the broadphase finds them and the narrow phase tests them.
 #pragma once
 
 #include <compare>
@@ -6,15 +7,16 @@
 
 namespace carom {
 
-// Two indices. In lists of one set of bodies a < b, and lists are sorted by (a, b).
+/// Two body indices. In pairs of one set of bodies a < b, and lists are sorted by (a, b).
 struct Pair {
-  uint32_t a;
-  uint32_t b;
+  uint32_t a;  ///< index of the first body
+  uint32_t b;  ///< index of the second body
 
+  /// Orders by (a, b).
   friend auto operator<=>(const Pair&, const Pair&) = default;
 };
 
-// The pair as one integer that orders like (a, b).
+/// The pair as one integer that orders like (a, b).
 inline constexpr uint64_t pair_key(Pair pair) { return uint64_t{pair.a} << 32 | pair.b; }
 
 }  // namespace carom

@@ -1,4 +1,5 @@
-// Compounds: the union of other shapes, each with a pose in the compound's frame.
+/// @file
+/// Compounds: the union of other shapes, each with a pose in the compound's frame.
 #pragma once
 
 #include <memory>
@@ -7,9 +8,9 @@ namespace carom {
 
 class CompoundGeometry;  // carom/shapes/compound_geometry.h: made by make_compound()
 
-// Turns with its body. Without geometry it is not valid.
+/// A union of shapes, which turns with its body. Without geometry it is not valid.
 struct Compound {
-  std::shared_ptr<const CompoundGeometry> geometry;
+  std::shared_ptr<const CompoundGeometry> geometry;  ///< made by make_compound(); may be shared
 };
 
 }  // namespace carom

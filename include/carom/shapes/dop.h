@@ -1,6 +1,7 @@
-// k-DOPs (discrete oriented polytopes): intersections of k/2 slabs whose directions are fixed.
-// J. Klosowski et al., Efficient Collision Detection Using Bounding Volume Hierarchies of k-DOPs,
-// IEEE TVCG 4(1), 1998.
+/// @file
+/// k-DOPs (discrete oriented polytopes): intersections of k/2 slabs whose directions are fixed.
+/// J. Klosowski et al., Efficient Collision Detection Using Bounding Volume Hierarchies of k-DOPs,
+/// IEEE TVCG 4(1), 1998.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,24 +14,33 @@
 
 namespace carom {
 
-// 14 = 6 and the corners of a cube, 18 = 6 and its edges, 26 = all.
-enum class DopKind : uint8_t { k6 = 6, k14 = 14, k18 = 18, k26 = 26 };
+/// Which planes a k-DOP has; the value is k.
+enum class DopKind : uint8_t {
+  k6 = 6,    ///< the faces of a box along the axes
+  k14 = 14,  ///< and planes that cut the corners of a cube
+  k18 = 18,  ///< the faces, and planes that cut the edges of a cube
+  k26 = 26   ///< the faces, corners and edges
+};
 
+/// The slabs of the largest k-DOP.
 inline constexpr size_t kMostSlabs = 13;
+/// How many slabs a k-DOP of this kind has: k/2.
 constexpr size_t slab_count(DopKind kind) { return static_cast<size_t>(kind) / 2; }
 
-// Directions of the slabs, not unit vectors: projections are sums of coordinates.
+/// The directions of the slabs, with components -1, 0 and 1. They are not unit vectors: projections
+/// are sums of coordinates.
 CAROM_EXPORT std::span<const std::array<int8_t, 3>> slab_directions(DopKind kind);
 
-// All x of the body's frame with lower[i] <= direction[i] . x <= upper[i] for every slab. Slabs
-// that others make redundant are allowed; lower <= upper. Entries behind the last slab are unused.
+/// All x of the body's frame with lower[i] <= direction[i] . x <= upper[i] for every slab.
+/// lower <= upper, and the slabs have a point in common; a slab may be redundant. Entries behind
+/// the last slab are unused.
 struct Dop {
-  DopKind kind = DopKind::k6;
-  std::array<float, kMostSlabs> lower{};
-  std::array<float, kMostSlabs> upper{};
+  DopKind kind = DopKind::k6;             ///< which slabs
+  std::array<float, kMostSlabs> lower{};  ///< lower ends, metres x length of the direction
+  std::array<float, kMostSlabs> upper{};  ///< upper ends, likewise
 
-  // The smallest around these points, its slabs rounded to the nearest float; zero for no points,
-  // not a number where a point is not.
+  /// The smallest k-DOP around these points, its slabs rounded to the nearest float; all zero for
+  /// no points, NaN where a point is NaN.
   CAROM_EXPORT static Dop of_points(std::span<const Eigen::Vector3f> points, DopKind kind);
 };
 

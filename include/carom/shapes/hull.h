@@ -1,4 +1,6 @@
-// Convex hulls: corners and faces, made once, never changed, shared by all bodies of that shape.
+/// @file
+/// Convex hulls: corners and faces. A geometry is made once, never changed, and shared by all
+/// bodies of that shape.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,31 +18,37 @@ namespace carom {
 
 class HullFeatures;
 
-// In the body's frame. A hull may be a point, a segment or a flat polygon: such a one has no faces,
-// or two that look in opposite directions.
+/// The points and faces of a hull in the body's frame, metres. A hull may be a point, a segment or
+/// a flat polygon; it then has no faces, or two that look in opposite directions.
 class CAROM_EXPORT HullGeometry {
  public:
+  /// The outline of one face: a range of corners().
   struct Face {
-    uint32_t first;  // into corners()
-    uint32_t count;  // >= 3
+    uint32_t first;  ///< index into corners()
+    uint32_t count;  ///< >= 3
   };
 
+  /// The points in the order in which they were given.
   std::span<const Eigen::Vector3f> points() const { return points_; }
+  /// The faces in the order in which they were given.
   std::span<const Face> faces() const { return faces_; }
-  // Indices of points: the outlines of all faces, counter-clockwise as seen from outside.
+  /// Indices of points: the outlines of all faces, counter-clockwise as seen from outside.
   std::span<const uint32_t> corners() const { return corners_; }
+  /// Indices of points: the outline of one face.
   std::span<const uint32_t> corners(const Face& face) const {
     return corners().subspan(face.first, face.count);
   }
-  float size() const { return size_; }  // the greatest magnitude of a coordinate
-  const Eigen::Vector3d& middle() const { return middle_; }  // the mean of the points
-  // Coordinates of all points along one axis, and behind them the first one's, up to a multiple of
-  // sixteen.
+  /// The greatest magnitude of a coordinate.
+  float size() const { return size_; }
+  /// The mean of the points.
+  const Eigen::Vector3d& middle() const { return middle_; }
+  /// The coordinates of all points along one axis (0, 1, 2), padded to a multiple of sixteen with
+  /// that of the first point.
   const float* column(size_t axis) const { return columns_.data() + axis * columns_.size() / 3; }
-  // x, y, z, 0 of every point, and behind them of middle(), rounded.
+  /// Records x, y, z, 0 of every point, and after them of middle(), rounded to float32.
   std::span<const std::array<float, 4>> records() const { return records_; }
-  // Of a solid whose faces are in order; nullptr otherwise, which costs time where such a hull
-  // overlaps another.
+  /// Faces, edges and neighbours, if the faces close a solid with all points behind them; nullptr
+  /// otherwise: then overlapping pairs of such a hull take longer. For Carom's own use.
   const HullFeatures* features() const { return features_.get(); }
 
  private:
@@ -57,17 +65,18 @@ class CAROM_EXPORT HullGeometry {
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
 };
 
-// From the corners of a convex polytope and the outlines of its faces. Points that are inside, or
-// given twice, do no harm but cost time. Faces are used for manifolds, for the ways out of
-// triangles that have rules, and, if they close a solid with all points behind them, for depths;
-// all else knows the points alone. Fails if there is no point, a coordinate is not finite, or a
-// face has fewer than three corners or one that does not exist.
+/// Makes a hull from the corners of a convex polytope and the outlines of its faces (indices of
+/// points, counter-clockwise as seen from outside). Points that are inside, or given twice, do no
+/// harm but cost time. Faces serve manifolds, the penetration directions of triangles that are
+/// one-sided or have inner edges, and, if they close a solid with all points behind them, depths;
+/// all else uses the points alone. Fails if there is no point, a coordinate is not finite, or a
+/// face has fewer than three corners or one that does not exist.
 CAROM_EXPORT Result<std::shared_ptr<const HullGeometry>> make_hull(
     std::span<const Eigen::Vector3f> points, std::span<const std::vector<uint32_t>> faces);
 
-// Turns with its body. Without geometry it is not valid.
+/// A convex hull, which turns with its body. Without geometry it is not valid.
 struct Hull {
-  std::shared_ptr<const HullGeometry> geometry;
+  std::shared_ptr<const HullGeometry> geometry;  ///< made by make_hull(); may be shared
 };
 
 }  // namespace carom

@@ -1,4 +1,5 @@
-// Meshes: triangles as a surface, with the tree that finds them.
+/// @file
+/// Meshes: surfaces of triangles, with the tree that finds them.
 #pragma once
 
 #include <memory>
@@ -7,9 +8,9 @@ namespace carom {
 
 class MeshGeometry;  // carom/shapes/mesh_geometry.h: made by make_mesh()
 
-// Turns with its body. Without geometry it is not valid.
+/// A surface of triangles, which turns with its body. Without geometry it is not valid.
 struct Mesh {
-  std::shared_ptr<const MeshGeometry> geometry;
+  std::shared_ptr<const MeshGeometry> geometry;  ///< made by make_mesh(); may be shared
 };
 
 }  // namespace carom

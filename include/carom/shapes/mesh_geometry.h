@@ -1,5 +1,6 @@
-// The geometry of meshes: triangles, what edges they share, and a tree of their boxes; made once,
-// never changed, shared by all bodies of that shape.
+/// @file
+/// The geometry of meshes: triangles, the edges that they share, and a tree of their boxes. It is
+/// made once, never changed, and shared by all bodies of that shape.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,37 +18,44 @@ namespace carom {
 
 class BoxTree;
 
-// What holds of every triangle, as in Triangle (carom/shapes/shape.h).
+/// The properties that all triangles of a mesh have, as in Triangle (carom/shapes/shape.h).
 struct MeshRules {
-  bool one_sided = false;
-  float thickness = 0;  // metres, >= 0
+  bool one_sided = false;  ///< meets only bodies in front of it
+  float thickness = 0;     ///< metres behind the front, >= 0
 };
 
-// In the body's frame. Triangles without area are there, but take no part in anything.
+/// The triangles of a mesh in the body's frame, metres. Triangles without area keep their index,
+/// but no test uses them.
 class CAROM_EXPORT MeshGeometry {
  public:
   ~MeshGeometry();
 
+  /// The vertices in the order in which they were given.
   std::span<const Eigen::Vector3f> vertices() const { return vertices_; }
-  // As given: sub-shapes are named by their index.
+  /// Three vertex indices a triangle, in the order in which they were given; sub-shape indices
+  /// refer to it.
   std::span<const std::array<uint32_t, 3>> triangles() const { return triangles_; }
+  /// The properties of all triangles.
   const MeshRules& rules() const { return rules_; }
 
+  /// How many triangles have no area.
   size_t degenerate_count() const { return degenerate_count_; }
+  /// Whether this triangle has no area.
   bool is_degenerate(size_t triangle) const { return edges_[triangle].is_degenerate; }
 
-  // Bit i: the edge from corner i to the next is shared with exactly one other triangle, and the
-  // surface is flat or bent inwards there, as seen from the front of the triangle or from its back.
-  // Nothing that touches the mesh from that side can touch the edge alone.
+  /// Bit i: the edge from corner i to the next is shared with exactly one other triangle, and the
+  /// surface is flat or bent inwards there, as seen from the front of the triangle or from its
+  /// back. A body that touches the mesh from that side cannot touch the edge alone.
   uint8_t inner_edges(size_t triangle, bool from_front) const {
     return from_front ? edges_[triangle].inner_from_front : edges_[triangle].inner_from_back;
   }
 
-  // A box that holds all triangles with their thickness, rounded outwards.
+  /// Lower corner of a box that contains all triangles with their thickness, rounded outwards.
   const Eigen::Vector3f& lower() const { return lower_; }
+  /// Upper corner of the same box.
   const Eigen::Vector3f& upper() const { return upper_; }
 
-  // Items are triangles.
+  /// The tree of the triangles' boxes; its items are triangles. For Carom's own use.
   const BoxTree& tree() const { return *tree_; }
 
  private:
@@ -70,9 +78,9 @@ class CAROM_EXPORT MeshGeometry {
   std::unique_ptr<const BoxTree> tree_;
 };
 
-// From corners and, of every triangle, the indices of three of them, counter-clockwise as seen from
-// its front. Corners at the same place count as one. Fails if there is no triangle, a corner is not
-// finite, an index has no corner, or the thickness is negative or not finite.
+/// Makes a mesh from vertices and three vertex indices a triangle, counter-clockwise as seen from
+/// its front. Vertices at the same place count as one. Fails if there is no triangle, a vertex is
+/// not finite, an index has no vertex, or the thickness is negative or not finite.
 CAROM_EXPORT Result<std::shared_ptr<const MeshGeometry>> make_mesh(
     std::span<const Eigen::Vector3f> vertices, std::span<const std::array<uint32_t, 3>> triangles,
     const MeshRules& rules = {});

@@ -1,4 +1,5 @@
-// Shapes of collidables. A shape is a closed set in the body's own frame: touching is overlap.
+/// @file
+/// Shapes of bodies. A shape is a closed set in the body's own frame: touching is overlap.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,87 +15,91 @@
 
 namespace carom {
 
-// The codes of the file format, and `triangle`, which is a mesh of one triangle there.
+/// The kinds of shapes. The values are the codes of the file format, except for `triangle`, which
+/// the format stores as a mesh of one triangle.
 enum class ShapeKind : uint8_t {
-  sphere = 0,
-  capsule = 1,
-  aabb = 2,
-  box = 3,
-  dop = 4,
-  hull = 5,
-  mesh = 6,
-  compound = 7,
-  halfspace = 8,
-  triangle = 9,
+  sphere = 0,     ///< Sphere
+  capsule = 1,    ///< Capsule
+  aabb = 2,       ///< Aabb
+  box = 3,        ///< Box
+  dop = 4,        ///< Dop
+  hull = 5,       ///< Hull
+  mesh = 6,       ///< Mesh
+  compound = 7,   ///< Compound
+  halfspace = 8,  ///< Halfspace
+  triangle = 9,   ///< Triangle
 };
 
+/// How many kinds there are.
 inline constexpr int kShapeKindCount = 10;
 
-// "sphere", "capsule", ...; "unknown" for a code that is none.
+/// "sphere", "capsule", ...; "unknown" for a value that is not a kind.
 CAROM_EXPORT const char* name(ShapeKind kind);
 
-// Ball about the body's position. radius >= 0.
+/// A ball about the body's position.
 struct Sphere {
-  float radius = 0;
+  float radius = 0;  ///< metres, >= 0
 };
 
-// Box along the world axes, whatever the body's orientation: all x with
-// position + lower <= x <= position + upper. lower <= upper in every axis.
+/// A box along the world axes, whatever the body's orientation: all x with
+/// position + lower <= x <= position + upper. lower <= upper in every axis.
 struct Aabb {
-  Eigen::Vector3f lower = Eigen::Vector3f::Zero();
-  Eigen::Vector3f upper = Eigen::Vector3f::Zero();
+  Eigen::Vector3f lower = Eigen::Vector3f::Zero();  ///< metres, relative to the position
+  Eigen::Vector3f upper = Eigen::Vector3f::Zero();  ///< metres, relative to the position
 
+  /// The box about the position with these half extents, metres.
   static Aabb from_half_extents(const Eigen::Vector3f& half) { return {-half, half}; }
 };
 
-// All points within `radius` of the segment from a to b, in the body's frame. radius >= 0; a == b
-// is a sphere.
+/// All points within `radius` of the segment from a to b. a == b is a sphere.
 struct Capsule {
-  Eigen::Vector3f a = Eigen::Vector3f::Zero();
-  Eigen::Vector3f b = Eigen::Vector3f::Zero();
-  float radius = 0;
+  Eigen::Vector3f a = Eigen::Vector3f::Zero();  ///< end of the segment, body's frame, metres
+  Eigen::Vector3f b = Eigen::Vector3f::Zero();  ///< other end, body's frame, metres
+  float radius = 0;                             ///< metres, >= 0
 };
 
-// Oriented box about the body's position: |x_i| <= half_i in the body's frame. half >= 0.
+/// An oriented box about the body's position: |x_i| <= half_i in the body's frame.
 struct Box {
-  Eigen::Vector3f half = Eigen::Vector3f::Zero();
+  Eigen::Vector3f half = Eigen::Vector3f::Zero();  ///< half extents, metres, >= 0
 };
 
-// One triangle, in the body's frame. Its front is the side from which the corners run
-// counter-clockwise. Triangles without area are segments or points.
+/// One triangle. Its front is the side from which the corners run counter-clockwise. A triangle
+/// without area is a segment or a point.
 struct Triangle {
+  /// In the body's frame, metres.
   std::array<Eigen::Vector3f, 3> corners = {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(),
                                             Eigen::Vector3f::Zero()};
-  float thickness = 0;  // >= 0: a prism that reaches so far behind the front
-  // Meets only what comes from the front. Shapes that overlap it leave by the front, too: where
-  // another way would be shorter, the points that are furthest along this one need not face each
-  // other, and the point on the triangle's side may lie beside it.
+  float thickness = 0;  ///< metres, >= 0; above 0: a prism that reaches this far behind the front
+  /// True: the triangle meets only bodies that come from the front, and the penetration direction
+  /// out of it is to the front, too. If another direction would be shorter, the witness points need
+  /// not face each other, and the one on the triangle's side may lie beside the triangle.
   bool one_sided = false;
-  // Bit i: the edge from corner i to the next is inside a mesh, and contacts there keep the normal
-  // of the face, as above.
+  /// Bit i: the edge from corner i to the next is inside a mesh. Contacts there keep the normal of
+  /// the face, with the same consequence for witness points.
   uint8_t inner_edges = 0;
 };
 
-// All x of the body's frame with normal . x <= offset. The normal need not be a unit vector, but
-// not zero. Half-spaces have no bounds: they are candidates with every body that reaches into them.
+/// All x of the body's frame with normal . x <= offset. A half-space has no bounds: it makes a
+/// candidate pair with every body whose bounds reach into it.
 struct Halfspace {
-  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
-  float offset = 0;
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< outwards; not zero, need not be unit
+  float offset = 0;                                   ///< metres x length of the normal
 };
 
-// A Dop (carom/shapes/dop.h) turns with its body, as a box does; its slabs must have a point in
-// common.
+/// Any shape. A Dop (carom/shapes/dop.h) turns with its body, as a box does; its slabs must have a
+/// point in common.
 using Shape =
     std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh, Compound>;
 
+/// The kind of a shape.
 CAROM_EXPORT ShapeKind kind_of(const Shape& shape);
 
-// Made of parts that are shapes themselves.
+/// Whether shapes of this kind consist of parts that are shapes themselves.
 constexpr bool is_composite(ShapeKind kind) {
   return kind == ShapeKind::mesh || kind == ShapeKind::compound;
 }
 
-// Kinds whose numbers lie in a geometry that bodies share.
+/// Whether the numbers of this kind lie in a geometry that bodies may share.
 constexpr bool has_geometry(ShapeKind kind) {
   return kind == ShapeKind::hull || is_composite(kind);
 }

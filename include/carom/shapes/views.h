@@ -1,4 +1,5 @@
-// Views of the caller's own arrays: pointer + stride in bytes, never copied, never owned.
+/// @file
+/// Views of the caller's own arrays: pointer + stride in bytes, never copied, never owned.
 #pragma once
 
 #include <array>
@@ -11,58 +12,60 @@
 
 namespace carom {
 
-// Where the radius of a sphere is found.
+/// Where a view has the radius of a sphere.
 enum class RadiusLayout : uint8_t {
-  fourth,  // behind the position: records of x, y, z, r (16 bytes in float32, 32 in float64)
-  column,  // in an array of its own, always float32
-  none,    // points: the radius is zero
+  fourth,  ///< behind the position: records of x, y, z, r (16 bytes in float32, 32 in float64)
+  column,  ///< in an array of its own, always float32
+  none,    ///< points: the radius is zero
 };
 
-// Positions x, y, z of `count` bodies, float32 or float64, `stride` bytes apart. With
-// RadiusLayout::fourth a fourth component of the same type follows (spheres: the radius; others:
-// any finite value).
+/// Positions of bodies: records of x, y, z in the world frame, metres. With RadiusLayout::fourth a
+/// fourth component of the same type follows (the radius of a sphere; any finite value for other
+/// kinds).
 struct PositionView {
-  const void* data = nullptr;
-  size_t stride = 0;
-  PositionType type = PositionType::float32;
-  RadiusLayout radius_layout = RadiusLayout::fourth;
-  const float* radius = nullptr;  // RadiusLayout::column only
-  size_t radius_stride = sizeof(float);
+  const void* data = nullptr;                         ///< float or double, as `type` says
+  size_t stride = 0;                                  ///< bytes from one record to the next
+  PositionType type = PositionType::float32;          ///< the type of the numbers
+  RadiusLayout radius_layout = RadiusLayout::fourth;  ///< where the radii are
+  const float* radius = nullptr;                      ///< RadiusLayout::column only; metres
+  size_t radius_stride = sizeof(float);               ///< bytes, RadiusLayout::column only
 };
 
-// Six columns of boxes: lower and upper corners relative to the body's position, or in world
-// coordinates where the positions are zero.
+/// Six columns of boxes: lower and upper corners relative to the body's position, or in world
+/// coordinates where the positions are zero; metres.
 struct AabbColumns {
-  std::array<const float*, 3> lower{};
-  std::array<const float*, 3> upper{};
-  size_t stride = sizeof(float);
+  std::array<const float*, 3> lower{};  ///< lower ends in x, y and z
+  std::array<const float*, 3> upper{};  ///< upper ends in x, y and z
+  size_t stride = sizeof(float);        ///< bytes from one entry to the next, in all columns
 };
 
-// Orientations as quaternions x, y, z, w (float32), which need not be unit ones: the rotation is
-// M(q) / |q|^2. Absent (data == nullptr): none is rotated.
+/// Orientations as quaternions x, y, z, w, which need not be unit ones: the rotation from the
+/// body's frame to the world is M(q) / |q|^2.
 struct OrientationView {
-  const float* data = nullptr;
-  size_t stride = 4 * sizeof(float);
+  const float* data = nullptr;        ///< nullptr: no body is rotated
+  size_t stride = 4 * sizeof(float);  ///< bytes from one quaternion to the next
 };
 
-// Parameters of all kinds but spheres and aabbs: rows of four floats, as many as the kind has.
-//   capsule    ax ay az radius | bx by bz 0
-//   box        hx hy hz 0
-//   dop        13 lower ends of slabs, 13 upper ones (any finite numbers behind the last slab),
-//              k (6, 14, 18 or 26), 0
-//   halfspace  nx ny nz offset
-//   triangle   three corners, each with a fourth number: thickness, one_sided (0 or 1), inner_edges
-//              (0 to 7)
-//   hull, mesh, compound  the address of the geometry in the first bytes (geometry_row()), 0 behind
-//              it; the geometry must outlive the view
+/// Parameters of all kinds but spheres and aabbs: rows of four floats, as many as row_count() says.
+/// - capsule: ax ay az radius | bx by bz 0
+/// - box: hx hy hz 0
+/// - dop: 13 lower ends of slabs, 13 upper ones (any finite numbers behind the last slab),
+///   k (6, 14, 18 or 26), 0
+/// - halfspace: nx ny nz offset
+/// - triangle: three corners, each with a fourth number: thickness, one_sided (0 or 1), inner_edges
+///   (0 to 7)
+/// - hull, mesh, compound: the address of the geometry in the first bytes (shape_rows() writes it),
+///   then 0; the geometry must outlive the view
 struct ShapeRows {
-  const float* data = nullptr;
-  const uint32_t* first = nullptr;  // one a body: its first row; nullptr: body i's is i * row_count
+  const float* data = nullptr;  ///< dense rows
+  /// The first row of each body, one entry a body; nullptr: body i starts at row i * row_count().
+  const uint32_t* first = nullptr;
 };
 
+/// The greatest number of rows that a kind has.
 inline constexpr size_t kMostRows = 7;
 
-// How many rows a body of this kind has; 0: it has none.
+/// How many rows a body of this kind has; 0 for spheres and aabbs.
 constexpr uint32_t row_count(ShapeKind kind) {
   switch (kind) {
     case ShapeKind::box:
@@ -82,29 +85,26 @@ constexpr uint32_t row_count(ShapeKind kind) {
   }
 }
 
-// The rows of a shape, as many as its kind has.
+/// The rows of a shape; those that its kind does not have are zero.
 CAROM_EXPORT std::array<std::array<float, 4>, kMostRows> shape_rows(const Shape& shape);
-// The shape of a kind that has rows. It does not own its geometry.
+/// The shape with these rows (row_count(kind) of them). It does not own its geometry.
 CAROM_EXPORT Shape shape_from_rows(ShapeKind kind, const std::array<float, 4>* rows);
 
-// A set of bodies to test: what the narrow phase and the bounds stage read.
-//   position  indexed by body; may be absent (data == nullptr) if all bodies are boxes given in
-//             world coordinates
-//   kind      one per body; nullptr: all are `uniform_kind`
-//   box_slot  the row of `boxes` of an aabb body; nullptr: the body's own index
-//   orientation, rows  of all kinds but spheres and aabbs; of mixed kinds with rows.first
+/// A set of bodies to test: the arrays that the narrow phase and the bounds stage read. All arrays
+/// are indexed by body unless they say otherwise.
 struct Collidables {
-  size_t count = 0;
+  size_t count = 0;  ///< bodies
+  /// May be absent (data == nullptr) if all bodies are aabbs given in world coordinates.
   PositionView position;
-  const ShapeKind* kind = nullptr;
-  ShapeKind uniform_kind = ShapeKind::sphere;
-  AabbColumns boxes;
-  const uint32_t* box_slot = nullptr;
-  OrientationView orientation;
-  ShapeRows rows;
+  const ShapeKind* kind = nullptr;             ///< one a body; nullptr: all are `uniform_kind`
+  ShapeKind uniform_kind = ShapeKind::sphere;  ///< the kind of all bodies if `kind` is nullptr
+  AabbColumns boxes;                           ///< of aabb bodies
+  const uint32_t* box_slot = nullptr;  ///< row of `boxes` of each aabb; nullptr: the body's index
+  OrientationView orientation;         ///< of all kinds but spheres and aabbs
+  ShapeRows rows;  ///< of all kinds but spheres and aabbs; bodies of several kinds need rows.first
 };
 
-// Views of common layouts.
+/// Spheres in records of x, y, z, radius (float32, world frame, metres), `stride` bytes apart.
 inline Collidables sphere_records(const float* xyzr, size_t count,
                                   size_t stride = 4 * sizeof(float)) {
   Collidables view;
@@ -113,6 +113,8 @@ inline Collidables sphere_records(const float* xyzr, size_t count,
   return view;
 }
 
+/// Points in records of x, y, z (float32, world frame, metres), `stride` bytes apart: spheres of
+/// radius zero.
 inline Collidables points(const float* xyz, size_t count, size_t stride = 3 * sizeof(float)) {
   Collidables view;
   view.count = count;
@@ -120,6 +122,7 @@ inline Collidables points(const float* xyz, size_t count, size_t stride = 3 * si
   return view;
 }
 
+/// Aabbs in world coordinates, without positions.
 inline Collidables world_boxes(const AabbColumns& boxes, size_t count) {
   Collidables view;
   view.count = count;
@@ -128,13 +131,13 @@ inline Collidables world_boxes(const AabbColumns& boxes, size_t count) {
   return view;
 }
 
-// World bounds of bodies in six columns; a closed box. An empty box (lower = +inf, upper = -inf)
-// stands for a body that takes no part.
+/// World bounds of bodies in six columns: closed boxes, world frame, metres. A body that takes no
+/// part has an empty box (lower = +inf, upper = -inf).
 struct BoundsView {
-  std::array<const float*, 3> lower{};
-  std::array<const float*, 3> upper{};
-  size_t count = 0;
-  size_t stride = sizeof(float);
+  std::array<const float*, 3> lower{};  ///< lower ends in x, y and z
+  std::array<const float*, 3> upper{};  ///< upper ends in x, y and z
+  size_t count = 0;                     ///< bodies
+  size_t stride = sizeof(float);        ///< bytes from one entry to the next, in all columns
 };
 
 }  // namespace carom

@@ -1,4 +1,5 @@
-// What one step ran and how long it took.
+/// @file
+/// The report of one step: which stages ran, how long they took, and how much they found.
 #pragma once
 
 #include <cstddef>
@@ -8,46 +9,50 @@
 
 namespace carom {
 
-// The stages of a step in their order; a scene runs only those it needs.
+/// The stages of a step in their order; a scene runs only those that it needs.
 enum class Stage : uint8_t {
-  changes,      // which bodies changed since the last step
-  bounds,       // world bounds of every body
-  sweeps,       // bounds over the interval ahead, where a body is looked after
-  margins,      // bounds fattened, of bodies that left those they had
-  broadphase,   // pairs of overlapping bounds
-  pairs,        // merge with the last step's pairs: what is carried, what is to be tested
-  dops,         // k-DOPs of bodies, and which pairs of theirs are apart
-  narrowphase,  // tests, batch by batch
-  results,      // overlaps and contacts in order, carried ones included
-  impacts,      // what bodies that are looked after will meet
-  velocities,   // relative velocity along the normals
-  events,       // begin, persist, end
+  changes,     ///< which bodies changed since the last step
+  bounds,      ///< world bounds of every body
+  sweeps,      ///< bounds over the interval ahead, if a body is looked after (Detection)
+  margins,     ///< new fat bounds for bodies that left those they had
+  broadphase,  ///< pairs of overlapping bounds
+  pairs,       ///< merge with the last step's pairs: which results are kept, which pairs are tested
+  dops,        ///< k-DOPs of bodies, and which pairs of them are separate
+  narrowphase,  ///< tests, batch by batch
+  results,      ///< overlaps and contacts in order, kept ones included
+  impacts,      ///< impacts and speculative contacts of bodies that are looked after
+  velocities,   ///< relative velocity along the normals
+  events,       ///< begin, persist, end
 };
 
+/// How many stages there are.
 inline constexpr int kStageCount = 12;
 
-// "changes", "bounds", ...
+/// "changes", "bounds", ...
 CAROM_EXPORT const char* name(Stage stage);
 
+/// The numbers of one step.
 struct StepReport {
-  uint64_t step = 0;  // 1 for the first
-  size_t bodies = 0;  // living, quarantined ones included
-  size_t quarantined = 0;
-  size_t pairs = 0;     // candidates
-  size_t tested = 0;    // pairs the narrow phase ran
-  size_t kept = 0;      // pairs whose last result was carried over
-  size_t dropped = 0;   // pairs that were not tested because their k-DOPs are apart
-  size_t overlaps = 0;  // overlapping pairs, sensors included
-  size_t contacts = 0;
-  size_t undecided = 0;  // pairs that Tier::certified could not decide
-  size_t swept = 0;      // bodies that are looked after in this step, swept or continuous
-  size_t unswept = 0;    // bodies whose motion is not finite, in steps that may look ahead
-  size_t impacts = 0;
-  size_t speculative = 0;  // speculative contacts
-  PairSearch search;  // of the last broadphase that ran; incomplete: too many pairs, none given
-  uint32_t stages_run = 0;              // bit s: Stage(s) ran
-  uint64_t stage_ns[kStageCount] = {};  // 0 where it did not
+  uint64_t step = 0;       ///< 1 for the first
+  size_t bodies = 0;       ///< living bodies, quarantined ones included
+  size_t quarantined = 0;  ///< bodies left out: World::quarantined()
+  size_t pairs = 0;        ///< candidate pairs
+  size_t tested = 0;       ///< pairs that the narrow phase tested
+  size_t kept = 0;         ///< pairs that kept the result of the last step
+  size_t dropped = 0;      ///< pairs not tested because their k-DOPs are separate
+  size_t overlaps = 0;     ///< overlapping pairs, sensors included
+  size_t contacts = 0;     ///< World::contacts()
+  size_t undecided = 0;    ///< pairs that Tier::certified could not decide
+  size_t swept = 0;        ///< bodies looked after in this step, swept or continuous
+  size_t unswept = 0;      ///< bodies whose motion is not finite, in steps that may look ahead
+  size_t impacts = 0;      ///< World::impacts()
+  size_t speculative = 0;  ///< World::speculative_contacts()
+  /// The last broadphase that ran; incomplete: it found too many pairs and gave none.
+  PairSearch search;
+  uint32_t stages_run = 0;              ///< bit s: Stage(s) ran
+  uint64_t stage_ns[kStageCount] = {};  ///< nanoseconds of each stage, 0 where it did not run
 
+  /// Whether this stage ran.
   bool ran(Stage stage) const { return stages_run >> static_cast<int>(stage) & 1; }
 };
 

@@ -1,4 +1,5 @@
-// The collision world: bodies in flat arrays, one step a frame, contacts and events out.
+/// @file
+/// The collision world: bodies in flat arrays, one step a frame, contacts and events out.
 #pragma once
 
 #include <array>
@@ -24,227 +25,283 @@
 
 namespace carom {
 
+/// Settings of a World. Only `dt` can be changed later (World::set_dt()).
 struct WorldSettings {
-  PositionType positions = PositionType::float32;
-  Detail detail = Detail::contact;
-  BroadphaseMethod broadphase = BroadphaseMethod::automatic;
-  Parallelism parallelism = Parallelism::arena;
-  bool events = true;         // begin, persist and end of overlaps
-  bool carry_results = true;  // false: every pair is found and tested anew every step
+  PositionType positions = PositionType::float32;             ///< how positions are stored
+  Detail detail = Detail::contact;                            ///< what a step finds of each pair
+  BroadphaseMethod broadphase = BroadphaseMethod::automatic;  ///< how candidate pairs are found
+  Parallelism parallelism = Parallelism::arena;               ///< which threads a step may use
+  bool events = true;         ///< find begin, persist and end of overlaps
+  bool carry_results = true;  ///< false: every step finds and tests every pair anew
 
-  // Metres by which bounds are fattened, finite and >= 0. A body keeps its fat bounds, and the
-  // pairs they make, until its true bounds leave them: for many bodies that move little at a time.
-  // Pairs are candidates then, and which ones depends on the way the bodies took; overlaps,
-  // contacts and events are those of a world without margin.
+  /// Metres by which bounds are fattened, finite and >= 0. A body keeps its fat bounds, and the
+  /// pairs that they make, until its true bounds leave them: for many bodies that move little at a
+  /// time. Which candidate pairs there are then depends on the paths of the bodies. Overlaps,
+  /// contacts and events are those of a world without margin.
   float margin = 0;
 
-  // Pairs whose k-DOPs are apart are not tested: tighter bounds, for shapes whose boxes are mostly
-  // empty and whose tests cost more than that (docs/dop_bounds.md). Pairs and all results are the
-  // same with and without. A 6-DOP is the bounds, and drops nothing.
+  /// Pairs with separate k-DOPs are not tested: tighter bounds, for shapes whose boxes are mostly
+  /// empty and whose tests cost more than that (docs/dop_bounds.md). Pairs and all results are the
+  /// same with and without. A 6-DOP equals the bounds, and drops nothing.
   std::optional<DopKind> dop_bounds = std::nullopt;
 
-  // Undecided pairs (Tier::certified) are kUndecided in overlaps(), and make neither contacts nor
-  // events.
-  // What FastKnobs mean for a world; candidate pairs are those of the true bounds, always:
-  // proxy_spheres     of these pairs the balls are tested, and contacts are those of the balls. So
-  //                   every overlap is found, and of balls whose bounds lie apart none.
-  //                   find_points() and bounds know the shapes themselves. dop_bounds are not used
-  // motion_tolerance  carried contacts stay as they were tested, arms and points included. Results
-  //                   depend on the way that the bodies took, and so on the margin. A change of the
-  //                   shape, or a call of set_motion(), set_filter() or set_sensor(), has the pairs
-  //                   tested again. Separations are off by twice the tolerance at most, except of
-  //                   one-sided triangles and inner edges, which see from which side a body comes.
-  //                   Nothing without carry_results
+  /// The tier and its knobs. Undecided pairs (Tier::certified) are kUndecided in overlaps(), and
+  /// make neither contacts nor events. What FastKnobs mean for a world, in which candidate pairs
+  /// are always those of the true bounds:
+  /// - proxy_spheres: the balls of the candidate pairs are tested, and contacts are those of the
+  ///   balls. So every overlap is found, but balls that overlap are not reported if the bounds of
+  ///   their shapes are separate. find_points() and bounds use the shapes themselves. dop_bounds
+  ///   are not used.
+  /// - motion_tolerance: kept contacts stay as they were tested, arms and points included. Results
+  ///   then depend on the paths of the bodies, and so on the margin. After a change of its shape,
+  ///   or a call of set_motion(), set_filter() or set_sensor(), the pairs of a body are tested
+  ///   again. Separations are off by at most twice the tolerance, except at one-sided triangles and
+  ///   inner edges, where the result depends on the side from which a body comes. Without
+  ///   carry_results this knob does nothing.
   Accuracy accuracy = {};
 
-  bool pair_changes = false;  // World::added_pairs() and removed_pairs()
+  bool pair_changes = false;  ///< provide World::added_pairs() and removed_pairs()
 
-  // A step that finds more is incomplete (StepReport::search): it has no pairs, like a step in
-  // which nothing meets. What overlapped before ends, and begins again in the next complete step.
+  /// The limit of candidate pairs. A step that finds more is incomplete (StepReport::search): it
+  /// has no pairs, like a step in which nothing meets. Earlier overlaps end, and begin again in the
+  /// next complete step.
   size_t most_pairs = PairFinder::kMostPairs;
 
-  // Looking ahead, for bodies with a Detection; without any, nothing below costs or changes
-  // anything. A step looks at the interval from now to dt seconds later, in which every body moves
-  // with its velocities, whether it is looked after itself or not: displacement and rotation are
-  // velocity x dt, rounded to float32. Finite, >= 0.
+  /// Seconds that a step looks ahead for bodies with a Detection other than discrete; finite, >= 0.
+  /// Without such bodies, this setting and those below cost and change nothing. In the interval
+  /// from now to dt later every body moves with its velocities, whatever its own Detection:
+  /// displacement and rotation are velocity x dt, rounded to float32.
   double dt = 1.0 / 60;
-  // Detection::automatic: a body is fast, and continuous, if its points move by more than this
-  // share of the diameter of a ball that fits into it (of triangles and meshes none does). A point
-  // moves by the displacement, and by the angle times the distance of the farthest one. Half-spaces
-  // are never fast.
+  /// For Detection::automatic: a body is fast, and then continuous, if its points may move by more
+  /// than this share of the diameter of a ball that fits into it (0 for triangles and meshes). A
+  /// point may move by the displacement plus the angle times the distance of the furthest point.
+  /// Half-spaces are never fast.
   float fast_share = 0.5f;
-  Impacts impacts = Impacts::earliest;
+  Impacts impacts = Impacts::earliest;  ///< which impacts are kept
 };
 
-// Writable arrays of a world, indexed by BodyId::index. They move when bodies are added or
-// removed: ask again then. Rows of indices that no body has (World::is_alive) are ignored.
+/// Writable arrays of a world, indexed by BodyId::index. They move when bodies are added or
+/// removed: ask for them again then. Rows of indices without a body (World::is_alive()) are
+/// ignored.
 struct BodyArrays {
-  size_t count = 0;  // highest living index + 1
-  // Records of x, y, z, w, in the world's position type (the other pointer is nullptr). w is the
-  // radius of a sphere; leave it alone for other kinds, where FastKnobs::proxy_spheres may use it.
+  size_t count = 0;  ///< highest living index + 1
+  /// Records of x, y, z, w, world frame, metres; nullptr if the world stores float64. w is the
+  /// radius of a sphere; leave it alone for other kinds, where FastKnobs::proxy_spheres may use it.
   float* record32 = nullptr;
-  double* record64 = nullptr;
-  // Quaternions x, y, z, w, which need not be unit ones; nullptr until there is a body of a kind
-  // that has an orientation: capsule, box, half-space, triangle. Those of spheres and aabbs are
-  // ignored.
+  double* record64 = nullptr;  ///< likewise; nullptr if the world stores float32
+  /// Quaternions x, y, z, w, which need not be unit ones; nullptr until there is a body of a kind
+  /// that has an orientation (all but sphere and aabb). Those of spheres and aabbs are ignored.
   float* orientation = nullptr;
 };
 
-// Corners of aabb bodies relative to their positions, in six columns, indexed by box slot. A body
-// keeps its slot for as long as its shape is a box.
+/// Corners of aabb bodies relative to their positions, metres, in six columns indexed by box slot
+/// (World::box_slot()). A body keeps its slot for as long as its shape is an aabb.
 struct BoxArrays {
-  size_t count = 0;  // highest slot in use + 1
-  std::array<float*, 3> lower{};
-  std::array<float*, 3> upper{};
+  size_t count = 0;               ///< highest slot in use + 1
+  std::array<float*, 3> lower{};  ///< lower ends in x, y and z
+  std::array<float*, 3> upper{};  ///< upper ends in x, y and z
 };
 
-// Parameters of capsules, boxes, half-spaces and triangles in rows of four floats, as ShapeRows
-// says. A body keeps its rows for as long as its kind has as many.
+/// Parameters of all kinds but spheres and aabbs in rows of four floats, laid out as ShapeRows
+/// says. A body keeps its rows (World::first_row()) for as long as its kind has as many.
 struct ShapeRowArrays {
-  size_t count = 0;  // highest row in use + 1
-  float* rows = nullptr;
+  size_t count = 0;       ///< highest row in use + 1
+  float* rows = nullptr;  ///< 4 * count floats
 };
 
-// A point inside a body or on its surface.
+/// A point inside a body or on its surface.
 struct PointHit {
-  uint32_t point;    // index into the query
-  uint32_t body;     // body index
-  float separation;  // <= 0: how deep it lies, in metres
+  uint32_t point;    ///< index into the query
+  uint32_t body;     ///< body index
+  float separation;  ///< metres, <= 0: minus the depth of the point
 };
 
-// Memory of a world, in bytes.
+/// Memory of a world, in bytes.
 struct WorldMemory {
-  size_t bodies = 0;             // bodies, and the copies that say what changed
-  size_t bounds = 0;             // swept and fat ones and k-DOPs included
-  size_t broadphase = 0;         // search structures and what they keep
-  size_t pairs_and_results = 0;  // of this step and the last one; contacts and events, too
+  size_t bodies = 0;             ///< bodies, and the copies that show which bodies changed
+  size_t bounds = 0;             ///< bounds, swept and fat ones and k-DOPs included
+  size_t broadphase = 0;         ///< search structures and the pairs that they keep
+  size_t pairs_and_results = 0;  ///< of this step and the last one; contacts and events, too
 
+  /// The sum of all.
   size_t total() const { return bodies + bounds + broadphase + pairs_and_results; }
 };
 
-// All functions take ids of living bodies unless they say otherwise; a dead id is a programming
-// mistake where it is not answered with false. A World is used by one thread at a time.
+/// Bodies and their collisions. All functions take ids of living bodies unless they say otherwise;
+/// a dead id is a programming mistake. One thread at a time may use a World.
 class CAROM_EXPORT World {
  public:
+  /// An empty world.
   explicit World(const WorldSettings& settings = {});
   ~World();
+  /// Moves all bodies and results.
   World(World&&) noexcept;
+  /// Moves all bodies and results.
   World& operator=(World&&) noexcept;
 
+  /// The settings, with the current dt.
   const WorldSettings& settings() const;
 
-  // Bodies. Indices are handed out from 0; the lowest free one is used again first.
+  // Bodies.
+
+  /// Adds a body. Indices start at 0; the lowest free one is used again first. A body that is not
+  /// valid is added, too, and quarantined by the next step.
   BodyId add(const BodyDesc& body);
-  void add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids);  // appends to ids
-  bool remove(BodyId id);                      // false if it is dead already
-  size_t remove(std::span<const BodyId> ids);  // how many were alive
+  /// Adds bodies in order and appends their ids to `ids`.
+  void add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids);
+  /// Removes a body; false if it is dead already.
+  bool remove(BodyId id);
+  /// Removes bodies and returns how many of them were alive.
+  size_t remove(std::span<const BodyId> ids);
+  /// Whether the body of this id lives.
   bool contains(BodyId id) const;
-  size_t size() const;                  // living bodies
-  bool is_alive(uint32_t index) const;  // whether a body lives at this index
-  BodyId id_of(uint32_t index) const;   // of the body that lives there
+  /// How many bodies live.
+  size_t size() const;
+  /// Whether a body lives at this index.
+  bool is_alive(uint32_t index) const;
+  /// The id of the body that lives at this index.
+  BodyId id_of(uint32_t index) const;
 
   // Properties, one body at a time.
+
+  /// World frame, metres, as it is stored.
   Eigen::Vector3d position(BodyId id) const;
+  /// Sets a position: world frame, metres. PositionType::float32 rounds it.
   void set_position(BodyId id, const Eigen::Vector3d& position);
+  /// Sets one position for each id.
   void set_positions(std::span<const BodyId> ids, std::span<const Eigen::Vector3d> positions);
-  // Spheres and aabbs have no orientation: they answer with the identity, and keep no other. A body
-  // that changes from one of these kinds begins with the identity.
+  /// The rotation from the body's frame to the world. Spheres and aabbs have none: they return the
+  /// identity. A body that changes from one of these kinds to another starts with the identity.
   Eigen::Quaternionf orientation(BodyId id) const;
+  /// Sets an orientation, which need not be a unit quaternion. Spheres and aabbs ignore it.
   void set_orientation(BodyId id, const Eigen::Quaternionf& orientation);
+  /// The shape; it shares the geometry of the body.
   Shape shape(BodyId id) const;
+  /// Replaces the shape.
   void set_shape(BodyId id, const Shape& shape);
+  /// World frame, metres a second.
   Eigen::Vector3f linear_velocity(BodyId id) const;
+  /// Sets a velocity: world frame, metres a second.
   void set_linear_velocity(BodyId id, const Eigen::Vector3f& velocity);
-  // Spheres and aabbs do not turn, whatever it is.
+  /// World frame, radians a second. Spheres and aabbs do not turn, whatever it is.
   Eigen::Vector3f angular_velocity(BodyId id) const;
+  /// Sets an angular velocity: world frame, radians a second.
   void set_angular_velocity(BodyId id, const Eigen::Vector3f& velocity);
+  /// How steps look after this body.
   Detection detection(BodyId id) const;
+  /// Sets how steps look after this body.
   void set_detection(BodyId id, Detection detection);
+  /// Who moves this body.
   Motion motion(BodyId id) const;
+  /// Sets who moves this body.
   void set_motion(BodyId id, Motion motion);
+  /// Sets the properties of the same names in BodyDesc.
   void set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner);
+  /// Makes a body a sensor or not: sensors have overlaps and events, but no contacts.
   void set_sensor(BodyId id, bool sensor);
+  /// Whether this body is a sensor.
   bool is_sensor(BodyId id) const;
+  /// The number that the caller gave to this body.
   uint64_t user(BodyId id) const;
+  /// Sets the number that user() returns.
   void set_user(BodyId id, uint64_t user);
 
-  // Properties, straight in the arrays. Changes are noticed by comparing with the last step.
+  // Properties, straight in the arrays. A step compares them with the last step to find changes.
+
+  /// Positions, radii and orientations.
   BodyArrays arrays();
+  /// Corners of aabb bodies.
   BoxArrays boxes();
-  uint32_t box_slot(BodyId id) const;  // of an aabb body
+  /// The box slot of an aabb body.
+  uint32_t box_slot(BodyId id) const;
+  /// Parameters of all other kinds but spheres.
   ShapeRowArrays shape_rows();
-  uint32_t first_row(BodyId id) const;  // of a capsule, box, half-space or triangle
-  // One a body index; made on first use, and contacts carry normal velocities from then on. The
-  // span moves when bodies are added or removed.
+  /// The first shape row of a body that is no sphere and no aabb.
+  uint32_t first_row(BodyId id) const;
+  /// Linear velocities, indexed by BodyId::index; world frame, metres a second. The first call
+  /// makes the array, and contacts carry normal velocities from then on. The span moves when bodies
+  /// are added or removed.
   std::span<Eigen::Vector3f> linear_velocities();
-  // Likewise; normal velocities of contacts are those of the linear ones alone.
+  /// Angular velocities, likewise, in radians a second. They do not count in the normal velocities
+  /// of contacts().
   std::span<Eigen::Vector3f> angular_velocities();
 
-  // WorldSettings::dt of the next step and those that follow.
+  /// Sets WorldSettings::dt for the next step and those that follow.
   void set_dt(double dt);
 
-  // Finds pairs, contacts and events for the bodies as they are now. Memory grows as needed and is
-  // kept: a step like the last one allocates nothing.
+  /// Finds pairs, contacts and events for the bodies as they are now. Memory grows as needed and is
+  /// kept: a step like the last one allocates nothing. Results do not depend on threads.
   const StepReport& step();
 
-  // Results of the last step, sorted by (a, b); valid until the next one.
-  // Bodies whose bounds (fat ones, if any) overlap; half-spaces with those whose bounds (never fat
-  // ones) reach into them. Two half-spaces are no pair. In a step that looks ahead, pairs of which
-  // one body is looked after are those whose bounds over the interval do so, and the others those
-  // whose bounds do so now; overlaps, contacts and manifolds are of now in any case.
+  // Results of the last step, valid until the next one.
+
+  /// Candidate pairs, sorted by (a, b): bodies whose bounds (fat ones, if there is a margin)
+  /// overlap, and half-spaces with bodies whose bounds (never fat ones) reach into them. Two
+  /// half-spaces are no pair. In a step that looks ahead, a pair with a body that is looked after
+  /// uses the bounds over the interval, any other pair the bounds of now; overlaps, contacts and
+  /// manifolds are of now in any case.
   std::span<const Pair> pairs() const;
-  std::span<const uint8_t> overlaps() const;  // one a pair: 1 overlap, 0 separate, or kUndecided
-  std::span<const Contact> contacts() const;  // overlapping pairs without sensors
-  // At Detail::manifold one a contact, else none; points are relative to the position of body A.
+  /// One a pair: 1 overlap, 0 separate, or kUndecided.
+  std::span<const uint8_t> overlaps() const;
+  /// The contacts of all overlapping pairs without sensors, sorted by (a, b).
+  std::span<const Contact> contacts() const;
+  /// At Detail::manifold one a contact, else none; points are relative to the position of body A.
   std::span<const ManifoldPoints> manifolds() const;
+  /// Begins, persists and ends, sorted by (a, b), then impacts; as Event says.
   std::span<const Event> events() const;
 
-  // The pairs with a continuous body that meet in the interval ahead, if all bodies go on as they
-  // are, and those that overlap now; sorted by (toi, a, b). At details with a narrow phase. None is
-  // missed, and none is late (time_of_impact()), but for bodies whose motion is not finite: they
-  // are where they are, and have no impacts (StepReport::unswept). With FastKnobs::proxy_spheres
-  // these are impacts of the balls.
+  /// The pairs with a continuous body that will meet in the interval ahead if all bodies go on as
+  /// they are, and those that overlap now; sorted by (toi, a, b). At details with a narrow phase.
+  /// None is missed, and none is late (time_of_impact()). A body whose motion is not finite stays
+  /// where it is and has no impacts (StepReport::unswept). With FastKnobs::proxy_spheres these are
+  /// impacts of the balls.
   std::span<const Impact> impacts() const;
-  // The first of them that stops the body: with no sensor, and nothing that overlaps it now, which
-  // contacts() are about. nullptr: there is none.
+  /// The first impact that stops the body: not with a sensor, and not with a body that it overlaps
+  /// now (contacts() has those). nullptr: there is none.
   const Impact* first_impact(BodyId id) const;
-  // Contacts of swept bodies that are not there yet and may be before the interval ends, sorted by
-  // (a, b): the bodies do not overlap, and their witness points, going on straight at the velocity
-  // that they have, close the gap in time: separation + normal_velocity x dt <= 0. Here the normal
-  // velocity is that of the points, rotation included. At details with contacts; no manifolds, and
-  // no pairs with sensors or continuous bodies. They promise nothing: bodies that turn, or pass
-  // each other by, may meet elsewhere, or not at all.
+  /// Contacts of swept bodies that may close before the interval ends, sorted by (a, b). The bodies
+  /// do not overlap yet; their witness points would close the gap in time if they went on straight
+  /// at their present velocity: separation + normal_velocity x dt <= 0. Here the normal velocity is
+  /// that of the points, rotation included. At details with contacts; without manifolds, and
+  /// without pairs with sensors or continuous bodies. They promise nothing: bodies that turn, or
+  /// pass each other by, may meet elsewhere, or not at all.
   std::span<const Contact> speculative_contacts() const;
 
-  // Bodies left out: NaN, infinite or negative size, a quaternion or a plane's normal of zero.
+  /// Bodies that the step left out: NaN, infinite or negative size, a quaternion or a plane's
+  /// normal of zero.
   std::span<const BodyId> quarantined() const;
+  /// The report of the last step.
   const StepReport& report() const;
 
-  // With WorldSettings::pair_changes: pairs that the step before had not, and those that it alone
-  // had. If one of its bodies was replaced by another one with the same index, a pair is in both.
+  /// With WorldSettings::pair_changes: pairs of this step that the step before did not have. A pair
+  /// is added and removed if one of its bodies was replaced by another one with the same index.
   std::span<const Pair> added_pairs() const;
+  /// With WorldSettings::pair_changes: pairs of the step before that this step does not have.
   std::span<const Pair> removed_pairs() const;
 
-  // Replaces `hits` by all bodies that hold each point (x, y, z float32, `stride` bytes apart),
-  // sorted by (point, body). Asks the bounds of the last step: bodies must not have changed since.
-  // Points that are not finite are in no body. Works in memory of its own, unlike step().
+  // Queries. They read the bounds of the last step: bodies must not have changed since.
+
+  /// Replaces `hits` by all bodies that contain each point (`count` records of x, y, z float32,
+  /// world frame, metres, `stride` bytes apart), sorted by (point, body). Points that are not
+  /// finite are in no body. Unlike step(), every call allocates its memory.
   void find_points(const float* xyz, size_t count, size_t stride,
                    std::vector<PointHit>& hits) const;
 
-  // cast(), find_overlaps() and find_nearest() (carom/queries/cast.h, carom/queries/queries.h)
-  // against the bodies whose layer has a bit of `mask`, sensors included. They ask the bounds of
-  // the last step as well: bodies must not have changed since. The first call after a step sorts
-  // the bodies into a tree, which is kept until the next step; a call costs little more than its
-  // queries then.
+  /// carom::cast() (carom/queries/cast.h) against the bodies whose layer has a bit of `mask`,
+  /// sensors included. The first query after a step sorts the bodies into a tree, which the world
+  /// keeps until the next step; later calls cost little more than their queries.
   void cast(const Collidables& queries, const SweepView& sweep, CastHits which,
             std::vector<CastHit>& hits, uint32_t mask = ~0u) const;
+  /// carom::find_overlaps() (carom/queries/queries.h) against the same bodies as cast().
   void find_overlaps(const Collidables& queries, std::vector<OverlapHit>& hits,
                      uint32_t mask = ~0u) const;
+  /// carom::find_nearest() (carom/queries/queries.h) against the same bodies as cast().
   void find_nearest(const Collidables& queries, float within, std::vector<NearestHit>& hits,
                     uint32_t mask = ~0u) const;
 
-  // Memory held, in bytes.
+  /// Memory held, in bytes, by purpose.
   WorldMemory memory() const;
+  /// Memory held, in bytes.
   size_t bytes() const { return memory().total(); }
 
  private:
