@@ -260,10 +260,10 @@ std::vector<Pair> plain_pairs(std::span<const PlacedHalfspace> halfspaces,
                               PositionType positions, const PairFilter& filter) {
   std::vector<Pair> pairs;
   for (size_t h = 0; h < halfspaces.size(); ++h) {
-    const scalar::Plane plane =
-        scalar::world_plane(halfspaces[h].shape, halfspaces[h].pose, positions);
+    const reference::Plane plane =
+        reference::world_plane(halfspaces[h].shape, halfspaces[h].pose, positions);
     for (uint32_t i = 0; i < boxes.size(); ++i) {
-      if (!takes_part(boxes[i]) || !scalar::may_reach(as_reference(boxes[i]), plane)) continue;
+      if (!takes_part(boxes[i]) || !reference::may_reach(as_reference(boxes[i]), plane)) continue;
       const Pair pair = {std::min(i, bodies[h]), std::max(i, bodies[h])};
       if (test::may_meet(filter, pair.a, pair.b)) pairs.push_back(pair);
     }
