@@ -122,7 +122,7 @@ TEST(Cast, RaysThatAreHard) {
   Points origins, directions;
   for (size_t i = 0; i < 20; ++i) add_hard_rays(bodies[i], random, origins, directions);
   for (size_t i = 0; i < bodies.size(); i += 3) {
-    // so that most corners are exact floats
+    // With these extents most corners are exact floats.
     bodies[i] = box(bodies[i].position, {0.5f, 0.25f, 0.75f});
     add_hard_rays(bodies[i], random, origins, directions);
   }

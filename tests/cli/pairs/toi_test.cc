@@ -237,7 +237,7 @@ TEST_F(ToiTest, RotationsAreRead) {
   file.a.displacement.assign(2, {0, 0, 0});
   file.a.rotation = {{0, 0, 0}, {0, 0, 1.5707964f}};
   const PairResultsFile results = find(file);
-  // after 60 degrees: the ball is 1 from the axis
+  // After 60 degrees: the ball is 1 from the axis.
   expect_about(results.toi, {kInfinity, 2.0f / 3});
 }
 
