@@ -150,7 +150,7 @@ TEST(DopBounds, SmallerKindsHaveTheSlabsOfTheLargest) {
   const Floats all = dops_of(bodies, DopKind::k26);
   for (const DopKind kind : {DopKind::k14, DopKind::k18}) {
     const Floats some = dops_of(bodies, kind);
-    // a k18 does not have the slabs of the cube's corners
+    // A k18 does not have the slabs of the cube's corners.
     const size_t shift = kind == DopKind::k18 ? 4 : 0;
     for (size_t i = 0; i < bodies.size(); ++i) {
       for (size_t s = kBoundsSlabs; s < slab_count(kind); ++s) {

@@ -1,4 +1,4 @@
-// Families of boxes in a caller's memory, and the plainest search there is.
+// Families of boxes, their layout in a caller's memory, and a brute-force search to compare with.
 #pragma once
 
 #include <cmath>
@@ -29,7 +29,7 @@ using Boxes = std::vector<TestBox>;
 
 inline bool overlap(const TestBox& a, const TestBox& b) {
   for (int i = 0; i < 3; ++i) {
-    // Written so that NaN and inverted boxes say no.
+    // NaN and inverted boxes fail this comparison.
     if (!(a.lower[i] <= a.upper[i] && b.lower[i] <= b.upper[i])) return false;
     if (!(a.lower[i] <= b.upper[i] && b.lower[i] <= a.upper[i])) return false;
   }
@@ -79,7 +79,7 @@ class BoxMaker {
   float uniform(double low, double high) { return static_cast<float>(random_.uniform(low, high)); }
   Random& random() { return random_; }
 
-  // Anywhere in a cube of this side, so that a box meets a few others.
+  // A box anywhere in a cube of this side, so that it meets a few others.
   TestBox in_cube(double side, double size = 1.5) {
     TestBox box;
     for (int i = 0; i < 3; ++i) {
@@ -119,19 +119,19 @@ enum class BoxFamily {
   random,
   clustered,
   lattice,     // closed boxes that touch
-  equal_keys,  // the same lower corner on every axis but one, few values there
+  equal_keys,  // the same lower corner on all axes but one, and few values on that one
   one_point,
-  flat,   // no extent on an axis or more
-  plane,  // all on one plane
-  giant,  // one as large as the world
+  flat,   // no extent on one axis or more
+  plane,  // all boxes in one plane
+  giant,  // one box as large as the world
   far_cluster,
-  huge,  // up to the largest float
+  huge,  // coordinates up to the largest float
   infinite,
   spoilt,
   subnormal,
   decades,  // sizes over six decades
-  line,     // along one axis, far beyond what others measure
-  outlier,  // a few far away from the rest
+  line,     // boxes along one axis, far longer than other worlds
+  outlier,  // a few boxes far away from the rest
   any_bits,
 };
 
@@ -252,7 +252,7 @@ struct Filters {
     }
   }
 
-  // Some of them: bit 0 layers and masks, 1 owners, 2 motion.
+  // The filters whose bits are set: bit 0 layers and masks, 1 owners, 2 motion.
   PairFilter view(unsigned parts) const {
     PairFilter filter;
     if (parts & 1) filter.layer = layer.data();
@@ -270,7 +270,7 @@ inline bool may_meet(const PairFilter& f, uint32_t a, uint32_t b) {
   return layers && owners && motion;
 }
 
-// --- The plainest search ---
+// --- The brute-force search ---
 
 inline std::vector<Pair> plain_pairs(const Boxes& boxes, const PairFilter& filter = {}) {
   std::vector<Pair> pairs;
@@ -287,7 +287,7 @@ inline std::vector<Pair> found_pairs(PairFinder& finder, const Boxes& boxes,
                                      Parallelism parallelism = Parallelism::none,
                                      size_t record = 0) {
   const LaidOutBoxes memory(boxes, record);
-  std::vector<Pair> pairs = {{7, 7}};  // left over from something else
+  std::vector<Pair> pairs = {{7, 7}};  // contents of an earlier call
   finder.find(memory.view(), filter, pairs, method, parallelism);
   return pairs;
 }
@@ -304,7 +304,7 @@ inline constexpr BroadphaseMethod kAllMethods[] = {BroadphaseMethod::automatic,
                                                    BroadphaseMethod::brute, BroadphaseMethod::sweep,
                                                    BroadphaseMethod::grid};
 
-// The first difference, for people.
+// The first difference as text.
 inline std::string difference(const std::vector<Pair>& got, const std::vector<Pair>& expected,
                               const Boxes& boxes) {
   std::string text =

@@ -1,4 +1,4 @@
-// The cells that boxes are sorted into: what searches through them rely on.
+// The cells that boxes are sorted into: the properties that searches through them rely on.
 #include "broadphase/grid/cell_grid.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ float longest_edge(const TestBox& box) {
   return longest;
 }
 
-// The key of a box in the grid for its size, one step after the other; `reach` grows.
+// The key of a box in the grid for its size, computed step by step; `reach` grows.
 uint32_t plain_key(const TestBox& box, const CellGrids& grids, CellReach& reach) {
   if (!overlap(box, box)) return grids.cells;
   for (size_t g = 0; g < grids.count; ++g) {
@@ -51,7 +51,7 @@ testing::AssertionResult fails(const std::string& what, size_t where) {
   return testing::AssertionFailure() << what << ", at " << where;
 }
 
-// Every box that takes part has one row, in its own cell and in the grid for its size.
+// Every valid box has one row, in its own cell of the grid for its size.
 testing::AssertionResult rows_hold(const CellRows& rows, const Boxes& boxes,
                                    const std::vector<uint32_t>& members) {
   const CellGrids& grids = rows.grids();
@@ -110,7 +110,8 @@ testing::AssertionResult directory_is_sound(const CellRows& rows, size_t boxes) 
     if (g > 0 && grid.first_cell - grid.reach[0] < behind) return fails("shared cells", g);
     if (!(grid.largest_edge > smaller)) return fails("order of sizes", g);
     smaller = grid.largest_edge;
-    // The last box of all can look one row and one slab ahead, and a cell to either side.
+    // A search from the last cell looks at most one row and one slab ahead, and one cell to either
+    // side.
     const CellGrid::RowsAhead ahead = grid.rows_ahead();
     const uint32_t last = grid.cell_at(cells[0] - 1, cells[1] - 1, cells[2] - 1);
     behind = last + (ahead.count > 0 ? ahead.offset[ahead.count - 1] : 0) + 1;
@@ -184,7 +185,7 @@ TEST(CellRows, AreTheSameOnThreads) {
 
 TEST(CellRows, OfSomeBoxesAndAgain) {
   Random random(5);
-  CellRows rows;  // used again: nothing of the last contents remains
+  CellRows rows;  // used again, so that rows of an earlier build would show
   for (int repeat = 0; repeat < 200; ++repeat) {
     const auto family = static_cast<BoxFamily>(random.below(kBoxFamilies));
     const Boxes boxes = make_boxes(family, random.below(900), random.bits());
@@ -225,7 +226,7 @@ TEST(CellGrids, OneForOneSizeAndAFewForMany) {
   EXPECT_LE(grids_for(1e-6, 1e30, 20000), CellGrids::kMost);
 }
 
-// A world as a survey of it would be, with more boxes than a test can hold.
+// The grids of a world with more boxes than a test can hold, from a made-up survey.
 CellGrids grids_of_world(uint32_t boxes, std::array<float, 3> size, float edge) {
   Survey survey;
   survey.clear();
@@ -254,7 +255,8 @@ TEST(CellGrids, HaveNoMoreCellsThanKeysCanName) {
   }
 }
 
-// Long worlds: as many cells as there may be, but then larger ones, not a heap in the last cell.
+// In long worlds the grid uses all its cells and then makes them larger, instead of collecting the
+// rest in the last cell.
 TEST(CellGrids, ReachFromOneEndOfTheWorldToTheOther) {
   for (const uint32_t boxes : {1000u, 3000000u, 100000000u}) {
     for (const float length : {1e3f, 1e6f, 1e7f, 1e9f, 1e30f}) {
@@ -271,7 +273,7 @@ TEST(CellGrids, ReachFromOneEndOfTheWorldToTheOther) {
   }
 }
 
-// A few boxes far away neither widen the cells of all others nor thin them out.
+// A few boxes far away must not widen the cells of all others, nor leave them nearly empty.
 TEST(CellGrids, AreLaidOutForTheManyNotForTheFewFarAway) {
   for (const bool flat : {false, true}) {
     for (const float far : {1e4f, 1e6f, 1e9f}) {
@@ -291,7 +293,7 @@ TEST(CellGrids, AreLaidOutForTheManyNotForTheFewFarAway) {
       for (uint32_t cell = 0; cell < rows.grids().cells; ++cell) {
         fullest = std::max(fullest, rows.first_row()[cell + 1] - rows.first_row()[cell]);
       }
-      // Flat, they lie upon each other, a mean of 27 to a square metre.
+      // The flat boxes overlap each other, 27 to a square metre on average.
       EXPECT_LT(fullest, flat ? 150u : 60u) << "as far as " << far;
     }
   }

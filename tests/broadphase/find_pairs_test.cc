@@ -1,4 +1,4 @@
-// Every search, on every instruction set, against the plainest one.
+// Every search, on every instruction set, against brute force.
 #include "carom/broadphase/find_pairs.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ void expect_pairs(const Boxes& boxes, const std::vector<Pair>& expected,
 TEST(FindPairs, OfEveryFamilyAndCount) {
   std::vector<size_t> counts(71);
   std::iota(counts.begin(), counts.end(), 0);
-  // Around the limit of brute force and the blocks of rows, and several of those.
+  // Around the limit of brute force and around one and more blocks of rows.
   for (const size_t count : {127, 128, 129, 255, 256, 257, 600}) counts.push_back(count);
   for (int i = 0; i < kBoxFamilies; ++i) {
     const auto family = static_cast<BoxFamily>(i);
@@ -51,7 +51,7 @@ TEST(FindPairs, OfManyBoxes) {
   }
 }
 
-// The limits of the automatic choice.
+// Around the limits of the automatic choice.
 TEST(FindPairs, OfAboutAsManyBoxesAsChangeTheMethod) {
   for (const auto& [count, method] :
        std::initializer_list<std::pair<size_t, BroadphaseMethod>>{{128, BroadphaseMethod::brute},
@@ -70,7 +70,7 @@ TEST(FindPairs, OfAboutAsManyBoxesAsChangeTheMethod) {
   }
 }
 
-// Where cells would be crowded, a sweep takes their place, unless cells were asked for.
+// If cells would be crowded, a sweep replaces them, unless the caller asked for cells.
 TEST(FindPairs, OfCrowdsFarApart) {
   BoxMaker maker(12);
   Boxes crowds, spread = make_boxes(BoxFamily::random, 4000);
@@ -115,7 +115,7 @@ TEST(FindPairs, FamiliesHaveHitsAndMisses) {
   }
 }
 
-// Flush-to-zero and other rounding in the caller change nothing.
+// Flush-to-zero and other rounding modes of the caller change nothing.
 TEST(FindPairs, InAnyFloatMode) {
   for (const BoxFamily family : {BoxFamily::subnormal, BoxFamily::lattice, BoxFamily::any_bits}) {
     for (const size_t count : {40, 300}) {
@@ -124,7 +124,7 @@ TEST(FindPairs, InAnyFloatMode) {
       for (const FloatMode& mode : float_modes()) {
         for (const BroadphaseMethod method : kAllMethods) {
           PairFinder finder;
-          for (int repeat = 0; repeat < 2; ++repeat) {  // sorted afresh, then repaired
+          for (int repeat = 0; repeat < 2; ++repeat) {  // sorted from scratch, then repaired
             const std::vector<Pair> got = [&] {
               const ScopedFloatMode scoped(mode);
               return found_pairs(finder, boxes, method);
@@ -139,7 +139,7 @@ TEST(FindPairs, InAnyFloatMode) {
   }
 }
 
-// Both boxes lie in the range of subnormals; the second one is inverted there.
+// Both boxes have subnormal coordinates, and the second box is inverted.
 TEST(FindPairs, InvertedSubnormalBoxesMeetNothingInAnyFloatMode) {
   const float one = 0x1p-149f;
   const Boxes boxes = {{{0, 0, 0}, {9 * one, 1, 1}}, {{3 * one, 0, 0}, {2 * one, 1, 1}}};
@@ -283,7 +283,7 @@ TEST(FindPairs, PermutingTheBoxesPermutesThePairs) {
   }
 }
 
-// Coordinates with so few bits that no sum is rounded.
+// Coordinates have so few bits that no sum is rounded.
 TEST(FindPairs, MovingTheWholeWorldChangesNothing) {
   Random random(10);
   for (const size_t count : {100, 700, 5000}) {

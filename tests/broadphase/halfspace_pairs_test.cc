@@ -1,4 +1,5 @@
-// Half-spaces against boxes: exactly, against the reference, and on every ISA.
+// Pairs of half-spaces and boxes: against exact arithmetic, against the reference, and on every
+// ISA.
 #include "broadphase/halfspace_pairs.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ struct PlacedHalfspace {
   Pose pose;
 };
 
-// `body` is the index of the only one that can be read.
+// Only the half-space at index `body` is readable.
 WorldHalfspace placed(const PlacedHalfspace& halfspace, uint32_t body, PositionType positions) {
   std::vector<float> records32;
   std::vector<double> records64;
@@ -55,7 +56,7 @@ WorldHalfspace placed(const PlacedHalfspace& halfspace, uint32_t body, PositionT
 struct ExactPlane {
   Rational3 normal;
   Rational limit;
-  Rational size;  // of what is summed up, a unit of |x| + |y| + |z|
+  Rational size;  // magnitude of the summands, per unit of |x| + |y| + |z|
   Rational limit_size;
 };
 
@@ -90,8 +91,8 @@ ExactPlane exact_plane(const PlacedHalfspace& halfspace, PositionType positions)
 }
 
 struct Height {
-  Rational above;  // of the lowest corner above the plane, times the length of the normal
-  Rational size;   // of what it is the difference of
+  Rational above;  // height of the lowest corner over the plane, times the length of the normal
+  Rational size;   // magnitude of the summands of `above`
 };
 
 Height exact_height(const TestBox& box, const ExactPlane& plane) {
@@ -104,7 +105,7 @@ Height exact_height(const TestBox& box, const ExactPlane& plane) {
   return {dot(plane.normal, corner) - plane.limit, plane.size * size + plane.limit_size};
 }
 
-// --- Random ones ---
+// --- Random half-spaces and boxes ---
 
 class PlaneMaker {
  public:
@@ -136,9 +137,9 @@ class PlaneMaker {
     switch (random_.below(4)) {
       case 0:
         return {0, 0, 0, 1};
-      case 1:  // an exact quarter of a turn about an axis
+      case 1:  // an exact quarter turn about an axis
         return {1, 0, 0, 1};
-      case 2:  // nearly none
+      case 2:  // almost unturned
         return {1e-7f * q[0], 1e-7f * q[1], 1e-7f * q[2], 1};
       default:
         return q;
@@ -157,7 +158,7 @@ class PlaneMaker {
   Random random_;
 };
 
-// A box whose lowest corner is about as high as the plane.
+// A box whose lowest corner is about on the plane.
 TestBox box_at(const PlacedHalfspace& h, Random& random) {
   const Eigen::Quaterniond q = h.pose.orientation.cast<double>().normalized();
   const Eigen::Vector3d n = (q * h.shape.normal.cast<double>()).normalized();
@@ -220,7 +221,7 @@ TEST(HalfspacePairs, TouchingIsMeeting) {
   EXPECT_TRUE(meets(h, {{{1e30f, -1e30f, -kLargest}, {1e30f, 1e30f, -kLargest}}}, search));
 }
 
-// Sizes whose squares are far beyond the range of float32, and of which nothing is left there.
+// Numbers whose squares overflow or underflow float32.
 TEST(HalfspacePairs, OfTheSmallestAndLargestNumbers) {
   HalfspaceSearch search;
   for (const float scale : {0x1p-149f, 0x1p-126f, 1.0f, 0x1p127f}) {
@@ -239,14 +240,14 @@ TEST(HalfspacePairs, OfTheSmallestAndLargestNumbers) {
       }
     }
   }
-  // Certain of nothing where doubles overflow: a pair.
+  // Double precision overflows here, so the pair must be kept.
   PlacedHalfspace far;
   far.shape.normal = {1, 1, 1};
   far.pose.position = {-1e308, -1e308, -1e308};
   EXPECT_TRUE(meets(placed(far, 1, PositionType::float64), {{{0, 0, 0}, {1, 1, 1}}}, search));
 }
 
-// --- As the reference has it ---
+// --- Against the reference ---
 
 reference::Box as_reference(const TestBox& box) {
   return {Eigen::Vector3f(box.lower[0], box.lower[1], box.lower[2]),
@@ -272,7 +273,7 @@ std::vector<Pair> plain_pairs(std::span<const PlacedHalfspace> halfspaces,
   return pairs;
 }
 
-// Boxes, and half-spaces in some rows of theirs.
+// Boxes, some of whose rows belong to half-spaces.
 struct Setting {
   Setting(BoxFamily family, size_t count, size_t planes, PositionType type, uint64_t seed)
       : boxes(make_boxes(family, count, seed)), filters(count, seed), positions(type) {
@@ -281,7 +282,7 @@ struct Setting {
     for (uint32_t body = 0; body < count && halfspaces.size() < planes; ++body) {
       if (!maker.random().chance(0.5)) continue;
       halfspaces.push_back(maker.next());
-      if (maker.random().chance(0.5)) {  // through one of the boxes
+      if (maker.random().chance(0.5)) {  // its plane cuts one of the boxes
         const TestBox& box = boxes[maker.random().below(count)];
         for (int i = 0; i < 3; ++i) halfspaces.back().pose.position[i] = box.lower[i];
         if (!halfspaces.back().pose.position.allFinite()) halfspaces.back().pose = {};

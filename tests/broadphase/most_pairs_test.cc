@@ -1,4 +1,5 @@
-// Searches that find more pairs than wanted: counted, not written, and nothing is the worse for it.
+// Searches that find more pairs than the limit: they count the pairs, write none, and later
+// searches are unharmed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ Found find(PairFinder& finder, const Boxes& boxes, BroadphaseMethod method,
            const PairFilter& filter = {}, Parallelism parallelism = Parallelism::none) {
   const LaidOutBoxes memory(boxes);
   Found found;
-  found.pairs = {{3, 1}, {4, 1}};  // left over from something else
+  found.pairs = {{3, 1}, {4, 1}};  // contents of an earlier call
   found.search = finder.find(memory.view(), filter, found.pairs, method, parallelism);
   return found;
 }
@@ -48,10 +49,10 @@ void expect_limits_hold(const Boxes& boxes, const PairFilter& filter, Broadphase
   const Boxes others = make_boxes(BoxFamily::random, 300);
   const std::vector<Pair> others_expected = plain_pairs(others);
   PairFinder finder;
-  for (int repeat = 0; repeat < 2; ++repeat) {  // the second time with memory for all
+  for (int repeat = 0; repeat < 2; ++repeat) {  // the second time with memory for all pairs
     for (const size_t less : {size_t{1}, (expected.size() + 1) / 2, expected.size()}) {
       finder.set_most_pairs(expected.size() - less);
-      for (int frame = 0; frame < 3; ++frame) {  // at rest from the second on
+      for (int frame = 0; frame < 3; ++frame) {  // boxes rest from the second frame on
         expect_too_many(find(finder, boxes, method, filter, parallelism), expected.size());
       }
       finder.set_most_pairs(others_expected.size());
@@ -96,7 +97,7 @@ TEST(MostPairs, OnThreads) {
   });
 }
 
-// Only pairs that the filter lets through count.
+// Only pairs that the filter allows count.
 TEST(MostPairs, AreCountedBehindTheFilter) {
   Filters filters(900, 2);
   for (size_t i = 0; i < filters.motion.size(); ++i) {
@@ -113,7 +114,7 @@ TEST(MostPairs, OfSeveralGrids) {
   for (const BroadphaseMethod method : kMethods) expect_limits_hold(boxes, {}, method);
 }
 
-// Most boxes rest; those that move make too many pairs, and then fewer again.
+// Most boxes rest. The moving ones make too many pairs, and later fewer again.
 TEST(MostPairs, OfBoxesThatMoveAmongOthersAtRest) {
   for (const bool among_themselves : {true, false}) {
     Boxes boxes = make_boxes(BoxFamily::random, 1000);
@@ -141,7 +142,7 @@ TEST(MostPairs, OfBoxesThatMoveAmongOthersAtRest) {
   }
 }
 
-// The limit holds from the next search on, for pairs that are kept as well.
+// A new limit holds from the next search on, also for kept pairs.
 TEST(MostPairs, MayBecomeFewerWhileBoxesRest) {
   Boxes boxes = make_boxes(BoxFamily::random, 1000);
   const size_t pairs = plain_pairs(boxes).size();
@@ -158,7 +159,7 @@ TEST(MostPairs, MayBecomeFewerWhileBoxesRest) {
   }
 }
 
-// Memory follows the limit, not the number of pairs.
+// The limit bounds the memory, whatever the number of pairs.
 TEST(MostPairs, BoundTheMemory) {
   for (const BroadphaseMethod method : kMethods) {
     PairFinder finder;

@@ -1,4 +1,4 @@
-// A finder that is used again and again finds what a new one does.
+// A finder that is used again and again finds the same pairs as a new one.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace carom::test {
 namespace {
 
-// Boxes that drift, jump, come and go.
+// Boxes that drift, jump, appear and disappear.
 class Crowd {
  public:
   Crowd(size_t count, uint64_t seed) : maker_(seed), boxes_(make_boxes(BoxFamily::random, count)) {}
@@ -34,7 +34,7 @@ class Crowd {
 
   void shrink(size_t count) { boxes_.resize(boxes_.size() - std::min(count, boxes_.size())); }
 
-  // Some turn empty or NaN, others take part again.
+  // Some boxes become empty or NaN, others become valid again.
   void spoil(double share) {
     for (TestBox& box : boxes_) {
       if (!maker_.random().chance(share)) continue;
@@ -43,7 +43,7 @@ class Crowd {
     }
   }
 
-  // One out, another in: as many as before.
+  // Replaces one box by another; the count stays.
   void replace() {
     if (boxes_.size() < 2) return;
     TestBox& out = boxes_[maker_.random().below(boxes_.size())];
@@ -51,7 +51,7 @@ class Crowd {
     boxes_[maker_.random().below(boxes_.size())] = maker_.in_cube(side_for(boxes_.size()));
   }
 
-  // Everything turns, so that another axis has the largest spread.
+  // Stretches the world along an axis, so that the axis of largest spread changes.
   void stretch(int axis) {
     for (TestBox& box : boxes_) {
       box.lower[axis] *= 4;
@@ -184,7 +184,7 @@ TEST(PairFinder, KeepsItsMemory) {
   expect_as_if_new(finder, boxes, BroadphaseMethod::sweep);
 }
 
-// --- The order ---
+// --- The axis and the order ---
 
 TEST(SweepOrder, IsByLowerCornerThenIndex) {
   SweepOrder sweep;
@@ -227,7 +227,7 @@ TEST(SweepOrder, AxisOfLargestSpread) {
       EXPECT_EQ(axis_of(boxes), static_cast<size_t>(axis));
     }
   }
-  // Of equals the first; neither infinities nor boxes that take no part get in the way.
+  // Among equal axes the first wins. Infinite boxes and boxes that take no part do not count.
   EXPECT_EQ(axis_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 1, 1}, {2, 2, 2}}}), 0u);
   EXPECT_EQ(axis_of({{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 1}, {1, 9, 9}}, {{kNan, 0, 99}, {0, 0, 99}}}),
             1u);

@@ -13,7 +13,7 @@ struct Point {
   float xyz[3];
 };
 
-// Most of them inside the volume of the boxes; corners of boxes and worse among them.
+// Most points are inside the volume of the boxes; some are corners of boxes or not finite.
 std::vector<Point> make_points(const Boxes& boxes, size_t count, uint64_t seed) {
   BoxMaker maker(seed);
   Random& random = maker.random();

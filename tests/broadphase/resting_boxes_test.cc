@@ -1,4 +1,5 @@
-// Histories: a finder that keeps what rests finds what a plain search finds, frame after frame.
+// Histories: a finder that keeps resting boxes finds the same pairs as a plain search, frame after
+// frame.
 #include "broadphase/resting/resting_boxes.h"
 
 #include <gtest/gtest.h>
@@ -19,21 +20,21 @@ constexpr TestBox kEverywhere = {{-kInfinity, -kInfinity, -kInfinity},
 constexpr TestBox kEmpty = {{kInfinity, kInfinity, kInfinity},
                             {-kInfinity, -kInfinity, -kInfinity}};
 
-// How often histories came by the paths that differ.
+// How often the histories took each path.
 struct Coverage {
   size_t frames = 0;
   size_t pairs = 0;
-  size_t rested = 0;         // nothing changed, nothing was searched for
-  size_t woke = 0;           // few changed, most pairs were kept
-  size_t idle = 0;           // boxes searched for although none changed
-  size_t settled = 0;        // from scratch, as a frame that repeats
-  size_t settled_again = 0;  // those that came to rest joined the others
+  size_t rested = 0;         // nothing changed, nothing was searched
+  size_t woke = 0;           // few boxes changed, most pairs were kept
+  size_t idle = 0;           // boxes were searched although none changed
+  size_t settled = 0;        // searched from scratch, in a frame that repeats the last one
+  size_t settled_again = 0;  // boxes that came to rest joined the resting ones
   size_t restless = 0;       // kept pairs were given up
-  size_t shrank = 0;         // boxes went while others rested
+  size_t shrank = 0;         // boxes were removed while others rested
   size_t filtered = 0;       // a filter changed while most boxes rested
 };
 
-// A world that mostly rests, its finder, and what the finder is known to have done.
+// A world in which most boxes rest, its finder, and counts of what the finder did.
 class History {
  public:
   History(uint64_t seed, size_t count, BoxFamily family)
@@ -46,7 +47,7 @@ class History {
   PairFilter filter() const { return filters_.view(parts_); }
   const Coverage& coverage() const { return coverage_; }
 
-  // One of many things that happen between two frames.
+  // Makes one of many changes between two frames.
   void step(uint64_t choice) {
     if (boxes_.empty()) return appear(1 + random().below(40));
     switch (choice % 40) {
@@ -105,14 +106,14 @@ class History {
     }
   }
 
-  // The pairs as the finder sees them; counts what it did.
+  // The pairs that the finder finds; counts the path that it took.
   std::vector<Pair> find(Parallelism parallelism = Parallelism::none) {
     std::vector<Pair> pairs = {{9, 9}};
     PairSearch search;
     if (record_ == 0 || record_ >= sizeof(TestBox)) {
       const LaidOutBoxes memory(boxes_, record_);
       search = finder_.find(memory.view(), filter(), pairs, method_, parallelism);
-    } else {  // as they are here: no pages to guard
+    } else {  // too short for guarded memory
       const BoundsView view = view_of_records();
       search = finder_.find(view, filter(), pairs, method_, parallelism);
     }
@@ -170,7 +171,7 @@ class History {
     }
   }
 
-  // Filters are never shorter than the boxes; those of boxes that went are forgotten.
+  // Filters are never shorter than the boxes. Filters of removed boxes are removed.
   void add_filters() {
     const Filters more(boxes_.size(), random().bits());
     for (size_t i = filters_.layer.size(); i < boxes_.size(); ++i) {
@@ -327,7 +328,7 @@ TEST(RestingBoxes, OnSeveralThreads) {
   });
 }
 
-// The same, in a form that is reduced to the steps that matter when it fails.
+// The same for RapidCheck, which reduces a failing history to the steps that matter.
 RC_GTEST_PROP(RestingBoxes, ThroughAnyHistory,
               (const std::vector<uint8_t>& steps, uint64_t seed, uint8_t boxes)) {
   History history(seed, boxes % 64, static_cast<BoxFamily>(seed % kBoxFamilies));
@@ -337,9 +338,9 @@ RC_GTEST_PROP(RestingBoxes, ThroughAnyHistory,
   }
 }
 
-// --- Cases that chance does not find ---
+// --- Cases that random histories do not reach ---
 
-// A lattice of boxes that do not touch, and a finder to which it rests.
+// A lattice of boxes that do not touch, and a finder that knows them as resting.
 class Lattice {
  public:
   explicit Lattice(size_t side) {
@@ -367,7 +368,7 @@ class Lattice {
   PairSearch search;
 };
 
-// Whoever left the resting boxes is not there any more, not even for a box without an end.
+// A box that stopped resting is gone from its old place: not even an infinite box meets it there.
 TEST(RestingBoxes, ThatLeftMeetNothingWhereTheyWere) {
   for (const TestBox& where : {kEverywhere, kEmpty, TestBox{{0, 0, 0}, {40, 40, 40}}}) {
     Lattice world(6);
@@ -417,7 +418,8 @@ TEST(RestingBoxes, AreSearchedForOnlyIfTheyChange) {
   EXPECT_EQ(from_scratch, 1u);
 }
 
-// More than a share of all: it costs less to start again, and to keep pairs once most rest.
+// If too many boxes move, the finder starts anew each frame, and keeps pairs again once most boxes
+// rest.
 TEST(RestingBoxes, AreForgottenWhileMostBoxesMove) {
   Lattice world(8);
   for (int frame = 0; frame < 4; ++frame) {
@@ -429,10 +431,10 @@ TEST(RestingBoxes, AreForgottenWhileMostBoxesMove) {
   EXPECT_EQ(world.search.searched, 0u);
 }
 
-// A filter is part of what rests: who appears in it is looked for again.
+// The filter belongs to the resting state: a box whose filter changed is searched again.
 TEST(RestingBoxes, MeetOthersWhenTheirFilterChanges) {
   Lattice world(6);
-  for (TestBox& box : world.boxes) box.upper[0] += 1;  // neighbours touch
+  for (TestBox& box : world.boxes) box.upper[0] += 1;  // now neighbours touch
   Filters filters(world.boxes.size(), 1);
   std::fill(filters.owner.begin(), filters.owner.end(), 1u);
   const PairFilter filter = filters.view(2);

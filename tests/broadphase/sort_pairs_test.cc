@@ -1,4 +1,4 @@
-// Sorting of pairs as searches find them, against std::sort.
+// The sort of found pairs, against std::sort.
 #include "broadphase/sort/sort_pairs.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ void shuffle(Pairs& pairs, Random& random) {
   for (size_t k = pairs.size(); k > 1; --k) std::swap(pairs[k - 1], pairs[random.below(k)]);
 }
 
-// `count` partners of a body, above it; fewer if there are not so many.
+// Adds `count` partners with higher indices for body a, or as many as exist.
 void add_partners(uint32_t a, size_t count, size_t bodies, Random& random, Pairs& pairs) {
   const size_t above = bodies - a - 1;
   if (count >= above / 2) {
@@ -81,7 +81,8 @@ TEST(PairSorter, OfBodiesWithAnyNumberOfPartners) {
     Random random(1);
     PairSorter sorter;
     for (const size_t count : kPartnerCounts) {
-      // All bodies have as many; few have; the first, the last that can.
+      // all: every body has as many partners; few: few bodies have any; ends: only the first body
+      // and the last that can.
       Pairs all, few, ends;
       for (uint32_t a = 0; a < 300; ++a) add_partners(a, count, 600, random, all);
       for (uint32_t a = 0; a < 600; a += 97) add_partners(a, count, 600, random, few);
@@ -102,7 +103,7 @@ TEST(PairSorter, OfAnyNumberOfBodies) {
       for (const size_t wanted : {0, 1, 100, 5000, 30000}) {
         Pairs pairs;
         while (pairs.size() < wanted && bodies > 1) {
-          // Half of them near the end, where the last bucket is.
+          // Half of the bodies are near the end, in the last bucket.
           const size_t range = random.chance(0.5) ? std::min<size_t>(bodies, 300) : bodies;
           const auto a = static_cast<uint32_t>(bodies - 1 - random.below(range));
           if (a + 1 < bodies) {
@@ -147,7 +148,7 @@ TEST(PairSorter, OfNoListsAndOfBodiesBeyondTheLists) {
   EXPECT_TRUE(got.empty());
   sorter.sort({}, 100000, Parallelism::none, got, scratch);
   EXPECT_TRUE(got.empty());
-  // Bodies may be many, and their numbers large.
+  // Many bodies with large indices.
   const uint32_t top = (1u << 22) - 1;
   EXPECT_TRUE(
       sorts(sorter, {{top - 1, top}, {0, top}, {0, 1}, {top - 2, top}}, top + 1, 3, random));

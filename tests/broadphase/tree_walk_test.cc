@@ -1,4 +1,4 @@
-// Boxes that move through a tree, and boxes with neighbours, against every box one by one.
+// Walks of moving boxes through a tree, and searches for neighbours, against every box one by one.
 #include "broadphase/tree_walk.h"
 
 #include <gtest/gtest.h>
@@ -42,14 +42,15 @@ bool takes_part(const TreeBox& box) {
   return true;
 }
 
-// Where exponents are far apart, more exact than the differences below.
+// Directed sums decide here; they are exact even where exponents are far apart.
 bool reaches(const Probe& probe, const TreeBox& box, size_t axis) {
   const float d = probe.displacement[axis];
   return sum_downwards(probe.box.lower[axis], std::min(d, 0.0f)) <= box.upper[axis] &&
          sum_upwards(probe.box.upper[axis], std::max(d, 0.0f)) >= box.lower[axis];
 }
 
-// When they meet, if they do; with slack, if they nearly do.
+// When the probe meets the box, if it does. With a slack a near miss within that share of the path
+// counts, too.
 std::optional<Real> time_of_meeting(const Probe& probe, const TreeBox& box, Real slack) {
   if (!takes_part(box)) return std::nullopt;
   Real entry = 0, exit = 1;
@@ -72,8 +73,8 @@ std::optional<Real> time_of_meeting(const Probe& probe, const TreeBox& box, Real
   return entry;
 }
 
-// Through the volume of the boxes: most at random, some along axes, from corner to corner, far too
-// far, hardly at all, and not at all.
+// Probes through the volume of the boxes: most of them random, some along an axis, from corner to
+// corner, far too long, very short, or of length zero.
 std::vector<Probe> make_probes(const std::vector<TreeBox>& boxes, size_t count, uint64_t seed) {
   Random random(seed);
   std::vector<Probe> probes(count);
@@ -191,7 +192,7 @@ TEST(TreeWalk, MeetsHardlyAnythingElse) {
   EXPECT_LE(tally.found, tally.surely + 5);
 }
 
-// Half-spaces as queries, and what has left the range of float32.
+// Infinite boxes, as for half-space queries and for coordinates beyond the range of float32.
 TEST(TreeWalk, OfInfiniteBoxes) {
   const std::vector<TreeBox> boxes = boxes_of(BoxFamily::infinite, 300);
   const BoxTree tree = BoxTree::packed(boxes, Parallelism::none);
@@ -262,7 +263,7 @@ TEST(TreeWalk, FindsWhatIsNear) {
   }
 }
 
-// What comes first is near; a search that stops early has seen the nearest.
+// The walk visits near boxes first, so a search that stops early has seen the nearest one.
 TEST(TreeWalk, BeginsWithWhatIsFirst) {
   const std::vector<TreeBox> boxes = boxes_of(BoxFamily::random, 5000);
   const BoxTree tree = BoxTree::packed(boxes, Parallelism::none);

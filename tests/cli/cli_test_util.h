@@ -1,4 +1,4 @@
-// Commands run in this process, and files to run them on.
+// Runs commands in this process, and makes files for them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ inline CommandResult run_command(const std::vector<std::string>& arguments) {
   return {code, out.str(), err.str()};
 }
 
-// One line on standard error that starts with "carom: " and holds all of `parts`.
+// Expects one line on standard error that starts with "carom: " and contains all of `parts`.
 inline void expect_error(const std::vector<std::string>& arguments,
                          std::initializer_list<std::string> parts) {
   const CommandResult result = run_command(arguments);
@@ -47,7 +47,7 @@ inline void expect_error(const std::vector<std::string>& arguments,
   }
 }
 
-// A test with a folder of its own, removed afterwards.
+// A test with a folder of its own, which is removed afterwards.
 class CliTest : public testing::Test {
  protected:
   CliTest() {
@@ -78,7 +78,7 @@ inline nlohmann::json read_json(const std::string& path) {
   return nlohmann::json::parse(file, nullptr, false);
 }
 
-// Writes what `carom verify` calls by that name.
+// Writes the built-in scene that `carom verify` lists by this name.
 inline void write_builtin(const std::string& name, const std::string& path) {
   for (BuiltinScene& builtin : builtin_scenes()) {
     if (builtin.name != name) continue;
@@ -95,8 +95,8 @@ inline void write_builtin(const std::string& name, const std::string& path) {
   FAIL() << "no scene " << name;
 }
 
-// The samples that lie beside the project, or in CAROM_SHARED; empty (and it says so) if there are
-// none: then there is nothing to test.
+// The folder of recorded samples: CAROM_SHARED or the one beside the project. If there is none it
+// prints so and returns an empty string; the test then has nothing to check.
 inline std::string shared_folder() {
   const char* variable = std::getenv("CAROM_SHARED");
   const std::string folder = variable ? variable : CAROM_SHARED_DIR;

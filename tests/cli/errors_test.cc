@@ -1,4 +1,4 @@
-// Every mistake is one clear line, a non-zero exit code and no output file.
+// Every mistake gives one clear line, a non-zero exit code and no output file.
 #include <cmath>
 #include <limits>
 
@@ -11,7 +11,7 @@ namespace {
 
 using ErrorsTest = CliTest;
 
-// A sphere, and a shape of that kind; a mesh of two triangles.
+// A sphere, and a shape of kind `kind`; a mesh has two triangles.
 io::SceneShapes shapes_with(uint8_t kind) {
   io::SceneShapes shapes;
   shapes.kind = {0, kind};
@@ -27,7 +27,7 @@ io::SceneShapes shapes_with(uint8_t kind) {
   return shapes;
 }
 
-// One body, a sphere, `frames` frames; frame `bad_frame` holds nothing but NaN.
+// A scene with one sphere in `frames` frames; frame `bad_frame` is all NaN.
 void write_scene(const std::string& path, const io::SceneShapes& shapes, int frames = 2,
                  int bad_frame = -1) {
   io::SceneInfo info;
@@ -49,7 +49,7 @@ void write_scene(const std::string& path, uint8_t kind, int frames = 2, int bad_
   write_scene(path, shapes_with(kind), frames, bad_frame);
 }
 
-// One pair of the sphere, or of the other shape, with itself.
+// One pair: the sphere, or the other shape, with itself.
 void write_pairs(const std::string& path, const io::SceneShapes& shapes, uint32_t shape = 0) {
   io::PairsFile file;
   file.pairs = 1;
@@ -77,7 +77,7 @@ TEST_F(ErrorsTest, Commands) {
   expect_error({"pairs", "x.npz"}, {"--output"});
 }
 
-// A script's unset variable is not a wish for no output.
+// A script may pass an unset variable: an empty file name is an error, not a request for no output.
 TEST_F(ErrorsTest, EmptyFileNames) {
   const std::string scene = "still:n=5,frames=2";
   const std::string what = "the name of the file is empty";
@@ -340,7 +340,7 @@ TEST_F(ErrorsTest, OutputsOfAFailedRunDoNotAppear) {
                 path("out.npz"), "--page", path("out.html")},
                {"scene.npz", "position"});
   EXPECT_EQ(files(), 1u);
-  // A file that was there before stays as it was.
+  // A file that existed before stays as it was.
   std::ofstream(path("out.json")) << "before";
   expect_error({"run", path("scene.npz"), "--json", path("out.json")}, {"scene.npz"});
   std::string text;

@@ -1,4 +1,5 @@
-// carom info, help, what needs a process of its own, and the small parts of the program.
+// carom info and help, behaviour that needs a process of its own, and the small parts of the
+// program.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -47,7 +48,7 @@ TEST(ProgramTest, HelpShowsDefaults) {
   EXPECT_NE(run_command({"generate", "--help"}).out.find(".aabbs"), std::string::npos);
 }
 
-// Sets CAROM_ISA and puts back what it was.
+// Sets CAROM_ISA and restores its old value.
 class IsaVariable {
  public:
   explicit IsaVariable(const std::string& value) {
@@ -108,7 +109,7 @@ class Process {
     if (id_ > 0) end_with(SIGKILL);
   }
 
-  // The status of the process, as waitpid() gives it.
+  // Sends a signal and returns the status of the process as waitpid() gives it.
   int end_with(int signal) {
     int status = -1;
     ::kill(id_, signal);
@@ -161,18 +162,19 @@ TEST_F(ProcessTest, SignalsLeaveNoFileBehind) {
   }
 }
 
-// libzip would write to a temporary file that nobody knows.
+// libzip writes to a temporary file whose name the program does not know, and which must not be
+// left.
 TEST_F(ProcessTest, ASignalWhileTheArchiveIsPutTogether) {
   Process process({"generate", "still:n=400000,frames=20", "-o", path("out.npz")});
   ASSERT_TRUE(happens([&] { return bytes_in_folder() > 0; }));
   const int status = process.end_with(SIGINT);
-  // It may have been faster than the signal.
+  // The program may finish before the signal arrives.
   const bool complete = std::filesystem::exists(path("out.npz"));
   EXPECT_TRUE(complete || WIFSIGNALED(status));
   EXPECT_EQ(files(), complete ? 1u : 0u);
 }
 
-// What the program writes to a terminal, until `text` appears.
+// Reads the program's output from a terminal until `text` appears.
 std::string read_until(int terminal, const std::string& text) {
   std::string seen;
   pollfd ready{terminal, POLLIN, 0};

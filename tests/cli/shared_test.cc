@@ -1,4 +1,4 @@
-// The recordings that lie beside the project: exact pair counts, one hash however they are run.
+// The recordings beside the project: exact pair counts, and the same hash however they are run.
 #include "carom/simd/isa.h"
 #include "tests/cli/cli_test_util.h"
 

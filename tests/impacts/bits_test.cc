@@ -1,4 +1,4 @@
-// Times of impact have the same bits however they are asked for.
+// Times of impact have the same bits however the call is made.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -8,7 +8,7 @@
 namespace carom::test {
 namespace {
 
-// Of each family some, of positions of one type.
+// Some motions of each family, with one type of positions.
 std::vector<MovedPair> some_motions(const KindPair& kinds, PositionType positions, size_t count) {
   std::vector<MovedPair> pairs;
   uint64_t seed = 1;
@@ -53,7 +53,7 @@ TEST(ImpactBits, AreTheSameOnAllInstructionSets) {
   }
 }
 
-// None, one, a vector less one, a vector, one more, of all widths.
+// Counts 0, 1, N - 1, N and N + 1 for vectors of every width.
 TEST(ImpactBits, DoNotDependOnTheNumberOfPairs) {
   const MotionFamily turning = plain_motions()[1];
   for (const KindPair& kinds : convex_kind_pairs()) {
@@ -106,7 +106,7 @@ TEST(ImpactBits, DoNotDependOnStrides) {
   });
 }
 
-// Bodies of one kind that do not turn, in views of all layouts. Arrays end at guard pages.
+// Bodies of one kind that do not turn, in all layouts of views. Arrays end at guard pages.
 TEST(ImpactBits, DoNotDependOnLayouts) {
   using enum RadiusLayout;
   const Layout layouts[] = {
@@ -145,7 +145,7 @@ TEST(ImpactBits, PointsHaveNoRadius) {
   }
 }
 
-// Sweeps that are not there are zero.
+// Absent sweeps equal sweeps of zero.
 TEST(ImpactBits, AbsentSweepsAreZero) {
   auto pairs = mixed_motions(100);
   for (MovedPair& pair : pairs) pair.sweep_a = pair.sweep_b = {};
@@ -186,7 +186,8 @@ TEST(ImpactBits, DoNotDependOnTheFloatModeOfTheCaller) {
   }
 }
 
-// Positions that lie on a grid keep their difference, and that is all that counts.
+// If positions lie on a grid, a common shift keeps their difference exactly, and only the
+// difference matters.
 TEST(ImpactBits, DoNotDependOnWhereBothAre) {
   const auto on_grid = [](const Eigen::Vector3d& p) {
     return Eigen::Vector3d((p * 0x1p20).array().round() * 0x1p-20);

@@ -1,4 +1,4 @@
-// Motions with known answers: what broke other systems, and what happens at the ends.
+// Motions with known answers: inputs that broke other systems, and the ends of the interval.
 #include <gtest/gtest.h>
 
 #include "oracle/hull_faces.h"
@@ -17,7 +17,8 @@ MovedPair moved(const PlacedShape& a, const Vector3f& by_a, const PlacedShape& b
   return pair;
 }
 
-// Of the pair, on every instruction set, both ways round and with both types of positions.
+// The time of impact, after checking that every instruction set, both orders and both types of
+// positions agree with it.
 float toi_everywhere(const MovedPair& pair) {
   const float toi = impact_of(pair).toi;
   for_each_isa([&] {
@@ -31,7 +32,7 @@ float toi_everywhere(const MovedPair& pair) {
   return toi;
 }
 
-// As far below the true one as rounding and the slack allow.
+// The time may be below the exact one by rounding and the slack.
 void expect_toi(const MovedPair& pair, double exact) {
   SCOPED_TRACE(show(pair));
   const float toi = toi_everywhere(pair);
@@ -48,7 +49,7 @@ PlacedShape pyramid(const Eigen::Vector3d& at) {
   return {hull_of(points), at};
 }
 
-// Case 41: past a sliver.
+// Case 41: a sphere passes a sliver.
 TEST(ImpactCases, SpherePassesSliver) {
   const PlacedShape ball = sphere(14.831459, 8.1905508, -4.30825043, 0.2f);
   const PlacedShape sliver =
@@ -78,7 +79,7 @@ TEST(ImpactCases, SubnormalDisplacement) {
   EXPECT_EQ(toi_everywhere(moved(sphere(0, 0, 0, 0.375f), {0, 6.925e-39f, 0}, far)), kNever);
 }
 
-// Case 50: still, away, towards.
+// Case 50: resting, moving away, approaching.
 TEST(ImpactCases, CubesBesideEachOther) {
   for (const bool is_turning_kind : {false, true}) {
     const Vector3f half(0.5f, 0.5f, 0.5f);
@@ -92,7 +93,7 @@ TEST(ImpactCases, CubesBesideEachOther) {
   }
 }
 
-// Case 51: fast, from far.
+// Case 51: fast, from far away.
 TEST(ImpactCases, PyramidsFromFar) {
   expect_toi(moved(pyramid({0, 0, 0}), {0, 0, 1e5f}, pyramid({0, 0, 1000})), 998 / 1e5);
 }
@@ -107,7 +108,7 @@ TEST(ImpactCases, SphereFallsOnBoxesOfAllSizes) {
   }
 }
 
-// Case 55: 3 of travel.
+// Case 55: a travel of 3.
 TEST(ImpactCases, CubeFallsOnCube) {
   for (const float travel : {4.0f, 10.0f, 1000.0f}) {
     const Vector3f half(1, 1, 1);
@@ -119,17 +120,17 @@ TEST(ImpactCases, CubeFallsOnCube) {
   }
 }
 
-// Case 59: nearly along a capsule.
+// Case 59: almost parallel to a capsule.
 TEST(ImpactCases, PointFallsAlongCapsule) {
   const PlacedShape pillar = capsule({0, 0, 0}, {0, 0, 0}, {0, 10, 0}, 1);
   const double x = 1.0001f;
   EXPECT_LE(toi_everywhere(moved(sphere(x, 100, 0, 0), {-.001f, -200, 0}, pillar)), 1);
 }
 
-// Shapes of every two kinds that touch at one point, exactly, all about the origin.
+// For every two kinds: shapes that touch exactly in one point, the origin.
 struct Touching {
   PlacedShape low;   // reaches up to z = 0 at x = y = 0
-  PlacedShape high;  // reaches down to it
+  PlacedShape high;  // reaches down to the same point
 };
 
 PlacedShape touching(ShapeKind kind, double side) {
@@ -157,7 +158,7 @@ PlacedShape touching(ShapeKind kind, double side) {
   }
 }
 
-// Touching is an impact at once, wherever they go then.
+// Bodies that touch at the start have an impact at 0, wherever they move.
 TEST(ImpactCases, WhatTouchesAtTheStartMeetsAtOnce) {
   for (const KindPair& kinds : convex_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
@@ -169,7 +170,7 @@ TEST(ImpactCases, WhatTouchesAtTheStartMeetsAtOnce) {
   }
 }
 
-// What touches at the very end meets.
+// Bodies that touch only at the end of the interval meet.
 TEST(ImpactCases, WhatTouchesAtTheEndMeets) {
   for (const KindPair& kinds : convex_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
@@ -181,14 +182,14 @@ TEST(ImpactCases, WhatTouchesAtTheEndMeets) {
   }
 }
 
-// A half-space that turns about a point of its own plane, as floors do (it was taken for one that
-// does not turn).
+// A half-space that turns about a point of its own plane, like a floor. It was once treated as one
+// that does not turn.
 TEST(ImpactCases, PlanesThatTurnAboutTheirOwnPointMeet) {
   for (const double away : {10.0, 100.0}) {
     const PlacedShape ball{Sphere{1}, {away, 0, 11}};
     MovedPair pair = moved(ball, {0, 0, 0}, halfspace({0, 0, 0}, {0, 0, 1}, 0), {0, 0, 0});
     pair.sweep_b.rotation = {0, -1.5f, 0};
-    // The height over the plane is 11 cos(angle) - away sin(angle), and the ball's radius 1.
+    // The height over the plane is 11 cos(angle) - away sin(angle); the ball's radius is 1.
     const double angle = std::acos(1 / std::hypot(11, away)) - std::atan2(away, 11);
     EXPECT_NEAR(toi_everywhere(pair), angle / 1.5, 1e-6);
   }
@@ -204,7 +205,8 @@ PlacedShape dop(DopKind kind, std::initializer_list<float> lower,
   return {dop, at, orientation};
 }
 
-// Corners of k-DOPs may lie 1e-8 apart: GJK took tetrahedra with two of them for ones around zero.
+// Corners of k-DOPs may lie 1e-8 apart. GJK once took a tetrahedron with two such corners for one
+// that contains the origin.
 TEST(ImpactCases, CornersThatAlmostCoincide) {
   const MovedPair pairs[] = {
       moved(dop(DopKind::k14,

@@ -30,7 +30,7 @@ void expect_no_contact(const ImpactRow& row) {
   }
 }
 
-// What overlaps at the start has the contact of bodies at rest.
+// A pair that overlaps at the start has the contact of the bodies at rest.
 void check_start(const MovedPair& pair, const ImpactRow& row) {
   const ExactKinds exact(pair.bodies, PositionType::float64);
   const reference::PairResult result = as_result(row);
@@ -39,7 +39,7 @@ void check_start(const MovedPair& pair, const ImpactRow& row) {
   check_witnesses(exact, result);
 }
 
-// Both as they are at a time, relative to the position of A.
+// Both bodies in their poses at `time`, relative to the position of A.
 ConvexOracle<Wide> placed(const MovedPair& pair, float time) {
   const auto& [a, b] = pair.bodies;
   ConvexOracle<Wide> at{a.shape, a.pose(), b.shape, b.pose()};
@@ -55,8 +55,8 @@ WideVec between(const MovedPair& pair, float time) {
              Wide(time);
 }
 
-// Points of both that are next to each other, on their surfaces, with the normal from A to B; all
-// but for what the rounding of the time may move them.
+// The witness points lie next to each other on both surfaces, and the normal points from A to B, up
+// to the effect of rounding the time.
 void check_impact(const MovedPair& pair, const ImpactRow& row) {
   const MovingPair<double> moving = moving_pair<double>(pair);
   const Wide tolerance = 1e-5L * (moving.size() + moving.travel());
@@ -105,7 +105,7 @@ TEST(ImpactContact, IsThatOfTheTime) {
   }
 }
 
-// The witness points of world frames are where the bodies are at the time of impact.
+// World-frame witness points are those of the poses at the time of impact.
 TEST(ImpactContact, WorldPointsAreThoseOfTheTime) {
   MovedPair pair{{sphere(10, 0, 0, 1), sphere(16, 0, 0, 1)}, {}, {}};
   pair.sweep_a.displacement = {4, 0, 0};

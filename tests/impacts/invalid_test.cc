@@ -1,4 +1,4 @@
-// Bodies that are not valid and sweeps that are not finite spoil their own pair and no other.
+// Invalid bodies and sweeps that are not finite spoil their own pair and no other.
 #include <gtest/gtest.h>
 
 #include "tests/support/impacts.h"
@@ -18,7 +18,7 @@ void expect_no_answer(const ImpactRow& row) {
   EXPECT_EQ(row.sub_b, 0u);
 }
 
-// Every way to spoil a pair: its bodies, or how they move.
+// Every way to spoil a pair: its bodies, or their motion.
 std::vector<MovedPair> all_spoilt(const MovedPair& pair) {
   std::vector<MovedPair> all;
   for (const TestPair& bodies : spoilt(pair.bodies)) {
@@ -52,7 +52,7 @@ TEST(InvalidMotions, HaveNoAnswer) {
   }
 }
 
-// Every third pair of a list is spoilt, and the others have the bits that they have without them.
+// Every third pair of a list is spoilt; the others keep their bits.
 TEST(InvalidMotions, SpoilTheirOwnPairAlone) {
   const MotionFamily turning = plain_motions()[1];
   for (const KindPair& kinds : convex_kind_pairs()) {
@@ -74,7 +74,7 @@ TEST(InvalidMotions, SpoilTheirOwnPairAlone) {
   }
 }
 
-// Spheres and boxes along the axes do not turn: their rotation is ignored, if it is finite.
+// Spheres and aabbs do not turn: a finite rotation is ignored.
 TEST(InvalidMotions, RotationsOfWhatDoesNotTurnAreIgnored) {
   for (const KindPair& kinds : convex_kind_pairs()) {
     const auto pairs = make_motions(plain_motions()[1], kinds, 20);

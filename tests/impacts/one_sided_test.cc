@@ -1,4 +1,5 @@
-// One-sided triangles are met by what first touches them with its middle in front.
+// One-sided triangles are hit only by bodies whose middle is in front of the back plane at the
+// first touch.
 #include <gtest/gtest.h>
 
 #include "tests/support/impacts.h"
@@ -6,8 +7,8 @@
 namespace carom::test {
 namespace {
 
-// Of a triangle's back, at a time, how far the other one's middle is in front; of a half-space, how
-// much its normal looks to the back. Zero for triangles without area.
+// How far the other body's middle is in front of the triangle's back plane at `time`; for a
+// half-space, how much its normal points to the back. Zero for triangles without area.
 double in_front(const MovedPair& pair, double time) {
   const auto& [a, b] = pair.bodies;
   const auto& triangle = std::get<Triangle>(a.shape);
@@ -23,7 +24,7 @@ double in_front(const MovedPair& pair, double time) {
   return dot(front, way) + triangle.thickness;
 }
 
-// Triangle, and anything but a triangle; what the other one does at the first touch is plain.
+// A triangle with another kind of body, and whether it must report an impact.
 struct Approach {
   MovedPair pair;
   bool is_impact;
@@ -69,7 +70,7 @@ TEST(OneSidedTriangles, AreMetFromTheFrontAlone) {
   }
 }
 
-// Through the back and out of the front: it has passed.
+// A body that enters through the back passes, even when it leaves through the front.
 TEST(OneSidedTriangles, LetPassWhatComesFromBehind) {
   MovedPair pair{{triangle({0, 0, 0}, {Eigen::Vector3f(-2, -2, 0), Eigen::Vector3f(2, -2, 0),
                                        Eigen::Vector3f(0, 2, 0)}),
@@ -86,7 +87,7 @@ TEST(OneSidedTriangles, LetPassWhatComesFromBehind) {
   pair.bodies.b.position.z() = 4;
   pair.sweep_b.displacement = {0, 0, -8};
   EXPECT_NEAR(impact_of(pair).toi, 0.375, 1e-6);
-  // It has its middle behind at the start, and leaves to the front.
+  // The middle is behind the triangle at the start, and the body leaves to the front.
   pair.bodies.b.position.z() = -0.75;
   pair.sweep_b.displacement = {0, 0, 8};
   EXPECT_EQ(impact_of(pair).toi, kNever);

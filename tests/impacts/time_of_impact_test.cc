@@ -11,19 +11,19 @@
 namespace carom::test {
 namespace {
 
-// Motions that a pair of kinds gets in a family. CAROM_MOTIONS asks for more.
+// How many motions to test for a pair of kinds in a family. CAROM_MOTIONS asks for more.
 size_t motion_count(const KindPair& kinds, uint32_t usual) {
   const char* asked = std::getenv("CAROM_MOTIONS");
   const size_t count = asked ? std::strtoull(asked, nullptr, 10) : rounds(usual);
   return std::max<size_t>(has_polytope(kinds) ? count / 2 : count, 1);
 }
 
-// What the results of many pairs were.
+// Counts of the results.
 struct Tally {
   size_t pairs = 0;
   size_t impacts = 0;
   size_t out_of_budget = 0;
-  size_t undecided = 0;  // by the oracle
+  size_t undecided = 0;  // pairs that the oracle cannot decide
 
   double hit_rate() const { return static_cast<double>(impacts) / static_cast<double>(pairs); }
 };
@@ -44,7 +44,7 @@ testing::AssertionResult is_right(const MovedPair& pair, const ImpactRow& row, T
                                      << found.separation << " apart at " << found.time;
 }
 
-// In pieces, so that a million motions do not take all memory. Stops at the first that is wrong.
+// Tests in portions, so that a million motions fit into memory. Stops at the first wrong one.
 void check_motions(const MotionFamily& family, const KindPair& kinds, size_t count, uint64_t seed,
                    Tally& tally) {
   constexpr size_t kPiece = 4096;
@@ -59,7 +59,8 @@ void check_motions(const MotionFamily& family, const KindPair& kinds, size_t cou
   }
 }
 
-// What rolls about its contact keeps its distance, which no step proves for long.
+// A body that rolls about its contact keeps its separation near zero, which no conservative step
+// can prove for long.
 void expect_decided(const MotionFamily& family, const Tally& tally) {
   EXPECT_LE(tally.out_of_budget, tally.pairs / (family.through_contact ? 4 : 100));
   EXPECT_LE(tally.undecided, tally.pairs / (family.through_contact ? 4 : 200));
@@ -73,7 +74,7 @@ std::string motion_name(const testing::TestParamInfo<MotionFamily>& info) {
 
 class PlainMotions : public testing::TestWithParam<MotionFamily> {};
 
-// Of every kind some pairs hit and some do not.
+// For every pair of kinds some motions hit and some miss.
 TEST_P(PlainMotions, AreNeitherMissedNorLateNorEarly) {
   uint64_t seed = 1;
   for (const KindPair& kinds : convex_kind_pairs()) {
@@ -102,7 +103,7 @@ TEST_P(HardMotions, AreNeitherMissedNorLateNorEarly) {
 
 INSTANTIATE_TEST_SUITE_P(Families, HardMotions, testing::ValuesIn(hard_motions()), motion_name);
 
-// (B, A) meets when (A, B) does, but for rounding.
+// (B, A) has the same impacts as (A, B), up to rounding.
 TEST(Motions, AreTheSameBothWaysRound) {
   for (const MotionFamily& family : plain_motions()) {
     for (const KindPair& kinds : convex_kind_pairs()) {
@@ -123,7 +124,7 @@ TEST(Motions, AreTheSameBothWaysRound) {
   }
 }
 
-// What moves away along the normal never meets.
+// Bodies that move apart along the normal never meet.
 TEST(Motions, ThatPartNeverMeet) {
   const MotionFamily parting{
       .name = "", .plan = MotionPlan::parting, .positions = PositionType::float64};

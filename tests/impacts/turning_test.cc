@@ -1,4 +1,4 @@
-// Sines and rotations of motions against those of long double.
+// Sines and rotations of motions against long double.
 #include "impacts/turning.h"
 
 #include <gtest/gtest.h>

@@ -40,7 +40,7 @@ TEST_F(AtomicFileTest, TwoWritersOfOneNameDoNotMeet) {
   EXPECT_EQ(entries(), std::vector<std::string>{"a"});
 }
 
-// More files than there are slots, and slots that are used again.
+// More files than slots, and slots that are used again.
 TEST_F(AtomicFileTest, ManyFilesLiveAtOnce) {
   for (int round = 0; round < 2; ++round) {
     std::vector<AtomicFile> files;
@@ -54,7 +54,7 @@ TEST_F(AtomicFileTest, ManyFilesLiveAtOnce) {
   EXPECT_EQ(entries(), std::vector<std::string>{"a0"});
 }
 
-// In another process: the slots of removed files stay taken.
+// In another process, since the slots of removed files stay taken.
 TEST_F(AtomicFileTest, AllTemporaryFilesAreRemovedAtOnce) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -76,7 +76,7 @@ TEST_F(AtomicFileTest, FailureNamesTheTarget) {
   EXPECT_EQ(message_of(write_text_file(path("none/a.json"), "x")),
             path("none/a.json") + ": cannot be created: No such file or directory");
   EXPECT_TRUE(entries().empty());
-  // A folder took the name while the file was being written.
+  // A folder takes the file's name while the file is being written.
   auto file = AtomicFile::create(path("a"));
   std::filesystem::create_directory(path("a"));
   EXPECT_EQ(message_of(file->commit()),

@@ -68,7 +68,7 @@ TEST(BuildHull, PointsBecomeWhatTheyAre) {
   EXPECT_TRUE(segment.geometry->faces().empty());
   EXPECT_EQ(built({{0, 0, 1}, {0, 0, 2}}).form, HullForm::segment);
 
-  // In the plane x + y + z = 6, one in the middle and one on an edge.
+  // Points in the plane x + y + z = 6; one is in the middle and one on an edge.
   const BuiltHull polygon =
       built({{6, 0, 0}, {2, 2, 2}, {0, 6, 0}, {3, 3, 0}, {0, 0, 6}, {-6, 6, 6}});
   EXPECT_EQ(polygon.form, HullForm::polygon);
@@ -81,7 +81,7 @@ TEST(BuildHull, PointsBecomeWhatTheyAre) {
   expect_closed(polygon);
 }
 
-// Corners that are straight below each other up to rounding, and not in that order.
+// The points of an edge lie straight above each other up to rounding, in random order.
 TEST(BuildHull, UprightEdgesKeepTheirEnds) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<float> unit(-1, 1);
@@ -98,7 +98,8 @@ TEST(BuildHull, UprightEdgesKeepTheirEnds) {
   }
 }
 
-// Facets 1e-15 thick that meet at 1e-11: they hid ends that were off by a thousandth of the size.
+// Facets 1e-15 thick that meet at 1e-11. They once hid end points, with an error of a thousandth of
+// the size.
 TEST(BuildHull, WedgesKeepTheirEnds) {
   const std::vector<Points> wedges = {{{1.13458409e-11f, 1.13458409e-11f, -0.672511578f},
                                        {-5.69627201e-12f, -1.1392544e-11f, -0.993408144f},
@@ -174,7 +175,7 @@ TEST(BuildHull, RandomPointsOfAnySizeAndProportion) {
   }
 }
 
-// Few distinct coordinates: many points on one line and in one plane.
+// A coarse grid has many points on one line and in one plane.
 TEST(BuildHull, RandomPointsOfACoarseGrid) {
   std::mt19937_64 random(3);
   for (int run = 0; run < 500; ++run) {
@@ -213,7 +214,7 @@ TEST(BuildHull, LargestAndSmallestFloats) {
   EXPECT_EQ(needle.geometry->points().size(), 5u);
 }
 
-// A plane in which rounding left a waviness of a float or two, and a thin rim.
+// A plane with a waviness of a float or two from rounding, and a thin rim.
 TEST(BuildHull, AlmostFlatPointsKeepTheirCorners) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<float> unit(-1, 1);

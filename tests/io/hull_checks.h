@@ -1,4 +1,4 @@
-// What build_hull() states of the hulls that it makes.
+// Checks of the properties that build_hull() promises.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,8 +52,8 @@ inline Vector3d face_normal(const HullGeometry& hull, const HullGeometry::Face& 
   return sum.normalized();
 }
 
-// No corner is lost: in random directions, stretched like the points, and along the way to every
-// point, the hull reaches as far as what it was made from.
+// No corner is lost: the hull reaches as far as its input in random directions, stretched like the
+// points, and in the direction of every point.
 inline void expect_same_support(const Points& points, const BuiltHull& hull,
                                 std::mt19937_64& random, double tolerance = 1e-8) {
   const Vector3d size = extents(points);
@@ -64,7 +64,7 @@ inline void expect_same_support(const Points& points, const BuiltHull& hull,
   }
 }
 
-// What is kept is a part of what was given, in its order, each once.
+// The kept points are a subset of the input, in its order, each once.
 inline void expect_subset(const Points& points, const BuiltHull& hull) {
   auto next = points.begin();
   for (const Vector3f& p : hull.geometry->points()) {
@@ -85,8 +85,8 @@ inline void expect_faces_outside(const Points& points, const BuiltHull& hull, do
   }
 }
 
-// In the frame in which errors are stated: every axis scaled by a power of two, so that `size` is
-// 1/2 to 1 along it, or 0.
+// The points in the frame in which errors are stated: every axis is scaled by a power of two, so
+// that `size` becomes 1/2 to 1 along it, or stays 0.
 inline Points scaled_axes(std::span<const Vector3f> points, const Vector3d& size) {
   Points scaled(points.begin(), points.end());
   for (int axis = 0; axis < 3; ++axis) {
@@ -97,8 +97,8 @@ inline Points scaled_axes(std::span<const Vector3f> points, const Vector3d& size
   return scaled;
 }
 
-// What is left out is inside of what is kept, to `tolerance` extents. Tries all features of the
-// hull: for few corners.
+// Dropped points lie inside the hull of the kept ones, up to `tolerance` extents. It tries all
+// features of the hull, so the hull must have few corners.
 inline void expect_inside(const Points& points, const BuiltHull& hull, double tolerance = 1e-9) {
   const auto kept = hull.geometry->points();
   const Vector3d size = extents(points);
@@ -111,7 +111,7 @@ inline void expect_inside(const Points& points, const BuiltHull& hull, double to
   }
 }
 
-// Every edge is there once in each direction.
+// Every edge occurs once in each direction.
 inline void expect_closed(const BuiltHull& hull) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (const HullGeometry::Face& face : hull.geometry->faces()) {

@@ -1,4 +1,4 @@
-// A scratch folder, and files made byte by byte, for the tests of readers and writers.
+// For tests of readers and writers: a scratch folder, and files made byte by byte.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -42,7 +42,7 @@ class TemporaryFolder : public ::testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  // Names of everything in the folder.
+  // The names of all entries of the folder.
   std::vector<std::string> entries() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
@@ -55,14 +55,14 @@ class TemporaryFolder : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-// Success, or the error's text.
+// For EXPECT_TRUE: a failure shows the text of the error.
 template <class T>
 ::testing::AssertionResult succeeds(const Result<T>& result) {
   if (result) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << result.error().message;
 }
 
-// The error's text, which must be one line; empty if there is none.
+// The error's text, which must be one line; empty if there is no error.
 template <class T>
 std::string message_of(const Result<T>& result) {
   if (result) return "";
@@ -70,14 +70,14 @@ std::string message_of(const Result<T>& result) {
   return result.error().message;
 }
 
-// One entry of an archive made with libzip alone.
+// One member of an archive that is written with libzip directly.
 struct RawMember {
   std::string name;  // with ".npy"
   std::string bytes;
 };
 void write_zip(const std::string& path, const std::vector<RawMember>& members, bool deflate);
 
-// A .npy file: header text as given, and data.
+// A .npy file with this header text and data.
 std::string npy_bytes(const std::string& dict, const std::string& data, char version = 1);
 
 template <class T>

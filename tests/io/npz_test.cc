@@ -14,7 +14,7 @@ using ::testing::StartsWith;
 
 class NpzTest : public TemporaryFolder {
  protected:
-  // The error of reading member "x" of `dict` and `data` as float32 (any, 3).
+  // The error of reading member "x", made of `dict` and `data`, as float32 (any, 3).
   std::string error_of(const std::string& dict, const std::string& data) {
     write_zip(path("bad.npz"), {{"x.npy", npy_bytes(dict, data)}}, true);
     const auto reader = NpzReader::open(path("bad.npz"));
@@ -22,7 +22,7 @@ class NpzTest : public TemporaryFolder {
     return message_of(reader->read<std::array<float, 3>>("x", {kAny}));
   }
 
-  // Two arrays, one added whole and one in pieces.
+  // Two arrays: one is added whole, the other in portions.
   void write_two(const std::string& name, Compression compression) {
     auto writer = NpzWriter::create(path(name), compression);
     ASSERT_TRUE(succeeds(writer));
@@ -191,7 +191,7 @@ TEST_F(NpzTest, DamagedDataAreAnError) {
   }
 }
 
-// Sets the little-endian field of every central directory entry at `offset`.
+// Sets a little-endian field of every central directory entry, at `offset` in the entry.
 void patch_directory(std::string& zip, size_t offset, uint32_t value) {
   for (size_t i = zip.find("PK\1\2"); i != std::string::npos; i = zip.find("PK\1\2", i + 1)) {
     for (size_t k = 0; k < 4; ++k) zip[i + offset + k] = static_cast<char>(value >> (8 * k));
@@ -202,7 +202,7 @@ TEST_F(NpzTest, DirectoryThatLiesAboutSizesIsAnError) {
   for (const Compression compression : {Compression::kStored, Compression::kDeflated}) {
     write_two("two.npz", compression);
     std::string bytes = read_file("two.npz");
-    patch_directory(bytes, 24, 0xfffffff0);  // uncompressed size
+    patch_directory(bytes, 24, 0xfffffff0);  // the uncompressed size
     EXPECT_THAT(message_of(NpzReader::open(write_file("liar.npz", bytes))),
                 HasSubstr("liar.npz: member first: is absurdly large: it claims 4294967280 bytes"));
   }
@@ -261,7 +261,7 @@ TEST_F(NpzTest, UnwritableFoldersStayEmpty) {
   std::filesystem::create_directory(path("closed"));
   using std::filesystem::perms;
   std::filesystem::permissions(path("closed"), perms::owner_read | perms::owner_exec);
-  // The superuser may write everywhere, so become nobody for a moment.
+  // The superuser may write anywhere, so the test drops to nobody for a moment.
   constexpr uid_t kNobody = 65534;
   const bool superuser = ::geteuid() == 0;
   std::filesystem::permissions(path(""), perms::others_exec, std::filesystem::perm_options::add);

@@ -41,7 +41,7 @@ TEST_F(PairsTest, ReadsWhatItWrites) {
   EXPECT_EQ(pairs->shapes.params, two_pairs().shapes.params);
   EXPECT_EQ(pairs->a.shape, two_pairs().a.shape);
   EXPECT_EQ(pairs->a.position32, two_pairs().a.position32);
-  EXPECT_EQ(raw(pairs->b.position32), raw(two_pairs().b.position32));  // NaN passes
+  EXPECT_EQ(raw(pairs->b.position32), raw(two_pairs().b.position32));  // NaN is kept
   EXPECT_TRUE(pairs->a.orientation.empty() && pairs->b.rotation.empty());
 }
 

@@ -14,7 +14,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 class RecordingTest : public TemporaryFolder {
  protected:
-  // Frames of `bodies` boxes; box i of frame f is the cube from (10 f + i) on.
+  // `bodies` boxes; box i of frame f is the cube that starts at 10 f + i.
   static std::vector<float> boxes_of(size_t frame, size_t bodies) {
     std::vector<float> boxes;
     for (size_t i = 0; i < bodies; ++i) {

@@ -64,7 +64,7 @@ class SceneTest : public TemporaryFolder {
     ASSERT_EQ(entries(), std::vector<std::string>{"s.npz"});
   }
 
-  // The error of opening a small scene of one sphere and two bodies after a change of its members.
+  // The error of opening a small scene (one sphere, two bodies) after `change` to its members.
   std::string error_after(const std::function<void(std::vector<RawMember>&)>& change) {
     std::vector<RawMember> members = {
         array<int32_t>("carom_version", "<i4", "(1,)", {1}),
@@ -79,7 +79,7 @@ class SceneTest : public TemporaryFolder {
     if (!scene) return message_of(scene);
     SceneFrame frame;
     const std::string message = message_of((*scene)->read_frame(frame));
-    // An error stays one.
+    // Reading the frame again gives the same error.
     EXPECT_EQ(message_of((*scene)->read_frame(frame)), message);
     return message;
   }
@@ -105,7 +105,7 @@ class SceneTest : public TemporaryFolder {
                       raw(values))};
   }
 
-  // What checks of an info say, after a change of the full one.
+  // The message of the check of full_info() after `change`.
   static std::string check_after(const std::function<void(SceneInfo&)>& change) {
     SceneInfo info = full_info();
     change(info);

@@ -44,10 +44,10 @@ struct Figures {
   size_t undecided_by_floats = 0;  // pairs that the standard tier decides wrong, within its bound
   size_t undecided = 0;            // pairs that the certified tier leaves undecided
   size_t passed_over = 0;          // overlapping pairs whose deepest parts meet over an inner edge
-  // overlapping pairs of which all parts meet over inner edges, or may
+  // Overlapping pairs of which all parts meet over inner edges, or may.
   size_t over_edges = 0;
-  // other overlapping pairs where rounding decides whether the deepest parts meet over an inner
-  // edge
+  // Other overlapping pairs where rounding decides whether the deepest parts meet over an inner
+  // edge.
   size_t unclear = 0;
   Errors separate, depths;
 };

@@ -21,7 +21,7 @@ struct Sweeps {
   }
 };
 
-// As far as `length`; some not at all, along an axis, far too far, or not valid.
+// Sweeps of up to `length`; some are zero, along an axis, far too long, or not valid.
 inline Sweeps make_sweeps(size_t count, double length, bool turn, uint64_t seed) {
   oracle::Random random(seed);
   Sweeps sweeps;
@@ -44,7 +44,7 @@ inline Sweeps make_sweeps(size_t count, double length, bool turn, uint64_t seed)
   return sweeps;
 }
 
-// Sorted as cast() does.
+// The hits in the order of cast().
 inline std::vector<CastHit> brute_force(const Collidables& queries, const SweepView& sweep,
                                         const Collidables& bodies, const std::vector<Pair>& pairs) {
   const size_t count = pairs.size();
@@ -91,7 +91,7 @@ inline std::vector<CastHit> closest_of(const std::vector<CastHit>& all) {
   return closest;
 }
 
-// All bits but padding.
+// The bytes of all hits, without padding.
 inline std::string bits_of(const std::vector<CastHit>& hits) {
   std::string bits;
   const auto add = [&](const auto& value) {

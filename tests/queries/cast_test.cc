@@ -1,4 +1,4 @@
-// Casts are what time_of_impact() says of every pair.
+// Casts equal time_of_impact() of every pair.
 #include "carom/queries/cast.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ std::vector<CastHit> cast_all(const Collidables& queries, const SweepView& sweep
   return hits;
 }
 
-// The hits of all pairs, which both kinds of casts must find.
+// Both kinds of casts find the hits of all pairs; returns their number.
 size_t expect_hits(const std::vector<PlacedShape>& queries, const Sweeps& sweeps,
                    const std::vector<PlacedShape>& bodies,
                    PositionType positions = PositionType::float32) {
@@ -75,7 +75,7 @@ TEST(Cast, WithoutASweepIsAnOverlap) {
 
 // --- Rays ---
 
-// One at the sides, edges and corners of boxes, one along them, one that starts inside.
+// Rays at the sides, edges and corners of boxes, rays along them, and rays that start inside.
 void add_hard_rays(const PlacedShape& body, oracle::Random& random, Points& origins,
                    Points& directions) {
   const auto* box = std::get_if<Aabb>(&body.shape);
@@ -102,12 +102,12 @@ void add_hard_rays(const PlacedShape& body, oracle::Random& random, Points& orig
     for (const float sign : {1.0f, -1.0f}) {
       Eigen::Vector3f way = Eigen::Vector3f::Zero();
       way[axis] = sign;
-      add(on_surface() - way, way);  // to it, and along it
-      add(on_surface(), way);        // from it
-      add(p, way * FLT_MAX / 4);     // from inside, as far as it goes
+      add(on_surface() - way, way);  // towards the surface and along it
+      add(on_surface(), way);        // from the surface
+      add(p, way * FLT_MAX / 4);     // from inside, as far as floats allow
       way[(axis + 1) % 3] = FLT_TRUE_MIN;
       add(on_surface() - way, way);     // hardly tilted
-      add(on_surface(), way * 1e-38f);  // hardly at all
+      add(on_surface(), way * 1e-38f);  // hardly any length
     }
   }
   add(on_surface(), Eigen::Vector3f::Zero());
@@ -122,7 +122,8 @@ TEST(Cast, RaysThatAreHard) {
   Points origins, directions;
   for (size_t i = 0; i < 20; ++i) add_hard_rays(bodies[i], random, origins, directions);
   for (size_t i = 0; i < bodies.size(); i += 3) {
-    bodies[i] = box(bodies[i].position, {0.5f, 0.25f, 0.75f});  // corners are floats mostly
+    // With these extents most corners are exact floats.
+    bodies[i] = box(bodies[i].position, {0.5f, 0.25f, 0.75f});
     add_hard_rays(bodies[i], random, origins, directions);
   }
   const LaidOut b(bodies, {});
@@ -142,7 +143,7 @@ TEST(Cast, RaysThatAreHard) {
   });
 }
 
-// Boxes along a ray that starts on a face: none of them is ever missed.
+// A row of boxes along a ray that starts on a face: the ray hits every box.
 TEST(Cast, ARayMeetsEveryBoxOfARow) {
   std::vector<PlacedShape> bodies;
   for (int i = 0; i < 100; ++i) bodies.push_back(box({2.0 * i, 0, 0}, {0.5f, 0.5f, 0.5f}));
@@ -201,7 +202,7 @@ TEST(Cast, OfEqualTimesTheLowestBody) {
   EXPECT_NEAR(hits[0].point.x(), -0.5, 1e-6);
 }
 
-// --- How it is called ---
+// --- Ways to call it ---
 
 TEST(Cast, IsTheSameOnThreadsAndInAnyOrder) {
   const BodiesSpec spec = {.count = 4500, .side = 45, .composites = false, .halfspaces = 0.0005};

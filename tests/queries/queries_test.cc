@@ -1,4 +1,4 @@
-// Overlaps and nearest bodies of shapes: against collide() for every pair.
+// Overlaps and nearest bodies of shapes, against collide() for every pair.
 #include "carom/queries/queries.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,7 @@ std::string row_of(const NearestHit& hit) {
   return text;
 }
 
-// Of every query the row of its nearest body.
+// For every query the row of its nearest body.
 struct Nearest {
   Pair pair;
   std::string row;
@@ -150,7 +150,7 @@ TEST(Queries, OfSimpleBodiesInACrowd) {
   expect_hits(make_bodies(spec, 4), bodies);
 }
 
-// More queries than are searched for at once.
+// More queries than one round searches for.
 TEST(Queries, AreTheSameOnThreadsAndInAnyOrder) {
   const BodiesSpec spec = {.count = 9000, .side = 40, .composites = false, .halfspaces = 0.0005};
   const std::vector<PlacedShape> bodies = make_bodies(spec, 5);

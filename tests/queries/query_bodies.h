@@ -1,4 +1,4 @@
-// Bodies of every kind, some of them not valid, for queries and to be queried.
+// Bodies of every kind, some of them not valid, as queries and as their targets.
 #pragma once
 
 #include <limits>
@@ -15,7 +15,7 @@ struct BodiesSpec {
   bool composites = true;  // hulls, meshes and compounds as well
   double halfspaces = 0.03;
   double invalid = 0.03;
-  double distance = 0;  // of all from the origin
+  double distance = 0;  // distance of all bodies from the origin
   PositionType positions = PositionType::float32;
 };
 
@@ -55,7 +55,7 @@ inline std::vector<PlacedShape> make_bodies(const BodiesSpec& spec, uint64_t see
 
 inline Layout layout_of(const BodiesSpec& spec) { return {.positions = spec.positions}; }
 
-// All pairs (query, body) that have a test.
+// All pairs (query, body) that have a kernel.
 inline std::vector<Pair> all_pairs(const std::vector<PlacedShape>& queries,
                                    const std::vector<PlacedShape>& bodies) {
   std::vector<Pair> pairs;

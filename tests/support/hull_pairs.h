@@ -176,7 +176,7 @@ class HullPairMaker {
     return corners;
   }
   static double reach(const PlacedShape& body, const Eigen::Vector3d& way) {
-    // two corners are not enough for an aabb
+    // Two corners are not enough for an aabb.
     if (const auto* box = std::get_if<Aabb>(&body.shape)) {
       return box->lower.cast<double>()
           .cwiseProduct(way)

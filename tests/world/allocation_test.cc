@@ -1,4 +1,5 @@
-// A step like the last one allocates nothing: malloc itself is counted, and all that comes to it.
+// A step like the last one allocates nothing. The test replaces malloc and counts all calls, which
+// covers everything built on it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,20 +17,20 @@
 #define CAROM_TEST_OTHER_MALLOC
 #endif
 
-// Where malloc is somebody else's, there is nothing to count and no test here.
+// If another malloc is already in place (sanitizers), this test is left out.
 #if !defined(CAROM_TEST_OTHER_MALLOC)
 
 namespace {
 
-// Volatile: compilers take it that malloc touches no variable of the program.
+// Volatile, since compilers assume that malloc touches no variable of the program.
 thread_local volatile size_t allocations = 0;
 
 }  // namespace
 
-// The standard library is to see them, whatever the visibility of the project's other symbols.
+// Visible, so that the standard library uses these functions, too.
 #define CAROM_TEST_SEEN __attribute__((visibility("default")))
 
-// The names under which glibc lets its own functions be called by those that replace them.
+// glibc's own names for its functions, for programs that replace them.
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
@@ -57,7 +58,7 @@ CAROM_TEST_SEEN void* aligned_alloc(size_t alignment, size_t size) noexcept {
 namespace carom::test {
 namespace {
 
-// Bodies that go round in circles: every fourth step is the same.
+// Bodies that move in circles: every fourth step is the same.
 class Carousel {
  public:
   Carousel(const WorldSettings& settings, const CrowdSpec& spec)
@@ -84,7 +85,7 @@ class Carousel {
   size_t turn_ = 0;
 };
 
-// `rest`: every second round nothing moves. `rounds`: until every kind of step has occurred.
+// `rest`: in every second round nothing moves. `rounds`: enough for every kind of step to occur.
 void expect_no_allocations(const WorldSettings& settings, const CrowdSpec& spec, size_t movers,
                            bool rest = false, int rounds = 4) {
   Carousel carousel(settings, spec);
@@ -101,7 +102,7 @@ void expect_no_allocations(const WorldSettings& settings, const CrowdSpec& spec,
   EXPECT_GT(carousel.world().report().pairs, 0u);
 }
 
-// Compilers may leave out an allocation that nobody sees.
+// Keeps the compiler from removing an unused allocation.
 void use(const void* memory) {
   static const void* volatile seen;
   seen = memory;
@@ -166,7 +167,7 @@ TEST(Allocations, NoneWithOtherSettings) {
     const WorldSettings all{.detail = detail, .margin = 0.2f, .pair_changes = true};
     for (const size_t movers : {0, 1, 400}) expect_no_allocations(all, spec, movers, true);
     expect_no_allocations({.detail = detail, .dop_bounds = DopKind::k18}, spec, 100);
-    // Boxes with margins join those at rest every now and then.
+    // With margins some boxes join the resting ones now and then.
     expect_no_allocations(all, {.count = 3000, .side = 14}, 100, true, 40);
   }
   expect_no_allocations({.carry_results = false}, spec, 400);
@@ -187,7 +188,7 @@ TEST(Allocations, NoneWhenLookingAhead) {
   for (const size_t movers : {0, 40}) expect_no_allocations({}, oriented, movers, true);
 }
 
-// Automatic bodies that are fast every now and then.
+// Automatic bodies that are fast now and then.
 TEST(Allocations, NoneWhenBodiesAreFastAndSlowInTurns) {
   World world;
   const std::vector<BodyId> ids = add_crowd(world, {});
@@ -204,7 +205,7 @@ TEST(Allocations, NoneWhenBodiesAreFastAndSlowInTurns) {
   EXPECT_EQ(allocations - before, 0u);
 }
 
-// Bodies fail, recover, go and are replaced.
+// Bodies become invalid, recover, are removed and replaced.
 TEST(Allocations, NoneWhenBodiesAreReplacedOrSpoilt) {
   const CrowdSpec spec{.oriented = true, .halfspaces = 6};
   World world;
@@ -215,7 +216,7 @@ TEST(Allocations, NoneWhenBodiesAreReplacedOrSpoilt) {
       world.set_position(ids[3], {x, 1, 1});
       world.remove(ids[5]);
       ids[5] = world.add(crowd[5]);
-      world.remove(ids.back());  // the last row goes and comes back
+      world.remove(ids.back());  // the last row disappears and comes back
       world.step();
       ids.back() = world.add(crowd.back());
       world.step();

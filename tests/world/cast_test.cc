@@ -1,4 +1,4 @@
-// Casts, overlaps and nearest bodies in a world: those of all its bodies as arrays.
+// Casts, overlaps and nearest bodies in a world equal those of the same bodies as arrays.
 #include <gtest/gtest.h>
 
 #include "carom/base/thread_arena.h"
@@ -8,7 +8,7 @@
 namespace carom::test {
 namespace {
 
-// The living bodies that are met, as arrays, and the index of each.
+// The living bodies that a query may meet, as arrays, and the index of each.
 struct AsArrays {
   std::vector<PlacedShape> bodies;
   std::vector<uint32_t> index;
@@ -42,7 +42,7 @@ bool are_same(const std::vector<NearestHit>& x, const std::vector<NearestHit>& y
                     });
 }
 
-// `ids` ascend by index: those of the bodies that are met.
+// `ids`, which ascend by index, are the bodies that queries may meet.
 void expect_hits(const World& world, std::span<const BodyId> ids, uint32_t mask = ~0u) {
   const PositionType positions = world.settings().positions;
   const AsArrays arrays = as_arrays(world, ids);
@@ -107,7 +107,7 @@ TEST(WorldQueries, OfEveryStep) {
     std::vector<BodyId> ids = add_crowd(world, crowd(120, 2));
     Random random(1);
     for (int step = 0; step < 6; ++step) {
-      if (step != 3) {  // a step in which nothing moves
+      if (step != 3) {  // in one step nothing moves
         move_some(world, ids, 0.5, random);
         turn_some(world, ids, 0.5, random);
       }
@@ -149,7 +149,7 @@ TEST(WorldQueries, SkipQuarantinedBodies) {
   World world;
   const std::vector<BodyId> ids = add_crowd(world, crowd(200, 3));
   world.set_position(ids[7], {std::nan(""), 0, 0});
-  world.set_position(ids[1], {0, INFINITY, 0});  // a half-space
+  world.set_position(ids[1], {0, INFINITY, 0});  // body 1 is a half-space
   world.set_shape(ids[9], Sphere{-1});
   world.step();
   EXPECT_EQ(world.quarantined().size(), 3u);

@@ -1,4 +1,4 @@
-// Worlds full of bodies, and everything a step yields as bytes.
+// Worlds with many bodies, and all results of a step as bytes.
 #pragma once
 
 #include <cstring>
@@ -19,10 +19,10 @@ struct CrowdSpec {
   double side = 7;
   bool boxes = true;      // aabbs
   bool oriented = false;  // capsules, oriented boxes, triangles
-  size_t halfspaces = 0;  // through the middle, and the first bodies of the crowd
+  size_t halfspaces = 0;  // through the middle; they are the first bodies of the crowd
   bool filters = false;   // layers, owners, sensors, static bodies
   bool velocities = false;
-  bool looks_ahead = false;  // every second body has a detection, and all go far in a step
+  bool looks_ahead = false;  // every second body has a detection, and all move far in a step
   uint64_t seed = 1;
 };
 
@@ -121,7 +121,7 @@ inline std::vector<BodyId> add_crowd(World& world, const CrowdSpec& spec) {
   return ids;
 }
 
-// A few of the bodies go a little way: the same ones in every world with the same `random`.
+// Moves a few of the bodies a little: the same ones in every world with the same `random`.
 inline void move_some(World& world, std::span<const BodyId> ids, double share, Random& random) {
   for (const BodyId id : ids) {
     if (!random.chance(share)) continue;
@@ -129,7 +129,7 @@ inline void move_some(World& world, std::span<const BodyId> ids, double share, R
   }
 }
 
-// The same for orientations; spheres and aabbs have none, and stay as they are.
+// Turns a few of the bodies likewise; spheres and aabbs have no orientation.
 inline void turn_some(World& world, std::span<const BodyId> ids, double share, Random& random) {
   for (const BodyId id : ids) {
     if (random.chance(share)) world.set_orientation(id, random_orientation(random));

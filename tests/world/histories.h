@@ -1,5 +1,5 @@
-// Random histories of a world: bodies come, go, move, rest and change, and after every step the
-// reference says what the results must be.
+// Random histories of a world: bodies are added, removed, moved, left at rest and changed, and
+// every step is compared with the reference.
 #pragma once
 
 #include <cstdint>
@@ -30,12 +30,12 @@ template <class T>
   return ::testing::AssertionSuccess();
 }
 
-// What happened in all histories of a test: a guard against tests of nothing.
+// Counts of events in all histories of a test, so that no test runs empty.
 struct Coverage {
   size_t tested = 0, kept = 0, dropped = 0, overlapping = 0, pairs = 0, quarantined = 0,
          sensors = 0;
   size_t events[kEventKindCount] = {};
-  size_t with_halfspaces = 0, halfspace_overlaps = 0;  // pairs
+  size_t with_halfspaces = 0, halfspace_overlaps = 0;  // pairs with half-spaces
   size_t manifolds[5] = {};                            // by number of points
   size_t impacts = 0, overlaps_ahead = 0, impacts_of_sensors = 0, speculative = 0;
   size_t swept = 0, unswept = 0;
@@ -43,7 +43,7 @@ struct Coverage {
 
 enum class Kinds { spheres_and_aabbs, all };
 
-// A world beside a plain list of its bodies.
+// A world and a plain list of its bodies.
 class History {
  public:
   History(const WorldSettings& settings, uint32_t seed, Kinds kinds = Kinds::spheres_and_aabbs)
@@ -59,11 +59,11 @@ class History {
   }
   bool chance(double probability) { return uniform(0, 1) < probability; }
 
-  // Bodies that are new, or change their motion, have detections and velocities that take them far
-  // in a step.
+  // From now on new bodies, and bodies whose motion changes, get detections and high velocities.
   void look_ahead() { looks_ahead_ = true; }
 
-  // A body in a box of side `side`; `filters`: with layers, owners, sensors, static ones.
+  // A body in a box of side `side`; with `filters`, some have layers, owners, are sensors or
+  // static.
   BodyDesc random_body(double side, bool filters) {
     BodyDesc body;
     body.position = {uniform(0, side), uniform(0, side), uniform(0, side)};
@@ -101,7 +101,7 @@ class History {
     bodies_.erase(id.index);
   }
 
-  // Moves about `share` of the bodies, half of them by writing into the arrays.
+  // Moves about `share` of the bodies, half of them through the arrays.
   void move(double share, double distance) {
     for (auto& [index, body] : bodies_) {
       if (!chance(share)) continue;
@@ -114,8 +114,8 @@ class History {
     }
   }
 
-  // Turns about `share` of the bodies that have an orientation, half of them in the arrays; some
-  // are spoilt for a while.
+  // Turns about `share` of the bodies with an orientation, half of them through the arrays; some
+  // become invalid for a while.
   void turn(double share) {
     for (auto& [index, body] : bodies_) {
       if (!has_rows(body.desc) || !chance(share)) continue;
@@ -148,7 +148,7 @@ class History {
     }
   }
 
-  // Of about `share` of the bodies, half of them in the arrays.
+  // Changes the velocities of about `share` of the bodies, half of them through the arrays.
   void change_motions(double share) {
     for (auto& [index, body] : bodies_) {
       if (!chance(share)) continue;
@@ -190,7 +190,7 @@ class History {
     }
   }
 
-  // Steps, and compares everything with the reference.
+  // Steps the world and compares everything with the reference.
   void step_and_check() {
     const StepReport& report = world_.step();
     std::vector<reference::Body> list;
@@ -249,7 +249,7 @@ class History {
     if (chance(0.01)) body.shape = Box{{1, -1, 1}};
   }
 
-  // Most go a way of about a metre in a step, or less; some rest.
+  // Most bodies move by about a metre in a step or less; some rest.
   void set_in_motion(BodyDesc& body, bool spoil) {
     constexpr Detection kDetections[] = {Detection::discrete, Detection::swept,
                                          Detection::continuous, Detection::automatic};

@@ -10,7 +10,7 @@ namespace {
 using test::History;
 using test::Kinds;
 
-// Every kind of change at once, at many rates.
+// Runs a history with changes of every kind, at random rates.
 void run_history(const WorldSettings& settings, uint32_t seed, int steps,
                  test::Coverage* coverage = nullptr, Kinds kinds = Kinds::spheres_and_aabbs) {
   SCOPED_TRACE(::testing::Message() << "seed " << seed);
@@ -27,7 +27,7 @@ void run_history(const WorldSettings& settings, uint32_t seed, int steps,
     if (history.chance(0.3)) {
       for (int i = churn(20); i > 0; --i) history.remove_random();
     }
-    if (history.chance(0.2)) history.move(1, side);  // everything teleports
+    if (history.chance(0.2)) history.move(1, side);  // all bodies teleport
     if (history.chance(0.6)) history.move(history.uniform(0, 1), 0.2);
     if (history.chance(0.3)) history.change_random_body(side, filters);
     if (kinds == Kinds::all) {

@@ -1,4 +1,4 @@
-// A world runs and holds only what its bodies and settings need.
+// A world runs and stores only what its bodies and settings need.
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -105,7 +105,7 @@ size_t bytes_with(const BodyDesc& last) {
   return world.bytes();
 }
 
-// Every property costs memory from the first body on that uses it.
+// Every optional property costs memory only from the first body on that uses it.
 TEST(PayForUse, ColumnsThatNobodyNeedsDoNotExist) {
   const size_t plain = bytes_with({});
   EXPECT_EQ(bytes_with({.position = {1, 2, 3}}), plain);
@@ -120,14 +120,14 @@ TEST(PayForUse, ColumnsThatNobodyNeedsDoNotExist) {
   EXPECT_GE(grows_by({.owner = 1}), 1000 * sizeof(uint32_t));
   EXPECT_GE(grows_by({.sensor = true}), 1000u);
   EXPECT_GE(grows_by({.user = 1}), 1000 * sizeof(uint64_t));
-  // Shapes with rows: the place of the rows and the quaternion.
+  // Shapes with rows cost the index of the rows and the quaternion.
   for (const Shape& shape :
        {Shape(Box{}), Shape(Capsule{}), Shape(Triangle{}), Shape(Halfspace{})}) {
     EXPECT_GE(grows_by({.shape = shape}), 1000 * (sizeof(uint32_t) + 4 * sizeof(float)));
   }
 }
 
-// Spheres and aabbs have no orientation, whatever they are given.
+// Spheres and aabbs store no orientation, whatever the caller gives.
 TEST(PayForUse, WithoutShapesThatTurnThereAreNoOrientations) {
   const Eigen::Quaternionf turn(1, 2, 3, 4);
   World turned, plain;
@@ -143,14 +143,14 @@ TEST(PayForUse, WithoutShapesThatTurnThereAreNoOrientations) {
   EXPECT_EQ(turned.bytes(), plain.bytes());
   EXPECT_EQ(turned.arrays().orientation, nullptr);
   EXPECT_EQ(turned.shape_rows().count, 0u);
-  // The copy that says what changed is made with them.
+  // The copy for finding changes is made with the columns.
   const size_t before = turned.memory().bodies;
   turned.add({.shape = Box{}});
   turned.step();
   EXPECT_GE(turned.memory().bodies, before + 400 * (sizeof(uint32_t) + 8 * sizeof(float)));
 }
 
-// Worlds in which nobody looks ahead, whatever it would take.
+// A world in which no body looks ahead costs the same with any settings for looking ahead.
 TEST(PayForUse, NobodyPaysForLookingAheadButThoseWhoDo) {
   const CrowdSpec spec{.oriented = true, .velocities = true};
   const std::string without =
@@ -158,7 +158,7 @@ TEST(PayForUse, NobodyPaysForLookingAheadButThoseWhoDo) {
   const std::string with =
       "changes bounds sweeps broadphase pairs narrowphase results impacts velocities events";
   World plain, settings({.dt = 10, .fast_share = 0, .impacts = Impacts::all});
-  World passing;  // in which a body looked ahead, once
+  World passing;  // one body looked ahead, once
   for (World* world : {&plain, &settings, &passing}) add_crowd(*world, spec);
   const BodyId guest = passing.add({.position = {0, 0, 99}, .detection = Detection::continuous});
   plain.step();
@@ -182,7 +182,7 @@ TEST(PayForUse, NobodyPaysForLookingAheadButThoseWhoDo) {
   EXPECT_LE(passing.memory().bodies, plain.memory().bodies + 512) << "a byte a body";
 }
 
-// A slow body that would look ahead if it were fast costs no more than knowing that.
+// A slow automatic body costs only the check of its speed.
 TEST(PayForUse, SlowAutomaticBodiesRunNoStage) {
   World world;
   add_crowd(world, {});
@@ -192,7 +192,7 @@ TEST(PayForUse, SlowAutomaticBodiesRunNoStage) {
             "changes bounds broadphase pairs narrowphase results velocities events");
 }
 
-// After some steps in which everything moved.
+// The memory after some steps in which every body moved.
 size_t bytes_in_use(const WorldSettings& settings) {
   World world(settings);
   const std::vector<BodyId> ids = add_crowd(world, {});
@@ -212,7 +212,7 @@ TEST(PayForUse, WithoutCarryingOrEventsThereIsLessMemory) {
   EXPECT_LT(bytes_in_use({.carry_results = false}), all);
 }
 
-// Nobody asks for the last step's pairs then.
+// Without carrying and events, no stage needs the last step's pairs.
 TEST(PayForUse, WithoutCarryingAndEventsTheLastStepIsNotKept) {
   for (const Detail detail : {Detail::pairs, Detail::overlap, Detail::contact}) {
     World world({.detail = detail, .events = false, .carry_results = false});

@@ -1,4 +1,4 @@
-// Which bodies hold a point: against every body one by one.
+// Which bodies contain a point: against every body one by one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -151,7 +151,7 @@ TEST(FindPoints, OfAnEmptyWorld) {
   EXPECT_TRUE(hits.empty());
 }
 
-// Points in the range of subnormals, where flush-to-zero makes all of them equal.
+// Points with subnormal coordinates, which flush-to-zero would make equal.
 TEST(FindPoints, InAnyFloatMode) {
   const float unit = 0x1p-149f;
   World world;

@@ -1,4 +1,4 @@
-// One history of a world, many circumstances: the same bytes after every step.
+// One history of a world under many circumstances: the same bytes after every step.
 #include <gtest/gtest.h>
 
 #include "carom/base/thread_arena.h"
@@ -17,7 +17,7 @@ constexpr CrowdSpec kOriented{.count = 1500,
                               .filters = true,
                               .velocities = true};
 
-// Bodies move, come, go and fail.
+// Bodies are moved, added, removed and become invalid.
 std::vector<Results> history(const WorldSettings& settings, const CrowdSpec& spec = kCrowd,
                              const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) {
   World world(settings);
@@ -30,7 +30,7 @@ std::vector<Results> history(const WorldSettings& settings, const CrowdSpec& spe
   for (int frame = 0; frame < 8; ++frame) {
     world.step();
     all.push_back(results(world));
-    if (frame == 2) continue;  // a still one
+    if (frame == 2) continue;  // a still step
     move_some(world, ids, frame == 5 ? 1 : 0.3, random);
     if (spec.oriented) turn_some(world, ids, 0.3, random);
     for (int i = 0; i < 5; ++i) {
@@ -113,14 +113,15 @@ TEST(SameBits, InAnyFloatModeOfTheCaller) {
     const std::vector<Results> expected = history(settings);
     for (const FloatMode& mode : float_modes()) {
       SCOPED_TRACE(mode.name);
-      if ((mode.mxcsr & 0x6000) != 0) continue;  // the history itself would round otherwise
+      // Other rounding modes would change the history itself.
+      if ((mode.mxcsr & 0x6000) != 0) continue;
       const ScopedFloatMode scoped(mode);
       expect_equal(history(settings), expected);
     }
   }
 }
 
-// Subnormal sizes and places, where flush-to-zero would change every result.
+// Subnormal sizes and positions, where flush-to-zero would change every result.
 TEST(SameBits, OfATinyWorldInAnyFloatMode) {
   const auto contacts = [](const FloatMode& mode) {
     World world;
@@ -152,8 +153,8 @@ TEST(SameBits, TheCallersFloatModeIsItsOwnAgain) {
 #endif
 }
 
-// Contacts are relative to the bodies: a float64 world may lie anywhere. Bounds are float32 and
-// coarser there, so that more pairs are tested.
+// Contacts are relative to the bodies, so a float64 world may lie anywhere. Its float32 bounds are
+// coarser far out, so more pairs are tested.
 TEST(SameBits, OfAllKindsInAnyFloatModeOfTheCaller) {
   const WorldSettings settings{.detail = Detail::manifold};
   const std::vector<Results> expected = history(settings, kOriented);

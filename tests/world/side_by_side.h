@@ -1,4 +1,4 @@
-// Several worlds with the same bodies, which all go the same way.
+// Several worlds with the same bodies and the same changes.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ inline WorldSettings with_knobs(const FastKnobs& knobs, WorldSettings settings =
   return settings;
 }
 
-// Crowds and settings of many sorts, by the seed.
+// Crowds and settings that vary with the seed.
 inline CrowdSpec varied_crowd(uint64_t seed, size_t count = 200) {
   return {.count = count,
           .side = 1.2 * std::cbrt(static_cast<double>(count)),
@@ -37,7 +37,7 @@ inline WorldSettings varied_settings(uint64_t seed) {
   return settings;
 }
 
-// Triangles seen from either side, without neighbours: convex sets.
+// Makes a triangle two-sided and without inner edges, so that it is a convex set.
 inline Shape plain(Shape shape) {
   if (auto* triangle = std::get_if<Triangle>(&shape)) {
     triangle->one_sided = false;
@@ -59,7 +59,7 @@ class SideBySide {
 
   World& operator[](size_t i) { return worlds_[i]; }
 
-  // Most bodies creep and turn a little, by up to `distance` metres and half as many radians.
+  // Most bodies move by up to `distance` metres and turn by up to half as many radians.
   void creep(double distance) {
     for (const BodyId id : ids_) {
       if (random_.chance(0.3)) continue;
@@ -72,8 +72,8 @@ class SideBySide {
     }
   }
 
-  // What makes results of before worthless: bodies come, go, jump and change, some of them in the
-  // arrays.
+  // Makes earlier results worthless: bodies are added, removed, teleported and changed, some
+  // through the arrays.
   void disturb() {
     for (size_t i = random_.below(3); i > 0; --i) remove();
     for (size_t i = random_.below(3); i > 0; --i) add(crowd_[random_.below(crowd_.size())]);
@@ -118,7 +118,7 @@ class SideBySide {
     ids_.pop_back();
   }
 
-  // Not a unit quaternion, and of either sign.
+  // The result need not be a unit quaternion, and has either sign.
   Eigen::Quaternionf turned(const Eigen::Quaternionf& q, double most) {
     const Eigen::AngleAxisd turn(random_.uniform(0, most), random_.direction());
     Eigen::Quaternionf result = (Eigen::Quaterniond(turn) * q.cast<double>()).cast<float>();

@@ -128,7 +128,9 @@ struct WorldMemory {
 };
 
 /// Bodies and their collisions. All functions take ids of living bodies unless they say otherwise;
-/// a dead id is a programming mistake. One thread at a time may use a World.
+/// a dead id is a programming mistake. Spans of results are those of the last step, and valid until
+/// the next one. Queries (find_points(), cast(), find_overlaps(), find_nearest()) read the bounds
+/// of the last step: bodies must not have changed since. One thread at a time may use a World.
 class CAROM_EXPORT World {
  public:
   /// An empty world.

@@ -1,4 +1,4 @@
-// carom accuracy; tests/accuracy has what it measures.
+// The command carom accuracy; tests/accuracy tests the measurements themselves.
 #include <gmock/gmock.h>
 
 #include "tests/cli/cli_test_util.h"

@@ -1,4 +1,4 @@
-// The oracle of moving shapes against the sets of motions that lie beside the project.
+// The oracle of moving shapes against recorded sets of motions with known answers.
 #include <cmath>
 #include <limits>
 
@@ -14,7 +14,7 @@ namespace {
 using oracle::Fault;
 using oracle::Meeting;
 
-// What NAME.reference.npz says of each pair.
+// The contents of NAME.reference.npz, one entry a pair.
 struct KnownMotions {
   std::vector<double> low, high, least, scale, travel, closing;
   std::vector<uint8_t> state;
@@ -99,7 +99,7 @@ float rounded_down(double x) {
   return near > x ? std::nextafter(near, -1.0f) : near;
 }
 
-// The known time passes, one that is late or early by more than rounding does not.
+// The oracle accepts the known time, and rejects one that is late or early by more than rounding.
 void check_judge(const KnownMotions& known, size_t i, const MovingBody& a, const MovingBody& b) {
   const auto fault = [&](float toi) {
     return oracle::judge_impact(a.shape, a.pose, a.sweep, b.shape, b.pose, b.sweep, toi).fault;

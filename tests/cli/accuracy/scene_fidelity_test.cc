@@ -1,4 +1,4 @@
-// What knobs change in whole scenes, and how it is measured.
+// The deviations of whole scenes with knobs, and how they are measured.
 #include "cli/accuracy/scene_fidelity.h"
 
 #include <cmath>
@@ -86,8 +86,7 @@ TEST(SceneFidelity, TrialsStopAtTheDeadline) {
   for (const auto& result : *results) EXPECT_FALSE(result.has_value());
 }
 
-// Three balls of radius 1 on a line, `gap` apart from the first to the second, the third touching
-// nothing unless it is moved.
+// Three balls of radius 1 on a line: the first two `gap` apart, the third by default far from both.
 World three_balls(double gap, double third = 10) {
   World world(WorldSettings{});
   world.add({.shape = Sphere{1}, .position = {0, 0, 0}});
@@ -121,9 +120,9 @@ TEST(Deviations, LostOverlapsAreAsBadAsTheyAreDeep) {
   EXPECT_EQ(found.worst(), 0.5);
 }
 
-// A box and one that is turned by an eighth, corner to face: their bounds meet, they do not, and
-// their balls do. Where the shapes really are is asked of the other world: proxies change what it
-// finds, not what it holds.
+// A box, and a box turned by 45 degrees, corner to face. Their bounds and their balls overlap, the
+// boxes do not. The meter asks the other world for the true shapes: proxies change only what that
+// world finds.
 TEST(Deviations, GainedOverlapsAreAsBadAsTheyAreApart) {
   WorldSettings settings;
   settings.accuracy = {Tier::fast, {.proxy_spheres = true}};

@@ -1,5 +1,5 @@
-// carom tunnelling and run --detection: what fast bodies meet, on a generated room of bullets and
-// on the recorded one that lies beside the project.
+// carom tunnelling and run --detection: what fast bodies meet, in a generated room of bullets and
+// in a recorded one.
 #include "carom/simd/isa.h"
 #include "tests/cli/cli_test_util.h"
 
@@ -27,7 +27,7 @@ json row_of(const json& report, const std::string& detection, int substeps = 1) 
   return {};
 }
 
-// Impacts of continuous bodies are all there are, in time; poses alone miss most of them.
+// Continuous bodies find every impact, in time; steps without looking ahead miss most of them.
 void expect_trade(const json& report) {
   const uint64_t meetings = report["meetings"];
   EXPECT_GT(meetings, 20u);
@@ -37,7 +37,8 @@ void expect_trade(const json& report) {
     EXPECT_EQ(row["late"], 0) << detection;
     EXPECT_EQ(row["unfounded"], 0) << detection;
     EXPECT_LE(row["latest"], 0) << detection;
-    // Times are rounded downwards to float32; grazes are met early by the root of the slack.
+    // Times are rounded downwards to float32. A grazing impact is early by the square root of the
+    // slack.
     EXPECT_LT(row["earliest"], 1e-6) << detection;
     EXPECT_EQ(row["seen"], meetings) << detection;
   }
@@ -52,14 +53,14 @@ void expect_trade(const json& report) {
   }
 }
 
-// Of this scene one step a frame misses 90 % and more.
+// In this scene one step a frame misses 90 % or more.
 TEST_F(TunnellingTest, BulletsOfAllKindsOnEveryIsa) {
   for (const Isa isa : usable_isas()) {
     expect_trade(measure({kBullets, "--reference-substeps", "500", "--isa", name(isa)}));
   }
 }
 
-// Times are found between substeps, so that their number does not count.
+// The reference finds times between its substeps, so their number does not matter.
 TEST_F(TunnellingTest, ReferenceDoesNotDependOnItsSubsteps) {
   const json few = measure({kBullets, "--frames", "2", "--reference-substeps", "7"});
   const json many = measure({kBullets, "--frames", "2", "--reference-substeps", "2000"});

@@ -1,4 +1,4 @@
-// carom advise: what it says of scenes that are known.
+// carom advise on scenes whose best settings are known.
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -20,7 +20,7 @@ json advise_json(const std::string& scene, const std::string& tolerance) {
   return result.json();
 }
 
-// The row of that name in a list of rows; null if there is none.
+// The row of this name in a list of rows; null if there is none.
 json row(const json& list, const std::string& key, const std::string& what) {
   for (const json& entry : list) {
     if (entry[key] == what) return entry;
@@ -34,7 +34,7 @@ std::set<std::string> names(const json& list, const std::string& key) {
   return all;
 }
 
-// The command that is named, run in this process.
+// Runs the command that the advice names, in this process.
 CommandResult run_named_command(const json& advice) {
   std::istringstream words(advice["command"].get<std::string>());
   std::vector<std::string> arguments(std::istream_iterator<std::string>(words), {});
@@ -54,7 +54,7 @@ TEST_F(AdviseTest, SpheresNeedNeitherOrientationsNorManifolds) {
   EXPECT_DOUBLE_EQ(survey["radius"]["median"], 0.5);
   EXPECT_EQ(survey["aspect"]["max"], 1);
   EXPECT_EQ(survey["moving_share"], 1);
-  // speed * dt in every frame but those in which bodies meet a wall.
+  // The displacement is speed * dt, except in frames in which a body hits a wall.
   EXPECT_LE(survey["displacement"]["max"].get<double>(), 0.1001);
   EXPECT_GT(survey["displacement"]["median"].get<double>(), 0.01);
   EXPECT_EQ(survey["pairs"]["kinds"].size(), 1u);

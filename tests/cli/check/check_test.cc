@@ -48,7 +48,7 @@ TEST_F(CheckTest, ObjThatIsFine) {
 }
 
 TEST_F(CheckTest, PolygonsAndWhatIsMissing) {
-  // A cube of squares without its lid.
+  // A cube of squares without its top.
   std::ofstream(path("open.OBJ")) << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
                                      "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
                                      "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
@@ -87,7 +87,7 @@ TEST_F(CheckTest, StlOfTrianglesThatShareNoVertex) {
   EXPECT_EQ(shape["convex"], true);
 }
 
-// One triangle, twice in the scene: as it is, and mirrored and moved.
+// One triangle twice in the scene: as it is, and mirrored and moved.
 TEST_F(CheckTest, GltfInstances) {
   const std::string buffer = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
   std::ofstream(path("scene.gltf"))
@@ -106,7 +106,7 @@ TEST_F(CheckTest, GltfInstances) {
 }
 
 TEST_F(CheckTest, DentedMeshNamesTheEdge) {
-  // A box in the middle of whose lid the surface is 0.25 lower.
+  // A box whose top is 0.25 lower in the middle.
   std::ofstream(path("pit.obj")) << "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 -0.25\n"
                                     "v 0 0 -1\nv 2 0 -1\nv 2 2 -1\nv 0 2 -1\n"
                                     "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n"
@@ -120,8 +120,8 @@ TEST_F(CheckTest, DentedMeshNamesTheEdge) {
   EXPECT_TRUE(is_in(text.out, "is bent inwards; vertex ")) << text.out;
 }
 
-// Shapes of an archive: a hull with more points than corners, one that is not finite, a mesh with
-// a triangle that is none, a compound, a sphere and a negative one, a dop that is none.
+// The shapes of an archive: a hull with more points than corners, a hull that is not finite, a mesh
+// with an invalid triangle, a compound, a sphere, a sphere of negative radius, an invalid dop.
 io::PairsFile archive() {
   io::PairsFile file;
   io::SceneShapes& shapes = file.shapes;

@@ -24,8 +24,8 @@ struct TestMesh {
   MeshReport check() const { return check_mesh(vertices, triangles); }
 };
 
-// Vertex i has x, y, z from the bits of i; every side in `steps` x `steps` squares of two
-// triangles.
+// A unit cube: bit k of a vertex index gives its coordinate k; every side has `steps` x `steps`
+// squares of two triangles.
 TestMesh cube(int steps = 1) {
   TestMesh mesh;
   const auto add_side = [&](const Vector3f& origin, const Vector3f& u, const Vector3f& v) {
@@ -100,7 +100,7 @@ TEST(MeshCheck, NamesTheOpenEdges) {
   EXPECT_TRUE(report.is_convex());
   ASSERT_EQ(report.open_edges.count, 3u);
   const MeshEdge& edge = report.open_edges.first[0];
-  EXPECT_EQ(edge.from, 2u);  // {0, 2, 1} goes from 2 to 1
+  EXPECT_EQ(edge.from, 2u);  // the triangle {0, 2, 1} goes from 2 to 1
   EXPECT_EQ(edge.to, 1u);
   EXPECT_EQ(edge.triangle, 0u);
   EXPECT_EQ(edge.triangles, 1u);
@@ -136,7 +136,7 @@ TEST(MeshCheck, NamesDegenerateTriangles) {
 }
 
 TEST(MeshCheck, SliversWithoutAreaCloseSurfaces) {
-  // The edge 0-1 of one triangle is 0-4-1 of the other.
+  // The edge 0-1 of one triangle is 0-4-1 in the other.
   TestMesh mesh = tetrahedron();
   mesh.vertices.push_back({0.5f, 0, 0});
   mesh.triangles = {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -164,7 +164,7 @@ TEST(MeshCheck, NothingIsNeitherConvexNorClosed) {
 }
 
 TEST(MeshCheck, NamesTheEdgeThatIsBentInwards) {
-  // One side of the cube has a pit of 0.1 in the middle.
+  // One side of the cube has a pit of 0.1 in its middle.
   TestMesh mesh = cube(2);
   const Vector3f middle(0.5f, 0.5f, 1);
   for (Vector3f& v : mesh.vertices) {
@@ -212,7 +212,7 @@ TEST(MeshCheck, AnySize) {
   }
 }
 
-// Against every point in turn.
+// Compares with a search through all points.
 TEST(Convexity, HighestIsThatOfBruteForce) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<float> unit(-1, 1);

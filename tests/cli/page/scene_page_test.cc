@@ -1,4 +1,4 @@
-// carom run --page: what the page is told; how it draws it is for eyes.
+// carom run --page: the data in the page. Only people can judge how it draws them.
 #include <cmath>
 #include <limits>
 #include <set>
@@ -14,7 +14,7 @@ using nlohmann::json;
 
 class ScenePageTest : public CliTest {
  protected:
-  // Runs a scene with these options, and gives what its page is told.
+  // Runs a scene with these options, and returns the data of its page.
   json page_of(const std::string& scene, std::vector<std::string> options = {}) {
     options.insert(options.begin(), {"run", scene, "--page", path("page.html"), "--json", "-"});
     const CommandResult result = run_command(options);
@@ -80,7 +80,7 @@ TEST_F(ScenePageTest, HoldsEveryValidBodyAndEveryShapeOnce) {
   EXPECT_EQ(page_of("brownian:n=50,frames=2,shape=box")["shapes"].size(), 1u);
 }
 
-// Outlines name corners, and children come before what they are children of.
+// Outlines name existing corners, and children precede their parents.
 TEST_F(ScenePageTest, ShapesAreWhole) {
   write_builtin("all kinds, float32", path("scene.npz"));
   const json shapes = page_of(path("scene.npz"))["shapes"];
@@ -97,7 +97,8 @@ TEST_F(ScenePageTest, ShapesAreWhole) {
   }
 }
 
-// Where two meshes keep the normals of their faces, the point on a triangle may lie beside it.
+// Contacts of two meshes keep the normals of their faces, so the point on a triangle may lie beside
+// it.
 TEST_F(ScenePageTest, ContactsLieOnTheSurfaces) {
   const std::string scene = "brownian:n=300,frames=2,density=0.5,speed=0.5,shape=";
   for (const std::string shape : {"cube", "sphere", "box", "capsule", "hull", "mesh", "compound"}) {
@@ -120,7 +121,7 @@ TEST_F(ScenePageTest, ContactsLieOnTheSurfaces) {
   }
 }
 
-// Balls in place of boxes touch where the boxes are not.
+// Proxy balls of boxes touch at points beside the boxes.
 TEST_F(ScenePageTest, ContactsBesideTheSurfacesAreSeen) {
   const json data = page_of("brownian:n=100,frames=1,density=0.5,shape=box",
                             {"--tier", "fast", "--knobs", "proxy-spheres"});
@@ -175,7 +176,7 @@ TEST_F(ScenePageTest, NoBodies) {
   EXPECT_EQ(data["contact"]["a"], json::array());
 }
 
-// What is no number has no place in JSON.
+// JSON has no NaN and no infinity.
 TEST_F(ScenePageTest, BodiesThatAreNotFiniteAreLeftOut) {
   auto writer = io::RecordingWriter::create(path("bad.aabb"), "bad", "Cubes", 4);
   ASSERT_TRUE(writer);

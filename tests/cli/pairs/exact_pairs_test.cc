@@ -11,7 +11,7 @@ struct ExactAnswers {
   std::vector<uint8_t> overlap;
   std::vector<double> separation;
   std::vector<double> scale;        // L: the mean of the bounding radii
-  std::vector<double> uncertainty;  // of the answers themselves
+  std::vector<double> uncertainty;  // of the exact answers themselves
 };
 
 ExactAnswers read_answers(const std::string& path) {
@@ -25,7 +25,7 @@ ExactAnswers read_answers(const std::string& path) {
   return {*overlap, *separation, *scale, *uncertainty};
 }
 
-constexpr double kSeparationError = 2e-6;  // of L
+constexpr double kSeparationError = 2e-6;  // in units of L
 
 bool is_certain(const ExactAnswers& answers, size_t i) {
   const double gap = std::fabs(answers.separation[i]);

@@ -1,4 +1,4 @@
-// Results of pairs as `carom pairs` wrote them.
+// Reads the results of pairs that `carom pairs` wrote.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace carom::cli {
 
-// Lists of members that the file lacks are empty.
+// Members that the file lacks stay empty.
 struct PairResultsFile {
   std::vector<uint8_t> overlap, status, manifold_count;
   std::vector<float> separation, toi;
   std::vector<std::array<float, 3>> normal, point_a, point_b;
-  std::vector<float> manifold_point;  // 12 a pair
+  std::vector<float> manifold_point;  // 12 numbers a pair
   std::vector<std::array<float, 4>> manifold_separation;
   std::vector<uint32_t> sub_a, sub_b;
 };

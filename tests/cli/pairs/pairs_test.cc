@@ -1,4 +1,4 @@
-// carom pairs: results against the reference, and its files.
+// carom pairs: its results against the reference, and its files.
 #include <cmath>
 #include <limits>
 
@@ -38,7 +38,7 @@ std::array<float, 3> rounded(const std::array<double, 3>& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
-// All kinds against each other, half-spaces as B only.
+// All kinds against each other; half-spaces only as B.
 io::PairsFile random_pairs(bool float64_positions) {
   io::Random random(3, 3);
   io::PairsFile file;
@@ -103,7 +103,7 @@ std::vector<reference::PairResult> reference_results(const io::PairsFile& file) 
   return results;
 }
 
-// A point of the file is a position and an arm, rounded.
+// A point in the file is position + arm, rounded.
 void expect_at(const float* point, const Eigen::Vector3d& position, const float* arm) {
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(point[axis], position[axis] + arm[axis], 1e-7 * std::fabs(position[axis]) + 1e-6);
@@ -210,7 +210,7 @@ TEST_F(PairsTest, TiersAndKnobs) {
   }
 }
 
-// A cube turned by 45 degrees reaches further.
+// A cube turned by 45 degrees reaches further than an unturned one.
 TEST_F(PairsTest, OrientationsAreRead) {
   io::PairsFile file;
   file.pairs = 2;
@@ -256,7 +256,7 @@ TEST_F(PairsTest, InvalidPairsAreMarkedAlone) {
   }
 }
 
-// Other than those of the rest, orientations of spheres and aabbs do not matter.
+// The orientations of spheres and aabbs do not matter, those of other kinds do.
 TEST_F(PairsTest, SpheresAndAabbsDoNotTurn) {
   io::PairsFile file = random_pairs(false);
   for (size_t i = 0; i < kPairs; ++i) {

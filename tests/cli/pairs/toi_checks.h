@@ -1,4 +1,4 @@
-// Times of impact beside known ones: what may not be wrong with them.
+// Checks of times of impact against known ones.
 #pragma once
 
 #include <cmath>
@@ -9,19 +9,20 @@
 
 namespace carom::cli {
 
-// The files of answers beside files of moving pairs, one entry a pair.
+// The known answers for a file of moving pairs, one entry a pair.
 struct ImpactAnswers {
-  std::vector<double> toi_lo;  // apart until then; infinite: no impact
+  std::vector<double> toi_lo;  // separate until then; infinite: no impact
   std::vector<double> toi_hi;  // overlapping by then
   std::vector<double> size;    // L: the mean bounding radius of the two
-  std::vector<double> travel;  // the most that a point of them moves against the other
-  std::vector<double> least;   // separation when they are nearest, or deepest
+  std::vector<double> travel;  // the greatest path of a point of one body relative to the other
+  std::vector<double> least;   // the least separation over the interval
   std::vector<uint8_t> state;
-  std::vector<uint8_t> grazing;  // only what is deeper than kGrazeDepth has to be found
+  // 1: the pair must be found only if it gets deeper than kGrazeDepth
+  std::vector<uint8_t> grazing;
 
   // Lengths may be wrong by this share of size + travel.
   static constexpr double kSlack = 1e-5;
-  static constexpr double kGrazeDepth = 1e-6;  // of the size
+  static constexpr double kGrazeDepth = 1e-6;  // in units of the size
 
   double slack(size_t i) const { return kSlack * (size[i] + travel[i]); }
   bool has_to_be_found(size_t i) const {
@@ -52,7 +53,7 @@ inline ImpactAnswers read_impact_answers(const std::string& path) {
   return answers;
 }
 
-// What is wrong with a time of impact; empty: nothing.
+// Describes the fault of a time of impact; empty: there is none.
 inline std::string fault_of(float toi, const ImpactAnswers& answers, size_t i) {
   const bool found = std::isfinite(toi);
   const uint8_t state = answers.state[i];
@@ -81,8 +82,8 @@ inline void expect_times(const std::vector<float>& toi, const ImpactAnswers& ans
   }
 }
 
-// The contact of an impact is where the two touch; that of an overlap at the start is as deep as
-// that is; where nothing meets there is none.
+// The contact of an impact has a separation of about zero, that of an overlap at the start has its
+// depth, and a pair without impact has no contact.
 inline void expect_contacts_of_impacts(const PairResultsFile& results,
                                        const ImpactAnswers& answers) {
   for (size_t i = 0; i < results.toi.size(); ++i) {

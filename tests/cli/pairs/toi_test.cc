@@ -39,8 +39,8 @@ class ToiTest : public CliTest {
     return read_pair_results(path("out.npz"), file.pairs);
   }
 
-  // Holds the times of a file against the known ones, on every instruction set; the bits of all
-  // results are the same.
+  // Compares the times of a file with the known ones on every instruction set, and all results bit
+  // for bit.
   void check(const std::string& pairs, const std::string& answers_path) {
     const ImpactAnswers answers = read_impact_answers(answers_path);
     std::string expected;
@@ -100,7 +100,7 @@ TEST_F(ToiTest, SharedAreVerified) {
   }
 }
 
-// What the checks of this file find wrong.
+// The checks of this file find every kind of fault.
 TEST(ToiChecks, FindWhatIsWrong) {
   ImpactAnswers answers;
   answers.toi_lo = {0.5, kInfinity, kInfinity, 0, 0.5};
@@ -125,7 +125,7 @@ TEST(ToiChecks, FindWhatIsWrong) {
   EXPECT_EQ(fault(2, 0.5f), "");
   EXPECT_EQ(fault(3, 0), "");
   EXPECT_EQ(fault(3, 1e-9f), "is not at the start");
-  EXPECT_EQ(fault(4, kInfinity), "");  // too shallow
+  EXPECT_EQ(fault(4, kInfinity), "");  // too shallow to be required
   EXPECT_EQ(fault(4, 0.6f), "is late");
 }
 
@@ -139,7 +139,7 @@ TEST(ToiChecks, AcceptTheKnownTimes) {
   expect_times(toi, answers);
 }
 
-// Never late, and early by next to nothing.
+// Times may not be late, and early only by rounding.
 void expect_about(const std::vector<float>& toi, const std::vector<float>& exact) {
   ASSERT_EQ(toi.size(), exact.size());
   for (size_t i = 0; i < toi.size(); ++i) {
@@ -148,7 +148,8 @@ void expect_about(const std::vector<float>& toi, const std::vector<float>& exact
   }
 }
 
-// Two balls of radius 1, four apart, that meet, miss, begin touching, and begin overlapping.
+// Pairs of balls of radius 1 with centres four apart: some meet, miss, touch at the start, or
+// overlap at the start.
 io::PairsFile balls() {
   io::PairsFile file;
   file.pairs = 4;
@@ -169,7 +170,7 @@ TEST_F(ToiTest, TimesAndContactsOfBalls) {
   EXPECT_EQ(results.status, (std::vector<uint8_t>{0, 0, 0, 0}));
   EXPECT_EQ(results.normal[0], (Row3{1, 0, 0}));
   EXPECT_NEAR(results.separation[0], 0, 1e-5);
-  // In the world, at the time of impact.
+  // World coordinates at the time of impact.
   EXPECT_NEAR(results.point_a[0][0], 3, 1e-5);
   EXPECT_NEAR(results.point_b[0][0], 3, 1e-5);
   EXPECT_TRUE(std::isnan(results.separation[1]) && std::isnan(results.normal[1][1]) &&
@@ -209,7 +210,7 @@ TEST_F(ToiTest, OtherDetailsHaveNoTimes) {
   EXPECT_TRUE(read_pair_results(path("out.npz"), 4).toi.empty());
 }
 
-// Where an array is absent, nothing moves that way.
+// An absent array means no motion of that kind.
 TEST_F(ToiTest, AbsentMotionsAreZero) {
   io::PairsFile file = balls();
   const std::vector<float> toi = find(file).toi;
@@ -223,7 +224,7 @@ TEST_F(ToiTest, AbsentMotionsAreZero) {
   EXPECT_EQ(find(file).toi, toi);
 }
 
-// A rod turns by a quarter, and its end comes down to a ball that it would pass.
+// A rod makes a quarter turn and its end hits a ball; without the rotation it would pass.
 TEST_F(ToiTest, RotationsAreRead) {
   io::PairsFile file;
   file.pairs = 2;
@@ -236,7 +237,8 @@ TEST_F(ToiTest, RotationsAreRead) {
   file.a.displacement.assign(2, {0, 0, 0});
   file.a.rotation = {{0, 0, 0}, {0, 0, 1.5707964f}};
   const PairResultsFile results = find(file);
-  expect_about(results.toi, {kInfinity, 2.0f / 3});  // 60 degrees: the ball is 1 from the axis
+  // After 60 degrees: the ball is 1 from the axis.
+  expect_about(results.toi, {kInfinity, 2.0f / 3});
 }
 
 TEST_F(ToiTest, Float64PositionsFarAway) {

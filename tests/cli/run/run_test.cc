@@ -1,4 +1,4 @@
-// carom run: what it reports, and that the result does not depend on how it is run.
+// carom run: its report, and that results do not depend on how it runs.
 #include <algorithm>
 #include <limits>
 #include <set>
@@ -176,7 +176,7 @@ TEST_F(RunTest, PairKindsAreThoseOfTheBodies) {
             json::array({"sphere-sphere", "sphere-aabb", "aabb-aabb"}));
 }
 
-// A ball beside a box that turns by an eighth and back.
+// A ball beside a box that turns by 45 degrees and back.
 TEST_F(RunTest, BodiesTurnFromFrameToFrame) {
   io::SceneInfo info;
   info.bodies = 2;
@@ -229,7 +229,7 @@ TEST_F(RunTest, HashDoesNotDependOnHowTheSceneIsRun) {
   }
 }
 
-// Candidates are more with a margin, and fewer bodies are searched; what touches is the same.
+// With a margin there are more candidate pairs and fewer searched bodies; overlaps stay the same.
 TEST_F(RunTest, MarginsChangeTheCandidatesAlone) {
   const std::string scene = "brownian:n=1500,frames=30,density=0.2,shape=sphere,speed=0.3";
   const json exact = run_json({scene});
@@ -314,7 +314,7 @@ TEST_F(RunTest, StillScenesKeepAllResults) {
   EXPECT_EQ(anew["tested_pairs_per_frame"], anew["pairs_per_frame"]);
 }
 
-// Every pair of bounds, by the reference's own functions.
+// All pairs of bounds, by brute force with the reference's functions.
 std::vector<Pair> brute_pairs(const io::SceneInfo& info, const io::SceneFrame& frame) {
   std::vector<reference::Box> boxes;
   for (size_t i = 0; i < info.bodies; ++i) {

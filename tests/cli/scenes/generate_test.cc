@@ -1,4 +1,4 @@
-// carom generate, and the generators themselves.
+// carom generate, and the scene generators themselves.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ std::string hash_of(const std::string& spec, uint64_t frames) {
   return hash.text();
 }
 
-// Golden values: a scene is the same with every compiler and on every machine, for good.
+// Golden values: a scene must stay the same with every compiler and on every machine, for good.
 TEST_F(GenerateTest, ScenesNeverChange) {
   EXPECT_EQ(hash_of("brownian:n=1000", 5), "47c9b109cb582ce4");
   EXPECT_EQ(hash_of("brownian:n=1000,shape=sphere,positions=float64,seed=7", 5),
@@ -152,7 +152,7 @@ TEST_F(GenerateTest, BrownianIsAsDescribed) {
     }
     fastest = std::fmax(fastest, std::sqrt(speed2));
   }
-  EXPECT_NEAR(turned, 40, 4);  // 1 %, of which a few may be drawn twice
+  EXPECT_NEAR(turned, 40, 4);  // 1 %; a body may be drawn twice
   EXPECT_LE(fastest, 0.75 * side);
   EXPECT_GE(fastest, 0.74 * side);
 }
@@ -221,7 +221,7 @@ TEST_F(GenerateTest, CubesAndSpheresHaveNoOrientation) {
   }
 }
 
-// Boxes start as the cubes of which shape=cube has the bounds.
+// Boxes start in the poses of the cubes, with the same bounds as shape=cube.
 TEST_F(GenerateTest, BoxesAreTheCubes) {
   for (const std::string generator : {"brownian", "varied", "still"}) {
     const auto cubes = open(generator + ":n=300");
@@ -251,7 +251,7 @@ TEST_F(GenerateTest, CapsulesAreAsLongAsTheirEdge) {
   EXPECT_EQ(scene->info().shapes.params.front(), expected);
 }
 
-// In the ball whose diameter is the edge; children included.
+// Made shapes, children included, stay inside the ball whose diameter is the edge.
 TEST_F(GenerateTest, MadeShapesKeepTheirSize) {
   for (const std::string shape : {"hull", "mesh", "compound"}) {
     const auto scene = open("brownian:n=30,shape=" + shape);
@@ -330,7 +330,7 @@ TEST_F(GenerateTest, WhatRestsDoesNotTurn) {
   }
 }
 
-// Without speed, turning alone changes who touches whom, from frame to frame.
+// Without linear speed, rotation alone changes the overlaps from frame to frame.
 TEST_F(GenerateTest, RunsTurnTheBodies) {
   for (const std::string shape : {"box", "capsule", "hull", "mesh", "compound"}) {
     const std::string spec = "brownian:n=200,frames=3,density=0.5,shape=" + shape;

@@ -1,4 +1,4 @@
-// carom verify: passes on carom, and finds out what is broken.
+// carom verify: passes for carom, and finds every planted fault.
 #include "cli/verify/verify.h"
 
 #include <chrono>
@@ -44,7 +44,7 @@ void expect_found(const Verdict& verdict, std::initializer_list<std::string> par
   EXPECT_EQ(verdict.err.find('\n'), verdict.err.size() - 1);
 }
 
-// A world whose results are tampered with.
+// A world with tampered results.
 class BrokenStepper : public Stepper {
  public:
   using Break =
@@ -99,7 +99,7 @@ TEST_F(VerifyTest, BuiltinSetPasses) {
   }
 }
 
-// What is verified must be worth it: overlaps and gaps, both in good number.
+// The built-in pairs must be worth testing: 30 to 70 % of them overlap.
 TEST_F(VerifyTest, BuiltinPairsHitAndMiss) {
   for (const BuiltinPairs& set : builtin_pairs()) {
     size_t overlaps = 0;
@@ -114,7 +114,7 @@ TEST_F(VerifyTest, BuiltinPairsHitAndMiss) {
   }
 }
 
-// As many of the moving ones meet.
+// 30 to 70 % of the built-in moving pairs meet.
 TEST_F(VerifyTest, BuiltinMotionsHitAndMiss) {
   for (const BuiltinPairs& set : builtin_motions()) {
     size_t impacts = 0;
@@ -173,7 +173,7 @@ TEST_F(VerifyTest, AWrongEvent) {
   expect_found(verify_with(system, {kScene}), {"frame 3: events differ", "event end"});
 }
 
-// Kernels that are wrong in one lane, on one instruction set, at one detail, or by position.
+// Kernels that are wrong in one lane, on one instruction set, at one detail, or at one position.
 class BrokenKernel : public System {
  public:
   enum class Flaw { last_bit, overlap_only, list_only, threads, manifold, certified, exact };
@@ -222,7 +222,7 @@ TEST_F(VerifyTest, BrokenKernels) {
   }
 }
 
-// Inputs can be pasted back: orientations and all parameters are there.
+// Printed inputs can be pasted back: they contain orientations and all parameters.
 TEST_F(VerifyTest, DifferencesShowOrientedShapes) {
   io::PairsFile file;
   file.pairs = 18;

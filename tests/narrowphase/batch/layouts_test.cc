@@ -1,5 +1,5 @@
 // Views of callers' arrays: counts around lanes and blocks, strides, layouts of radii and boxes,
-// columns left out. Arrays end at guard pages.
+// absent columns. Arrays end at guard pages.
 #include <gtest/gtest.h>
 
 #include "tests/support/families.h"
@@ -16,7 +16,7 @@ std::vector<TestPair> plain_pairs(Sides sides, size_t count,
   return make_pairs(kPlain, sides, positions, count);
 }
 
-// Pairs of all kinds in turn, and so in no order that suits lanes.
+// Pairs of all kinds in turn, so that neighbours never share a kind.
 std::vector<TestPair> mixed_pairs(size_t count, PositionType positions, uint64_t seed = 1) {
   std::vector<PairMaker> makers;
   for (const Sides sides : kAllSides) makers.emplace_back(kPlain, sides, positions, seed);
@@ -115,7 +115,7 @@ TEST(Layouts, PointsWithoutRadius) {
   }
 }
 
-// The two sets need not be laid out alike.
+// The two sets may have different layouts.
 TEST(Layouts, TwoSetsOfDifferentLayout) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> pairs = mixed_pairs(500, positions);
@@ -132,7 +132,7 @@ TEST(Layouts, TwoSetsOfDifferentLayout) {
   }
 }
 
-// One set in float32 and one in float64 meet in float64.
+// A float32 set and a float64 set are tested against each other in float64.
 TEST(Layouts, TwoSetsOfDifferentPositionType) {
   const std::vector<TestPair> pairs = mixed_pairs(500, PositionType::float32);
   for (const WitnessFrame frame : {WitnessFrame::world, WitnessFrame::body}) {

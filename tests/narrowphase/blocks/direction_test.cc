@@ -1,4 +1,4 @@
-// Directions that are remembered from test to test: they save work and change no result.
+// Directions remembered from test to test: they save work and change no result.
 #include <gtest/gtest.h>
 
 #include "midphase/collide_pairs.h"
@@ -17,7 +17,7 @@ std::vector<KindPair> kinds_with_directions() {
   return all;
 }
 
-// First sides, then second ones: pair i is (i, count + i).
+// All first bodies, then all second ones: pair i is (i, count + i).
 std::vector<PlacedShape> all_bodies(std::span<const TestPair> pairs) {
   std::vector<PlacedShape> bodies = side_a(pairs);
   const std::vector<PlacedShape> seconds = side_b(pairs);
@@ -37,7 +37,7 @@ std::vector<Row> run(std::span<const TestPair> pairs, Detail detail, PositionTyp
   return columns.rows();
 }
 
-// Of separate pairs the decision counts alone.
+// For separate pairs only the decision counts.
 void expect_same(const std::vector<Row>& expected, const std::vector<Row>& rows) {
   ASSERT_EQ(expected.size(), rows.size());
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -47,7 +47,7 @@ void expect_same(const std::vector<Row>& expected, const std::vector<Row>& rows)
   }
 }
 
-// Every body a little further and turned.
+// Every body moved and turned a little.
 std::vector<TestPair> moved(std::vector<TestPair> pairs, Random& random) {
   for (TestPair& pair : pairs) {
     const double size = 1e-3 * (pair.a.position - pair.b.position).norm();
@@ -98,7 +98,7 @@ TEST(Direction, OfAnyInputChangesNoResult) {
   }
 }
 
-// Separate pairs that move a little keep their direction: it was enough.
+// Separate pairs that move a little stay separate along the remembered direction, so they keep it.
 TEST(Direction, IsKeptWhilePairsAreApart) {
   const ConvexFamily family = convex_families()[0];
   for (const KindPair& kinds : kinds_with_directions()) {

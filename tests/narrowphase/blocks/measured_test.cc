@@ -1,4 +1,5 @@
-// Pairs that are not asked for are decided as ever, and the others measured as if all were.
+// Measured: pairs that are not measured get the same decision as ever, and measured pairs the same
+// bits as in a call that measures all.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -12,7 +13,7 @@
 namespace carom::test {
 namespace {
 
-// Rows that are measured have all bits; of the others overlap counts, and that they are valid.
+// Measured rows have all bits of `all`. Other rows have the same decision and a valid status.
 void expect_measured(std::span<const TestPair> pairs, std::span<const Row> all,
                      std::span<const Row> found, Measured measured) {
   ASSERT_EQ(all.size(), found.size());
@@ -72,7 +73,7 @@ TEST(MeasuredPairs, HaveNoManifoldsWhereSeparateOnesAreAskedFor) {
   }
 }
 
-// Also where results come by way of memory that earlier calls have used.
+// Manifolds of earlier calls must not show, even if results pass through reused memory.
 TEST(MeasuredPairs, OfMixedKindsHaveNoManifoldsOfEarlierCalls) {
   std::vector<TestPair> pairs(4);
   const Shape cube = oracle::hull_of(cube_corners());
@@ -87,7 +88,7 @@ TEST(MeasuredPairs, OfMixedKindsHaveNoManifoldsOfEarlierCalls) {
   for (const Row& row : run_rows(pairs, call)) expect_no_manifold(row);
 }
 
-// A proof may part what rounding made overlap: its distance is known then.
+// A proof may find a pair separate that rounding made overlap; the pair is then measured, too.
 TEST(MeasuredPairs, AreAllWhereDecisionsAreProven) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));

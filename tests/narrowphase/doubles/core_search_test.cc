@@ -1,4 +1,4 @@
-// The searches over cores: furthest points in lanes, distances, and ways out.
+// The searches over cores: support points in lanes, distances, and penetration directions.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -24,7 +24,7 @@ Core core_of(const std::vector<CoreVector>& points) {
   return core;
 }
 
-// Integers where many points are equally far, random numbers where none are.
+// Small integers, which give many equally far points, or random numbers, which give none.
 CoreVector random_vector(Random& random, bool is_integer) {
   const auto number = [&] {
     return is_integer ? static_cast<double>(random.below(5)) - 2 : random.uniform(-1, 1);
@@ -53,7 +53,7 @@ TEST(FurthestPoint, IsThatOfTheReferenceOnEveryIsa) {
   });
 }
 
-// A core that held more points does not remember them.
+// A core must not show points of a larger core that was in the same memory.
 TEST(FurthestPoint, ForgetsLargerCores) {
   Core core = core_of({{1, 0, 0}, {2, 0, 0}, {9, 0, 0}});
   core.resize(2);
@@ -63,7 +63,8 @@ TEST(FurthestPoint, ForgetsLargerCores) {
   for_each_isa([&] { EXPECT_EQ(furthest_point_in_lanes()(core, {1, 0, 0}), 1u); });
 }
 
-// The least height over zero of all planes through three points that have no point before them.
+// The least height over zero of all planes through three points that have no point in front of
+// them.
 double least_height(const std::vector<CoreVector>& points) {
   double least = HUGE_VAL;
   for (size_t i = 0; i < points.size(); ++i) {
@@ -114,7 +115,7 @@ TEST(WayOut, IsTheNearestFaceOfTheDifference) {
   EXPECT_LT(overlapping, count * 9 / 10);
 }
 
-// From any corners that GJK may hand over: a face has no corner twice, and the search ends.
+// The search ends from any corners that GJK may pass on: no face then has a corner twice.
 TEST(WayOut, BeginsWithAnyCorners) {
   Random random(3);
   for (uint32_t round = 0; round < rounds(400); ++round) {
@@ -149,8 +150,8 @@ TEST(WayOut, OfManyPoints) {
   EXPECT_GT(gap.size, -2);
 }
 
-// The difference is nearly as near to zero everywhere, and no polytope of a few hundred corners
-// tells where nearest.
+// The difference is nearly a ball about zero: a polytope of a few hundred corners cannot tell where
+// it is nearest.
 TEST(WayOut, BeyondItsBudgetIsTheBestThatWasFoundAndSaysSo) {
   Random random(11);
   const Core a = ball(random, 3000), b = ball(random, 3000);
@@ -159,7 +160,8 @@ TEST(WayOut, BeyondItsBudgetIsTheBestThatWasFoundAndSaysSo) {
   const WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
   EXPECT_FALSE(out.has_ended);
   EXPECT_NEAR(dot(out.normal, out.normal), 1, 1e-12);
-  // A way out all the same: no point of A is further along it.
+  // The result is still a valid penetration direction: its gap is that of the support points along
+  // it.
   const double projected = dot(out.normal, b.point(furthest(b, -out.normal))) -
                            dot(out.normal, a.point(furthest(a, out.normal)));
   EXPECT_NEAR(out.gap, projected, 1e-12);
@@ -185,7 +187,7 @@ TEST(NearestWay, DecidesWhatDepthsDecide) {
   }
 }
 
-// Four points in a plane beside zero, of which rounding makes a tetrahedron around it.
+// A flat difference beside zero: rounding may turn it into a tetrahedron around zero.
 TEST(NearestWay, FlatDifferencesAreBesideZero) {
   Random random(6);
   for (uint32_t round = 0; round < rounds(2000); ++round) {
@@ -203,7 +205,7 @@ TEST(NearestWay, FlatDifferencesAreBesideZero) {
   }
 }
 
-// A hull as thin as rounding made it, with a point inside: GJK stops beside it.
+// A hull whose thickness is only rounding, with zero inside: GJK stops beside it.
 TEST(NearestWay, NeedleAroundZero) {
   const Core needle =
       core_of({{-0.037270426832785364, -0.073177986330249079, -0.00481753879288703},
@@ -224,8 +226,8 @@ TEST(NearestWay, NeedleAroundZero) {
   EXPECT_LE(scalar::find_gap(zero, needle, {.decides_only = true}).size, 0);
 }
 
-// Two edges over one another: they cross nowhere, whatever rounding says, and meet in the middle of
-// what they share.
+// Parallel edges above one another do not cross, whatever rounding says. The contact location is
+// the middle of their common part.
 TEST(Meeting, OfParallelEdges) {
   using scalar::Vector3d;
   const Vector3d a0(-0.331117314175, 0.282886261923, 0.412349905338);

@@ -1,5 +1,5 @@
-// Points beside hulls as thin as needles: the plane of a needle is tilted by rounding, and the
-// difference of the two has no volume. Inputs as hull_fuzz, and a search after it, found them.
+// Points beside hulls as thin as needles: rounding tilts the needle's plane, and the difference of
+// the two has no volume. hull_fuzz, and a search based on its findings, found these inputs.
 #include <gtest/gtest.h>
 
 #include "tests/support/checked_everywhere.h"
@@ -10,7 +10,7 @@ namespace {
 
 Eigen::Quaternionf turned(float x, float y, float z, float w) { return {w, x, y, z}; }
 
-// They are a thousandth of their size apart, and less.
+// The pairs are separate by a thousandth of their size or less.
 void check(const PlacedShape& point, const PlacedShape& needle,
            PositionType positions = PositionType::float64) {
   const auto result = checked_everywhere({point, needle}, positions);
@@ -18,7 +18,7 @@ void check(const PlacedShape& point, const PlacedShape& needle,
   EXPECT_EQ(result.status, Status::ok);
 }
 
-// Left to the search for ways out, which tried one direction across the segment.
+// The penetration search got this pair and tried only one direction across the segment.
 TEST(Needle, Segment) {
   check(placed_hull({{0, 0, 0}}, {0, 0, 0},
                     turned(0x1.a6b318p-2f, -0x1.0b1cf4p-5f, 0x1.c0d268p-1f, 0x1.f6154p-3f)),
@@ -28,7 +28,7 @@ TEST(Needle, Segment) {
                     turned(-0x1.6c0004p-2f, 0x1.d61bep-2f, 0x1.4e298ap-1f, 0x1.f26adep-2f)));
 }
 
-// The same: across its plane alone.
+// The same: it tried only the direction across the triangle's plane.
 TEST(Needle, Triangle) {
   check(placed_hull({{0x1.3e38p+25f, -0x1.edcp+23f, 0x1.8564p+25f}},
                     {0x1.0a4d6392cp+117, -0x1.f45e64853p+118, 0x1.0b0eab234ep+120},
@@ -41,7 +41,8 @@ TEST(Needle, Triangle) {
         PositionType::float32);
 }
 
-// The normal of three corners in float32 was off by a hundredth, the witness by twice the size.
+// The float32 normal of the three corners was off by a hundredth, and the witness point by twice
+// the size.
 TEST(Needle, TriangleWhosePlaneIsTilted) {
   check(placed_hull({{0, 0, 0}}, {0, 0, 0},
                     turned(-0x1.f66d4ep-1f, 0x1.7c4582p-3f, 0x1.9f0dc2p-5f, 0x1.20abb8p-10f)),
@@ -52,7 +53,8 @@ TEST(Needle, TriangleWhosePlaneIsTilted) {
                     turned(0x1.5bf9fcp-2f, 0x1.52f15ap-2f, -0x1.aeff92p-2f, -0x1.8bde44p-1f)));
 }
 
-// Off by as little as points that face each other may be, and their distance by as much.
+// The normal is off by about as much as the tolerance of witness points allows, and so is the
+// distance.
 TEST(Needle, FourPointsWhosePlaneIsTiltedALittle) {
   check(placed_hull({{0, 0, 0}}, {0, 0, 0},
                     turned(-0x1.3b429p-3f, -0x1.e57118p-3f, 0x1.ea437p-1f, 0x1.d144e8p-5f)),

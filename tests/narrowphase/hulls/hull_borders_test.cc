@@ -1,5 +1,5 @@
-// Corners of hulls that hang over the border of what they rest on, nearly parallel to it: axes of
-// faces and of edges are the same up to rounding, but where they touch is not.
+// Corners of hulls that hang over an edge of the face below, in nearly parallel position: face axes
+// and edge axes give the same separation up to rounding, but different contact locations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ PlacedShape cube_at(const Vector3d& position, const Eigen::Vector4f& turn) {
   return placed_hull(cube_corners(), position, Quaternionf(turn));  // x, y, z, w
 }
 
-// The witness was 9e-4 and 0.018 beside the surface.
+// The witness point was 9e-4 and 0.018 beside the surface.
 TEST(HullBorders, CornersBesideAFaceTouchItsEdge) {
   const PlacedShape a = cube_at({-0x1.a72174p-2, 0x1p-2, 0x1.e66666p+0},
                                 {0x1.4104a4p-16f, 0x1.8380dp-15f, 0x1.87de2ap-2f, 0x1.d906bcp-1f});
@@ -37,7 +37,7 @@ TEST(HullBorders, CornersBesideAFaceTouchItsEdge) {
   EXPECT_NEAR(result.arm_b.x(), 1, 4e-6);
 }
 
-// A cube over a border of the other, a corner of it beyond by up to a tenth.
+// A cube over an edge of another cube: one corner is beyond the edge by up to a tenth.
 PlacedShape overhanging(Random& random) {
   const auto logarithmic = [&](double least, double most) {
     return least * std::pow(most / least, random.uniform(0, 1));
@@ -47,7 +47,7 @@ PlacedShape overhanging(Random& random) {
   const Vector3f axis = random.direction().cast<float>().cwiseProduct(Vector3f(1, 1, 0));
   const Quaternionf turn =
       Quaternionf(AngleAxisf(tilt, axis.normalized())) * AngleAxisf(about_z, Vector3f::UnitZ());
-  double reach = -2;  // of the lowest corner along x
+  double reach = -2;  // x of the lowest corner
   double lowest = 2;
   for (const Vector3f& corner : cube_corners()) {
     const Vector3f p = turn * corner;

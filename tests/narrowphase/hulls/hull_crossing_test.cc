@@ -1,5 +1,5 @@
-// Edges of two solids that cross, many with many: the same in lanes as one by one, and the best in
-// long double.
+// Crossings of the edges of two solids, many against many: in lanes the same as one by one, and the
+// best one as in long double.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using oracle::Random;
 using Turn = scalar::Rotation<float>;
 using Vec = oracle::Vec3<long double>;
 
-// Around the lanes of all targets, and the most there can be.
+// Counts around the lanes of all targets, and the greatest one.
 constexpr size_t kCounts[] = {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 32, 33, 63, kMostCrossed};
 
 struct Edge {
@@ -37,7 +37,7 @@ Vector3f get(const EdgeColumns::Column3& column, size_t k) {
   return {column[0][k], column[1][k], column[2][k]};
 }
 
-// Places behind the last hold what would be the best crossing of all, if it were looked at.
+// Places behind the last edge hold edges that would win if the kernel read them.
 template <class Make>
 EdgeColumns columns_of(size_t count, const Make& make) {
   EdgeColumns columns;
@@ -67,7 +67,7 @@ void expect_same_in_lanes(const Crossed& edges, const Crossing& expected) {
     const Crossing found = cross(hull_steps_in_lanes(), edges);
     EXPECT_EQ(expected.is_doubtful, found.is_doubtful);
     EXPECT_EQ(expected.exists, found.exists);
-    EXPECT_EQ(expected.gap, found.gap);  // the sign of zero is nobody's: that is no depth
+    EXPECT_EQ(expected.gap, found.gap);  // 0 and -0 count as equal: a gap of zero is no depth
     EXPECT_EQ(expected.of_a, found.of_a);
     EXPECT_EQ(expected.of_b, found.of_b);
   });
@@ -82,7 +82,7 @@ Vector3f integers(Random& random, int most) {
   return {x, y, z};
 }
 
-// As at an edge of a solid: the direction is across both normals.
+// An edge as a solid has it: its direction is perpendicular to both face normals.
 Edge solid_edge(Random& random) {
   const Vector3d left = random.direction();
   const Vector3d right = (left + random.direction() * random.uniform(0.2, 2)).normalized();
@@ -90,14 +90,14 @@ Edge solid_edge(Random& random) {
           left.cast<float>(), right.cast<float>()};
 }
 
-// Along an axis, with small integers for all else: nothing rounds, and gaps tie.
+// An edge along an axis, with small integers everywhere: nothing rounds, and gaps tie.
 Edge integer_edge(Random& random) {
   const Vector3f axis = Vector3f::Unit(static_cast<int>(random.below(3)));
   return {integers(random, 2), random.chance(0.5) ? axis : Vector3f(-axis), integers(random, 2),
           integers(random, 2)};
 }
 
-// Most of them nearly along the x axis, some exactly.
+// Most edges are nearly parallel to the x axis, some exactly.
 Edge parallel_edge(Random& random) {
   const double tilt = random.chance(0.2) ? 0 : random.log_uniform(1e-5, 1e-1);
   const Vector3d direction = (Vector3d::UnitX() + tilt * random.direction()).normalized();
@@ -119,7 +119,7 @@ Turn quarter_turns(Random& random) {
   return turns[random.below(4)];
 }
 
-// Every two counts, some rounds each.
+// Every two counts, in several rounds each.
 template <class MakeEdge, class MakeTurn, class Check>
 void for_each_counts(uint64_t seed, uint32_t count_each, const MakeEdge& make_edge,
                      const MakeTurn& make_turn, const Check& check) {
@@ -146,7 +146,7 @@ TEST(HullCrossings, InLanesAreThoseOfTheReference) {
     existing += expected.exists;
     expect_same_in_lanes(edges, expected);
     if (!expected.exists) return;
-    // One as good as the best of faces is none.
+    // A crossing counts only if it is better than the best face.
     edges.gap = expected.gap;
     EXPECT_FALSE(cross(scalar::kHullSteps, edges).exists);
     expect_same_in_lanes(edges, cross(scalar::kHullSteps, edges));
@@ -155,7 +155,7 @@ TEST(HullCrossings, InLanesAreThoseOfTheReference) {
   EXPECT_LT(existing, all * 7 / 10);
 }
 
-// Of edges that are along axes, in integers.
+// The best crossing of axis-parallel edges in integers.
 struct BestOfIntegers {
   bool exists = false;
   int gap = 0;
@@ -215,7 +215,7 @@ TEST(HullCrossings, OfEqualsTheFirst) {
   EXPECT_GT(later_edge_of_b, all * 5 / 100);
 }
 
-// Nothing is known of an axis across edges that are along each other, and no gap is made of it.
+// The axis across two parallel edges is undefined: such a pair is doubtful and gives no gap.
 TEST(HullCrossings, OfParallelEdgesAreDoubtful) {
   size_t all = 0, doubtful = 0;
   for_each_counts(3, rounds(16), parallel_edge, quarter_turns, [&](const Crossed& edges) {
@@ -232,7 +232,7 @@ TEST(HullCrossings, OfParallelEdgesAreDoubtful) {
 TEST(HullCrossings, OfOneParallelPairAmongManyEdges) {
   Random random(4);
   for (size_t at = 0; at < kMostCrossed; ++at) {
-    // No others cross: all that they are is along x.
+    // All other edges lie along x and cannot cross.
     const auto apart = [] { return Edge{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}}; };
     Crossed edges{columns_of(kMostCrossed, apart), columns_of(kMostCrossed, apart), {}, -1};
     edges.turn = {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
@@ -257,15 +257,16 @@ TEST(HullCrossings, OfOneParallelPairAmongManyEdges) {
 
 // --- Against long double ---
 
-// The best axis that lies on the arc of an edge of A, and turned round on that of one of B.
+// The best axis that lies on the arc between the normals of an edge of A, and, reversed, on that of
+// an edge of B.
 struct BestOfAll {
   bool exists = false;
-  bool is_clear = true;  // nothing near it that rounding could prefer
+  bool is_clear = true;  // no other axis is so near that rounding could prefer it
   long double gap = 0;
   size_t of_a = 0, of_b = 0;
 };
 
-// How far inside of the arc from one normal to another n is; they and n are in one plane.
+// How far n is inside the arc between two normals; all three lie in one plane.
 long double inside_arc(const Vec& left, const Vec& right, const Vec& n) {
   const Vec axis = oracle::normalized(oracle::cross(left, right));
   return std::min(dot(oracle::cross(left, n), axis), dot(oracle::cross(n, right), axis));

@@ -1,4 +1,4 @@
-// What is found of hulls in float32: distances by GJK, depths by separating axes, against the
+// Separations of hulls in float32 (distances by GJK, depths by separating axes) against the
 // searches in double precision.
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ scalar::Quaternion<float> random_turn(Random& random) {
   return {v, static_cast<float>(random.uniform(0.1, 1))};
 }
 
-// In scaled units, half of them overlapping.
+// A pair in scaled units; about half of the pairs overlap.
 HullPair random_pair(Random& random, size_t count) {
   const auto hull = [&] {
     const auto side = [&] { return static_cast<float>(random.uniform(0.3, 1)); };
@@ -59,7 +59,7 @@ scalar::TriangleShape<double> in_double(const scalar::TriangleShape<float>& t) {
   return {{corner(0), corner(1), corner(2)}, 0, false, 0, false};
 }
 
-// B in the place of its hull.
+// `b` replaces the pair's second hull.
 template <class Shape>
 scalar::SeparationAs<double> in_double(const HullPair& pair, const Shape& b) {
   const auto turn = [](const scalar::Quaternion<float>& q) -> scalar::Quaternion<double> {
@@ -78,7 +78,8 @@ scalar::SeparationAs<double> in_double(const HullPair& pair) {
 void expect_close(const Separation& found, const scalar::SeparationAs<double>& exact) {
   EXPECT_NEAR(found.separation, exact.separation, 2e-6);
   EXPECT_NEAR(found.normal.norm(), 1, 1e-6);
-  // Ways out may be as short as each other; the way between separate hulls is one.
+  // Several penetration directions may be equally short; the direction between separate hulls is
+  // unique.
   if (exact.separation < 1e-3) return;
   EXPECT_NEAR((found.normal.cast<double>() - exact.normal).norm(), 0, 1e-3);
   EXPECT_NEAR((found.arm_a.cast<double>() - exact.arm_a).norm(), 0, 1e-3);
@@ -145,7 +146,7 @@ TEST(HullDepth, IsTheWayOut) {
     if (found.is_unsure) continue;
     ++sure;
     expect_close(found, exact);
-    // Moved apart by the depth along the normal they just touch.
+    // Moved by the depth along the normal, the hulls just touch.
     HullPair apart = pair;
     apart.pose.d -= found.normal * found.separation;
     EXPECT_NEAR(in_double(apart).separation, 0, 4e-6);
@@ -155,7 +156,8 @@ TEST(HullDepth, IsTheWayOut) {
   EXPECT_GT(sure, overlapping * 95 / 100);
 }
 
-// One through the other: the shortest way out is over two edges, over a face of A, or one of B.
+// Hulls through each other: the penetration direction is across two edges, a face of A, or a face
+// of B.
 TEST(HullDepth, KnownOnes) {
   const Hull cube = oracle::hull_of(cube_corners());
   const Hull tip = oracle::hull_of(pyramid(-1));
@@ -171,7 +173,7 @@ TEST(HullDepth, KnownOnes) {
   ASSERT_FALSE(face_of_b.is_unsure);
   EXPECT_NEAR(face_of_b.separation, -0.25, 1e-6);
   EXPECT_EQ(face_of_b.normal, Vector3f(0, 0, -1));
-  // A cube on an edge over one on an edge across.
+  // A cube on an edge, above a cube on an edge across the first.
   const scalar::Quaternion<float> on_x{{std::sin(0.3926991f), 0, 0}, std::cos(0.3926991f)};
   const scalar::Quaternion<float> on_y{{0, std::sin(0.3926991f), 0}, std::cos(0.3926991f)};
   const float reach = std::sqrt(2.0f);
@@ -184,8 +186,8 @@ TEST(HullDepth, KnownOnes) {
   EXPECT_NEAR(edges.arm_a.z(), reach, 1e-5);
 }
 
-// Faces that lie on each other have many points in common: which of them stands for all is not
-// found here.
+// Two faces on each other have many common points, and this search cannot choose one: the result is
+// unsure.
 TEST(HullDepth, IsUnsureOfFacesOnFaces) {
   const Hull cube = oracle::hull_of(cube_corners());
   const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
@@ -196,7 +198,8 @@ TEST(HullDepth, IsUnsureOfFacesOnFaces) {
 
 // --- Boxes and triangles ---
 
-// Against hulls, which have the same features made by other means, or double precision.
+// Boxes and triangles against hulls: features that were made differently must give the same depth
+// as double precision.
 template <class MakeShape>
 void expect_ways_out(uint64_t seed, float nearer, const MakeShape& make_shape) {
   Random random(seed);
@@ -275,7 +278,7 @@ TEST(HullSteps, OfPointsAreThoseOfTheReferenceOnEveryIsa) {
     for (size_t count = 1; count <= 35; ++count) {
       SCOPED_TRACE(count);
       Points points = round_points(count, {1, 1, 1}, random);
-      // Some reach as far as each other.
+      // Some points are equally far along z.
       for (size_t i = 0; i < count; i += 3) points[i].z() = 1;
       const Hull hull{*make_hull(points, {})};
       const auto turn = scalar::rotation_of(random_turn(random));
@@ -350,7 +353,7 @@ TEST(HullSteps, OfFacesAreThoseOfTheReferenceOnEveryIsa) {
       }
       expect_settled_alike(solid, expected, found);
 
-      // By all points of another one.
+      // Tests all points of another hull.
       HullPoints points;
       scalar::place_points(solid, {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()},
                            random.direction().cast<float>(), points);

@@ -1,4 +1,4 @@
-// Convex hulls: answers that are known, and what must not change them.
+// Convex hulls: pairs with known answers, and changes that must not change the answer.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,11 +29,11 @@ double rounding(const TestPair& pair, const Result& result) {
 }
 
 void expect_close(const TestPair& pair, const Result& result, const Result& other) {
-  if (result.separation == other.separation) return;  // infinite ones, too
+  if (result.separation == other.separation) return;  // covers infinite separations
   EXPECT_NEAR(result.separation, other.separation, rounding(pair, result));
 }
 
-// --- What touches where ---
+// --- Contact locations ---
 
 TEST(Hulls, SphereAgainstFaceEdgeAndCorner) {
   const PlacedShape cube = placed_hull(cube_corners());
@@ -62,7 +62,7 @@ TEST(Hulls, CornerOverFace) {
   }
 }
 
-// Of tetrahedra whose upper and lower edges cross at right angles.
+// The upper and lower edges of these tetrahedra cross at right angles.
 TEST(Hulls, CrossedEdges) {
   const Points lower = {{-1, 0, 0}, {1, 0, 0}, {0, -1, -2}, {0, 1, -2}};
   const Points upper = {{0, -1, 0}, {0, 1, 0}, {-1, 0, 2}, {1, 0, 2}};
@@ -76,7 +76,8 @@ TEST(Hulls, CrossedEdges) {
   }
 }
 
-// Multiples of a quarter, so that nothing rounds: exact touch is overlap, at every feature.
+// Coordinates are multiples of a quarter, so that nothing rounds: an exact touch at any feature is
+// an overlap.
 TEST(Hulls, ExactTouch) {
   const Points cube = cube_corners(),
                roof = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {-1, 0, 1}, {1, 0, 1}};
@@ -95,7 +96,7 @@ TEST(Hulls, ExactTouch) {
   }
 }
 
-// --- Hulls that are other shapes ---
+// --- Hulls in the form of other shapes ---
 
 TEST(Hulls, OfBoxesAreBoxes) {
   for (const ShapeKind kind : kConvexKinds) {
@@ -135,7 +136,8 @@ TEST(Hulls, OfTwoPointsAreSegments) {
 
 TEST(Hulls, OfThreePointsAreTriangles) {
   for (const ShapeKind kind : kConvexKinds) {
-    if (kind == ShapeKind::triangle) continue;  // as the other one they may have rules
+    // The second triangle may be one-sided or have inner edges.
+    if (kind == ShapeKind::triangle) continue;
     for (const ConvexFamily& family : convex_families()) {
       for (TestPair& pair : make_kind_pairs(family, {ShapeKind::triangle, kind}, kFloat32, 4)) {
         auto& triangle = std::get<Triangle>(pair.a.shape);
@@ -150,14 +152,14 @@ TEST(Hulls, OfThreePointsAreTriangles) {
   }
 }
 
-// --- Hulls that are hardly any ---
+// --- Degenerate hulls ---
 
 TEST(Hulls, WithoutVolume) {
   const std::vector<Points> flat = {
       {{0, 0, 0}},                                                   // a point
-      {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},                             // thrice
+      {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}},                             // the same point three times
       {{-1, 0, 0}, {1, 0, 0}},                                       // a segment
-      {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}, {1, 0, 0}},   // of five points
+      {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}, {1, 0, 0}},   // a segment with five points
       {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 0}},   // a square
       {{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}},                          // a triangle
       {{0, -1, -1}, {0, 1, -1}, {0, 2, 0}, {0, 1, 1}, {0, -1, 1}}};  // a pentagon
@@ -190,7 +192,7 @@ TEST(Hulls, PointsInsideAndTwiceDoNoHarm) {
   }
 }
 
-// Points that would be on an edge or in a face, but for rounding.
+// Points that would be on an edge or in a face without rounding.
 TEST(Hulls, SliversAndNearlyFlatOnes) {
   Random random(6);
   for (int round = 0; round < 60; ++round) {
@@ -236,7 +238,7 @@ TEST(Hulls, DepthDoesNotDependOnTheSizeOfASlab) {
   }
 }
 
-// A small hull sinks through a large one: the depth follows, and the normal leaves by a face.
+// A small hull sinks through a large one: the depth follows, and the normal is that of a face.
 TEST(Hulls, SinkingThrough) {
   const PlacedShape slab = placed_hull(box_corners({4, 4, 1}));
   for (double z = 1.4; z >= -1.4; z -= 0.0625) {
@@ -265,7 +267,7 @@ TEST(Hulls, CubeOnCubeHasFourPointsAtTheRim) {
   }
 }
 
-// The contact area has up to 32 corners, of which four stay.
+// The contact area has up to 32 corners, of which the manifold keeps four.
 TEST(Hulls, PrismOnPrism) {
   for (const size_t sides : {3, 5, 8, 16}) {
     for (const float angle : {0.0f, 0.1f, 0.5f}) {
@@ -298,7 +300,7 @@ TEST(Hulls, CapsuleAlongAFace) {
   EXPECT_EQ(result.manifold_count, 2);
 }
 
-// No ghost contacts at inner edges (64 of the cases), and nothing from behind.
+// No ghost contacts at inner edges (case 64), and none from behind.
 TEST(Hulls, OnTrianglesThatHaveRules) {
   Triangle triangle{.corners = {Vector3f(0, -5, 0), Vector3f(9, 0, 0), Vector3f(0, 5, 0)}};
   triangle.inner_edges = 4;
@@ -351,7 +353,7 @@ TEST(Hulls, SameContactFarFromTheOrigin) {
   }
 }
 
-// Where the pyramids are on their way to each other; the tips meet.
+// Two pyramids far away from each other, on their way to meet at their tips.
 TEST(Hulls, C51_PyramidsFarApart) {
   const Points up = pyramid(1), down = pyramid(-1);
   for (const double gap : {1000.0, 998.0, 10.0, 0.5, 0x1p-10, 0.0, -0x1p-10, -0.5}) {
@@ -363,7 +365,7 @@ TEST(Hulls, C51_PyramidsFarApart) {
   }
 }
 
-// --- What must not matter ---
+// --- Changes that must not matter ---
 
 TEST(Hulls, TheOrderOfPointsDoesNotMatter) {
   for (const ConvexFamily& family : convex_families()) {
@@ -396,7 +398,7 @@ TEST(Hulls, OfManyCorners) {
   }
 }
 
-// All corners of a fine sphere are about as far along any direction.
+// All corners of a fine sphere are about equally far along any direction.
 TEST(Hulls, InsideASphereOfTheirSize) {
   Random random(13);
   for (const size_t count : {8, 32, 64}) {

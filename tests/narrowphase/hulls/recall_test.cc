@@ -1,4 +1,4 @@
-// Pairs of hulls that are measured again by the corners of the last call.
+// Pairs of hulls measured again from the features of the last call.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -27,7 +27,7 @@ PlacedShape random_body(Random& random, double size) {
   return body;
 }
 
-// About half of them overlap.
+// Pairs of which about half overlap.
 std::vector<TestPair> random_pairs(size_t count, double size, uint64_t seed) {
   Random random(seed);
   std::vector<TestPair> pairs(count);
@@ -42,7 +42,7 @@ std::vector<TestPair> random_pairs(size_t count, double size, uint64_t seed) {
   return pairs;
 }
 
-// By a share of their size.
+// Moves the bodies by up to `share` of their size.
 void move(std::vector<TestPair>& pairs, double size, double share, Random& random) {
   for (TestPair& pair : pairs) {
     const Eigen::Vector3d to = pair.b.position + random.direction() * size * share;
@@ -106,7 +106,8 @@ double radius(const TestPair& pair) {
   return size(pair.a) + size(pair.b);
 }
 
-// What is recalled has the bits of the reference, everything else those of a call without features.
+// A row measured from its features has the bits of the scalar form; every other row has those of a
+// call without features.
 TEST(Recall, IsItsReferenceOnEveryIsa) {
   for (const double size : {1e-25, 1.0, 1e15}) {
     SCOPED_TRACE(size);
@@ -177,7 +178,7 @@ TEST(Recall, OfAnyCornersKeepsDecisionsAndSeparations) {
   }
 }
 
-// Lanes that are filled up, blocks that are not full, lists instead of rows.
+// Counts that fill lanes or blocks only partly, and lists instead of rows.
 TEST(Recall, OfAnyNumberOfPairs) {
   std::vector<TestPair> pairs = random_pairs(40, 1, 5);
   while (pairs.size() < 2100) pairs.push_back(pairs[pairs.size() % 40]);
@@ -211,9 +212,10 @@ TEST(Recall, LeavesWhatItDoesNotKnow) {
   Call call = call_of(Measured::all);
   EXPECT_EQ(run(pairs, call, &features)[3].status, static_cast<uint8_t>(Status::invalid));
   EXPECT_NE(features[0], 7u);
-  EXPECT_EQ(features[1], 7u);  // of other kinds
+  EXPECT_EQ(features[1], 7u);  // other kinds keep their entry
   EXPECT_EQ(features[2], 7u);
-  // Where separate pairs are not measured, and where answers are proven.
+  // Calls that do not measure separate pairs, and tiers that prove decisions, leave the features
+  // alone.
   for (const Measured measured : {Measured::overlapping, Measured::all}) {
     features = handed_in;
     call.measured = measured;

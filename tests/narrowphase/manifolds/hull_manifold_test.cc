@@ -1,5 +1,5 @@
-// Points of overlaps with hulls, found for many pairs at once, of which each has other faces: with
-// three corners, four, up to eight, more, or none that is known.
+// Manifolds of hulls, found for many pairs at once whose faces differ: three corners, four, up to
+// eight, more, or no known face.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr KindPair kKinds[] = {
 
 // --- What the pairs are ---
 
-// Of how many overlaps the hull's face that is turned to the other shape has so many corners.
+// How many corners the faces have that face the other shape, counted over all overlaps.
 struct FacingFaces {
   size_t overlaps = 0, faces = 0;
   size_t three = 0, four = 0, up_to_eight = 0, more = 0, unknown = 0;
@@ -100,7 +100,7 @@ TEST_P(HullManifolds, EqualReference) {
   }
 }
 
-// Of overlapping pairs, so that those are the counts of the manifold pass.
+// All pairs overlap, so that these are the counts of the manifold pass.
 TEST_P(HullManifolds, EqualReferenceForCountsAroundLanes) {
   constexpr auto kPositions = PositionType::float32;
   std::vector<TestPair> pairs = make_hull_pairs(GetParam(), kPositions, 150, 2);
@@ -122,7 +122,7 @@ TEST_P(HullManifolds, EqualReferenceForCountsAroundLanes) {
   });
 }
 
-// Kinds in turn, in one list.
+// A list with all kinds in turn.
 TEST(HullManifoldsOfMixedKinds, EqualReference) {
   for (const PositionType positions : kPositionTypes) {
     std::vector<TestPair> pairs;
@@ -145,10 +145,12 @@ bool is_fit_for_oracle(const PlacedShape& body) {
     return !triangle->one_sided && triangle->inner_edges == 0;
   }
   const auto* hull = std::get_if<Hull>(&body.shape);
-  return !hull || hull->geometry->points().size() <= 40;  // the oracle takes the cube of that
+  // The oracle's time grows with the cube of the number of points.
+  return !hull || hull->geometry->points().size() <= 40;
 }
 
-// Points are on A, and as far along the normal as they say on B; none is deeper than the contact.
+// Every point is on A, its separation leads to B along the normal, and none is deeper than the
+// contact.
 void expect_on_both(const TestPair& pair, PositionType positions, const Row& row) {
   EXPECT_LE(row.manifold_count, 4);
   EXPECT_EQ(row.manifold_count > 0, row.overlap == 1);
@@ -189,12 +191,12 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HullManifolds, testing::ValuesIn(kKinds),
 
 // --- A ridge under a face ---
 
-// Both sides of it are steep, one end is flat: of all normals that of this end is the nearest to
-// straight up.
+// A ridge between two steep faces, with a flat face at one end. The flat face's normal is the one
+// nearest to straight up.
 const Points kBlade = {{-1, 0, 0.5f},     {1, 0, 0.5f},           {-2, -0.2f, -0.5f},
                        {-2, 0.2f, -0.5f}, {1.0625f, 0.2f, -0.5f}, {1.0625f, -0.2f, -0.5f}};
 
-// The blade in a slab and in triangles; the angle lifts its flat end.
+// The blade under slabs and triangles; a positive angle lifts its flat end.
 std::vector<TestPair> make_blades(float angle) {
   const Eigen::Quaternionf turn(Eigen::AngleAxisf(angle, Vector3f::UnitY()));
   const Vector3f half(4, 4, 1), a(-9, -9, 0), b(0, 9, 0), c(9, -9, 0);
@@ -230,12 +232,13 @@ void expect_ends_of_ridges(float angle) {
   });
 }
 
-// The flat end is not as high as the other one: the face with the nearest normal does not count.
+// The flat end is lower than the other one, so the face with the nearest normal must not count.
 TEST(HullManifoldsOfBlades, AreTheEndsOfTheRidge) {
   for (const float angle : {1e-5f, 1e-3f, 1e-2f}) expect_ends_of_ridges(-angle);
 }
 
-// Fails: the flat end is taken for the face that touches, of which a single point does.
+// Known to fail: the flat end is taken for the touching face, although only one of its points
+// touches.
 TEST(HullManifoldsOfBlades, AreTheEndsOfTheRidgeWhateverIsBesideIt) {
   for (const float angle : {0.0f, 1e-3f}) expect_ends_of_ridges(angle);
 }
@@ -291,8 +294,8 @@ Range range_over(const Outline& corners, const Value& value) {
   return range;
 }
 
-// The second point is as far from the first as any corner of the area, and the others are as far
-// beside the line through both.
+// The second point is as far from the first as any corner of the area, and the other points are as
+// far as possible beside the line through both.
 void expect_widest(const Outline& area, const Row& row) {
   Outline points;
   for (size_t i = 0; i < row.manifold_count; ++i) {

@@ -1,5 +1,5 @@
-// Triangles thinner than the slack of clipping: their manifolds once ran on beyond the sharp
-// corners. Inputs as random tests found them.
+// Triangles thinner than the slack of clipping: their manifolds once extended beyond the sharp
+// corners. Random tests found these inputs.
 #include <gtest/gtest.h>
 
 #include "tests/support/checked_everywhere.h"

@@ -53,7 +53,7 @@ TEST(Bits, EqualReferenceForAnyInput) {
   }
 }
 
-// Float64 positions beyond the range of float32, of which only the difference must be in it.
+// Float64 positions beyond the range of float32; only their difference is inside it.
 TEST(Bits, EqualReferenceForDistantFloat64Positions) {
   for (const Sides sides : kAllSides) {
     SCOPED_TRACE(name(sides));

@@ -1,5 +1,5 @@
-// Inputs that broke other collision systems, or were made to. Exact answers are recomputed from the
-// inputs as they are after rounding to float32.
+// Inputs that broke other collision systems, or were made to. The oracle computes exact answers
+// from the inputs after their rounding to float32.
 #include <gtest/gtest.h>
 
 #include "tests/support/float_modes.h"
@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kEps = 0x1p-23;
 
-// Tests the pair on every ISA, both ways round, and checks it against the exact answer; returns the
-// result of (A, B).
+// Tests the pair on every ISA and in both orders, and checks it against the exact answer; returns
+// the result of (A, B).
 reference::PairResult checked(const TestPair& pair,
                               PositionType positions = PositionType::float32) {
   for (const TestPair& each : {pair, swapped(pair)}) {
@@ -34,7 +34,7 @@ reference::PairResult checked(const TestPair& pair,
   return reference_result(pair, positions);
 }
 
-// The exact answer in double.
+// The exact separation, rounded to double.
 double exact_separation(const TestPair& pair, PositionType positions = PositionType::float32) {
   return static_cast<double>(ExactPair(pair, positions).separation);
 }
@@ -219,7 +219,8 @@ TEST(Cases, C61_SameContactFarFromTheOrigin) {
   EXPECT_GE(static_cast<double>(bounds.upper.x()), 1e7 + 0.9 + 0.5);
 }
 
-// A centre that is in the middle of a box leaves along its shortest axis, the first of equals.
+// A sphere centre in the middle of a box leaves along the shortest axis, the first among equal
+// ones.
 TEST(Cases, CentreOfASphereInTheMiddleOfABox) {
   const auto cube = checked({sphere(5, 6, 7, 0.5), box({5, 6, 7}, {1, 1, 1})});
   EXPECT_EQ(cube.separation, -1.5f);

@@ -1,5 +1,5 @@
-// That the random pairs of the other tests deserve the name: hits and misses are balanced, and
-// every case that a kernel distinguishes occurs.
+// The quality of the random pairs in other tests: hits and misses are balanced, and every case that
+// a kernel distinguishes occurs.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -13,7 +13,7 @@ TEST(Coverage, HitsAndMissesAreBalanced) {
   for (const Family& family : families()) {
     const bool coincide = family.placement == Placement::coincident;
     if (coincide || family.degenerate || family.placement == Placement::lattice) continue;
-    if (std::string(family.name) == "at 1e9") continue;  // float32 steps there are of 64 m
+    if (std::string(family.name) == "at 1e9") continue;  // float32 steps are 64 m there
     const bool touch = family.placement == Placement::near_touch;
     for (const Sides sides : kAllSides) {
       for (const PositionType positions : kPositionTypes) {
@@ -30,7 +30,7 @@ TEST(Coverage, HitsAndMissesAreBalanced) {
   }
 }
 
-// Which of the 27 regions of a box's planes a point lies in, as -1, 0, 1 per axis.
+// In which of the 27 regions between a box's planes a point lies: -1, 0 or 1 for each axis.
 std::array<int, 3> region(const Eigen::Vector3d& point, const Aabb& box) {
   std::array<int, 3> sides;
   for (int i = 0; i < 3; ++i)

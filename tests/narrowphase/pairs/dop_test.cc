@@ -1,4 +1,5 @@
-// K-DOPs as shapes: answers that are known, and those of the boxes that some of them are.
+// k-DOPs as shapes: pairs with known answers, and k-DOPs in the form of boxes, which answer as
+// boxes do.
 #include <gtest/gtest.h>
 
 #include <cfloat>
@@ -21,7 +22,13 @@ PlacedShape placed(const Dop& dop, const Eigen::Vector3d& position,
   return {dop, position, orientation};
 }
 
-// All |x| + |y| + |z| <= reach, the axes left open.
+// All points with
+// x
+// +
+// y
+// +
+// z
+// <= reach; the axis slabs are wider.
 Dop octahedron(float reach) {
   Dop dop{.kind = DopKind::k14};
   for (size_t i = 0; i < slab_count(dop.kind); ++i) {
@@ -69,7 +76,7 @@ TEST(Dops, CornersEdgesAndFacesOfTwo) {
   EXPECT_GE(faces.manifold_count, 3);
 }
 
-// Two edges that cross, of shapes turned against each other.
+// Crossed edges of two shapes that are turned against each other.
 TEST(Dops, CrossedEdges) {
   const Dop dop = dop_of_box({-1, -1, -1}, {1, 1, 1}, DopKind::k18);
   const float s = std::sin(0.39269908f), c = std::cos(0.39269908f);  // an eighth of a turn
@@ -94,7 +101,7 @@ TEST(Dops, OnAHalfspace) {
   EXPECT_NEAR(standing.separation, 0.5, 1e-6);
 }
 
-// A stack: the contact area is an octagon, of which four points stay.
+// A stack: the contact area is an octagon, of which the manifold keeps four points.
 TEST(Dops, FaceOnFace) {
   Dop dop{.kind = DopKind::k26};
   for (size_t i = 0; i < 13; ++i) {
@@ -123,7 +130,7 @@ TEST(Dops, CapsuleAlongAFace) {
   EXPECT_EQ(result.manifold_count, 2);
 }
 
-// Flat, thin and without any size, touching what is like them.
+// Flat, thin and single-point k-DOPs that touch others of their form.
 TEST(Dops, WithoutVolume) {
   const std::vector<Dop> flat = {dop_of_box({0, 0, 0}, {0, 0, 0}, DopKind::k26),
                                  dop_of_box({-1, 0, 0}, {1, 0, 0}, DopKind::k14),
@@ -163,7 +170,7 @@ TEST(Dops, AroundBoxesAreBoxes) {
         for (const DopKind k : kDopKinds) {
           pair.a.shape = dop_of_box(-half, half, k);
           const Result result = reference_result(pair, kFloat32);
-          if (result.separation == expected.separation) continue;  // infinite ones, too
+          if (result.separation == expected.separation) continue;  // covers infinite separations
           EXPECT_NEAR(result.separation, expected.separation,
                       4e-6 * (size + std::fabs(expected.separation)) + 0x1p-140);
         }

@@ -1,5 +1,5 @@
-// What results may not depend on: a pair's place in the list, threads, the order of the two bodies
-// and where in the world they are.
+// Results do not depend on a pair's place in the list, on threads, on the order of the two bodies,
+// or on their place in the world.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -80,7 +80,7 @@ TEST(Independence, OfThreads) {
   }
 }
 
-// What holds of (A, B) and (B, A) if one is the other seen from the other side.
+// (A, B) and (B, A) have mirrored results.
 void expect_mirrored(const Row& row, const Row& other) {
   EXPECT_EQ(row.overlap, other.overlap);
   EXPECT_EQ(row.status, other.status);
@@ -92,8 +92,8 @@ void expect_mirrored(const Row& row, const Row& other) {
   }
 }
 
-// Two boxes are compared in the frame of the first, so their rounding differs; concentric spheres
-// and ties have a normal by convention.
+// Boxes are compared in the frame of the first one, so the two orders round differently; concentric
+// spheres and ties have a normal by convention.
 void expect_close(const TestPair& pair, const Row& row, const Row& other) {
   const double size = bounding_radius(pair.a.shape) + bounding_radius(pair.b.shape);
   const double rounding = 0x1p-22 * (size + std::fabs(row.separation)) + 0x1p-146;
@@ -126,8 +126,8 @@ TEST(Independence, OfTheOrderOfTheTwo) {
   }
 }
 
-// Positions that are multiples of 2^-10 keep their difference exactly when both move by a power of
-// two: then the whole result does, but for the points' own rounding.
+// Multiples of 2^-10 keep their difference exactly when both positions move by a power of two. The
+// whole result then stays the same, except for the rounding of world points.
 TEST(Independence, OfThePlaceInTheWorld) {
   std::vector<TestPair> pairs = all_pairs(50, PositionType::float32);
   std::erase_if(pairs, [](const TestPair& pair) {

@@ -1,4 +1,4 @@
-// NaN, infinity or a negative size spoil their own pair and no other.
+// NaN, infinity and negative sizes spoil their own pair and no other.
 #include <gtest/gtest.h>
 
 #include <limits>

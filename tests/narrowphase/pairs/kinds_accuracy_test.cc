@@ -1,4 +1,4 @@
-// Every pair of kinds against the oracle, with the bounds that the library states.
+// Every pair of kinds against the oracle, within the bounds that the library states.
 #include <gtest/gtest.h>
 
 #include "tests/support/kind_checks.h"

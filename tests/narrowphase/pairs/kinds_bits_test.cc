@@ -1,4 +1,4 @@
-// Every pair of kinds that has a kernel, on every ISA, against the reference, bit for bit.
+// Every pair of kinds with a kernel, on every ISA, against the reference, bit for bit.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -47,7 +47,7 @@ TEST_P(KindsBits, EqualReference) {
 std::vector<ConvexFamily> all_families() {
   std::vector<ConvexFamily> all = convex_families();
   all.push_back({.name = "huge", .smallest = 1e30, .largest = 3e38, .distance_in_sizes = true});
-  // The greatest sizes are just floats.
+  // The greatest sizes are just inside the range of floats.
   all.push_back({.name = "huge ratio", .smallest = 1e-24, .largest = 1e19, .ratio = 1e19});
   return all;
 }
@@ -66,7 +66,7 @@ TEST(KindsBits, EqualReferenceForAnyInput) {
 }
 
 // Found by kinds_fuzz: a quaternion of ordinary length with a tiny component was scaled, and lost
-// bits of that, since the one beside it had to be.
+// bits of it, because its neighbour in the vector needed scaling.
 TEST(KindsBits, OrientationsAreScaledEachByItself) {
   const Quaternionf tiny(-0x1.7ep-142f, -0x1.7b9998p+27f, -0x1.7c9998p-74f, -0x1.32p-142f);
   const Quaternionf huge(0x1.7ecccp+77f, -0x1.7b9998p+27f, -0x1.7c9998p-74f, 0x1.7d3332p+77f);
@@ -79,7 +79,8 @@ TEST(KindsBits, OrientationsAreScaledEachByItself) {
   }
 }
 
-// The centre is nearer to a corner than has a direction in float32: double precision decides.
+// The centre is so close to a corner that float32 cannot resolve the direction: double precision
+// decides.
 TEST(KindsBits, SphereAtACornerOfATriangle) {
   const Triangle triangles[] = {
       {.corners = {Vector3f(0, 0, 1), Vector3f(0x1p-60f, 0, 0), Vector3f(1, 0x1.333334p-2f, 0)}},
@@ -96,7 +97,7 @@ TEST(KindsBits, SphereAtACornerOfATriangle) {
   }
 }
 
-// Float64 positions beyond the range of float32, of which only the difference must be in it.
+// Float64 positions beyond the range of float32; only their difference is inside it.
 TEST(KindsBits, EqualReferenceForDistantFloat64Positions) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
@@ -155,7 +156,7 @@ TEST(KindsBits, Layouts) {
     for (const PositionType positions : kPositionTypes) {
       std::vector<TestPair> pairs =
           make_kind_pairs({.name = ""}, kinds, positions, fewer_polytopes(kinds, 69));
-      for (size_t i = 1; i < pairs.size(); i += 3) {  // some share their shapes
+      for (size_t i = 1; i < pairs.size(); i += 3) {  // some bodies share their shapes
         pairs[i].a.shape = pairs[0].a.shape;
         pairs[i].b.shape = pairs[0].b.shape;
       }

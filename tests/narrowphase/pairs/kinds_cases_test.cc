@@ -1,6 +1,6 @@
 // Inputs that broke other collision systems, or were made to, for capsules, oriented boxes,
-// triangles and half-spaces. Exact answers are recomputed from the inputs as they are after
-// rounding to float32; unrotated boxes are tested as boxes along the axes, too.
+// triangles and half-spaces. The oracle computes exact answers from the inputs after their rounding
+// to float32. Unrotated boxes are tested as aabbs, too.
 #include <gtest/gtest.h>
 
 #include "tests/support/checked_everywhere.h"
@@ -21,7 +21,7 @@ double exact_separation(const TestPair& pair, PositionType positions = kFloat32)
   return static_cast<double>(ExactKinds(pair, positions).answer.value);
 }
 
-// The pair itself, and with one box or both along the axes if they are not turned.
+// The pair, and its variants with unrotated boxes as aabbs.
 std::vector<TestPair> with_aabbs(const TestPair& pair) {
   const auto versions = [](const PlacedShape& body) {
     std::vector<PlacedShape> all{body};
@@ -180,7 +180,7 @@ TEST(KindsCases, C33_EqualDepthAlongEveryAxis) {
   }
 }
 
-// Hovering, and sunk by as much: there the manifold is the whole face.
+// The box hovers, and then is sunk by as much: there the manifold is the whole face.
 TEST(KindsCases, C34_BoxThatTurnsOverASlab) {
   for (const double gap : {0.0005, -0.0005}) {
     for (int step = 0; step <= 480; ++step) {
@@ -199,7 +199,7 @@ TEST(KindsCases, C34_BoxThatTurnsOverASlab) {
   }
 }
 
-// Faces that cross like two strips, far from all of their corners.
+// Two faces cross like strips, far from all their corners.
 TEST(KindsCases, CrossingFacesOfThinBoxes) {
   const Quaternionf turned(1, 0.5f, 0, 0);
   const PlacedShape plate = oriented_box({0, 0, 0}, {1, 1, 0x1p-7f}, turned);
@@ -213,7 +213,7 @@ TEST(KindsCases, CrossingFacesOfThinBoxes) {
   }
 }
 
-// Boxes along the axes decide the same both ways round, also within rounding.
+// Aabbs decide the same in both orders, also within rounding.
 TEST(KindsCases, AabbsTouchBothWaysRoundOrNeither) {
   const PlacedShape cube{Aabb{{-1, -1, -1}, {1, 1, 0x1.fffffep-1f}}, {0, 0, 0}};
   for (double z = 3 - 0x1p-20; z <= 3 + 0x1p-20; z += 0x1p-23) {
@@ -224,7 +224,7 @@ TEST(KindsCases, AabbsTouchBothWaysRoundOrNeither) {
   }
 }
 
-// The cosine between the normal and the triangle's own.
+// The magnitude of the cosine between the contact normal and the triangle's normal.
 double cosine_with_face(const TestPair& pair) {
   const auto result = checked_everywhere(pair);
   const auto& corners = std::get<Triangle>(pair.b.shape).corners;
@@ -234,8 +234,8 @@ double cosine_with_face(const TestPair& pair) {
   return std::fabs(result.normal.dot(face));
 }
 
-// The capsule along y lies on the triangle and leaves near the face's normal, at this cosine; the
-// one along z stands in it and leaves by the nearest edge.
+// The capsule along y lies on the triangle: its normal has this cosine to the face's normal. The
+// capsule along z stands in the triangle: its penetration direction is across the nearest edge.
 void expect_good_capsules(float half_length, float radius, const std::array<Vector3f, 3>& corners,
                           double cosine) {
   const PlacedShape face = triangle({0, 0, 0}, corners);
@@ -318,14 +318,14 @@ TEST(KindsCases, C64_NoGhostContactsAtInnerEdges) {
   }
 }
 
-// Edges that are not inside a mesh turn the normal, so that bodies roll off.
+// A contact at an edge that is not inside a mesh has a tilted normal, so that bodies roll off.
 TEST(KindsCases, C64_OuterEdgesTurnTheNormal) {
   const PlacedShape left = coplanar_triangles(false)[0];
   const Result result = checked_everywhere({sphere(0.2, 0, 2.99, 3), left});
   EXPECT_LT(result.normal.x(), -0.05f);
 }
 
-// What touches the front of a one-sided triangle meets it, what is behind it does not.
+// A one-sided triangle meets bodies in front of it, and none behind it.
 TEST(KindsCases, OneSidedTrianglesMeetWhatIsInFront) {
   PlacedShape two_sided = coplanar_triangles(false)[1];
   PlacedShape one_sided = two_sided;
@@ -341,15 +341,15 @@ TEST(KindsCases, OneSidedTrianglesMeetWhatIsInFront) {
       EXPECT_TRUE(both.overlap);
       EXPECT_EQ(front.overlap, z > 0);
       EXPECT_EQ(front.manifold_count > 0, z > 0);
-      if (z > 0) {  // rounded apart: special triangles are tested in double precision
+      if (z > 0) {  // one-sided triangles are tested in double precision, others round differently
         EXPECT_FLOAT_EQ(front.separation, both.separation);
       }
     }
   }
 }
 
-// Boxes that are close and turned by 1e-4: rounding of the short way between them tilted the normal
-// by more than 1e-5 of their size.
+// Boxes that are close and turned by 1e-4. Rounding of the short vector between them once tilted
+// the normal by more than 1e-5 of their size.
 TEST(KindsCases, NormalsOfCloseNearlyParallelBoxes) {
   const PlacedShape a{Aabb{{-0x1.0d3d08p+0f, -0x1.10faa4p-1f, -0x1.840c9ep+0f},
                            {0x1.0e516cp+0f, 0x1.20fe48p-1f, 0x1.af58bep-1f}}};
@@ -360,7 +360,8 @@ TEST(KindsCases, NormalsOfCloseNearlyParallelBoxes) {
   EXPECT_NEAR(checked_everywhere({a, b}, PositionType::float64).separation, 0.0031597854, 1e-6);
 }
 
-// Ten metres along a plane from its position: rounding made 2.9e-6 of the sphere's size of it.
+// A sphere ten metres along a plane from the plane's position: rounding once gave an error of
+// 2.9e-6 of the sphere's size.
 TEST(KindsCases, SpheresFarAlongAPlane) {
   const PlacedShape ball = sphere(-0x1.12c1e8p+5, 0x1.8162b6p+5, -0x1.9029dep+5, 0x1.543f36p-1);
   PlacedShape plane = halfspace({-0x1.16e1bcp+5, 0x1.3b7728p+5, -0x1.6a967ep+5},

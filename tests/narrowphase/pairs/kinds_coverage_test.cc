@@ -1,5 +1,5 @@
-// That the random pairs of every two kinds deserve the name: all kinds with a kernel are tested,
-// hits and misses are balanced, and contacts occur at every feature of every shape.
+// The quality of the random pairs of every two kinds: all kinds with a kernel occur, hits and
+// misses are balanced, and contacts occur at every feature of every shape.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -19,7 +19,7 @@ TEST(KindsCoverage, EveryPairOfKindsWithAKernelIsTested) {
     for (int b = 0; b < kShapeKindCount; ++b) {
       const auto kind_a = static_cast<ShapeKind>(a), kind_b = static_cast<ShapeKind>(b);
       EXPECT_EQ(supports(kind_a, kind_b), supports(kind_b, kind_a));
-      if (is_composite(kind_a) || is_composite(kind_b)) continue;  // tested by their parts
+      if (is_composite(kind_a) || is_composite(kind_b)) continue;  // tested through their parts
       count += supports(kind_a, kind_b);
     }
   }
@@ -37,9 +37,9 @@ TEST(KindsCoverage, HitsAndMissesAreBalanced) {
     const bool touch = family.placement == ConvexPlacement::near_touch;
     const bool is_free = family.placement == ConvexPlacement::free || touch;
     if (!is_free || family.degenerate) continue;
-    if (std::string(family.name) == "at 1e9") continue;  // float32 steps there are of 64 m
+    if (std::string(family.name) == "at 1e9") continue;  // float32 steps are 64 m there
     for (const KindPair& kinds : supported_kind_pairs()) {
-      if (has_polytope(kinds) && kinds.a > kinds.b) continue;  // one order tells
+      if (has_polytope(kinds) && kinds.a > kinds.b) continue;  // one order is enough
       int hits = 0;
       const int count = has_polytope(kinds) ? 100 : 400;
       for (const TestPair& pair : make_kind_pairs(family, kinds, PositionType::float32, count)) {
@@ -52,7 +52,8 @@ TEST(KindsCoverage, HitsAndMissesAreBalanced) {
   }
 }
 
-// Which of a shape's corners are farthest along n: one is a corner, two an edge, more a face.
+// Which of a shape's corners are furthest along n, as bits: one means a corner, two an edge, more a
+// face.
 uint32_t feature(const ConvexShape<long double>& shape, const Vec3<long double>& n) {
   long double most = dot(shape.points[0], n);
   for (const auto& p : shape.points) most = std::max(most, dot(p, n));
@@ -64,7 +65,7 @@ uint32_t feature(const ConvexShape<long double>& shape, const Vec3<long double>&
   return corners;
 }
 
-// Corners, edges and faces.
+// The number of corners, edges and faces.
 size_t feature_count(const ConvexShape<long double>& shape) {
   switch (shape.points.size()) {
     case 1:
@@ -80,7 +81,8 @@ size_t feature_count(const ConvexShape<long double>& shape) {
   }
 }
 
-// Features of A, by its number of corners: triangles come with and without thickness.
+// The features of A with contacts, by A's number of corners (triangles have three or, if thick,
+// six).
 std::map<size_t, Features> features_of_a(const KindPair& kinds) {
   std::map<size_t, Features> found;
   for (const TestPair& pair : make_kind_pairs({.name = ""}, kinds, PositionType::float64, 2500)) {
@@ -95,20 +97,20 @@ std::map<size_t, Features> features_of_a(const KindPair& kinds) {
 
 TEST(KindsCoverage, ContactsOccurAtEveryFeature) {
   for (const KindPair& kinds : supported_kind_pairs()) {
-    if (has_halfspace(kinds)) continue;  // those meet corners
-    if (has_polytope(kinds)) continue;   // features of many numbers, and slow
+    if (has_halfspace(kinds)) continue;  // half-spaces only meet corners
+    if (has_polytope(kinds)) continue;   // too many features, and slow
     SCOPED_TRACE(name(kinds));
     for (const auto& [corners, features] : features_of_a(kinds)) {
       ConvexShape<long double> shape{Vec3<long double>{}};
       shape.points.resize(corners);
-      const bool is_prism = corners == 6;  // fewer of those, and with small sides
+      const bool is_prism = corners == 6;  // prisms are rarer, and have small sides
       EXPECT_GE(features.size(), feature_count(shape) - (is_prism ? 6 : 0)) << corners;
     }
   }
 }
 
-// Which of the 15 axes of two overlapping boxes the normal is: 0 to 2 of A, 3 to 5 of B, or the
-// cross products of edges.
+// Which of the 15 axes of two overlapping boxes the normal is: 0 to 2 faces of A, 3 to 5 faces of
+// B, then the cross products of edges.
 int axis_of(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b, const Eigen::Vector3d& normal) {
   int best = -1;
   double largest = 0;
@@ -140,7 +142,7 @@ TEST(KindsCoverage, AllAxesOfTwoBoxes) {
   for (const auto& [axis, count] : axes) EXPECT_GE(count, 10) << axis;
 }
 
-// How many points manifolds have, and that they are spread as wide as the faces.
+// Manifolds of every number of points occur, and are spread as wide as the faces.
 TEST(KindsCoverage, ManifoldsOfEveryCount) {
   std::map<int, int> counts;
   for (const TestPair& pair : make_kind_pairs({.name = ""}, {ShapeKind::box, ShapeKind::box},

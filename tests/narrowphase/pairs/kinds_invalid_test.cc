@@ -1,5 +1,5 @@
-// NaN, infinity, negative sizes, a quaternion or a normal of zero: they spoil their own pair and no
-// other, of every two kinds (65 of the cases).
+// NaN, infinity, negative sizes, a quaternion or a normal of zero spoil their own pair and no
+// other, for every two kinds (case 65).
 #include <gtest/gtest.h>
 
 #include "tests/support/isas.h"
@@ -44,7 +44,7 @@ TEST(KindsInvalid, HasNoAnswer) {
   }
 }
 
-// Every third pair of a list is spoilt, and the others have the bits that they have without them.
+// Every third pair of a list is spoilt; the others keep their bits.
 TEST(KindsInvalid, SpoilsItsOwnPairAlone) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
@@ -68,7 +68,7 @@ TEST(KindsInvalid, SpoilsItsOwnPairAlone) {
   }
 }
 
-// Spheres and boxes along the axes do not turn: any orientation will do.
+// Spheres and aabbs do not turn: any orientation is accepted.
 TEST(KindsInvalid, OrientationsOfWhatDoesNotTurnAreIgnored) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));

@@ -1,4 +1,4 @@
-// What holds of every pair of kinds, without any oracle.
+// Properties of every pair of kinds that need no oracle.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,12 +18,12 @@ double size_of(const TestPair& pair) {
   return bounding_radius(pair.a.shape) + bounding_radius(pair.b.shape);
 }
 
-// Twice the error that is stated.
+// Twice the stated error.
 double rounding(const TestPair& pair, const Result& result) {
   return 4e-6 * (size_of(pair) + std::fabs(result.separation)) + 0x1p-143;
 }
 
-// NaN is NaN: that is the normal of what a one-sided triangle does not meet.
+// NaN equals NaN here: a body behind a one-sided triangle has a NaN normal.
 void expect_same(const Eigen::Vector3f& x, const Eigen::Vector3f& y) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(x[i] == y[i] || (std::isnan(x[i]) && std::isnan(y[i]))) << hex3(x) << "\n"
@@ -39,7 +39,7 @@ void expect_close(const TestPair& pair, const Result& result, const Result& othe
   }
 }
 
-// The pairs of each two kinds, from every family.
+// Pairs of every two kinds from every family.
 template <class Check>
 void for_each_pair(size_t count_each, const Check& check) {
   for (const KindPair& kinds : supported_kind_pairs()) {
@@ -56,7 +56,7 @@ void for_each_pair(size_t count_each, const Check& check) {
   }
 }
 
-// One kernel serves both orders of two kinds.
+// One kernel serves both orders of two kinds, so the results are mirrored.
 void expect_mirrored(const Result& result, const Result& other) {
   EXPECT_EQ(result.overlap, other.overlap);
   EXPECT_EQ(result.status, other.status);
@@ -68,7 +68,7 @@ void expect_mirrored(const Result& result, const Result& other) {
   EXPECT_EQ(result.manifold.separation, other.manifold.separation);
 }
 
-// Points on A, moved along the normal, are those on B of the other order.
+// Points on A, moved to B along the normal, are the points of the other order.
 void expect_mirrored_points(const TestPair& pair, PositionType positions, const Result& result,
                             const Result& other) {
   const Eigen::Vector3d d = stored(pair.b.position, positions) - stored(pair.a.position, positions);
@@ -78,7 +78,7 @@ void expect_mirrored_points(const TestPair& pair, PositionType positions, const 
     const Eigen::Vector3d on_b =
         Eigen::Map<const Eigen::Vector3f>(other.manifold.point[i].data()).cast<double>();
     const Eigen::Vector3d way = result.normal.cast<double>() * result.manifold.separation[i];
-    // The sum is in float32, and bodies may be far from a half-space.
+    // The sum of position and arm is in float32, and bodies may be far from a half-space.
     const double tolerance = rounding(pair, result) + 0x1p-22 * d.norm();
     EXPECT_LE((on_a + way - d - on_b).norm(), tolerance) << "manifold point " << i;
   }
@@ -146,8 +146,8 @@ TEST(KindsProperties, ThePlaceInTheListDoesNotMatter) {
   });
 }
 
-// Positions that are multiples of 2^-10 keep their difference exactly when both move by a power of
-// two, and then every bit stays but for the rounding of points in world coordinates.
+// Multiples of 2^-10 keep their difference exactly when both positions move by a power of two.
+// Every bit then stays the same, except for the rounding of world points.
 TEST(KindsProperties, ThePlaceInTheWorldDoesNotMatter) {
   const auto to_grid = [](double x) { return std::round(x * 0x1p10) * 0x1p-10 + 0.0; };  // not -0
   for (const PositionType positions : kPositionTypes) {
@@ -216,12 +216,12 @@ void expect_scaled(const Result& result, const Result& other, float factor) {
   }
 }
 
-// Beside the origin there are numbers that small factors would take out of the range of floats.
+// Whether scaling keeps all numbers of the body in the range of floats.
 bool is_ordinary(const PlacedShape& body) {
   return ((body.position.array() == 0) || (body.position.array().abs() > 1e-20)).all();
 }
 
-// Arithmetic in powers of two is exact: so is the world at another scale.
+// Scaling by a power of two is exact, so the result scales exactly.
 TEST(KindsProperties, ScalingByAPowerOfTwoScalesTheResult) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const ConvexFamily& family : convex_families()) {
@@ -246,7 +246,7 @@ TEST(KindsProperties, ScalingByAPowerOfTwoScalesTheResult) {
   }
 }
 
-// A quarter turn about z, exactly: of positions, boxes and orientations.
+// The body after an exact quarter turn about z: position, box and orientation.
 PlacedShape quarter_turned(PlacedShape body) {
   body.position = {-body.position.y(), body.position.x(), body.position.z()};
   if (auto* box = std::get_if<Aabb>(&body.shape)) {
@@ -255,12 +255,12 @@ PlacedShape quarter_turned(PlacedShape body) {
     box->upper.head<2>() << -before.lower.y(), before.upper.x();
   }
   const Eigen::Vector4f q = body.orientation.coeffs();
-  // (0, 0, 1, 1) times q, in doubled size.
+  // (0, 0, 1, 1) times q, of twice the squared length.
   body.orientation.coeffs() << q.x() - q.y(), q.y() + q.x(), q.z() + q.w(), q.w() - q.z();
   return body;
 }
 
-// But for the rounding of the quaternion.
+// The result turns, too, up to the rounding of the quaternion.
 TEST(KindsProperties, AQuarterTurnOfBothTurnsTheResult) {
   for (const char* which : {"plain", "aspect", "lattice", "near parallel"}) {
     for (const ConvexFamily& family : convex_families()) {

@@ -1,4 +1,4 @@
-// What holds of every pair, for inputs that RapidCheck chooses and shrinks.
+// Properties of every pair, for inputs that RapidCheck chooses and shrinks.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace carom::test {
 namespace {
 
-// Twelve numbers -> two bodies.
+// A body from six numbers.
 PlacedShape body_of(bool is_box, const std::array<float, 6>& numbers) {
   const Eigen::Vector3d position(numbers[0], numbers[1], numbers[2]);
   if (!is_box) return {Sphere{std::fabs(numbers[3])}, position};
@@ -21,7 +21,7 @@ PlacedShape body_of(bool is_box, const std::array<float, 6>& numbers) {
 
 using Numbers = std::array<int16_t, 12>;
 
-// Multiples of 1/16: touching, flush and concentric shapes are common.
+// Numbers are multiples of 1/16, so that touching, flush and concentric shapes are common.
 TestPair pair_of(bool box_a, bool box_b, const Numbers& numbers) {
   std::array<float, 6> a;
   std::array<float, 6> b;
@@ -70,7 +70,7 @@ RC_GTEST_PROP(Properties, SeparationAlongTheNormalLeadsFromWitnessToWitness,
   RC_ASSERT((way - expected).norm() <= 1e-5);
 }
 
-// Arithmetic in powers of two is exact: so is the world at another scale.
+// Scaling by a power of two is exact, so the result scales exactly.
 RC_GTEST_PROP(Properties, ScalingByAPowerOfTwoScalesTheResult,
               (bool box_a, bool box_b, const Numbers& numbers, uint8_t power)) {
   const float scale = std::ldexp(1.0f, power % 128 - 64);
@@ -94,7 +94,7 @@ RC_GTEST_PROP(Properties, ScalingByAPowerOfTwoScalesTheResult,
   RC_ASSERT(other.arm_b == Eigen::Vector3f(result.arm_b * scale));
 }
 
-// Growing a sphere lowers the separation by what it grew.
+// Growing a sphere lowers the separation by the growth.
 RC_GTEST_PROP(Properties, GrowingASphereLowersTheSeparation, (bool box_b, const Numbers& numbers)) {
   TestPair pair = pair_of(false, box_b, numbers);
   const float before = reference_result(pair, PositionType::float32).separation;

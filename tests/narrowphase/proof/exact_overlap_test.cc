@@ -16,7 +16,8 @@
 namespace carom::test {
 namespace {
 
-// What is left of numbers that 100 digits could not add: nudges of zero by the smallest doubles.
+// The pair without differences that 100 digits cannot represent: positions moved from zero by the
+// smallest doubles.
 ConvexPair without_dust(ConvexPair pair) {
   const Eigen::Vector3d way = pair.pose_b.position - pair.pose_a.position;
   const double size = way.cwiseAbs().maxCoeff();
@@ -72,7 +73,7 @@ StatedBody at(const Shape& shape, double x, double y, double z,
   return stated_body(shape, Pose{{x, y, z}, q});
 }
 
-// Both ways round.
+// The decision, after checking that both orders agree.
 bool overlap(const StatedBody& a, const StatedBody& b) {
   EXPECT_EQ(exact_overlap(a, b), exact_overlap(b, a));
   return exact_overlap(a, b);
@@ -98,7 +99,7 @@ TEST(ExactOverlap, AtTheEndsOfTheRange) {
   EXPECT_FALSE(overlap(at(smallest, 0, 0, 0), at(smallest, 0x1p-148 + 0x1p-200, 0, 0)));
 }
 
-// The front's normal is (1, 2, 2) / 3: nothing is irrational.
+// The front's normal is (1, 2, 2) / 3, so no number is irrational.
 constexpr double kThird = 1.0 / 3;
 
 Triangle slanted(float thickness, bool one_sided = false) {
@@ -110,34 +111,34 @@ Triangle slanted(float thickness, bool one_sided = false) {
   return triangle;
 }
 
-// A corner of the back is -thickness (1, 2, 2) / 3: with a thickness of 3 it is (-1, -2, -2).
+// The back is offset by -thickness (1, 2, 2) / 3: by (-1, -2, -2) for a thickness of 3.
 TEST(ExactOverlap, ThickTrianglesReachAsFarAsTheirThickness) {
   const Sphere point{0};
   EXPECT_TRUE(overlap(at(slanted(3), 0, 0, 0), at(point, -1, -2, -2)));
   EXPECT_FALSE(overlap(at(slanted(3), 0, 0, 0), at(point, -1, -2, -2 - 0x1p-50)));
   EXPECT_FALSE(overlap(at(slanted(std::nextafter(3.0f, 0.0f)), 0, 0, 0), at(point, -1, -2, -2)));
   EXPECT_TRUE(overlap(at(slanted(std::nextafter(3.0f, 4.0f)), 0, 0, 0), at(point, -1, -2, -2)));
-  // Back against back, moved by six thirds of the normal.
+  // The two backs touch when the other triangle is moved by six thirds of the normal.
   Triangle other = slanted(3);
   std::swap(other.corners[1], other.corners[2]);
   EXPECT_TRUE(overlap(at(slanted(3), 0, 0, 0), at(other, -2, -4, -4)));
   EXPECT_FALSE(overlap(at(slanted(3), 0, 0, 0), at(other, -2, -4, -4 - 0x1p-49)));
 }
 
-// A unit normal with a root: (0, 1, 1) / sqrt(2), and two thick triangles with different roots.
+// A normal with a root: (0, 1, 1) / sqrt(2). Then two thick triangles with different roots.
 TEST(ExactOverlap, RootsAreExact) {
   Triangle a;
   a.corners = {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(0, -8, 8), Eigen::Vector3f(-8, 0, 0)};
   a.thickness = 1;
   const bool looks_up = (a.corners[1] - a.corners[0]).cross(a.corners[2] - a.corners[0]).y() > 0;
   if (!looks_up) std::swap(a.corners[1], a.corners[2]);
-  // The corner of the back is (0, -1, -1) / sqrt(2).
+  // The back is offset by (0, -1, -1) / sqrt(2).
   const double root = std::sqrt(0.5);
   const double below = std::nextafter(root, 0.0), above = std::nextafter(root, 1.0);
   const double inside = below * below * 2 < 1 ? below : 0.7;
   EXPECT_TRUE(overlap(at(a, 0, 0, 0), at(Sphere{0}, -0.25, -inside, -inside)));
   EXPECT_FALSE(overlap(at(a, 0, 0, 0), at(Sphere{0}, -0.25, -above, -above)));
-  // Along z the other one is sqrt(1/3) thick on each axis.
+  // The other triangle is sqrt(1/3) thick along each axis.
   Triangle b;
   b.corners = {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(8, -8, 0), Eigen::Vector3f(8, 0, -8)};
   b.thickness = 1;
@@ -155,16 +156,17 @@ TEST(ExactOverlap, WhatComesFromBehindIsApart) {
   EXPECT_TRUE(overlap(at(slanted(0, true), 0, 0, 0), moved(3)));
   EXPECT_FALSE(overlap(at(slanted(0, true), 0, 0, 0), moved(-3)));
   EXPECT_TRUE(overlap(at(slanted(0), 0, 0, 0), moved(-3)));
-  // In the plane of the back, and behind it: with a thickness of 3 that is (-1, -2, -2) away.
+  // A ball in the plane of the back, which a thickness of 3 offsets by (-1, -2, -2), and a ball
+  // behind it.
   EXPECT_TRUE(overlap(at(slanted(3, true), 0, 0, 0), at(ball, -1, -2, -2)));
   EXPECT_FALSE(overlap(at(slanted(3, true), 0, 0, 0), at(ball, -1, -2, -2 - 0x1p-50)));
-  // Without area there is no front.
+  // A triangle without area has no front.
   Triangle line = slanted(3, true);
   line.corners[2] = line.corners[1] * 2;
   EXPECT_TRUE(overlap(at(line, 0, 0, 0), at(ball, -1, -2, -2)));
 }
 
-// k-DOPs whose slabs were rounded so that they have no point in common count as half a unit wider.
+// k-DOPs whose rounded slabs have no point in common count as half a unit wider.
 TEST(ExactOverlap, DopsOfOnePoint) {
   const Eigen::Vector3f point(0.1f, 0.7f, -0.3f);
   for (const DopKind kind : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
@@ -177,8 +179,7 @@ TEST(ExactOverlap, DopsOfOnePoint) {
   }
 }
 
-// The two parts of a + b sqrt(s) cancelled, and what was left of them in doubles chose a wrong
-// corner.
+// The two parts of a + b sqrt(s) cancelled. Their remainder in doubles chose a wrong corner.
 TEST(ExactOverlap, PointJustInsideTheBackOfAThickTriangle) {
   Triangle triangle;
   triangle.corners = {Eigen::Vector3f(-0x1.00b9eap-2f, -0x1.d2cdfep-2f, -0x1.cef342p-4f),
@@ -189,7 +190,8 @@ TEST(ExactOverlap, PointJustInsideTheBackOfAThickTriangle) {
                                                 -0x1.d8519d23a60d1p-2, 0x1.738ff43c593cbp-1)));
 }
 
-// Slabs of x, y and z, of (1, 1, 1), and the others so wide that they do not matter.
+// A k-DOP of the axis slabs and the slab of (1, 1, 1); the other slabs are so wide that they do not
+// matter.
 Dop cut_box(const Eigen::Vector3f& lower, const Eigen::Vector3f& upper, float cut_lower,
             float cut_upper) {
   Dop dop{.kind = DopKind::k14};
@@ -203,7 +205,8 @@ Dop cut_box(const Eigen::Vector3f& lower, const Eigen::Vector3f& upper, float cu
   return dop;
 }
 
-// Empty by less than rounding tells; the ends that leave no point are zero, and widen to nothing.
+// The slabs miss each other by less than rounding can tell. Their ends are zero, so widening them
+// has no effect.
 TEST(ExactOverlap, DopsThatAreAllButEmpty) {
   const StatedBody dop = at(cut_box({-1, -1, -1}, {0, 0, 0}, 1e-20f, 3), 0, 0, 0);
   EXPECT_TRUE(overlap(dop, at(Sphere{0}, 0, 0, 0)));
@@ -228,7 +231,7 @@ TEST(ExactOverlap, SmallDopsFarAway) {
   EXPECT_NE(prove_overlap(dop, ball), 1);
 }
 
-// Too far apart for scaled units.
+// The two are too far apart for scaled units.
 TEST(ExactOverlap, HalfspacesAtTheEndOfTheRange) {
   const Halfspace halfspace{{0x1.ff933cp+127f, 0x1.4484cp-100f, 0x1.b7cdfep-34f}, 0x1.93e594p+99f};
   const Aabb box{{0x1.b38fb8p-127f, -0x1p+0f, -0x1.c363ccp+127f},

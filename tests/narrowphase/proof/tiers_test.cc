@@ -1,4 +1,4 @@
-// The tiers of collide(): what each promises, on every instruction set.
+// The tiers of collide(): their promises, on every instruction set.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ bool exact(const TestPair& pair, PositionType positions) {
   return exact_overlap(stated_body(pair.a, positions), stated_body(pair.b, positions));
 }
 
-// Every kind with every other, each family by turns: blocks hold all of them.
+// Every kind with every other and the families in turn, so that blocks hold all of them.
 class Tiers : public testing::TestWithParam<ConvexFamily> {
  protected:
   static std::vector<TestPair> pairs(PositionType positions) {
@@ -75,7 +75,8 @@ TEST_P(Tiers, CertifiedIsNeverWrong) {
   }
 }
 
-// Beside the decisions, and the signs that go with them, certified results are the standard ones.
+// Apart from decisions and the signs that follow from them, certified results are the standard
+// ones.
 TEST_P(Tiers, CertifiedChangesNothingElse) {
   const PositionType positions = PositionType::float32;
   const std::vector<TestPair> some = pairs(positions);
@@ -93,7 +94,7 @@ TEST_P(Tiers, CertifiedChangesNothingElse) {
   }
 }
 
-// The forward bound of separations, which callers may ask for.
+// Separations are within the forward bound that callers may ask for.
 TEST_P(Tiers, SeparationsAreWithinTheirBounds) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> some =
@@ -136,7 +137,7 @@ TEST(Tiers, KnobsOfOtherTiersAreOff) {
   EXPECT_TRUE(same_rows(standard, run_rows(pairs, call), pairs));
 }
 
-// Every tier: the same bits on every instruction set, for any number of pairs, in any order.
+// Every tier has the same bits on every instruction set, for any number of pairs, in any order.
 TEST(Tiers, AreTheSameOnEveryInstructionSet) {
   const Accuracy tiers[] = {{.tier = Tier::certified, .knobs = {}},
                             {.tier = Tier::exact, .knobs = {}},
@@ -179,7 +180,7 @@ TEST(Tiers, BoundsAndOverlapsDoNotNeedTheOtherColumns) {
   }
 }
 
-// What is odd about one pair must not make others of its vector unsure.
+// An invalid pair must not make the other pairs of its vector unsure.
 TEST(Tiers, NeighboursOfInvalidPairsGetWhatTheyAlwaysGet) {
   const float e = 0x1p-13f;
   const PlacedShape a{Aabb{Eigen::Vector3f::Constant(1), Eigen::Vector3f::Constant(1 + 2 * e)}};
@@ -200,7 +201,7 @@ TEST(Tiers, NeighboursOfInvalidPairsGetWhatTheyAlwaysGet) {
   });
 }
 
-// The separation overflowed on its way to not a number.
+// Here an intermediate separation overflowed and became NaN.
 TEST(Tiers, SignsHoldWhereDistancesOverflow) {
   const double far = 0x1.e42d130773b76p+1023;
   const PlacedShape plane = halfspace({-1, -far, far}, {0, -0x1p-148f, 0}, 0);
@@ -222,7 +223,7 @@ TEST(Tiers, SignsHoldWhereDistancesOverflow) {
 
 Accuracy knobs(const FastKnobs& knobs) { return {Tier::fast, knobs}; }
 
-// Decisions beyond 2^-17 of the size stay right, and so do normals where there is one.
+// Decisions further than 2^-17 of the size from touching stay right, and so do normals.
 TEST(FastTier, SinglePrecisionErrsNearTouchAlone) {
   size_t wrong = 0;
   for (const ConvexFamily& family : convex_families()) {
@@ -261,7 +262,7 @@ TEST(FastTier, FacesOnlyMissesNothing) {
   EXPECT_GT(extra, 20u);
 }
 
-// Kinds that have nothing to leave out are computed as ever.
+// faces_only does not change kinds without edge axes.
 TEST(FastTier, FacesOnlyLeavesOtherKindsAlone) {
   auto pairs = make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 600, 8);
   std::erase_if(pairs, [](const TestPair& pair) {

@@ -1,4 +1,4 @@
-// Results that are carried from step to step: how many, and that they are the same.
+// Results kept from step to step: how many there are, and that they equal new ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,11 +55,11 @@ TEST(Carry, AStillStepFindsNoBoundsAndNoPairs) {
   EXPECT_TRUE(report.ran(Stage::changes));
   EXPECT_TRUE(report.ran(Stage::events));
   EXPECT_EQ(world.events().size(), report.overlaps);
-  // From the second one on, even the events are those of the step before.
+  // From the second still step on, even the events repeat.
   EXPECT_FALSE(world.step().ran(Stage::events));
   EXPECT_EQ(world.events().size(), report.overlaps);
 
-  // Whatever is done to a body wakes the world.
+  // Any change of a body ends the still steps.
   world.set_position(ids[0], world.position(ids[0]) + Eigen::Vector3d(0.25, 0, 0));
   EXPECT_TRUE(world.step().ran(Stage::bounds));
   EXPECT_FALSE(world.step().ran(Stage::bounds));
@@ -132,7 +132,8 @@ TEST(Carry, AReplacedBodyIsTestedAgain) {
   EXPECT_EQ(world.step().kept, 1u);
 }
 
-// A pose that is written again, or comes back before the step, is no change; the sign of zero is.
+// A change is a change of bits: writing the same pose again, or restoring it before the step, is
+// none; changing the sign of zero is one.
 TEST(Carry, ChangesAreChangesOfBits) {
   World world;
   const BodyId id = world.add({.shape = Sphere{1}});
@@ -192,7 +193,7 @@ TEST(Velocities, AreTakenAlongTheNormal) {
   EXPECT_TRUE(world.report().ran(Stage::velocities));
   EXPECT_EQ(world.contacts()[0].normal_velocity, -3) << "approaching";
 
-  // In the array; nothing but the velocity changed, so the contact is carried.
+  // Writes in the array change the velocity only, so the contact is kept.
   const std::span<Eigen::Vector3f> velocities = world.linear_velocities();
   ASSERT_EQ(velocities.size(), 2u);
   velocities[b.index] = {10, 0, 0};

@@ -1,4 +1,4 @@
-// What the change tracker says against a plain copy of every body.
+// The change tracker against a plain copy of every body.
 #include "world/changes/change_tracker.h"
 
 #include <gtest/gtest.h>
@@ -119,7 +119,7 @@ class Tracked {
         state.shape[3 + i] = box->upper[i];
       }
     } else {
-      // As they are stored: k-DOPs have numbers that do not count.
+      // Compares stored numbers, since a k-DOP has unused ones.
       const std::span<const BodyStore::Row> rows =
           store.shape_rows().subspan(store.first_row(id.index), row_count(kind_of(shape)));
       std::memcpy(state.shape.data(), rows.data(), rows.size_bytes());
@@ -134,7 +134,7 @@ void run(PositionType positions, Parallelism parallelism, std::span<const ShapeK
     for (size_t i = 0; i < count; ++i) what();
   };
   for (int round = 0; round < 40; ++round) {
-    // Many, few or none of each kind of change; sometimes most bodies go.
+    // Many, few or no changes of each kind; sometimes most bodies are removed.
     const auto some = [&] {
       constexpr size_t kMost[] = {0, 0, 1, 3, 1000};
       return tracked.random.below(kMost[tracked.random.below(5)] + 1);
@@ -182,7 +182,8 @@ TEST(ChangeTracker, CountsExactlyWhatMoved) {
   EXPECT_TRUE(tracked.tracker.all_unchanged());
 }
 
-// The columns of orientations and rows come and go with the bodies that need them.
+// Columns of orientations and rows appear and disappear with the bodies that need them; this
+// changes no body.
 TEST(ChangeTracker, ColumnsThatAppearChangeNobody) {
   Tracked tracked(PositionType::float32, kSimpleKinds);
   for (size_t i = 0; i < kBodies; ++i) tracked.add();
@@ -212,7 +213,7 @@ TEST(ChangeTracker, ColumnsThatAppearChangeNobody) {
 
 TEST(ChangeTracker, FindsEverythingChangedAfterItForgot) {
   Tracked tracked(PositionType::float32, kSimpleKinds);
-  tracked.store.add({.shape = Sphere{0}});  // all zero, as memory that was never written
+  tracked.store.add({.shape = Sphere{0}});  // all zero, like memory that was never written
   for (size_t i = 1; i < kBodies; ++i) tracked.add();
   const auto update = [&] {
     tracked.tracker.update(tracked.store, Parallelism::none);

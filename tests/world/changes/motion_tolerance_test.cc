@@ -1,4 +1,4 @@
-// FastKnobs::motion_tolerance: which results stay, and how far they may be off.
+// FastKnobs::motion_tolerance: which results are kept, and how far they may be off.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ double true_separation(const World& world, Pair pair) {
       .separation;
 }
 
-// Every decision and every separation, against the bodies as they are.
+// Checks every decision and separation against the present poses.
 void check_error(const World& world, double most) {
   const double rounding = 2e-5;
   for (size_t i = 0; i < world.pairs().size(); ++i) {
@@ -64,7 +64,7 @@ TEST(MotionTolerance, SeparationsAreOffByTwiceTheToleranceAtMost) {
   EXPECT_GT(kept, tested);
 }
 
-// With a tolerance that nothing stays within, too.
+// Includes a tolerance that no motion stays within.
 TEST(MotionTolerance, OfZeroChangesNoBit) {
   for (uint64_t seed = 0; seed < rounds(20); ++seed) {
     const WorldSettings standard = settings_for(seed);
@@ -104,7 +104,7 @@ TEST(MotionTolerance, TheSameOnThreads) {
   });
 }
 
-// A body of that shape, and a large sphere around it.
+// A body of that shape inside a large sphere.
 struct Lone {
   explicit Lone(const Shape& shape, float metres = 0.5f, PositionType positions = {})
       : world(with_knobs(tolerance(metres), {.positions = positions})) {
@@ -149,7 +149,7 @@ TEST(MotionTolerance, HalfOfItIsTheWayFromTheLastTest) {
 }
 
 TEST(MotionTolerance, CountsTheTurn) {
-  Lone lone(Box{{2, 0.1f, 0.1f}});  // about 2 m a radian
+  Lone lone(Box{{2, 0.1f, 0.1f}});  // a point moves by about 2 m a radian
   EXPECT_FALSE(lone.is_tested_turned(0.12));
   EXPECT_FALSE(lone.is_tested_turned(-0.12));
   EXPECT_FALSE(lone.is_tested_turned(0.12, -1));
@@ -157,7 +157,7 @@ TEST(MotionTolerance, CountsTheTurn) {
   EXPECT_TRUE(lone.is_tested_turned(0.127, 0.001));
   EXPECT_FALSE(lone.is_tested_turned(0.127, 1e15));
   EXPECT_TRUE(lone.is_tested_turned(3));
-  // The two together.
+  // Shift and rotation add up.
   EXPECT_FALSE(lone.is_tested_turned(3.06));
   EXPECT_FALSE(lone.is_tested_at(0.12));
   EXPECT_TRUE(lone.is_tested_at(0.14));
@@ -171,7 +171,7 @@ TEST(MotionTolerance, ABallDoesNotTurn) {
   EXPECT_FALSE(lone.is_tested());
 }
 
-// Far out it moves by any distance.
+// A rotation moves far points of a half-space by any distance.
 TEST(MotionTolerance, AHalfspaceMayShiftButNotTurn) {
   Lone lone(Halfspace{{1, 0, 0}, 0});
   EXPECT_FALSE(lone.is_tested_at(0.2));
@@ -209,7 +209,7 @@ TEST(MotionTolerance, ABodyThatWasSpoiltIsTestedAgain) {
   EXPECT_TRUE(lone.is_tested_turned(0));
 }
 
-// Bounds and pairs are those of now.
+// Bounds and pairs are those of the present poses.
 TEST(MotionTolerance, AStepInWhichBodiesCreepIsNoStillOne) {
   Lone lone(Sphere{1});
   EXPECT_FALSE(lone.is_tested_at(0.1));
@@ -217,7 +217,7 @@ TEST(MotionTolerance, AStepInWhichBodiesCreepIsNoStillOne) {
   EXPECT_FALSE(lone.is_tested());
   EXPECT_FALSE(lone.world.report().ran(Stage::bounds));
 
-  // Pairs end when their bounds part, however little was moved.
+  // A pair ends when its bounds separate, however little the bodies moved.
   World world(with_knobs(tolerance(100)));
   const BodyId id = world.add({.shape = Sphere{1}});
   world.add({.shape = Sphere{1}, .position = {1.9, 0, 0}});
@@ -230,7 +230,7 @@ TEST(MotionTolerance, AStepInWhichBodiesCreepIsNoStillOne) {
   EXPECT_EQ(world.step().tested, 1u);
 }
 
-// Two bodies are tested at times of their own, and each may go half of the way before and after.
+// Two bodies are tested at different times. Each may use up its tolerance before and after.
 TEST(MotionTolerance, HoldsForBodiesThatWereTestedAtDifferentTimes) {
   World world(with_knobs(tolerance(1)));
   const BodyId a = world.add({.shape = Sphere{1}});
@@ -239,10 +239,10 @@ TEST(MotionTolerance, HoldsForBodiesThatWereTestedAtDifferentTimes) {
   world.set_position(a, {0.375, 0, 0});
   EXPECT_EQ(world.step().kept, 1u);
   world.set_position(b, {1.375, 0, 0});
-  EXPECT_EQ(world.step().tested, 1u);  // a metre apart
+  EXPECT_EQ(world.step().tested, 1u);  // b is a metre away from where it was tested
   EXPECT_EQ(world.contacts()[0].separation, -1);
   world.set_position(a, {-0.375, 0, 0});
-  EXPECT_EQ(world.step().kept, 1u);  // 75 cm away from where it was tested
+  EXPECT_EQ(world.step().kept, 1u);  // a is 75 cm away from where it was tested
   EXPECT_EQ(world.contacts()[0].separation, -1);
 }
 

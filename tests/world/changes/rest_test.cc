@@ -1,5 +1,5 @@
-// Worlds at rest at detail pairs: when bodies are compared with the last step, and that it shows in
-// nothing but the time.
+// Worlds at rest at detail pairs: when a step compares bodies with the last step, and that this
+// affects only the time.
 #include "world/changes/rest_watch.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace carom::test {
 namespace {
 
-// Small enough for brute force, for a sweep, and for cells.
+// Sizes for brute force, for a sweep, and for cells.
 constexpr size_t kCounts[] = {100, 400, 3000};
 
 CrowdSpec crowd_of(size_t count) {
@@ -22,7 +22,7 @@ WorldSettings pairs_only() { return {.detail = Detail::pairs}; }
 
 bool searches(World& world) { return world.step().ran(Stage::broadphase); }
 
-// Steps until the world is found to be at rest; returns how many it took.
+// Steps until the world counts as resting; returns the number of steps.
 int settle(World& world) {
   for (int steps = 1; steps < 200; ++steps) {
     if (!searches(world)) return steps;
@@ -184,7 +184,7 @@ TEST(RestWatch, WaitsLongerEachTimeItWasWrong) {
     last_waited = waited;
     watch.saw_step(true);  // makes the copy
     EXPECT_TRUE(watch.is_on());
-    watch.saw_step(true);  // something moved all the same
+    watch.saw_step(true);  // yet something moved
     EXPECT_FALSE(watch.is_on());
   }
   EXPECT_EQ(last_waited, 64);

@@ -1,4 +1,4 @@
-// Knobs of the fast tier in worlds: what is off changes nothing; balls for bodies.
+// Knobs of the fast tier in worlds: a knob that is off changes nothing; proxy balls.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ CrowdSpec crowd(uint64_t seed, size_t count = 200) {
 TEST(Knobs, ThatAreOffChangeNothing) {
   for (uint64_t seed = 0; seed < rounds(20); ++seed) {
     const WorldSettings standard = varied_settings(seed);
-    WorldSettings ignored = standard;  // knobs of another tier
+    WorldSettings ignored = standard;  // knobs count only in the fast tier
     ignored.accuracy.knobs = {.single_precision = true,
                               .faces_only = true,
                               .proxy_spheres = true,
@@ -41,9 +41,9 @@ TEST(Knobs, ThatAreOffChangeNothing) {
   }
 }
 
-// --- Balls ---
+// --- Proxy balls ---
 
-// Of the ball about the position, from the corners of the shape.
+// The radius of the ball about the position that contains the shape's corners.
 double ball_radius(const Shape& shape) {
   const auto length = [](const Eigen::Vector3f& v) { return v.cast<double>().norm(); };
   switch (kind_of(shape)) {
@@ -68,7 +68,7 @@ double ball_radius(const Shape& shape) {
   }
 }
 
-// NaN where it is not as simple.
+// The separation of two proxy balls; NaN for half-spaces and k-DOPs.
 double ball_separation(const World& world, Pair pair) {
   const BodyId a = world.id_of(pair.a), b = world.id_of(pair.b);
   for (const BodyId id : {a, b}) {
@@ -94,7 +94,7 @@ void check_balls(const World& balls, const World& standard, size_t& more) {
     if (std::isnan(separation)) continue;
     ASSERT_NEAR(contact.separation, separation, 1e-5);
   }
-  // Both have the contacts of the standard world; those of balls are deeper.
+  // Every contact of the standard world is there with balls, too, and at least as deep.
   size_t next = 0;
   for (const Contact& contact : standard.contacts()) {
     while (balls.contacts()[next].a != contact.a || balls.contacts()[next].b != contact.b) ++next;
@@ -118,7 +118,7 @@ TEST(ProxySpheres, MissNoOverlap) {
   EXPECT_GT(more, 1000u);
 }
 
-// Carried or not, with a margin and k-DOPs or without.
+// Results do not depend on carrying, margins or k-DOPs.
 TEST(ProxySpheres, DoNotDependOnWhatSavesTests) {
   for (uint64_t seed = 0; seed < rounds(30); ++seed) {
     const WorldSettings plain = with_knobs(kProxies, varied_settings(seed));
@@ -156,7 +156,7 @@ TEST(ProxySpheres, TheSameOnThreads) {
   });
 }
 
-// The corner of one box points at the other.
+// The corner of one box points at the other box.
 TEST(ProxySpheres, AreAboutThePosition) {
   World world(with_knobs(kProxies));
   const BodyId a = world.add({.shape = Box{{1, 2, 2}}});
@@ -171,7 +171,7 @@ TEST(ProxySpheres, AreAboutThePosition) {
   EXPECT_EQ(world.step().kept, 2u) << "radii that are written are no change";
   EXPECT_FALSE(world.report().ran(Stage::bounds));
 
-  // An aabb beside its position: a ball that is mostly empty.
+  // The aabb lies beside its position, so its ball is mostly empty.
   world.set_shape(a, Aabb{{0, 0, 0}, {1, 2, 2}});
   world.step();
   ASSERT_EQ(world.contacts().size(), 1u);

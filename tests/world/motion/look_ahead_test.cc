@@ -1,4 +1,4 @@
-// Random worlds that look ahead: every step is that of the reference, under all circumstances.
+// Random worlds that look ahead: every step equals the reference, with all settings.
 #include <gtest/gtest.h>
 
 #include "carom/base/thread_arena.h"
@@ -124,7 +124,7 @@ TEST(LookAhead, TheSameWithEveryBroadphaseAndWithoutCarrying) {
   EXPECT_TRUE(crowd_history({.carry_results = false}) == expected);
 }
 
-// Pairs depend on the margin, all that is said of them does not.
+// The margin changes the candidate pairs, but no result.
 TEST(LookAhead, TheSameWithMarginsAndDops) {
   const std::vector<Results> expected = crowd_history({});
   const auto expect_same = [&](const WorldSettings& settings) {
@@ -140,7 +140,7 @@ TEST(LookAhead, TheSameWithMarginsAndDops) {
   expect_same({.dop_bounds = DopKind::k18});
 }
 
-// Overlaps, contacts and their events are those of a world that does not look ahead.
+// Overlaps, contacts and their events equal those of a world that does not look ahead.
 TEST(LookAhead, WhatIsNowStaysAsItIs) {
   for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
     const WorldSettings settings{.positions = positions, .detail = Detail::manifold};
@@ -167,7 +167,8 @@ TEST(LookAhead, WhatIsNowStaysAsItIs) {
   }
 }
 
-// float64 calls touching what float32 bounds tell apart: a speck before a huge sphere.
+// A speck in front of a huge sphere: the test in float64 calls them touching, but their float32
+// bounds are separate.
 TEST(LookAhead, PairsWhoseBoundsLieApartDoNotOverlap) {
   World world;
   world.add({.shape = Sphere{1e10f}, .position = {-1e10, 0, 0}});

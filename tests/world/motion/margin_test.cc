@@ -1,4 +1,4 @@
-// Bounds with a margin: more candidates, less work, the same results.
+// Bounds with a margin: more candidate pairs, less work, the same results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// One column serves all axes.
+// An interval in one column, which serves all three axes.
 class Fattened {
  public:
   explicit Fattened(float margin) : margin_(margin) {}
@@ -40,7 +40,7 @@ class Fattened {
 
 using Interval = std::pair<float, float>;
 
-// Up to a few units in the last place, outwards.
+// `got` is the interval, rounded outwards by at most a few units in the last place.
 void expect_about(const Interval& got, double lower, double upper) {
   EXPECT_LE(got.first, lower);
   EXPECT_GE(got.second, upper);
@@ -90,7 +90,7 @@ TEST(FatBounds, AreRoundedOutwards) {
     const float v = number();
     if (margin == 0) continue;
     const auto [lower, upper] = Fattened(margin)(v, v);
-    // Long enough for most sums, and outwards of what it rounds.
+    // long double is exact for most sums, and rounds less than the margin's own rounding.
     ASSERT_LE(lower, static_cast<long double>(v) - margin) << v << ' ' << margin;
     ASSERT_GE(upper, static_cast<long double>(v) + margin) << v << ' ' << margin;
     ASSERT_LE(lower, v);
@@ -109,7 +109,7 @@ TEST(FatBounds, RowsMayComeAndGo) {
   expect_about(fat(0.5f, 0.5f, 4), -0.5, 1.5);
 }
 
-// The same bodies with a margin and without.
+// Two worlds with the same bodies, one with a margin and one without.
 class Twins {
  public:
   Twins(WorldSettings settings, float margin, const CrowdSpec& spec, uint64_t seed)
@@ -262,7 +262,8 @@ TEST(Margin, TheSameOnThreads) {
   });
 }
 
-// float64 calls touching what float32 bounds tell apart: a speck before a huge sphere.
+// A speck in front of a huge sphere: the test in float64 calls them touching, but their float32
+// bounds are separate.
 TEST(Margin, PairsWhoseBoundsLieApartDoNotOverlap) {
   for (const float margin : {0.0f, 1.0f}) {
     World world({.margin = margin});
@@ -275,7 +276,7 @@ TEST(Margin, PairsWhoseBoundsLieApartDoNotOverlap) {
   }
 }
 
-// Each goes its way at up to 1 cm a step.
+// Every body moves in its own direction, at up to 1 cm a step.
 TEST(Margin, FewBodiesAreSearchedInADriftingCrowd) {
   const CrowdSpec spec{.count = 3000, .side = 15};
   World world({.detail = Detail::pairs, .margin = 0.5f});

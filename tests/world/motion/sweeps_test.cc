@@ -1,4 +1,4 @@
-// Which bodies a step looks after, and how far it takes them to move.
+// Which bodies a step looks after, and from which motion on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(InnerDiameter, OfEveryKind) {
   }
 }
 
-// A slab that cuts off the middle: no ball around that lies inside.
+// A slab cuts off the middle: no ball about the middle fits inside.
 TEST(InnerDiameter, OfADopWithoutItsMiddleIsZero) {
   Dop dop = Dop::of_points(cube_corners(1), DopKind::k14);
   dop.lower[3] = 1;
@@ -68,7 +68,7 @@ TEST(InnerDiameter, OfShapesThatAreNotValidDoesNoHarm) {
   }
 }
 
-// One body with these velocities in a world whose interval is a second.
+// One body with these velocities, in a world whose interval is one second.
 struct OneBody {
   explicit OneBody(const BodyDesc& body, WorldSettings settings = {.dt = 1})
       : world(settings), id(world.add(body)) {}

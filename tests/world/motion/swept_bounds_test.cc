@@ -1,4 +1,4 @@
-// Bounds over the interval hold every point of the bodies at every time, and are not much larger.
+// Bounds over the interval contain every point of the bodies at every time, and are hardly larger.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -19,8 +19,8 @@ using Eigen::Vector3f;
 
 constexpr int kTimes = 64;
 
-// Points of the shape in the body's frame, of which the smallest box around the turned shape is
-// that of balls of `radius` about them.
+// Points in the body's frame. Balls of `radius` about them have the same smallest world box as the
+// turned shape.
 struct Skeleton {
   std::vector<Vector3d> points;
   double radius = 0;
@@ -43,7 +43,7 @@ Skeleton corners_with(const Vector3f& lower, const Vector3f& upper) {
   return skeleton;
 }
 
-// Of the triangles that take part.
+// The corners of the mesh's valid triangles.
 Skeleton skeleton_of(const MeshGeometry& mesh) {
   std::vector<Vector3f> corners;
   for (size_t i = 0; i < mesh.triangles().size(); ++i) {
@@ -53,7 +53,7 @@ Skeleton skeleton_of(const MeshGeometry& mesh) {
   return points_with(corners);
 }
 
-// Balls of children are covered by the corners of boxes that lie inside of them.
+// Stands in for the balls of children: the corners of boxes that lie inside them.
 Skeleton skeleton_of(const Compound& compound) {
   Skeleton all;
   for (const CompoundChild& child : compound.geometry->children()) {
@@ -108,7 +108,7 @@ struct Boxes {
   }
 };
 
-// Bounds of a store over an interval of a second.
+// The swept bounds of a store over one second.
 class Swept {
  public:
   explicit Swept(const BodyStore& bodies) : now_(bodies.rows()) {
@@ -135,7 +135,7 @@ class Swept {
   SweptBounds bounds_;
 };
 
-// The smallest box that holds the body at time t, in double precision.
+// The smallest box that contains the body at time t, in double precision.
 Eigen::AlignedBox3d box_at(double t, const BodyStore& bodies, const Shape& shape, bool turns) {
   const Vector3d rotation = bodies.angular_velocity(0).cast<double>();
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
@@ -202,7 +202,7 @@ TEST(SweptBounds, OfWhatDoesNotMoveAreThoseOfNow) {
   EXPECT_EQ(swept.now(0).max(), swept.over(0).max());
 }
 
-// Along one way nothing but rounding is added.
+// A straight motion adds nothing but rounding.
 TEST(SweptBounds, OfWhatGoesStraightAreTheSmallest) {
   BodyStore bodies(PositionType::float32);
   bodies.add({.shape = Sphere{0.5f},
@@ -215,7 +215,7 @@ TEST(SweptBounds, OfWhatGoesStraightAreTheSmallest) {
   EXPECT_EQ(swept.over(0).max(), Vector3d(5.5, 2.5, 3.5));
 }
 
-// A slow turn costs its angle times the radius, a fast one the ball.
+// A slow turn adds its angle times the radius, a fast turn needs the whole ball.
 TEST(SweptBounds, OfWhatTurnsGrowWithTheAngle) {
   const auto reach = [](float angle) {
     BodyStore bodies(PositionType::float32);
@@ -237,7 +237,7 @@ TEST(SweptBounds, OfBodiesThatAreSetAsideAreThoseOfNow) {
   EXPECT_TRUE(swept.over(1).isEmpty());
 }
 
-// Beyond the range of float32 there is no box but the infinite one, and no pair is lost.
+// Beyond the range of float32 the bounds are infinite, so that no pair is lost.
 TEST(SweptBounds, OfGiantsAreUnbounded) {
   BodyStore bodies(PositionType::float32);
   bodies.add({.shape = Box{{3e38f, 3e38f, 3e38f}},

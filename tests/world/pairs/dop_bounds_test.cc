@@ -1,4 +1,4 @@
-// Worlds that drop pairs by their k-DOPs: fewer tests, the same results.
+// Worlds that drop pairs by k-DOPs: fewer tests, the same results.
 #include <gtest/gtest.h>
 
 #include "carom/base/thread_arena.h"
@@ -28,7 +28,7 @@ void run_history(const WorldSettings& settings, uint32_t seed, Coverage* coverag
     history.change_random_body(side, filters);
     history.step_and_check();
     if (::testing::Test::HasFailure()) return;
-    if (history.chance(0.2)) history.step_and_check();  // a still one
+    if (history.chance(0.2)) history.step_and_check();  // a still step
   }
   if (coverage) *coverage = history.coverage;
 }
@@ -62,7 +62,8 @@ TEST(DopWorlds, HistoriesMatchTheReferenceOnEveryIsaAndOnThreads) {
   });
 }
 
-// Large enough for many blocks; with a margin, of which the reference knows nothing.
+// Crowds large enough for many blocks. With a margin the reference has other candidate pairs, so
+// worlds are compared with each other.
 void expect_same_results(WorldSettings settings, const CrowdSpec& spec, DopKind kind) {
   World plain(settings);
   settings.dop_bounds = kind;
@@ -85,7 +86,7 @@ void expect_same_results(WorldSettings settings, const CrowdSpec& spec, DopKind 
     if (step == 0) {
       EXPECT_GT(tight.report().dropped, 0u);
     }
-    if (step == 3) continue;  // a still one
+    if (step == 3) continue;  // a still step
     for (World* world : {&plain, &tight}) {
       Random random(static_cast<uint64_t>(step));
       move_some(*world, ids, step == 1 ? 1 : 0.3, random);
@@ -117,7 +118,7 @@ TEST(DopWorlds, HaveTheSameResultsOnThreads) {
   }
 }
 
-// Two rods side by side, crosswise to the axes: their boxes overlap, and nothing else does.
+// Two parallel rods, diagonal to the axes: only their boxes overlap.
 TEST(DopWorlds, PairsThatAreDroppedStayPairs) {
   World world({.dop_bounds = DopKind::k18});
   const Eigen::Quaternionf turned(Eigen::AngleAxisf(0.785398185f, Eigen::Vector3f::UnitZ()));
@@ -128,7 +129,7 @@ TEST(DopWorlds, PairsThatAreDroppedStayPairs) {
   EXPECT_EQ(world.pairs().size(), 1u);
   EXPECT_EQ(world.overlaps()[0], 0);
   EXPECT_TRUE(world.contacts().empty());
-  EXPECT_EQ(world.step().dropped, 0u);  // carried
+  EXPECT_EQ(world.step().dropped, 0u);  // kept from the last step
   EXPECT_EQ(world.report().kept, 1u);
   world.set_position(first, {1, -1, 0});
   EXPECT_EQ(world.step().dropped, 0u);

@@ -1,4 +1,4 @@
-// Half-spaces in a world: whom they meet, and that they cost nothing where there are none.
+// Half-spaces in a world: which bodies they meet, and that they cost nothing if there are none.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ BodyDesc ball(double z, float radius = 0.5f) {
 
 BodyDesc ground(float offset = 0) { return {.shape = Halfspace{{0, 0, 1}, offset}}; }
 
-// Turned upside down: everything above meets it.
+// A half-space turned upside down: it fills everything above z.
 BodyDesc ceiling(double z) {
   return {.shape = Halfspace{}, .position = {0, 0, z}, .orientation = {0, 1, 0, 0}};
 }
@@ -68,9 +68,9 @@ TEST(Halfspaces, FollowTheirOwnPoseAndRow) {
   EXPECT_EQ(pairs(), 0u);
   world.shape_rows().rows[4 * world.first_row(plane) + 3] = 1.75f;
   EXPECT_EQ(pairs(), 1u);
-  world.set_shape(plane, Halfspace{{0, 0, 10}, 10});  // up to z = 1
+  world.set_shape(plane, Halfspace{{0, 0, 10}, 10});  // fills z <= 1
   EXPECT_EQ(pairs(), 0u);
-  world.set_orientation(plane, {0, 2, 0, 0});  // half a turn about x: all above z = -1
+  world.set_orientation(plane, {0, 2, 0, 0});  // half a turn about x: fills z >= -1
   EXPECT_EQ(pairs(), 1u);
   world.arrays().orientation[4 * plane.index] = 0;
   world.arrays().orientation[4 * plane.index + 3] = -3;
@@ -220,13 +220,14 @@ TEST(Halfspaces, AStillWorldRepeatsItself) {
   }
 }
 
-// Their pairs count like others.
+// Pairs with half-spaces count towards the limit.
 TEST(Halfspaces, CanMakeAStepIncomplete) {
   constexpr size_t kBalls = 50;
   for (const BroadphaseMethod method : {BroadphaseMethod::brute, BroadphaseMethod::grid}) {
     World world({.broadphase = method, .most_pairs = 2 * kBalls - 1});
     std::vector<BodyId> planes = {world.add(ground())};
-    for (size_t i = 0; i < kBalls; ++i) {  // a row: kBalls - 1 pairs, kBalls more with the ground
+    // A row: kBalls - 1 pairs, and kBalls more with the ground.
+    for (size_t i = 0; i < kBalls; ++i) {
       world.add({.shape = Sphere{0.6f}, .position = {static_cast<double>(i), 0, 0}});
     }
     const auto expect_complete = [&] {
@@ -247,7 +248,7 @@ TEST(Halfspaces, CanMakeAStepIncomplete) {
     planes.push_back(world.add(ground()));
     EXPECT_FALSE(world.step().search.complete);
     EXPECT_EQ(world.report().search.pairs, 4 * kBalls - 1);
-    // Too many without them.
+    // Too many pairs even without half-spaces.
     world.remove(planes);
     EXPECT_TRUE(world.step().search.complete);
     for (uint32_t i = 1; i <= kBalls; ++i) world.set_position(world.id_of(i), {0, 0, 0});
@@ -278,7 +279,7 @@ TEST(Halfspaces, CostMemoryOnlyWhileThereAreSome) {
   EXPECT_LT(steps(), with - own_pairs);
 }
 
-// With any search, and any margin, the pairs of half-spaces are the same.
+// The pairs of half-spaces are the same with any search method and any margin.
 TEST(Halfspaces, DoNotDependOnTheSearch) {
   const CrowdSpec spec{.count = 1200, .side = 10, .oriented = true, .halfspaces = 4};
   const auto contacts = [&](const WorldSettings& settings) {

@@ -1,4 +1,5 @@
-// Steps with more pairs than the world may find: empty, consistent, and over when the bodies part.
+// Steps with more pairs than the limit: they are empty and consistent, and end when the bodies
+// separate.
 #include <gtest/gtest.h>
 
 #include "tests/world/crowds.h"
@@ -8,7 +9,7 @@ namespace {
 
 constexpr size_t kLimit = 1000;
 
-// Bodies in a row, each overlapping the next; or all in one place.
+// Bodies in a row, each overlapping the next, or all in one place.
 class Heap {
  public:
   Heap(WorldSettings settings, size_t count) {
@@ -66,7 +67,7 @@ TEST(MostPairs, AnIncompleteStepIsEmptyAndTheNextBeginsAnew) {
         heap.expect_row(EventKind::begin);
         heap.pile_up();
         heap.expect_incomplete(99);
-        for (int i = 0; i < 6; ++i) heap.expect_incomplete(0);  // still, too
+        for (int i = 0; i < 6; ++i) heap.expect_incomplete(0);  // still steps, too
         heap.spread();
         heap.expect_row(EventKind::begin);
         heap.expect_row(EventKind::persist);

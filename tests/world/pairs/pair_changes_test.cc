@@ -12,7 +12,7 @@ namespace {
 
 using IdPair = std::pair<BodyId, BodyId>;
 
-// The pairs of the last step by ids: a body that replaced another one is another body here.
+// The pairs of the last step by id: a body that replaced another one counts as a different body.
 class Model {
  public:
   void check(const World& world) {

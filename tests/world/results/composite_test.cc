@@ -1,4 +1,4 @@
-// Worlds with meshes and compounds: every step is that of the reference, carried results too.
+// Worlds with meshes and compounds: every step equals the reference, also with kept results.
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
@@ -67,14 +67,14 @@ TEST(CompositeWorld, ThreadsChangeNothing) {
   arena.execute([&] { expect_reference(settings, 7); });
 }
 
-// Pairs whose k-DOPs are apart are dropped, and only those.
+// k-DOPs drop separate pairs only.
 TEST(CompositeWorld, DopBoundsLoseNothing) {
   WorldSettings settings = settings_with(Detail::contact, PositionType::float32);
   settings.dop_bounds = DopKind::k26;
   expect_reference(settings, 8);
 }
 
-// A box lies on a mesh and is pushed across its edges: one contact, whose normal is the plane's,
+// A box lies on a mesh and is pushed across its edges: it has one contact, with the plane's normal,
 // that names the triangle below.
 TEST(CompositeWorld, ABoxThatSlidesOverAMeshHasOneContact) {
   World world(settings_with(Detail::manifold, PositionType::float32));

@@ -27,7 +27,7 @@ std::ostream& operator<<(std::ostream& out, const Told& t) {
              << (t.contact ? ", contact" : "");
 }
 
-// Steps and says what happened; contacts named by events are theirs.
+// Steps and returns the events; checks that their contact indices are right.
 std::vector<Told> told(World& world) {
   world.step();
   std::vector<Told> all;
@@ -190,7 +190,7 @@ TEST_P(Events, EveryKindOfBadBodyIsQuarantined) {
   world.set_shape(b, Sphere{0.5f});
   world.set_position(b, {0, infinity, 0});
   expect_bad();
-  world.set_position(b, {1e39, 0, 0});  // too far for float32
+  world.set_position(b, {1e39, 0, 0});  // beyond the range of float32
   expect_bad();
   move(b, 0.5);
   EXPECT_THAT(told(world), ElementsAre(begin(a, b)));

@@ -1,4 +1,5 @@
-// Impacts from step to step: events, steps that repeat the last one, bodies that come and go.
+// Impacts from step to step: events, steps that repeat the last one, bodies that are added and
+// removed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +43,8 @@ TEST(ImpactSteps, EventsFollowThoseOfOverlaps) {
   EXPECT_THAT(without.events(), IsEmpty());
 }
 
-// A step that repeats the last one finds nothing anew; what changes motions is no repetition.
+// A step that repeats the last one searches nothing again; a step after a change of motion is no
+// repetition.
 TEST(ImpactSteps, StillStepsRepeatThem) {
   World world(kSecond);
   const BodyId w = world.add(wall(10));
@@ -155,7 +157,7 @@ TEST(ImpactSteps, DetailSaysHowMuchThereIs) {
   }
 }
 
-// The ball about a rod that points along its way is as long as the rod.
+// A rod points along its path; its proxy ball has the rod's length as diameter.
 TEST(ImpactSteps, OfProxiesAreThoseOfTheBalls) {
   WorldSettings settings = kSecond;
   settings.accuracy = {.tier = Tier::fast, .knobs = {.proxy_spheres = true}};

@@ -1,4 +1,4 @@
-// What continuous bodies meet: nothing is jumped over, and the first one counts.
+// Impacts of continuous bodies: none is missed, and the first one stops the body.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,8 +59,8 @@ TEST(Impacts, OfAutomaticBodiesThatAreFast) {
   EXPECT_THAT(world.events(), IsEmpty());
 }
 
-// A continuous body and one that is not come from two sides, too fast for both to be seen where
-// they are now.
+// A continuous and a discrete body approach each other so fast that neither is near its present
+// position when they meet.
 TEST(Impacts, DiscreteBodiesAreMetOnTheirWay) {
   World world(kSecond);
   world.add(bullet(100));
@@ -71,7 +71,7 @@ TEST(Impacts, DiscreteBodiesAreMetOnTheirWay) {
   EXPECT_NEAR(world.impacts()[0].toi, 0.75, 1e-3);
 }
 
-// Two discrete bodies are a pair if their bounds meet now, whoever else looks ahead.
+// A pair of discrete bodies needs bounds that overlap now, whichever other bodies look ahead.
 TEST(Impacts, OthersArePairsAsEver) {
   World world(kSecond);
   for (const double x : {0.0, 3.0}) {
@@ -99,13 +99,13 @@ TEST(Impacts, TheFirstOneStopsTheBody) {
   EXPECT_THAT(step(all), ElementsAre(Pair{1, 3}, Pair{2, 3}, Pair{0, 3}));
   EXPECT_EQ(all.first_impact({3, 0}), &all.impacts()[0]);
   EXPECT_EQ(all.first_impact({0, 0}), &all.impacts()[2]);
-  // The walls behind are first met by this one, as far as they know.
+  // For the walls behind, this impact is the first one, so it stays.
   World earliest = three_walls(kSecond);
   EXPECT_THAT(step(earliest), SizeIs(3));
 }
 
-// Of two bullets that hit one wall, each has its first impact there; what is behind the wall is
-// nobody's first but its own.
+// Two bullets hit the same wall: that is the first impact of each. An impact with the wall behind
+// is kept only if it is the first one of that wall.
 TEST(Impacts, EarliestOfAtLeastOneOfTheTwo) {
   for (const bool earliest : {false, true}) {
     World world(earliest ? kSecond : kAll);
@@ -126,7 +126,7 @@ TEST(Impacts, EarliestOfAtLeastOneOfTheTwo) {
   }
 }
 
-// A ball rolls on a floor, towards a wall.
+// A ball rolls on a floor towards a wall.
 TEST(Impacts, WhatOverlapsNowDoesNotHideWhatComes) {
   World world(kSecond);
   const BodyId floor = world.add({.shape = Halfspace{{0, 0, 1}, 0}, .motion = Motion::fixed});
@@ -197,7 +197,7 @@ TEST(Impacts, FiltersHold) {
   EXPECT_FALSE(meets(w, fixed));
 }
 
-// Of sheets, parts and planes, none of which is there at the end of the step.
+// Sheets, parts and planes that the body has passed by the end of the step.
 TEST(Impacts, ThinThingsOfEveryKindAreMet) {
   const Mesh sheet = grid_mesh(4, 1, [](float, float) { return 0.0f; });
   const Triangle triangle{.corners = {{{-3, -3, 0}, {3, -3, 0}, {0, 3, 0}}}};
@@ -227,7 +227,7 @@ TEST(Impacts, ThinThingsOfEveryKindAreMet) {
                                      .detection = detection});
         world.step();
         const Impact* first = world.first_impact(id);
-        // One-sided sheets meet what comes from one side, and there is a way around a thin rod.
+        // One-sided sheets let bodies from behind pass, and a body may pass beside a thin rod.
         const bool may_pass = kind == ShapeKind::mesh || kind == ShapeKind::triangle ||
                               kind == ShapeKind::compound ||
                               std::holds_alternative<Capsule>(target);

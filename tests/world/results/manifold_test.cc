@@ -1,4 +1,4 @@
-// Contact manifolds: one a contact, carried from step to step like the contacts themselves.
+// Contact manifolds: one a contact, kept from step to step like the contacts themselves.
 #include <gtest/gtest.h>
 
 #include "tests/world/crowds.h"

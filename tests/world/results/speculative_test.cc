@@ -1,4 +1,4 @@
-// Contacts of swept bodies that are not there yet.
+// Speculative contacts of swept bodies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Pairs that the certified tier cannot decide: no contacts, no events, and nobody forgets them.
+// Pairs that the certified tier cannot decide: they have no contacts and no events, but stay pairs.
 #include <gtest/gtest.h>
 
 #include "tests/support/rounds.h"
@@ -12,8 +12,8 @@ WorldSettings at_tier(Tier tier, WorldSettings settings = {}) {
   return settings;
 }
 
-// R = (3 4 0, -4 3 0, 0 0 5) / 5: the turned box reaches exactly 7 along x, and at 8 it touches the
-// other. Which rounding does not tell.
+// R = (3 4 0, -4 3 0, 0 0 5) / 5: the turned box reaches exactly 7 along x and touches the other
+// one at 8. Rounding hides on which side.
 struct Touching {
   explicit Touching(const WorldSettings& settings, bool sensor = false) : world(settings) {
     world.add({.shape = Box{{1, 1, 1}}, .sensor = sensor});
@@ -90,7 +90,7 @@ TEST(Undecided, EndWhatOverlappedAndBeginNothing) {
   }
 }
 
-// Bounds that lie apart are a proof.
+// Separate bounds prove that a pair is separate.
 TEST(Undecided, AreNotApartByTheirBounds) {
   Touching touching(at_tier(Tier::certified, {.margin = 1}));
   touching.world.step();
@@ -110,7 +110,7 @@ TEST(Undecided, NoneIsAtTheExactTier) {
   touching.expect_event(EventKind::begin);
 }
 
-// Whatever is proven is what the exact tier finds, carried or not.
+// Every proven decision equals that of the exact tier, kept or not.
 TEST(Undecided, RandomHistoriesOfTheTiersAgree) {
   for (uint64_t seed = 0; seed < rounds(6); ++seed) {
     WorldSettings anew = at_tier(Tier::certified);

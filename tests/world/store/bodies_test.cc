@@ -98,7 +98,7 @@ TEST(Bodies, KeepWhatTheyAreGiven) {
     EXPECT_FALSE(world.is_sensor(plain));
     EXPECT_EQ(world.user(plain), 0u);
 
-    // A new body at the same index starts from the defaults.
+    // A new body at the same index starts with the defaults.
     world.remove(id);
     const BodyId next = world.add(ball(0, 3));
     ASSERT_EQ(next.index, id.index);
@@ -110,7 +110,7 @@ TEST(Bodies, KeepWhatTheyAreGiven) {
   }
 }
 
-// What the caller's flush-to-zero or rounding would do to numbers on their way into the arrays.
+// The caller's flush-to-zero or rounding mode must not change numbers as they are stored.
 TEST(Bodies, AreStoredTheSameInAnyFloatMode) {
   const BodyDesc desc = {.position = {1e-40, 0.1, -0.1}, .linear_velocity = {1e-40f, 0, 0}};
   const Eigen::Vector3d expected = stored(desc.position, PositionType::float32);
@@ -189,7 +189,7 @@ TEST(Bodies, AreMovedInBatchesAndThroughTheArrays) {
       if (arrays.record32) arrays.record32[i] = static_cast<float>(x);
       if (arrays.record64) arrays.record64[i] = x;
     };
-    set(4 * 2, 1.5);       // body 2 next to body 1
+    set(4 * 2, 1.5);       // body 2 moves next to body 1
     set(4 * 0 + 3, 0.25);  // the radius of body 0
     world.step();
     ASSERT_EQ(world.contacts().size(), 2u);
@@ -255,7 +255,7 @@ TEST(Bodies, ChangeTheKindOfTheirShape) {
     EXPECT_EQ(separation(), -0.25f);
     world.set_shape(a, Sphere{1});
     EXPECT_EQ(separation(), -0.25f);
-    // Slots are used again; no box was lost.
+    // The slot is used again, so there is still one box.
     EXPECT_EQ(world.boxes().count, 1u);
     world.set_shape(b, Aabb::from_half_extents({3, 3, 3}));
     EXPECT_EQ(world.boxes().count, 2u);
@@ -266,7 +266,7 @@ TEST(Bodies, ChangeTheKindOfTheirShape) {
   }
 }
 
-// One of each kind, with numbers that tell which is which.
+// One shape of each kind, with distinct numbers.
 const Shape kShapes[] = {
     Sphere{0.25f},
     Aabb{{-1, -2, -3}, {4, 5, 6}},
@@ -276,7 +276,7 @@ const Shape kShapes[] = {
     Halfspace{{0, 3, 4}, -2},
 };
 
-// The shape as numbers.
+// All numbers of the shape.
 std::vector<float> numbers(const Shape& shape) {
   if (const auto* s = std::get_if<Sphere>(&shape)) return {s->radius};
   if (const auto* b = std::get_if<Aabb>(&shape)) {
@@ -311,7 +311,7 @@ TEST(Bodies, OfEveryKindKeepShapeAndOrientation) {
       const Eigen::Vector4f expected = turns ? Eigen::Vector4f(3, 2, 1, 4) : identity.coeffs();
       EXPECT_EQ(world.orientation(ids[i]).coeffs(), expected);
     }
-    // A new body at the same index starts from what it is given.
+    // A new body at the same index starts with its own numbers.
     for (size_t i = 0; i < ids.size(); ++i) {
       world.remove(ids[i]);
       const BodyId next = world.add({.shape = kShapes[(i + 1) % ids.size()]});

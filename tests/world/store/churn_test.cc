@@ -1,4 +1,4 @@
-// Bodies that come and go for a long time: ids stay right, and memory and work follow the living.
+// Bodies come and go for a long time: ids stay right, and memory and work follow the living bodies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ BodyDesc body_at(double x, bool box = false) {
   return body;
 }
 
-// The i-th of a row of all kinds but half-spaces.
+// Body i of a cycle through all kinds but half-spaces.
 BodyDesc any_body(size_t i) {
   const Shape shapes[] = {Sphere{0.5f}, Aabb::from_half_extents({0.5f, 0.5f, 0.5f}),
                           Capsule{{0, 0, 0}, {0, 0, 1}, 0.5f}, Box{{0.5f, 0.5f, 0.5f}},
@@ -26,7 +26,7 @@ BodyDesc any_body(size_t i) {
   return {.shape = shapes[i % 5], .position = {4.0 * static_cast<double>(i % 1000), 0, 0}};
 }
 
-// Takes `count` random items out of the list.
+// Removes `count` random items from the list and returns them.
 template <class T>
 std::vector<T> draw(std::vector<T>& items, size_t count, Random& random) {
   std::vector<T> drawn;
@@ -43,7 +43,7 @@ TEST(IndexPool, HandsOutTheLowestFreeIndexAndEndsAtTheHighestInUse) {
   IndexPool pool;
   std::set<uint32_t> used;
   for (int i = 0; i < 20000; ++i) {
-    // Now more of the one, now more of the other.
+    // The population grows and shrinks in turns.
     const double growth = (i / 2000) % 2 ? 0.3 : 0.7;
     if (used.empty() || random.chance(growth)) {
       uint32_t lowest = 0;
@@ -128,7 +128,8 @@ TEST(Churn, NoIdIsEverUsedTwice) {
   EXPECT_EQ(known, living.size());
 }
 
-// The body with the highest index goes, and its row with it: its overlaps end under its name.
+// The body with the highest index is removed, and its row with it: its overlaps still end under its
+// id.
 TEST(Churn, OverlapsOfTheLastBodyEnd) {
   World world;
   const BodyId a = world.add(body_at(0));
@@ -203,8 +204,8 @@ TEST(Churn, ManyStepsOfASmallWorldDoNotGrowIt) {
   for (int i = 0; i < 2000; ++i) step();
   const size_t bytes = world.bytes();
   for (int i = 0; i < 20000; ++i) step();
-  EXPECT_LE(world.bytes(), bytes * 3 / 2);  // the most pairs at once are still to come
-  // Without a step in between, either.
+  EXPECT_LE(world.bytes(), bytes * 3 / 2);  // the greatest number of pairs is still to come
+  // Also without a step in between.
   for (int i = 0; i < 20000; ++i) world.remove(world.add(body_at(i)));
   EXPECT_LE(world.bytes(), bytes * 3 / 2);
 }

@@ -1,4 +1,4 @@
-// Memory of a world: accounted by part, and given back by worlds that shrink.
+// Memory of a world: it is accounted by part, and shrinking worlds give it back.
 #include <gtest/gtest.h>
 
 #include "tests/world/crowds.h"
@@ -53,7 +53,7 @@ TEST(Memory, AnEmptiedWorldGivesItBack) {
   expect_given_back(kManifold, kDenseOriented);
 }
 
-// All bodies stay, and hardly meet any more.
+// All bodies stay, but hardly any overlap afterwards.
 void expect_given_back_after_parting(const WorldSettings& settings, const CrowdSpec& spec) {
   World world(settings);
   const std::vector<BodyId> ids = add_crowd(world, spec);

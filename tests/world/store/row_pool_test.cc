@@ -1,4 +1,4 @@
-// Blocks of rows against the plainest bookkeeping there is.
+// The pool of row blocks against plain bookkeeping.
 #include "world/store/row_pool.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace carom::test {
 using namespace oracle;
 namespace {
 
-// Rows as a map of blocks: free ones stay where they are until the end of the array goes.
+// Blocks of rows as a map: free blocks stay where they are until the end of the array is free.
 class PlainRows {
  public:
   uint32_t take(uint32_t rows) {
@@ -61,7 +61,7 @@ TEST(RowPool, HandsOutTheLowestFreeBlockOfThatSize) {
     PlainRows plain;
     std::vector<Taken> taken;
     for (int i = 0; i < 6000; ++i) {
-      // Now more of the one, now more of the other.
+      // The number of blocks grows and shrinks in turns.
       const double growth = (i / 700) % 2 ? 0.25 : 0.65;
       if (taken.empty() || random.chance(growth)) {
         const auto rows = static_cast<uint32_t>(1 + random.below(kMostRows));
@@ -69,7 +69,7 @@ TEST(RowPool, HandsOutTheLowestFreeBlockOfThatSize) {
         ASSERT_EQ(first, plain.take(rows)) << "seed " << seed << ", action " << i;
         taken.push_back({first, rows});
       } else {
-        // Those at the end often.
+        // Often the block at the end.
         if (random.chance(0.5)) std::swap(taken[random.below(taken.size())], taken.back());
         pool.release(taken.back().first, taken.back().rows);
         plain.release(taken.back().first);
@@ -116,7 +116,7 @@ TEST(RowPool, GivesMemoryBack) {
     for (uint32_t i = 0; i < kBlocks; ++i) taken.push_back({pool.take(1 + i % 3), 1 + i % 3});
   };
   fill();
-  // From the front: every block is free for a while, then all go at once.
+  // Released from the front: every block stays free for a while, then the array shrinks at once.
   for (const Taken& block : taken) pool.release(block.first, block.rows);
   taken.clear();
   EXPECT_LT(pool.bytes(), 32u << 10);
