@@ -11,7 +11,7 @@
 #include "base/tolerances.h"
 #include "narrowphase/hulls/closest_feature-inl.h"
 #include "narrowphase/hulls/features.h"
-#include "narrowphase/hulls/gjk-inl.h"
+#include "narrowphase/hulls/gjk_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -148,6 +148,12 @@ struct CoreKernel {
   static HWY_INLINE Mask run_stage(const CoreLanes& a, const CoreLanes& b, F radius,
                                    const Report& report, GjkSearch& search) {
     const SearchGoal goal = goal_at(radius, report.batch.features != nullptr);
+    if constexpr (kDecides && A::kKind != ShapeKind::hull) {
+      static_assert(kStage == Stage::whole);
+      begin_search_inlined<kDecides>(a, b, goal, search);
+      go_on_inlined<kDecides>(a, b, goal, 0, search);
+      return no_lanes();
+    }
     OpenSearches* const open = report.batch.open;
     if constexpr (kStage == Stage::rest) {
       resume(*open, report.row, search);
