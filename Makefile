@@ -3,14 +3,17 @@ SHELL := /bin/bash
 .NOTPARALLEL:
 JOBS ?= $(shell nproc)
 
-.PHONY: run test bench peers grid lint format docs asan tsan fuzz clean help
+.PHONY: run program test bench peers grid lint format docs asan tsan fuzz clean help
 
 help: ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-7s %s\n", $$1, $$2}' Makefile
 
 run: setup-build ## verify and replay a recorded scene and a generated one
+	@scripts/build.sh release carom_run_program
+	@scripts/run.sh build/release/cli/carom-run
+
+program: setup-build ## build the program with all its commands: build/release/cli/carom
 	@scripts/build.sh release carom_program
-	@scripts/run.sh build/release/cli/carom
 
 test: build-release ## run all tests
 	ctest --preset release -j $(JOBS)

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "carom_build_info.h"
-#include "cli/commands.h"
 #include "cli/support/command_line.h"
 #include "cli/support/options.h"
 
@@ -36,18 +35,11 @@ Result<void> check_command(const std::vector<std::string>& commands,
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-int run_program(std::span<const std::string> arguments, const Console& console) {
+int run_program(std::span<const AddCommand> commands, std::span<const std::string> arguments,
+                const Console& console) {
   CommandLine program("carom", "Collision detection for many bodies",
                       std::string("carom ") + build_info::kVersion);
-  add_run_command(program);
-  add_pairs_command(program);
-  add_verify_command(program);
-  add_advise_command(program);
-  add_accuracy_command(program);
-  add_tunnelling_command(program);
-  add_check_command(program);
-  add_generate_command(program);
-  add_info_command(program);
+  for (const AddCommand add : commands) add(program);
 
   if (Result<void> known = check_command(program.command_names(), arguments); !known) {
     console.error(known.error());
@@ -68,10 +60,11 @@ int run_program(std::span<const std::string> arguments, const Console& console) 
 
 }  // namespace
 
-int run_cli(std::span<const std::string> arguments, std::ostream& out, std::ostream& err) {
+int run_cli(std::span<const AddCommand> commands, std::span<const std::string> arguments,
+            std::ostream& out, std::ostream& err) {
   Console console{out, err, &err == &std::cerr && isatty(STDERR_FILENO) == 1};
   try {
-    int code = run_program(arguments, console);
+    int code = run_program(commands, arguments, console);
     out.flush();
     if (out || code != 0) return code;
     console.error({"standard output could not be written"});

@@ -5,9 +5,13 @@
 #include <span>
 #include <string>
 
+#include "cli/commands.h"
+
 namespace carom::cli {
 
-// Runs one command line (without the program's name) and returns the exit code.
-int run_cli(std::span<const std::string> arguments, std::ostream& out, std::ostream& err);
+// Runs one command line (without the program's name), which may name any of `commands`, and returns
+// the exit code.
+int run_cli(std::span<const AddCommand> commands, std::span<const std::string> arguments,
+            std::ostream& out, std::ostream& err);
 
 }  // namespace carom::cli

@@ -31,7 +31,7 @@ struct CommandResult {
 
 inline CommandResult run_command(const std::vector<std::string>& arguments) {
   std::ostringstream out, err;
-  const int code = run_cli(arguments, out, err);
+  const int code = run_cli(all_commands(), arguments, out, err);
   return {code, out.str(), err.str()};
 }
 
