@@ -29,6 +29,8 @@ struct AabbTriangleBase {
 };
 
 struct AabbTriangle : AabbTriangleBase {
+  static constexpr Columns kColumns = Columns::contact;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
                               Report& report) {
@@ -46,6 +48,8 @@ struct AabbTriangle : AabbTriangleBase {
 
 // The kernel for Detail::overlap.
 struct AabbTriangleDecision : AabbTriangleBase {
+  static constexpr Columns kColumns = Columns::decision;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
                               Report& report) {

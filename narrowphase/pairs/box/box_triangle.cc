@@ -28,6 +28,8 @@ struct BoxTriangleBase {
 };
 
 struct BoxTriangle : BoxTriangleBase {
+  static constexpr Columns kColumns = Columns::contact;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
                               Report& report) {
@@ -44,6 +46,8 @@ struct BoxTriangle : BoxTriangleBase {
 
 // The kernel for Detail::overlap.
 struct BoxTriangleDecision : BoxTriangleBase {
+  static constexpr Columns kColumns = Columns::decision;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
                               Report& report) {
