@@ -51,8 +51,7 @@ endfunction()
 function(carom_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LIBS} GTest::gtest_main GTest::gmock rapidcheck
-                                        rapidcheck_gtest hwy::hwy TBB::tbb)
+  target_link_libraries(${name} PRIVATE carom_test_support ${arg_LIBS} GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM carom_precompiled_tests)
   target_compile_definitions(${name} PRIVATE
     CAROM_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 #include "tests/support/textbook.h"
 
 namespace carom::fuzz {

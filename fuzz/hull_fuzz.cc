@@ -9,7 +9,7 @@
 
 #include "fuzz/check_pair.h"
 #include "fuzz/points_input.h"
-#include "tests/io/hull_checks.h"
+#include "tests/support/hull_checks.h"
 #include "tests/support/kind_checks.h"
 
 namespace {

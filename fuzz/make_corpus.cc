@@ -12,7 +12,7 @@
 #include "io/pairs_file.h"
 #include "io/recording.h"
 #include "io/scene.h"
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 
 namespace {
 

@@ -19,20 +19,7 @@ class MovingShape {
  public:
   using Vec = Vec3<R>;
 
-  MovingShape(const carom::Shape& shape, const Pose& pose, const Sweep& sweep)
-      : shape_(shape), pose_{Eigen::Vector3d::Zero(), pose.orientation} {
-    if (const auto* hull = std::get_if<Hull>(&shape)) {
-      place_points(hull->geometry->points());
-    } else {
-      place(all());
-    }
-    if (!std::holds_alternative<Sphere>(shape) && !std::holds_alternative<Aabb>(shape)) {
-      spin_ = vec3_as<R>(sweep.rotation);
-    }
-    axis_ = normalized(spin_);
-    angle_ = length(spin_);
-    measure();
-  }
+  MovingShape(const carom::Shape& shape, const Pose& pose, const Sweep& sweep);
 
   // At time 0: the core's points and the radius around them.
   const std::vector<Vec>& points() const { return points_; }
@@ -46,12 +33,7 @@ class MovingShape {
   const R& core_reach() const { return core_reach_; }
 
   // The centroid of its segment, box or corners.
-  Vec middle() const {
-    const size_t count = std::holds_alternative<Triangle>(shape_) ? 3 : points_.size();
-    Vec sum;
-    for (size_t i = 0; i < count; ++i) sum = sum + points_[i];
-    return sum * (1 / R(count));
-  }
+  Vec middle() const;
 
   // The rotation vector over the interval; zero for shapes that do not turn.
   const Vec& spin() const { return spin_; }
@@ -63,42 +45,18 @@ class MovingShape {
   Rotation<R> turn(const R& t) const { return {axis_, angle_ * t}; }
 
   // The shape at a time with all its features.
-  ConvexShape<R> at(const R& t) const {
-    ConvexShape<R> shape = all();
-    if (angle_ > 0) shape.rotate(turn(t));
-    return shape;
-  }
+  ConvexShape<R> at(const R& t) const;
 
  private:
   // Built only when needed: finding a hull's faces takes a hundred times as long as most judgements
   // of a motion.
-  const ConvexShape<R>& all() const {
-    if (!all_) all_.emplace(shape_, pose_);
-    return *all_;
-  }
+  const ConvexShape<R>& all() const;
 
-  void place(const ConvexShape<R>& shape) {
-    points_ = shape.points;
-    radius_ = shape.radius;
-    is_halfspace_ = shape.is_halfspace;
-    normal_ = shape.normal;
-    offset_ = shape.offset;
-    bounding_radius_ = shape.bounding_radius;
-  }
+  void place(const ConvexShape<R>& shape);
 
-  void place_points(std::span<const Eigen::Vector3f> points) {
-    const Rotation<R> turn(pose_.orientation);
-    for (const Eigen::Vector3f& p : points) points_.push_back(turn(vec3_as<R>(p)));
-  }
+  void place_points(std::span<const Eigen::Vector3f> points);
 
-  void measure() {
-    for (const Vec& p : points_) {
-      arms_.push_back(length(p));
-      axis_arms_.push_back(length(cross(axis_, p)));
-      core_reach_ = std::max<R>(core_reach_, arms_.back());
-    }
-    if (!is_halfspace_) bounding_radius_ = core_reach_ + radius_;
-  }
+  void measure();
 
   carom::Shape shape_;
   Pose pose_;
@@ -123,49 +81,15 @@ class TurnedShape {
   Vec corner(const Vec& way) const { return is_turned_ ? turn_(best(way)) : best(way); }
   // The largest over all points of point . way + `bend` * arm. The arm is the distance from the
   // axis, or from the position if the direction turns as well.
-  R reach(const Vec& way, const R& bend, bool is_from_axis) const {
-    const auto& arms = is_from_axis ? shape_.axis_arms() : shape_.arms();
-    const Vec local = is_turned_ ? turn_.back(way) : way;
-    R most = -std::numeric_limits<R>::infinity();
-    for (size_t i = 0; i < shape_.points().size(); ++i) {
-      const R x = dot(shape_.points()[i], local) + (bend > 0 ? bend * arms[i] : R(0));
-      if (x > most) most = x;
-    }
-    return most;
-  }
+  R reach(const Vec& way, const R& bend, bool is_from_axis) const;
   // The edge from the furthest point along a direction to the second furthest; zero if there is
   // none.
-  Vec ridge(const Vec& way) const {
-    const Vec local = is_turned_ ? turn_.back(way) : way;
-    const Vec& top = best(way);
-    const Vec* next = &top;
-    R most = -std::numeric_limits<R>::infinity();
-    for (const Vec& p : shape_.points()) {
-      const R x = dot(p, local);
-      if (&p == &top || !(x > most)) continue;
-      most = x;
-      next = &p;
-    }
-    return turn_(*next - top);
-  }
+  Vec ridge(const Vec& way) const;
   // The normal of a half-space.
   Vec normal() const { return turn_(shape_.normal()); }
 
  private:
-  const Vec& best(const Vec& way) const {
-    const Vec local = is_turned_ ? turn_.back(way) : way;
-    const auto& points = shape_.points();
-    size_t best = 0;
-    R most = dot(points[0], local);
-    for (size_t i = 1; i < points.size(); ++i) {
-      const R x = dot(points[i], local);
-      if (x > most) {
-        most = x;
-        best = i;
-      }
-    }
-    return points[best];
-  }
+  const Vec& best(const Vec& way) const;
 
   const MovingShape<R>& shape_;
   bool is_turned_;

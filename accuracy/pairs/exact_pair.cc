@@ -1,16 +1,15 @@
 #include "accuracy/pairs/exact_pair.h"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
+
+#include "oracle/digits.h"
 
 namespace carom::accuracy {
 namespace {
 
-template <unsigned kDigits>
-using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<kDigits>,
-                                             boost::multiprecision::et_off>;
+using oracle::Digits;
 
 // The error bound of long double, as a share of the extent; tests/accuracy/exact_pair_test.cc
 // checks it against 100 digits.
@@ -73,7 +72,7 @@ R signed_gap(const ConvexPair& pair) {
   const auto oracle = pair.oracle<R>();
   const bool has_plane = oracle.a.is_halfspace || oracle.b.is_halfspace;
   if (has_plane || oracle.a.radius + oracle.b.radius > 0) return oracle.separation().value;
-  return oracle::convex::AxisSearch<R>(oracle.a, oracle.b).gap();
+  return oracle::widest_gap(oracle.a, oracle.b);
 }
 
 // Whether the pair mixes numbers of such different sizes that 100 digits do not hold both, or their

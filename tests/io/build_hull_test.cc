@@ -1,4 +1,4 @@
-#include "tests/io/hull_checks.h"
+#include "tests/support/hull_checks.h"
 
 #include <gtest/gtest.h>
 

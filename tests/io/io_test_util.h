@@ -20,36 +20,17 @@ namespace carom::io {
 
 class TemporaryFolder : public ::testing::Test {
  protected:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "carom-io-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() override {
-    std::error_code ignored;
-    std::filesystem::permissions(folder_, std::filesystem::perms::owner_all, ignored);
-    std::filesystem::remove_all(folder_, ignored);
-  }
+  TemporaryFolder();
+  ~TemporaryFolder() override;
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  std::string write_file(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path(name), std::ios::binary) << bytes;
-    return path(name);
-  }
+  std::string write_file(const std::string& name, std::string_view bytes) const;
 
-  std::string read_file(const std::string& name) const {
-    std::ifstream stream(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
+  std::string read_file(const std::string& name) const;
 
   // The names of all entries of the folder.
-  std::vector<std::string> entries() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-      names.push_back(entry.path().filename().string());
-    }
-    return names;
-  }
+  std::vector<std::string> entries() const;
 
  private:
   std::filesystem::path folder_;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 #include "tests/support/rounds.h"
 
 namespace carom::test {

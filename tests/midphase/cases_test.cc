@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 #include "tests/support/hulls.h"
 
 namespace carom::test {

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <numbers>
 
 #include "oracle/convex_families.h"
@@ -16,8 +15,7 @@ namespace carom::test {
 using namespace oracle;
 namespace {
 
-using Real50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
-                                             boost::multiprecision::et_off>;
+using Real50 = Digits<100>;
 using Vec = Vec3<long double>;
 
 constexpr long double kTight = 1e-17L;

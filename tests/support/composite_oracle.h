@@ -28,42 +28,10 @@ struct ExactPart {
   Number radius = 0;
 
   ExactPart(const Shape& of, const Vec& position, const Eigen::Quaternionf& orientation,
-            uint32_t name)
-      : shape(of, Pose{Eigen::Vector3d::Zero(), orientation}), sub(name) {
-    shape.translate(position);
-    const oracle::Rotation<Number> turn(orientation);
-    middle = position + turn(middle_of(of));
-    centre = shape.centroid();
-    lower = upper = centre;
-    for (const Vec& p : shape.points) {
-      radius = std::max(radius, length(p - centre));
-      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-      upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-    }
-    const Vec around{shape.radius, shape.radius, shape.radius};
-    lower = lower - around;
-    upper = upper + around;
-    radius += shape.radius;
-  }
+            uint32_t name);
 
  private:
-  static Vec middle_of(const Shape& of) {
-    std::vector<Eigen::Vector3f> points;
-    if (const auto* capsule = std::get_if<Capsule>(&of)) points = {capsule->a, capsule->b};
-    if (const auto* triangle = std::get_if<Triangle>(&of)) {
-      points.assign(triangle->corners.begin(), triangle->corners.end());
-    }
-    if (const auto* hull = std::get_if<Hull>(&of)) {
-      points.assign(hull->geometry->points().begin(), hull->geometry->points().end());
-    }
-    if (points.empty()) return {};  // spheres and boxes have none
-    Eigen::Vector3f low = points[0], high = points[0];
-    for (const Eigen::Vector3f& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    return (oracle::vec3_as<Number>(low) + oracle::vec3_as<Number>(high)) * 0.5L;
-  }
+  static Vec middle_of(const Shape& of);
 };
 
 // All parts of a body.
@@ -72,19 +40,7 @@ class ExactParts {
   using Number = ExactPart::Number;
   using Vec = ExactPart::Vec;
 
-  ExactParts(const PlacedShape& body, const Vec& position) {
-    if (const auto* compound = std::get_if<Compound>(&body.shape)) {
-      const auto children = compound->geometry->children();
-      for (uint32_t i = 0; i < children.size(); ++i) add_child(children[i], body, position, i);
-    } else {
-      add(body.shape, position, body.orientation, {});
-    }
-    for (const ExactPart& part : parts_) {
-      for (const Vec& p : part.shape.points) {
-        bounding_radius_ = std::max(bounding_radius_, length(p - position) + part.shape.radius);
-      }
-    }
-  }
+  ExactParts(const PlacedShape& body, const Vec& position);
 
   const std::vector<ExactPart>& all() const { return parts_; }
   Number bounding_radius() const { return bounding_radius_; }  // about the position of the body
@@ -93,39 +49,10 @@ class ExactParts {
   // The child's orientation is the product of the quaternions, rounded to float32. An aabb lies
   // along the axes of the compound.
   void add_child(const CompoundChild& child, const PlacedShape& body, const Vec& position,
-                 uint32_t index) {
-    const oracle::Rotation<Number> turn(body.orientation);
-    Shape shape = child.shape;
-    Vec at = oracle::vec3_as<Number>(child.position);
-    Eigen::Quaternionf orientation =
-        (body.orientation.cast<Number>() * child.orientation.cast<Number>()).cast<float>();
-    if (const auto* box = std::get_if<Aabb>(&child.shape)) {
-      at = at + (oracle::vec3_as<Number>(box->lower) + oracle::vec3_as<Number>(box->upper)) * 0.5L;
-      shape = Box{(box->upper - box->lower) / 2};
-      orientation = body.orientation;
-    }
-    add(shape, position + turn(at), orientation, index);
-  }
+                 uint32_t index);
 
   void add(const Shape& shape, const Vec& position, const Eigen::Quaternionf& orientation,
-           const std::optional<uint32_t>& child) {
-    const auto* mesh = std::get_if<Mesh>(&shape);
-    if (!mesh) {
-      parts_.emplace_back(shape, position, orientation, child.value_or(0));
-      return;
-    }
-    const InnerEdges inner(*mesh);
-    const auto vertices = mesh->geometry->vertices();
-    for (uint32_t i = 0; i < mesh->geometry->triangles().size(); ++i) {
-      Triangle triangle;
-      for (size_t k = 0; k < 3; ++k) {
-        triangle.corners[k] = vertices[mesh->geometry->triangles()[i][k]];
-      }
-      triangle.thickness = mesh->geometry->rules().thickness;
-      parts_.emplace_back(triangle, position, orientation, child.value_or(i));
-      parts_.back().flap.emplace(parts_.back().shape, inner.of(i));
-    }
-  }
+           const std::optional<uint32_t>& child);
 
   std::vector<ExactPart> parts_;
   Number bounding_radius_ = 0;
@@ -146,23 +73,15 @@ class CompositeOracle {
   using Number = ExactPart::Number;
   using Vec = ExactPart::Vec;
 
-  explicit CompositeOracle(const TestPair& pair)
-      : a_(pair.a, {}),
-        b_(pair.b,
-           oracle::vec3_as<Number>(pair.b.position) - oracle::vec3_as<Number>(pair.a.position)) {}
+  explicit CompositeOracle(const TestPair& pair);
 
   // L: the mean of the bounding radii.
   Number scale() const { return (a_.bounding_radius() + b_.bounding_radius()) / 2; }
 
-  ExactSeparations separations() const {
-    return least([](const ExactPart&, const ExactPart&) { return true; });
-  }
+  ExactSeparations separations() const;
 
   // The separations of the parts with these indices only.
-  ExactSeparations separations(uint32_t sub_a, uint32_t sub_b) const {
-    return least(
-        [=](const ExactPart& a, const ExactPart& b) { return a.sub == sub_a && b.sub == sub_b; });
-  }
+  ExactSeparations separations(uint32_t sub_a, uint32_t sub_b) const;
 
  private:
   // In units of L: float32 tests may confuse penetration directions whose depths differ by less.
@@ -187,62 +106,18 @@ class CompositeOracle {
     return found;
   }
 
-  void note(const Candidate& candidate, ExactSeparations& found) const {
-    const auto& [bound, a, b] = candidate;
-    const auto answer = oracle::separation_with_normal(a->shape, b->shape);
-    if (answer.value < found.all) {
-      found.all = answer.value;
-      found.normal = answer.normal;
-    }
-    const OverEdge over_edge = over_inner_edge(*a, *b, answer);
-    if (over_edge == OverEdge::no) found.open = std::min(found.open, answer.value);
-    if (over_edge != OverEdge::yes) found.not_closed = std::min(found.not_closed, answer.value);
-  }
+  void note(const Candidate& candidate, ExactSeparations& found) const;
 
   OverEdge over_inner_edge(const ExactPart& a, const ExactPart& b,
-                           const oracle::ConvexSeparation<Number>& answer) const {
-    const auto may_be = [](const ExactPart& part, const ExactPart& other) {
-      return part.flap && part.flap->may_be_left_over_inner_edges(other.middle);
-    };
-    if (!may_be(a, b) && !may_be(b, a)) return OverEdge::no;
-    const std::vector<Vec> ways = ways_out(a, b, answer);
-    if (ways.empty()) return OverEdge::maybe;
-    const OverEdge first = over_inner_edge(a, b, ways[0]);
-    const bool is_sure = std::all_of(ways.begin(), ways.end(), [&](const Vec& way) {
-      return over_inner_edge(a, b, way) == first;
-    });
-    return is_sure ? first : OverEdge::maybe;
-  }
+                           const oracle::ConvexSeparation<Number>& answer) const;
 
-  static OverEdge over_inner_edge(const ExactPart& a, const ExactPart& b, const Vec& way) {
-    const auto over = [](const ExactPart& part, const ExactPart& other, const Vec& from_part) {
-      return part.flap ? part.flap->over_inner_edge(other.middle, from_part) : OverEdge::no;
-    };
-    return std::max(over(a, b, way), over(b, a, -way));
-  }
+  static OverEdge over_inner_edge(const ExactPart& a, const ExactPart& b, const Vec& way);
 
   // All directions from A to B along which the depth is about the least; none if that is unclear.
   // Cores that are clearly separate have a single direction; for overlapping cores the candidates
   // are the axes of their faces and edges.
   std::vector<Vec> ways_out(const ExactPart& a, const ExactPart& b,
-                            const oracle::ConvexSeparation<Number>& answer) const {
-    const Number cores = answer.value + a.shape.radius + b.shape.radius;
-    if (cores > 0.02L * scale()) return {answer.normal};
-    if (cores > 0) return {};
-    std::vector<Vec> ways;
-    Number best = -ExactSeparations::kNone;
-    const auto try_way = [&](const Vec& n) {
-      if (!(dot(n, n) > 0)) return;
-      const Number gap = gap_along(a, b, n);
-      best = std::max(best, gap);
-      if (gap > answer.value - kAlike * scale()) ways.push_back(n);
-    };
-    for_each_axis(a.shape, b.shape, [&](const Vec& n) {
-      try_way(n);
-      try_way(-n);
-    });
-    return best > answer.value - 1e-12L * scale() ? ways : std::vector<Vec>{};
-  }
+                            const oracle::ConvexSeparation<Number>& answer) const;
 
   template <class Use>
   static void for_each_axis(const oracle::ConvexShape<Number>& a,
@@ -276,25 +151,11 @@ class CompositeOracle {
   }
 
   // The gap along any direction is a lower bound of the separation.
-  static Number gap_along(const ExactPart& a, const ExactPart& b, const Vec& n) {
-    return -b.shape.support(-n) - a.shape.support(n);
-  }
+  static Number gap_along(const ExactPart& a, const ExactPart& b, const Vec& n);
 
-  static Number bound_by_boxes(const ExactPart& a, const ExactPart& b) {
-    return std::max({b.lower.x - a.upper.x, a.lower.x - b.upper.x, b.lower.y - a.upper.y,
-                     a.lower.y - b.upper.y, b.lower.z - a.upper.z, a.lower.z - b.upper.z});
-  }
+  static Number bound_by_boxes(const ExactPart& a, const ExactPart& b);
 
-  static Number bound_by_faces(const Candidate& candidate) {
-    const auto& [bound, a, b] = candidate;
-    Number most = bound;
-    for (const auto* shape : {&a->shape, &b->shape}) {
-      for (const Vec& n : shape->normals) {
-        most = std::max({most, gap_along(*a, *b, n), gap_along(*a, *b, -n)});
-      }
-    }
-    return most;
-  }
+  static Number bound_by_faces(const Candidate& candidate);
 
   ExactParts a_, b_;
 };

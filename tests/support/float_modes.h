@@ -17,19 +17,13 @@ struct FloatMode {
 
 inline constexpr FloatMode kDefaultMode{"default", 0};
 
-inline std::vector<FloatMode> float_modes() {
-  return {kDefaultMode,           {"flush to zero", 0x8000}, {"denormals are zero", 0x0040},
-          {"both", 0x8040},       {"downward", 0x2000},      {"upward", 0x4000},
-          {"toward zero", 0x6000}};
-}
+std::vector<FloatMode> float_modes();
 
 // Sets a mode for its lifetime. On machines without MXCSR it does nothing.
 class ScopedFloatMode {
  public:
 #if defined(__SSE2__)
-  explicit ScopedFloatMode(const FloatMode& mode) : saved_(_mm_getcsr()) {
-    _mm_setcsr(0x1f80 | mode.mxcsr);
-  }
+  explicit ScopedFloatMode(const FloatMode& mode);
   ~ScopedFloatMode() { _mm_setcsr(saved_); }
 
  private:

@@ -13,26 +13,10 @@ namespace carom::test {
 
 class GuardedBytes {
  public:
-  explicit GuardedBytes(size_t size, int fill = 0xa5) : size_(size) {
-    const size_t page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
-    const size_t used = (size + page - 1) / page * page;
-    mapped_ = used + page;
-    void* base = mmap(nullptr, mapped_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (base == MAP_FAILED) std::abort();
-    base_ = static_cast<char*>(base);
-    data_ = base_ + used - size;
-    if (mprotect(base_ + used, page, PROT_NONE) != 0) std::abort();
-    std::memset(data_, fill, size);
-  }
-  GuardedBytes(GuardedBytes&& other) noexcept
-      : size_(other.size_),
-        mapped_(other.mapped_),
-        base_(std::exchange(other.base_, nullptr)),
-        data_(other.data_) {}
+  explicit GuardedBytes(size_t size, int fill = 0xa5);
+  GuardedBytes(GuardedBytes&& other) noexcept;
   GuardedBytes& operator=(GuardedBytes&&) = delete;
-  ~GuardedBytes() {
-    if (base_) munmap(base_, mapped_);
-  }
+  ~GuardedBytes();
 
   size_t size() const { return size_; }
   char* data() { return data_; }
@@ -48,10 +32,7 @@ class GuardedBytes {
 // `count` elements, `stride` bytes apart; the last one ends where the memory ends.
 class GuardedArray {
  public:
-  GuardedArray(size_t count, size_t element, size_t stride)
-      : element_(element),
-        stride_(stride),
-        bytes_(count == 0 ? 0 : (count - 1) * stride + element) {}
+  GuardedArray(size_t count, size_t element, size_t stride);
 
   template <class T>
   void set(size_t i, T value, size_t offset = 0) {

@@ -18,71 +18,26 @@ namespace carom::test {
 using namespace oracle;
 
 // All supported pairs of kinds, in both orders.
-inline std::vector<KindPair> supported_kind_pairs() {
-  std::vector<KindPair> all;
-  for (const ShapeKind a : kConvexKinds) {
-    for (const ShapeKind b : kConvexKinds) {
-      if (supports(a, b)) all.push_back({a, b});
-    }
-  }
-  return all;
-}
+std::vector<KindPair> supported_kind_pairs();
 
 // The name of a family in GoogleTest.
-inline std::string family_name(const testing::TestParamInfo<ConvexFamily>& info) {
-  std::string text = info.param.name;
-  const auto is_other = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; };
-  std::replace_if(text.begin(), text.end(), is_other, '_');
-  return text;
-}
+std::string family_name(const testing::TestParamInfo<ConvexFamily>& info);
 
-inline bool has_halfspace(const KindPair& kinds) {
-  return kinds.a == ShapeKind::halfspace || kinds.b == ShapeKind::halfspace;
-}
+bool has_halfspace(const KindPair& kinds);
 
-inline TestPair as_test_pair(const ConvexPair& pair) {
-  return {{pair.shape_a, pair.pose_a.position, pair.pose_a.orientation},
-          {pair.shape_b, pair.pose_b.position, pair.pose_b.orientation}};
-}
+TestPair as_test_pair(const ConvexPair& pair);
 
-inline std::vector<TestPair> make_kind_pairs(const ConvexFamily& family, const KindPair& kinds,
-                                             PositionType positions, size_t count,
-                                             uint64_t seed = 1) {
-  std::vector<TestPair> pairs;
-  ConvexPairMaker maker(family, kinds, positions, seed);
-  for (size_t i = 0; i < count; ++i) pairs.push_back(as_test_pair(maker.next()));
-  return pairs;
-}
+std::vector<TestPair> make_kind_pairs(const ConvexFamily& family, const KindPair& kinds,
+                                      PositionType positions, size_t count, uint64_t seed = 1);
 
 // Pairs of all kinds in turn, so that neighbours never share a kind. Half-spaces are only among the
 // second bodies, since two half-spaces have no test.
-inline std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family,
-                                                   PositionType positions, size_t count,
-                                                   uint64_t seed = 1) {
-  std::vector<KindPair> kinds = supported_kind_pairs();
-  std::erase_if(kinds, [](const KindPair& each) { return each.a == ShapeKind::halfspace; });
-  Random random(seed);
-  std::vector<TestPair> pairs;
-  for (size_t i = 0; i < count; ++i) {
-    KindPair some = kinds[random.below(kinds.size())];
-    while (fewer_polytopes(some, 2) < 2 && random.chance(0.9))
-      some = kinds[random.below(kinds.size())];
-    pairs.push_back(make_kind_pairs(family, some, positions, 1, random.bits())[0]);
-  }
-  return pairs;
-}
+std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family, PositionType positions,
+                                            size_t count, uint64_t seed = 1);
 
 // One pair of each family.
-inline std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,
-                                                    size_t count_each = 1, uint64_t seed = 1) {
-  std::vector<TestPair> pairs;
-  for (const ConvexFamily& family : convex_families()) {
-    for (const TestPair& pair : make_kind_pairs(family, kinds, positions, count_each, seed)) {
-      pairs.push_back(pair);
-    }
-  }
-  return pairs;
-}
+std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,
+                                             size_t count_each = 1, uint64_t seed = 1);
 
 // A hull with every point changed on its own, and the same faces.
 template <class Change>
@@ -103,81 +58,26 @@ class Spoiler {
  public:
   explicit Spoiler(uint64_t seed) : random_(seed) {}
 
-  void spoil(TestPair& pair) {
-    spoil(pair.a);
-    spoil(pair.b);
-  }
+  void spoil(TestPair& pair);
 
  private:
-  void spoil(PlacedShape& body) {
-    for (int i = 0; i < 3; ++i) {
-      if (random_.chance(0.1)) body.position[i] = random_.any_float();
-    }
-    for (int i = 0; i < 4; ++i) spoil(body.orientation.coeffs()[i]);
-    std::visit([this](auto& shape) { spoil_shape(shape); }, body.shape);
-  }
+  void spoil(PlacedShape& body);
 
-  void spoil(float& x) {
-    if (random_.chance(0.1)) x = random_.any_float();
-  }
-  void spoil(Eigen::Vector3f& v) {
-    for (int i = 0; i < 3; ++i) spoil(v[i]);
-  }
-  void spoil_size(float& x) {
-    spoil(x);
-    if (random_.chance(0.9)) x = std::fabs(x);
-  }
+  void spoil(float& x);
+  void spoil(Eigen::Vector3f& v);
+  void spoil_size(float& x);
 
   void spoil_shape(Sphere& sphere) { spoil_size(sphere.radius); }
-  void spoil_shape(Aabb& box) {
-    spoil(box.lower);
-    spoil(box.upper);
-    for (int i = 0; i < 3; ++i) {
-      if (box.lower[i] > box.upper[i] && random_.chance(0.9)) std::swap(box.lower[i], box.upper[i]);
-    }
-  }
-  void spoil_shape(Capsule& capsule) {
-    spoil(capsule.a);
-    spoil(capsule.b);
-    spoil_size(capsule.radius);
-  }
-  void spoil_shape(Box& box) {
-    for (int i = 0; i < 3; ++i) spoil_size(box.half[i]);
-  }
-  void spoil_shape(Triangle& triangle) {
-    for (Eigen::Vector3f& corner : triangle.corners) spoil(corner);
-    spoil_size(triangle.thickness);
-    triangle.one_sided = random_.chance(0.5);
-    triangle.inner_edges = static_cast<uint8_t>(random_.below(random_.chance(0.95) ? 8 : 256));
-  }
-  void spoil_shape(Halfspace& halfspace) {
-    spoil(halfspace.normal);
-    spoil(halfspace.offset);
-    if (random_.chance(0.02)) halfspace.normal.setZero();
-  }
-  void spoil_shape(Dop& dop) {
-    if (random_.chance(0.7)) return;
-    for (size_t i = 0; i < slab_count(dop.kind); ++i) {
-      if (random_.chance(0.9)) continue;
-      spoil(dop.lower[i]);
-      spoil(dop.upper[i]);
-      if (random_.chance(0.9))
-        std::tie(dop.lower[i], dop.upper[i]) = std::minmax({dop.lower[i], dop.upper[i]});
-    }
-    if (random_.chance(0.05)) dop.kind = static_cast<DopKind>(random_.below(256));
-  }
+  void spoil_shape(Aabb& box);
+  void spoil_shape(Capsule& capsule);
+  void spoil_shape(Box& box);
+  void spoil_shape(Triangle& triangle);
+  void spoil_shape(Halfspace& halfspace);
+  void spoil_shape(Dop& dop);
 
   // If no hull can be made of the new points, the old ones stay. The faces are the old ones, even
   // if they no longer fit: that must do no harm.
-  void spoil_shape(Hull& hull) {
-    if (random_.chance(0.02)) hull.geometry = nullptr;
-    if (!hull.geometry || random_.chance(0.5)) return;
-    hull = with_points(hull, [this](Eigen::Vector3f& point) {
-      const Eigen::Vector3f before = point;
-      spoil(point);
-      if (!point.allFinite()) point = before;
-    });
-  }
+  void spoil_shape(Hull& hull);
   void spoil_shape(Mesh& /*tested by its parts*/) {}
   void spoil_shape(Compound& /*tested by its parts*/) {}
 
@@ -185,26 +85,9 @@ class Spoiler {
 };
 
 // Pairs with random bits: tests can only compare bits.
-inline std::vector<TestPair> make_kind_nonsense(const KindPair& kinds, size_t count,
-                                                uint64_t seed = 1) {
-  std::vector<TestPair> pairs =
-      make_kind_pairs({.name = ""}, kinds, PositionType::float32, count, seed);
-  Spoiler spoiler(seed);
-  for (TestPair& pair : pairs) spoiler.spoil(pair);
-  return pairs;
-}
+std::vector<TestPair> make_kind_nonsense(const KindPair& kinds, size_t count, uint64_t seed = 1);
 
 // Makes triangles one-sided and gives them inner edges, at random.
-inline void vary_triangles(std::vector<TestPair>& pairs, uint64_t seed = 1) {
-  Random random(seed);
-  for (TestPair& pair : pairs) {
-    for (PlacedShape* body : {&pair.a, &pair.b}) {
-      if (auto* triangle = std::get_if<Triangle>(&body->shape)) {
-        triangle->one_sided = random.chance(0.5);
-        triangle->inner_edges = static_cast<uint8_t>(random.below(8));
-      }
-    }
-  }
-}
+void vary_triangles(std::vector<TestPair>& pairs, uint64_t seed = 1);
 
 }  // namespace carom::test

@@ -36,34 +36,15 @@ struct Layout {
   size_t record() const { return (radius == RadiusLayout::fourth ? 4 : 3) * component(); }
 };
 
-inline std::string show(const Layout& layout) {
-  return std::string(name(layout.positions)) + ", radius layout " +
-         std::to_string(static_cast<int>(layout.radius)) + ", stride " +
-         std::to_string(layout.stride) + ", radius stride " + std::to_string(layout.radius_stride) +
-         ", box stride " + std::to_string(layout.box_stride) +
-         (layout.box_slots ? ", box slots" : "") + ", orientation stride " +
-         std::to_string(layout.orientation_stride) + ", row order " +
-         std::to_string(static_cast<int>(layout.rows));
-}
+std::string show(const Layout& layout);
 
 // The kinds of a set, or the one kind of all.
 class LaidOutKinds {
  public:
-  LaidOutKinds(std::span<const PlacedShape> bodies, bool always)
-      : kinds_(bodies.size(), sizeof(ShapeKind), sizeof(ShapeKind)) {
-    if (!bodies.empty()) first_ = kind_of(bodies[0].shape);
-    for (size_t i = 0; i < bodies.size(); ++i) {
-      kinds_.set(i, kind_of(bodies[i].shape));
-      are_mixed_ |= kind_of(bodies[i].shape) != first_;
-    }
-    is_given_ = always || are_mixed_;
-  }
+  LaidOutKinds(std::span<const PlacedShape> bodies, bool always);
 
   bool are_mixed() const { return are_mixed_; }
-  void add_to(Collidables& view) const {
-    view.uniform_kind = first_;
-    if (is_given_) view.kind = kinds_.as<ShapeKind>();
-  }
+  void add_to(Collidables& view) const;
 
  private:
   GuardedArray kinds_;
@@ -75,40 +56,14 @@ class LaidOutKinds {
 // Positions and radii.
 class LaidOutPositions {
  public:
-  LaidOutPositions(std::span<const PlacedShape> bodies, const Layout& layout)
-      : layout_(layout),
-        records_(bodies.size(), layout.record(), layout.stride ? layout.stride : layout.record()),
-        radii_(layout.radius == RadiusLayout::column ? bodies.size() : 0, sizeof(float),
-               layout.radius_stride) {
-    for (size_t i = 0; i < bodies.size(); ++i) {
-      for (int axis = 0; axis < 3; ++axis) set_component(i, axis, bodies[i].position[axis]);
-      const auto* sphere = std::get_if<Sphere>(&bodies[i].shape);
-      set_radius(i, sphere ? sphere->radius : 1);
-    }
-  }
+  LaidOutPositions(std::span<const PlacedShape> bodies, const Layout& layout);
 
-  void add_to(Collidables& view) const {
-    view.position = {.data = records_.as<char>(),
-                     .stride = records_.stride(),
-                     .type = layout_.positions,
-                     .radius_layout = layout_.radius,
-                     .radius = radii_.as<float>(),
-                     .radius_stride = layout_.radius_stride};
-  }
+  void add_to(Collidables& view) const;
 
  private:
-  void set_component(size_t i, int component, double value) {
-    if (layout_.positions == PositionType::float32) {
-      records_.set(i, static_cast<float>(value), component * sizeof(float));
-    } else {
-      records_.set(i, value, component * sizeof(double));
-    }
-  }
+  void set_component(size_t i, int component, double value);
 
-  void set_radius(size_t i, float radius) {
-    if (layout_.radius == RadiusLayout::fourth) set_component(i, 3, radius);
-    if (layout_.radius == RadiusLayout::column) radii_.set(i, radius);
-  }
+  void set_radius(size_t i, float radius);
 
   Layout layout_;
   GuardedArray records_;
@@ -118,40 +73,14 @@ class LaidOutPositions {
 // Corners of aabbs.
 class LaidOutBoxes {
  public:
-  LaidOutBoxes(std::span<const PlacedShape> bodies, const Layout& layout)
-      : layout_(layout),
-        slots_(layout.box_slots ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
-    auto count = static_cast<uint32_t>(std::count_if(bodies.begin(), bodies.end(), is_box));
-    const size_t rows = layout.box_slots || count == 0 ? count : bodies.size();
-    for (int column = 0; column < 6; ++column) {
-      columns_.emplace_back(rows, sizeof(float), layout.box_stride);
-    }
-    // Slots run backwards, so that the order of boxes is never that of bodies.
-    for (uint32_t i = 0; i < bodies.size(); ++i) {
-      const uint32_t slot = !is_box(bodies[i]) ? 0xffffffffu : layout.box_slots ? --count : i;
-      if (layout.box_slots) slots_.set(i, slot);
-      if (is_box(bodies[i])) set(slot, std::get<Aabb>(bodies[i].shape));
-    }
-  }
+  LaidOutBoxes(std::span<const PlacedShape> bodies, const Layout& layout);
 
-  void add_to(Collidables& view) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      view.boxes.lower[axis] = columns_[axis].as<float>();
-      view.boxes.upper[axis] = columns_[3 + axis].as<float>();
-    }
-    view.boxes.stride = layout_.box_stride;
-    if (layout_.box_slots) view.box_slot = slots_.as<uint32_t>();
-  }
+  void add_to(Collidables& view) const;
 
  private:
   static bool is_box(const PlacedShape& body) { return kind_of(body.shape) == ShapeKind::aabb; }
 
-  void set(size_t row, const Aabb& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      columns_[axis].set(row, box.lower[axis]);
-      columns_[3 + axis].set(row, box.upper[axis]);
-    }
-  }
+  void set(size_t row, const Aabb& box);
 
   Layout layout_;
   GuardedArray slots_;
@@ -161,30 +90,14 @@ class LaidOutBoxes {
 // Orientations of all bodies; those of spheres and aabbs are copied, too.
 class LaidOutOrientations {
  public:
-  LaidOutOrientations(std::span<const PlacedShape> bodies, size_t stride)
-      : is_given_(std::any_of(bodies.begin(), bodies.end(),
-                              [&](const PlacedShape& body) {
-                                return has_rows(body.shape) && (stride > 0 || is_turned(body));
-                              })),
-        stride_(stride > 0 ? stride : kSize),
-        quaternions_(is_given_ ? bodies.size() : 0, kSize, stride_) {
-    for (size_t i = 0; is_given_ && i < bodies.size(); ++i) {
-      for (int c = 0; c < 4; ++c) {
-        quaternions_.set(i, bodies[i].orientation.coeffs()[c], c * sizeof(float));
-      }
-    }
-  }
+  LaidOutOrientations(std::span<const PlacedShape> bodies, size_t stride);
 
-  void add_to(Collidables& view) const {
-    if (is_given_) view.orientation = {quaternions_.as<float>(), stride_};
-  }
+  void add_to(Collidables& view) const;
 
  private:
   static constexpr size_t kSize = 4 * sizeof(float);
 
-  static bool is_turned(const PlacedShape& body) {
-    return body.orientation.coeffs() != Eigen::Vector4f(0, 0, 0, 1);
-  }
+  static bool is_turned(const PlacedShape& body);
 
   bool is_given_;
   size_t stride_;
@@ -194,61 +107,19 @@ class LaidOutOrientations {
 // Parameters of the kinds that have rows.
 class LaidOutRows {
  public:
-  LaidOutRows(std::span<const PlacedShape> bodies, RowOrder order, bool is_first_given)
-      : is_first_given_(is_first_given || order != RowOrder::dense),
-        places_(places(bodies, order)),
-        rows_(rows_in(bodies, places_), kRowSize, kRowSize),
-        first_(is_first_given_ ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
-    for (size_t i = 0; i < bodies.size(); ++i) {
-      if (has_geometry(kind_of(bodies[i].shape))) alive_.push_back(bodies[i].shape);
-      if (is_first_given_) first_.set(i, places_[i]);
-      const auto rows = shape_rows(bodies[i].shape);
-      for (uint32_t k = 0; k < row_count(kind_of(bodies[i].shape)); ++k) {
-        rows_.set(places_[i] + k, rows[k]);
-      }
-    }
-  }
+  LaidOutRows(std::span<const PlacedShape> bodies, RowOrder order, bool is_first_given);
 
-  void add_to(Collidables& view) const {
-    view.rows.data = rows_.as<float>();
-    if (is_first_given_) view.rows.first = first_.as<uint32_t>();
-  }
+  void add_to(Collidables& view) const;
 
  private:
   static constexpr size_t kRowSize = 4 * sizeof(float);
 
   // The first row of each body. Bodies without rows get an index that must never be read.
-  static std::vector<uint32_t> places(std::span<const PlacedShape> bodies, RowOrder order) {
-    std::vector<uint32_t> places(bodies.size(), 0xffffffffu);
-    std::map<std::string, uint32_t> known;
-    uint32_t next = 0;
-    for (size_t step = 0; step < bodies.size(); ++step) {
-      const size_t i = order == RowOrder::dense ? step : bodies.size() - 1 - step;
-      const uint32_t count = row_count(kind_of(bodies[i].shape));
-      if (count == 0) continue;
-      const uint32_t place = order == RowOrder::shared
-                                 ? known.emplace(bytes_of(bodies[i].shape), next).first->second
-                                 : next;
-      if (place == next) next += count;
-      places[i] = place;
-    }
-    return places;
-  }
+  static std::vector<uint32_t> places(std::span<const PlacedShape> bodies, RowOrder order);
 
-  static std::string bytes_of(const Shape& shape) {
-    const auto rows = shape_rows(shape);
-    std::string bytes(1, static_cast<char>(kind_of(shape)));
-    return bytes.append(reinterpret_cast<const char*>(rows.data()), sizeof rows);
-  }
+  static std::string bytes_of(const Shape& shape);
 
-  static size_t rows_in(std::span<const PlacedShape> bodies, const std::vector<uint32_t>& places) {
-    size_t rows = 0;
-    for (size_t i = 0; i < bodies.size(); ++i) {
-      const uint32_t count = row_count(kind_of(bodies[i].shape));
-      if (count > 0) rows = std::max<size_t>(rows, places[i] + count);
-    }
-    return rows;
-  }
+  static size_t rows_in(std::span<const PlacedShape> bodies, const std::vector<uint32_t>& places);
 
   bool is_first_given_;
   std::vector<uint32_t> places_;
@@ -259,19 +130,7 @@ class LaidOutRows {
 
 class LaidOut {
  public:
-  LaidOut(std::span<const PlacedShape> bodies, const Layout& layout)
-      : kinds_(bodies, layout.always_kinds),
-        positions_(bodies, layout),
-        boxes_(bodies, layout),
-        orientations_(bodies, layout.orientation_stride),
-        rows_(bodies, layout.rows, kinds_.are_mixed()) {
-    view_.count = bodies.size();
-    kinds_.add_to(view_);
-    positions_.add_to(view_);
-    boxes_.add_to(view_);
-    orientations_.add_to(view_);
-    rows_.add_to(view_);
-  }
+  LaidOut(std::span<const PlacedShape> bodies, const Layout& layout);
 
   const Collidables& view() const { return view_; }
 

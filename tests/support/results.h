@@ -33,31 +33,15 @@ static_assert(sizeof(Row) == 108);
 
 inline constexpr int kUntouched = 0xa5;
 
-inline bool same_bits(const Row& x, const Row& y) { return std::memcmp(&x, &y, sizeof x) == 0; }
+bool same_bits(const Row& x, const Row& y);
 
-inline std::string show(const ManifoldPoints& manifold) {
-  std::string text;
-  for (size_t i = 0; i < manifold.point.size(); ++i) {
-    text += " (" + hex3(manifold.point[i]) + ": " + hex(manifold.separation[i]) + ")";
-  }
-  return text;
-}
+std::string show(const ManifoldPoints& manifold);
 
-inline std::string show(const Row& row) {
-  return std::string("overlap ") + std::to_string(row.overlap) + " status " +
-         std::to_string(row.status) + " separation " + hex(row.separation) + " normal " +
-         hex3(row.normal) + " point_a " + hex3(row.point_a) + " point_b " + hex3(row.point_b) +
-         " manifold " + std::to_string(row.manifold_count) + show(row.manifold);
-}
+std::string show(const Row& row);
 
 // A witness point in world coordinates. The position is a sum of two floats, so that only the last
 // addition rounds.
-inline float world_coordinate(double position, float arm, PositionType positions) {
-  const float high = static_cast<float>(position);
-  if (positions == PositionType::float32) return high + arm;
-  const float low = static_cast<float>(position - high);
-  return high + (low + arm);
-}
+float world_coordinate(double position, float arm, PositionType positions);
 
 template <class Arm>
 std::array<float, 3> witness(const PlacedShape& body, const Arm& arm, PositionType positions,
@@ -71,81 +55,27 @@ std::array<float, 3> witness(const PlacedShape& body, const Arm& arm, PositionTy
 }
 
 // A result of the reference as a row.
-inline Row row_of(const reference::PairResult& result, const TestPair& pair, PositionType positions,
-                  Detail detail, WitnessFrame frame) {
-  Row row;
-  std::memset(static_cast<void*>(&row), kUntouched, sizeof row);
-  row.unused = 0;
-  if (detail == Detail::pairs) return row;
-  row.overlap = result.overlap ? 1 : 0;
-  row.status = static_cast<uint8_t>(result.status);
-  if (detail == Detail::overlap) return row;
-  row.separation = result.separation;
-  for (int i = 0; i < 3; ++i) row.normal[i] = result.normal[i];
-  if (result.status == Status::invalid) {
-    row.point_a = row.point_b = row.normal;
-  } else {
-    row.point_a = witness(pair.a, result.arm_a, positions, frame);
-    row.point_b = witness(pair.b, result.arm_b, positions, frame);
-  }
-  if (detail == Detail::contact) return row;
-  row.manifold_count = result.manifold_count;
-  row.manifold = result.manifold;
-  for (size_t i = 0; i < result.manifold_count; ++i) {
-    row.manifold.point[i] = witness(pair.a, result.manifold.point[i], positions, frame);
-  }
-  return row;
-}
+Row row_of(const reference::PairResult& result, const TestPair& pair, PositionType positions,
+           Detail detail, WitnessFrame frame);
 
 // The row of the reference for this pair.
-inline Row expected_row(const TestPair& pair, PositionType positions, Detail detail,
-                        WitnessFrame frame) {
-  return row_of(reference_result(pair, positions), pair, positions, detail, frame);
-}
+Row expected_row(const TestPair& pair, PositionType positions, Detail detail, WitnessFrame frame);
 
 // Guarded columns for `count` results; bit c of `missing` leaves column c out.
 class Columns {
  public:
-  explicit Columns(size_t count, unsigned missing = 0) : count_(count), missing_(missing) {
-    for (const size_t size : kSizes) columns_.emplace_back(count, size, size);
-  }
+  explicit Columns(size_t count, unsigned missing = 0);
 
   static constexpr int kColumns = 14;
   // Sizes of the elements of each column, and their offsets in a Row.
   static constexpr size_t kSizes[kColumns] = {1, 1, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 1, 64};
   static constexpr size_t kOffsets[kColumns] = {0, 1, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 2, 44};
 
-  ResultColumns out() {
-    const auto floats = [&](int column) {
-      return is_missing(column) ? nullptr : at<float>(column);
-    };
-    ResultColumns out;
-    out.overlap = is_missing(0) ? nullptr : at<uint8_t>(0);
-    out.status = is_missing(1) ? nullptr : at<uint8_t>(1);
-    out.separation = floats(2);
-    for (int i = 0; i < 3; ++i) {
-      out.normal[i] = floats(3 + i);
-      out.point_a[i] = floats(6 + i);
-      out.point_b[i] = floats(9 + i);
-    }
-    out.manifold_count = is_missing(12) ? nullptr : at<uint8_t>(12);
-    out.manifold = is_missing(13) ? nullptr : at<ManifoldPoints>(13);
-    return out;
-  }
+  ResultColumns out();
 
-  Row row(size_t i) const {
-    Row row{};
-    for (int column = 0; column < kColumns; ++column) {
-      columns_[column].copy(i, reinterpret_cast<char*>(&row) + kOffsets[column]);
-    }
-    return row;
-  }
+  Row row(size_t i) const;
 
-  std::vector<Row> rows() const {
-    std::vector<Row> rows;
-    for (size_t i = 0; i < count_; ++i) rows.push_back(row(i));
-    return rows;
-  }
+  std::vector<Row> rows() const;
 
  private:
   bool is_missing(int column) const { return missing_ >> column & 1; }
@@ -161,36 +91,14 @@ class Columns {
 };
 
 // Resets the columns in `missing` to their state before the call.
-inline void forget_columns(Row& row, unsigned missing) {
-  for (int column = 0; column < Columns::kColumns; ++column) {
-    if ((missing >> column & 1) == 0) continue;
-    std::memset(reinterpret_cast<char*>(&row) + Columns::kOffsets[column], kUntouched,
-                Columns::kSizes[column]);
-  }
-}
+void forget_columns(Row& row, unsigned missing);
 
 // Fails at the first row that differs, with its inputs.
-inline testing::AssertionResult same_rows(std::span<const Row> expected,
-                                          std::span<const Row> actual,
-                                          std::span<const TestPair> pairs) {
-  if (expected.size() != actual.size()) {
-    return testing::AssertionFailure() << expected.size() << " rows and " << actual.size();
-  }
-  for (size_t i = 0; i < expected.size(); ++i) {
-    if (same_bits(expected[i], actual[i])) continue;
-    return testing::AssertionFailure() << "row " << i << " of " << expected.size() << "\n"
-                                       << show(pairs[i]) << "\nexpected " << show(expected[i])
-                                       << "\nactual   " << show(actual[i]);
-  }
-  return testing::AssertionSuccess();
-}
+testing::AssertionResult same_rows(std::span<const Row> expected, std::span<const Row> actual,
+                                   std::span<const TestPair> pairs);
 
-inline std::vector<Row> expected_rows(std::span<const TestPair> pairs, PositionType positions,
-                                      Detail detail = Detail::contact,
-                                      WitnessFrame frame = WitnessFrame::world) {
-  std::vector<Row> rows;
-  for (const TestPair& pair : pairs) rows.push_back(expected_row(pair, positions, detail, frame));
-  return rows;
-}
+std::vector<Row> expected_rows(std::span<const TestPair> pairs, PositionType positions,
+                               Detail detail = Detail::contact,
+                               WitnessFrame frame = WitnessFrame::world);
 
 }  // namespace carom::test

@@ -24,23 +24,11 @@ struct Call {
   Accuracy accuracy = {};
 };
 
-inline Call call_with(PositionType positions) {
-  Call call;
-  call.layout_a.positions = call.layout_b.positions = positions;
-  return call;
-}
+Call call_with(PositionType positions);
 
-inline std::vector<PlacedShape> side_a(std::span<const TestPair> pairs) {
-  std::vector<PlacedShape> bodies;
-  for (const TestPair& pair : pairs) bodies.push_back(pair.a);
-  return bodies;
-}
+std::vector<PlacedShape> side_a(std::span<const TestPair> pairs);
 
-inline std::vector<PlacedShape> side_b(std::span<const TestPair> pairs) {
-  std::vector<PlacedShape> bodies;
-  for (const TestPair& pair : pairs) bodies.push_back(pair.b);
-  return bodies;
-}
+std::vector<PlacedShape> side_b(std::span<const TestPair> pairs);
 
 // Runs `work` in the float mode of the call.
 template <class Work>
@@ -53,22 +41,9 @@ void expect_success(const Call& call, const Work& work) {
 }
 
 // Calls collide_rows(): pair i is (a[i], b[i]) of two sets.
-inline std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& call) {
-  const LaidOut a(side_a(pairs), call.layout_a);
-  const LaidOut b(side_b(pairs), call.layout_b);
-  Columns columns(pairs.size(), call.missing);
-  expect_success(call, [&] {
-    return collide_rows(a.view(), b.view(), call.detail, columns.out(), call.frame,
-                        call.parallelism, call.measured, call.accuracy);
-  });
-  return columns.rows();
-}
+std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& call);
 
-inline bool hold_halfspaces(std::span<const PlacedShape> bodies) {
-  return std::any_of(bodies.begin(), bodies.end(), [](const PlacedShape& body) {
-    return kind_of(body.shape) == ShapeKind::halfspace;
-  });
-}
+bool hold_halfspaces(std::span<const PlacedShape> bodies);
 
 // A list whose row i is pair i; `to_first` and `to_second` give the places of its bodies in their
 // sets.
@@ -88,20 +63,6 @@ std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, con
 
 // Calls collide() with all bodies in one set, the second bodies before the first ones. A set with
 // half-spaces cannot be tested against itself: then there are two sets, one of them reversed.
-inline std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call) {
-  std::vector<PlacedShape> firsts = side_a(pairs);
-  std::vector<PlacedShape> seconds = side_b(pairs);
-  const auto count = static_cast<uint32_t>(pairs.size());
-  const auto same = [](uint32_t i) { return i; };
-  if (hold_halfspaces(firsts) || hold_halfspaces(seconds)) {
-    std::reverse(seconds.begin(), seconds.end());
-    return run_pairs(LaidOut(firsts, call.layout_a), LaidOut(seconds, call.layout_b), count, call,
-                     same, [&](uint32_t i) { return count - 1 - i; });
-  }
-  seconds.insert(seconds.end(), firsts.begin(), firsts.end());
-  const LaidOut set(seconds, call.layout_a);
-  return run_pairs(
-      set, set, count, call, [&](uint32_t i) { return count + i; }, same);
-}
+std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call);
 
 }  // namespace carom::test

@@ -11,67 +11,30 @@
 
 namespace carom::test {
 
-inline std::string hex(double x) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%a", x);
-  return text;
-}
+std::string hex(double x);
 
 template <class Vector>
 std::string hex3(const Vector& v) {
   return hex(v[0]) + ", " + hex(v[1]) + ", " + hex(v[2]);
 }
 
-inline std::string show(const Sphere& sphere) { return "r " + hex(sphere.radius); }
-inline std::string show(const Aabb& box) { return hex3(box.lower) + " .. " + hex3(box.upper); }
-inline std::string show(const Capsule& capsule) {
-  return hex3(capsule.a) + " .. " + hex3(capsule.b) + " r " + hex(capsule.radius);
-}
-inline std::string show(const Box& box) { return "half " + hex3(box.half); }
-inline std::string show(const Triangle& triangle) {
-  std::string text;
-  for (const Eigen::Vector3f& corner : triangle.corners) text += "(" + hex3(corner) + ") ";
-  return text + "thickness " + hex(triangle.thickness) + (triangle.one_sided ? " one-sided" : "") +
-         " inner edges " + std::to_string(triangle.inner_edges);
-}
-inline std::string show(const Halfspace& halfspace) {
-  return "(" + hex3(halfspace.normal) + ") <= " + hex(halfspace.offset);
-}
+std::string show(const Sphere& sphere);
+std::string show(const Aabb& box);
+std::string show(const Capsule& capsule);
+std::string show(const Box& box);
+std::string show(const Triangle& triangle);
+std::string show(const Halfspace& halfspace);
 
-inline std::string show(const Dop& dop) {
-  std::string text = "k = " + std::to_string(static_cast<int>(dop.kind));
-  for (size_t i = 0; i < std::min(slab_count(dop.kind), kMostSlabs); ++i) {
-    text += (i ? ", " : " ") + hex(dop.lower[i]) + " .. " + hex(dop.upper[i]);
-  }
-  return text;
-}
+std::string show(const Dop& dop);
 
-inline std::string show(const Hull& hull) {
-  if (!hull.geometry) return "without geometry";
-  std::string text = std::to_string(hull.geometry->faces().size()) + " faces";
-  for (const Eigen::Vector3f& point : hull.geometry->points()) text += " (" + hex3(point) + ")";
-  return text;
-}
+std::string show(const Hull& hull);
 
 // Meshes and compounds are too long to print: tests that use them print how to make them.
-inline std::string show(const Mesh& mesh) {
-  if (!mesh.geometry) return "without geometry";
-  return std::to_string(mesh.geometry->triangles().size()) + " triangles";
-}
-inline std::string show(const Compound& compound) {
-  if (!compound.geometry) return "without geometry";
-  return std::to_string(compound.geometry->children().size()) + " children";
-}
+std::string show(const Mesh& mesh);
+std::string show(const Compound& compound);
 
-inline std::string show(const PlacedShape& body) {
-  std::string text = carom::name(kind_of(body.shape));
-  text += " " + std::visit([](const auto& shape) { return show(shape); }, body.shape);
-  text += " @ " + hex3(body.position);
-  if (!has_rows(body.shape)) return text;
-  const Eigen::Vector4f& q = body.orientation.coeffs();
-  return text + " turned " + hex3(q) + ", " + hex(q[3]);
-}
+std::string show(const PlacedShape& body);
 
-inline std::string show(const TestPair& pair) { return show(pair.a) + "\n" + show(pair.b); }
+std::string show(const TestPair& pair);
 
 }  // namespace carom::test

@@ -6,10 +6,6 @@
 
 namespace carom::test {
 
-inline StatedBody stated_body(const Shape& shape, const Pose& pose) {
-  const Eigen::Vector3d& p = pose.position;
-  const Eigen::Quaternionf& q = pose.orientation;
-  return {shape, {p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
-}
+StatedBody stated_body(const Shape& shape, const Pose& pose);
 
 }  // namespace carom::test

@@ -13,90 +13,30 @@
 
 namespace carom::test {
 
-inline WorldSettings with_knobs(const FastKnobs& knobs, WorldSettings settings = {}) {
-  settings.accuracy = {.tier = Tier::fast, .knobs = knobs};
-  return settings;
-}
+WorldSettings with_knobs(const FastKnobs& knobs, WorldSettings settings = {});
 
 // Crowds and settings that vary with the seed.
-inline CrowdSpec varied_crowd(uint64_t seed, size_t count = 200) {
-  return {.count = count,
-          .side = 1.2 * std::cbrt(static_cast<double>(count)),
-          .oriented = seed % 4 != 3,
-          .halfspaces = seed % 4 == 1 ? size_t{3} : size_t{0},
-          .filters = seed % 3 == 0,
-          .seed = seed + 1};
-}
+CrowdSpec varied_crowd(uint64_t seed, size_t count = 200);
 
-inline WorldSettings varied_settings(uint64_t seed) {
-  WorldSettings settings;
-  settings.positions = seed % 2 ? PositionType::float64 : PositionType::float32;
-  settings.detail = seed % 5 == 0   ? Detail::overlap
-                    : seed % 5 == 1 ? Detail::manifold
-                                    : Detail::contact;
-  return settings;
-}
+WorldSettings varied_settings(uint64_t seed);
 
 // Makes a triangle two-sided and without inner edges, so that it is a convex set.
-inline Shape plain(Shape shape) {
-  if (auto* triangle = std::get_if<Triangle>(&shape)) {
-    triangle->one_sided = false;
-    triangle->inner_edges = 0;
-  }
-  return shape;
-}
+Shape plain(Shape shape);
 
 class SideBySide {
  public:
-  SideBySide(std::span<const WorldSettings> settings, const CrowdSpec& spec)
-      : random_(spec.seed), spec_(spec), crowd_(make_crowd(spec)) {
-    for (const WorldSettings& each : settings) worlds_.emplace_back(each);
-    for (BodyDesc& body : crowd_) {
-      body.shape = plain(body.shape);
-      add(body);
-    }
-  }
+  SideBySide(std::span<const WorldSettings> settings, const CrowdSpec& spec);
 
   World& operator[](size_t i) { return worlds_[i]; }
 
   // Most bodies move by up to `distance` metres and turn by up to half as many radians.
-  void creep(double distance) {
-    for (const BodyId id : ids_) {
-      if (random_.chance(0.3)) continue;
-      const Eigen::Vector3d way = random_.uniform(0, distance) * random_.direction();
-      const Eigen::Quaternionf q = turned(worlds_[0].orientation(id), distance / 2);
-      each([&](World& world) {
-        world.set_position(id, world.position(id) + way);
-        world.set_orientation(id, q);
-      });
-    }
-  }
+  void creep(double distance);
 
   // Makes earlier results worthless: bodies are added, removed, teleported and changed, some
   // through the arrays.
-  void disturb() {
-    for (size_t i = random_.below(3); i > 0; --i) remove();
-    for (size_t i = random_.below(3); i > 0; --i) add(crowd_[random_.below(crowd_.size())]);
-    const BodyId id = pick();
-    const Eigen::Vector3d place = random_position(random_, spec_.side);
-    const Shape shape =
-        plain(random_shape(kAllKinds[random_.below(std::size(kAllKinds))], random_));
-    const Eigen::Quaternionf q = random_orientation(random_);
-    const float factor = static_cast<float>(random_.uniform(0.5, 1.5));
-    const uint64_t what = random_.below(6);
-    each([&](World& world) {
-      if (what == 0) world.set_position(id, place);
-      if (what == 1) world.set_shape(id, shape);
-      if (what == 2) world.set_sensor(id, factor > 1);
-      if (what == 3) world.set_orientation(id, q);
-      if (what == 4) scale_in_arrays(world, id, factor);
-      if (what == 5) world.set_filter(id, 7, 7, static_cast<uint32_t>(4 * factor));
-    });
-  }
+  void disturb();
 
-  void step() {
-    each([](World& world) { world.step(); });
-  }
+  void step();
 
  private:
   template <class Change>
@@ -106,39 +46,14 @@ class SideBySide {
 
   BodyId pick() { return ids_[random_.below(ids_.size())]; }
 
-  void add(const BodyDesc& body) {
-    const BodyId id = worlds_[0].add(body);
-    for (size_t i = 1; i < worlds_.size(); ++i) EXPECT_EQ(worlds_[i].add(body), id);
-    ids_.push_back(id);
-  }
+  void add(const BodyDesc& body);
 
-  void remove() {
-    std::swap(ids_[random_.below(ids_.size())], ids_.back());
-    each([&](World& world) { EXPECT_TRUE(world.remove(ids_.back())); });
-    ids_.pop_back();
-  }
+  void remove();
 
   // The result need not be a unit quaternion, and has either sign.
-  Eigen::Quaternionf turned(const Eigen::Quaternionf& q, double most) {
-    const Eigen::AngleAxisd turn(random_.uniform(0, most), random_.direction());
-    Eigen::Quaternionf result = (Eigen::Quaterniond(turn) * q.cast<double>()).cast<float>();
-    const double length = random_.log_uniform(0.5, 2) * (random_.chance(0.5) ? 1 : -1);
-    result.coeffs() *= static_cast<float>(length) / result.norm();
-    return result;
-  }
+  Eigen::Quaternionf turned(const Eigen::Quaternionf& q, double most);
 
-  static void scale_in_arrays(World& world, BodyId id, float factor) {
-    const ShapeKind kind = kind_of(world.shape(id));
-    if (kind == ShapeKind::aabb) {
-      world.boxes().upper[1][world.box_slot(id)] *= factor;
-    } else if (kind == ShapeKind::sphere) {
-      const BodyArrays arrays = world.arrays();
-      if (arrays.record32) arrays.record32[4 * id.index + 3] *= factor;
-      if (arrays.record64) arrays.record64[4 * id.index + 3] *= factor;
-    } else if (kind != ShapeKind::dop) {
-      world.shape_rows().rows[4 * world.first_row(id)] *= factor;
-    }
-  }
+  static void scale_in_arrays(World& world, BodyId id, float factor);
 
   Random random_;
   CrowdSpec spec_;

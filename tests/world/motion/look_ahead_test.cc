@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "carom/base/thread_arena.h"
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
 #include "tests/world/histories.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "oracle/hull_faces.h"
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 #include "tests/support/hulls.h"
 #include "tests/world/crowds.h"
 #include "world/motion/bounding_radii.h"

@@ -6,7 +6,7 @@
 
 #include "carom/bounds/bounds.h"
 #include "shapes/dop_polytope.h"
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 #include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 #include "world/motion/swept_bounds.h"

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/midphase/composites.h"
+#include "tests/support/composites.h"
 #include "tests/world/crowds.h"
 #include "tests/world/motion/bullets.h"
 

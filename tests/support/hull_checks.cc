@@ -1,34 +1,14 @@
-// Checks of the properties that build_hull() promises.
-#pragma once
-
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <random>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include "io/build_hull.h"
-#include "oracle/convex_oracle.h"
+#include "tests/support/hull_checks.h"
 
 namespace carom::io {
 
-using Eigen::Vector3d;
-using Eigen::Vector3f;
-using Points = std::vector<Vector3f>;
-
-inline double support(std::span<const Vector3f> points, const Vector3d& direction) {
+double support(std::span<const Vector3f> points, const Vector3d& direction) {
   double best = -std::numeric_limits<double>::infinity();
   for (const Vector3f& p : points) best = std::max(best, direction.dot(p.cast<double>()));
   return best;
 }
 
-inline Vector3d extents(const Points& points) {
+Vector3d extents(const Points& points) {
   Vector3d lower = points[0].cast<double>(), upper = lower;
   for (const Vector3f& p : points) {
     lower = lower.cwiseMin(p.cast<double>());
@@ -37,12 +17,12 @@ inline Vector3d extents(const Points& points) {
   return upper - lower;
 }
 
-inline Vector3d direction(std::mt19937_64& random) {
+Vector3d direction(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   return Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-inline Vector3d face_normal(const HullGeometry& hull, const HullGeometry::Face& face) {
+Vector3d face_normal(const HullGeometry& hull, const HullGeometry::Face& face) {
   const std::span<const uint32_t> corners = hull.corners(face);
   const auto point = [&](size_t i) { return hull.points()[corners[i]].cast<double>(); };
   Vector3d sum = Vector3d::Zero();
@@ -52,10 +32,8 @@ inline Vector3d face_normal(const HullGeometry& hull, const HullGeometry::Face& 
   return sum.normalized();
 }
 
-// No corner is lost: the hull reaches as far as its input in random directions, stretched like the
-// points, and in the direction of every point.
-inline void expect_same_support(const Points& points, const BuiltHull& hull,
-                                std::mt19937_64& random, double tolerance = 1e-8) {
+void expect_same_support(const Points& points, const BuiltHull& hull, std::mt19937_64& random,
+                         double tolerance) {
   const Vector3d size = extents(points);
   const Vector3d inverse = size.unaryExpr([](double s) { return s > 0 ? 1 / s : 0; });
   for (int i = 0; i < 100; ++i) {
@@ -64,8 +42,7 @@ inline void expect_same_support(const Points& points, const BuiltHull& hull,
   }
 }
 
-// The kept points are a subset of the input, in its order, each once.
-inline void expect_subset(const Points& points, const BuiltHull& hull) {
+void expect_subset(const Points& points, const BuiltHull& hull) {
   auto next = points.begin();
   for (const Vector3f& p : hull.geometry->points()) {
     next = std::find(next, points.end(), p);
@@ -75,8 +52,7 @@ inline void expect_subset(const Points& points, const BuiltHull& hull) {
   EXPECT_EQ(points.size(), hull.geometry->points().size() + hull.duplicates + hull.inside);
 }
 
-// All points are behind every face, up to `tolerance` extents.
-inline void expect_faces_outside(const Points& points, const BuiltHull& hull, double tolerance) {
+void expect_faces_outside(const Points& points, const BuiltHull& hull, double tolerance) {
   const double size = extents(points).maxCoeff();
   for (const HullGeometry::Face& face : hull.geometry->faces()) {
     const Vector3d normal = face_normal(*hull.geometry, face);
@@ -85,9 +61,7 @@ inline void expect_faces_outside(const Points& points, const BuiltHull& hull, do
   }
 }
 
-// The points in the frame in which errors are stated: every axis is scaled by a power of two, so
-// that `size` becomes 1/2 to 1 along it, or stays 0.
-inline Points scaled_axes(std::span<const Vector3f> points, const Vector3d& size) {
+Points scaled_axes(std::span<const Vector3f> points, const Vector3d& size) {
   Points scaled(points.begin(), points.end());
   for (int axis = 0; axis < 3; ++axis) {
     int exponent = 0;
@@ -97,9 +71,7 @@ inline Points scaled_axes(std::span<const Vector3f> points, const Vector3d& size
   return scaled;
 }
 
-// Dropped points lie inside the hull of the kept ones, up to `tolerance` extents. It tries all
-// features of the hull, so the hull must have few corners.
-inline void expect_inside(const Points& points, const BuiltHull& hull, double tolerance = 1e-9) {
+void expect_inside(const Points& points, const BuiltHull& hull, double tolerance) {
   const auto kept = hull.geometry->points();
   const Vector3d size = extents(points);
   const Points all = scaled_axes(points, size);
@@ -111,8 +83,7 @@ inline void expect_inside(const Points& points, const BuiltHull& hull, double to
   }
 }
 
-// Every edge occurs once in each direction.
-inline void expect_closed(const BuiltHull& hull) {
+void expect_closed(const BuiltHull& hull) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (const HullGeometry::Face& face : hull.geometry->faces()) {
     const std::span<const uint32_t> corners = hull.geometry->corners(face);

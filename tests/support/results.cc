@@ -1,0 +1,122 @@
+#include "tests/support/results.h"
+
+namespace carom::test {
+
+bool same_bits(const Row& x, const Row& y) { return std::memcmp(&x, &y, sizeof x) == 0; }
+
+std::string show(const ManifoldPoints& manifold) {
+  std::string text;
+  for (size_t i = 0; i < manifold.point.size(); ++i) {
+    text += " (" + hex3(manifold.point[i]) + ": " + hex(manifold.separation[i]) + ")";
+  }
+  return text;
+}
+
+std::string show(const Row& row) {
+  return std::string("overlap ") + std::to_string(row.overlap) + " status " +
+         std::to_string(row.status) + " separation " + hex(row.separation) + " normal " +
+         hex3(row.normal) + " point_a " + hex3(row.point_a) + " point_b " + hex3(row.point_b) +
+         " manifold " + std::to_string(row.manifold_count) + show(row.manifold);
+}
+
+float world_coordinate(double position, float arm, PositionType positions) {
+  const float high = static_cast<float>(position);
+  if (positions == PositionType::float32) return high + arm;
+  const float low = static_cast<float>(position - high);
+  return high + (low + arm);
+}
+
+Row row_of(const reference::PairResult& result, const TestPair& pair, PositionType positions,
+           Detail detail, WitnessFrame frame) {
+  Row row;
+  std::memset(static_cast<void*>(&row), kUntouched, sizeof row);
+  row.unused = 0;
+  if (detail == Detail::pairs) return row;
+  row.overlap = result.overlap ? 1 : 0;
+  row.status = static_cast<uint8_t>(result.status);
+  if (detail == Detail::overlap) return row;
+  row.separation = result.separation;
+  for (int i = 0; i < 3; ++i) row.normal[i] = result.normal[i];
+  if (result.status == Status::invalid) {
+    row.point_a = row.point_b = row.normal;
+  } else {
+    row.point_a = witness(pair.a, result.arm_a, positions, frame);
+    row.point_b = witness(pair.b, result.arm_b, positions, frame);
+  }
+  if (detail == Detail::contact) return row;
+  row.manifold_count = result.manifold_count;
+  row.manifold = result.manifold;
+  for (size_t i = 0; i < result.manifold_count; ++i) {
+    row.manifold.point[i] = witness(pair.a, result.manifold.point[i], positions, frame);
+  }
+  return row;
+}
+
+Row expected_row(const TestPair& pair, PositionType positions, Detail detail, WitnessFrame frame) {
+  return row_of(reference_result(pair, positions), pair, positions, detail, frame);
+}
+
+Columns::Columns(size_t count, unsigned missing) : count_(count), missing_(missing) {
+  for (const size_t size : kSizes) columns_.emplace_back(count, size, size);
+}
+
+ResultColumns Columns::out() {
+  const auto floats = [&](int column) { return is_missing(column) ? nullptr : at<float>(column); };
+  ResultColumns out;
+  out.overlap = is_missing(0) ? nullptr : at<uint8_t>(0);
+  out.status = is_missing(1) ? nullptr : at<uint8_t>(1);
+  out.separation = floats(2);
+  for (int i = 0; i < 3; ++i) {
+    out.normal[i] = floats(3 + i);
+    out.point_a[i] = floats(6 + i);
+    out.point_b[i] = floats(9 + i);
+  }
+  out.manifold_count = is_missing(12) ? nullptr : at<uint8_t>(12);
+  out.manifold = is_missing(13) ? nullptr : at<ManifoldPoints>(13);
+  return out;
+}
+
+Row Columns::row(size_t i) const {
+  Row row{};
+  for (int column = 0; column < kColumns; ++column) {
+    columns_[column].copy(i, reinterpret_cast<char*>(&row) + kOffsets[column]);
+  }
+  return row;
+}
+
+std::vector<Row> Columns::rows() const {
+  std::vector<Row> rows;
+  for (size_t i = 0; i < count_; ++i) rows.push_back(row(i));
+  return rows;
+}
+
+void forget_columns(Row& row, unsigned missing) {
+  for (int column = 0; column < Columns::kColumns; ++column) {
+    if ((missing >> column & 1) == 0) continue;
+    std::memset(reinterpret_cast<char*>(&row) + Columns::kOffsets[column], kUntouched,
+                Columns::kSizes[column]);
+  }
+}
+
+testing::AssertionResult same_rows(std::span<const Row> expected, std::span<const Row> actual,
+                                   std::span<const TestPair> pairs) {
+  if (expected.size() != actual.size()) {
+    return testing::AssertionFailure() << expected.size() << " rows and " << actual.size();
+  }
+  for (size_t i = 0; i < expected.size(); ++i) {
+    if (same_bits(expected[i], actual[i])) continue;
+    return testing::AssertionFailure() << "row " << i << " of " << expected.size() << "\n"
+                                       << show(pairs[i]) << "\nexpected " << show(expected[i])
+                                       << "\nactual   " << show(actual[i]);
+  }
+  return testing::AssertionSuccess();
+}
+
+std::vector<Row> expected_rows(std::span<const TestPair> pairs, PositionType positions,
+                               Detail detail, WitnessFrame frame) {
+  std::vector<Row> rows;
+  for (const TestPair& pair : pairs) rows.push_back(expected_row(pair, positions, detail, frame));
+  return rows;
+}
+
+}  // namespace carom::test
