@@ -9,7 +9,7 @@
 
 #include "broadphase/grid/cell_rows.h"
 #include "carom/base/thread_arena.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "tests/support/isas.h"
 
 namespace carom::test {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "carom/base/thread_arena.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
 

@@ -10,7 +10,7 @@
 
 #include "carom/base/thread_arena.h"
 #include "reference/pairs.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "tests/support/isas.h"
 
 namespace carom::test {

@@ -6,7 +6,7 @@
 
 #include "carom/base/thread_arena.h"
 #include "carom/broadphase/find_pairs.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "tests/support/isas.h"
 
 namespace carom::test {

@@ -6,7 +6,7 @@
 
 #include "broadphase/sweep/sweep_order.h"
 #include "carom/base/thread_arena.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 
 namespace carom::test {
 namespace {

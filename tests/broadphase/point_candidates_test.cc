@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "carom/base/thread_arena.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "tests/support/isas.h"
 
 namespace carom::test {

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "carom/base/thread_arena.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
 

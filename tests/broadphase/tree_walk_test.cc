@@ -11,7 +11,7 @@
 #include <string>
 
 #include "base/outward.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "tests/support/isas.h"
 
 namespace carom::test {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "carom/base/thread_arena.h"
-#include "tests/queries/cast_checks.h"
+#include "tests/support/cast_checks.h"
 
 namespace carom::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "carom/base/thread_arena.h"
 #include "carom/narrowphase/collide.h"
-#include "tests/queries/query_bodies.h"
+#include "tests/support/query_bodies.h"
 
 namespace carom::test {
 namespace {

@@ -1,5 +1,6 @@
 // The oracle of convex shapes, against closed forms, against itself with 50 digits, and against
 // bounds from duality.
+#include "oracle/digits.h"
 #include "oracle/convex_oracle.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@ namespace carom::test {
 using namespace oracle;
 namespace {
 
-using Real50 = Digits<100>;
+using Real100 = oracle::Digits<100>;
 using Vec = Vec3<long double>;
 
 constexpr long double kTight = 1e-17L;
@@ -183,7 +184,7 @@ void expect_closed(const HullFaces& found, std::span<const Eigen::Vector3f> poin
     ASSERT_GE(face.size(), 3u);
     for (size_t i = 0; i < face.size(); ++i)
       edges.push_back({face[i], face[(i + 1) % face.size()]});
-    const auto at = [&](uint32_t i) { return vec3_as<Real50>(points[i]); };
+    const auto at = [&](uint32_t i) { return vec3_as<Real100>(points[i]); };
     const auto normal = cross(at(face[1]) - at(face[0]), at(face[2]) - at(face[0]));
     EXPECT_GT(dot(normal, normal), 0);
     for (uint32_t i = 0; i < points.size(); ++i) EXPECT_LE(dot(normal, at(i) - at(face[0])), 0);
@@ -312,8 +313,8 @@ TEST_P(ConvexOracleFamilies, FiftyDigitsAgree) {
   each(2, PositionType::float64, [](const ConvexPair& pair) {
     const ConvexOracle<> oracle = pair.oracle();
     if (oracle.a.points.size() + oracle.b.points.size() > 24) return;  // k-DOPs take seconds
-    const Real50 precise = pair.oracle<Real50>().separation().value;
-    const Real50 error = abs(Real50(oracle.separation().value) - precise);
+    const Real100 precise = pair.oracle<Real100>().separation().value;
+    const Real100 error = abs(Real100(oracle.separation().value) - precise);
     EXPECT_LE(error, kTight * size_of(oracle)) << precise << " " << oracle.scale();
   });
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "carom/base/thread_arena.h"
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 #include "trees/tree.h"
 
 namespace carom::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "carom/base/thread_arena.h"
-#include "tests/queries/cast_checks.h"
+#include "tests/support/cast_checks.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {

@@ -8,7 +8,7 @@
 
 #include "carom/impacts/time_of_impact.h"
 #include "carom/queries/cast.h"
-#include "tests/queries/query_bodies.h"
+#include "tests/support/query_bodies.h"
 
 namespace carom::test {
 

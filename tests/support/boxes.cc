@@ -1,4 +1,4 @@
-#include "tests/broadphase/boxes.h"
+#include "tests/support/boxes.h"
 
 namespace carom::test {
 

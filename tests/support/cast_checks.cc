@@ -1,4 +1,4 @@
-#include "tests/queries/cast_checks.h"
+#include "tests/support/cast_checks.h"
 
 namespace carom::test {
 

@@ -1,4 +1,4 @@
-#include "tests/queries/query_bodies.h"
+#include "tests/support/query_bodies.h"
 
 namespace carom::test {
 
