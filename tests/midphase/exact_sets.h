@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "oracle/convex_random.h"
-#include "tests/support/composites.h"
 #include "tests/support/composite_oracle.h"
+#include "tests/support/composites.h"
 
 namespace carom::test {
 

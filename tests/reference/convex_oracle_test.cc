@@ -1,7 +1,7 @@
 // The oracle of convex shapes, against closed forms, against itself with 50 digits, and against
 // bounds from duality.
-#include "oracle/digits.h"
 #include "oracle/convex_oracle.h"
+#include "oracle/digits.h"
 
 #include <gtest/gtest.h>
 

@@ -61,7 +61,8 @@ void ExactParts::add_child(const CompoundChild& child, const PlacedShape& body, 
   Eigen::Quaternionf orientation =
       (body.orientation.cast<long double>() * child.orientation.cast<Number>()).cast<float>();
   if (const auto* box = std::get_if<Aabb>(&child.shape)) {
-    at = at + (oracle::vec3_as<long double>(box->lower) + oracle::vec3_as<Number>(box->upper)) * 0.5L;
+    at = at +
+         (oracle::vec3_as<long double>(box->lower) + oracle::vec3_as<Number>(box->upper)) * 0.5L;
     shape = Box{(box->upper - box->lower) / 2};
     orientation = body.orientation;
   }
@@ -90,8 +91,8 @@ void ExactParts::add(const Shape& shape, const Vec& position, const Eigen::Quate
 
 CompositeOracle::CompositeOracle(const TestPair& pair)
     : a_(pair.a, {}),
-      b_(pair.b,
-         oracle::vec3_as<long double>(pair.b.position) - oracle::vec3_as<Number>(pair.a.position)) {}
+      b_(pair.b, oracle::vec3_as<long double>(pair.b.position) -
+                     oracle::vec3_as<Number>(pair.a.position)) {}
 
 ExactSeparations CompositeOracle::separations() const {
   return least([](const ExactPart&, const ExactPart&) { return true; });
@@ -114,8 +115,9 @@ void CompositeOracle::note(const Candidate& candidate, ExactSeparations& found) 
   if (over_edge != OverEdge::yes) found.not_closed = std::min(found.not_closed, answer.value);
 }
 
-OverEdge CompositeOracle::over_inner_edge(const ExactPart& a, const ExactPart& b,
-                                          const oracle::ConvexSeparation<long double>& answer) const {
+OverEdge CompositeOracle::over_inner_edge(
+    const ExactPart& a, const ExactPart& b,
+    const oracle::ConvexSeparation<long double>& answer) const {
   const auto may_be = [](const ExactPart& part, const ExactPart& other) {
     return part.flap && part.flap->may_be_left_over_inner_edges(other.middle);
   };
@@ -137,7 +139,8 @@ OverEdge CompositeOracle::over_inner_edge(const ExactPart& a, const ExactPart& b
 }
 
 std::vector<ExactPart::Vec> CompositeOracle::ways_out(
-    const ExactPart& a, const ExactPart& b, const oracle::ConvexSeparation<long double>& answer) const {
+    const ExactPart& a, const ExactPart& b,
+    const oracle::ConvexSeparation<long double>& answer) const {
   const Number cores = answer.value + a.shape.radius + b.shape.radius;
   if (cores > 0.02L * scale()) return {answer.normal};
   if (cores > 0) return {};
