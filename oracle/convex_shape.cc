@@ -266,16 +266,16 @@ void ConvexShape<R>::add_quad(size_t i, size_t j, size_t k, size_t l) {
 }
 
 // The real types that are used.
-template class Rotation<double>;
-template class ConvexFace<double>;
-template class ConvexShape<double>;
-template class Rotation<long double>;
-template class ConvexFace<long double>;
-template class ConvexShape<long double>;
-template class Rotation<Digits<100>>;
-template class ConvexFace<Digits<100>>;
-template class ConvexShape<Digits<100>>;
-template class Rotation<Digits<1500>>;
-template class ConvexFace<Digits<1500>>;
-template class ConvexShape<Digits<1500>>;
+template struct Rotation<double>;
+template struct ConvexFace<double>;
+template struct ConvexShape<double>;
+template struct Rotation<long double>;
+template struct ConvexFace<long double>;
+template struct ConvexShape<long double>;
+template struct Rotation<Digits<100>>;
+template struct ConvexFace<Digits<100>>;
+template struct ConvexShape<Digits<100>>;
+template struct Rotation<Digits<1500>>;
+template struct ConvexFace<Digits<1500>>;
+template struct ConvexShape<Digits<1500>>;
 }  // namespace carom::oracle
