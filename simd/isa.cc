@@ -25,8 +25,12 @@ constexpr std::array<Target, 5> kTargets = {{
 
 const Target& target(Isa isa) { return kTargets[static_cast<size_t>(isa)]; }
 
-// The scalar target is always usable: Highway does not list it as a feature of the machine.
-int64_t usable_bits() { return (hwy::SupportedTargets() | HWY_SCALAR) & int64_t{HWY_TARGETS}; }
+// The scalar target is always usable: Highway does not list it as a feature of the machine. It asks
+// the processor anew in every call, which a virtual machine answers slowly.
+int64_t usable_bits() {
+  static const int64_t supported = hwy::SupportedTargets();
+  return (supported | HWY_SCALAR) & int64_t{HWY_TARGETS};
+}
 
 std::vector<Isa> isas_in(int64_t bits) {
   std::vector<Isa> isas;

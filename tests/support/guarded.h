@@ -1,11 +1,7 @@
 // Memory that ends at an inaccessible page: reading or writing past the end crashes.
 #pragma once
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
