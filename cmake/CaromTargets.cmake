@@ -16,12 +16,50 @@ function(carom_add_precompiled name)
     <span> <string> <type_traits> <utility> <variant> <vector> ${ARGN})
 endfunction()
 
-# carom_add_objects(NAME): the sources of this folder and those below it as an object library.
+# carom_compile_together(TARGET): compiles the sources of a folder in groups of at most eight, so that
+# the headers that they share are read once a group (with CAROM_UNITY_BUILD). Files that are compiled
+# once for every instruction set include themselves again, so they stay alone; so do files with
+# settings of their own.
+function(carom_compile_together target)
+  get_target_property(sources ${target} SOURCES)
+  set(last_folder "")
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
+    file(STRINGS ${source} targets REGEX "foreach_target.h")
+    if(definitions OR targets)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      continue()
+    endif()
+    cmake_path(GET source PARENT_PATH folder)
+    if(NOT folder STREQUAL last_folder)
+      set(last_folder ${folder})
+      set(count 0)
+    endif()
+    math(EXPR group "${count} / 8")
+    math(EXPR count "${count} + 1")
+    cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
+    string(REPLACE "/" "_" name "${name}")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${name}_${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${CAROM_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# carom_add_objects(NAME [SOURCES file... | EXCLUDE file...]): these sources, or those of this folder
+# and below it, as an object library.
 function(carom_add_objects name)
-  carom_glob(sources *.cc)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;EXCLUDE")
+  set(sources ${arg_SOURCES})
+  if(NOT sources)
+    carom_glob(sources *.cc)
+    list(TRANSFORM arg_EXCLUDE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    list(REMOVE_ITEM sources ${arg_EXCLUDE})
+  endif()
   add_library(${name} OBJECT ${sources})
   target_link_libraries(${name} PRIVATE hwy::hwy TBB::tbb Eigen3::Eigen)
   target_precompile_headers(${name} REUSE_FROM carom_precompiled)
+  carom_compile_together(${name})
 endfunction()
 
 # carom_add_product(NAME OBJECT_LIBRARY...): the installed library NAME, and NAME_core, the same
@@ -53,6 +91,7 @@ function(carom_add_test name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE carom_test_support ${arg_LIBS} GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM carom_precompiled_tests)
+  carom_compile_together(${name})
   target_compile_definitions(${name} PRIVATE
     CAROM_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data"
     CAROM_SHARED_DIR="${PROJECT_SOURCE_DIR}/../shared")

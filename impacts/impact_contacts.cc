@@ -77,7 +77,7 @@ class PlacedSide {
   std::array<uint32_t, kPairsPerBlock> first_row_, box_slot_;
 };
 
-struct Scratch {
+struct ContactScratch {
   PlacedSide a, b;
   size_t count;
   std::array<uint16_t, kPairsPerBlock> row;  // of every placed pair
@@ -90,7 +90,7 @@ class ImpactContacts {
  public:
   ImpactContacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
                  const FirstTimes& first, WitnessFrame frame, const ImpactColumns& out,
-                 Scratch& scratch)
+                 ContactScratch& scratch)
       : side_a_(a),
         side_b_(b),
         a_{a},
@@ -222,14 +222,14 @@ class ImpactContacts {
   const FirstTimes first_;
   const WitnessFrame frame_;
   const ImpactColumns& out_;
-  Scratch& scratch_;
+  ContactScratch& scratch_;
 };
 
 }  // namespace
 
 void find_impact_contacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
                           const FirstTimes& first, WitnessFrame frame, const ImpactColumns& out) {
-  static thread_local const auto scratch = std::make_unique<Scratch>();
+  static thread_local const auto scratch = std::make_unique<ContactScratch>();
   ImpactContacts(a, b, pairs, first, frame, out, *scratch).run();
 }
 

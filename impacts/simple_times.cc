@@ -22,7 +22,7 @@ constexpr uint8_t kAdvanced = kKinds * kKinds;
 constexpr size_t kGroups = kAdvanced + 1;
 
 // The rows of a block, sorted by how they are tested.
-struct Scratch {
+struct SimpleScratch {
   std::array<uint8_t, kRowsPerBlock> group;
   std::array<uint16_t, kRowsPerBlock> row;
   std::array<size_t, kGroups + 1> first;  // first place of each group in `row`
@@ -34,7 +34,7 @@ struct Scratch {
 class SimpleTimes {
  public:
   SimpleTimes(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
-              const TimeColumns& out, Scratch& scratch)
+              const TimeColumns& out, SimpleScratch& scratch)
       : a_{a},
         b_{b},
         shared_group_(group_of_all(a, b)),
@@ -203,14 +203,14 @@ class SimpleTimes {
   const Pair* pairs_;
   const size_t count_;
   const TimeColumns out_;
-  Scratch& scratch_;
+  SimpleScratch& scratch_;
 };
 
 }  // namespace
 
 void find_simple_times(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
                        const TimeColumns& out) {
-  static thread_local const auto scratch = std::make_unique<Scratch>();
+  static thread_local const auto scratch = std::make_unique<SimpleScratch>();
   for (size_t begin = 0; begin < count; begin += kRowsPerBlock) {
     const size_t rows = std::min(count - begin, kRowsPerBlock);
     SimpleTimes(a, b, pairs + begin, rows, {out.time + begin, out.status + begin}, *scratch).run();

@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-struct Scratch {
+struct ImpactScratch {
   std::array<double, kPairsPerBlock> time;
   std::array<uint8_t, kPairsPerBlock> status;
   std::array<std::array<uint64_t, 2>, kPairsPerBlock> parts;  // of rows with composites
@@ -34,7 +34,7 @@ bool may_have_parts(const Collidables& bodies) {
 class ImpactBlock {
  public:
   ImpactBlock(const MovingSide& a, const MovingSide& b, std::span<const Pair> pairs,
-              const ImpactColumns& out, WitnessFrame frame, Scratch& scratch)
+              const ImpactColumns& out, WitnessFrame frame, ImpactScratch& scratch)
       : a_(a), b_(b), pairs_(pairs), out_(out), frame_(frame), scratch_(scratch) {}
 
   void run() {
@@ -116,7 +116,7 @@ class ImpactBlock {
   const std::span<const Pair> pairs_;
   const ImpactColumns& out_;
   const WitnessFrame frame_;
-  Scratch& scratch_;
+  ImpactScratch& scratch_;
   size_t simple_count_ = 0, composite_count_ = 0;
 };
 
@@ -142,7 +142,7 @@ Result<void> time_of_impact(const Collidables& a, const SweepView& sweep_a, cons
   if (Result<void> checked = check_pairs(a, b, pairs); !checked) return checked;
   const MovingSide side_a{a, sweep_a}, side_b{b, sweep_b};
   for_each_block(pairs.size(), kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    static thread_local const auto scratch = std::make_unique<Scratch>();
+    static thread_local const auto scratch = std::make_unique<ImpactScratch>();
     const ImpactColumns block_out = from_row(out, begin);
     ImpactBlock(side_a, side_b, pairs.subspan(begin, end - begin), block_out, frame, *scratch)
         .run();

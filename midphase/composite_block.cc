@@ -113,7 +113,7 @@ float rounded_up(double x) {
 }
 
 // The working memory of one thread.
-struct Scratch {
+struct CompositeScratch {
   PartBatch batch, again;
   std::array<Outcome, kPairsPerBlock> outcomes;
   ContactRuns contacts;
@@ -129,7 +129,7 @@ Measured of_parts(Measured measured) {
 
 class CompositeRun {
  public:
-  CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, Scratch& scratch)
+  CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, CompositeScratch& scratch)
       : block_(block),
         a_{block.a},
         b_{block.b},
@@ -398,7 +398,7 @@ class CompositeRun {
 }  // namespace
 
 void run_composite_pairs(const PairBlock& block, std::span<const uint16_t> rows) {
-  static thread_local const auto scratch = std::make_unique<Scratch>();
+  static thread_local const auto scratch = std::make_unique<CompositeScratch>();
   CompositeRun(block, rows, *scratch).run();
 }
 

@@ -11,7 +11,7 @@ namespace carom {
 namespace {
 
 // The rows of simple pairs, which run as a block of their own, and the rows of all others.
-struct Scratch {
+struct MixedScratch {
   size_t simple_count = 0, composite_count = 0;
   std::array<uint16_t, kPairsPerBlock> simple, composite;
   std::array<Pair, kPairsPerBlock> pairs;
@@ -34,7 +34,7 @@ Pair pair_at(const PairBlock& block, size_t row) {
   return {index, index};
 }
 
-void sort_out(const PairBlock& block, Scratch& scratch) {
+void sort_out(const PairBlock& block, MixedScratch& scratch) {
   const BodyReader a{block.a}, b{block.b};
   scratch.simple_count = scratch.composite_count = 0;
   for (size_t row = 0; row < block.count; ++row) {
@@ -72,7 +72,7 @@ void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail,
   scatter(from.manifold, to.manifold, rows);
 }
 
-void run_simple_pairs(const PairBlock& block, Scratch& scratch) {
+void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
   const std::span<const uint16_t> rows = scratch.simple_rows();
   ResultColumns out = scratch.columns.columns();
   out.manifold_count = scratch.manifold_count.data();
@@ -104,7 +104,7 @@ void run_simple_pairs(const PairBlock& block, Scratch& scratch) {
 }  // namespace
 
 void run_mixed_block(const PairBlock& block) {
-  static thread_local const auto scratch = std::make_unique<Scratch>();
+  static thread_local const auto scratch = std::make_unique<MixedScratch>();
   sort_out(block, *scratch);
   if (scratch->composite_count == 0) return run_pair_block(block);
   if (scratch->simple_count > 0) run_simple_pairs(block, *scratch);

@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-constexpr RoundSizes kRounds = {.first = 2, .most = 4};
+constexpr RoundSizes kNearestRounds = {.first = 2, .most = 4};
 constexpr uint32_t kNone = 0xffffffffu;
 
 // Results of collide(), one row per candidate.
@@ -70,7 +70,7 @@ class NearestSearch {
       best_.assign(count, none);
       limit_.assign(count, std::max(within, 0.0f));
       const auto test = [this](std::span<const Pair> candidates) { return measure(candidates); };
-      Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::near, kRounds, first,
+      Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::near, kNearestRounds, first,
                                             limit_, parallelism_, test);
       if (!found) {
         hits.clear();

@@ -11,7 +11,7 @@
 namespace carom {
 namespace {
 
-constexpr RoundSizes kRounds = {.first = 64, .most = 64};
+constexpr RoundSizes kOverlapRounds = {.first = 64, .most = 64};
 
 bool is_before(const OverlapHit& a, const OverlapHit& b) {
   return std::tie(a.query, a.body) < std::tie(b.query, b.body);
@@ -38,8 +38,8 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
   for (size_t first = 0; first < queries.count; first += kQueriesAtOnce) {
     const std::vector<float> limit(std::min(kQueriesAtOnce, queries.count - first), 1.0f);
     const auto before = static_cast<ptrdiff_t>(hits.size());
-    Result<void> found =
-        search_in_rounds(boxes, bodies, SearchFor::met, kRounds, first, limit, parallelism, test);
+    Result<void> found = search_in_rounds(boxes, bodies, SearchFor::met, kOverlapRounds, first,
+                                          limit, parallelism, test);
     if (!found) {
       hits.clear();
       return found;

@@ -1,18 +1,16 @@
 // Bodies -> world bounds.
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "base/float_environment.h"
 #include "carom/reference/reference.h"
 #include "reference/exact_sum.h"
 #include "reference/turned_extent.h"
+#include "reference/vectors.h"
 #include "shapes/dop_polytope.h"
 
 namespace carom::reference {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Corners relative to the position.
 Aabb extent(const Sphere& sphere, const Eigen::Quaternionf&) {
@@ -36,9 +34,11 @@ Box bounds_at(const Aabb& extent, const Eigen::Vector3<Real>& position) {
 
 bool is_size(float x) { return std::isfinite(x) && x >= 0; }
 
-bool is_valid(const Sphere& sphere, const Eigen::Quaternionf&) { return is_size(sphere.radius); }
+bool is_valid_body(const Sphere& sphere, const Eigen::Quaternionf&) {
+  return is_size(sphere.radius);
+}
 
-bool is_valid(const Aabb& box, const Eigen::Quaternionf&) {
+bool is_valid_body(const Aabb& box, const Eigen::Quaternionf&) {
   return box.lower.allFinite() && box.upper.allFinite() &&
          (box.lower.array() <= box.upper.array()).all();
 }
@@ -70,7 +70,7 @@ bool is_valid_shape(const Mesh& mesh) { return mesh.geometry != nullptr; }
 bool is_valid_shape(const Compound& compound) { return compound.geometry != nullptr; }
 
 template <class Turned>
-bool is_valid(const Turned& shape, const Eigen::Quaternionf& orientation) {
+bool is_valid_body(const Turned& shape, const Eigen::Quaternionf& orientation) {
   const Eigen::Vector4f& q = orientation.coeffs();
   return q.allFinite() && !q.isZero(0) && is_valid_shape(shape);
 }
@@ -83,7 +83,7 @@ bool is_valid(const Shape& shape, const Pose& pose, PositionType positions) {
                              ? pose.position.cast<float>().allFinite()
                              : pose.position.allFinite();
   return is_finite &&
-         std::visit([&](const auto& s) { return is_valid(s, pose.orientation); }, shape);
+         std::visit([&](const auto& s) { return is_valid_body(s, pose.orientation); }, shape);
 }
 
 Box bounds(const Shape& shape, const Pose& pose, PositionType positions) {

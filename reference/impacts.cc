@@ -12,8 +12,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-Pose pose_of(const BodyDesc& desc) { return {desc.position, desc.orientation}; }
-
 bool has_sensor(const MovingPair& pair) { return pair.a.desc.sensor || pair.b.desc.sensor; }
 
 // Copies the contact from either kind of result.

@@ -6,6 +6,7 @@
 #include "base/float_environment.h"
 #include "reference/exact_sum.h"
 #include "reference/shape_sizes.h"
+#include "reference/vectors.h"
 
 namespace carom::reference {
 namespace {
@@ -17,17 +18,12 @@ Vector3f over_interval(const Vector3f& velocity, double dt) {
   return (velocity.cast<double>() * dt).cast<float>();
 }
 
-double length(const Vector3f& v) {
-  const Vector3d d = v.cast<double>();
-  return std::sqrt((d.x() * d.x() + d.y() * d.y()) + d.z() * d.z());
-}
-
 // Whether a point of the body may move further than this share of the diameter of a ball inside it.
 bool is_fast(const BodyDesc& body, const Sweep& sweep, float share) {
   if (kind_of(body.shape) == ShapeKind::halfspace) return false;
-  const double angle = length(sweep.rotation);
+  const double angle = norm(sweep.rotation);
   const double turned = angle > 0 ? angle * bounding_radius(body.shape) : 0;
-  const double way = length(sweep.displacement) + turned;
+  const double way = norm(sweep.displacement) + turned;
   return way > 0 && way > double{share} * inner_diameter(body.shape);
 }
 
@@ -35,12 +31,11 @@ bool is_fast(const BodyDesc& body, const Sweep& sweep, float share) {
 // its position with the present box grown by the greatest distance that a point moves.
 Box turned_box(const Box& now, const BodyDesc& body, const Vector3f& rotation,
                PositionType positions) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const float radius = bounding_radius(body.shape);
   if (radius > std::numeric_limits<float>::max() / 2) {
     return {Vector3f::Constant(-kInfinity), Vector3f::Constant(kInfinity)};
   }
-  const double angle = length(rotation) * (1 + 0x1p-40);
+  const double angle = norm(rotation) * (1 + 0x1p-40);
   const double furthest = std::fmin(angle, 2) * radius;
   auto way = static_cast<float>(furthest);
   if (way < furthest) way = step_up(way);
@@ -89,7 +84,6 @@ Box box_over(const Box& now, const BodyDesc& body, const Sweep& sweep, PositionT
 
 Plane plane_over(const Plane& now, const Sweep& sweep) {
   const FloatEnvironment environment;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Plane plane = now;
   const Vector3d d = sweep.displacement.cast<double>();
   if (!sweep.rotation.isZero(0)) {

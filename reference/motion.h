@@ -16,6 +16,8 @@ struct BodyMotion {
   bool is_continuous() const { return detection == Detection::continuous; }
 };
 
+inline Pose pose_of(const BodyDesc& desc) { return {desc.position, desc.orientation}; }
+
 // The body must be valid.
 BodyMotion motion_of(const BodyDesc& body, const Ahead& ahead);
 

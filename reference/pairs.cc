@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "base/float_environment.h"
+#include "reference/vectors.h"
 
 namespace carom::reference {
 namespace {
@@ -38,11 +39,7 @@ struct Columns {
 
 // 32 units in the last place; the rounding in world_plane() and may_reach() adds up to less than 16
 // of the sizes involved.
-constexpr double kRounding = 0x1p-48;
-
-double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
-}
+constexpr double kPlaneRounding = 0x1p-48;
 
 double sum_of_magnitudes(const Eigen::Vector3d& v) {
   return (std::abs(v.x()) + std::abs(v.y())) + std::abs(v.z());
@@ -117,17 +114,18 @@ Plane world_plane(const Halfspace& halfspace, const Pose& pose, PositionType pos
   const Eigen::Vector3d n = halfspace.normal.cast<double>();
   const Eigen::Quaterniond q = pose.orientation.cast<double>();
   const Eigen::Matrix3d m = scaled_rotation(q.x(), q.y(), q.z(), q.w());
-  const Eigen::Vector3d normal(dot(m.row(0), n), dot(m.row(1), n), dot(m.row(2), n));
+  const Eigen::Vector3d normal(inner_product(m.row(0), n), inner_product(m.row(1), n),
+                               inner_product(m.row(2), n));
   const double scale = (q.x() * q.x() + q.y() * q.y()) + (q.z() * q.z() + q.w() * q.w());
   const double size = scale * sum_of_magnitudes(n);
   Eigen::Vector3d p = pose.position;
   if (positions == PositionType::float32) p = p.cast<float>().cast<double>();
 
   const double offset = halfspace.offset;
-  const double limit = offset * scale + dot(normal, p);
-  const double error = kRounding * (std::abs(offset) * scale + size * sum_of_magnitudes(p));
+  const double limit = offset * scale + inner_product(normal, p);
+  const double error = kPlaneRounding * (std::abs(offset) * scale + size * sum_of_magnitudes(p));
   // DBL_MIN covers what underflows.
-  return {normal, (limit + error) + DBL_MIN, kRounding * size};
+  return {normal, (limit + error) + DBL_MIN, kPlaneRounding * size};
 }
 
 bool may_reach(const Box& box, const Plane& plane) {
@@ -135,7 +133,7 @@ bool may_reach(const Box& box, const Plane& plane) {
   for (int i = 0; i < 3; ++i) lowest[i] = plane.normal[i] >= 0 ? box.lower[i] : box.upper[i];
   const double error = plane.slack * sum_of_magnitudes(lowest);
   // Infinite corners give NaN, for which the answer is true.
-  return !(dot(plane.normal, lowest) - error > plane.limit);
+  return !(inner_product(plane.normal, lowest) - error > plane.limit);
 }
 
 }  // namespace carom::reference

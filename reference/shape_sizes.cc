@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "reference/vectors.h"
 #include "shapes/dop_polytope.h"
 #include "shapes/hull_features.h"
 
@@ -16,26 +16,18 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr float kLargest = std::numeric_limits<float>::max();
-
-double length(const Vector3d& v) {
-  return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z());
-}
-double length(const Vector3f& v) { return length(v.cast<double>().eval()); }
-
 // The distance of the furthest corner of a box.
 double reach_of_box(const Vector3f& lower, const Vector3f& upper) {
-  return length(lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).eval());
+  return norm(lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).eval());
 }
 
 double reach(const Sphere& sphere) { return sphere.radius; }
 double reach(const Aabb& box) { return reach_of_box(box.lower, box.upper); }
-double reach(const Capsule& c) { return std::max(length(c.a), length(c.b)) + c.radius; }
-double reach(const carom::Box& box) { return length(box.half); }
+double reach(const Capsule& c) { return std::max(norm(c.a), norm(c.b)) + c.radius; }
+double reach(const carom::Box& box) { return norm(box.half); }
 double reach(const Triangle& t) {
   const auto& c = t.corners;
-  return std::max({length(c[0]), length(c[1]), length(c[2])}) + t.thickness;
+  return std::max({norm(c[0]), norm(c[1]), norm(c[2])}) + t.thickness;
 }
 double reach(const Halfspace&) { return kInfinity; }
 double reach(const Dop& dop) {
@@ -43,13 +35,13 @@ double reach(const Dop& dop) {
   const DopPolytope polytope(slabs);
   double furthest = 0;
   for (const Double3& p : polytope.points()) {
-    furthest = std::max(furthest, length(Vector3d(p[0], p[1], p[2])));
+    furthest = std::max(furthest, norm(Vector3d(p[0], p[1], p[2])));
   }
   return furthest + kDopRounding * slabs.with_tight_axes().size();
 }
 double reach(const Hull& hull) {
   double furthest = 0;
-  for (const Vector3f& p : hull.geometry->points()) furthest = std::max(furthest, length(p));
+  for (const Vector3f& p : hull.geometry->points()) furthest = std::max(furthest, norm(p));
   return furthest;
 }
 double reach(const Mesh& mesh) {

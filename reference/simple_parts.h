@@ -23,7 +23,7 @@ struct Simple {
     return {Eigen::Vector3d(placed.position[0], placed.position[1], placed.position[2]),
             Eigen::Quaternionf(q[3], q[0], q[1], q[2])};
   }
-  PlacedTriangle placed_triangle() const {
+  carom::PlacedTriangle placed_triangle() const {
     return {*mesh, triangle, placed.position, rotation_of(placed.orientation)};
   }
 };

@@ -15,8 +15,6 @@
 namespace carom::reference {
 namespace {
 
-Pose pose_of(const BodyDesc& desc) { return {desc.position, desc.orientation}; }
-
 // A body with bounds: the present ones, and those over the interval ahead.
 struct Participant {
   const Body* body;

@@ -10,6 +10,7 @@
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "reference/vectors.h"
 #include "shapes/dop_polytope.h"
 
 namespace carom::reference {
@@ -17,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRounding = 0x1p-46;  // a generous bound for a rotation and the sums that follow
-constexpr float kLargest = std::numeric_limits<float>::max();
+constexpr double kTurnRounding =
+    0x1p-46;  // a generous bound for a rotation and the sums that follow
 
 // The rows of M(q) / |q|^2.
 struct Turn {
@@ -34,10 +35,6 @@ struct Turn {
 
   const Vector3d& row(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
-
-double dot(const Vector3d& a, const Vector3d& b) {
-  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
-}
 
 double greatest(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
@@ -61,8 +58,8 @@ struct Interval {
 
   Interval(const Vector3d& row, const std::vector<Vector3d>& points) {
     for (const Vector3d& point : points) {
-      lower = std::fmin(lower, dot(row, point));
-      upper = std::fmax(upper, dot(row, point));
+      lower = std::fmin(lower, inner_product(row, point));
+      upper = std::fmax(upper, inner_product(row, point));
     }
   }
 };
@@ -79,7 +76,7 @@ Vector3d way_back(const std::vector<Vector3d>& corners, double thickness) {
   const Vector3d v = corners[2] - corners[0];
   const Vector3d n(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
                    u.x() * v.y() - u.y() * v.x());
-  const double length = std::sqrt(dot(n, n));
+  const double length = std::sqrt(inner_product(n, n));
   if (!(length > 0x1p-24 * greatest(u) * greatest(v))) return Vector3d::Zero();
   return {-n.x() / length * thickness, -n.y() / length * thickness, -n.z() / length * thickness};
 }
@@ -89,7 +86,7 @@ Aabb extent_of_points(const std::vector<Vector3d>& points, const Eigen::Quaterni
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval of_points(turn.row(axis), points);
-    set_axis(extent, axis, of_points.lower, of_points.upper, kRounding * greatest(points, 0));
+    set_axis(extent, axis, of_points.lower, of_points.upper, kTurnRounding * greatest(points, 0));
   }
   return extent;
 }
@@ -110,7 +107,7 @@ Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation
   const Turn turn(orientation);
   const std::vector<Vector3d> ends = {capsule.a.cast<double>(), capsule.b.cast<double>()};
   const double radius = capsule.radius;
-  const double slack = kRounding * greatest(ends, radius);
+  const double slack = kTurnRounding * greatest(ends, radius);
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval ends_on_axis(turn.row(axis), ends);
@@ -124,8 +121,8 @@ Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation)
   const Vector3d half = box.half.cast<double>();
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
-    const double reach = dot(turn.row(axis).cwiseAbs(), half);
-    set_axis(extent, axis, -reach, reach, kRounding * greatest(half));
+    const double reach = inner_product(turn.row(axis).cwiseAbs(), half);
+    set_axis(extent, axis, -reach, reach, kTurnRounding * greatest(half));
   }
   return extent;
 }
@@ -135,13 +132,13 @@ Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientati
   std::vector<Vector3d> corners;
   for (const Eigen::Vector3f& corner : triangle.corners) corners.push_back(corner.cast<double>());
   const double thickness = triangle.thickness;
-  const double slack = kRounding * greatest(corners, thickness);
+  const double slack = kTurnRounding * greatest(corners, thickness);
   const Vector3d back = thickness > 0 ? way_back(corners, thickness) : Vector3d::Zero().eval();
   const double reach = thickness * (greatest(back) > 0 ? 0x1p-24 : 1);
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     Interval front(turn.row(axis), corners);
-    const double shift = dot(turn.row(axis), back);
+    const double shift = inner_product(turn.row(axis), back);
     if (thickness > 0) {
       front.lower += std::fmin(shift, 0.0) - reach;
       front.upper += std::fmax(shift, 0.0) + reach;

@@ -23,9 +23,12 @@ def read_log(path):
 
 
 def source_of(output):
-    """tests/CMakeFiles/io_test.dir/io/npz_test.cc.o -> tests/io/npz_test.cc"""
+    """tests/CMakeFiles/io_test.dir/io/npz_test.cc.o -> tests/io/npz_test.cc; a group of files that
+    are compiled together: tests/... .dir/Unity/unity_tests_io_0_cxx.cxx.o -> tests_io_0 (group)"""
     folder, _, rest = output.partition("CMakeFiles/")
-    return folder + rest.partition(".dir/")[2].removesuffix(".o")
+    source = rest.partition(".dir/")[2].removesuffix(".o")
+    group = source.removeprefix("Unity/unity_").removesuffix("_cxx.cxx")
+    return folder + (source if group == source else group + " (group)")
 
 
 def main():

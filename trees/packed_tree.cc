@@ -15,14 +15,7 @@ constexpr size_t kItemsPerBlock = 4096;
 constexpr size_t kNodesPerBlock = 512;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-bool is_empty(const TreeBox& box) {
-  for (size_t axis = 0; axis < 3; ++axis) {
-    if (!(box.lower[axis] <= box.upper[axis])) return true;
-  }
-  return false;
-}
-
-float middle(const TreeBox& box, size_t axis) {
+float middle_of(const TreeBox& box, size_t axis) {
   return 0.5f * box.lower[axis] + 0.5f * box.upper[axis];
 }
 
@@ -55,7 +48,7 @@ class PlaceKeys {
     std::array<uint32_t, 3> cell;
     float extent = 0;
     for (size_t axis = 0; axis < 3; ++axis) {
-      cell[axis] = floor_between((middle(box, axis) - low_[axis]) * scale_[axis], most_[axis]);
+      cell[axis] = floor_between((middle_of(box, axis) - low_[axis]) * scale_[axis], most_[axis]);
       extent = std::max(extent, box.upper[axis] - box.lower[axis]);
     }
     return size_class(extent) << kBits | interleaved(cell);
@@ -70,7 +63,7 @@ class PlaceKeys {
     const size_t step = std::max<size_t>(1, boxes.size() / kSamples);
     std::vector<float> sample;
     for (size_t i = 0; i < boxes.size(); i += step) {
-      const float at = middle(boxes[i], axis);
+      const float at = middle_of(boxes[i], axis);
       if (!is_empty(boxes[i]) && std::isfinite(at)) sample.push_back(at);
     }
     if (sample.empty()) return 0;

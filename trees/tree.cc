@@ -20,13 +20,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr TreeBox kNothing = {{kInfinity, kInfinity, kInfinity},
                               {-kInfinity, -kInfinity, -kInfinity}};
 
-bool is_empty(const TreeBox& box) {
-  for (size_t axis = 0; axis < 3; ++axis) {
-    if (!(box.lower[axis] <= box.upper[axis])) return true;
-  }
-  return false;
-}
-
 void include(const TreeBox& box, TreeBox& in) {
   for (size_t axis = 0; axis < 3; ++axis) {
     in.lower[axis] = std::min(in.lower[axis], box.lower[axis]);

@@ -18,6 +18,13 @@ struct TreeBox {
   std::array<float, 3> lower, upper;
 };
 
+inline bool is_empty(const TreeBox& box) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (!(box.lower[axis] <= box.upper[axis])) return true;
+  }
+  return false;
+}
+
 // All points within a radius of a box; a ball if the box is a point.
 struct RoundedBox {
   TreeBox box;

@@ -21,7 +21,6 @@ constexpr double kTiny = 1e-25;
 // Several roundings at the spacing of floats near zero.
 constexpr long double kLeast = 32 * 0x1p-149L;
 
-bool is_halfspace(const Shape& shape) { return std::holds_alternative<Halfspace>(shape); }
 bool is_dop(const Shape& shape) { return std::holds_alternative<Dop>(shape); }
 
 bool has_dop(const ConvexPair& pair) { return is_dop(pair.shape_a) || is_dop(pair.shape_b); }
@@ -60,8 +59,10 @@ long double extent_of(const ConvexPair& pair, const ConvexOracle<long double>& o
 
 long double scale_of(const ConvexPair& pair, const ConvexOracle<long double>& oracle,
                      long double extent) {
-  if (is_halfspace(pair.shape_a)) return oracle.b.bounding_radius + extent * 0x1p-24L;
-  if (is_halfspace(pair.shape_b)) return oracle.a.bounding_radius + extent * 0x1p-24L;
+  if (kind_of(pair.shape_a) == ShapeKind::halfspace)
+    return oracle.b.bounding_radius + extent * 0x1p-24L;
+  if (kind_of(pair.shape_b) == ShapeKind::halfspace)
+    return oracle.a.bounding_radius + extent * 0x1p-24L;
   return oracle.scale();
 }
 

@@ -16,8 +16,6 @@ using oracle::ConvexStyle;
 // How far B may be from A, as a multiple of the distance at which their bounds touch.
 constexpr double kReach = 1.3;
 
-bool is_halfspace(const Shape& shape) { return std::holds_alternative<Halfspace>(shape); }
-
 void make_plain(Shape& shape) {
   if (auto* triangle = std::get_if<Triangle>(&shape)) triangle->thickness = 0;
 }
@@ -60,10 +58,10 @@ class PairDrawer {
 
   // A random displacement from A to B that puts their bounds near each other.
   Eigen::Vector3d way(const ConvexPair& pair) {
-    if (is_halfspace(pair.shape_a)) {
+    if (kind_of(pair.shape_a) == ShapeKind::halfspace) {
       return way_from_plane(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
     }
-    if (is_halfspace(pair.shape_b)) {
+    if (kind_of(pair.shape_b) == ShapeKind::halfspace) {
       return -way_from_plane(pair.shape_b, pair.pose_b, pair.shape_a, pair.pose_a);
     }
     const Eigen::AlignedBox3d a = bounds(pair.shape_a, pair.pose_a);
@@ -190,8 +188,8 @@ bool move_to_gap(ConvexPair& pair, long double gap) {
 }
 
 double size_of(const ConvexPair& pair) {
-  if (is_halfspace(pair.shape_a)) return bounding_radius(pair.shape_b);
-  if (is_halfspace(pair.shape_b)) return bounding_radius(pair.shape_a);
+  if (kind_of(pair.shape_a) == ShapeKind::halfspace) return bounding_radius(pair.shape_b);
+  if (kind_of(pair.shape_b) == ShapeKind::halfspace) return bounding_radius(pair.shape_a);
   return (bounding_radius(pair.shape_a) + bounding_radius(pair.shape_b)) / 2;
 }
 

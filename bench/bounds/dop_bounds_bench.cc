@@ -24,7 +24,7 @@
 namespace carom::bench {
 namespace {
 
-constexpr size_t kBodies = 5'000;
+constexpr size_t kTurnedBodies = 5'000;
 constexpr double kDensity = 0.1;  // share of the space that bodies of one cubic metre fill
 
 // Edge lengths of a box, up to a factor.
@@ -47,7 +47,7 @@ PlacedShape draw_turned(const Form& form, oracle::Random& random) {
   const float half = 0.5f / std::cbrt(form.x * form.y * form.z);
   PlacedShape body = draw_body(ShapeKind::box, random);
   body.shape = Box{{form.x * half, form.y * half, form.z * half}};
-  const double side = std::cbrt(static_cast<double>(kBodies) / kDensity);
+  const double side = std::cbrt(static_cast<double>(kTurnedBodies) / kDensity);
   for (int axis = 0; axis < 3; ++axis) body.position[axis] = random.uniform(0, side);
   return as_stored(body, Storage::f32);
 }
@@ -55,7 +55,7 @@ PlacedShape draw_turned(const Form& form, oracle::Random& random) {
 std::vector<PlacedShape> draw_bodies(const Form& form) {
   oracle::Random random(1);
   std::vector<PlacedShape> bodies;
-  for (size_t i = 0; i < kBodies; ++i) bodies.push_back(draw_turned(form, random));
+  for (size_t i = 0; i < kTurnedBodies; ++i) bodies.push_back(draw_turned(form, random));
   return bodies;
 }
 
@@ -95,17 +95,17 @@ double share(size_t part, size_t whole) {
 
 void measure_compute(benchmark::State& state, const DopScene& scene, DopKind kind,
                      Parallelism parallelism) {
-  std::vector<float> records(kBodies * dop_record_size(kind));
+  std::vector<float> records(kTurnedBodies * dop_record_size(kind));
   PassTimes times;
   for (auto _ : state) {
     times.measure([&] { compute_dops(scene.arrays.view(), {kind, records.data()}, parallelism); });
   }
-  report(state, "body", kBodies, times);
+  report(state, "body", kTurnedBodies, times);
 }
 
 void measure_pairs(benchmark::State& state, const DopScene& scene, DopKind kind,
                    Parallelism parallelism) {
-  std::vector<float> records(kBodies * dop_record_size(kind));
+  std::vector<float> records(kTurnedBodies * dop_record_size(kind));
   compute_dops(scene.arrays.view(), {kind, records.data()}, parallelism);
   std::vector<uint8_t> overlap(scene.pairs.size());
   size_t left = 0;

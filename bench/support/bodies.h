@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,6 +30,9 @@ PositionType position_type(Storage storage);
 // random orientation. Capsules are along their y axis. A hull is one of `hulls`, which then must
 // not be empty.
 PlacedShape draw_body(ShapeKind kind, oracle::Random& random, std::span<const Hull> hulls = {});
+
+// Different hulls in a stream of pairs.
+inline constexpr size_t kHulls = 64;
 
 // `count` hulls, each of `vertices` points on an ellipsoid.
 std::vector<Hull> draw_hulls(size_t count, size_t vertices, oracle::Random& random);
@@ -60,5 +65,10 @@ class DenseBodies {
   std::vector<std::array<float, 4>> rows_;
   Collidables view_;
 };
+
+// -0 is not 0, and NaN equals itself.
+inline bool same_bits(float x, float y) {
+  return std::bit_cast<uint32_t>(x) == std::bit_cast<uint32_t>(y);
+}
 
 }  // namespace carom::bench

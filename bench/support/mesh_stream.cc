@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/support/bodies.h"
 #include "bench/support/measure.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/shapes/mesh_geometry.h"
@@ -10,9 +11,8 @@
 namespace carom::bench {
 namespace {
 
-constexpr size_t kHulls = 64;
 constexpr size_t kCompared = 50;
-constexpr float kReach = Terrain::kSide * Terrain::kSquares / 2;  // metres from the origin
+constexpr float kHalfTerrain = Terrain::kSide * Terrain::kSquares / 2;  // metres from the origin
 
 float height(float x, float y) { return std::sin(0.35f * x) * std::cos(0.25f * y); }
 
@@ -21,8 +21,8 @@ Terrain make_terrain() {
   Terrain terrain;
   for (uint32_t i = 0; i < kRow; ++i) {
     for (uint32_t j = 0; j < kRow; ++j) {
-      const float x = Terrain::kSide * static_cast<float>(i) - kReach;
-      const float y = Terrain::kSide * static_cast<float>(j) - kReach;
+      const float x = Terrain::kSide * static_cast<float>(i) - kHalfTerrain;
+      const float y = Terrain::kSide * static_cast<float>(j) - kHalfTerrain;
       terrain.vertices.emplace_back(x, y, height(x, y));
       if (i + 1 == kRow || j + 1 == kRow) continue;
       const uint32_t corner = i * kRow + j;
@@ -37,7 +37,7 @@ Terrain make_terrain() {
 PlacedShape draw_above(const MeshSpec& spec, std::span<const Hull> hulls, oracle::Random& random) {
   PlacedShape body = draw_body(spec.kind, random, hulls);
   const Eigen::AlignedBox3d bounds = local_bounds(body);
-  const double most = kReach - 4;
+  const double most = kHalfTerrain - 4;
   const double x = random.uniform(-most, most), y = random.uniform(-most, most);
   const double above = random.uniform(0, 2) * bounds.sizes().z() / 2;
   const float ground = height(static_cast<float>(x), static_cast<float>(y));

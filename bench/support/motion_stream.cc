@@ -3,20 +3,16 @@
 #include <algorithm>
 #include <bit>
 
+#include "bench/support/bodies.h"
 #include "bench/support/measure.h"
 
 namespace carom::bench {
 namespace {
 
-constexpr size_t kFloatColumns = 11;
-constexpr size_t kHulls = 64;
+constexpr size_t kImpactFloats = 11;
 constexpr size_t kHullVertices = 16;
 
 Pose pose_of(const PlacedShape& body) { return {body.position, body.orientation}; }
-
-bool same_bits(float x, float y) {
-  return std::bit_cast<uint32_t>(x) == std::bit_cast<uint32_t>(y);
-}
 
 bool has_vector(const std::array<float*, 3>& columns, size_t row, const Eigen::Vector3f& v) {
   return same_bits(columns[0][row], v.x()) && same_bits(columns[1][row], v.y()) &&
@@ -37,7 +33,7 @@ const float* data_of(const std::vector<Eigen::Vector3f>& vectors) {
 
 }  // namespace
 
-ImpactArrays::ImpactArrays(size_t count) : status_(count), floats_(kFloatColumns * count) {
+ImpactArrays::ImpactArrays(size_t count) : status_(count), floats_(kImpactFloats * count) {
   const auto column = [&](size_t i) { return &floats_[i * count]; };
   columns_.toi = column(0);
   columns_.status = status_.data();

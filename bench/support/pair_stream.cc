@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "bench/support/bodies.h"
 #include "bench/support/measure.h"
 #include "carom/narrowphase/collide.h"
 
@@ -14,8 +15,7 @@ namespace carom::bench {
 namespace {
 
 constexpr size_t kByteColumns = 3;
-constexpr size_t kFloatColumns = 10;
-constexpr size_t kHulls = 64;
+constexpr size_t kContactFloats = 10;
 
 reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& b,
                                        Storage storage) {
@@ -74,10 +74,6 @@ std::vector<uint32_t> shuffled(size_t count, oracle::Random& random) {
   return places;
 }
 
-bool same_bits(float x, float y) {
-  return std::bit_cast<uint32_t>(x) == std::bit_cast<uint32_t>(y);
-}
-
 // A coordinate of a witness point in the world; the position is the sum of two floats.
 float world_coordinate(double position, float arm) {
   const auto high = static_cast<float>(position);
@@ -106,7 +102,7 @@ const char* name(Detail detail) {
 }
 
 ResultArrays::ResultArrays(size_t count)
-    : bytes_(kByteColumns * count), floats_(kFloatColumns * count), manifolds_(count) {
+    : bytes_(kByteColumns * count), floats_(kContactFloats * count), manifolds_(count) {
   const auto column = [&](size_t i) { return &floats_[i * count]; };
   columns_ = {.overlap = &bytes_[0],
               .status = &bytes_[count],

@@ -111,7 +111,7 @@ void print(const Json& json, std::ostream& out) {
       << "radii of a pair, or the gap if that is larger.\n";
 }
 
-std::string share(size_t part, size_t whole) {
+std::string share_text(size_t part, size_t whole) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g %%",
                 100 * static_cast<double>(part) / static_cast<double>(whole));
@@ -131,8 +131,8 @@ Result<int> count_decisions(const AccuracyOptions& options,
     Progress progress(console, each.name, options.decisions);
     const accuracy::DecisionCount count = accuracy::count_decisions(
         each.kinds, options.decisions, options.seed, [&](size_t done) { progress.update(done); });
-    table.add({each.name, std::to_string(count.pairs), share(count.overlapping, count.pairs),
-               share(count.undecided, count.pairs), std::to_string(count.wrong_certified),
+    table.add({each.name, std::to_string(count.pairs), share_text(count.overlapping, count.pairs),
+               share_text(count.undecided, count.pairs), std::to_string(count.wrong_certified),
                std::to_string(count.wrong_exact)});
     rows.push_back({{"pair", each.name},
                     {"pairs", count.pairs},

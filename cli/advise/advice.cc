@@ -22,8 +22,6 @@ std::string shortest(float value) {
 }
 
 std::string metres(double value) { return number("%.3g m", value); }
-std::string percent(double share) { return number("%.3g %%", 100 * share); }
-
 std::string quoted(const std::string& word) {
   constexpr char kPlain[] =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";

@@ -13,8 +13,6 @@ namespace {
 using accuracy::Deviation;
 using Json = nlohmann::ordered_json;
 
-std::string percent(double part) { return number("%.3g %%", 100 * part); }
-
 Json to_json(const Spread& spread) {
   return {
       {"min", spread.least}, {"median", spread.median}, {"p99", spread.p99}, {"max", spread.most}};

@@ -14,6 +14,8 @@ inline std::string number(const char* format, double value) {
   return text;
 }
 
+inline std::string percent(double share) { return number("%.3g %%", 100 * share); }
+
 // part / whole; 0 if the whole is 0.
 inline double share(uint64_t part, uint64_t whole) {
   return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cassert>
-#include <limits>
 #include <utility>
 
 #include "cli/scenes/scene_bounds.h"
@@ -11,9 +10,6 @@
 
 namespace carom::cli {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // In a mixed scene body i has shape i and motion i % kMotions. The stride is a multiple of
 // kMotions, so that half-spaces are static.
@@ -87,8 +83,8 @@ void make_compound(io::SceneShapes& shapes, size_t index, const std::array<float
 // The kind of shape `i` in a scene of all kinds: spheres, capsules, aabbs, boxes and triangles in
 // turn, fewer of the others.
 ShapeKind kind_in_turn(size_t i) {
-  constexpr std::array kKinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
-                                 ShapeKind::box, ShapeKind::triangle};
+  constexpr std::array kSceneKinds = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
+                                      ShapeKind::box, ShapeKind::triangle};
   if (i % kHalfspaceStride == 0) return ShapeKind::halfspace;
   switch (i % 21) {
     case 1:
@@ -100,7 +96,7 @@ ShapeKind kind_in_turn(size_t i) {
     case 18:
       return ShapeKind::compound;
     default:
-      return kKinds[i % kKinds.size()];
+      return kSceneKinds[i % kSceneKinds.size()];
   }
 }
 

@@ -2,6 +2,7 @@
 // kind, at rest and moving, including ill-formed bodies.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "io/scene.h"
 
 namespace carom::cli {
+
+inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct BuiltinScene {
   std::string name;

@@ -19,8 +19,6 @@ constexpr std::array kKinds = {ShapeKind::sphere,   ShapeKind::capsule,  ShapeKi
                                ShapeKind::mesh,     ShapeKind::compound, ShapeKind::triangle,
                                ShapeKind::halfspace};
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
 
 // Kinds that are slow, because the library tests them one at a time or part by part.

@@ -61,8 +61,8 @@ const T* find(std::span<const T> list, Pair pair) {
 }
 
 std::string event_text(const Event& event) {
-  constexpr const char* kKinds[kEventKindCount] = {"begin", "persist", "end", "impact"};
-  return std::string(kKinds[static_cast<size_t>(event.kind)]) +
+  constexpr const char* kEventNames[kEventKindCount] = {"begin", "persist", "end", "impact"};
+  return std::string(kEventNames[static_cast<size_t>(event.kind)]) +
          (event.sensor ? " of a sensor" : "") + ", contact " +
          (event.contact == kNoContact ? "none" : std::to_string(event.contact));
 }

@@ -55,13 +55,13 @@ bool same_contacts(const Impact& x, const Impact& y) {
          x.sub_b == y.sub_b;
 }
 
-std::string text_of(const Impact& impact, bool with_contact) {
-  const std::string time = "toi " + cli::text_of(double{impact.toi}) + " status " +
+std::string impact_text(const Impact& impact, bool with_contact) {
+  const std::string time = "toi " + text_of(double{impact.toi}) + " status " +
                            std::to_string(static_cast<int>(impact.status));
   if (!with_contact) return time;
-  return time + " separation " + cli::text_of(double{impact.separation}) + " normal " +
-         cli::text_of(impact.normal) + " arm_a " + cli::text_of(impact.arm_a) + " arm_b " +
-         cli::text_of(impact.arm_b) + " sub-shapes " + std::to_string(impact.sub_a) + ", " +
+  return time + " separation " + text_of(double{impact.separation}) + " normal " +
+         text_of(impact.normal) + " arm_a " + text_of(impact.arm_a) + " arm_b " +
+         text_of(impact.arm_b) + " sub-shapes " + std::to_string(impact.sub_a) + ", " +
          std::to_string(impact.sub_b);
 }
 
@@ -131,8 +131,8 @@ class ImpactVerifier {
   }
 
   static std::string body_text(const BodyColumns& bodies, const Motions& motions, size_t index) {
-    return cli::text_of(bodies.shape(index), bodies.pose(index), bodies.positions()) + ' ' +
-           cli::text_of(motions.sweep(index));
+    return text_of(bodies.shape(index), bodies.pose(index), bodies.positions()) + ' ' +
+           text_of(motions.sweep(index));
   }
 
   Difference describe(const Engine& engine, const Variant& variant, size_t index,
@@ -140,8 +140,8 @@ class ImpactVerifier {
     std::string text;
     text += "  a: " + body_text(pairs_.a, pairs_.motions_a, index) + '\n';
     text += "  b: " + body_text(pairs_.b, pairs_.motions_b, index) + '\n';
-    text += "  reference: " + text_of(expected_[index], variant.contacts) + '\n';
-    text += "  carom:     " + text_of(got, variant.contacts) + '\n';
+    text += "  reference: " + impact_text(expected_[index], variant.contacts) + '\n';
+    text += "  carom:     " + impact_text(got, variant.contacts) + '\n';
     return {std::string(name(engine.isa)) + ", threads " + std::to_string(engine.threads) + ", " +
                 variant.name + ": pair " + std::to_string(index) + " differs",
             text};

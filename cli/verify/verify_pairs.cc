@@ -17,7 +17,7 @@ namespace {
 
 using Row = PairColumns::Row;
 
-struct Variant {
+struct PairVariant {
   const char* name;
   bool shuffled;  // collide() with a list in another order; otherwise collide_rows()
   Detail detail;
@@ -25,15 +25,15 @@ struct Variant {
   Tier tier = Tier::standard;
 };
 
-constexpr std::array kVariants = {
-    Variant{"rows", false, Detail::contact, WitnessFrame::body},
-    Variant{"world frame", false, Detail::contact, WitnessFrame::world},
-    Variant{"shuffled", true, Detail::contact, WitnessFrame::body},
-    Variant{"detail overlap", false, Detail::overlap, WitnessFrame::body},
-    Variant{"detail manifold", false, Detail::manifold, WitnessFrame::body},
-    Variant{"manifold shuffled in the world", true, Detail::manifold, WitnessFrame::world},
-    Variant{"certified", false, Detail::overlap, WitnessFrame::body, Tier::certified},
-    Variant{"exact", false, Detail::overlap, WitnessFrame::body, Tier::exact},
+constexpr std::array kPairVariants = {
+    PairVariant{"rows", false, Detail::contact, WitnessFrame::body},
+    PairVariant{"world frame", false, Detail::contact, WitnessFrame::world},
+    PairVariant{"shuffled", true, Detail::contact, WitnessFrame::body},
+    PairVariant{"detail overlap", false, Detail::overlap, WitnessFrame::body},
+    PairVariant{"detail manifold", false, Detail::manifold, WitnessFrame::body},
+    PairVariant{"manifold shuffled in the world", true, Detail::manifold, WitnessFrame::world},
+    PairVariant{"certified", false, Detail::overlap, WitnessFrame::body, Tier::certified},
+    PairVariant{"exact", false, Detail::overlap, WitnessFrame::body, Tier::exact},
 };
 
 // The reference takes only pairs that have a kernel.
@@ -86,16 +86,16 @@ ManifoldPoints in_world(ManifoldPoints manifold, size_t count, const Eigen::Vect
   return manifold;
 }
 
-std::string text_of(const std::array<float, 3>& v) {
-  return cli::text_of(Eigen::Vector3f(v[0], v[1], v[2]));
+std::string vector_text(const std::array<float, 3>& v) {
+  return text_of(Eigen::Vector3f(v[0], v[1], v[2]));
 }
 
-std::string text_of(const Row& row) {
+std::string row_text(const Row& row) {
   return "overlap " + std::to_string(row.overlap) + " status " + std::to_string(row.status) +
-         " separation " + cli::text_of(double{row.separation}) + " normal " + text_of(row.normal) +
-         " point_a " + text_of(row.point_a) + " point_b " + text_of(row.point_b) + " manifold of " +
-         std::to_string(row.manifold_count) + ": " + cli::text_of(row.manifold) + " sub-shapes " +
-         std::to_string(row.sub_a) + ", " + std::to_string(row.sub_b);
+         " separation " + text_of(double{row.separation}) + " normal " + vector_text(row.normal) +
+         " point_a " + vector_text(row.point_a) + " point_b " + vector_text(row.point_b) +
+         " manifold of " + std::to_string(row.manifold_count) + ": " + text_of(row.manifold) +
+         " sub-shapes " + std::to_string(row.sub_a) + ", " + std::to_string(row.sub_b);
 }
 
 class PairVerifier {
@@ -118,7 +118,7 @@ class PairVerifier {
   // Returns false at a difference. `progress` counts the runs.
   Result<bool> verify(VerifyRow& row, Progress& progress) {
     force_isa(row.engine.isa);
-    for (const Variant& variant : kVariants) {
+    for (const PairVariant& variant : kPairVariants) {
       progress.update(runs_++);
       if (Result<void> done = test(row.engine, variant); !done) return done.error();
       if (!compare(row, variant)) return false;
@@ -171,7 +171,7 @@ class PairVerifier {
   }
 
   // The reference's result of a pair in the form that a variant gives.
-  Row expected(size_t index, const Variant& variant) const {
+  Row expected(size_t index, const PairVariant& variant) const {
     Row row = expected_[index];
     if (has_proofs(variant.tier)) row.overlap = exact_[index];
     if (variant.detail == Detail::overlap) return {row.overlap, row.status, 0, 0, {}, {}, {}, {}};
@@ -188,12 +188,12 @@ class PairVerifier {
     return row;
   }
 
-  PairColumns& columns(const Variant& variant) {
+  PairColumns& columns(const PairVariant& variant) {
     if (variant.detail == Detail::overlap) return overlap_;
     return variant.detail == Detail::contact ? contact_ : manifold_;
   }
 
-  Result<void> test(const Engine& engine, const Variant& variant) {
+  Result<void> test(const Engine& engine, const PairVariant& variant) {
     Collidables a = pairs_.a.view();
     Collidables b = pairs_.b.view();
     ResultColumns out = columns(variant).columns();
@@ -208,7 +208,7 @@ class PairVerifier {
     return done;
   }
 
-  bool compare(VerifyRow& row, const Variant& variant) {
+  bool compare(VerifyRow& row, const PairVariant& variant) {
     for (size_t i = 0; i < pairs_.size(); ++i) {
       size_t index = variant.shuffled ? order_[i].a : i;
       Row want = expected(index, variant);
@@ -221,14 +221,14 @@ class PairVerifier {
     return true;
   }
 
-  Difference describe(const Engine& engine, const Variant& variant, size_t index, const Row& want,
-                      const Row& got) const {
+  Difference describe(const Engine& engine, const PairVariant& variant, size_t index,
+                      const Row& want, const Row& got) const {
     PositionType positions = pairs_.a.positions();
     std::string text;
-    text += "  a: " + cli::text_of(pairs_.a.shape(index), pairs_.a.pose(index), positions) + '\n';
-    text += "  b: " + cli::text_of(pairs_.b.shape(index), pairs_.b.pose(index), positions) + '\n';
-    text += "  reference: " + text_of(want) + '\n';
-    text += "  carom:     " + text_of(got) + '\n';
+    text += "  a: " + text_of(pairs_.a.shape(index), pairs_.a.pose(index), positions) + '\n';
+    text += "  b: " + text_of(pairs_.b.shape(index), pairs_.b.pose(index), positions) + '\n';
+    text += "  reference: " + row_text(want) + '\n';
+    text += "  carom:     " + row_text(got) + '\n';
     return {std::string(name(engine.isa)) + ", threads " + std::to_string(engine.threads) + ", " +
                 variant.name + ": pair " + std::to_string(index) + " differs",
             text};
@@ -254,7 +254,7 @@ Result<VerifyOutcome> verify_pairs(System& system, const Engines& engines, const
     return Error{source + ": " + kernels.error().message};
   }
   PairVerifier verifier(system, pairs, Progress(console, source + ": pair", pairs.size()));
-  return verify_engines(std::move(verifier), kVariants, engines, source, console);
+  return verify_engines(std::move(verifier), kPairVariants, engines, source, console);
 }
 
 }  // namespace carom::cli

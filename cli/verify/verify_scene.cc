@@ -10,41 +10,41 @@
 namespace carom::cli {
 namespace {
 
-struct Variant {
+struct SceneVariant {
   const char* name;
   BroadphaseMethod broadphase;
   bool carry_results;
   Detail detail;
 };
 
-constexpr std::array kVariants = {
-    Variant{"grid", BroadphaseMethod::grid, true, Detail::contact},
-    Variant{"grid without cache", BroadphaseMethod::grid, false, Detail::contact},
-    Variant{"sweep", BroadphaseMethod::sweep, true, Detail::contact},
-    Variant{"sweep without cache", BroadphaseMethod::sweep, false, Detail::contact},
-    Variant{"brute", BroadphaseMethod::brute, true, Detail::contact},
-    Variant{"sweep at detail overlap", BroadphaseMethod::sweep, true, Detail::overlap},
-    Variant{"grid at detail manifold", BroadphaseMethod::grid, true, Detail::manifold},
-    Variant{"grid at detail manifold without cache", BroadphaseMethod::grid, false,
-            Detail::manifold},
+constexpr std::array kSceneVariants = {
+    SceneVariant{"grid", BroadphaseMethod::grid, true, Detail::contact},
+    SceneVariant{"grid without cache", BroadphaseMethod::grid, false, Detail::contact},
+    SceneVariant{"sweep", BroadphaseMethod::sweep, true, Detail::contact},
+    SceneVariant{"sweep without cache", BroadphaseMethod::sweep, false, Detail::contact},
+    SceneVariant{"brute", BroadphaseMethod::brute, true, Detail::contact},
+    SceneVariant{"sweep at detail overlap", BroadphaseMethod::sweep, true, Detail::overlap},
+    SceneVariant{"grid at detail manifold", BroadphaseMethod::grid, true, Detail::manifold},
+    SceneVariant{"grid at detail manifold without cache", BroadphaseMethod::grid, false,
+                 Detail::manifold},
 };
 
 // With more bodies the brute broadphase would take minutes a frame on every engine, so it is left
 // out. The reference still compares all boxes.
 constexpr uint64_t kMaxBruteBodies = 20'000;
 
-std::vector<Variant> variants_for(uint64_t bodies) {
-  std::vector<Variant> variants;
-  for (const Variant& variant : kVariants) {
+std::vector<SceneVariant> variants_for(uint64_t bodies) {
+  std::vector<SceneVariant> variants;
+  for (const SceneVariant& variant : kSceneVariants) {
     bool brute = variant.broadphase == BroadphaseMethod::brute;
     if (!brute || bodies <= kMaxBruteBodies) variants.push_back(variant);
   }
   return variants;
 }
 
-std::string names_of(const std::vector<Variant>& variants) {
+std::string names_of(const std::vector<SceneVariant>& variants) {
   std::string text;
-  for (const Variant& variant : variants) {
+  for (const SceneVariant& variant : variants) {
     text += (text.empty() ? "" : ", ") + std::string(variant.name);
   }
   return text;
@@ -70,7 +70,7 @@ class SceneVerifier {
       : player_(player), variants_(variants_for(player.info().bodies)) {
     for (const Engine& engine : engines.list()) {
       rows_.push_back({.engine = engine});
-      for (const Variant& variant : variants_) {
+      for (const SceneVariant& variant : variants_) {
         steppers_.push_back(system.make_stepper(player, settings(engine, variant)));
       }
     }
@@ -81,7 +81,7 @@ class SceneVerifier {
     step_reference(frame);
     size_t next = 0;
     for (VerifyRow& row : rows_) {
-      for (const Variant& variant : variants_) {
+      for (const SceneVariant& variant : variants_) {
         if (!verify_engine(row, variant, *steppers_[next++], frame)) return false;
       }
       ++row.frames;
@@ -97,7 +97,7 @@ class SceneVerifier {
   }
 
  private:
-  WorldSettings settings(const Engine& engine, const Variant& variant) const {
+  WorldSettings settings(const Engine& engine, const SceneVariant& variant) const {
     return {.positions = player_.positions(),
             .detail = variant.detail,
             .broadphase = variant.broadphase,
@@ -122,7 +122,7 @@ class SceneVerifier {
     return detail == Detail::contact ? expected_contact_ : expected_;
   }
 
-  bool verify_engine(VerifyRow& row, const Variant& variant, Stepper& stepper,
+  bool verify_engine(VerifyRow& row, const SceneVariant& variant, Stepper& stepper,
                      const io::SceneFrame& frame) {
     force_isa(row.engine.isa);
     FrameView actual;
@@ -141,7 +141,7 @@ class SceneVerifier {
   }
 
   const Player& player_;
-  std::vector<Variant> variants_;
+  std::vector<SceneVariant> variants_;
   std::vector<VerifyRow> rows_;
   std::vector<std::unique_ptr<Stepper>> steppers_;  // variants_.size() for each row
   std::vector<reference::Body> bodies_;

@@ -6,6 +6,20 @@
 #include "io/files/npz.h"
 
 namespace carom::io {
+
+struct ArchiveClose {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+struct MemberClose {
+  void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+using OpenMember = std::unique_ptr<zip_file_t, MemberClose>;
+
+struct ArchiveMember {
+  zip_uint64_t index = 0;
+  uint64_t bytes = 0;  // uncompressed, header included
+};
+
 namespace {
 
 // Deflate cannot compress further than this, so a member that claims more is damaged.
@@ -13,19 +27,6 @@ constexpr uint64_t kMaxDeflateRatio = 1032;
 
 constexpr const char* kSuffix = ".npy";
 constexpr const char* kWhat = "a .npz archive";
-
-struct ZipClose {
-  void operator()(zip_t* archive) const { zip_discard(archive); }
-};
-struct ZipFileClose {
-  void operator()(zip_file_t* file) const { zip_fclose(file); }
-};
-using ZipFile = std::unique_ptr<zip_file_t, ZipFileClose>;
-
-struct Member {
-  zip_uint64_t index = 0;
-  uint64_t bytes = 0;  // uncompressed, header included
-};
 
 std::string bytes_text(uint64_t bytes) { return std::to_string(bytes) + " bytes"; }
 
@@ -58,9 +59,9 @@ Error member_error(const std::string& path, const std::string& name, const std::
 
 struct NpzReader::State {
   std::string path;
-  std::unique_ptr<zip_t, ZipClose> archive;
+  std::unique_ptr<zip_t, ArchiveClose> archive;
   std::vector<std::string> names;
-  std::unordered_map<std::string, Member> members;
+  std::unordered_map<std::string, ArchiveMember> members;
 
   Result<void> list_members(uint64_t archive_bytes);
 };
@@ -68,8 +69,8 @@ struct NpzReader::State {
 struct NpzStream::State {
   std::shared_ptr<NpzReader::State> reader;
   std::string name;
-  Member member;
-  ZipFile file;
+  ArchiveMember member;
+  OpenMember file;
   NpyHeader header;
   uint64_t header_bytes = 0;
   uint64_t data_bytes = 0;
@@ -96,7 +97,7 @@ Result<void> NpzReader::State::list_members(uint64_t archive_bytes) {
     name.resize(name.size() - std::char_traits<char>::length(kSuffix));
     const std::string problem = entry_problem(entry, archive_bytes);
     if (!problem.empty()) return member_error(path, name, problem);
-    if (!members.emplace(name, Member{index, entry.size}).second) {
+    if (!members.emplace(name, ArchiveMember{index, entry.size}).second) {
       return member_error(path, name, "is there twice");
     }
     names.push_back(std::move(name));

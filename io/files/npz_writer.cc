@@ -9,14 +9,6 @@
 #include "io/files/zip_target.h"
 
 namespace carom::io {
-namespace {
-
-// Bytes reserved in front of spooled data for the header, which is written last; enough for every
-// shape.
-constexpr uint64_t kSpoolHeaderBytes = 256;
-
-// 1980-01-01 00:00: a fixed date, so that the same arrays always make the same file.
-constexpr zip_uint16_t kDosDate = 1 << 5 | 1;
 
 struct PendingMember {
   std::string name;
@@ -27,6 +19,15 @@ struct PendingMember {
   uint64_t spooled = 0;  // bytes of data
   uint64_t rows = 0;
 };
+
+namespace {
+
+// Bytes reserved in front of spooled data for the header, which is written last; enough for every
+// shape.
+constexpr uint64_t kSpoolHeaderBytes = 256;
+
+// 1980-01-01 00:00: a fixed date, so that the same arrays always make the same file.
+constexpr zip_uint16_t kDosDate = 1 << 5 | 1;
 
 struct ZipDiscard {
   void operator()(zip_t* archive) const { zip_discard(archive); }

@@ -8,9 +8,9 @@
 namespace carom::io {
 namespace {
 
-constexpr double kHalfRoom = 10;  // metres
-constexpr double kSpeed = 300;    // metres a second, the greatest; the least is a sixth of it
-constexpr double kSpin = 200;     // radians a second
+constexpr double kHalfRoom = 10;     // metres
+constexpr double kSpeed = 300;       // metres a second, the greatest; the least is a sixth of it
+constexpr double kBulletSpin = 200;  // radians a second
 constexpr double kThinnest = 0.02, kWidest = 0.1;  // of bullets, metres
 constexpr uint64_t kBulletShapes = 64;             // bullets use them in turn
 constexpr uint64_t kWalls = 6, kBoxes = 24, kSheets = 12;
@@ -18,7 +18,7 @@ constexpr double kHalfBox = 0.01;  // half the thickness of a box
 constexpr uint32_t kWallCells = 8, kSheetCells = 2;
 constexpr double kHalfSheet = 1.5;
 
-enum Stream : uint64_t { kShapeStream = 32, kRoomStream = 33, kBulletStream = 34 };
+enum BulletStream : uint64_t { kShapeStream = 32, kRoomStream = 33, kBulletStream = 34 };
 
 constexpr ShapeKind kBulletKinds[] = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box,
                                       ShapeKind::hull};
@@ -144,7 +144,7 @@ class Bullets : public SceneReader {
       const Vec3 place = place_within(kHalfRoom - kWidest, random);
       const Quaternion turn = normalized(random.rotation());
       const Vec3 velocity = random.in_shell(fastest / 6, fastest);
-      first_.add(place, turn, velocity, random.in_ball(spec_.spin.value_or(kSpin)));
+      first_.add(place, turn, velocity, random.in_ball(spec_.spin.value_or(kBulletSpin)));
       info_.body_shape.push_back(static_cast<uint32_t>(i % shapes));
       info_.body_motion.push_back(2);
     }

@@ -12,9 +12,15 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDensity = 0.1;
 constexpr double kBodiesPerSquareMetre = 1.0 / 6.0;
-constexpr double kSpin = 1;  // radians a second
+constexpr double kUsualSpin = 1;  // radians a second
 
-enum Stream : uint64_t { kShapes = 1, kPlaces = 2, kVelocities = 3, kGround = 4, kSpins = 5 };
+enum PopulationStream : uint64_t {
+  kShapes = 1,
+  kPlaces = 2,
+  kVelocities = 3,
+  kGround = 4,
+  kSpins = 5
+};
 
 double volume(const GeneratorSpec& spec, double edge) {
   double cube = edge * edge * edge;
@@ -73,7 +79,7 @@ void draw_velocities(const GeneratorSpec& spec, Population& population) {
   uint64_t stride = population.mover_stride;
   draw_vectors({spec.seed, kVelocities}, population.speed, stride, population.velocity);
   if (!spec.has_orientation()) return;
-  population.spin = spec.spin.value_or(population.speed > 0 ? kSpin : 0);
+  population.spin = spec.spin.value_or(population.speed > 0 ? kUsualSpin : 0);
   draw_vectors({spec.seed, kSpins}, population.spin, stride, population.angular_velocity);
 }
 

@@ -15,6 +15,9 @@ namespace carom {
 // One side as a set of bodies.
 Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind);
 
+// For the tests in double precision.
+scalar::Quaternion<double> orientation_of(const BodyReader& body, size_t index);
+
 // The pose as the kernels see it, from one subtraction in the type of the positions.
 scalar::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair);
 

@@ -13,11 +13,6 @@
 
 namespace carom::scalar {
 
-struct Manifold {
-  uint8_t count = 0;
-  ManifoldPoints points{};
-};
-
 // Both bodies in scaled units, relative to the position of A.
 struct PlacedPair {
   Placed a, b;
@@ -304,16 +299,6 @@ Manifold manifold_of_kinds(const A& a, const B& b, const PairPose<float>& pose,
   } else {
     return {};  // no such pair
   }
-}
-
-// The manifold of an overlap, in metres, on A's surface, relative to A's position.
-inline Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<float>& pose,
-                            const Separation& contact) {
-  return std::visit(
-      [&](const auto& a, const auto& b) {
-        return manifold_of_kinds(shape_as<float>(a), shape_as<float>(b), pose, contact);
-      },
-      shape_a, shape_b);
 }
 
 }  // namespace carom::scalar

@@ -9,17 +9,13 @@
 #include "narrowphase/batch/stated_body.h"
 #include "narrowphase/doubles/furthest.h"
 #include "narrowphase/hulls/hull_steps.h"
-#include "narrowphase/pairs/any_pair.h"
+#include "narrowphase/pairs/all_pairs.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "narrowphase/pairs/scalar_batch.h"
+#include "narrowphase/scalar/scaled.h"
 
 namespace carom {
 namespace {
-
-scalar::Quaternion<double> orientation_of(const BodyReader& body, size_t index) {
-  const Row q = body.orientation(index);
-  return scalar::quaternion_as<double>({q[0], q[1], q[2], q[3]});
-}
 
 template <class T, class Real>
 auto shape_at(const BodyReader& body, size_t index) {

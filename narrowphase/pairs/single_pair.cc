@@ -5,8 +5,9 @@
 #include <limits>
 
 #include "narrowphase/batch/stated_body.h"
-#include "narrowphase/manifolds/manifold_scalar.h"
 #include "narrowphase/pairs/any_pair.h"
+#include "narrowphase/scalar/quaternion_as.h"
+#include "narrowphase/scalar/scaled.h"
 #include "shapes/body_reader.h"
 
 namespace carom {
@@ -60,11 +61,6 @@ float sphere_separation(const Batch& batch, ShapeKind kind_b, size_t row) {
   return gap(square(centre), double{a.radius(pair.a)} + double{b.radius(pair.b)});
 }
 
-scalar::Quaternion<double> orientation_of(const BodyReader& body, size_t index) {
-  const Row q = body.orientation(index);
-  return scalar::quaternion_as<double>({q[0], q[1], q[2], q[3]});
-}
-
 scalar::SeparationAs<double> exact_separation(const Batch& batch, ShapeKind kind_a,
                                               ShapeKind kind_b, size_t row) {
   const Pair pair = batch.pairs[row];
@@ -91,6 +87,11 @@ scalar::PairPose<float> rounded_pose_of(const BodyReader& a, const BodyReader& b
 }
 
 }  // namespace
+
+scalar::Quaternion<double> orientation_of(const BodyReader& body, size_t index) {
+  const Row q = body.orientation(index);
+  return scalar::quaternion_as<double>({q[0], q[1], q[2], q[3]});
+}
 
 scalar::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, Pair pair) {
   return a.is_float64() ? rounded_pose_of<double>(a, b, pair) : rounded_pose_of<float>(a, b, pair);

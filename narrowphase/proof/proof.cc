@@ -14,8 +14,9 @@
 
 #include "carom/results/tier.h"
 #include "narrowphase/doubles/make_core.h"
-#include "narrowphase/pairs/any_pair.h"
+#include "narrowphase/features/halfspace_scalar.h"
 #include "narrowphase/proof/overlap_search.h"
+#include "narrowphase/scalar/quaternion_as.h"
 
 namespace carom {
 namespace {

@@ -25,6 +25,11 @@ struct SeparationAs {
 
 using Separation = SeparationAs<float>;
 
+struct Manifold {
+  uint8_t count = 0;
+  ManifoldPoints points{};
+};
+
 // The same result with A and B exchanged. A NaN (no answer) keeps its bits: its sign is not
 // flipped.
 template <class Real>

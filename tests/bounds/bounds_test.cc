@@ -9,7 +9,6 @@
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstring>
-#include <limits>
 
 #include "base/outward.h"
 #include "bounds/bounds_columns.h"
@@ -20,15 +19,13 @@
 #include "tests/support/isas.h"
 #include "tests/support/layouts.h"
 #include "tests/support/show.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 using Bodies = std::vector<PlacedShape>;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // --- Scalar sums ---
 

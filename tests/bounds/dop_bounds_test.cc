@@ -15,6 +15,7 @@
 #include "tests/support/kind_pairs.h"
 #include "tests/support/layouts.h"
 #include "tests/support/show.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
@@ -23,10 +24,9 @@ using Bodies = std::vector<PlacedShape>;
 using Floats = std::vector<float>;
 using Real = long double;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr DopKind kDopKinds[] = {DopKind::k14, DopKind::k18, DopKind::k26};
 
-Bodies make_bodies(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,
+Bodies make_solids(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,
                    uint64_t seed = 1) {
   Bodies bodies;
   for (const TestPair& pair :
@@ -136,7 +136,7 @@ TEST(DopBounds, HoldTheShapeAndLittleMore) {
     for (const ShapeKind kind : kConvexKinds) {
       if (kind == ShapeKind::halfspace) continue;
       for (const PositionType positions : kPositionTypes) {
-        const Bodies bodies = make_bodies(family, kind, positions, 20);
+        const Bodies bodies = make_solids(family, kind, positions, 20);
         expect_slabs_hold(bodies, DopKind::k18, family, positions);
         expect_slabs_hold(bodies, DopKind::k26, family, positions);
         if (HasFatalFailure()) return;

@@ -3,8 +3,6 @@
 // reference itself.
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "carom/base/thread_arena.h"
 #include "carom/bounds/bounds.h"
 #include "tests/support/bounds_memory.h"
@@ -13,19 +11,19 @@
 #include "tests/support/kind_pairs.h"
 #include "tests/support/layouts.h"
 #include "tests/support/show.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
 
 using Bodies = std::vector<PlacedShape>;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule, ShapeKind::box, ShapeKind::dop,
                                        ShapeKind::triangle, ShapeKind::halfspace};
 
 // Half of the bodies come from the family, the others have random bits.
-Bodies make_bodies(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,
-                   uint64_t seed = 1) {
+Bodies make_kind(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,
+                 uint64_t seed = 1) {
   const KindPair kinds{ShapeKind::sphere, kind};
   const size_t few = fewer_polytopes(kinds, count / 2 + 1);
   const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, few, seed);
@@ -40,7 +38,7 @@ Bodies make_bodies(const ConvexFamily& family, ShapeKind kind, PositionType posi
 Bodies make_mixed_bodies(PositionType positions, size_t count) {
   std::vector<Bodies> kinds;
   for (const ShapeKind kind : kConvexKinds) {
-    kinds.push_back(make_bodies({.name = ""}, kind, positions, count));
+    kinds.push_back(make_kind({.name = ""}, kind, positions, count));
   }
   Random random(7);
   Bodies bodies;
@@ -48,8 +46,9 @@ Bodies make_mixed_bodies(PositionType positions, size_t count) {
   return bodies;
 }
 
-void expect_bounds(const Bodies& bodies, const Layout& layout, const FloatMode& mode = kDefaultMode,
-                   Parallelism parallelism = Parallelism::none) {
+void expect_reference_bounds(const Bodies& bodies, const Layout& layout,
+                             const FloatMode& mode = kDefaultMode,
+                             Parallelism parallelism = Parallelism::none) {
   const LaidOut set(bodies, layout);
   BoundsMemory memory(bodies.size());
   const size_t invalid = [&] {
@@ -91,9 +90,9 @@ TEST(KindsBounds, AreThoseOfTheReferenceOnEveryIsa) {
     SCOPED_TRACE(family.name);
     for (const ShapeKind kind : kTurningKinds) {
       for (const PositionType positions : kPositionTypes) {
-        const Bodies bodies = make_bodies(family, kind, positions, 90);
+        const Bodies bodies = make_kind(family, kind, positions, 90);
         for_each_isa([&] {
-          for (const Layout& layout : layouts(positions)) expect_bounds(bodies, layout);
+          for (const Layout& layout : layouts(positions)) expect_reference_bounds(bodies, layout);
         });
         if (HasFailure()) return;
       }
@@ -103,10 +102,10 @@ TEST(KindsBounds, AreThoseOfTheReferenceOnEveryIsa) {
 
 TEST(KindsBounds, OfAnyBits) {
   for (const ShapeKind kind : kTurningKinds) {
-    const Bodies bodies = make_bodies({.name = ""}, kind, PositionType::float32, 6000, 5);
+    const Bodies bodies = make_kind({.name = ""}, kind, PositionType::float32, 6000, 5);
     for_each_isa([&] {
       for (const PositionType positions : kPositionTypes) {
-        expect_bounds(bodies, {.positions = positions});
+        expect_reference_bounds(bodies, {.positions = positions});
       }
     });
   }
@@ -116,7 +115,7 @@ TEST(KindsBounds, OfMixedKinds) {
   for (const PositionType positions : kPositionTypes) {
     const Bodies bodies = make_mixed_bodies(positions, 700);
     for_each_isa([&] {
-      for (const Layout& layout : layouts(positions)) expect_bounds(bodies, layout);
+      for (const Layout& layout : layouts(positions)) expect_reference_bounds(bodies, layout);
     });
   }
 }
@@ -126,11 +125,11 @@ TEST(KindsBounds, OfAnyCount) {
   for (size_t count = 0; count <= 35; ++count) counts.push_back(count);
   for (const ShapeKind kind : kTurningKinds) {
     for (const PositionType positions : kPositionTypes) {
-      const Bodies bodies = make_bodies({.name = ""}, kind, positions, 1025);
+      const Bodies bodies = make_kind({.name = ""}, kind, positions, 1025);
       for_each_isa([&] {
         for (const size_t count : counts) {
-          expect_bounds({bodies.begin(), bodies.begin() + static_cast<ptrdiff_t>(count)},
-                        {.positions = positions});
+          expect_reference_bounds({bodies.begin(), bodies.begin() + static_cast<ptrdiff_t>(count)},
+                                  {.positions = positions});
         }
       });
     }
@@ -141,9 +140,9 @@ TEST(KindsBounds, DoNotDependOnTheFloatModeOfTheCaller) {
   for (const ShapeKind kind : kTurningKinds) {
     for (const ConvexFamily& family : convex_families()) {
       if (family.smallest > 1e-30) continue;
-      const Bodies bodies = make_bodies(family, kind, PositionType::float32, 70);
+      const Bodies bodies = make_kind(family, kind, PositionType::float32, 70);
       for_each_isa([&] {
-        for (const FloatMode& mode : float_modes()) expect_bounds(bodies, {}, mode);
+        for (const FloatMode& mode : float_modes()) expect_reference_bounds(bodies, {}, mode);
       });
     }
   }
@@ -154,8 +153,8 @@ TEST(KindsBounds, AreTheSameOnThreads) {
     ThreadArena arena(threads);
     arena.run([&] {
       for (const PositionType positions : kPositionTypes) {
-        expect_bounds(make_mixed_bodies(positions, 3000), {.positions = positions}, kDefaultMode,
-                      arena.parallelism());
+        expect_reference_bounds(make_mixed_bodies(positions, 3000), {.positions = positions},
+                                kDefaultMode, arena.parallelism());
       }
     });
   }

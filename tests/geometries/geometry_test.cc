@@ -3,10 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
@@ -15,9 +14,6 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 using testing::HasSubstr;
 using Triangles = std::vector<std::array<uint32_t, 3>>;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 const std::vector<Vector3f> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 const Triangles kHalves = {{0, 1, 2}, {0, 2, 3}};

@@ -1,16 +1,16 @@
 #include "io/pairs_file.h"
 
 #include <cmath>
-#include <limits>
 
 #include "tests/io/io_test_util.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::io {
 namespace {
 
-using ::testing::HasSubstr;
+using test::kNan;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+using ::testing::HasSubstr;
 
 PairsFile two_pairs() {
   PairsFile pairs;

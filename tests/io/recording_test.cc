@@ -1,16 +1,16 @@
 #include "io/recording.h"
 
 #include <cmath>
-#include <limits>
 
 #include "tests/io/io_test_util.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::io {
 namespace {
 
-using ::testing::HasSubstr;
+using test::kNan;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+using ::testing::HasSubstr;
 
 class RecordingTest : public TemporaryFolder {
  protected:

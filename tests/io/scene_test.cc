@@ -2,17 +2,17 @@
 
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "io/recording.h"
 #include "tests/io/io_test_util.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::io {
 namespace {
 
-using ::testing::HasSubstr;
+using test::kNan;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+using ::testing::HasSubstr;
 
 // A sphere, a hull, a mesh and a compound of the first two; three bodies.
 SceneInfo full_info() {

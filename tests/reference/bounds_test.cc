@@ -10,13 +10,12 @@
 #include "tests/support/families.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/show.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // `bound` is the largest float that is not above `exact`.
 void expect_tight_below(float bound, const Rational& exact) {

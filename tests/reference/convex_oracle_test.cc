@@ -26,14 +26,14 @@ Pose at(double x, double y, double z, const Eigen::Quaternionf& q = {1, 0, 0, 0}
   return {{x, y, z}, q};
 }
 
-Shape box(double x, double y, double z) { return Box{Eigen::Vector3d(x, y, z).cast<float>()}; }
+Shape make_box(double x, double y, double z) { return Box{Eigen::Vector3d(x, y, z).cast<float>()}; }
 
-Shape capsule(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float radius) {
+Shape make_capsule(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float radius) {
   return Capsule{a, b, radius};
 }
 
-Shape triangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
-               float thickness = 0) {
+Shape make_triangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
+                    float thickness = 0) {
   return Triangle{{a, b, c}, thickness};
 }
 
@@ -69,32 +69,33 @@ TEST(ConvexOracle, DistancesFromSurfaces) {
   };
   expect_near(distance(Sphere{2}, 1, 0, 0.5), 1.5L, kTight);
   expect_near(distance(Sphere{2}, 1, 3, 4), 3, kTight);
-  expect_near(distance(capsule({0, 0, 0}, {0, 0, 4}, 1), 1, 0.25, 2), 0.75L, kTight);
-  expect_near(distance(box(1, 2, 3), 1.25, 0, 0), 0.75L, kTight);
-  expect_near(distance(box(1, 2, 3), 5, 6, 0), 5, kTight);
-  expect_near(distance(box(1, 2, 3), 0, 2, 3), 0, 0);
-  expect_near(distance(triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}), 2, 1, -0.5), 0.5L, kTight);
-  expect_near(distance(triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 2), 2, 1, -0.5), 0.5L, kTight);
+  expect_near(distance(make_capsule({0, 0, 0}, {0, 0, 4}, 1), 1, 0.25, 2), 0.75L, kTight);
+  expect_near(distance(make_box(1, 2, 3), 1.25, 0, 0), 0.75L, kTight);
+  expect_near(distance(make_box(1, 2, 3), 5, 6, 0), 5, kTight);
+  expect_near(distance(make_box(1, 2, 3), 0, 2, 3), 0, 0);
+  expect_near(distance(make_triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}), 2, 1, -0.5), 0.5L, kTight);
+  expect_near(distance(make_triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 2), 2, 1, -0.5), 0.5L,
+              kTight);
   expect_near(distance(Halfspace{{0, 0, 2}, 1}, 7, 7, -1), 1.5L, kTight);
   expect_near(distance(Halfspace{{0, 0, 2}, 1}, 7, 7, 1), 0.5L, kTight);
 }
 
 TEST(ConvexOracle, CasesOfBoxes) {
-  const Shape cube = box(1, 1, 1);
+  const Shape cube = make_box(1, 1, 1);
   expect_separation({cube, at(0, 0, 0), cube, at(0, 0, 1.9)}, -0.1L, 1e-15L);
-  expect_separation({box(.5, .5, .5), at(0, 0, 0), box(.5, .5, .5), at(0, 4, 0)}, 3, 0);
-  expect_separation(
-      {box(.307, 1.5, .185), at(-.675, 0, .9115), box(.247, .276, .005), at(-.692, 0, .935)},
-      -.1665L, 1e-7L);
-  expect_separation({box(.1, .165, .05), at(-.071, -.772, .8), box(.226, .135, .3),
+  expect_separation({make_box(.5, .5, .5), at(0, 0, 0), make_box(.5, .5, .5), at(0, 4, 0)}, 3, 0);
+  expect_separation({make_box(.307, 1.5, .185), at(-.675, 0, .9115), make_box(.247, .276, .005),
+                     at(-.692, 0, .935)},
+                    -.1665L, 1e-7L);
+  expect_separation({make_box(.1, .165, .05), at(-.071, -.772, .8), make_box(.226, .135, .3),
                      at(.121, -.787696057, .534220442)},
                     -.0842204420L, 1e-7L);
   expect_separation({cube, at(0, 0, 0), cube, at(0, 2, 1.8599132)}, 0, 0);
-  expect_separation({box(10, 10, 10), at(0, 0, 0), box(5, 5, 5), at(14, 14, 14)}, -1, 0);
+  expect_separation({make_box(10, 10, 10), at(0, 0, 0), make_box(5, 5, 5), at(14, 14, 14)}, -1, 0);
 }
 
 TEST(ConvexOracle, FeaturesOfBoxes) {
-  const Shape cube = box(1, 1, 1);
+  const Shape cube = make_box(1, 1, 1);
   const Eigen::Quaternionf quarter(1, 0, 0, 1), eighth_z(1, 0, 0, static_cast<float>(kTurn45)),
       eighth_x(1, static_cast<float>(kTurn45), 0, 0);
   // vertex to vertex, edge to face, crossed edges
@@ -102,24 +103,26 @@ TEST(ConvexOracle, FeaturesOfBoxes) {
   expect_separation({cube, at(0, 0, 0), cube, at(4, 0, 0, quarter)}, 2, 1e-18L);
   const long double root2 = std::numbers::sqrt2_v<long double>;
   expect_separation({cube, at(0, 0, 0), cube, at(4, 0, 0, eighth_z)}, 3 - root2, 1e-7L);
-  expect_separation({box(1, 1, 1), at(0, 0, 0, eighth_z), box(1, 1, 1), at(0, 4, 0, eighth_x)},
-                    4 - 2 * root2, 1e-7L);
-  expect_separation({box(1, 1, 1), at(0, 0, 0, eighth_z), box(1, 1, 1), at(0, 2.5, 0, eighth_x)},
-                    2.5L - 2 * root2, 1e-7L);
+  expect_separation(
+      {make_box(1, 1, 1), at(0, 0, 0, eighth_z), make_box(1, 1, 1), at(0, 4, 0, eighth_x)},
+      4 - 2 * root2, 1e-7L);
+  expect_separation(
+      {make_box(1, 1, 1), at(0, 0, 0, eighth_z), make_box(1, 1, 1), at(0, 2.5, 0, eighth_x)},
+      2.5L - 2 * root2, 1e-7L);
 }
 
 TEST(ConvexOracle, CapsulesAndTriangles) {
-  const Shape along_x = capsule({-1, 0, 0}, {1, 0, 0}, 0.25f);
-  const Shape along_y = capsule({0, -1, 0}, {0, 1, 0}, 0.25f);
+  const Shape along_x = make_capsule({-1, 0, 0}, {1, 0, 0}, 0.25f);
+  const Shape along_y = make_capsule({0, -1, 0}, {0, 1, 0}, 0.25f);
   expect_separation({along_x, at(0, 0, 0), along_y, at(0, 0, 2)}, 1.5L, 0);
   expect_separation({along_x, at(0, 0, 0), along_y, at(0, 0, 0)}, -.5L, 0);
   expect_separation({along_x, at(0, 0, 0), along_x, at(0, 0, 0)}, -.5L, 1e-18L);
   expect_separation({along_x, at(0, 0, 0), along_x, at(3, 0, 0)}, .5L, 1e-18L);
-  const Shape point = capsule({0, 0, 0}, {0, 0, 0}, 1);
+  const Shape point = make_capsule({0, 0, 0}, {0, 0, 0}, 1);
   expect_separation({point, at(0, 0, 0), Sphere{1}, at(0, 3, 4)}, 3, 1e-18L);
 
-  const Shape flat = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
-  const Shape thick = triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 2);
+  const Shape flat = make_triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0});
+  const Shape thick = make_triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 2);
   expect_separation({flat, at(0, 0, 0), Sphere{.5f}, at(1, 1, 1)}, .5L, 1e-18L);
   expect_separation({flat, at(0, 0, 0), Sphere{.5f}, at(1, 1, 0)}, -.5L, 1e-18L);
   expect_separation({flat, at(0, 0, 0), Sphere{.5f}, at(-3, -4, 0)}, 4.5L, 1e-18L);
@@ -127,14 +130,14 @@ TEST(ConvexOracle, CapsulesAndTriangles) {
   expect_separation({flat, at(0, 0, 0), flat, at(5, 0, 0)}, 1, 1e-18L);
   expect_separation({thick, at(0, 0, 0), Sphere{.5f}, at(1, 1, -.75)}, -1.25L, 1e-18L);
   expect_separation({thick, at(0, 0, 0), Sphere{.5f}, at(1, 1, -4)}, 1.5L, 1e-18L);
-  const Shape line = triangle({0, 0, 0}, {4, 0, 0}, {2, 0, 0}, 1);
+  const Shape line = make_triangle({0, 0, 0}, {4, 0, 0}, {2, 0, 0}, 1);
   expect_separation({line, at(0, 0, 0), Sphere{.5f}, at(1, 1, 0)}, .5L, 1e-18L);
 }
 
 TEST(ConvexOracle, Halfspaces) {
   const Shape ground = Halfspace{{0, 0, 2}, 1};  // z <= 0.5
   expect_separation({ground, at(0, 0, 0), Sphere{1}, at(7, 8, 2)}, .5L, 0);
-  expect_separation({ground, at(0, 0, 1), box(1, 1, 1), at(7, 8, 2)}, -.5L, 0);
+  expect_separation({ground, at(0, 0, 1), make_box(1, 1, 1), at(7, 8, 2)}, -.5L, 0);
   expect_normal({ground, at(0, 0, 0), Sphere{1}, at(7, 8, 2)}, {0, 0, 1});
   expect_normal({Sphere{1}, at(7, 8, 2), ground, at(0, 0, 0)}, {0, 0, -1});
   const Shape ceiling = Halfspace{{0, 0, -1}, 1};
@@ -232,8 +235,8 @@ TEST(ConvexOracle, HullsOfBoxesAreBoxes) {
 
 TEST(ConvexOracle, Hulls) {
   const Shape tip = hull_of({{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}});
-  expect_separation({tip, at(0, 0, .5), box(1, 1, 1), at(0, 0, -1)}, .5L, 0);
-  expect_separation({tip, at(0, 0, -.5), box(4, 4, 4), at(0, 0, -4)}, -.5L, 1e-18L);
+  expect_separation({tip, at(0, 0, .5), make_box(1, 1, 1), at(0, 0, -1)}, .5L, 0);
+  expect_separation({tip, at(0, 0, -.5), make_box(4, 4, 4), at(0, 0, -4)}, -.5L, 1e-18L);
   const Shape point = hull_of({{1, 2, 3}}), line = hull_of({{0, 0, -1}, {0, 0, 0}, {0, 0, 1}});
   expect_separation({point, at(-1, -2, -3), Sphere{1}, at(0, 3, 4)}, 4, 1e-18L);
   expect_separation({line, at(0, 0, 0), Sphere{1}, at(0, 3, 1)}, 2, 1e-18L);
@@ -242,7 +245,7 @@ TEST(ConvexOracle, Hulls) {
   expect_separation({flat, at(0, 0, 0), flat, at(0, 0, .25)}, .25L, 0);
   expect_separation({flat, at(0, 0, 0), flat, at(3, 0, 0)}, 1, 0);
   expect_separation({flat, at(0, 0, 0), flat, at(.5, .25, 0)}, 0, 0);
-  expect_separation({flat, at(0, 0, 0), box(2, 2, 2), at(0, 0, 1)}, -1, 0);
+  expect_separation({flat, at(0, 0, 0), make_box(2, 2, 2), at(0, 0, 1)}, -1, 0);
 }
 
 // Two edges that cross at a small angle, one above the other: the gap is that of their planes. The
@@ -273,19 +276,19 @@ TEST(ConvexOracle, NearParallelEdges) {
   for (double angle : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2}) {
     const auto half = static_cast<float>(angle / 2);
     const Eigen::Quaternionf turn(1, 0, 0, half);
-    const Shape rod = capsule({-1e6f, 0, 0}, {1e6f, 0, 0}, 0);
+    const Shape rod = make_capsule({-1e6f, 0, 0}, {1e6f, 0, 0}, 0);
     expect_separation({rod, at(0, 0, 0), rod, at(0, 0, 0x1p-30, turn)}, 0x1p-30L, 1e-18L);
-    const Shape slab = box(1, 1, 1);
+    const Shape slab = make_box(1, 1, 1);
     expect_separation({slab, at(0, 0, 0), slab, at(0, 0, 1.5, turn)}, -.5L, 1e-18L);
   }
 }
 
 TEST(ConvexOracle, SignedDistanceOfPoints) {
-  const ConvexShape<> cube(box(1, 2, 3), at(0, 0, 0));
+  const ConvexShape<> cube(make_box(1, 2, 3), at(0, 0, 0));
   EXPECT_EQ(signed_distance(cube, Vec{0, 0, 0}), -1);
   EXPECT_EQ(signed_distance(cube, Vec{1, 0, 2}), 0);
   EXPECT_EQ(signed_distance(cube, Vec{4, 6, 3}), 5);
-  const ConvexShape<> pill(capsule({0, 0, -1}, {0, 0, 1}, 2), at(1, 0, 0));
+  const ConvexShape<> pill(make_capsule({0, 0, -1}, {0, 0, 1}, 2), at(1, 0, 0));
   EXPECT_EQ(signed_distance(pill, Vec{1, 0, 0}), -2);
   EXPECT_EQ(signed_distance(pill, Vec{1, 3, 0}), 1);
 }

@@ -2,21 +2,17 @@
 // corners: they contain the shape and are tight.
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tests/support/float_modes.h"
 #include "tests/support/kind_pairs.h"
 #include "tests/support/oracle.h"
 #include "tests/support/show.h"
+#include "tests/support/special_floats.h"
 #include "tests/support/textbook.h"
 
 namespace carom::test {
 namespace {
 
 using Exact = ConvexShape<Real>;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // `bound` is below `exact` by at most 4e-6 of the size and the spacing of its floats. `exact`
 // itself has only a hundred digits.
@@ -27,7 +23,7 @@ void expect_tight_below(float bound, const Real& exact, const Real& size) {
   EXPECT_GE(Real(bound), exact - size * Real(4e-6) - 4 * spacing) << hex(bound);
 }
 
-void expect_tight(const PlacedShape& body, PositionType positions) {
+void expect_bounds_of_support(const PlacedShape& body, PositionType positions) {
   SCOPED_TRACE(show(body) + ", " + name(positions));
   const reference::Box box = reference::bounds(body.shape, body.pose(), positions);
   Pose pose = body.pose();
@@ -51,7 +47,8 @@ TEST_P(KindsReferenceBounds, ContainTheShapeAndAreTight) {
     for (const PositionType positions : kPositionTypes) {
       for (const ConvexPair& pair :
            make_convex_pairs(GetParam(), kinds, positions, fewer_polytopes(kinds, 60))) {
-        expect_tight({pair.shape_b, pair.pose_b.position, pair.pose_b.orientation}, positions);
+        expect_bounds_of_support({pair.shape_b, pair.pose_b.position, pair.pose_b.orientation},
+                                 positions);
         if (HasFailure()) return;
       }
     }
@@ -95,7 +92,7 @@ TEST(KindsReferenceBounds, ContainTheShapeFarFromTheOrigin) {
     for (int c = 0; c < 4; ++c) {
       body.orientation.coeffs()[c] = static_cast<float>(random.uniform(-1, 1));
     }
-    for (const PositionType positions : kPositionTypes) expect_tight(body, positions);
+    for (const PositionType positions : kPositionTypes) expect_bounds_of_support(body, positions);
   }
 }
 

@@ -5,11 +5,11 @@
 
 #include "tests/support/families.h"
 #include "tests/support/show.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
 
-constexpr double kEps = 0x1p-23;
 // Half the spacing of floats near zero, for several roundings.
 constexpr double kSubnormal = 4 * 0x1p-149;
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,14 +10,11 @@
 #include "oracle/random.h"
 #include "tests/support/guarded.h"
 #include "tests/support/show.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 
 using namespace oracle;
-
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
-inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-inline constexpr float kLargest = std::numeric_limits<float>::max();
 
 struct TestBox {
   float lower[3];

@@ -168,6 +168,18 @@ Eigen::Vector3d HullPairMaker::middle(const PlacedShape& body) {
   return sum / static_cast<double>(corners.size());
 }
 
+namespace {
+
+// The shortest turn from one unit vector to another (half angles). Opposite ones have many.
+Eigen::Quaterniond turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const double w = 1 + from.dot(to);
+  if (w < 1e-12) return Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI, from.unitOrthogonal()));
+  const Eigen::Vector3d v = from.cross(to);
+  return Eigen::Quaterniond(w, v.x(), v.y(), v.z()).normalized();
+}
+
+}  // namespace
+
 Eigen::Quaterniond HullPairMaker::any_rotation() {
   return Eigen::Quaterniond(Eigen::AngleAxisd(random_.uniform(0, 3), random_.direction()));
 }
@@ -179,7 +191,7 @@ void HullPairMaker::place(PlacedShape& one, PlacedShape& hull, double size) {
   if (random_.chance(0.75)) {
     turn_hull = Eigen::AngleAxisd(tilt(), random_.direction()) *
                 Eigen::AngleAxisd(random_.chance(0.3) ? 0 : random_.uniform(0, 6), n) *
-                Eigen::Quaterniond::FromTwoVectors(any_normal(hull.shape), -n);
+                turn_between(any_normal(hull.shape), -n);
   } else {
     n = random_.direction();
     if (random_.chance(0.5)) turn_hull = turn_one = Eigen::Quaterniond::Identity();

@@ -61,7 +61,7 @@ void LaidOutPositions::set_radius(size_t i, float radius) {
   if (layout_.radius == RadiusLayout::column) radii_.set(i, radius);
 }
 
-LaidOutBoxes::LaidOutBoxes(std::span<const PlacedShape> bodies, const Layout& layout)
+LaidOutAabbs::LaidOutAabbs(std::span<const PlacedShape> bodies, const Layout& layout)
     : layout_(layout),
       slots_(layout.box_slots ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
   auto count = static_cast<uint32_t>(std::count_if(bodies.begin(), bodies.end(), is_box));
@@ -77,7 +77,7 @@ LaidOutBoxes::LaidOutBoxes(std::span<const PlacedShape> bodies, const Layout& la
   }
 }
 
-void LaidOutBoxes::add_to(Collidables& view) const {
+void LaidOutAabbs::add_to(Collidables& view) const {
   for (int axis = 0; axis < 3; ++axis) {
     view.boxes.lower[axis] = columns_[axis].as<float>();
     view.boxes.upper[axis] = columns_[3 + axis].as<float>();
@@ -86,7 +86,7 @@ void LaidOutBoxes::add_to(Collidables& view) const {
   if (layout_.box_slots) view.box_slot = slots_.as<uint32_t>();
 }
 
-void LaidOutBoxes::set(size_t row, const Aabb& box) {
+void LaidOutAabbs::set(size_t row, const Aabb& box) {
   for (int axis = 0; axis < 3; ++axis) {
     columns_[axis].set(row, box.lower[axis]);
     columns_[3 + axis].set(row, box.upper[axis]);

@@ -71,9 +71,9 @@ class LaidOutPositions {
 };
 
 // Corners of aabbs.
-class LaidOutBoxes {
+class LaidOutAabbs {
  public:
-  LaidOutBoxes(std::span<const PlacedShape> bodies, const Layout& layout);
+  LaidOutAabbs(std::span<const PlacedShape> bodies, const Layout& layout);
 
   void add_to(Collidables& view) const;
 
@@ -137,7 +137,7 @@ class LaidOut {
  private:
   LaidOutKinds kinds_;
   LaidOutPositions positions_;
-  LaidOutBoxes boxes_;
+  LaidOutAabbs boxes_;
   LaidOutOrientations orientations_;
   LaidOutRows rows_;
   Collidables view_;

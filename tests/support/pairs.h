@@ -78,5 +78,6 @@ inline const char* name(PositionType positions) {
 }
 
 inline constexpr PositionType kPositionTypes[] = {PositionType::float32, PositionType::float64};
+inline constexpr auto kFloat32 = PositionType::float32;
 
 }  // namespace carom::test

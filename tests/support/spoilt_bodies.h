@@ -2,16 +2,14 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "tests/support/pairs.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
-inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 inline constexpr float kBad[] = {kNan, kInfinity, -kInfinity};
 
 // Copies of `body` in which one number is invalid.

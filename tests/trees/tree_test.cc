@@ -27,8 +27,6 @@ bool touch(const TreeBox& a, const TreeBox& b) {
   return true;
 }
 
-bool is_empty(const TreeBox& box) { return box.lower[0] > box.upper[0]; }
-
 struct Style {
   const char* name;
   double spread = 10;       // of middles

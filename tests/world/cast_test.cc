@@ -43,7 +43,7 @@ bool are_same(const std::vector<NearestHit>& x, const std::vector<NearestHit>& y
 }
 
 // `ids`, which ascend by index, are the bodies that queries may meet.
-void expect_hits(const World& world, std::span<const BodyId> ids, uint32_t mask = ~0u) {
+void expect_cast_hits(const World& world, std::span<const BodyId> ids, uint32_t mask = ~0u) {
   const PositionType positions = world.settings().positions;
   const AsArrays arrays = as_arrays(world, ids);
   const std::vector<PlacedShape> queries =
@@ -95,7 +95,7 @@ TEST(WorldQueries, AreThoseOfArrays) {
         const std::vector<BodyId> ids =
             add_composites(world, 20, add_crowd(world, crowd(150, halfspaces)));
         world.step();
-        expect_hits(world, ids);
+        expect_cast_hits(world, ids);
       }
     }
   });
@@ -118,7 +118,7 @@ TEST(WorldQueries, OfEveryStep) {
         ids.erase(ids.begin());
       }
       world.step();
-      expect_hits(world, ids);
+      expect_cast_hits(world, ids);
     }
   }
 }
@@ -133,7 +133,7 @@ TEST(WorldQueries, MeetTheLayersOfTheMask) {
     for (size_t i = 0; i < ids.size(); ++i) {
       if (bodies[i].layer & mask) met.push_back(ids[i]);
     }
-    expect_hits(world, met, mask);
+    expect_cast_hits(world, met, mask);
   }
 }
 
@@ -141,8 +141,8 @@ TEST(WorldQueries, WithoutLayersTheMaskMeetsAllOrNothing) {
   World world;
   const std::vector<BodyId> ids = add_crowd(world, crowd(100, 1));
   world.step();
-  expect_hits(world, ids, 4);
-  expect_hits(world, {}, 0);
+  expect_cast_hits(world, ids, 4);
+  expect_cast_hits(world, {}, 0);
 }
 
 TEST(WorldQueries, SkipQuarantinedBodies) {
@@ -153,20 +153,20 @@ TEST(WorldQueries, SkipQuarantinedBodies) {
   world.set_shape(ids[9], Sphere{-1});
   world.step();
   EXPECT_EQ(world.quarantined().size(), 3u);
-  expect_hits(world, ids);
+  expect_cast_hits(world, ids);
 }
 
 TEST(WorldQueries, OfAnEmptyWorld) {
   World world;
-  expect_hits(world, {});
+  expect_cast_hits(world, {});
   world.step();
-  expect_hits(world, {});
+  expect_cast_hits(world, {});
   const std::vector<BodyId> ids = add_crowd(world, crowd(20, 0));
   world.step();
-  expect_hits(world, ids);
+  expect_cast_hits(world, ids);
   world.remove(ids);
   world.step();
-  expect_hits(world, {});
+  expect_cast_hits(world, {});
 }
 
 TEST(WorldQueries, OnThreads) {
@@ -175,7 +175,7 @@ TEST(WorldQueries, OnThreads) {
     World world;
     const std::vector<BodyId> ids = add_crowd(world, {.count = 6000, .side = 16});
     world.step();
-    expect_hits(world, ids);
+    expect_cast_hits(world, ids);
   });
 }
 

@@ -7,12 +7,10 @@
 
 #include "base/parallel.h"
 #include "world/store/columns.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
-
-// Few enough that a single changed body costs little, enough for an efficient loop over blocks.
-constexpr size_t kRowsPerBlock = 1024;
 
 // The bits that differ between two records of four numbers. Comparing bits makes NaN equal itself.
 template <class T>

@@ -5,11 +5,10 @@
 #include "base/parallel.h"
 #include "shapes/body_reader.h"
 #include "shapes/turn.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
-
-constexpr size_t kRowsPerBlock = 1024;
 
 // A generous bound on the rounding of the sums, products and roots below.
 constexpr double kRounding = 0x1p-44;

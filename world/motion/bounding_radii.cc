@@ -12,11 +12,10 @@
 #include "shapes/body_reader.h"
 #include "shapes/dop_polytope.h"
 #include "shapes/turn.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
-
-constexpr size_t kRowsPerBlock = 1024;
 
 double length(const Double3& v) { return std::sqrt(dot(v, v)); }
 

@@ -5,15 +5,14 @@
 
 #include "base/parallel.h"
 #include "world/store/columns.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
 
-constexpr size_t kRowsPerBlock = 1024;
-
 // The fat bounds of a body that only moved exceed the true ones by at most two margins, up to
 // rounding. Beyond this many margins the body has shrunk.
-constexpr float kMostSlack = 3;
+constexpr float kMostSlackMargins = 3;
 
 // v - margin rounded outwards, by a little more than in base/outward.h but in fewer steps: the sum
 // is off by at most half a unit in the last place, and `step` is one unit or two.
@@ -52,7 +51,7 @@ void FatBounds::update(const BoundsView& bounds, float margin, Parallelism paral
     std::array<Fit, 3> fit;
     for (size_t axis = 0; axis < 3; ++axis) {
       fit[axis] = {bounds.lower[axis] + begin, bounds.upper[axis] + begin, &columns_[axis][begin],
-                   &columns_[3 + axis][begin], kMostSlack * margin};
+                   &columns_[3 + axis][begin], kMostSlackMargins * margin};
     }
     uint32_t kept[kRowsPerBlock];
     uint32_t all = 1;

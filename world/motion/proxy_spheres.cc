@@ -2,11 +2,10 @@
 
 #include "base/parallel.h"
 #include "shapes/body_reader.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
-
-constexpr size_t kRowsPerBlock = 1024;
 
 template <class T>
 void write_radii(const Collidables& bodies, std::span<const float> radii, Parallelism parallelism,

@@ -8,13 +8,12 @@
 #include "world/motion/bounding_radii.h"
 #include "world/motion/inner_diameter.h"
 #include "world/store/columns.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr size_t kRowsPerBlock = 1024;
 
 Vector3f motion_in(const Vector3f& velocity, double dt) {
   Vector3f motion;

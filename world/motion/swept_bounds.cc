@@ -11,11 +11,10 @@
 #include "shapes/body_reader.h"
 #include "world/motion/bounding_radii.h"
 #include "world/store/columns.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
-
-constexpr size_t kRowsPerBlock = 1024;
 
 struct Corners {
   std::array<float, 3> lower, upper;

@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-constexpr size_t kFloatColumns = 10;
+constexpr size_t kContactFloats = 10;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail, bool sub_shapes
   overlap_.back() = 0;
   status_.resize(pairs);
   if (detail == Detail::overlap) return {.overlap = overlap_.data(), .status = status_.data()};
-  floats_.resize(pairs * kFloatColumns);
+  floats_.resize(pairs * kContactFloats);
   ResultColumns columns = {.overlap = overlap_.data(),
                            .status = status_.data(),
                            .separation = column(0),
@@ -71,7 +71,7 @@ Contact ResultBuffer::contact(size_t row, Pair pair) const {
 void ResultBuffer::give_back_beyond(size_t pairs) {
   give_back_scratch(overlap_, pairs);
   give_back_scratch(status_, pairs);
-  give_back_scratch(floats_, kFloatColumns * pairs);
+  give_back_scratch(floats_, kContactFloats * pairs);
   give_back_scratch(sub_shape_, sub_shape_.empty() ? 0 : 2 * pairs);
   give_back_scratch(manifold_count_, pairs);
   give_back_scratch(manifold_, pairs);

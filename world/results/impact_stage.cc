@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-constexpr size_t kFloatColumns = 10;
+constexpr size_t kImpactFloats = 10;
 
 bool is_before(const Impact& x, const Impact& y) {
   return std::tie(x.toi, x.a, x.b) < std::tie(y.toi, y.a, y.b);
@@ -96,7 +96,7 @@ ImpactColumns ImpactStage::columns(bool contacts, bool sub_shapes) {
   const size_t rows = pairs_.size();
   toi_.resize(rows);
   status_.resize(rows);
-  floats_.resize(contacts ? kFloatColumns * rows : 0);
+  floats_.resize(contacts ? kImpactFloats * rows : 0);
   sub_shape_.resize(contacts && sub_shapes ? 2 * rows : 0);
   ImpactColumns out = {.toi = toi_.data(), .status = status_.data()};
   if (!floats_.empty()) {
@@ -188,7 +188,7 @@ void ImpactStage::give_back_beyond(size_t pairs) {
   give_back_scratch(pairs_, pairs);
   give_back_scratch(toi_, pairs);
   give_back_scratch(status_, pairs);
-  give_back_scratch(floats_, kFloatColumns * pairs);
+  give_back_scratch(floats_, kImpactFloats * pairs);
   give_back_scratch(sub_shape_, 2 * pairs);
   give_back(impacts_, pairs);
   give_back_scratch(kept_, pairs);

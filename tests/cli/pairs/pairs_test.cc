@@ -8,12 +8,14 @@
 #include "io/generate/random.h"
 #include "io/pairs_file.h"
 #include "tests/cli/pairs/pair_results.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::cli {
 namespace {
 
+using test::kNan;
+
 constexpr size_t kPairs = 701;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // One shape of every kind, and a second sphere and box. The half-space comes last.
 io::SceneShapes all_kinds() {

@@ -2,19 +2,19 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 
 #include "carom/simd/isa.h"
 #include "io/pairs_file.h"
 #include "tests/cli/pairs/toi_checks.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::cli {
 namespace {
 
-using Row3 = std::array<float, 3>;
+using test::kInfinity;
+using test::kNan;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+using Row3 = std::array<float, 3>;
 
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

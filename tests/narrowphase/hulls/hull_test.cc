@@ -16,7 +16,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Result = reference::PairResult;
 
-constexpr auto kFloat32 = PositionType::float32;
 constexpr auto kFloat64 = PositionType::float64;
 
 Quaternionf turn(float angle, const Vector3f& axis) {

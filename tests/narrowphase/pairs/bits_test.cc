@@ -8,7 +8,7 @@
 namespace carom::test {
 namespace {
 
-constexpr size_t kCount = 1100;  // more than a block
+constexpr size_t kManyPairs = 1100;  // more than a block
 
 void expect_reference_bits(std::span<const TestPair> pairs, PositionType positions) {
   const std::vector<Row> expected = expected_rows(pairs, positions);
@@ -18,7 +18,7 @@ void expect_reference_bits(std::span<const TestPair> pairs, PositionType positio
   });
 }
 
-std::vector<Family> all_families() {
+std::vector<Family> families_to_the_limits() {
   std::vector<Family> all = families();
   all.push_back({.name = "huge", .smallest = 1e30, .largest = 3e38, .distance_in_sizes = true});
   all.push_back({.name = "huge ratio", .smallest = 1e-44, .largest = 3e38, .ratio = 1e20});
@@ -31,7 +31,7 @@ TEST_P(Bits, EqualReference) {
   for (const Sides sides : kAllSides) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(std::string(name(sides)) + ", " + name(positions));
-      expect_reference_bits(make_pairs(GetParam(), sides, positions, kCount), positions);
+      expect_reference_bits(make_pairs(GetParam(), sides, positions, kManyPairs), positions);
     }
   }
 }
@@ -42,7 +42,7 @@ std::string test_name(const testing::TestParamInfo<Family>& info) {
   return text;
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Bits, testing::ValuesIn(all_families()), test_name);
+INSTANTIATE_TEST_SUITE_P(Families, Bits, testing::ValuesIn(families_to_the_limits()), test_name);
 
 TEST(Bits, EqualReferenceForAnyInput) {
   for (const Sides sides : kAllSides) {

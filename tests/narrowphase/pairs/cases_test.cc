@@ -6,11 +6,10 @@
 #include "tests/support/isas.h"
 #include "tests/support/oracle.h"
 #include "tests/support/run.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
-
-constexpr double kEps = 0x1p-23;
 
 // Tests the pair on every ISA and in both orders, and checks it against the exact answer; returns
 // the result of (A, B).

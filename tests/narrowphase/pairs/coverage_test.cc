@@ -18,13 +18,13 @@ TEST(Coverage, HitsAndMissesAreBalanced) {
     for (const Sides sides : kAllSides) {
       for (const PositionType positions : kPositionTypes) {
         int hits = 0;
-        constexpr int kCount = 2000;
-        for (const TestPair& pair : make_pairs(family, sides, positions, kCount)) {
+        constexpr int kPairs = 2000;
+        for (const TestPair& pair : make_pairs(family, sides, positions, kPairs)) {
           hits += reference_result(pair, positions).overlap;
         }
         SCOPED_TRACE(std::string(family.name) + ", " + name(sides) + ", " + name(positions));
-        EXPECT_GT(hits, kCount * (touch ? 0.2 : 0.3));
-        EXPECT_LT(hits, kCount * (touch ? 0.8 : 0.7));
+        EXPECT_GT(hits, kPairs * (touch ? 0.2 : 0.3));
+        EXPECT_LT(hits, kPairs * (touch ? 0.8 : 0.7));
       }
     }
   }

@@ -14,7 +14,6 @@ using Eigen::Quaternionf;
 using Eigen::Vector3f;
 using Result = reference::PairResult;
 
-constexpr auto kFloat32 = PositionType::float32;
 constexpr DopKind kDopKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 
 PlacedShape placed(const Dop& dop, const Eigen::Vector3d& position,

@@ -1,17 +1,13 @@
 // NaN, infinity and negative sizes spoil their own pair and no other.
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tests/support/families.h"
 #include "tests/support/isas.h"
 #include "tests/support/run.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // Every way to spoil a body.
 std::vector<PlacedShape> spoilt(const PlacedShape& body) {
@@ -45,7 +41,7 @@ std::vector<PlacedShape> spoilt(const PlacedShape& body) {
   return all;
 }
 
-void expect_no_answer(const Row& row) {
+void expect_no_contact(const Row& row) {
   EXPECT_EQ(row.overlap, 0);
   EXPECT_EQ(row.status, static_cast<uint8_t>(Status::invalid));
   std::vector<float> floats{row.separation};
@@ -62,7 +58,7 @@ void check_invalid_in(std::span<const TestPair> pairs, size_t place, const TestP
   std::vector<Row> expected(clean.begin(), clean.end());
   for (const auto& run : {run_rows, run_list}) {
     const std::vector<Row> rows = run(with_bad, call);
-    expect_no_answer(rows[place]);
+    expect_no_contact(rows[place]);
     expected[place] = rows[place];
     EXPECT_TRUE(same_rows(expected, rows, with_bad));
   }
@@ -101,7 +97,7 @@ TEST(Invalid, AllOfThem) {
       }
     }
     for_each_isa([&] {
-      for (const Row& row : run_rows(pairs, {})) expect_no_answer(row);
+      for (const Row& row : run_rows(pairs, {})) expect_no_contact(row);
       Call overlap;
       overlap.detail = Detail::overlap;
       EXPECT_TRUE(same_rows(expected_rows(pairs, PositionType::float32, Detail::overlap),

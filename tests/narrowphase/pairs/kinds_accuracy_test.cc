@@ -7,7 +7,7 @@
 namespace carom::test {
 namespace {
 
-constexpr size_t kCount = 100;
+constexpr size_t kPairsEach = 100;
 
 int failure_count() {
   return testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count();
@@ -20,7 +20,7 @@ TEST_P(KindsAccuracy, IsWithinBounds) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(name(kinds));
-      const size_t count = fewer_polytopes(kinds, kCount);
+      const size_t count = fewer_polytopes(kinds, kPairsEach);
       for (const TestPair& pair : make_kind_pairs(GetParam(), kinds, positions, count, ++seed)) {
         const int failures_before = failure_count();
         checked_result(pair, positions);

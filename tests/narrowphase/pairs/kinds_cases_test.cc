@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/checked_everywhere.h"
+#include "tests/support/special_floats.h"
 
 namespace carom::test {
 namespace {
@@ -14,10 +15,7 @@ using Eigen::Vector3f;
 using Eigen::Vector4f;
 using Result = reference::PairResult;
 
-constexpr double kEps = 0x1p-23;
-constexpr auto kFloat32 = PositionType::float32;
-
-double exact_separation(const TestPair& pair, PositionType positions = kFloat32) {
+double exact_gap(const TestPair& pair, PositionType positions = kFloat32) {
   return static_cast<double>(ExactKinds(pair, positions).answer.value);
 }
 
@@ -151,7 +149,7 @@ TEST(KindsCases, C30_DepthDoesNotDependOnTheSizeOfASlab) {
              with_aabbs({oriented_box({0, 0, 0}, {s, s, 0.25f}), small_box})) {
           const auto result = checked_everywhere(pair);
           EXPECT_NEAR((result.normal - Vector3f(0, 0, 1)).norm(), 0, 2 * kEps);
-          EXPECT_NEAR(result.separation, exact_separation(pair), kEps);
+          EXPECT_NEAR(result.separation, exact_gap(pair), kEps);
         }
       }
     }
@@ -166,7 +164,7 @@ TEST(KindsCases, C31_FlushBoxes) {
     EXPECT_NEAR(result.separation, -0.000056, 2e-8);
     EXPECT_EQ(result.manifold_count, 4);
     for (size_t i = 0; i < result.manifold_count; ++i) {
-      EXPECT_GE(result.manifold.separation[i], exact_separation(pair) - 1e-8);
+      EXPECT_GE(result.manifold.separation[i], exact_gap(pair) - 1e-8);
     }
   }
 }

@@ -9,14 +9,12 @@
 #include "carom/bounds/bounds.h"
 #include "tests/support/pairs.h"
 #include "tests/support/rounds.h"
+#include "tests/support/special_floats.h"
 #include "tests/world/crowds.h"
 #include "world/motion/fat_bounds.h"
 
 namespace carom::test {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 // An interval in one column, which serves all three axes.
 class Fattened {

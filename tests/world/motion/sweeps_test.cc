@@ -2,11 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "oracle/hull_faces.h"
 #include "tests/support/composites.h"
 #include "tests/support/hulls.h"
+#include "tests/support/special_floats.h"
 #include "tests/world/crowds.h"
 #include "world/motion/bounding_radii.h"
 #include "world/motion/inner_diameter.h"
@@ -17,8 +16,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kHalfTurn = 3.14159f;
 
 Compound two_balls(float radius) {

@@ -5,12 +5,11 @@
 #include <functional>
 
 #include "tests/support/pairs.h"
+#include "tests/support/special_floats.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
 namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 BodyDesc ball(double z, float radius = 0.5f) {
   return {.shape = Sphere{radius}, .position = {100, -200, z}};
