@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "oracle/random.h"
+#include "tests/support/hulls.h"
 
 namespace carom::test {
 
 using namespace oracle;
 namespace {
-
-using Points = std::vector<Eigen::Vector3f>;
 
 constexpr DopKind kKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 

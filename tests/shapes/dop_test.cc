@@ -9,13 +9,12 @@
 
 #include "carom/bounds/dop_bounds.h"
 #include "oracle/random.h"
+#include "tests/support/hulls.h"
 
 namespace carom::test {
 
 using namespace oracle;
 namespace {
-
-using Points = std::vector<Eigen::Vector3f>;
 
 constexpr DopKind kDopKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
 
