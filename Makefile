@@ -8,7 +8,7 @@ JOBS ?= $(shell nproc)
 help: ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-7s %s\n", $$1, $$2}' Makefile
 
-run: setup-build ## verify and replay a recorded scene and a generated one
+run: setup-build ## replay a recorded scene and a generated one, and verify them
 	@scripts/build.sh release carom_run_program
 	@scripts/run.sh build/release/cli/carom-run
 
