@@ -87,10 +87,10 @@ namespace {
 HWY_EXPORT(find_valid);
 HWY_EXPORT(find_reaching);
 
-constexpr size_t kBoxesPerTask = 4096;
+constexpr size_t kBoxesPerPlaneTask = 4096;
 constexpr size_t kBoxesPerWord = 64;
 constexpr size_t kWordsPerBlock = BoxBlock::kBoxes / kBoxesPerWord;
-static_assert(kBoxesPerTask % BoxBlock::kBoxes == 0);
+static_assert(kBoxesPerPlaneTask % BoxBlock::kBoxes == 0);
 
 // 32 units in the last place; the rounding below adds up to less than 16 of the sizes involved.
 constexpr double kRounding = 0x1p-48;
@@ -155,13 +155,13 @@ size_t HalfspaceSearch::find(std::span<const WorldHalfspace> halfspaces, const B
                              const PairFilter& filter, size_t most_pairs, Parallelism parallelism,
                              std::vector<Pair>& out) {
   halfspaces_ = halfspaces;
-  tasks_ = block_count(bounds.count, kBoxesPerTask);
+  tasks_ = block_count(bounds.count, kBoxesPerPlaneTask);
   words_ = block_count(bounds.count, kBoxesPerWord);
   hits_.resize(halfspaces.size() * words_);
   box_first_.resize(tasks_);
   halfspace_first_.resize(halfspaces.size() * tasks_);
   const auto for_each_task = [&](const auto& body) {
-    for_each_block(bounds.count, kBoxesPerTask, parallelism,
+    for_each_block(bounds.count, kBoxesPerPlaneTask, parallelism,
                    [&](size_t index, size_t begin, size_t end) {
                      body(Task{index, begin, end});
                    });

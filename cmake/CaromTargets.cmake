@@ -16,19 +16,25 @@ function(carom_add_precompiled name)
     <span> <string> <type_traits> <utility> <variant> <vector> ${ARGN})
 endfunction()
 
-# carom_compile_together(TARGET): compiles the sources of a folder in groups of at most eight, so that
-# the headers that they share are read once a group (with CAROM_UNITY_BUILD). Files that are compiled
-# once for every instruction set include themselves again, so they stay alone; so do files with
-# settings of their own.
+# carom_compile_together(TARGET [ALONE file...]): compiles the sources of a folder in groups of at most
+# eight, so that the headers that they share are read once a group (with CAROM_UNITY_BUILD). Files that
+# are compiled once for every instruction set are in groups of their own. ALONE: those of them that
+# take long. Files with settings of their own stay alone as well.
 function(carom_compile_together target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
+  list(TRANSFORM arg_ALONE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   get_target_property(sources ${target} SOURCES)
   set(last_folder "")
+  set(kernels "")
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
     get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
     file(STRINGS ${source} targets REGEX "foreach_target.h")
     if(definitions OR targets)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      if(targets AND NOT definitions AND NOT source IN_LIST arg_ALONE)
+        list(APPEND kernels ${source})
+      endif()
       continue()
     endif()
     cmake_path(GET source PARENT_PATH folder)
@@ -44,12 +50,42 @@ function(carom_compile_together target)
   endforeach()
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD ${CAROM_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
+  if(CAROM_UNITY_BUILD)
+    carom_compile_kernels_together(${target} ${kernels})
+  endif()
 endfunction()
 
-# carom_add_objects(NAME [SOURCES file... | EXCLUDE file...]): these sources, or those of this folder
-# and below it, as an object library.
+# carom_compile_kernels_together(TARGET FILE...): compiles files that are compiled once for every
+# instruction set in groups of three, so that Highway and the loops around kernels are read once a
+# group. The file of a group goes through the instruction sets; its members then find that done.
+function(carom_compile_kernels_together target)
+  set(group 0)
+  set(files ${ARGN})
+  while(files)
+    list(POP_FRONT files first second third)
+    set(members ${first} ${second} ${third})
+    set(name kernels/${target}_${group}.cc)
+    set(itself "#undef HWY_TARGET_INCLUDE\n#define HWY_TARGET_INCLUDE \"${name}\"\n")
+    set(text "// Written by CMake.\n#include \"simd/targets.h\"\n\n${itself}")
+    string(APPEND text "#include <hwy/foreach_target.h>\n\n")
+    foreach(member IN LISTS members)
+      cmake_path(RELATIVE_PATH member BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE path)
+      string(APPEND text "#include \"${path}\"\n")
+    endforeach()
+    string(APPEND text "\n// Each of them has named itself.\n${itself}")
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/${name} CONTENT "${text}" @ONLY)
+    set_source_files_properties(${members} PROPERTIES HEADER_FILE_ONLY ON)
+    target_sources(${target} PRIVATE ${PROJECT_BINARY_DIR}/generated/${name})
+    set_source_files_properties(${PROJECT_BINARY_DIR}/generated/${name} PROPERTIES
+      SKIP_UNITY_BUILD_INCLUSION ON)
+    math(EXPR group "${group} + 1")
+  endwhile()
+endfunction()
+
+# carom_add_objects(NAME [SOURCES file... | EXCLUDE file...] [ALONE file...]): these sources, or those of
+# this folder and below it, as an object library.
 function(carom_add_objects name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;EXCLUDE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;EXCLUDE;ALONE")
   set(sources ${arg_SOURCES})
   if(NOT sources)
     carom_glob(sources *.cc)
@@ -59,7 +95,7 @@ function(carom_add_objects name)
   add_library(${name} OBJECT ${sources})
   target_link_libraries(${name} PRIVATE hwy::hwy TBB::tbb Eigen3::Eigen)
   target_precompile_headers(${name} REUSE_FROM carom_precompiled)
-  carom_compile_together(${name})
+  carom_compile_together(${name} ALONE ${arg_ALONE})
 endfunction()
 
 # carom_add_product(NAME OBJECT_LIBRARY...): the installed library NAME, and NAME_core, the same

@@ -81,7 +81,7 @@ struct ContactScratch {
   PlacedSide a, b;
   size_t count;
   std::array<uint16_t, kPairsPerBlock> row;  // of every placed pair
-  ScratchColumns columns;
+  TestColumns columns;
   PartBatch parts;
   std::array<std::array<Double3, 2>, kPairsPerBlock> arms;  // of the parts of every pair
 };

@@ -9,7 +9,7 @@
 #include "impacts/composite_times.h"
 #include "impacts/impact_contacts.h"
 #include "midphase/collide_pairs.h"
-#include "narrowphase/batch/scratch_columns.h"
+#include "narrowphase/batch/column_memory.h"
 
 namespace carom {
 namespace {

@@ -1,6 +1,9 @@
 #include "io/pairs_file.h"
 
+#include <algorithm>
+#include <limits>
 #include <span>
+#include <type_traits>
 
 namespace carom::io {
 namespace {
@@ -71,32 +74,33 @@ Result<void> write_side(NpzWriter& writer, const std::string& letter, const Pair
   return done;
 }
 
-// Adds a result array with one element for each pair, unless the caller left it empty. With zero
-// pairs all arrays are empty, so all are written.
 template <class T>
-Result<void> add_result(NpzWriter& writer, const std::string& path, const std::string& name,
-                        const std::vector<T>& values, uint64_t pairs) {
-  if (values.empty() && pairs > 0) return {};
-  if (values.size() != pairs) {
-    return member_error(path, name,
-                        "holds " + std::to_string(values.size()) + " elements (" +
-                            std::to_string(pairs) + " were expected)");
-  }
-  return writer.add(name, values);
+Result<void> add_column(NpzWriter& writer, const std::string& name, const T* column,
+                        uint64_t pairs) {
+  return writer.add(name, std::span(column, pairs), {pairs});
 }
 
-Result<void> add_manifold_points(NpzWriter& writer, const std::string& path,
-                                 const PairResults& results) {
-  const std::vector<std::array<float, 12>>& points = results.manifold_point;
-  if (points.empty() && results.pairs > 0) return {};
-  if (points.size() != results.pairs) {
-    return member_error(path, "manifold_point",
-                        "holds " + std::to_string(points.size()) + " elements (" +
-                            std::to_string(results.pairs) + " were expected)");
+Result<void> add_column(NpzWriter& writer, const std::string& name,
+                        const std::array<float*, 3>& columns, uint64_t pairs) {
+  std::vector<std::array<float, 3>> rows(pairs);
+  for (size_t i = 0; i < pairs; ++i) rows[i] = {columns[0][i], columns[1][i], columns[2][i]};
+  return writer.add(name, rows);
+}
+
+// A manifold is two arrays in the file.
+Result<void> add_manifolds(NpzWriter& writer, const ResultColumns& columns, uint64_t pairs) {
+  std::vector<float> points(12 * pairs, std::numeric_limits<float>::quiet_NaN());
+  std::vector<float> separations(4 * pairs, std::numeric_limits<float>::quiet_NaN());
+  for (size_t pair = 0; pair < pairs; ++pair) {
+    for (size_t k = 0; k < columns.manifold_count[pair]; ++k) {
+      const std::array<float, 3>& point = columns.manifold[pair].point[k];
+      std::copy(point.begin(), point.end(), &points[12 * pair + 3 * k]);
+      separations[4 * pair + k] = columns.manifold[pair].separation[k];
+    }
   }
-  const std::span<const float> values(reinterpret_cast<const float*>(points.data()),
-                                      points.size() * 12);
-  return writer.add("manifold_point", values, {results.pairs, 4, 3});
+  Result<void> done = writer.add("manifold_point", std::span<const float>(points), {pairs, 4, 3});
+  if (!done) return done;
+  return writer.add("manifold_separation", std::span<const float>(separations), {pairs, 4});
 }
 
 }  // namespace
@@ -139,25 +143,22 @@ Result<void> write_pairs(const std::string& path, const PairsFile& pairs) {
   return done;
 }
 
-Result<void> write_pair_results(const std::string& path, const PairResults& results) {
+Result<void> write_pair_results(const std::string& path, uint64_t pairs,
+                                const ResultColumns& columns, const float* toi) {
   Result<NpzWriter> writer = NpzWriter::create(path);
   if (!writer) return writer.error();
-  const uint64_t pairs = results.pairs;
-  const auto add = [&](const char* name, const auto& values) {
-    return add_result(*writer, path, name, values, pairs);
+  Result<void> done;
+  const auto add = [&](const ColumnInfo& info, const auto& column) {
+    using Column = std::remove_cvref_t<decltype(column)>;
+    if (!done || column == Column{}) return;
+    if constexpr (std::is_same_v<Column, ManifoldPoints*>) {
+      done = add_manifolds(*writer, columns, pairs);
+    } else {
+      done = add_column(*writer, info.name, column, pairs);
+    }
   };
-  Result<void> done = add("overlap", results.overlap);
-  if (done) done = add("separation", results.separation);
-  if (done) done = add("normal", results.normal);
-  if (done) done = add("point_a", results.point_a);
-  if (done) done = add("point_b", results.point_b);
-  if (done) done = add("manifold_count", results.manifold_count);
-  if (done) done = add_manifold_points(*writer, path, results);
-  if (done) done = add("manifold_separation", results.manifold_separation);
-  if (done) done = add("toi", results.toi);
-  if (done) done = add("status", results.status);
-  if (done) done = add("sub_a", results.sub_a);
-  if (done) done = add("sub_b", results.sub_b);
+  for_each_result(add, columns);
+  if (done && toi) done = add_column(*writer, "toi", toi, pairs);
   if (done) done = writer->finish();
   return done;
 }

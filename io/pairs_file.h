@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carom/base/result.h"
+#include "carom/results/result_columns.h"
 #include "io/shape_arrays.h"
 
 namespace carom::io {
@@ -33,23 +34,9 @@ struct PairsFile {
 Result<PairsFile> read_pairs(const std::string& path);
 Result<void> write_pairs(const std::string& path, const PairsFile& pairs);
 
-// Results of P pairs; arrays that are empty are not written.
-struct PairResults {
-  uint64_t pairs = 0;
-  std::vector<uint8_t> overlap;
-  std::vector<float> separation;
-  std::vector<std::array<float, 3>> normal;
-  std::vector<std::array<float, 3>> point_a;
-  std::vector<std::array<float, 3>> point_b;
-  std::vector<uint8_t> manifold_count;
-  std::vector<std::array<float, 12>> manifold_point;  // written as (P, 4, 3)
-  std::vector<std::array<float, 4>> manifold_separation;
-  std::vector<float> toi;
-  std::vector<uint8_t> status;
-  std::vector<uint32_t> sub_a;  // for pairs with meshes or compounds
-  std::vector<uint32_t> sub_b;
-};
-
-Result<void> write_pair_results(const std::string& path, const PairResults& results);
+// Writes the columns that are there, under their names, and the times of impact if `toi` is not
+// nullptr. Unused points of a manifold are NaN in the file.
+Result<void> write_pair_results(const std::string& path, uint64_t pairs,
+                                const ResultColumns& columns, const float* toi = nullptr);
 
 }  // namespace carom::io

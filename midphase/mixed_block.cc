@@ -16,11 +16,7 @@ struct MixedScratch {
   std::array<uint16_t, kPairsPerBlock> simple, composite;
   std::array<Pair, kPairsPerBlock> pairs;
   std::array<uint32_t, kPairsPerBlock> direction;
-  ScratchColumns columns;
-  std::array<uint8_t, kPairsPerBlock> manifold_count;
-  std::array<ManifoldPoints, kPairsPerBlock> manifold;
-  std::array<float, kPairsPerBlock> separation_bound;
-  std::array<uint64_t, kPairsPerBlock> features;
+  BlockColumns memory;
 
   std::span<const uint16_t> simple_rows() const { return std::span(simple).first(simple_count); }
   std::span<const uint16_t> composite_rows() const {
@@ -48,39 +44,11 @@ void sort_out(const PairBlock& block, MixedScratch& scratch) {
   }
 }
 
-template <class T>
-void scatter(const T* from, T* to, std::span<const uint16_t> rows) {
-  if (!from || !to) return;
-  for (size_t i = 0; i < rows.size(); ++i) to[rows[i]] = from[i];
-}
-
-void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail,
-             std::span<const uint16_t> rows) {
-  scatter(from.overlap, to.overlap, rows);
-  scatter(from.status, to.status, rows);
-  scatter(from.separation_bound, to.separation_bound, rows);
-  scatter(from.features, to.features, rows);
-  if (!has_contacts(detail)) return;
-  scatter(from.separation, to.separation, rows);
-  for (size_t axis = 0; axis < 3; ++axis) {
-    scatter(from.normal[axis], to.normal[axis], rows);
-    scatter(from.point_a[axis], to.point_a[axis], rows);
-    scatter(from.point_b[axis], to.point_b[axis], rows);
-  }
-  if (detail != Detail::manifold) return;
-  scatter(from.manifold_count, to.manifold_count, rows);
-  scatter(from.manifold, to.manifold, rows);
-}
-
 void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
   const std::span<const uint16_t> rows = scratch.simple_rows();
-  ResultColumns out = scratch.columns.columns();
-  out.manifold_count = scratch.manifold_count.data();
-  out.manifold = scratch.manifold.data();
-  if (block.out.separation_bound) out.separation_bound = scratch.separation_bound.data();
-  if (block.out.features) {
-    for (size_t i = 0; i < rows.size(); ++i) scratch.features[i] = block.out.features[rows[i]];
-    out.features = scratch.features.data();
+  const ResultColumns out = as_asked(scratch.memory.columns(), block.out);
+  for (size_t i = 0; out.features && i < rows.size(); ++i) {
+    out.features[i] = block.out.features[rows[i]];
   }
   PairBlock simple = {.a = block.a,
                       .b = block.b,
@@ -97,8 +65,10 @@ void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
     simple.direction = scratch.direction.data();
   }
   run_pair_block(simple);
-  scatter(out, block.out, block.detail, rows);
-  if (block.direction) scatter(simple.direction, block.direction, rows);
+  copy_rows(out, block.out, block.detail, rows.size(), [rows](size_t i) { return rows[i]; });
+  for (size_t i = 0; block.direction && i < rows.size(); ++i) {
+    block.direction[rows[i]] = simple.direction[i];
+  }
 }
 
 }  // namespace

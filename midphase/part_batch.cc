@@ -84,13 +84,6 @@ PlacedTriangle PartColumns::triangle(size_t body) const {
   return {*frame.mesh, triangle_[body], frame.position, frame.turn};
 }
 
-PartBatch::PartBatch() {
-  results_ = scratch_.columns();
-  results_.manifold_count = manifold_count_.data();
-  results_.manifold = manifold_.data();
-  results_.separation_bound = bound_.data();
-}
-
 void PartBatch::clear() {
   count_ = 0;
   for (PartColumns& side : sides_) side.clear();

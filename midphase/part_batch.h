@@ -6,7 +6,7 @@
 
 #include "carom/results/tier.h"
 #include "midphase/placed_part.h"
-#include "narrowphase/batch/scratch_columns.h"
+#include "narrowphase/batch/column_memory.h"
 
 namespace carom {
 
@@ -79,8 +79,6 @@ struct PartTests {
 // Results are relative to the parts' own positions.
 class PartBatch {
  public:
-  PartBatch();
-
   size_t count() const { return count_; }
   bool is_full() const { return count_ == kPairsPerBlock; }
   void clear();
@@ -111,11 +109,8 @@ class PartBatch {
   std::array<PartColumns, 2> sides_;
   std::array<Pair, kPairsPerBlock> pairs_;
   std::array<uint32_t, kPairsPerBlock> owner_;
-  ScratchColumns scratch_;
-  std::array<uint8_t, kPairsPerBlock> manifold_count_;
-  std::array<ManifoldPoints, kPairsPerBlock> manifold_;
-  std::array<float, kPairsPerBlock> bound_;
-  ResultColumns results_;
+  ColumnMemory<kPairsPerBlock, ColumnRole::test, ColumnRole::manifold, ColumnRole::bound> memory_;
+  const ResultColumns results_ = memory_.columns();
 };
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include "base/float_environment.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/queries/queries.h"
+#include "carom/results/result_arrays.h"
 #include "queries/query_rounds.h"
 #include "queries/searches.h"
 
@@ -15,45 +16,19 @@ namespace {
 constexpr RoundSizes kNearestRounds = {.first = 2, .most = 4};
 constexpr uint32_t kNone = 0xffffffffu;
 
-// Results of collide(), one row per candidate.
-class Distances {
- public:
-  ResultColumns columns(size_t count) {
-    status_.resize(count);
-    sub_shape_.resize(count);
-    for (std::vector<float>& column : columns_) column.resize(count);
-    const auto three = [this](size_t first) -> std::array<float*, 3> {
-      return {columns_[first].data(), columns_[first + 1].data(), columns_[first + 2].data()};
-    };
-    return {.status = status_.data(),
-            .separation = columns_[0].data(),
-            .normal = three(1),
-            .point_a = three(4),
-            .point_b = three(7),
-            .sub_b = sub_shape_.data()};
-  }
-
-  float separation(size_t row) const { return columns_[0][row]; }
-
-  NearestHit hit(Pair pair, size_t row) const {
-    const auto three = [&](size_t first) -> Eigen::Vector3f {
-      return {columns_[first][row], columns_[first + 1][row], columns_[first + 2][row]};
-    };
-    return {.query = pair.a,
-            .body = pair.b,
-            .sub_shape = sub_shape_[row],
-            .separation = separation(row),
-            .normal = three(1),
-            .point_query = three(4),
-            .point_body = three(7),
-            .status = static_cast<Status>(status_[row])};
-  }
-
- private:
-  std::vector<uint8_t> status_;
-  std::vector<uint32_t> sub_shape_;
-  std::array<std::vector<float>, 10> columns_;
-};
+NearestHit hit_of(const ResultColumns& found, size_t row, Pair pair) {
+  const auto three = [row](const std::array<float*, 3>& columns) -> Eigen::Vector3f {
+    return {columns[0][row], columns[1][row], columns[2][row]};
+  };
+  return {.query = pair.a,
+          .body = pair.b,
+          .sub_shape = found.sub_b[row],
+          .separation = found.separation[row],
+          .normal = three(found.normal),
+          .point_query = three(found.point_a),
+          .point_body = three(found.point_b),
+          .status = static_cast<Status>(found.status[row])};
+}
 
 class NearestSearch {
  public:
@@ -85,17 +60,17 @@ class NearestSearch {
 
  private:
   Result<void> measure(std::span<const Pair> candidates) {
-    const ResultColumns out = distances_.columns(candidates.size());
+    found_.resize(candidates.size(), Detail::contact, {ColumnRole::sub_shape});
     Result<void> measured = collide(boxes_.queries(), bodies_.bodies, candidates, Detail::contact,
-                                    out, WitnessFrame::body, parallelism_);
+                                    found_.columns(), WitnessFrame::body, parallelism_);
     for (size_t i = 0; measured && i < candidates.size(); ++i) {
       const Pair pair = candidates[i];
       NearestHit& best = best_[pair.a - first_];
-      const float separation = distances_.separation(i);
+      const float separation = found_.columns().separation[i];
       const bool is_nearer =
           separation < best.separation || (separation == best.separation && pair.b < best.body);
       if (!is_nearer || separation == kInfinity) continue;
-      best = distances_.hit(pair, i);
+      best = hit_of(found_.columns(), i, pair);
       limit_[pair.a - first_] = std::max(separation, 0.0f);
     }
     return measured;
@@ -110,7 +85,7 @@ class NearestSearch {
   size_t first_ = 0;
   std::vector<NearestHit> best_;
   std::vector<float> limit_;
-  Distances distances_;
+  ResultArrays found_;
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ class Pairs {
   void move_to_touch(double roundings) {
     const BodyArrays a(a_, PositionType::float32), b(b_, PositionType::float32);
     Answers answers(kBatch);
-    if (!collide_rows(a.view(), b.view(), Detail::contact, answers.columns())) return;
+    if (!collide_rows(a.view(), b.view(), Detail::contact, answers)) return;
     for (size_t i = 0; i < kBatch; ++i) {
       const double off = random_.uniform(-roundings, roundings) * 0x1p-24;
       const Eigen::Vector3d normal = Answers::row(answers.normal, i).cast<double>();

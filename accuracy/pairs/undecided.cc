@@ -80,7 +80,7 @@ Json row_of(const Scene& scene, int rounds) {
   }
   const std::vector<double> times = median_seconds(passes, rounds);
   settings[1].run(pairs, Detail::contact, answers);
-  const auto undecided = std::count(answers.overlap.begin(), answers.overlap.end(), kUndecided);
+  const auto undecided = std::count(answers.overlap, answers.overlap + pairs.size(), kUndecided);
   const auto count = static_cast<double>(pairs.size());
   return {{"scene", scene.name},
           {"pairs", pairs.size()},

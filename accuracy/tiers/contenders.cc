@@ -60,7 +60,7 @@ bool LibrarySetting::serves(const KindPair& kinds) const {
 
 void LibrarySetting::run(const PairSet& pairs, Detail detail, Answers& out) {
   [[maybe_unused]] const Result<void> done =
-      collide_rows(pairs.a(), pairs.b(), detail, out.columns(), WitnessFrame::body,
+      collide_rows(pairs.a(), pairs.b(), detail, out, WitnessFrame::body,
                    Parallelism::none, Measured::all, accuracy_);
   assert(done);
 }

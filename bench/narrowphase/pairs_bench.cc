@@ -22,7 +22,7 @@ std::optional<std::string> problem(const PairStream& stream, Detail detail, Resu
   if (std::abs(stream.hit_percent() - stream.spec().hit_percent) > 2) {
     return "the hit rate is " + std::to_string(stream.hit_percent()) + " %";
   }
-  results.spoil();
+  spoil(results);
   if (const Result<void> done = stream.run(detail, results.columns()); !done) {
     return done.error().message;
   }
@@ -51,7 +51,7 @@ void measure(benchmark::State& state, const PairStream& stream, const Pass& pass
 }
 
 void measure_kernel(benchmark::State& state, const PairStream& stream, Detail detail, Isa isa) {
-  ResultArrays results(stream.spec().count);
+  ResultArrays results(stream.spec().count, Detail::manifold);
   if (!use_isa(state, isa)) return;
   if (const auto wrong = problem(stream, detail, results)) return fail(state, *wrong);
   measure(state, stream, [&] {
@@ -149,8 +149,8 @@ void register_in_l2(const KindPair& kinds) {
 void measure_on_terrain(benchmark::State& state, const MeshSpec& spec, Detail detail, Isa isa) {
   const auto& stream = cached<MeshStream>(spec);
   if (!use_isa(state, isa)) return;
-  ResultArrays results(spec.count);
-  results.spoil();
+  ResultArrays results(spec.count, Detail::manifold);
+  spoil(results);
   if (const Result<void> done = stream.run(detail, results.columns()); !done) {
     return fail(state, done.error().message);
   }

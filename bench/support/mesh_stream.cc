@@ -53,7 +53,7 @@ MeshStream::MeshStream(const MeshSpec& spec) : spec_(spec), terrain_(make_terrai
   a_ = std::make_unique<DenseBodies>(spec.kind, bodies_, Storage::f32);
   b_ = std::make_unique<DenseBodies>(
       ShapeKind::mesh, std::vector<PlacedShape>(bodies_.size(), ground_), Storage::f32);
-  ResultArrays results(bodies_.size());
+  ResultArrays results(bodies_.size(), Detail::manifold);
   (void)run(Detail::contact, results.columns());
   separations_.assign(results.columns().separation, results.columns().separation + bodies_.size());
   const auto hits = std::count_if(separations_.begin(), separations_.end(),

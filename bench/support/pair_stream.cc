@@ -14,9 +14,6 @@
 namespace carom::bench {
 namespace {
 
-constexpr size_t kByteColumns = 3;
-constexpr size_t kContactFloats = 10;
-
 reference::PairResult reference_result(const PlacedShape& a, const PlacedShape& b,
                                        Storage storage) {
   return test::reference_result({a, b}, position_type(storage));
@@ -101,24 +98,12 @@ const char* name(Detail detail) {
   return kNames[static_cast<size_t>(detail)];
 }
 
-ResultArrays::ResultArrays(size_t count)
-    : bytes_(kByteColumns * count), floats_(kContactFloats * count), manifolds_(count) {
-  const auto column = [&](size_t i) { return &floats_[i * count]; };
-  columns_ = {.overlap = &bytes_[0],
-              .status = &bytes_[count],
-              .separation = column(0),
-              .normal = {column(1), column(2), column(3)},
-              .point_a = {column(4), column(5), column(6)},
-              .point_b = {column(7), column(8), column(9)},
-              .manifold_count = &bytes_[2 * count],
-              .manifold = manifolds_.data()};
-}
-
-void ResultArrays::spoil() {
-  std::fill(bytes_.begin(), bytes_.end(), uint8_t{0xa5});
-  const float nan = std::numeric_limits<float>::signaling_NaN();
-  std::fill(floats_.begin(), floats_.end(), nan);
-  for (ManifoldPoints& manifold : manifolds_) manifold.separation.fill(nan);
+void spoil(ResultArrays& results) {
+  for_each_column(
+      [&]<class T>(const ColumnInfo&, T* column) {
+        if (column) std::memset(static_cast<void*>(column), 0xff, results.count() * sizeof(T));
+      },
+      results.columns());
 }
 
 bool has_bits_of(const reference::PairResult& expected, const PlacedShape& a, const PlacedShape& b,

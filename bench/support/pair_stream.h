@@ -10,7 +10,7 @@
 #include "bench/support/bodies.h"
 #include "carom/base/result.h"
 #include "carom/reference/reference.h"
-#include "carom/results/contact.h"
+#include "carom/results/result_arrays.h"
 #include "carom/results/pair.h"
 
 namespace carom::bench {
@@ -35,21 +35,8 @@ struct StreamSpec {
   friend bool operator==(const StreamSpec&, const StreamSpec&) = default;
 };
 
-// Memory for all columns of `count` results, one after another.
-class ResultArrays {
- public:
-  explicit ResultArrays(size_t count);
-
-  const ResultColumns& columns() const { return columns_; }
-  // Overwrites everything with bytes that no result has.
-  void spoil();
-
- private:
-  std::vector<uint8_t> bytes_;
-  std::vector<float> floats_;
-  std::vector<ManifoldPoints> manifolds_;
-  ResultColumns columns_;
-};
+// Overwrites all columns with bytes that no result has.
+void spoil(ResultArrays& results);
 
 // Movement from one step to the next: this share of the body's size, and this angle (radians).
 inline constexpr double kStepLength = 0.01;

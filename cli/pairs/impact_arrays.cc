@@ -7,11 +7,11 @@ namespace carom::cli {
 bool meets(float toi) { return std::isfinite(toi); }
 
 ImpactArrays::ImpactArrays(const PairSet& pairs)
-    : toi_(pairs.size()), contact_(pairs, Detail::contact) {}
+    : toi(pairs.size()), contacts(results_of(pairs, Detail::contact)) {}
 
 ImpactColumns ImpactArrays::columns() {
-  const ResultColumns contact = contact_.columns();
-  return {.toi = toi_.data(),
+  const ResultColumns& contact = contacts.columns();
+  return {.toi = toi.data(),
           .status = contact.status,
           .separation = contact.separation,
           .normal = contact.normal,
@@ -21,17 +21,8 @@ ImpactColumns ImpactArrays::columns() {
           .sub_b = contact.sub_b};
 }
 
-ImpactArrays::Row ImpactArrays::row(size_t index) const {
-  Row row{toi_[index], contact_.row(index)};
-  row.contact.overlap = meets(row.toi);
-  return row;
-}
-
-io::PairResults ImpactArrays::results() const {
-  io::PairResults results = contact_.results();
-  results.toi = toi_;
-  for (size_t i = 0; i < toi_.size(); ++i) results.overlap[i] = meets(toi_[i]);
-  return results;
+void ImpactArrays::mark_meetings() {
+  for (size_t i = 0; i < toi.size(); ++i) contacts.columns().overlap[i] = meets(toi[i]);
 }
 
 }  // namespace carom::cli

@@ -8,24 +8,16 @@
 
 namespace carom::cli {
 
-class ImpactArrays {
- public:
+struct ImpactArrays {
+  std::vector<float> toi;
+  ResultArrays contacts;  // with sub-shapes only if a body can have them
+
   explicit ImpactArrays(const PairSet& pairs);
 
-  // Columns to write to; sub-shapes only if a body can have them.
+  // Columns to write to.
   ImpactColumns columns();
-
-  struct Row {
-    float toi;
-    PairColumns::Row contact;  // `overlap`: whether they meet
-  };
-  Row row(size_t index) const;
-
-  io::PairResults results() const;
-
- private:
-  std::vector<float> toi_;
-  PairColumns contact_;
+  // Sets the overlaps of the contacts to whether the bodies meet.
+  void mark_meetings();
 };
 
 // Whether a time of impact means that the bodies meet.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "carom/base/result.h"
-#include "carom/results/contact.h"
 #include "carom/results/pair.h"
+#include "carom/results/result_arrays.h"
 #include "carom/results/sweep.h"
 #include "cli/pairs/body_columns.h"
 #include "io/pairs_file.h"
@@ -51,47 +51,6 @@ std::vector<Pair> rows_in_order(size_t count);
 std::vector<Pair> rows_spread_out(size_t count);
 
 // Memory for the results of pairs at a detail; has sub-shapes if a body can have them.
-class PairColumns {
- public:
-  PairColumns(const PairSet& pairs, Detail detail);
-
-  // Columns to write to; nullptr for columns that the detail lacks.
-  ResultColumns columns();
-
-  struct Row {
-    uint8_t overlap;
-    uint8_t status;
-    uint8_t manifold_count;
-    float separation;
-    std::array<float, 3> normal;
-    std::array<float, 3> point_a;
-    std::array<float, 3> point_b;
-    ManifoldPoints manifold;
-    uint32_t sub_a = 0;
-    uint32_t sub_b = 0;
-  };
-  // Fields that the detail lacks are zero.
-  Row row(size_t index) const;
-
-  // Results in the form of the file: unused points of a manifold are NaN.
-  io::PairResults results() const;
-
- private:
-  using Column3 = std::array<std::vector<float>, 3>;
-  static std::vector<std::array<float, 3>> rows_of(const Column3& column);
-  void add_manifolds(io::PairResults& results) const;
-
-  Detail detail_;
-  std::vector<uint8_t> overlap_;
-  std::vector<uint8_t> status_;
-  std::vector<float> separation_;
-  Column3 normal_;
-  Column3 point_a_;
-  Column3 point_b_;
-  std::vector<uint8_t> manifold_count_;
-  std::vector<ManifoldPoints> manifold_;
-  std::vector<uint32_t> sub_a_;  // empty without composites
-  std::vector<uint32_t> sub_b_;
-};
+ResultArrays results_of(const PairSet& pairs, Detail detail);
 
 }  // namespace carom::cli

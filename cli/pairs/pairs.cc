@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "carom/base/thread_arena.h"
@@ -60,7 +61,8 @@ Result<void> check_motions(const PairSet& pairs, const std::string& path) {
 
 // Results of the last run, and the nanoseconds per pair of each run.
 struct Tested {
-  io::PairResults results;
+  ResultArrays results;
+  std::vector<float> toi;  // at detail toi only
   std::vector<double> ns_per_pair;
 };
 
@@ -90,8 +92,8 @@ Result<std::vector<double>> time_runs(size_t pairs, const PairsOptions& options,
 
 Result<Tested> test_pairs(const PairSet& pairs, const PairsOptions& options, Detail detail,
                           const Accuracy& accuracy, const Console& console) {
-  PairColumns results(pairs, detail);
-  const ResultColumns columns = results.columns();
+  ResultArrays results = results_of(pairs, detail);
+  const ResultColumns& columns = results.columns();
   const Collidables a = pairs.a.view();
   const Collidables b = pairs.b.view();
   auto times = time_runs(pairs.size(), options, console, [&](Parallelism parallelism) {
@@ -99,7 +101,7 @@ Result<Tested> test_pairs(const PairSet& pairs, const PairsOptions& options, Det
                         accuracy);
   });
   if (!times) return times.error();
-  return Tested{results.results(), std::move(*times)};
+  return Tested{std::move(results), {}, std::move(*times)};
 }
 
 Result<Tested> find_impacts(const PairSet& pairs, const PairsOptions& options,
@@ -117,7 +119,8 @@ Result<Tested> find_impacts(const PairSet& pairs, const PairsOptions& options,
     return time_of_impact(a, sweep_a, b, sweep_b, rows, columns, WitnessFrame::world, parallelism);
   });
   if (!times) return times.error();
-  return Tested{results.results(), std::move(*times)};
+  results.mark_meetings();
+  return Tested{std::move(results.contacts), std::move(results.toi), std::move(*times)};
 }
 
 struct ImpactCounts {
@@ -138,25 +141,29 @@ struct PairsReport {
 
 bool has_status(uint8_t status, Status of) { return status == static_cast<uint8_t>(of); }
 
-ImpactCounts count_impacts(const io::PairResults& results) {
+std::span<const uint8_t> statuses(const Tested& tested) {
+  return {tested.results.columns().status, tested.results.count()};
+}
+
+ImpactCounts count_impacts(const Tested& tested) {
   ImpactCounts counts;
-  for (float toi : results.toi) {
+  for (float toi : tested.toi) {
     counts.impacts += meets(toi);
     counts.at_start += toi == 0;
   }
-  for (uint8_t status : results.status) counts.budget += has_status(status, Status::budget);
+  for (uint8_t status : statuses(tested)) counts.budget += has_status(status, Status::budget);
   return counts;
 }
 
 PairsReport summarize(const Tested& tested, const Accuracy& accuracy, const PairsOptions& options) {
-  const io::PairResults& results = tested.results;
-  PairsReport report{results.pairs, accuracy, 0, 0, 0, median(tested.ns_per_pair), {}};
-  for (uint8_t overlap : results.overlap) {
+  const ResultArrays& results = tested.results;
+  PairsReport report{results.count(), accuracy, 0, 0, 0, median(tested.ns_per_pair), {}};
+  for (uint8_t overlap : std::span(results.columns().overlap, results.count())) {
     report.overlaps += overlap == 1;
     report.undecided += overlap == kUndecided;
   }
-  for (uint8_t status : results.status) report.invalid += has_status(status, Status::invalid);
-  if (finds_impacts(options)) report.impacts = count_impacts(results);
+  for (uint8_t status : statuses(tested)) report.invalid += has_status(status, Status::invalid);
+  if (finds_impacts(options)) report.impacts = count_impacts(tested);
   return report;
 }
 
@@ -235,7 +242,9 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
                               ? find_impacts(*set, options, console)
                               : test_pairs(*set, options, *detail, *accuracy, console);
   if (!tested) return tested.error();
-  Result<void> written = io::write_pair_results(options.output, tested->results);
+  const float* toi = finds_impacts(options) ? tested->toi.data() : nullptr;
+  Result<void> written = io::write_pair_results(options.output, set->size(),
+                                                tested->results.columns(), toi);
   if (!written) return written.error();
 
   PairsReport report = summarize(*tested, *accuracy, options);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/reference/reference.h"
+#include "carom/results/result_row.h"
 #include "cli/pairs/impact_arrays.h"
 #include "cli/support/progress.h"
 #include "cli/verify/verify_engines.h"
@@ -27,9 +28,9 @@ constexpr std::array kVariants = {Variant{"times of impact", false, true},
                                   Variant{"times alone", false, false}};
 
 // In body frames the contact's points are arms.
-Impact impact_of(const ImpactArrays::Row& row) {
-  const PairColumns::Row& contact = row.contact;
-  return {.toi = row.toi,
+Impact impact_at(const ImpactArrays& arrays, size_t row) {
+  const ResultRow contact = result_row(arrays.contacts.columns(), row);
+  return {.toi = arrays.toi[row],
           .status = static_cast<Status>(contact.status),
           .separation = contact.separation,
           .normal = Eigen::Vector3f(contact.normal.data()),
@@ -121,7 +122,7 @@ class ImpactVerifier {
     for (size_t i = 0; i < pairs_.size(); ++i) {
       const size_t index = order(variant)[i].a;
       const Impact& want = expected_[index];
-      const Impact got = impact_of(arrays_.row(i));
+      const Impact got = impact_at(arrays_, i);
       if (same_times(want, got) && (!variant.contacts || same_contacts(want, got))) continue;
       row.differs = true;
       difference_ = describe(row.engine, variant, index, got);

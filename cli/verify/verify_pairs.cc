@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "carom/reference/reference.h"
+#include "carom/results/result_row.h"
 #include "cli/support/progress.h"
 #include "cli/verify/exact_decision.h"
 #include "cli/verify/verify_engines.h"
@@ -14,8 +15,6 @@
 
 namespace carom::cli {
 namespace {
-
-using Row = PairColumns::Row;
 
 struct PairVariant {
   const char* name;
@@ -53,14 +52,15 @@ bool same_bits(const T& x, const T& y) {
   return std::memcmp(&x, &y, sizeof(T)) == 0;
 }
 
-bool same_bits(const Row& x, const Row& y) {
-  return x.overlap == y.overlap && x.status == y.status && same_bits(x.separation, y.separation) &&
-         same_bits(x.normal, y.normal) && same_bits(x.point_a, y.point_a) &&
-         same_bits(x.point_b, y.point_b) && x.manifold_count == y.manifold_count &&
-         same_bits(x.manifold, y.manifold) && x.sub_a == y.sub_a && x.sub_b == y.sub_b;
+bool same_bits(const ResultRow& x, const ResultRow& y) {
+  bool same = true;
+  for_each_result(
+      [&](const ColumnInfo&, const auto& a, const auto& b) { same = same && same_bits(a, b); }, x,
+      y);
+  return same;
 }
 
-bool is_invalid(const Row& row) { return row.status == static_cast<uint8_t>(Status::invalid); }
+bool is_invalid(const ResultRow& row) { return row.status == static_cast<uint8_t>(Status::invalid); }
 
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -90,7 +90,7 @@ std::string vector_text(const std::array<float, 3>& v) {
   return text_of(Eigen::Vector3f(v[0], v[1], v[2]));
 }
 
-std::string row_text(const Row& row) {
+std::string row_text(const ResultRow& row) {
   return "overlap " + std::to_string(row.overlap) + " status " + std::to_string(row.status) +
          " separation " + text_of(double{row.separation}) + " normal " + vector_text(row.normal) +
          " point_a " + vector_text(row.point_a) + " point_b " + vector_text(row.point_b) +
@@ -104,9 +104,9 @@ class PairVerifier {
   PairVerifier(System& system, const PairSet& pairs, Progress progress)
       : system_(system),
         pairs_(pairs),
-        overlap_(pairs, Detail::overlap),
-        contact_(pairs, Detail::contact),
-        manifold_(pairs, Detail::manifold),
+        overlap_(results_of(pairs, Detail::overlap)),
+        contact_(results_of(pairs, Detail::contact)),
+        manifold_(results_of(pairs, Detail::manifold)),
         order_(rows_spread_out(pairs.size())) {
     for (size_t i = 0; i < pairs.size(); ++i) {
       progress.update(i);
@@ -124,27 +124,27 @@ class PairVerifier {
       if (!compare(row, variant)) return false;
     }
     row.pairs = pairs_.size();
-    for (const Row& expected : expected_) row.overlaps += expected.overlap;
+    for (const ResultRow& expected : expected_) row.overlaps += expected.overlap;
     return true;
   }
 
   std::optional<Difference> take_difference() { return std::move(difference_); }
 
  private:
-  Row reference_row(size_t index) const {
+  ResultRow reference_row(size_t index) const {
     const reference::PairResult result =
         reference::collide(pairs_.a.shape(index), pairs_.a.pose(index), pairs_.b.shape(index),
                            pairs_.b.pose(index), pairs_.a.positions());
-    return {static_cast<uint8_t>(result.overlap),
-            static_cast<uint8_t>(result.status),
-            result.manifold_count,
-            result.separation,
-            array_of(result.normal),
-            array_of(result.arm_a),
-            array_of(result.arm_b),
-            result.manifold,
-            result.sub_a,
-            result.sub_b};
+    return {.overlap = static_cast<uint8_t>(result.overlap),
+            .status = static_cast<uint8_t>(result.status),
+            .separation = result.separation,
+            .normal = array_of(result.normal),
+            .point_a = array_of(result.arm_a),
+            .point_b = array_of(result.arm_b),
+            .manifold_count = result.manifold_count,
+            .manifold = result.manifold,
+            .sub_a = result.sub_a,
+            .sub_b = result.sub_b};
   }
 
   // Uses exact arithmetic if double precision proves nothing; 0 for invalid pairs.
@@ -162,7 +162,7 @@ class PairVerifier {
   // A proving tier must report the exact decision; the certified tier may report undecided. A proof
   // about bodies with parts ends at the first overlapping part, whose status may differ from the
   // part that the reference reports.
-  bool is_as_promised(const Row& want, const Row& got, Tier tier) const {
+  bool is_as_promised(const ResultRow& want, const ResultRow& got, Tier tier) const {
     if (same_bits(want, got)) return true;
     if (!has_proofs(tier) || is_invalid(want) || is_invalid(got)) return false;
     const bool abstains = tier == Tier::certified && got.overlap == kUndecided;
@@ -171,10 +171,12 @@ class PairVerifier {
   }
 
   // The reference's result of a pair in the form that a variant gives.
-  Row expected(size_t index, const PairVariant& variant) const {
-    Row row = expected_[index];
+  ResultRow expected(size_t index, const PairVariant& variant) const {
+    ResultRow row = expected_[index];
     if (has_proofs(variant.tier)) row.overlap = exact_[index];
-    if (variant.detail == Detail::overlap) return {row.overlap, row.status, 0, 0, {}, {}, {}, {}};
+    if (variant.detail == Detail::overlap) {
+      return {.overlap = row.overlap, .status = row.status};
+    }
     if (variant.detail == Detail::contact) {
       row.manifold_count = 0;
       row.manifold = {};
@@ -188,15 +190,15 @@ class PairVerifier {
     return row;
   }
 
-  PairColumns& columns(const PairVariant& variant) {
-    if (variant.detail == Detail::overlap) return overlap_;
-    return variant.detail == Detail::contact ? contact_ : manifold_;
+  const ResultColumns& columns(const PairVariant& variant) const {
+    if (variant.detail == Detail::overlap) return overlap_.columns();
+    return (variant.detail == Detail::contact ? contact_ : manifold_).columns();
   }
 
   Result<void> test(const Engine& engine, const PairVariant& variant) {
     Collidables a = pairs_.a.view();
     Collidables b = pairs_.b.view();
-    ResultColumns out = columns(variant).columns();
+    const ResultColumns& out = columns(variant);
     Parallelism parallelism = engine.arena->parallelism();
     Result<void> done;
     engine.arena->run([&] {
@@ -211,8 +213,8 @@ class PairVerifier {
   bool compare(VerifyRow& row, const PairVariant& variant) {
     for (size_t i = 0; i < pairs_.size(); ++i) {
       size_t index = variant.shuffled ? order_[i].a : i;
-      Row want = expected(index, variant);
-      Row got = columns(variant).row(i);
+      ResultRow want = expected(index, variant);
+      ResultRow got = result_row(columns(variant), i);
       if (is_as_promised(want, got, variant.tier)) continue;
       row.differs = true;
       difference_ = describe(row.engine, variant, index, want, got);
@@ -222,7 +224,7 @@ class PairVerifier {
   }
 
   Difference describe(const Engine& engine, const PairVariant& variant, size_t index,
-                      const Row& want, const Row& got) const {
+                      const ResultRow& want, const ResultRow& got) const {
     PositionType positions = pairs_.a.positions();
     std::string text;
     text += "  a: " + text_of(pairs_.a.shape(index), pairs_.a.pose(index), positions) + '\n';
@@ -236,11 +238,11 @@ class PairVerifier {
 
   System& system_;
   const PairSet& pairs_;
-  PairColumns overlap_;
-  PairColumns contact_;
-  PairColumns manifold_;
+  ResultArrays overlap_;
+  ResultArrays contact_;
+  ResultArrays manifold_;
   std::vector<Pair> order_;
-  std::vector<Row> expected_;
+  std::vector<ResultRow> expected_;
   std::vector<uint8_t> exact_;
   uint64_t runs_ = 0;
   std::optional<Difference> difference_;

@@ -104,7 +104,7 @@ struct BatchLoop {
     for (size_t row = 0; !is_done && row < whole; row += kLanes) {
       run_vector(local, batch, row, Listed{local.pairs + row});
     }
-    if (whole < batch.count) run_tail(batch, whole);
+    if (whole < batch.count) run_tail(batch, whole, &run);
   }
 
  private:
@@ -130,7 +130,9 @@ struct BatchLoop {
     // not change.
     const bool is_odd = !hn::AllTrue(FloatTag(), plain);
     if (HWY_UNLIKELY(is_odd)) {
-      valid = valid_lanes(source, row);
+      Mask found = plain;  // `valid` itself stays in a register
+      find_valid({source, A::kKind, B::kKind, row}, found);
+      valid = found;
       clear_unless(valid, positions, pose, a, b);
     }
     const F up = to_units<Kernel::kUnits>(pose, a, b);
@@ -151,41 +153,6 @@ struct BatchLoop {
       positions.a_low = zero_unless(valid, positions.a_low);
       positions.b_low = zero_unless(valid, positions.b_low);
     }
-  }
-
-  // Runs the last rows as a batch of one whole vector, filled up by repeating the last pair.
-  static HWY_NOINLINE void run_tail(const Batch& batch, size_t first_row) {
-    const size_t count = batch.count - first_row;
-    Pair pairs[kLanes];
-    for (size_t i = 0; i < kLanes; ++i) {
-      pairs[i] = batch.pairs[first_row + (i < count ? i : count - 1)];
-    }
-    TailColumns results;
-    uint8_t unsure[kLanes] = {};
-    uint64_t features[kLanes] = {};
-    for (size_t i = 0; batch.features && i < count; ++i)
-      features[i] = batch.features[first_row + i];
-    Batch tail = batch;
-    tail.unsure = batch.unsure ? unsure : nullptr;
-    tail.features = batch.features ? features : nullptr;
-    tail.open = nullptr;
-    tail.pairs = pairs;
-    tail.pairs_are_rows = false;
-    tail.count = kLanes;
-    tail.out = results.columns();
-    run(tail);
-    results.copy_to(batch.out, first_row, count, batch.detail);
-    for (size_t i = 0; batch.unsure && i < count; ++i) batch.unsure[first_row + i] = unsure[i];
-    for (size_t i = 0; batch.features && i < count; ++i)
-      batch.features[first_row + i] = features[i];
-  }
-
-  static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {
-    HWY_ALIGN float flags[kLanes];
-    for (size_t i = 0; i < kLanes; ++i) {
-      flags[i] = is_valid_pair(batch, A::kKind, B::kKind, row + i) ? 1.0f : 0.0f;
-    }
-    return hn::Gt(hn::Load(FloatTag(), flags), hn::Zero(FloatTag()));
   }
 };
 

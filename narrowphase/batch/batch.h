@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "carom/results/contact.h"
 #include "carom/results/pair.h"
+#include "carom/results/result_columns.h"
 #include "carom/shapes/views.h"
 
 namespace carom {

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "narrowphase/batch/batch.h"
-#include "narrowphase/batch/scratch_columns.h"
+#include "narrowphase/batch/column_memory.h"
 
 namespace carom {
 
@@ -61,17 +61,9 @@ class RowSelection {
   void scatter(const T* from, T* to) const {
     for (size_t i = 0; i < count_; ++i) to[rows_[i]] = from[i];
   }
-  // Copies the columns that the detail has.
+  // Copies the columns that both have and the detail fills.
   void scatter(const ResultColumns& from, const ResultColumns& to, Detail detail) const {
-    scatter(from.overlap, to.overlap);
-    scatter(from.status, to.status);
-    if (!has_contacts(detail)) return;
-    scatter(from.separation, to.separation);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      scatter(from.normal[axis], to.normal[axis]);
-      scatter(from.point_a[axis], to.point_a[axis]);
-      scatter(from.point_b[axis], to.point_b[axis]);
-    }
+    copy_rows(from, to, detail, count_, [rows = rows()](size_t i) { return rows[i]; });
   }
 
  private:

@@ -66,18 +66,6 @@ constexpr auto kRowPairs = [] {
   return pairs;
 }();
 
-// Whether `out` has every column that the detail fills.
-bool is_complete(const ResultColumns& out, Detail detail) {
-  if (!out.overlap || !out.status) return false;
-  if (detail == Detail::overlap) return true;
-  bool complete = out.separation != nullptr;
-  if (detail == Detail::manifold) complete = complete && out.manifold_count && out.manifold;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    complete = complete && out.normal[axis] && out.point_a[axis] && out.point_b[axis];
-  }
-  return complete;
-}
-
 // Bodies copied out of a layout that kernels cannot read.
 template <class T>
 struct PackedSide {
@@ -194,11 +182,11 @@ class BlockRunner {
     Batch part = batch(kind);
     part.pairs = pairs_.data();
     part.count = count;
-    part.out = scratch();
+    part.out = as_asked(memory_.columns(), block_.out);
     uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
     for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
     for (size_t i = 0; part.out.features && i < count; ++i) {
-      features_[i] = block_.out.features[rows_[i]];
+      part.out.features[i] = block_.out.features[rows_[i]];
     }
     if (layout_) {
       run_passes(kPairKinds[kind.index], part, block_.measured, direction, block_.accuracy);
@@ -207,8 +195,8 @@ class BlockRunner {
     } else {
       run_packed<float>(kind, part, PositionLayout::records32);
     }
-    scatter(kind, count);
-    if (direction) copy(direction, block_.direction, count);
+    scatter(kind, part.out, count);
+    for (size_t i = 0; direction && i < count; ++i) block_.direction[rows_[i]] = direction[i];
   }
 
   template <class T>
@@ -227,35 +215,13 @@ class BlockRunner {
     run_passes(kPairKinds[kind.index], part, block_.measured, nullptr, block_.accuracy);
   }
 
-  ResultColumns scratch() {
-    ResultColumns columns = scratch_.columns();
-    columns.manifold_count = manifold_count_.data();
-    columns.manifold = manifold_.data();
-    if (block_.out.separation_bound) columns.separation_bound = separation_bound_.data();
-    if (block_.out.features) columns.features = features_.data();
-    return columns;
-  }
-
   // Copies results to the rows of the block, and exchanges the sides of flipped pairs.
-  void scatter(PairKindRef kind, size_t count) {
-    ResultColumns from = scratch();
-    const ResultColumns& to = block_.out;
-    copy(from.overlap, to.overlap, count);
-    copy(from.status, to.status, count);
-    copy(from.separation_bound, to.separation_bound, count);
-    copy(from.features, to.features, count);
-    if (!has_contacts(block_.detail)) return;
-    if (kind.flipped) flip(from, count);
-    move_points(from, count, [this](size_t i) { return pair(rows_[i]); });
-    copy(from.separation, to.separation, count);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      copy(from.normal[axis], to.normal[axis], count);
-      copy(from.point_a[axis], to.point_a[axis], count);
-      copy(from.point_b[axis], to.point_b[axis], count);
+  void scatter(PairKindRef kind, ResultColumns from, size_t count) {
+    if (has_contacts(block_.detail)) {
+      if (kind.flipped) flip(from, count);
+      move_points(from, count, [this](size_t i) { return pair(rows_[i]); });
     }
-    if (block_.detail != Detail::manifold) return;
-    copy(from.manifold_count, to.manifold_count, count);
-    copy(from.manifold, to.manifold, count);
+    copy_rows(from, block_.out, block_.detail, count, [this](size_t i) { return rows_[i]; });
   }
 
   void flip(ResultColumns& columns, size_t count) const {
@@ -323,12 +289,6 @@ class BlockRunner {
     for (size_t axis = 0; axis < 3; ++axis) columns[axis][i] = moved[axis];
   }
 
-  template <class T>
-  void copy(const T* from, T* to, size_t count) const {
-    if (!to) return;
-    for (size_t i = 0; i < count; ++i) to[rows_[i]] = from[i];
-  }
-
   // A NaN (no answer) keeps its bits.
   static void negate(float* column, size_t count) {
     for (size_t i = 0; i < count; ++i) {
@@ -342,27 +302,12 @@ class BlockRunner {
   std::array<uint8_t, kPairsPerBlock> slots_;
   std::array<uint16_t, kPairsPerBlock> rows_;
   std::array<Pair, kPairsPerBlock> pairs_;
-  ScratchColumns scratch_;
-  std::array<uint8_t, kPairsPerBlock> manifold_count_;
-  std::array<ManifoldPoints, kPairsPerBlock> manifold_;
-  std::array<float, kPairsPerBlock> separation_bound_;
   std::array<uint32_t, kPairsPerBlock> directions_;
-  std::array<uint64_t, kPairsPerBlock> features_;
+  BlockColumns memory_;
 };
 
 }  // namespace
 
 void run_pair_block(const PairBlock& block) { BlockRunner(block).run(); }
-
-ResultColumns from_row(const ResultColumns& columns, size_t row) {
-  const auto shift = [row](auto* column) { return column ? column + row : nullptr; };
-  const auto shift3 = [&shift](const std::array<float*, 3>& c) -> std::array<float*, 3> {
-    return {shift(c[0]), shift(c[1]), shift(c[2])};
-  };
-  return {shift(columns.overlap),        shift(columns.status),   shift(columns.separation),
-          shift3(columns.normal),        shift3(columns.point_a), shift3(columns.point_b),
-          shift(columns.manifold_count), shift(columns.manifold), shift(columns.separation_bound),
-          shift(columns.sub_a),          shift(columns.sub_b),    shift(columns.features)};
-}
 
 }  // namespace carom

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "carom/results/contact.h"
 #include "carom/results/pair.h"
+#include "carom/results/result_columns.h"
 #include "carom/shapes/views.h"
 #include "narrowphase/blocks/passes.h"
 
@@ -26,8 +26,5 @@ struct PairBlock {
 
 // Every pair of kinds in the block must have a kernel.
 void run_pair_block(const PairBlock& block);
-
-// The columns from row `row` on.
-ResultColumns from_row(const ResultColumns& columns, size_t row);
 
 }  // namespace carom

@@ -26,7 +26,7 @@ void run_distances(const PairKind& kind, const Batch& batch, bool of_invalid_pai
     return !batch.out.overlap[row] && (of_invalid_pairs || !is_invalid(batch, row));
   });
   if (separate.count() == 0) return;
-  ScratchColumns scratch;
+  TestColumns scratch;
   Batch distances = separate.batch(Pass::distance);
   distances.out = scratch.columns();
   kind.run(distances);
@@ -72,7 +72,7 @@ void run_recall(const PairKind& kind, const Batch& batch, bool finds_depths, Row
     return batch.features[row] != kNoFeatures && feature_count(batch.features[row]) <= most;
   });
   if (known.count() == 0) return;
-  ScratchColumns scratch;
+  TestColumns scratch;
   std::array<uint64_t, kPairsPerBlock> features;
   RowFlags unsure{};
   known.gather(batch.features, features.data());
@@ -91,7 +91,7 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
   tested.select([&](size_t row) { return open[row] != 0; });
   if (tested.count() == batch.count) return kind.run(batch);
   if (tested.count() == 0) return;
-  ScratchColumns scratch;
+  TestColumns scratch;
   RowFlags unsure{};
   std::array<uint64_t, kPairsPerBlock> features;
   Batch test = tested.batch(batch.pass);
@@ -137,7 +137,7 @@ void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pa
   RowSelection overlapping(batch);
   overlapping.select([&](size_t row) { return overlaps(batch, row); });
   if (overlapping.count() == 0) return;
-  ScratchColumns contacts;
+  TestColumns contacts;
   Batch manifolds = overlapping.batch(Pass::manifold);
   manifolds.tested = contacts.columns();
   manifolds.manifold_row = overlapping.rows();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "carom/results/tier.h"
-#include "narrowphase/batch/scratch_columns.h"
+#include "narrowphase/batch/column_memory.h"
 #include "narrowphase/pairs/pair_kinds.h"
 
 namespace carom {

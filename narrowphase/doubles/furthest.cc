@@ -28,7 +28,7 @@ HWY_INLINE size_t best_of(Heights most, Heights first) {
   return static_cast<size_t>(hn::GetLane(hn::MinOfLanes(tag, candidates)));
 }
 
-size_t furthest_point(const Core& core, const CoreVector& way) {
+size_t furthest_in_lanes(const Core& core, const CoreVector& way) {
   const Tag tag;
   const Heights x = hn::Set(tag, way.x), y = hn::Set(tag, way.y), z = hn::Set(tag, way.z);
   Heights most = hn::Set(tag, -HUGE_VAL);
@@ -57,11 +57,11 @@ HWY_AFTER_NAMESPACE();
 namespace carom {
 namespace {
 
-HWY_EXPORT(furthest_point);
+HWY_EXPORT(furthest_in_lanes);
 
 }  // namespace
 
-FurthestPoint furthest_point_in_lanes() { return &CAROM_DISPATCH(furthest_point); }
+FurthestPoint furthest_point_in_lanes() { return &CAROM_DISPATCH(furthest_in_lanes); }
 
 }  // namespace carom
 #endif  // HWY_ONCE

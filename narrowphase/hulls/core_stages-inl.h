@@ -25,7 +25,7 @@ void run_rest(const Batch& batch, OpenSearches& open) {
   for (auto& column : open.column) {
     for (size_t i = open.count; i < left.padded_count(); ++i) column[i] = column[open.count - 1];
   }
-  ScratchColumns scratch;
+  TestColumns scratch;
   std::array<uint8_t, kPairsPerBlock> unsure{};
   std::array<uint64_t, kPairsPerBlock> features;
   Batch rest = left.batch(batch.pass);

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "narrowphase/batch/batch.h"
-#include "narrowphase/batch/scratch_columns.h"
+#include "narrowphase/batch/column_memory.h"
 
 namespace carom {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "narrowphase/batch/row_store.h"
-#include "narrowphase/batch/scratch_columns.h"
+#include "narrowphase/batch/column_memory.h"
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/stated_body.h"
 #include "narrowphase/doubles/furthest.h"

@@ -1,7 +1,9 @@
 #include "io/pairs_file.h"
 
+
 #include <cmath>
 
+#include "carom/results/result_arrays.h"
 #include "tests/io/io_test_util.h"
 #include "tests/support/special_floats.h"
 
@@ -103,33 +105,44 @@ TEST_F(PairsTest, WrongArraysAreNamed) {
 }
 
 TEST_F(PairsTest, ResultsHoldWhatIsGiven) {
-  PairResults results;
-  results.pairs = 2;
-  results.overlap = {1, 2};
-  results.separation = {-1, kNan};
-  results.manifold_point.resize(2);
-  results.manifold_point[1][11] = 5;
-  results.status = {0, 3};
-  ASSERT_TRUE(succeeds(write_pair_results(path("r.npz"), results)));
+  ResultArrays results(2, Detail::manifold, {ColumnRole::sub_shape});
+  const ResultColumns& columns = results.columns();
+  columns.overlap[0] = 1;
+  columns.separation[1] = kNan;
+  columns.normal[2][1] = 3;
+  columns.status[1] = 3;
+  columns.manifold_count[1] = 2;
+  columns.manifold[1].point[1] = {1, 2, 5};
+  columns.manifold[1].separation[1] = -4;
+  columns.sub_b[1] = 7;
+  const std::vector<float> toi = {0.5f, 1};
+  ASSERT_TRUE(succeeds(write_pair_results(path("r.npz"), 2, columns, toi.data())));
   const auto reader = NpzReader::open(path("r.npz"));
   ASSERT_TRUE(succeeds(reader));
   EXPECT_EQ(reader->members(),
-            (std::vector<std::string>{"overlap", "separation", "manifold_point", "status"}));
-  EXPECT_EQ(*reader->read<uint8_t>("overlap", {2}), results.overlap);
-  EXPECT_EQ(raw(*reader->read<float>("separation", {2})), raw(results.separation));
-  EXPECT_EQ(reader->read<float>("manifold_point", {2, 4, 3})->back(), 5);
+            (std::vector<std::string>{"overlap", "status", "separation", "normal", "point_a",
+                                      "point_b", "manifold_count", "manifold_point",
+                                      "manifold_separation", "sub_a", "sub_b", "toi"}));
+  EXPECT_EQ(*reader->read<uint8_t>("overlap", {2}), (std::vector<uint8_t>{1, 0}));
+  EXPECT_EQ(*reader->read<uint8_t>("status", {2}), (std::vector<uint8_t>{0, 3}));
+  EXPECT_EQ(raw(*reader->read<float>("separation", {2})), raw(std::vector<float>{0, kNan}));
+  EXPECT_EQ(reader->read<float>("normal", {2, 3})->back(), 3);
+  const std::vector<float> points = *reader->read<float>("manifold_point", {2, 4, 3});
+  EXPECT_TRUE(std::isnan(points[0]));
+  EXPECT_EQ(points[12 + 5], 5);
+  EXPECT_TRUE(std::isnan(points.back()));
+  EXPECT_EQ((*reader->read<float>("manifold_separation", {2, 4}))[5], -4);
+  EXPECT_EQ(*reader->read<uint32_t>("sub_b", {2}), (std::vector<uint32_t>{0, 7}));
+  EXPECT_EQ(*reader->read<float>("toi", {2}), toi);
 }
 
-TEST_F(PairsTest, ResultsOfTheWrongSizeLeaveNothing) {
-  PairResults results;
-  results.pairs = 2;
-  results.overlap = {1};
-  EXPECT_EQ(message_of(write_pair_results(path("r.npz"), results)),
-            path("r.npz") + ": member overlap: holds 1 elements (2 were expected)");
-  results.overlap = {1, 1};
-  EXPECT_THAT(message_of(write_pair_results(path("none/r.npz"), results)),
+TEST_F(PairsTest, ColumnsThatAreNotThereAreNotInTheFile) {
+  ResultArrays results(2, Detail::overlap);
+  ASSERT_TRUE(succeeds(write_pair_results(path("r.npz"), 2, results.columns())));
+  EXPECT_EQ(NpzReader::open(path("r.npz"))->members(),
+            (std::vector<std::string>{"overlap", "status"}));
+  EXPECT_THAT(message_of(write_pair_results(path("none/r.npz"), 2, results.columns())),
               HasSubstr("none/r.npz: cannot be created"));
-  EXPECT_TRUE(entries().empty());
 }
 
 TEST_F(PairsTest, NoPairsAreAFileToo) {
@@ -138,7 +151,8 @@ TEST_F(PairsTest, NoPairsAreAFileToo) {
   const auto pairs = read_pairs(path("p.npz"));
   ASSERT_TRUE(succeeds(pairs));
   EXPECT_EQ(pairs->pairs, 0u);
-  EXPECT_TRUE(succeeds(write_pair_results(path("r.npz"), {})));
+  EXPECT_TRUE(succeeds(
+      write_pair_results(path("r.npz"), 0, ResultArrays(0, Detail::manifold).columns())));
 }
 
 }  // namespace

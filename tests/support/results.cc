@@ -2,7 +2,39 @@
 
 namespace carom::test {
 
-bool same_bits(const Row& x, const Row& y) { return std::memcmp(&x, &y, sizeof x) == 0; }
+namespace {
+
+// Visits the columns that every caller has to have, with their numbers.
+template <class Visit, class... Columns>
+void for_each_needed(const Visit& visit, Columns&&... columns) {
+  int number = 0;
+  for_each_column(
+      [&](const ColumnInfo& info, auto&... column) {
+        if (!is_optional(info.role)) visit(number++, column...);
+      },
+      columns...);
+}
+
+// A row of which nothing is written.
+Row untouched_row() {
+  Row row;
+  for_each_needed(
+      [](int, auto& field) { std::memset(static_cast<void*>(&field), kUntouched, sizeof field); },
+      row);
+  return row;
+}
+
+}  // namespace
+
+bool same_bits(const Row& x, const Row& y) {
+  bool same = true;
+  for_each_column(
+      [&](const ColumnInfo&, const auto& a, const auto& b) {
+        same = same && std::memcmp(&a, &b, sizeof a) == 0;
+      },
+      x, y);
+  return same;
+}
 
 std::string show(const ManifoldPoints& manifold) {
   std::string text;
@@ -28,9 +60,7 @@ float world_coordinate(double position, float arm, PositionType positions) {
 
 Row row_of(const reference::PairResult& result, const TestPair& pair, PositionType positions,
            Detail detail, WitnessFrame frame) {
-  Row row;
-  std::memset(static_cast<void*>(&row), kUntouched, sizeof row);
-  row.unused = 0;
+  Row row = untouched_row();
   if (detail == Detail::pairs) return row;
   row.overlap = result.overlap ? 1 : 0;
   row.status = static_cast<uint8_t>(result.status);
@@ -57,30 +87,26 @@ Row expected_row(const TestPair& pair, PositionType positions, Detail detail, Wi
 }
 
 Columns::Columns(size_t count, unsigned missing) : count_(count), missing_(missing) {
-  for (const size_t size : kSizes) columns_.emplace_back(count, size, size);
+  for_each_needed(
+      [&]<class T>(int, T*) { columns_.emplace_back(count, sizeof(T), sizeof(T)); },
+      ResultColumns());
 }
 
 ResultColumns Columns::out() {
-  const auto floats = [&](int column) { return is_missing(column) ? nullptr : at<float>(column); };
   ResultColumns out;
-  out.overlap = is_missing(0) ? nullptr : at<uint8_t>(0);
-  out.status = is_missing(1) ? nullptr : at<uint8_t>(1);
-  out.separation = floats(2);
-  for (int i = 0; i < 3; ++i) {
-    out.normal[i] = floats(3 + i);
-    out.point_a[i] = floats(6 + i);
-    out.point_b[i] = floats(9 + i);
-  }
-  out.manifold_count = is_missing(12) ? nullptr : at<uint8_t>(12);
-  out.manifold = is_missing(13) ? nullptr : at<ManifoldPoints>(13);
+  for_each_needed(
+      [&]<class T>(int number, T*& column) {
+        if ((missing_ >> number & 1) == 0) column = columns_[number].as<T>();
+      },
+      out);
   return out;
 }
 
 Row Columns::row(size_t i) const {
-  Row row{};
-  for (int column = 0; column < kColumns; ++column) {
-    columns_[column].copy(i, reinterpret_cast<char*>(&row) + kOffsets[column]);
-  }
+  Row row;
+  for_each_needed(
+      [&](int number, auto& field) { columns_[number].copy(i, reinterpret_cast<char*>(&field)); },
+      row);
   return row;
 }
 
@@ -91,11 +117,11 @@ std::vector<Row> Columns::rows() const {
 }
 
 void forget_columns(Row& row, unsigned missing) {
-  for (int column = 0; column < Columns::kColumns; ++column) {
-    if ((missing >> column & 1) == 0) continue;
-    std::memset(reinterpret_cast<char*>(&row) + Columns::kOffsets[column], kUntouched,
-                Columns::kSizes[column]);
-  }
+  for_each_needed(
+      [missing](int number, auto& field) {
+        if (missing >> number & 1) std::memset(static_cast<void*>(&field), kUntouched, sizeof field);
+      },
+      row);
 }
 
 testing::AssertionResult same_rows(std::span<const Row> expected, std::span<const Row> actual,

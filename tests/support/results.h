@@ -11,25 +11,15 @@
 #include <vector>
 
 #include "carom/narrowphase/collide.h"
+#include "carom/results/result_row.h"
 #include "tests/support/guarded.h"
 #include "tests/support/pairs.h"
 #include "tests/support/show.h"
 
 namespace carom::test {
 
-// One row of ResultColumns; fields that are not written hold kUntouched in every byte.
-struct Row {
-  uint8_t overlap;
-  uint8_t status;
-  uint8_t manifold_count;
-  uint8_t unused;
-  float separation;
-  std::array<float, 3> normal;
-  std::array<float, 3> point_a;
-  std::array<float, 3> point_b;
-  ManifoldPoints manifold;
-};
-static_assert(sizeof(Row) == 108);
+// A row whose columns were not written holds kUntouched in every byte of their fields.
+using Row = ResultRow;
 
 inline constexpr int kUntouched = 0xa5;
 
@@ -61,15 +51,13 @@ Row row_of(const reference::PairResult& result, const TestPair& pair, PositionTy
 // The row of the reference for this pair.
 Row expected_row(const TestPair& pair, PositionType positions, Detail detail, WitnessFrame frame);
 
-// Guarded columns for `count` results; bit c of `missing` leaves column c out.
+// Guarded columns for `count` results, those that every caller has to have; bit c of `missing`
+// leaves column c out.
 class Columns {
  public:
   explicit Columns(size_t count, unsigned missing = 0);
 
   static constexpr int kColumns = 14;
-  // Sizes of the elements of each column, and their offsets in a Row.
-  static constexpr size_t kSizes[kColumns] = {1, 1, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 1, 64};
-  static constexpr size_t kOffsets[kColumns] = {0, 1, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 2, 44};
 
   ResultColumns out();
 
@@ -78,13 +66,6 @@ class Columns {
   std::vector<Row> rows() const;
 
  private:
-  bool is_missing(int column) const { return missing_ >> column & 1; }
-
-  template <class T>
-  T* at(int column) {
-    return columns_[column].as<T>();
-  }
-
   size_t count_;
   unsigned missing_;
   std::vector<GuardedArray> columns_;

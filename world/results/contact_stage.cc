@@ -10,76 +10,46 @@
 namespace carom {
 namespace {
 
-constexpr size_t kContactFloats = 10;
+Eigen::Vector3f vector_at(const std::array<float*, 3>& columns, size_t row) {
+  return {columns[0][row], columns[1][row], columns[2][row]};
+}
 
 }  // namespace
 
-ResultColumns ResultBuffer::prepare(size_t pairs, Detail detail, bool sub_shapes) {
-  rows_ = pairs;
-  overlap_.resize(pairs + 1);
-  overlap_.back() = 0;
-  status_.resize(pairs);
-  if (detail == Detail::overlap) return {.overlap = overlap_.data(), .status = status_.data()};
-  floats_.resize(pairs * kContactFloats);
-  ResultColumns columns = {.overlap = overlap_.data(),
-                           .status = status_.data(),
-                           .separation = column(0),
-                           .normal = {column(1), column(2), column(3)},
-                           .point_a = {column(4), column(5), column(6)},
-                           .point_b = {column(7), column(8), column(9)}};
-  sub_shape_.resize(sub_shapes ? 2 * pairs : 0);
+const ResultColumns& ResultBuffer::prepare(size_t pairs, Detail detail, bool sub_shapes) {
+  pairs_ = pairs;
   if (sub_shapes) {
-    columns.sub_a = sub_shape_.data();
-    columns.sub_b = sub_shape_.data() + pairs;
+    arrays_.resize(pairs + 1, detail, {ColumnRole::sub_shape});
+  } else {
+    arrays_.resize(pairs + 1, detail);
   }
-  if (detail != Detail::manifold) return columns;
-  manifold_count_.resize(pairs);
-  manifold_.resize(pairs);
-  columns.manifold_count = manifold_count_.data();
-  columns.manifold = manifold_.data();
-  return columns;
+  columns().overlap[pairs] = 0;
+  return columns();
 }
 
 void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
                                 Parallelism parallelism) {
-  for_each_block(rows_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+  uint8_t* const overlap = columns().overlap;
+  for_each_block(pairs_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      if (overlap_[i] && !bounds.meet(pairs[i])) overlap_[i] = 0;
+      if (overlap[i] && !bounds.meet(pairs[i])) overlap[i] = 0;
     }
   });
 }
 
-Eigen::Vector3f ResultBuffer::vector(size_t column, size_t row) const {
-  const float* first = floats_.data() + column * rows_ + row;
-  return {first[0], first[rows_], first[2 * rows_]};
-}
-
 Contact ResultBuffer::contact(size_t row, Pair pair) const {
+  const ResultColumns& c = columns();
   return {.a = pair.a,
           .b = pair.b,
-          .sub_a = sub_shape_.empty() ? 0 : sub_shape_[row],
-          .sub_b = sub_shape_.empty() ? 0 : sub_shape_[rows_ + row],
-          .normal = vector(1, row),
-          .separation = floats_[row],
-          .arm_a = vector(4, row),
+          .sub_a = c.sub_a ? c.sub_a[row] : 0,
+          .sub_b = c.sub_b ? c.sub_b[row] : 0,
+          .normal = vector_at(c.normal, row),
+          .separation = c.separation[row],
+          .arm_a = vector_at(c.point_a, row),
           .normal_velocity = 0,
-          .arm_b = vector(7, row),
-          .status = static_cast<Status>(status_[row]),
-          .manifold_count = manifold_count_.empty() ? uint8_t{0} : manifold_count_[row]};
-}
-
-void ResultBuffer::give_back_beyond(size_t pairs) {
-  give_back_scratch(overlap_, pairs);
-  give_back_scratch(status_, pairs);
-  give_back_scratch(floats_, kContactFloats * pairs);
-  give_back_scratch(sub_shape_, sub_shape_.empty() ? 0 : 2 * pairs);
-  give_back_scratch(manifold_count_, pairs);
-  give_back_scratch(manifold_, pairs);
-}
-
-size_t ResultBuffer::bytes() const {
-  return bytes_of(overlap_) + bytes_of(status_) + bytes_of(floats_) + bytes_of(sub_shape_) +
-         bytes_of(manifold_count_) + bytes_of(manifold_);
+          .arm_b = vector_at(c.point_b, row),
+          .status = static_cast<Status>(c.status[row]),
+          .manifold_count = c.manifold_count ? c.manifold_count[row] : uint8_t{0}};
 }
 
 void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,

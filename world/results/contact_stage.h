@@ -6,6 +6,7 @@
 
 #include "carom/base/parallelism.h"
 #include "carom/results/contact.h"
+#include "carom/results/result_arrays.h"
 #include "world/motion/present_bounds.h"
 #include "world/pairs/pair_history.h"
 #include "world/store/body_store.h"
@@ -18,30 +19,25 @@ class ResultBuffer {
   // Makes room for `pairs` results in the columns that the detail fills; with columns for
   // sub-shapes if `sub_shapes`. An extra row after them does not overlap; it serves pairs that need
   // no test.
-  ResultColumns prepare(size_t pairs, Detail detail, bool sub_shapes);
+  const ResultColumns& prepare(size_t pairs, Detail detail, bool sub_shapes);
 
   // Bounds are exact, tests round. So pairs with separate bounds do not overlap, even if the
   // rounded result of the test says that they touch.
   void reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
                     Parallelism parallelism);
 
-  uint8_t overlap(size_t row) const { return overlap_[row]; }
+  uint8_t overlap(size_t row) const { return columns().overlap[row]; }
   Contact contact(size_t row, Pair pair) const;
-  const ManifoldPoints& manifold(size_t row) const { return manifold_[row]; }
+  const ManifoldPoints& manifold(size_t row) const { return columns().manifold[row]; }
 
-  void give_back_beyond(size_t pairs);
-  size_t bytes() const;
+  void give_back_beyond(size_t pairs) { arrays_.give_back_beyond(pairs); }
+  size_t bytes() const { return arrays_.bytes(); }
 
  private:
-  float* column(size_t i) { return floats_.data() + i * rows_; }
-  Eigen::Vector3f vector(size_t column, size_t row) const;
+  const ResultColumns& columns() const { return arrays_.columns(); }
 
-  size_t rows_ = 0;
-  std::vector<uint8_t> overlap_, status_;
-  std::vector<float> floats_;        // ten columns: separation, normal, arm_a, arm_b
-  std::vector<uint32_t> sub_shape_;  // two columns: of A, of B; empty without sub-shapes
-  std::vector<uint8_t> manifold_count_;
-  std::vector<ManifoldPoints> manifold_;
+  size_t pairs_ = 0;
+  ResultArrays arrays_;
 };
 
 // Fills overlaps, contact indices, contacts and manifolds of `now`.

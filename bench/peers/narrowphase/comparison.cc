@@ -55,10 +55,10 @@ void compare_decisions(const MeshStream& stream, std::span<const uint8_t> bullet
 // Why Carom's results differ from its reference; empty if they do not.
 template <class Stream>
 std::string difference(const Stream& stream, Detail detail) {
-  ResultArrays results(stream.spec().count);
+  ResultArrays results(stream.spec().count, Detail::manifold);
   for (const Isa isa : usable_isas()) {
     force_isa(isa);
-    results.spoil();
+    spoil(results);
     if (const Result<void> done = stream.run(detail, results.columns()); !done) {
       return done.error().message;
     }
@@ -74,7 +74,7 @@ std::string difference(const Stream& stream, Detail detail) {
 std::string difference_again(const PairStream& stream, const PeerStreamSpec& spec) {
   const size_t count = stream.spec().count;
   std::vector<uint64_t> features(count);
-  ResultArrays arrays(count), cold_arrays(count);
+  ResultArrays arrays(count, Detail::manifold), cold_arrays(count, Detail::manifold);
   ResultColumns warm = arrays.columns();
   const ResultColumns& cold = cold_arrays.columns();
   warm.features = features.data();
@@ -181,7 +181,7 @@ std::vector<RunnerResult> time_in_turns(std::vector<TimedRunner> runners, double
 template <class Stream>
 std::vector<RunnerResult> time_in_turns(const Stream& stream, const PeerStreamSpec& spec,
                                         PairPeer& bullet, double budget) {
-  ResultArrays results(stream.spec().count);
+  ResultArrays results(stream.spec().count, Detail::manifold);
   std::vector<uint8_t> overlaps(stream.spec().count);
   std::vector<TimedRunner> runners;
   runners.emplace_back("bullet", [&] { bullet.run(overlaps); });

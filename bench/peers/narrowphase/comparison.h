@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "carom/results/contact.h"
+#include "carom/results/result_columns.h"
 #include "carom/shapes/shape.h"
 
 namespace carom::bench {

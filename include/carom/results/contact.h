@@ -1,5 +1,5 @@
 /// @file
-/// Results of the narrow phase: contacts, manifolds, and the columns that stateless calls write to.
+/// Results of the narrow phase: contacts and manifolds.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +18,12 @@ enum class Detail : uint8_t {
 
 /// Whether results at this detail include contacts.
 constexpr bool has_contacts(Detail detail) { return detail >= Detail::contact; }
+
+/// The frame of the witness points that stateless calls write.
+enum class WitnessFrame : uint8_t {
+  world,  ///< world coordinates, rounded to float32; NaN beyond its range
+  body,   ///< relative to the body's own position, world axes: exact far from the origin, too
+};
 
 /// How a result came about.
 enum class Status : uint8_t {
@@ -61,51 +67,5 @@ struct ManifoldPoints {
   std::array<float, 4> separation;
 };
 static_assert(sizeof(ManifoldPoints) == 64);
-
-/// Where stateless calls write: dense columns with one entry a pair; a column that is nullptr is
-/// not written. A pair without an answer gets overlap 0, Status::invalid and NaN elsewhere. Names
-/// and signs are those of Contact.
-struct ResultColumns {
-  uint8_t* overlap = nullptr;          ///< 1 overlap, 0 separate; kUndecided at Tier::certified
-  uint8_t* status = nullptr;           ///< Status
-  float* separation = nullptr;         ///< metres; <= 0: overlap by that much
-  std::array<float*, 3> normal{};      ///< unit, world frame, from A to B
-  std::array<float*, 3> point_a{};     ///< witness point of A, in the WitnessFrame of the call
-  std::array<float*, 3> point_b{};     ///< witness point of B, in the WitnessFrame of the call
-  uint8_t* manifold_count = nullptr;   ///< 0 for separate pairs, else 1 to 4
-  ManifoldPoints* manifold = nullptr;  ///< in the frame of point_a
-  /// Metres by which the separation may be off at most: a forward bound of the kernel
-  /// (docs/accuracy.md). Optional, at any detail but pairs; NaN for invalid pairs.
-  float* separation_bound = nullptr;
-  /// The sub-shape of A that makes the contact: the child of a compound, the triangle of a mesh; 0
-  /// for simple shapes, and for a pair without contact. Optional, at details with contacts.
-  uint32_t* sub_a = nullptr;
-  uint32_t* sub_b = nullptr;  ///< the sub-shape of B, likewise
-  /// In and out: the closest corners of two hulls, coded. Zero it at first. A caller that measures
-  /// the same pairs again and again hands in the entries that the last call left; calls then take
-  /// 0.60 to 0.78 of the time while pairs move slowly (docs/narrowphase_peers.md). The content does
-  /// not change decisions. Separations, normals and points are as accurate with any content, but
-  /// may differ in bits where two sets of corners are equally near. Used at details with contacts,
-  /// in the tiers standard and fast, where separate pairs are measured; entries of other kinds stay
-  /// as they are. Optional.
-  uint64_t* features = nullptr;
-};
-
-/// Which pairs get more than the decision: separation, normal and points, at details with contacts.
-/// For the other pairs all columns but overlap, status and manifold_count may hold anything; their
-/// status is that of the decision.
-enum class Measured : uint8_t {
-  all,          ///< every pair
-  overlapping,  ///< contacts only. Boxes and hulls against boxes and hulls take half of the time if
-                ///< they are separate; most other kinds gain nothing
-  separate,     ///< clearances only: no penetration search, which is most of the time that
-                ///< overlapping hulls take (composites are searched). There are no manifold points
-};
-
-/// The frame of the witness points in ResultColumns.
-enum class WitnessFrame : uint8_t {
-  world,  ///< world coordinates, rounded to float32; NaN beyond its range
-  body,   ///< relative to the body's own position, world axes: exact far from the origin, too
-};
 
 }  // namespace carom

@@ -1,0 +1,90 @@
+/// @file
+/// Memory for the results of stateless calls.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+#include "carom/results/result_columns.h"
+
+namespace carom {
+
+/// Owns the columns that a call fills at a detail. Columns keep their places until the next
+/// resize(). Their contents after resize() are not those of before.
+class ResultArrays {
+ public:
+  ResultArrays() = default;
+  /// As resize().
+  explicit ResultArrays(size_t count, Detail detail,
+                        std::initializer_list<ColumnRole> wanted = {}) {
+    resize(count, detail, wanted);
+  }
+  ResultArrays(ResultArrays&&) = default;
+  ResultArrays& operator=(ResultArrays&&) = default;
+  ResultArrays(const ResultArrays&) = delete;
+  ResultArrays& operator=(const ResultArrays&) = delete;
+
+  /// Makes room for `count` results in the columns that `detail` fills. Of the columns that a
+  /// caller need not have, those with a role in `wanted` exist.
+  void resize(size_t count, Detail detail, std::initializer_list<ColumnRole> wanted = {}) {
+    constexpr size_t kNone = SIZE_MAX;
+    std::array<size_t, kColumnCount> first_line;
+    size_t column = 0, lines = 0;
+    for_each_column(
+        [&]<class T>(const ColumnInfo& info, T*) {
+          const bool exists = info.detail <= detail && is_among(info.role, wanted);
+          first_line[column++] = exists ? lines : kNone;
+          if (exists) lines += count * sizeof(T) / sizeof(Line) + 2;
+        },
+        columns_);
+    memory_.resize(lines);
+    column = 0;
+    for_each_column(
+        [&]<class T>(const ColumnInfo&, T*& place) {
+          const size_t first = first_line[column++];
+          place = first == kNone ? nullptr : reinterpret_cast<T*>(memory_.data() + first);
+        },
+        columns_);
+    count_ = count;
+  }
+
+  /// Gives the memory back, and the columns with it, if it has room for more than four times
+  /// `count` results.
+  void give_back_beyond(size_t count) {
+    constexpr size_t kAlwaysKept = 1 << 14;
+    const size_t bytes = count_ > 0 ? bytes_in_use() / count_ * count : 0;
+    if (this->bytes() > 4 * bytes + kAlwaysKept) *this = ResultArrays();
+  }
+
+  size_t count() const { return count_; }  ///< results that there is room for
+  /// The columns; nullptr for those that do not exist.
+  const ResultColumns& columns() const { return columns_; }
+  /// Bytes of memory that are held.
+  size_t bytes() const { return memory_.capacity() * sizeof(Line); }
+
+ private:
+  // Columns begin at lines of the cache. An unused line between two of them keeps long ones from
+  // falling into the same sets.
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+
+  size_t bytes_in_use() const { return memory_.size() * sizeof(Line); }
+
+  static bool is_among(ColumnRole role, std::initializer_list<ColumnRole> wanted) {
+    if (!is_optional(role)) return true;
+    for (const ColumnRole each : wanted) {
+      if (each == role) return true;
+    }
+    return false;
+  }
+
+  size_t count_ = 0;
+  ResultColumns columns_;
+  std::vector<Line> memory_;
+};
+
+}  // namespace carom
