@@ -1,9 +1,9 @@
 #include "cli/advise/advice.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "cli/run/world_options.h"
 #include "cli/support/number_text.h"
 #include "cli/support/options.h"
 
@@ -12,14 +12,6 @@ namespace {
 
 using accuracy::Deviation;
 using accuracy::Trial;
-
-// The shortest decimal that reads back as this float; without an exponent if that is readable.
-std::string shortest(float value) {
-  char buffer[32];
-  const auto format =
-      value >= 1e-5f && value < 1e7f ? std::chars_format::fixed : std::chars_format::general;
-  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, format).ptr};
-}
 
 std::string metres(double value) { return number("%.3g m", value); }
 std::string quoted(const std::string& word) {
@@ -194,25 +186,8 @@ std::vector<AdviceRow> not_needed(const Advice& advice) {
 }  // namespace
 
 std::string run_command(const std::string& scene, const Trial& trial) {
-  const WorldSettings& settings = trial.settings;
-  const FastKnobs& knobs = settings.accuracy.knobs;
-  std::string command = "carom run " + quoted(scene);
-  if (settings.accuracy.tier == Tier::fast) {
-    command += " --tier fast";
-    const std::string names = joined(names_of(knobs), ",");
-    if (!names.empty()) command += " --knobs " + names;
-    if (knobs.motion_tolerance > 0) {
-      command += " --motion-tolerance " + shortest(knobs.motion_tolerance);
-    }
-  }
-  if (settings.broadphase != BroadphaseMethod::automatic) {
-    command += std::string(" --broadphase ") + name(settings.broadphase);
-  }
-  if (settings.margin > 0) command += " --margin " + shortest(settings.margin);
-  if (settings.dop_bounds) {
-    command += " --dop-bounds " + std::to_string(static_cast<int>(*settings.dop_bounds));
-  }
-  if (!settings.carry_results) command += " --no-cache";
+  const RunSettings settings{.world = trial.settings};
+  std::string command = "carom run " + quoted(scene) + WorldOptions().text_of(settings);
   if (trial.threads > 1) command += " --threads " + std::to_string(trial.threads);
   return command;
 }

@@ -36,11 +36,13 @@ struct PairsOptions {
   std::string input;
   std::string output;
   EngineOptions engine;
+  TierOptions tier;
+  std::string detail = "contact";
   int repeat = 1;
   std::string json;
 };
 
-bool finds_impacts(const PairsOptions& options) { return options.engine.detail == "toi"; }
+bool finds_impacts(const PairsOptions& options) { return options.detail == "toi"; }
 
 // Every tier finds times of impact in double precision, so other tiers and knobs have no effect.
 Result<void> check_tier_of_impacts(const Accuracy& accuracy, const std::string& tier) {
@@ -172,10 +174,10 @@ nlohmann::ordered_json to_json(const PairsReport& report, const PairsOptions& op
   json["pairs"] = report.pairs;
   json["ns_per_pair"] = report.ns_per_pair;
   json["isa"] = name(active_isa());
-  json["tier"] = options.engine.tier;
+  json["tier"] = options.tier.tier;
   const std::vector<std::string> knobs = names_of(report.accuracy.knobs);
   if (!knobs.empty()) json["knobs"] = knobs;
-  json["detail"] = options.engine.detail;
+  json["detail"] = options.detail;
   json["threads"] = options.engine.threads;
   json["repeat"] = options.repeat;
   json["overlaps"] = report.overlaps;
@@ -211,7 +213,7 @@ void print(const PairsReport& report, const PairsOptions& options, std::ostream&
   table.add({"invalid", std::to_string(report.invalid)});
   table.add({"threads, ISA", std::to_string(options.engine.threads) + ", " + name(active_isa())});
   if (report.accuracy.tier != Tier::standard) table.add({"tier", describe(report.accuracy)});
-  table.add({"detail", options.engine.detail});
+  table.add({"detail", options.detail});
   table.add({"time", time});
   table.print(out);
 }
@@ -220,12 +222,12 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   if (Result<void> threads = check_threads(options.engine.threads); !threads) {
     return threads.error();
   }
-  Result<Accuracy> accuracy = parse_accuracy(options.engine, KnobsOf::pairs);
+  Result<Accuracy> accuracy = parse_accuracy(options.tier, KnobsOf::pairs);
   if (!accuracy) return accuracy.error();
-  Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
+  Result<Detail> detail = parse_detail(options.detail, kDetails);
   if (!detail) return detail.error();
   if (finds_impacts(options)) {
-    Result<void> served = check_tier_of_impacts(*accuracy, options.engine.tier);
+    Result<void> served = check_tier_of_impacts(*accuracy, options.tier.tier);
     if (!served) return served.error();
   }
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
@@ -264,8 +266,8 @@ void add_pairs_command(CommandLine& program) {
   command.add_option("IN", options->input, "Pairs (.npz)").required();
   command.add_option("-o,--output", options->output, "Results (.npz)").required().file_name();
   add_engine_options(command, options->engine);
-  command
-      .add_option("--detail", options->engine.detail, "overlap, contact, manifold, distance or toi")
+  add_tier_options(command, options->tier);
+  command.add_option("--detail", options->detail, "overlap, contact, manifold, distance or toi")
       .show_default();
   command.add_option("--repeat", options->repeat, "Runs to take the median time of")
       .between(1, 1'000'000)

@@ -15,50 +15,31 @@
 namespace carom::cli {
 namespace {
 
-constexpr NamedDetail kDetails[] = {{"pairs", Detail::pairs},
-                                    {"overlap", Detail::overlap},
-                                    {"contact", Detail::contact},
-                                    {"manifold", Detail::manifold}};
-
 struct RunOptions {
   std::string scene;
   uint64_t frames = 0;  // 0: not given
   EngineOptions engine;
-  std::string broadphase = "auto";
-  double margin = 0;
-  int dop_bounds = 0;  // directions; 0: none
-  std::string detection = "discrete";
-  bool no_cache = false;
+  WorldOptions world;
   std::string json;
   std::string pairs_out;
   std::string page;
 };
 
-Result<WorldSettings> world_settings(const RunOptions& options) {
+// Fails if a page is wanted and the detail finds nothing that it shows.
+Result<void> check_page(const std::string& page, Detail detail) {
+  if (page.empty() || has_contacts(detail)) return {};
+  return Error{std::string("--page shows contacts: it needs --detail contact or manifold, not ") +
+               name_of(detail)};
+}
+
+Result<RunSettings> read_settings(const RunOptions& options) {
   if (Result<void> threads = check_threads(options.engine.threads); !threads) {
     return threads.error();
   }
-  Result<Accuracy> accuracy = parse_accuracy(options.engine, KnobsOf::worlds);
-  if (!accuracy) return accuracy.error();
-  Result<Detail> detail = parse_detail(options.engine.detail, kDetails);
-  if (!detail) return detail.error();
-  if (!options.page.empty() && !has_contacts(*detail)) {
-    return Error{"--page shows contacts: it needs --detail contact or manifold, not " +
-                 options.engine.detail};
-  }
-  Result<BroadphaseMethod> broadphase = parse_broadphase(options.broadphase);
-  if (!broadphase) return broadphase.error();
-  if (Result<void> margin = check_margin(options.margin); !margin) return margin.error();
-  Result<std::optional<DopKind>> dop_bounds = parse_dop_bounds(options.dop_bounds);
-  if (!dop_bounds) return dop_bounds.error();
-  WorldSettings settings;
-  settings.detail = *detail;
-  settings.broadphase = *broadphase;
-  settings.margin = static_cast<float>(options.margin);
-  settings.dop_bounds = *dop_bounds;
-  settings.accuracy = *accuracy;
-  settings.carry_results = !options.no_cache;
-  return settings;
+  Result<RunSettings> settings = options.world.read();
+  if (!settings) return settings;
+  Result<void> page = check_page(options.page, settings->world.detail);
+  return page ? settings : page.error();
 }
 
 struct Outputs {
@@ -89,52 +70,45 @@ Result<Outputs> open_outputs(const RunOptions& options) {
 }
 
 // Fails if the detection needs velocities and the scene has none.
-Result<void> check_velocities(const io::SceneInfo& info, const RunOptions& options,
+Result<void> check_velocities(const io::SceneInfo& info, const std::string& scene,
                               Detection detection) {
   if (detection == Detection::discrete) return {};
   if (info.has_linear_velocity || info.has_angular_velocity) return {};
-  return Error{options.scene + ": has no velocities: --detection " + options.detection +
-               " needs them"};
+  return Error{scene + ": has no velocities: --detection " + name_of(detection) + " needs them"};
 }
 
-Result<RunReport> run_scene(const RunOptions& options, WorldSettings settings, Outputs& outputs,
+Result<RunReport> run_scene(const RunOptions& options, RunSettings settings, Outputs& outputs,
                             const Console& console) {
-  const Result<Detection> detection = parse_detection(options.detection);
-  if (!detection) return detection.error();
   Result<std::unique_ptr<io::SceneReader>> scene = open_source(options.scene);
   if (!scene) return scene.error();
   const io::SceneInfo& info = (*scene)->info();
   Result<Player> player = Player::create(info, options.scene);
   if (!player) return player.error();
-  if (Result<void> known = check_velocities(info, options, *detection); !known) {
+  if (Result<void> known = check_velocities(info, options.scene, settings.detection); !known) {
     return known.error();
   }
-  (*scene)->want(player->wanted(settings.detail, *detection != Detection::discrete));
+  const bool looks_ahead = settings.detection != Detection::discrete;
+  (*scene)->want(player->wanted(settings.world.detail, looks_ahead));
 
   ThreadArena arena(options.engine.threads);
-  settings.positions = player->positions();
-  settings.parallelism = arena.parallelism();
-  settings.dt = info.dt;
-  World world(settings);
+  settings.world.positions = player->positions();
+  settings.world.parallelism = arena.parallelism();
+  settings.world.dt = info.dt;
+  World world(settings.world);
   RunReport report{.scene = options.scene,
                    .bodies = info.bodies,
                    .frames = options.frames ? options.frames : info.frames,
                    .threads = options.engine.threads,
                    .isa = name(active_isa()),
-                   .tier = options.engine.tier,
-                   .accuracy = settings.accuracy,
-                   .detail = options.engine.detail,
-                   .detection = options.detection,
+                   .settings = settings,
                    .pair_kinds = pair_kinds(player->bodies_of_kind()),
-                   .margin = settings.margin,
-                   .dop_bounds = options.dop_bounds,
                    .memory = {},
                    .record = {}};
   Progress progress(console, "frame", report.frames);
   std::optional<Error> failure;
   arena.run([&] {
     auto record =
-        replay(**scene, *player, world, report.frames, outputs.pairs, progress, *detection);
+        replay(**scene, *player, world, report.frames, outputs.pairs, progress, settings.detection);
     if (record) {
       report.record = std::move(*record);
     } else {
@@ -172,7 +146,7 @@ Result<void> finish(Outputs& outputs) {
 }
 
 Result<int> run(const RunOptions& options, const Console& console) {
-  Result<WorldSettings> settings = world_settings(options);
+  Result<RunSettings> settings = read_settings(options);
   if (!settings) return settings.error();
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
   if (!isa) return isa.error();
@@ -183,7 +157,7 @@ Result<int> run(const RunOptions& options, const Console& console) {
   if (!report) return report.error();
   warn_of_quarantined(report->record.quarantined_bodies, console);
   if (Result<void> finished = finish(*outputs); !finished) return finished.error();
-  Result<void> written = write_report(*report, outputs->json, console);
+  Result<void> written = write_report(*report, options.world, outputs->json, console);
   return written ? Result<int>(0) : written.error();
 }
 
@@ -196,28 +170,7 @@ void add_run_command(CommandLine& program) {
   command.add_option("--frames", options->frames, "Frames to run; all of the scene if not given")
       .between(uint64_t{1}, uint64_t{1'000'000'000});
   add_engine_options(command, options->engine);
-  command.add_option("--detail", options->engine.detail, "pairs, overlap, contact or manifold")
-      .show_default();
-  command
-      .add_option("--motion-tolerance", options->engine.motion_tolerance,
-                  "Metres that bodies may move before they are tested again; fast tier only")
-      .show_default();
-  command.add_option("--broadphase", options->broadphase, "auto, grid, sweep or brute")
-      .show_default();
-  command
-      .add_option("--margin", options->margin, "Metres to fatten bounds by; pairs are kept longer")
-      .show_default();
-  command
-      .add_option("--dop-bounds", options->dop_bounds,
-                  "Drop pairs whose k-DOPs of 6, 14, 18 or 26 directions are apart; 0: none")
-      .show_default();
-  command
-      .add_option("--detection", options->detection,
-                  "How dynamic bodies are looked after between frames: discrete, swept, continuous "
-                  "or automatic")
-      .show_default();
-  command.add_flag("--no-cache", options->no_cache,
-                   "Test every pair anew and drop the sort order between frames");
+  options->world.add_to(command);
   add_json_option(command, options->json);
   command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)")
       .file_name();

@@ -52,14 +52,9 @@ Json events_json(const RunRecord& record) {
   return events;
 }
 
-// Adds only the knobs that are set.
-void add_knobs(const FastKnobs& knobs, Json& json) {
-  const std::vector<std::string> names = names_of(knobs);
-  if (!names.empty()) json["knobs"] = names;
-  if (knobs.motion_tolerance > 0) json["motion_tolerance"] = knobs.motion_tolerance;
+bool is_certified(const RunReport& report) {
+  return report.settings.world.accuracy.tier == Tier::certified;
 }
-
-bool is_certified(const RunReport& report) { return report.accuracy.tier == Tier::certified; }
 
 bool looks_ahead(const RunReport& report) { return !report.record.swept.empty(); }
 
@@ -71,7 +66,7 @@ std::string extent(const std::vector<uint64_t>& list) {
          " in the last; " + std::to_string(*least) + " to " + std::to_string(*greatest);
 }
 
-Json to_json(const RunReport& report) {
+Json to_json(const RunReport& report, const WorldOptions& options) {
   const RunRecord& record = report.record;
   Summary frame = summarize(steady(record.frame_ms));
   Json json;
@@ -80,14 +75,7 @@ Json to_json(const RunReport& report) {
   json["frames"] = report.frames;
   json["threads"] = report.threads;
   json["isa"] = report.isa;
-  json["tier"] = report.tier;
-  add_knobs(report.accuracy.knobs, json);
-  json["detail"] = report.detail;
-  json["detection"] = report.detection;
-  json["broadphase"] = name(record.search.method);
-  json["broadphase_reason"] = record.search.reason;
-  json["margin"] = report.margin;
-  json["dop_bounds"] = report.dop_bounds;
+  options.add_json(report, json);
   json["pipeline"] = Json::array();
   for (Stage stage : stages_run(record)) json["pipeline"].push_back(name(stage));
   json["pair_kinds"] = report.pair_kinds;
@@ -126,31 +114,32 @@ Json to_json(const RunReport& report) {
   return json;
 }
 
-void print(const RunReport& report, std::ostream& out) {
+void print(const RunReport& report, const WorldOptions& options, std::ostream& out) {
   const RunRecord& record = report.record;
+  const WorldSettings& settings = report.settings.world;
   Summary frame = summarize(steady(record.frame_ms));
   Table table({"scene", io::printable(report.scene)});
   table.add({"bodies", std::to_string(report.bodies)});
   table.add({"frames", std::to_string(report.frames)});
   table.add({"threads, ISA", std::to_string(report.threads) + ", " + report.isa});
-  if (report.accuracy.tier != Tier::standard) table.add({"tier", describe(report.accuracy)});
-  table.add({"detail, broadphase", report.detail + ", " + name(record.search.method) + " (" +
-                                       record.search.reason + ")"});
+  options.add_rows(report, table);
   table.add({"frame", number("%.3f ms median", frame.median) + number(", %.3f min", frame.min) +
                           number(", %.3f p99", frame.p99) + number(", %.3f mean", frame.mean)});
   for (Stage stage : stages_run(record)) {
     table.add({std::string("  ") + name(stage), number("%.3f ms", stage_median(record, stage))});
   }
   table.add({"pairs", extent(record.pairs)});
-  table.add({report.detail == "overlap" ? "overlaps" : "contacts", extent(record.contacts)});
+  table.add(
+      {settings.detail == Detail::overlap ? "overlaps" : "contacts", extent(record.contacts)});
   if (is_certified(report)) table.add({"undecided", extent(record.undecided)});
   if (looks_ahead(report)) {
-    table.add({"bodies looked after", report.detection + ", " + extent(record.swept)});
+    table.add({"bodies looked after",
+               std::string(name_of(report.settings.detection)) + ", " + extent(record.swept)});
     table.add({"impacts", extent(record.impacts)});
     table.add({"speculative contacts", extent(record.speculative)});
   }
   table.add({"kept pairs", extent(record.kept)});
-  if (report.dop_bounds > 0) table.add({"dropped pairs", extent(record.dropped)});
+  if (settings.dop_bounds) table.add({"dropped pairs", extent(record.dropped)});
   table.add({"state hash", record.hash.text()});
   table.add({"memory", number("%.1f bytes a body, ", bytes_per_body(report)) +
                            number("%.1f bytes a pair, ", bytes_per_pair(report)) +
@@ -166,9 +155,10 @@ uint64_t peak_rss_bytes() {
   return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-Result<void> write_report(const RunReport& report, JsonOutput& json, const Console& console) {
-  if (json.wanted()) return json.write(to_json(report), console);
-  print(report, console.out);
+Result<void> write_report(const RunReport& report, const WorldOptions& options, JsonOutput& json,
+                          const Console& console) {
+  if (json.wanted()) return json.write(to_json(report, options), console);
+  print(report, options, console.out);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/run/replay.h"
+#include "cli/run/world_options.h"
 #include "cli/support/json_output.h"
 
 namespace carom::cli {
@@ -16,13 +17,8 @@ struct RunReport {
   uint64_t frames = 0;
   int threads = 1;
   std::string isa;
-  std::string tier;
-  Accuracy accuracy;
-  std::string detail;
-  std::string detection;
+  RunSettings settings;
   std::vector<std::string> pair_kinds;  // possible with the scene's bodies
-  float margin = 0;                     // metres
-  int dop_bounds = 0;                   // directions; 0: none
   WorldMemory memory;                   // at the end
   uint64_t peak_rss_bytes = 0;
   RunRecord record;
@@ -32,6 +28,7 @@ struct RunReport {
 uint64_t peak_rss_bytes();
 
 // As JSON if that is wanted, as text otherwise.
-Result<void> write_report(const RunReport& report, JsonOutput& json, const Console& console);
+Result<void> write_report(const RunReport& report, const WorldOptions& options, JsonOutput& json,
+                          const Console& console);
 
 }  // namespace carom::cli

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <system_error>
 
 #include "cli/support/command_line.h"
+#include "cli/support/number_text.h"
 
 namespace carom::cli {
 namespace {
@@ -34,36 +34,9 @@ Error unknown(const std::string& what, const std::string& text, const std::strin
   return {"unknown " + what + " '" + text + "' (there are: " + available + ")"};
 }
 
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
-Result<void> check_metres(const std::string& option, double metres) {
-  if (metres >= 0 && metres <= std::numeric_limits<float>::max()) return {};
-  return Error{option + ' ' + short_number(metres) + ": not a number of metres from 0 to 3.4e38"};
-}
-
-struct NamedTier {
-  std::string_view name;
-  Tier tier;
-};
-constexpr NamedTier kTiers[] = {{"fast", Tier::fast},
-                                {"standard", Tier::standard},
-                                {"certified", Tier::certified},
-                                {"exact", Tier::exact}};
-
-std::string_view name_of(Tier tier) { return kTiers[static_cast<size_t>(tier)].name; }
-
-Result<Tier> parse_tier(const std::string& text) {
-  std::string names;
-  for (const NamedTier& entry : kTiers) {
-    if (text == entry.name) return entry.tier;
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  return unknown("tier", text, names);
-}
+// All in the order of their enum.
+constexpr const char* kTiers[] = {"fast", "standard", "certified", "exact"};
+constexpr const char* kDetections[] = {"discrete", "swept", "continuous", "automatic"};
 
 struct NamedKnob {
   std::string_view name;
@@ -126,6 +99,9 @@ void add_engine_options(Command& command, EngineOptions& options) {
   add_threads_option(command, options.threads);
   command.add_option("--isa", options.isa, "auto, scalar, sse4, avx2, avx512 or neon")
       .show_default();
+}
+
+void add_tier_options(Command& command, TierOptions& options) {
   command.add_option("--tier", options.tier, "fast, standard, certified or exact").show_default();
   command.add_option("--knobs", options.knobs,
                      "What the fast tier loosens, separated by commas; none if not given");
@@ -146,20 +122,37 @@ Result<void> check_threads(int threads) {
                std::to_string(kMaxThreads)};
 }
 
-Result<Accuracy> parse_accuracy(const EngineOptions& options, KnobsOf served) {
-  Result<Tier> tier = parse_tier(options.tier);
+Result<void> check_metres(const std::string& option, double metres) {
+  if (metres >= 0 && metres <= std::numeric_limits<float>::max()) return {};
+  return Error{option + number(" %g", metres) + ": not a number of metres from 0 to 3.4e38"};
+}
+
+Result<size_t> find_name(const std::string& what, const std::string& text,
+                         std::span<const char* const> names) {
+  std::string available;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (text == names[i]) return i;
+    available += (i == 0 ? "" : ", ") + std::string(names[i]);
+  }
+  return unknown(what, text, available);
+}
+
+Result<Accuracy> parse_accuracy(const TierOptions& options, KnobsOf served) {
+  const Result<size_t> tier = find_name("tier", options.tier, kTiers);
   if (!tier) return tier.error();
-  Accuracy accuracy{.tier = *tier, .knobs = {}};
+  Accuracy accuracy{.tier = static_cast<Tier>(*tier), .knobs = {}};
   Result<void> parsed = parse_knobs(options.knobs, served, accuracy.knobs);
   if (!parsed) return parsed.error();
   parsed = check_metres("--motion-tolerance", options.motion_tolerance);
   if (!parsed) return parsed.error();
   accuracy.knobs.motion_tolerance = static_cast<float>(options.motion_tolerance);
-  if (*tier == Tier::fast) return accuracy;
+  if (accuracy.tier == Tier::fast) return accuracy;
   if (!options.knobs.empty()) return needs_fast("--knobs", options.tier);
   if (options.motion_tolerance > 0) return needs_fast("--motion-tolerance", options.tier);
   return accuracy;
 }
+
+const char* name_of(Tier tier) { return kTiers[static_cast<size_t>(tier)]; }
 
 std::vector<std::string> names_of(const FastKnobs& knobs) {
   std::vector<std::string> names;
@@ -174,48 +167,17 @@ std::string describe(const Accuracy& accuracy) {
   if (accuracy.tier != Tier::fast) return text;
   std::vector<std::string> parts = names_of(accuracy.knobs);
   if (accuracy.knobs.motion_tolerance > 0) {
-    parts.push_back("motion tolerance " + short_number(accuracy.knobs.motion_tolerance) + " m");
+    parts.push_back(number("motion tolerance %g m", accuracy.knobs.motion_tolerance));
   }
   for (size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? ": " : ", ") + parts[i];
   return text;
 }
 
-Result<void> check_margin(double margin) { return check_metres("--margin", margin); }
-
-Result<std::optional<DopKind>> parse_dop_bounds(int directions) {
-  std::optional<DopKind> kind;
-  if (directions == 0) return kind;
-  for (const DopKind known : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
-    if (directions == static_cast<int>(known)) kind = known;
-  }
-  if (kind) return kind;
-  return Error{"--dop-bounds " + std::to_string(directions) +
-               ": there are k-DOPs of 6, 14, 18 and 26 directions, and 0 for none"};
-}
-
-Result<BroadphaseMethod> parse_broadphase(const std::string& text) {
-  std::string names;
-  for (auto method : {BroadphaseMethod::automatic, BroadphaseMethod::brute, BroadphaseMethod::sweep,
-                      BroadphaseMethod::grid}) {
-    if (text == name(method)) return method;
-    names += (names.empty() ? "" : ", ") + std::string(name(method));
-  }
-  return unknown("broadphase", text, names);
-}
-
-const char* name_of(Detection detection) {
-  constexpr const char* kNames[] = {"discrete", "swept", "continuous", "automatic"};
-  return kNames[static_cast<size_t>(detection)];
-}
+const char* name_of(Detection detection) { return kDetections[static_cast<size_t>(detection)]; }
 
 Result<Detection> parse_detection(const std::string& text) {
-  std::string names;
-  for (auto detection :
-       {Detection::discrete, Detection::swept, Detection::continuous, Detection::automatic}) {
-    if (text == name_of(detection)) return detection;
-    names += (names.empty() ? "" : ", ") + std::string(name_of(detection));
-  }
-  return unknown("detection", text, names);
+  const Result<size_t> detection = find_name("detection", text, kDetections);
+  return detection ? Result<Detection>(static_cast<Detection>(*detection)) : detection.error();
 }
 
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known) {

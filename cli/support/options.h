@@ -9,54 +9,59 @@
 #include <vector>
 
 #include "carom/base/result.h"
-#include "carom/broadphase/find_pairs.h"
 #include "carom/results/contact.h"
 #include "carom/results/tier.h"
 #include "carom/shapes/body.h"
-#include "carom/shapes/dop.h"
 #include "carom/simd/isa.h"
 
 namespace carom::cli {
 
 class Command;
 
+// How the program runs; results do not depend on it.
 struct EngineOptions {
   std::string isa = "auto";
-  std::string tier = "standard";
-  std::string knobs;            // names, separated by commas
-  double motion_tolerance = 0;  // metres
-  std::string detail = "contact";
   int threads = 1;
 };
 
+struct TierOptions {
+  std::string tier = "standard";
+  std::string knobs;            // names, separated by commas
+  double motion_tolerance = 0;  // metres
+};
+
 void add_engine_options(Command& command, EngineOptions& options);
+// Tier and knobs, which scenes and pairs have.
+void add_tier_options(Command& command, TierOptions& options);
 void add_threads_option(Command& command, int& threads);
 void add_json_option(Command& command, std::string& json);
 
 inline constexpr int kMaxThreads = 1024;
 Result<void> check_threads(int threads);
 
+// Checks that the number of an option is finite and not negative.
+Result<void> check_metres(const std::string& option, double metres);
+// The index of `text` among the names that `what` may have.
+Result<size_t> find_name(const std::string& what, const std::string& text,
+                         std::span<const char* const> names);
+
 // The knobs of the fast tier that a command accepts: those of collide(), or also those of worlds.
 enum class KnobsOf { pairs, worlds };
 // Parses tier, knobs and tolerance; knobs need the fast tier.
-Result<Accuracy> parse_accuracy(const EngineOptions& options, KnobsOf served);
+Result<Accuracy> parse_accuracy(const TierOptions& options, KnobsOf served);
+// "fast", "standard", "certified", "exact".
+const char* name_of(Tier tier);
 // The set knobs by their names in --knobs; without the tolerance.
 std::vector<std::string> names_of(const FastKnobs& knobs);
 // Readable text: "fast: faces-only, motion tolerance 0.01 m".
 std::string describe(const Accuracy& accuracy);
-
-// Checks that a margin (metres) is finite and not negative.
-Result<void> check_margin(double margin);
-// Directions of k-DOPs; 0: none.
-Result<std::optional<DopKind>> parse_dop_bounds(int directions);
-Result<BroadphaseMethod> parse_broadphase(const std::string& text);
 
 // "discrete", "swept", "continuous", "automatic".
 const char* name_of(Detection detection);
 Result<Detection> parse_detection(const std::string& text);
 
 struct NamedDetail {
-  std::string_view name;
+  const char* name;
   Detail detail;
 };
 // Finds `text` among a command's details. Refuses a detail that only `carom pairs` has with its own
