@@ -148,10 +148,6 @@ inline constexpr double kTieOfGaps = 0x1p-48;
 // A gap is the distance if it is less than the length of the nearest vector by no more than this.
 inline constexpr double kSameDistance = 0x1p-34;
 
-// GJK ends if the squared nearest vector times this factor is not above its product with the next
-// support point: no point is nearer.
-inline constexpr double kNoNearer = 1 - 0x1p-44;
-
 // Points whose squared distance is at most this are one.
 inline constexpr double kTouchingSquared = 0x1p-80;
 

@@ -9,8 +9,10 @@
 #include <limits>
 #include <type_traits>
 
+#include "narrowphase/doubles/furthest_scalar.h"
 #include "narrowphase/doubles/gap_search.h"
-#include "narrowphase/doubles/nearest_of_hulls.h"
+#include "narrowphase/doubles/gjk.h"
+#include "narrowphase/doubles/make_core.h"
 #include "narrowphase/features/contact_location.h"
 #include "narrowphase/features/halfspace_scalar.h"
 
@@ -40,10 +42,18 @@ inline Polytope part_towards(const Polytope& shape, const Vector3d& n, double an
   return part;
 }
 
+// The nearest vector, by the one GJK there is: over cores.
+inline Vector3d nearest_vector(const Polytope& a, const Polytope& b) {
+  CorePair& cores = core_pair_of_thread();
+  make_core_of_points(a.points, Vector3d::Zero(), cores.a);
+  make_core_of_points(b.points, Vector3d::Zero(), cores.b);
+  return eigen_vector(nearest_way(cores.a, cores.b, &furthest_point).way);
+}
+
 // Finds the greatest gap of separate cores. False if the cores are not separate, or the features
 // near the nearest points do not give the gap.
 inline bool find_nearest(const Polytope& a, const Polytope& b, GapSearch& search) {
-  const Vector3d way = nearest_way(a, b);
+  const Vector3d way = nearest_vector(a, b);
   const double distance = std::sqrt(dot(way, way));
   if (!(distance > kTouchingCores)) return false;
   const Vector3d n = way / distance;

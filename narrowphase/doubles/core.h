@@ -52,6 +52,16 @@ class Core {
   size_t count_ = 0, padded_ = 0;
 };
 
+// The cores of one pair; the memory serves the next pair too.
+struct CorePair {
+  Core a, b;
+};
+
+inline CorePair& core_pair_of_thread() {
+  thread_local CorePair pair;
+  return pair;
+}
+
 // The index of the support point of the core along `way`; the first of equals.
 using FurthestPoint = size_t (*)(const Core& core, const CoreVector& way);
 

@@ -145,16 +145,6 @@ inline SeparationAs<double> core_separation(const Core& a, const Core& b, const 
   return result;
 }
 
-// The cores of one pair; the memory serves the next pair too.
-struct CorePair {
-  Core a, b;
-};
-
-inline CorePair& core_pair_of_thread() {
-  thread_local CorePair pair;
-  return pair;
-}
-
 template <class A, class B>
 SeparationAs<double> core_separation(const A& a, const B& b, const PairPose<double>& pose,
                                      const CoreTest& test) {
