@@ -2,6 +2,10 @@
 // other, for every two kinds (case 65).
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstring>
+#include <type_traits>
+
 #include "tests/support/isas.h"
 #include "tests/support/kind_pairs.h"
 #include "tests/support/run.h"
@@ -14,13 +18,16 @@ void expect_no_answer(const Row& row) {
   EXPECT_EQ(row.overlap, 0);
   EXPECT_EQ(row.status, static_cast<uint8_t>(Status::invalid));
   EXPECT_EQ(row.manifold_count, 0);
-  const auto* bytes = reinterpret_cast<const char*>(&row);
-  for (size_t at = offsetof(Row, separation); at < sizeof row; at += sizeof(uint32_t)) {
-    uint32_t bits;
-    std::memcpy(&bits, bytes + at, sizeof bits);
-    const bool is_unused_point = at >= offsetof(Row, manifold);
-    EXPECT_EQ(bits, is_unused_point ? 0 : 0x7fc00000u) << "byte " << at;
-  }
+  for_each_column(
+      [&]<class T>(const ColumnInfo& info, const T& field) {
+        if constexpr (std::is_same_v<T, float>) {
+          const bool is_written = !is_optional(info.role);
+          EXPECT_EQ(std::bit_cast<uint32_t>(field), is_written ? 0x7fc00000u : 0u) << info.name;
+        }
+      },
+      row);
+  const ManifoldPoints none{};
+  EXPECT_EQ(std::memcmp(&row.manifold, &none, sizeof none), 0);
 }
 
 TEST(KindsInvalid, HasNoAnswer) {
