@@ -184,6 +184,17 @@ struct AnyRecords {
   }
 };
 
+struct AnyRecordsOrNone {
+  template <class Bodies>
+  static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
+    if (batch.layout == PositionLayout::none) {
+      NoRecords::load(batch, bodies, out);
+    } else {
+      AnyRecords::load(batch, bodies, out);
+    }
+  }
+};
+
 // Row k of the parameters of each shape, which has `kRows` rows.
 template <Role kRole, uint32_t kRows, class Bodies>
 struct RowSource {

@@ -4,6 +4,7 @@
 
 #include "narrowphase/batch/packed_direction.h"
 #include "narrowphase/batch/row_selection.h"
+#include "narrowphase/blocks/pass_plan.h"
 #include "narrowphase/hulls/features.h"
 #include "narrowphase/proof/decide_unsure.h"
 #include "narrowphase/proof/separation_bound.h"
@@ -149,56 +150,58 @@ void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pa
   kind.run(manifolds);
 }
 
+void run_search(const PairKind& kind, const Batch& batch, const PassPlan& plan,
+                uint32_t* direction) {
+  Batch search = batch;
+  search.pass = plan.search;
+  search.detail = plan.search_detail;
+  switch (plan.known) {
+    case PassPlan::Known::nothing:
+      return kind.run(search);
+    case PassPlan::Known::directions:
+      return run_test(kind, batch, direction);
+    case PassPlan::Known::features: {
+      RowFlags open;
+      run_recall(kind, batch, plan.search == Pass::distance, open);
+      return test_open(kind, search, open);
+    }
+  }
+}
+
+void run_points(const PairKind& kind, const Batch& batch, const PassPlan& plan) {
+  switch (plan.points) {
+    case PassPlan::Points::none:
+      return;
+    case PassPlan::Points::zero:
+      std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
+      std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
+      return;
+    case PassPlan::Points::witnesses:
+      return copy_witnesses(batch);
+    case PassPlan::Points::clipped:
+      return run_manifolds(kind, batch, plan.clears_separate);
+  }
+}
+
 }  // namespace
 
-void run_passes(const PairKind& kind, const Batch& asked, Measured wanted, uint32_t* direction,
+void run_passes(const PairKind& kind, const Batch& asked, Measured measured, uint32_t* direction,
                 const Accuracy& accuracy) {
+  const PassPlan plan = plan_passes(kind, asked, measured, direction != nullptr, accuracy);
   RowFlags unsure;
   Batch batch = asked;
-  // A proof may turn an overlapping row into a separate one, so overlapping rows need contact
-  // columns, too.
-  const bool is_proven = has_proofs(accuracy.tier);
-  const Measured measured = is_proven && wanted == Measured::separate ? Measured::all : wanted;
-  if (accuracy.tier == Tier::fast) {
-    batch.single_precision = accuracy.knobs.single_precision;
-    batch.faces_only = accuracy.knobs.faces_only;
-  }
-  if (is_proven) {
+  batch.single_precision = plan.single_precision;
+  batch.faces_only = plan.faces_only;
+  if (plan.known == PassPlan::Known::features) batch.features = batch.out.features;
+  if (plan.proves) {
     std::fill_n(unsure.begin(), batch.count, uint8_t{0});
     batch.unsure = unsure.data();
   }
-  const bool has_distances =
-      has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping;
-  const bool is_at_once = has_distances && kind.measures_at_once();
-  const bool recalls = is_at_once && batch.out.features && kind.has_recall_pass() && !is_proven;
-  if (recalls) batch.features = batch.out.features;
-  Batch test = batch;
-  if (is_at_once) {
-    test.pass = measured == Measured::separate ? Pass::clearance : Pass::distance;
-  } else if (kind.has_distance_pass() && measured == Measured::separate) {
-    test.detail = Detail::overlap;
-  }
-  if (direction && kind.has_direction_pass() && has_contacts(batch.detail)) {
-    run_test(kind, batch, direction);
-  } else if (recalls) {
-    RowFlags open;
-    run_recall(kind, batch, measured == Measured::all, open);
-    test_open(kind, test, open);
-  } else {
-    kind.run(test);
-  }
-  if (has_distances && !is_at_once) run_distances(kind, batch, measured == Measured::separate);
-  if (batch.unsure) decide_unsure(kind, batch, accuracy.tier);
-  if (batch.out.separation_bound) bound_separations(kind, batch);
-  if (batch.detail != Detail::manifold) return;
-  if (measured == Measured::separate) {
-    std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
-    std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
-  } else if (kind.has_manifold_pass()) {
-    run_manifolds(kind, batch, measured == Measured::all);
-  } else {
-    copy_witnesses(batch);
-  }
+  run_search(kind, batch, plan, direction);
+  if (plan.measures_separate) run_distances(kind, batch, plan.measures_invalid);
+  if (plan.proves) decide_unsure(kind, batch, accuracy.tier);
+  if (plan.bounds) bound_separations(kind, batch);
+  run_points(kind, batch, plan);
 }
 
 }  // namespace carom

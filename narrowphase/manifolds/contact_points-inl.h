@@ -7,8 +7,7 @@
 #define CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_
 #endif
 
-#include "narrowphase/manifolds/line_contact-inl.h"
-#include "narrowphase/manifolds/reduce-inl.h"
+#include "narrowphase/manifolds/face_contact-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -18,18 +17,6 @@ struct PlacedPair {
   Placed a, b;
 };
 
-// Reduces clip points to four and moves them to space. The frame lies on A's surface.
-template <size_t kCount>
-HWY_INLINE void put_on_frame(const FaceFrame& frame, const ClipPoints<kCount>& all, F limit,
-                             PointLanes& out) {
-  ClipPoints<4> few;
-  reduce(all, limit, few, out.used);
-  for (size_t k = 0; k < 4; ++k) {
-    out.point[k] = frame.point(few.x[k], few.y[k]);
-    out.s[k] = few.s[k];
-  }
-}
-
 HWY_INLINE void use_if(Mask mask, PointLanes& out) {
   for (Mask& used : out.used) used = hn::And(used, mask);
 }
@@ -38,85 +25,20 @@ template <AnyBox A, AnyBox B>
 HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
   Rectangle face, other;
-  ClipPoints<12> all;
   face_towards(contact.normal, a, placed.a, face);
   face_towards(-contact.normal, b, placed.b, other);
-  clip(face, other, contact.normal, all);
-  put_on_frame(face.frame, all, splat(kSamePoint), out);
-}
-
-// A box against another face.
-template <AnyBox A, class OtherFace>
-HWY_INLINE void touch_box(const A& a, const Placed& placed, const FaceSide<OtherFace>& other,
-                          const ContactLanes& contact, PointLanes& out) {
-  Rectangle face;
-  ClipPoints<4 + 2 * OtherFace::kCorners> all;
-  face_towards(contact.normal, a, placed, face);
-  clip(face, other, contact.normal, all);
-  put_on_frame(face.frame, all, splat(kSamePoint), out);
+  touch_boxes(face, other, contact, out);
 }
 
 template <AnyBox A>
 HWY_INLINE void contact_points(const A& a, const TriangleLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
+  Rectangle face;
   FaceSide<TriangleFace> side;
+  face_towards(contact.normal, a, placed.a, face);
   triangle_side(b, placed.b, side);
-  touch_box(a, placed.a, side, contact, out);
+  touch_box(face, side, contact, out);
   use_if(shows_face(b, side.face.frame.n, -contact.normal), out);
-}
-
-HWY_INLINE void swap_where(Mask mask, F& a, F& b) {
-  const F kept = a;
-  a = hn::IfThenElse(mask, b, a);
-  b = hn::IfThenElse(mask, kept, b);
-}
-HWY_INLINE void swap_where(Mask mask, F3& a, F3& b) {
-  swap_where(mask, a.x, b.x);
-  swap_where(mask, a.y, b.y);
-  swap_where(mask, a.z, b.z);
-}
-
-HWY_INLINE void swap_rest(Mask, TriangleFace&, TriangleFace&) {}
-template <size_t kMost>
-HWY_INLINE void swap_rest(Mask mask, PolygonFace<kMost>& a, PolygonFace<kMost>& b) {
-  swap_where(mask, a.count, b.count);
-  swap_where(mask, a.lower_x, b.lower_x);
-  swap_where(mask, a.lower_y, b.lower_y);
-  swap_where(mask, a.upper_x, b.upper_x);
-  swap_where(mask, a.upper_y, b.upper_y);
-}
-
-// Heights of the frames need no swap, because both are zero.
-template <class Face>
-HWY_INLINE void swap_where(Mask mask, FaceSide<Face>& a, FaceSide<Face>& b) {
-  swap_where(mask, a.face.frame.origin, b.face.frame.origin);
-  swap_where(mask, a.face.frame.u, b.face.frame.u);
-  swap_where(mask, a.face.frame.v, b.face.frame.v);
-  swap_where(mask, a.face.frame.n, b.face.frame.n);
-  for (size_t k = 0; k < Face::kCorners; ++k) {
-    swap_where(mask, a.face.x[k], b.face.x[k]);
-    swap_where(mask, a.face.y[k], b.face.y[k]);
-    swap_where(mask, a.corners[k], b.corners[k]);
-  }
-  swap_rest(mask, a.face, b.face);
-}
-
-// Points on A where two polygons cover one another. They are clipped on the face that is more
-// nearly perpendicular to the normal, or A's if both are equal. Lanes that use B's face swap `a`
-// and `b`.
-template <class Face>
-HWY_INLINE void touch_faces(FaceSide<Face>& a, FaceSide<Face>& b, const ContactLanes& contact,
-                            PointLanes& out) {
-  const F3& n = contact.normal;
-  const Mask on_b = hn::Gt(hn::Abs(dot(b.face.frame.n, n)), hn::Abs(dot(a.face.frame.n, n)));
-  swap_where(on_b, a, b);
-  const F3 m = negate_if(on_b, n);
-  ClipPoints<3 * Face::kCorners> all;
-  clip(a.face, b, m, all);
-  put_on_frame(a.face.frame, all, splat(kSamePoint), out);
-  for (size_t k = 0; k < 4; ++k) {
-    out.point[k] = select(on_b, out.point[k] + m * out.s[k], out.point[k]);
-  }
 }
 
 HWY_INLINE void contact_points(const TriangleLanes& a, const TriangleLanes& b,

@@ -47,10 +47,12 @@ template <AnyBox A>
 HWY_INLINE Mask contact_points(const A& a, const HullLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {
   const FacingFaces faces = faces_towards(-contact.normal, b, placed.b, contact);
+  Rectangle face;
+  face_towards(contact.normal, a, placed.a, face);
   with_corners(faces.most(), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side;
     hull_side(b, placed.b, faces, side);
-    touch_box(a, placed.a, side, contact, out);
+    touch_box(face, side, contact, out);
   });
   return faces.is_known();
 }

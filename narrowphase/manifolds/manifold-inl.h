@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/manifolds/contact_points-inl.h"
@@ -123,10 +124,9 @@ class ManifoldLoop {
 // Runs Pass::manifold.
 template <class A, class B>
 void run_manifold(const Batch& batch) {
-  if (batch.layout != PositionLayout::none) return ManifoldLoop<A, B, AnyRecords>::run(batch);
-  if constexpr (A::kKind == ShapeKind::aabb && B::kKind == ShapeKind::aabb) {
-    ManifoldLoop<A, B, NoRecords>::run(batch);
-  }
+  constexpr bool kMayLackRecords = A::kKind == ShapeKind::aabb && B::kKind == ShapeKind::aabb;
+  using Records = std::conditional_t<kMayLackRecords, AnyRecordsOrNone, AnyRecords>;
+  ManifoldLoop<A, B, Records>::run(batch);
 }
 
 }  // namespace carom::HWY_NAMESPACE
