@@ -120,10 +120,13 @@ function(carom_add_product name)
   endif()
 endfunction()
 
-# carom_add_test(NAME SOURCES file... [LIBS target...]): a GoogleTest executable, each of whose
-# tests is a test of ctest.
+# carom_add_test(NAME SOURCES file... [LIBS target...] [COST number]): a GoogleTest executable, each
+# of whose tests is a test of ctest. Tests of higher cost start earlier.
 function(carom_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "COST" "SOURCES;LIBS")
+  if(NOT arg_COST)
+    set(arg_COST 1)
+  endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE carom_test_support ${arg_LIBS} GTest::gtest_main)
   target_precompile_headers(${name} REUSE_FROM carom_precompiled_tests)
@@ -137,5 +140,5 @@ function(carom_add_test name)
     set(timeout 1200)
   endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${timeout})
+                       PROPERTIES TIMEOUT ${timeout} COST ${arg_COST})
 endfunction()

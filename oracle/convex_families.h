@@ -149,10 +149,12 @@ class ConvexPairMaker {
   // position with the Illinois rule.
   template <class R>
   static R distance_to_touch(const ConvexOracle<R>& oracle, const Vec<R>& direction, int steps) {
+    const ConvexDirections<R> directions(oracle.a, oracle.b);
+    ConvexShape<R> b = oracle.b;  // keeps its memory from step to step
     const auto gap = [&](const R& t) {
-      ConvexShape<R> b = oracle.b;
+      b = oracle.b;
       b.translate(direction * t);
-      return exact_separation(oracle.a, b);
+      return separation_with_normal(oracle.a, b, directions).value;
     };
     R low = 0, gap_low = gap(low);
     if (!(gap_low < 0)) return low;

@@ -11,13 +11,25 @@ namespace carom::oracle {
 
 namespace {
 
+// The coordinate axis that is furthest from parallel to u.
+template <class R>
+Vec3<R> least_axis(const Vec3<R>& u) {
+  const R x = u.x * u.x, y = u.y * u.y, z = u.z * u.z;
+  if (x <= y && x <= z) return {R(1), R(0), R(0)};
+  return y <= z ? Vec3<R>{R(0), R(1), R(0)} : Vec3<R>{R(0), R(0), R(1)};
+}
+
 // The axis with the largest gap between two cores; if they overlap, the axis of least penetration.
 template <class R>
 class AxisSearch {
  public:
   using Vec = Vec3<R>;
 
-  AxisSearch(const ConvexShape<R>& a, const ConvexShape<R>& b) : a_(a), b_(b) { try_all(); }
+  AxisSearch(const ConvexShape<R>& a, const ConvexShape<R>& b,
+             const ConvexDirections<R>& directions)
+      : a_(a), b_(b) {
+    try_all(directions);
+  }
 
   R gap() const { return gap_; }
   const Vec& axis() const { return axis_; }
@@ -51,37 +63,19 @@ class AxisSearch {
 
   // Extra axes do no harm: each bounds the separation from below. Face normals and cross products
   // of edges suffice if the difference of the cores is solid; the other axes serve flat ones.
-  void try_all() {
-    for (const Vec& n : a_.normals) try_axis(n);
-    for (const Vec& n : b_.normals) try_axis(n);
-    for (const Vec& u : a_.directions) {
-      for (const Vec& v : b_.directions) try_cross(u, v);
-    }
+  void try_all(const ConvexDirections<R>& directions) {
+    for (const Vec& n : directions.axes()) try_axis(n);
     const Vec between = b_.points[0] - a_.points[0];
     try_axis(normalized(between));
-    for (const auto* directions : {&a_.directions, &b_.directions}) {
-      for (const Vec& u : *directions) {
+    size_t i = 0;
+    for (const auto* edges : {&a_.directions, &b_.directions}) {
+      for (const Vec& u : *edges) {
         try_axis(u);
-        try_axis(common_normal(u, least_axis(u)));
+        try_axis(directions.beside()[i++]);
         try_axis(normalized(across(normalized(across(between, u)), u)));
       }
     }
     try_axis(least_axis(between));
-  }
-
-  void try_cross(const Vec& u, const Vec& v) {
-    const Vec n = common_normal(u, v);
-    try_axis(n);
-    if (a_.is_solid || b_.is_solid) return;
-    try_axis(cross(n, u));
-    try_axis(common_normal(v, n));
-  }
-
-  // The coordinate axis that is furthest from parallel to u.
-  static Vec least_axis(const Vec& u) {
-    const R x = u.x * u.x, y = u.y * u.y, z = u.z * u.z;
-    if (x <= y && x <= z) return {R(1), R(0), R(0)};
-    return y <= z ? Vec{R(0), R(1), R(0)} : Vec{R(0), R(0), R(1)};
   }
 
   const ConvexShape<R>& a_;
@@ -98,9 +92,11 @@ class FeatureSearch {
  public:
   using Vec = Vec3<R>;
 
-  FeatureSearch(const ConvexShape<R>& a, const ConvexShape<R>& b) {
+  FeatureSearch(const ConvexShape<R>& a, const ConvexShape<R>& b,
+                const ConvexDirections<R>& directions) {
+    auto normal = directions.edge_normals(a, b).begin();
     for (const auto& e : a.edges) {
-      for (const auto& f : b.edges) edge_edge(e, f);
+      for (const auto& f : b.edges) edge_edge(e, f, *normal++);
     }
     points_to_faces(a.points, b, R(1));
     points_to_faces(b.points, a, R(-1));
@@ -162,8 +158,7 @@ class FeatureSearch {
 
   // The distance of two edges that cross, seen along their common normal. The end points cover
   // parallel edges.
-  void edge_edge(const ConvexEdge<R>& e, const ConvexEdge<R>& f) {
-    const Vec n = common_normal(e.direction, f.direction);
+  void edge_edge(const ConvexEdge<R>& e, const ConvexEdge<R>& f, const Vec& n) {
     const Vec across_e = cross(n, e.direction);
     const R slope = dot(f.direction, across_e);
     if (!(slope * slope > 0)) return;
@@ -203,12 +198,54 @@ ConvexSeparation<R> halfspace_separation(const ConvexShape<R>& a, const ConvexSh
 }  // namespace
 
 template <class R>
+ConvexDirections<R>::ConvexDirections(const ConvexShape<R>& a, const ConvexShape<R>& b)
+    : axes_(a.normals) {
+  axes_.insert(axes_.end(), b.normals.begin(), b.normals.end());
+  for (const Vec& u : a.directions) {
+    for (const Vec& v : b.directions) add_cross(u, v, a.is_solid || b.is_solid);
+  }
+  for (const auto* edges : {&a.directions, &b.directions}) {
+    for (const Vec& u : *edges) beside_.push_back(common_normal(u, least_axis(u)));
+  }
+}
+
+template <class R>
+void ConvexDirections<R>::add_cross(const Vec& u, const Vec& v, bool is_solid) {
+  const Vec n = common_normal(u, v);
+  axes_.push_back(n);
+  if (is_solid) return;
+  axes_.push_back(cross(n, u));
+  axes_.push_back(common_normal(v, n));
+}
+
+template <class R>
+const std::vector<Vec3<R>>& ConvexDirections<R>::edge_normals(const ConvexShape<R>& a,
+                                                              const ConvexShape<R>& b) const {
+  if (edge_normals_.empty()) {
+    edge_normals_.reserve(a.edges.size() * b.edges.size());
+    for (const auto& e : a.edges) {
+      for (const auto& f : b.edges) {
+        edge_normals_.push_back(common_normal(e.direction, f.direction));
+      }
+    }
+  }
+  return edge_normals_;
+}
+
+template <class R>
 ConvexSeparation<R> separation_with_normal(const ConvexShape<R>& a, const ConvexShape<R>& b) {
   if (a.is_halfspace || b.is_halfspace) return halfspace_separation(a, b);
-  AxisSearch<R> axes(a, b);
+  return separation_with_normal(a, b, ConvexDirections<R>(a, b));
+}
+
+template <class R>
+ConvexSeparation<R> separation_with_normal(const ConvexShape<R>& a, const ConvexShape<R>& b,
+                                           const ConvexDirections<R>& directions) {
+  if (a.is_halfspace || b.is_halfspace) return halfspace_separation(a, b);
+  AxisSearch<R> axes(a, b, directions);
   const R radii = a.radius + b.radius;
   if (!(axes.gap() > 0)) return {axes.gap() - radii, axes.axis()};
-  const FeatureSearch<R> features(a, b);
+  const FeatureSearch<R> features(a, b, directions);
   axes.try_axis(normalized(features.way()));
   return {features.distance() - radii, axes.axis()};
 }
@@ -227,21 +264,31 @@ template <class R>
 R surface_distance(const ConvexShape<R>& shape, const Vec3<R>& point) {
   using std::abs;
   if (shape.is_halfspace) return abs(dot(shape.normal, point) - shape.offset);
-  return abs(FeatureSearch<R>(shape, ConvexShape<R>(point)).distance() - shape.radius);
+  const ConvexShape<R> other(point);
+  const FeatureSearch<R> features(shape, other, ConvexDirections<R>(shape, other));
+  return abs(features.distance() - shape.radius);
 }
 
 template <class R>
 R widest_gap(const ConvexShape<R>& a, const ConvexShape<R>& b) {
-  return AxisSearch<R>(a, b).gap();
+  return AxisSearch<R>(a, b, ConvexDirections<R>(a, b)).gap();
 }
 
 // The real types that are used.
+template class ConvexDirections<double>;
+template ConvexSeparation<double> separation_with_normal(
+    const ConvexShape<double>& a, const ConvexShape<double>& b,
+    const ConvexDirections<double>& directions);
 template double widest_gap(const ConvexShape<double>& a, const ConvexShape<double>& b);
 template ConvexSeparation<double> separation_with_normal(const ConvexShape<double>& a,
                                                          const ConvexShape<double>& b);
 template double gap_along(const ConvexShape<double>& a, const ConvexShape<double>& b,
                           const Vec3<double>& n);
 template double surface_distance(const ConvexShape<double>& shape, const Vec3<double>& point);
+template class ConvexDirections<long double>;
+template ConvexSeparation<long double> separation_with_normal(
+    const ConvexShape<long double>& a, const ConvexShape<long double>& b,
+    const ConvexDirections<long double>& directions);
 template long double widest_gap(const ConvexShape<long double>& a,
                                 const ConvexShape<long double>& b);
 template ConvexSeparation<long double> separation_with_normal(const ConvexShape<long double>& a,
@@ -250,6 +297,10 @@ template long double gap_along(const ConvexShape<long double>& a, const ConvexSh
                                const Vec3<long double>& n);
 template long double surface_distance(const ConvexShape<long double>& shape,
                                       const Vec3<long double>& point);
+template class ConvexDirections<Digits<100>>;
+template ConvexSeparation<Digits<100>> separation_with_normal(
+    const ConvexShape<Digits<100>>& a, const ConvexShape<Digits<100>>& b,
+    const ConvexDirections<Digits<100>>& directions);
 template Digits<100> widest_gap(const ConvexShape<Digits<100>>& a,
                                 const ConvexShape<Digits<100>>& b);
 template ConvexSeparation<Digits<100>> separation_with_normal(const ConvexShape<Digits<100>>& a,
@@ -258,6 +309,10 @@ template Digits<100> gap_along(const ConvexShape<Digits<100>>& a, const ConvexSh
                                const Vec3<Digits<100>>& n);
 template Digits<100> surface_distance(const ConvexShape<Digits<100>>& shape,
                                       const Vec3<Digits<100>>& point);
+template class ConvexDirections<Digits<1500>>;
+template ConvexSeparation<Digits<1500>> separation_with_normal(
+    const ConvexShape<Digits<1500>>& a, const ConvexShape<Digits<1500>>& b,
+    const ConvexDirections<Digits<1500>>& directions);
 template Digits<1500> widest_gap(const ConvexShape<Digits<1500>>& a,
                                  const ConvexShape<Digits<1500>>& b);
 template ConvexSeparation<Digits<1500>> separation_with_normal(const ConvexShape<Digits<1500>>& a,

@@ -3,6 +3,8 @@
 // real type.
 #pragma once
 
+#include <vector>
+
 #include "oracle/convex_shape.h"
 
 namespace carom::oracle {
@@ -13,10 +15,40 @@ struct ConvexSeparation {
   Vec3<R> normal;  // unit, from A to B; the gap along it is the separation
 };
 
+// What the search for the separation of two cores tries that does not depend on where they are:
+// directions alone. A caller that only moves the shapes computes it once.
+template <class R>
+class ConvexDirections {
+ public:
+  using Vec = Vec3<R>;
+
+  ConvexDirections(const ConvexShape<R>& a, const ConvexShape<R>& b);
+
+  // Unit vectors or zero: the normals of faces, and the common normals of edges.
+  const std::vector<Vec>& axes() const { return axes_; }
+  // For each edge direction of A and then of B: the coordinate axis that is furthest from it, made
+  // perpendicular to it.
+  const std::vector<Vec>& beside() const { return beside_; }
+  // For each edge of A with each of B. Computed when it is first asked for, which is when the cores
+  // are separate.
+  const std::vector<Vec>& edge_normals(const ConvexShape<R>& a, const ConvexShape<R>& b) const;
+
+ private:
+  void add_cross(const Vec& u, const Vec& v, bool is_solid);
+
+  std::vector<Vec> axes_, beside_;
+  mutable std::vector<Vec> edge_normals_;
+};
+
 // Signed distance with the normal that attains it; any one of them on a tie. For half-spaces that
 // cross it is -infinity.
 template <class R>
 ConvexSeparation<R> separation_with_normal(const ConvexShape<R>& a, const ConvexShape<R>& b);
+
+// The same for shapes that were moved, but not turned, since `directions` was computed.
+template <class R>
+ConvexSeparation<R> separation_with_normal(const ConvexShape<R>& a, const ConvexShape<R>& b,
+                                           const ConvexDirections<R>& directions);
 
 // The largest gap between the projections of the two cores, over all axes that can separate them.
 template <class R>

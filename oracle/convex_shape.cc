@@ -192,7 +192,8 @@ void ConvexShape<R>::build(const Dop& dop) {
 template <class R>
 void ConvexShape<R>::build(const Hull& hull) {
   const auto all = hull.geometry->points();
-  const HullFaces found(all);
+  const auto known = faces_of(hull.geometry);
+  const HullFaces& found = *known;
   std::vector<size_t> place(all.size());
   for (const uint32_t corner : found.corners()) {
     place[corner] = points.size();

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -43,10 +44,14 @@ class HullFaces {
   struct Sides {
     std::vector<uint32_t> on;
     bool front = false, back = false;
+    // The last points that lay on the two sides of a plane.
+    uint32_t last_front = 0, last_back = 0;
   };
 
-  // Stops as soon as points lie on both sides: the plane is no face.
-  Sides sides(const std::vector<uint32_t>& all, const std::array<uint32_t, 3>& plane) const;
+  // Stops as soon as points lie on both sides: the plane is no face. `found` is passed from plane
+  // to plane: the next one often separates the same two points.
+  void find_sides(const std::vector<uint32_t>& all, const std::array<uint32_t, 3>& plane,
+                  Sides& found) const;
 
   // The outline of coplanar points in the orientation of the three points `plane`, seen along an
   // axis. A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions",
@@ -74,12 +79,11 @@ class HullFaces {
     int side(uint32_t i) const;
 
    private:
-    static int exact_side(const Triple<Dyadic>& a, const Triple<Dyadic>& b,
-                          const Triple<Dyadic>& way);
+    int exact_side(uint32_t i) const;
 
     const HullFaces& hull_;
     std::array<uint32_t, 3> corners_;
-    Triple<long double> normal_, size_;
+    Triple<double> origin_, normal_, size_;
   };
 
   template <class R>
@@ -88,7 +92,8 @@ class HullFaces {
     return {R(q.x()) - R(p.x()), R(q.y()) - R(p.y()), R(q.z()) - R(p.z())};
   }
 
-  static constexpr long double kRounding = 0x1p-59L;  // a bound of several roundings of long double
+  // A bound of several roundings of double. Products of three floats neither overflow nor vanish.
+  static constexpr double kRounding = 0x1p-48;
 
   std::span<const Eigen::Vector3f> points_;
   int dimension_ = 0;
@@ -98,5 +103,8 @@ class HullFaces {
 
 // The hull of finite points. It keeps all of them, also inner and equal ones.
 Hull hull_of(const std::vector<Eigen::Vector3f>& points);
+
+// The faces of the points of a hull. Those of hulls seen lately are not computed again.
+std::shared_ptr<const HullFaces> faces_of(const std::shared_ptr<const HullGeometry>& geometry);
 
 }  // namespace carom::oracle

@@ -12,8 +12,14 @@ prefix=$scratch/prefix
 cmake --install "$build_dir" --prefix "$prefix" >/dev/null
 [ ! -e "$prefix/bin/carom" ] || "$prefix/bin/carom" info >/dev/null
 
+# The scratch folder has another name each time; ccache sees its paths relative to it.
+export CCACHE_BASEDIR=$scratch
+launcher=()
+[ -z "$(command -v ccache)" ] || launcher=(ccache)
+
 cmake -S examples -B "$scratch/examples" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+  -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$prefix" \
+  ${launcher:+-DCMAKE_CXX_COMPILER_LAUNCHER=ccache} >/dev/null
 cmake --build "$scratch/examples"
 for source in examples/*.cc; do
   name=$(basename "$source" .cc)
@@ -25,8 +31,14 @@ lib_dir=$(dirname "$(find "$prefix" -name 'libcarom.*' | head -n 1)")
 export PKG_CONFIG_PATH=$lib_dir/pkgconfig
 static_flag=()
 [ "$linkage" = shared ] || static_flag=(--static)
-read -ra flags <<<"$(pkg-config "${static_flag[@]}" --cflags --libs carom-reference)"
-"$compiler" -std=c++20 -O1 "$source" "${flags[@]}" -Wl,-rpath,"$lib_dir" -o "$scratch/pkg_config"
+read -ra cflags <<<"$(pkg-config "${static_flag[@]}" --cflags carom-reference)"
+read -ra libs <<<"$(pkg-config "${static_flag[@]}" --libs carom-reference)"
+source=$PWD/$source
+(
+  cd "$scratch"
+  "${launcher[@]}" "$compiler" -std=c++20 -O1 "${cflags[@]}" -c "$source" -o pkg_config.o
+  "$compiler" pkg_config.o "${libs[@]}" -Wl,-rpath,"$lib_dir" -o pkg_config
+)
 echo "== $name, built through pkg-config"
 "$scratch/pkg_config"
 

@@ -120,7 +120,7 @@ void expect_slabs_hold(const Bodies& bodies, DopKind kind, const ConvexFamily& f
     for (size_t s = kBoundsSlabs; s < slab_count(kind); ++s) {
       const Ends got = ends_of(records, kind, i, s);
       const ExactSlab exact = exact_slab(bodies[i], slab_directions(kind)[s]);
-      SCOPED_TRACE(::testing::Message() << show(bodies[i]) << ", slab " << s);
+      const ShownIfFailed shown([&] { return show(bodies[i]) + ", slab " + std::to_string(s); });
       ASSERT_LE(got.lower, exact.lower);
       ASSERT_GE(got.upper, exact.upper);
       if (!is_tight(bodies[i], family)) continue;

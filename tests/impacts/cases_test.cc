@@ -34,7 +34,7 @@ float toi_everywhere(const MovedPair& pair) {
 
 // The time may be below the exact one by rounding and the slack.
 void expect_toi(const MovedPair& pair, double exact) {
-  SCOPED_TRACE(show(pair));
+  const ShownIfFailed shown([&] { return show(pair); });
   const float toi = toi_everywhere(pair);
   EXPECT_LE(toi, exact);
   EXPECT_NEAR(toi, exact, 1e-7);

@@ -90,7 +90,7 @@ void check_contacts(const MotionFamily& family, const KindPair& kinds, uint64_t 
   const std::vector<MovedPair> pairs = make_motions(family, kinds, 12, seed);
   const std::vector<ImpactRow> rows = run_impacts(pairs, impact_call(PositionType::float64));
   for (size_t i = 0; i < pairs.size() && !testing::Test::HasFailure(); ++i) {
-    SCOPED_TRACE(show(pairs[i]) + "\n" + show(rows[i]));
+    const ShownIfFailed shown([&] { return show(pairs[i]) + "\n" + show(rows[i]); });
     check_contact(pairs[i], rows[i]);
   }
 }

@@ -45,7 +45,7 @@ TEST(InvalidMotions, HaveNoAnswer) {
     for_each_isa([&] {
       const auto rows = run_impacts(pairs, call);
       for (size_t i = 0; i < pairs.size() && !testing::Test::HasFailure(); ++i) {
-        SCOPED_TRACE(show(pairs[i]));
+        const ShownIfFailed shown([&] { return show(pairs[i]); });
         expect_no_answer(rows[i]);
       }
     });

@@ -15,28 +15,32 @@ ExactPair ExactSets::next(ShapeKind kind_a, ShapeKind kind_b) {
   pair.a.orientation = shapes_.orientation();
   pair.b.orientation = shapes_.orientation();
   pair.a.position = random_.direction() * size * kDistances[random_.below(3)];
-  place(pair, size);
-  return ExactPair(random_.chance(0.5) ? swapped(pair) : pair);
+  CompositeOracle oracle = place(pair, size);
+  return random_.chance(0.5) ? ExactPair(swapped(pair)) : ExactPair(pair, std::move(oracle));
 }
 
-void ExactSets::place(TestPair& pair, double size) {
+CompositeOracle ExactSets::place(TestPair& pair, double size) {
   const Eigen::Vector3d direction = random_.direction();
   const bool is_anywhere = random_.chance(0.25);
   const double reach = size * (is_anywhere ? random_.uniform(0, 1.5) : random_.uniform(0.5, 3));
   pair.b.position = pair.a.position + direction * reach;
-  if (is_anywhere) return;
+  CompositeOracle oracle(pair);
+  if (is_anywhere) return oracle;
   double gap =
       size * (random_.chance(0.3) ? random_.uniform(0, 0.3) : random_.log_uniform(1e-10, 1e-4));
   if (random_.chance(0.5)) gap = -gap;
-  ExactSeparations exact = CompositeOracle(pair).separations();
+  ExactSeparations exact = oracle.separations();
   if (exact.all <= 0) {
     pair.b.position = pair.a.position + direction * (6 * size);
-    exact = CompositeOracle(pair).separations();
+    oracle.place_b(pair);
+    exact = oracle.separations();
   }
   // Moving along the normal leaves all other parts at least that far apart.
   const auto way = static_cast<double>(gap - exact.all);
   const auto& n = exact.normal;
   pair.b.position += Eigen::Vector3d(double(n.x), double(n.y), double(n.z)) * way;
+  oracle.place_b(pair);
+  return oracle;
 }
 
 Shape ExactSets::shape(ShapeKind kind, double size, bool is_large) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "oracle/convex_random.h"
@@ -16,7 +17,9 @@ struct ExactPair {
   CompositeOracle oracle;
   ExactSeparations exact;
 
-  explicit ExactPair(const TestPair& of) : pair(of), oracle(of), exact(oracle.separations()) {}
+  explicit ExactPair(const TestPair& of) : ExactPair(of, CompositeOracle(of)) {}
+  ExactPair(const TestPair& of, CompositeOracle oracle_of)
+      : pair(of), oracle(std::move(oracle_of)), exact(oracle.separations()) {}
 };
 
 class ExactSets {
@@ -30,7 +33,8 @@ class ExactSets {
  private:
   // A quarter is placed anywhere. The others are moved along the normal to a given separation or
   // depth: some up to a third of the size, most a ten-thousandth of it or less.
-  void place(TestPair& pair, double size);
+  // Returns the oracle of the placed pair.
+  CompositeOracle place(TestPair& pair, double size);
 
   Shape shape(ShapeKind kind, double size, bool is_large);
 

@@ -147,7 +147,7 @@ void check_standard(const std::vector<ExactPair>& set, Figures& figures) {
   const std::vector<Row> rows = run_rows(pairs, call);
   const std::vector<SubShapes> subs = run_sub_shapes(pairs, call);
   for (size_t i = 0; i < set.size(); ++i) {
-    SCOPED_TRACE(testing::Message() << "pair " << i << "\n" << show(pairs[i]));
+    const ShownIfFailed shown([&] { return "pair " + std::to_string(i) + "\n" + show(pairs[i]); });
     Checks(set[i], rows[i], subs[i], figures).run();
   }
   check_same(pairs, call, rows, subs);
@@ -159,7 +159,7 @@ void check_proven(const std::vector<ExactPair>& set, Tier tier, Figures& figures
   call.accuracy.tier = tier;
   const std::vector<Row> rows = run_rows(pairs, call);
   for (size_t i = 0; i < set.size(); ++i) {
-    SCOPED_TRACE(testing::Message() << "pair " << i << "\n" << show(pairs[i]));
+    const ShownIfFailed shown([&] { return "pair " + std::to_string(i) + "\n" + show(pairs[i]); });
     const Number exact = set[i].exact.all;
     EXPECT_GT(std::fabs(exact), kPlacing * set[i].oracle.scale());
     if (tier == Tier::certified && rows[i].overlap == kUndecided) {

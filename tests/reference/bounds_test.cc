@@ -25,7 +25,7 @@ void expect_tight_below(float bound, const Rational& exact) {
 }
 
 void expect_tight(const PlacedShape& body, PositionType positions) {
-  SCOPED_TRACE(show(body) + ", " + name(positions));
+  const ShownIfFailed shown([&] { return show(body) + ", " + name(positions); });
   const reference::Box box = reference::bounds(body.shape, body.pose(), positions);
   const RoundedBox shape = rounded_box(body.shape);
   const Eigen::Vector3d position = stored(body.position, positions);

@@ -24,7 +24,7 @@ void expect_tight_below(float bound, const Real& exact, const Real& size) {
 }
 
 void expect_bounds_of_support(const PlacedShape& body, PositionType positions) {
-  SCOPED_TRACE(show(body) + ", " + name(positions));
+  const ShownIfFailed shown([&] { return show(body) + ", " + name(positions); });
   const reference::Box box = reference::bounds(body.shape, body.pose(), positions);
   Pose pose = body.pose();
   pose.position = stored(body.position, positions);
@@ -125,7 +125,7 @@ std::vector<PlacedShape> invalid_bodies() {
 TEST(KindsReferenceBounds, InvalidBodiesAreEmpty) {
   for (const FloatMode& mode : float_modes()) {
     for (const PlacedShape& body : invalid_bodies()) {
-      SCOPED_TRACE(show(body));
+      const ShownIfFailed shown([&] { return show(body); });
       for (const PositionType positions : kPositionTypes) {
         const ScopedFloatMode scoped(mode);
         EXPECT_FALSE(reference::is_valid(body.shape, body.pose(), positions));

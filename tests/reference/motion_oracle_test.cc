@@ -53,7 +53,7 @@ TEST(MotionOracleTest, JudgesWhatItFinds) {
     for (const KindPair& kinds : convex_kind_pairs()) {
       SCOPED_TRACE(std::string(family.name) + " " + name(kinds));
       for (const MovedPair& pair : make_motions(family, kinds, rounds(5), ++seed)) {
-        SCOPED_TRACE(show(pair));
+        const ShownIfFailed shown([&] { return show(pair); });
         check_judgement(pair, family.through_contact);
         if (testing::Test::HasFailure()) return;
       }

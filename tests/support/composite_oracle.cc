@@ -78,6 +78,7 @@ void ExactParts::add(const Shape& shape, const Vec& position, const Eigen::Quate
   }
   const InnerEdges inner(*mesh);
   const auto vertices = mesh->geometry->vertices();
+  parts_.reserve(parts_.size() + mesh->geometry->triangles().size());
   for (uint32_t i = 0; i < mesh->geometry->triangles().size(); ++i) {
     Triangle triangle;
     for (size_t k = 0; k < 3; ++k) {
@@ -89,10 +90,14 @@ void ExactParts::add(const Shape& shape, const Vec& position, const Eigen::Quate
   }
 }
 
-CompositeOracle::CompositeOracle(const TestPair& pair)
-    : a_(pair.a, {}),
-      b_(pair.b, oracle::vec3_as<long double>(pair.b.position) -
-                     oracle::vec3_as<Number>(pair.a.position)) {}
+CompositeOracle::CompositeOracle(const TestPair& pair) : a_(pair.a, {}), b_(parts_of_b(pair)) {}
+
+void CompositeOracle::place_b(const TestPair& pair) { b_ = parts_of_b(pair); }
+
+ExactParts CompositeOracle::parts_of_b(const TestPair& pair) {
+  return {pair.b,
+          oracle::vec3_as<long double>(pair.b.position) - oracle::vec3_as<Number>(pair.a.position)};
+}
 
 ExactSeparations CompositeOracle::separations() const {
   return least([](const ExactPart&, const ExactPart&) { return true; });

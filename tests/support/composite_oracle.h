@@ -75,6 +75,9 @@ class CompositeOracle {
 
   explicit CompositeOracle(const TestPair& pair);
 
+  // Takes the place of B from the pair, of which nothing else has changed.
+  void place_b(const TestPair& pair);
+
   // L: the mean of the bounding radii.
   Number scale() const { return (a_.bounding_radius() + b_.bounding_radius()) / 2; }
 
@@ -152,6 +155,8 @@ class CompositeOracle {
 
   // The gap along any direction is a lower bound of the separation.
   static Number gap_along(const ExactPart& a, const ExactPart& b, const Vec& n);
+
+  static ExactParts parts_of_b(const TestPair& pair);
 
   static Number bound_by_boxes(const ExactPart& a, const ExactPart& b);
 

@@ -90,7 +90,7 @@ void check_result(const ExactKinds& exact, const reference::PairResult& result) 
 }
 
 reference::PairResult checked_result(const TestPair& pair, PositionType positions) {
-  SCOPED_TRACE(show(pair) + "\n" + name(positions));
+  const ShownIfFailed shown([&] { return show(pair) + "\n" + name(positions); });
   const ExactKinds exact(pair, positions);
   const reference::PairResult result = reference_result(pair, positions);
   check_result(exact, result);

@@ -86,6 +86,25 @@ Row expected_row(const TestPair& pair, PositionType positions, Detail detail, Wi
   return row_of(reference_result(pair, positions), pair, positions, detail, frame);
 }
 
+std::vector<reference::PairResult> reference_results(std::span<const TestPair> pairs,
+                                                     PositionType positions) {
+  std::vector<reference::PairResult> results;
+  results.reserve(pairs.size());
+  for (const TestPair& pair : pairs) results.push_back(reference_result(pair, positions));
+  return results;
+}
+
+std::vector<Row> rows_of(std::span<const reference::PairResult> results,
+                         std::span<const TestPair> pairs, PositionType positions, Detail detail,
+                         WitnessFrame frame) {
+  std::vector<Row> rows;
+  rows.reserve(pairs.size());
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    rows.push_back(row_of(results[i], pairs[i], positions, detail, frame));
+  }
+  return rows;
+}
+
 Columns::Columns(size_t count, unsigned missing) : count_(count), missing_(missing) {
   for_each_needed(
       [&]<class T>(int, T*) { columns_.emplace_back(count, sizeof(T), sizeof(T)); },
@@ -112,6 +131,7 @@ Row Columns::row(size_t i) const {
 
 std::vector<Row> Columns::rows() const {
   std::vector<Row> rows;
+  rows.reserve(count_);
   for (size_t i = 0; i < count_; ++i) rows.push_back(row(i));
   return rows;
 }
@@ -140,9 +160,7 @@ testing::AssertionResult same_rows(std::span<const Row> expected, std::span<cons
 
 std::vector<Row> expected_rows(std::span<const TestPair> pairs, PositionType positions,
                                Detail detail, WitnessFrame frame) {
-  std::vector<Row> rows;
-  for (const TestPair& pair : pairs) rows.push_back(expected_row(pair, positions, detail, frame));
-  return rows;
+  return rows_of(reference_results(pairs, positions), pairs, positions, detail, frame);
 }
 
 }  // namespace carom::test

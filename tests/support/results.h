@@ -51,6 +51,14 @@ Row row_of(const reference::PairResult& result, const TestPair& pair, PositionTy
 // The row of the reference for this pair.
 Row expected_row(const TestPair& pair, PositionType positions, Detail detail, WitnessFrame frame);
 
+std::vector<reference::PairResult> reference_results(std::span<const TestPair> pairs,
+                                                     PositionType positions);
+
+// The rows of these results of the reference.
+std::vector<Row> rows_of(std::span<const reference::PairResult> results,
+                         std::span<const TestPair> pairs, PositionType positions, Detail detail,
+                         WitnessFrame frame = WitnessFrame::world);
+
 // Guarded columns for `count` results, those that every caller has to have; bit c of `missing`
 // leaves column c out.
 class Columns {

@@ -10,25 +10,32 @@ Call call_with(PositionType positions) {
 
 std::vector<PlacedShape> side_a(std::span<const TestPair> pairs) {
   std::vector<PlacedShape> bodies;
+  bodies.reserve(pairs.size());
   for (const TestPair& pair : pairs) bodies.push_back(pair.a);
   return bodies;
 }
 
 std::vector<PlacedShape> side_b(std::span<const TestPair> pairs) {
   std::vector<PlacedShape> bodies;
+  bodies.reserve(pairs.size());
   for (const TestPair& pair : pairs) bodies.push_back(pair.b);
   return bodies;
 }
 
-std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& call) {
-  const LaidOut a(side_a(pairs), call.layout_a);
-  const LaidOut b(side_b(pairs), call.layout_b);
-  Columns columns(pairs.size(), call.missing);
+LaidOutRowPairs::LaidOutRowPairs(std::span<const TestPair> pairs, const Call& call)
+    : a_(side_a(pairs), call.layout_a), b_(side_b(pairs), call.layout_b) {}
+
+std::vector<Row> LaidOutRowPairs::run(const Call& call) const {
+  Columns columns(a_.view().count, call.missing);
   expect_success(call, [&] {
-    return collide_rows(a.view(), b.view(), call.detail, columns.out(), call.frame,
+    return collide_rows(a_.view(), b_.view(), call.detail, columns.out(), call.frame,
                         call.parallelism, call.measured, call.accuracy);
   });
   return columns.rows();
+}
+
+std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& call) {
+  return LaidOutRowPairs(pairs, call).run(call);
 }
 
 bool hold_halfspaces(std::span<const PlacedShape> bodies) {
@@ -37,20 +44,34 @@ bool hold_halfspaces(std::span<const PlacedShape> bodies) {
   });
 }
 
-std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call) {
+LaidOutListPairs::LaidOutListPairs(std::span<const TestPair> pairs, const Call& call)
+    : count_(static_cast<uint32_t>(pairs.size())) {
   std::vector<PlacedShape> firsts = side_a(pairs);
   std::vector<PlacedShape> seconds = side_b(pairs);
-  const auto count = static_cast<uint32_t>(pairs.size());
-  const auto same = [](uint32_t i) { return i; };
-  if (hold_halfspaces(firsts) || hold_halfspaces(seconds)) {
+  are_two_sets_ = hold_halfspaces(firsts) || hold_halfspaces(seconds);
+  if (are_two_sets_) {
     std::reverse(seconds.begin(), seconds.end());
-    return run_pairs(LaidOut(firsts, call.layout_a), LaidOut(seconds, call.layout_b), count, call,
-                     same, [&](uint32_t i) { return count - 1 - i; });
+    sets_.reserve(2);
+    sets_.emplace_back(firsts, call.layout_a);
+    sets_.emplace_back(seconds, call.layout_b);
+  } else {
+    seconds.insert(seconds.end(), firsts.begin(), firsts.end());
+    sets_.emplace_back(seconds, call.layout_a);
   }
-  seconds.insert(seconds.end(), firsts.begin(), firsts.end());
-  const LaidOut set(seconds, call.layout_a);
+}
+
+std::vector<Row> LaidOutListPairs::run(const Call& call) const {
+  const auto same = [](uint32_t i) { return i; };
+  if (are_two_sets_) {
+    return run_pairs(sets_[0], sets_[1], count_, call, same,
+                     [&](uint32_t i) { return count_ - 1 - i; });
+  }
   return run_pairs(
-      set, set, count, call, [&](uint32_t i) { return count + i; }, same);
+      sets_[0], sets_[0], count_, call, [&](uint32_t i) { return count_ + i; }, same);
+}
+
+std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call) {
+  return LaidOutListPairs(pairs, call).run(call);
 }
 
 }  // namespace carom::test

@@ -40,7 +40,19 @@ void expect_success(const Call& call, const Work& work) {
   if (!result) ADD_FAILURE() << result.error().message;
 }
 
-// Calls collide_rows(): pair i is (a[i], b[i]) of two sets.
+// Pairs laid out once for several calls: pair i is (a[i], b[i]) of two sets.
+class LaidOutRowPairs {
+ public:
+  // Of the call, only the layouts count.
+  LaidOutRowPairs(std::span<const TestPair> pairs, const Call& call);
+
+  // Calls collide_rows().
+  std::vector<Row> run(const Call& call) const;
+
+ private:
+  LaidOut a_, b_;
+};
+
 std::vector<Row> run_rows(std::span<const TestPair> pairs, const Call& call);
 
 bool hold_halfspaces(std::span<const PlacedShape> bodies);
@@ -61,8 +73,23 @@ std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, con
   return columns.rows();
 }
 
-// Calls collide() with all bodies in one set, the second bodies before the first ones. A set with
-// half-spaces cannot be tested against itself: then there are two sets, one of them reversed.
+// Pairs laid out once for several calls, with all bodies in one set, the second bodies before the
+// first ones. A set with half-spaces cannot be tested against itself: then there are two sets, one
+// of them reversed.
+class LaidOutListPairs {
+ public:
+  // Of the call, only the layouts count.
+  LaidOutListPairs(std::span<const TestPair> pairs, const Call& call);
+
+  // Calls collide().
+  std::vector<Row> run(const Call& call) const;
+
+ private:
+  bool are_two_sets_;
+  uint32_t count_;
+  std::vector<LaidOut> sets_;
+};
+
 std::vector<Row> run_list(std::span<const TestPair> pairs, const Call& call);
 
 }  // namespace carom::test

@@ -1,9 +1,12 @@
 // Failing inputs and results as text: hexadecimal floats, which can be pasted back.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
@@ -36,5 +39,26 @@ std::string show(const Compound& compound);
 std::string show(const PlacedShape& body);
 
 std::string show(const TestPair& pair);
+
+// Says in which case expectations failed while it lived: fails with the text that `show` returns.
+// Unlike SCOPED_TRACE it makes the text only then; printing numbers took a tenth of some tests.
+template <class Show>
+class ShownIfFailed {
+ public:
+  explicit ShownIfFailed(Show show) : show_(std::move(show)), before_(parts()) {}
+  ~ShownIfFailed() {
+    if (parts() > before_) ADD_FAILURE() << "The failure above is of\n" << show_();
+  }
+  ShownIfFailed(const ShownIfFailed&) = delete;
+  ShownIfFailed& operator=(const ShownIfFailed&) = delete;
+
+ private:
+  static int parts() {
+    return testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count();
+  }
+
+  Show show_;
+  int before_;
+};
 
 }  // namespace carom::test

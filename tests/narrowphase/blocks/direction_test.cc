@@ -25,12 +25,14 @@ std::vector<PlacedShape> all_bodies(std::span<const TestPair> pairs) {
   return bodies;
 }
 
-std::vector<Row> run(std::span<const TestPair> pairs, Detail detail, PositionType positions,
-                     uint32_t* direction) {
-  const auto count = static_cast<uint32_t>(pairs.size());
+LaidOut laid_out(std::span<const TestPair> pairs, PositionType positions) {
+  return {all_bodies(pairs), call_with(positions).layout_a};
+}
+
+std::vector<Row> run(const LaidOut& bodies, Detail detail, uint32_t* direction) {
+  const auto count = static_cast<uint32_t>(bodies.view().count / 2);
   std::vector<Pair> list(count);
   for (uint32_t i = 0; i < count; ++i) list[i] = {i, count + i};
-  const LaidOut bodies(all_bodies(pairs), call_with(positions).layout_a);
   Columns columns(count, 0);
   collide_pairs(bodies.view(), list, detail, columns.out(), direction, Parallelism::none,
                 Accuracy{});
@@ -68,16 +70,16 @@ TEST_P(Direction, ChangesNoResult) {
       std::vector<TestPair> pairs = make_kind_pairs(GetParam(), kinds, positions, 70);
       vary_triangles(pairs);
       Random random(7);
-      const std::vector<TestPair> next = moved(pairs, random);
+      const LaidOut before = laid_out(pairs, positions);
+      const LaidOut next = laid_out(moved(pairs, random), positions);
       for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
         for_each_isa([&] {
           std::vector<uint32_t> direction(pairs.size(), kNoDirection);
-          expect_same(run(pairs, detail, positions, nullptr),
-                      run(pairs, detail, positions, direction.data()));
-          const std::vector<Row> cold = run(next, detail, positions, nullptr);
-          expect_same(cold, run(next, detail, positions, direction.data()));
+          expect_same(run(before, detail, nullptr), run(before, detail, direction.data()));
+          const std::vector<Row> cold = run(next, detail, nullptr);
+          expect_same(cold, run(next, detail, direction.data()));
           for (uint32_t& any : direction) any = static_cast<uint32_t>(random.bits());
-          expect_same(cold, run(next, detail, positions, direction.data()));
+          expect_same(cold, run(next, detail, direction.data()));
         });
       }
     }
@@ -93,8 +95,9 @@ TEST(Direction, OfAnyInputChangesNoResult) {
     const std::vector<TestPair> pairs = make_kind_nonsense(kinds, 1500);
     std::vector<uint32_t> direction(pairs.size());
     for (uint32_t& any : direction) any = static_cast<uint32_t>(random.bits());
-    expect_same(run(pairs, Detail::contact, PositionType::float32, nullptr),
-                run(pairs, Detail::contact, PositionType::float32, direction.data()));
+    const LaidOut bodies = laid_out(pairs, PositionType::float32);
+    expect_same(run(bodies, Detail::contact, nullptr),
+                run(bodies, Detail::contact, direction.data()));
   }
 }
 
@@ -106,10 +109,11 @@ TEST(Direction, IsKeptWhilePairsAreApart) {
     const PositionType positions = PositionType::float32;
     const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, 500);
     std::vector<uint32_t> direction(pairs.size(), kNoDirection);
-    const std::vector<Row> rows = run(pairs, Detail::contact, positions, direction.data());
+    const std::vector<Row> rows =
+        run(laid_out(pairs, positions), Detail::contact, direction.data());
     const std::vector<uint32_t> first = direction;
     Random random(1);
-    run(moved(pairs, random), Detail::contact, positions, direction.data());
+    run(laid_out(moved(pairs, random), positions), Detail::contact, direction.data());
     size_t separate = 0, known = 0, kept = 0;
     for (size_t i = 0; i < rows.size(); ++i) {
       EXPECT_TRUE(!rows[i].overlap || first[i] == kNoDirection);

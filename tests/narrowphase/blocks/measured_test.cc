@@ -48,11 +48,13 @@ TEST_P(MeasuredPairs, HaveTheBitsOfAll) {
     Call call = call_with(PositionType::float32);
     const std::vector<Row> all =
         expected_rows(pairs, PositionType::float32, call.detail, call.frame);
+    const LaidOutRowPairs rows(pairs, call);
+    const LaidOutListPairs list(pairs, call);
     for_each_isa([&] {
       for (const Measured measured : {Measured::overlapping, Measured::separate}) {
         call.measured = measured;
-        expect_measured(pairs, all, run_rows(pairs, call), measured);
-        expect_measured(pairs, all, run_list(pairs, call), measured);
+        expect_measured(pairs, all, rows.run(call), measured);
+        expect_measured(pairs, all, list.run(call), measured);
       }
     });
   }

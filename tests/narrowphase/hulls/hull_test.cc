@@ -104,7 +104,7 @@ TEST(Hulls, OfBoxesAreBoxes) {
       std::vector<TestPair> pairs = make_kind_pairs(family, kinds, kFloat32, 4);
       vary_triangles(pairs);
       for (TestPair& pair : pairs) {
-        SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
+        const ShownIfFailed shown([&] { return std::string(family.name) + "\n" + show(pair); });
         const Result expected = reference_result(pair, kFloat32);
         pair.a.shape = hull_of(box_corners(std::get<Box>(pair.a.shape).half));
         expect_close(pair, expected, reference_result(pair, kFloat32));
@@ -123,7 +123,7 @@ TEST(Hulls, OfTwoPointsAreSegments) {
       for (TestPair& pair : pairs) {
         auto& capsule = std::get<Capsule>(pair.a.shape);
         capsule.radius = 0;
-        SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
+        const ShownIfFailed shown([&] { return std::string(family.name) + "\n" + show(pair); });
         const Result expected = reference_result(pair, kFloat32);
         pair.a.shape = hull_of({capsule.a, capsule.b});
         expect_close(pair, expected, reference_result(pair, kFloat32));
@@ -141,7 +141,7 @@ TEST(Hulls, OfThreePointsAreTriangles) {
       for (TestPair& pair : make_kind_pairs(family, {ShapeKind::triangle, kind}, kFloat32, 4)) {
         auto& triangle = std::get<Triangle>(pair.a.shape);
         triangle.thickness = 0;
-        SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
+        const ShownIfFailed shown([&] { return std::string(family.name) + "\n" + show(pair); });
         const Result expected = reference_result(pair, kFloat32);
         pair.a.shape = hull_of({triangle.corners.begin(), triangle.corners.end()});
         expect_close(pair, expected, reference_result(pair, kFloat32));
@@ -305,7 +305,7 @@ TEST(Hulls, OnTrianglesThatHaveRules) {
   triangle.inner_edges = 4;
   for (const double x : {-0.2, -0.05, 0.05, 0.2}) {
     const TestPair pair{placed_hull(cube_corners(0.5f), {x, 0, 0.49}), {triangle, {0, 0, 0}}};
-    SCOPED_TRACE(show(pair));
+    const ShownIfFailed shown([&] { return show(pair); });
     const Result result = reference_result(pair, kFloat32);
     EXPECT_LE((result.normal - Vector3f(0, 0, -1)).norm(), 1e-6f);
     EXPECT_NEAR(result.separation, -0.01, 1e-5);
@@ -371,7 +371,7 @@ TEST(Hulls, TheOrderOfPointsDoesNotMatter) {
     Random random(11);
     for (const TestPair& pair :
          make_kind_pairs(family, {ShapeKind::hull, ShapeKind::hull}, kFloat64, 10)) {
-      SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
+      const ShownIfFailed shown([&] { return std::string(family.name) + "\n" + show(pair); });
       const Result expected = reference_result(pair, kFloat64);
       Points points = points_of(std::get<Hull>(pair.a.shape));
       for (size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[random.below(i)]);

@@ -179,7 +179,8 @@ TEST_P(HullManifolds, AreOnTheSurfacesOfBoth) {
     });
     const std::vector<Row> rows = run_manifolds(pairs, positions, WitnessFrame::body);
     for (size_t i = 0; i < pairs.size(); ++i) {
-      SCOPED_TRACE(show(pairs[i]) + "\n" + name(positions) + " " + show(rows[i]));
+      const ShownIfFailed shown(
+          [&] { return show(pairs[i]) + "\n" + name(positions) + " " + show(rows[i]); });
       expect_on_both(pairs[i], positions, rows[i]);
       if (HasFailure()) return;
     }
@@ -211,7 +212,7 @@ std::vector<TestPair> make_blades(float angle) {
 }
 
 void expect_ends_of_ridge(const TestPair& pair, const Row& row) {
-  SCOPED_TRACE(show(pair) + "\n" + show(row));
+  const ShownIfFailed shown([&] { return show(pair) + "\n" + show(row); });
   ASSERT_EQ(row.manifold_count, 2);
   const auto& points = row.manifold.point;
   const size_t first = points[0][0] < points[1][0] ? 0 : 1;
@@ -335,7 +336,7 @@ TEST(HullManifoldsOfPrisms, AreAsWideAsTheCommonArea) {
   for_each_isa([&] {
     const std::vector<Row> rows = run_manifolds(pairs, PositionType::float64, WitnessFrame::body);
     for (size_t i = 0; i < pairs.size() && !HasFailure(); ++i) {
-      SCOPED_TRACE(show(pairs[i]) + "\n" + show(rows[i]));
+      const ShownIfFailed shown([&] { return show(pairs[i]) + "\n" + show(rows[i]); });
       expect_widest(common_area(cap_of(pairs[i].a, sides[i].a), cap_of(pairs[i].b, sides[i].b)),
                     rows[i]);
     }

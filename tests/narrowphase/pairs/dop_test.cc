@@ -162,7 +162,7 @@ TEST(Dops, AroundBoxesAreBoxes) {
       std::vector<TestPair> pairs = make_kind_pairs(family, kinds, kFloat32, 3);
       vary_triangles(pairs);
       for (TestPair& pair : pairs) {
-        SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
+        const ShownIfFailed shown([&] { return std::string(family.name) + "\n" + show(pair); });
         const Result expected = reference_result(pair, kFloat32);
         const Vector3f half = std::get<Box>(pair.a.shape).half;
         const double size = bounding_radius(pair.a.shape) + bounding_radius(pair.b.shape);

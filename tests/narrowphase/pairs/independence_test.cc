@@ -113,7 +113,7 @@ TEST(Independence, OfTheOrderOfTheTwo) {
       const std::vector<Row> rows = run_list(pairs, call);
       const std::vector<Row> other_rows = run_list(others, call);
       for (size_t i = 0; i < pairs.size() && !testing::Test::HasFailure(); ++i) {
-        SCOPED_TRACE(show(pairs[i]));
+        const ShownIfFailed shown([&] { return show(pairs[i]); });
         const bool boxes = pairs[i].a.shape.index() == 1 && pairs[i].b.shape.index() == 1;
         const bool is_degenerate = rows[i].status == static_cast<uint8_t>(Status::degenerate);
         if (boxes || is_degenerate) {

@@ -17,17 +17,24 @@ using Eigen::Vector3f;
 
 constexpr Detail kDetails[] = {Detail::overlap, Detail::contact, Detail::manifold};
 
-void expect_reference_bits(std::span<const TestPair> pairs, Call call) {
+void expect_reference_bits(std::span<const TestPair> pairs,
+                           std::span<const reference::PairResult> results, Call call) {
+  const LaidOutRowPairs rows(pairs, call);
+  const LaidOutListPairs list(pairs, call);
   for (const Detail detail : kDetails) {
     SCOPED_TRACE("detail " + std::to_string(static_cast<int>(detail)));
     call.detail = detail;
     const std::vector<Row> expected =
-        expected_rows(pairs, call.layout_a.positions, detail, call.frame);
+        rows_of(results, pairs, call.layout_a.positions, detail, call.frame);
     for_each_isa([&] {
-      EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs));
-      EXPECT_TRUE(same_rows(expected, run_list(pairs, call), pairs));
+      EXPECT_TRUE(same_rows(expected, rows.run(call), pairs));
+      EXPECT_TRUE(same_rows(expected, list.run(call), pairs));
     });
   }
+}
+
+void expect_reference_bits(std::span<const TestPair> pairs, const Call& call) {
+  expect_reference_bits(pairs, reference_results(pairs, call.layout_a.positions), call);
 }
 
 class KindsBits : public testing::TestWithParam<ConvexFamily> {};
@@ -161,11 +168,12 @@ TEST(KindsBits, Layouts) {
         pairs[i].a.shape = pairs[0].a.shape;
         pairs[i].b.shape = pairs[0].b.shape;
       }
+      const std::vector<reference::PairResult> results = reference_results(pairs, positions);
       for (const Layout& layout : layouts(positions)) {
         SCOPED_TRACE(name(kinds) + ", " + show(layout));
         Call call;
         call.layout_a = call.layout_b = layout;
-        expect_reference_bits(pairs, call);
+        expect_reference_bits(pairs, results, call);
       }
     }
   }
@@ -192,12 +200,13 @@ TEST(KindsBits, MixedKindsInOneList) {
     ASSERT_NE(found, families.end());
     for (const PositionType positions : kPositionTypes) {
       const std::vector<TestPair> pairs = make_mixed_kind_pairs(*found, positions, 1500);
+      const std::vector<reference::PairResult> results = reference_results(pairs, positions);
       for (const Layout& layout : layouts(positions)) {
         SCOPED_TRACE(std::string(family) + ", " + show(layout));
         Call call;
         call.layout_a = call.layout_b = layout;
         for (const size_t count : {1, 2, 3, 17, 1023, 1024, 1025, 1500}) {
-          expect_reference_bits(std::span(pairs).first(count), call);
+          expect_reference_bits(std::span(pairs).first(count), results, call);
         }
       }
     }

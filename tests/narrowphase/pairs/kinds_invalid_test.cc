@@ -43,7 +43,7 @@ TEST(KindsInvalid, HasNoAnswer) {
         const std::vector<Row> rows = run(pairs, call);
         EXPECT_TRUE(same_rows(expected, rows, pairs));
         for (size_t i = 0; i < pairs.size() && !HasFailure(); ++i) {
-          SCOPED_TRACE(show(pairs[i]));
+          const ShownIfFailed shown([&] { return show(pairs[i]); });
           expect_no_answer(rows[i]);
         }
       }

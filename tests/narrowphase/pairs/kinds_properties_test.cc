@@ -48,7 +48,7 @@ void for_each_pair(size_t count_each, const Check& check) {
           make_pairs_of_families(kinds, positions, fewer_polytopes(kinds, count_each));
       vary_triangles(pairs);
       for (const TestPair& pair : pairs) {
-        SCOPED_TRACE(show(pair) + "\n" + name(positions));
+        const ShownIfFailed shown([&] { return show(pair) + "\n" + name(positions); });
         check(pair, positions);
         if (testing::Test::HasFailure()) return;
       }
@@ -112,7 +112,7 @@ TEST(KindsProperties, OverlapIsTheDecisionOfContactAndManifold) {
       const std::vector<Row> contact = rows_at(Detail::contact);
       const std::vector<Row> manifold = rows_at(Detail::manifold);
       for (size_t i = 0; i < pairs.size() && !testing::Test::HasFailure(); ++i) {
-        SCOPED_TRACE(show(pairs[i]));
+        const ShownIfFailed shown([&] { return show(pairs[i]); });
         EXPECT_EQ(overlap[i].overlap, contact[i].overlap);
         EXPECT_EQ(overlap[i].status, contact[i].status);
         EXPECT_EQ(contact[i].overlap, contact[i].separation <= 0);
@@ -231,7 +231,7 @@ TEST(KindsProperties, ScalingByAPowerOfTwoScalesTheResult) {
       vary_triangles(pairs);
       for (const TestPair& pair : pairs) {
         if (!is_ordinary(pair.a) || !is_ordinary(pair.b)) continue;
-        SCOPED_TRACE(std::string(family.name) + "\n" + show(pair));
+        const ShownIfFailed shown([&] { return std::string(family.name) + "\n" + show(pair); });
         const Result result = reference_result(pair, PositionType::float32);
         for (const float factor : {0x1p-40f, 0x1p-3f, 0x1p-1f, 0x1p1f, 0x1p7f, 0x1p40f}) {
           SCOPED_TRACE(factor);
@@ -268,7 +268,7 @@ TEST(KindsProperties, AQuarterTurnOfBothTurnsTheResult) {
       for (const KindPair& kinds : supported_kind_pairs()) {
         for (const TestPair& pair :
              make_kind_pairs(family, kinds, PositionType::float64, fewer_polytopes(kinds, 60))) {
-          SCOPED_TRACE(show(pair));
+          const ShownIfFailed shown([&] { return show(pair); });
           const TestPair turned{quarter_turned(pair.a), quarter_turned(pair.b)};
           expect_close(pair, reference_result(pair, PositionType::float64),
                        reference_result(turned, PositionType::float64));
@@ -313,7 +313,7 @@ TEST(KindsProperties, ACapsuleWithoutLengthIsASphere) {
     const KindPair kinds{ShapeKind::sphere, kind};
     for (TestPair pair :
          make_pairs_of_families(kinds, PositionType::float32, fewer_polytopes(kinds, 10))) {
-      SCOPED_TRACE(show(pair));
+      const ShownIfFailed shown([&] { return show(pair); });
       const Result result = reference_result(pair, PositionType::float32);
       const float radius = std::get<Sphere>(pair.a.shape).radius;
       pair.a.shape = Capsule{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), radius};

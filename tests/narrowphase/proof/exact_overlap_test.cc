@@ -44,7 +44,8 @@ TEST_P(ExactOverlap, IsWhatTheOracleSays) {
       ConvexPairMaker maker(GetParam(), kinds, positions, ++seed);
       for (size_t i = 0; i < fewer_polytopes(kinds, rounds(32)); ++i) {
         const ConvexPair pair = as_stored(maker.next(), positions);
-        SCOPED_TRACE(std::string(name(kinds)) + "\n" + show(as_test_pair(pair)));
+        const ShownIfFailed shown(
+            [&] { return std::string(name(kinds)) + "\n" + show(as_test_pair(pair)); });
         const StatedBody a = stated_body(pair.shape_a, pair.pose_a);
         const StatedBody b = stated_body(pair.shape_b, pair.pose_b);
         const bool overlap = exact_gap(pair).is_overlap();

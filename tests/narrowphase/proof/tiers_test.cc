@@ -30,6 +30,12 @@ bool exact(const TestPair& pair, PositionType positions) {
   return exact_overlap(stated_body(pair.a, positions), stated_body(pair.b, positions));
 }
 
+std::vector<bool> all_exact(std::span<const TestPair> pairs, PositionType positions) {
+  std::vector<bool> overlaps;
+  for (const TestPair& pair : pairs) overlaps.push_back(exact(pair, positions));
+  return overlaps;
+}
+
 // Every kind with every other and the families in turn, so that blocks hold all of them.
 class Tiers : public testing::TestWithParam<ConvexFamily> {
  protected:
@@ -41,12 +47,13 @@ class Tiers : public testing::TestWithParam<ConvexFamily> {
 TEST_P(Tiers, ExactIsAlwaysRight) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> some = pairs(positions);
+    const std::vector<bool> overlaps = all_exact(some, positions);
     for (const Detail detail : {Detail::overlap, Detail::manifold}) {
       for_each_isa([&] {
         const std::vector<Row> rows = run_rows(some, call_of(Tier::exact, positions, detail));
         for (size_t i = 0; i < some.size(); ++i) {
-          SCOPED_TRACE(show(some[i]) + "\n" + show(rows[i]));
-          ASSERT_EQ(rows[i].overlap, exact(some[i], positions));
+          const ShownIfFailed shown([&] { return show(some[i]) + "\n" + show(rows[i]); });
+          ASSERT_EQ(rows[i].overlap, overlaps[i]);
           if (detail == Detail::overlap) continue;
           ASSERT_EQ(rows[i].separation <= 0, rows[i].overlap == 1);
           ASSERT_EQ(rows[i].manifold_count > 0, rows[i].overlap == 1);
@@ -59,6 +66,7 @@ TEST_P(Tiers, ExactIsAlwaysRight) {
 TEST_P(Tiers, CertifiedIsNeverWrong) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> some = pairs(positions);
+    const std::vector<bool> overlaps = all_exact(some, positions);
     for (const Detail detail : {Detail::overlap, Detail::manifold}) {
       const std::vector<Row> rows = run_rows(some, call_of(Tier::certified, positions, detail));
       size_t undecided = 0;
@@ -68,7 +76,7 @@ TEST_P(Tiers, CertifiedIsNeverWrong) {
           EXPECT_TRUE(detail == Detail::overlap || rows[i].manifold_count == 0);
           continue;
         }
-        ASSERT_EQ(rows[i].overlap, exact(some[i], positions)) << show(some[i]);
+        ASSERT_EQ(rows[i].overlap, overlaps[i]) << show(some[i]);
       }
       EXPECT_TRUE(undecided == 0 || GetParam().name != std::string("plain"));
     }
@@ -99,7 +107,6 @@ TEST_P(Tiers, SeparationsAreWithinTheirBounds) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> some =
         make_mixed_kind_pairs(GetParam(), positions, rounds(600), 11);
-    const LaidOut a(side_a(some), {}), b(side_b(some), {});
     Call call = call_with(positions);
     const LaidOut laid_a(side_a(some), call.layout_a), laid_b(side_b(some), call.layout_b);
     Columns columns(some.size());
@@ -108,7 +115,7 @@ TEST_P(Tiers, SeparationsAreWithinTheirBounds) {
     out.separation_bound = bound.data();
     ASSERT_TRUE(collide_rows(laid_a.view(), laid_b.view(), Detail::contact, out));
     for (size_t i = 0; i < some.size(); ++i) {
-      SCOPED_TRACE(show(some[i]));
+      const ShownIfFailed shown([&] { return show(some[i]); });
       const ExactKinds exact(some[i], positions);
       const long double off = std::fabs(columns.row(i).separation - exact.answer.value);
       EXPECT_LE(off, bound[i] + exact.gap * 0x1p-22L);
