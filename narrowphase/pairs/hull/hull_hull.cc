@@ -21,7 +21,7 @@ void hull_hull(const Batch& batch) {
     case Pass::direction:
       return run_direction<HullLanes, HullLanes>(batch);
     case Pass::recall:
-      return run_batch<RecallKernel<HullLanes, HullLanes>>(batch);
+      return recall_hulls(batch);
     case Pass::distance:
     case Pass::clearance:
       return run_core<HullLanes, HullLanes, false>(batch);

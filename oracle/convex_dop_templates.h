@@ -1,6 +1,8 @@
-#include "oracle/convex_dop.h"
+// Definitions of the templates in convex_dop.h, for the files that say for which numbers they are
+// compiled.
+#pragma once
 
-#include "oracle/digits.h"
+#include "oracle/convex_dop.h"
 
 namespace carom::oracle {
 
@@ -117,9 +119,4 @@ void ConvexDop<R>::find_face(size_t p) {
   faces_.push_back(face);
 }
 
-// The real types that are used.
-template class ConvexDop<double>;
-template class ConvexDop<long double>;
-template class ConvexDop<Digits<100>>;
-template class ConvexDop<Digits<1500>>;
 }  // namespace carom::oracle

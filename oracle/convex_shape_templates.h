@@ -1,6 +1,8 @@
-#include "oracle/convex_shape.h"
+// Definitions of the templates in convex_shape.h, for the files that say for which numbers they are
+// compiled.
+#pragma once
 
-#include "oracle/digits.h"
+#include "oracle/convex_shape.h"
 
 namespace carom::oracle {
 
@@ -266,17 +268,4 @@ void ConvexShape<R>::add_quad(size_t i, size_t j, size_t k, size_t l) {
   add_face(i, k, l);
 }
 
-// The real types that are used.
-template struct Rotation<double>;
-template struct ConvexFace<double>;
-template struct ConvexShape<double>;
-template struct Rotation<long double>;
-template struct ConvexFace<long double>;
-template struct ConvexShape<long double>;
-template struct Rotation<Digits<100>>;
-template struct ConvexFace<Digits<100>>;
-template struct ConvexShape<Digits<100>>;
-template struct Rotation<Digits<1500>>;
-template struct ConvexFace<Digits<1500>>;
-template struct ConvexShape<Digits<1500>>;
 }  // namespace carom::oracle

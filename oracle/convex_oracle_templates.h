@@ -1,3 +1,7 @@
+// Definitions of the templates in convex_oracle.h, for the files that say for which numbers they
+// are compiled.
+#pragma once
+
 #include "oracle/convex_oracle.h"
 
 #include <algorithm>
@@ -5,11 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "oracle/digits.h"
-
 namespace carom::oracle {
-
-namespace {
 
 // The coordinate axis that is furthest from parallel to u.
 template <class R>
@@ -195,8 +195,6 @@ ConvexSeparation<R> halfspace_separation(const ConvexShape<R>& a, const ConvexSh
   return {gap_to_halfspace(a, b), -b.normal};
 }
 
-}  // namespace
-
 template <class R>
 ConvexDirections<R>::ConvexDirections(const ConvexShape<R>& a, const ConvexShape<R>& b)
     : axes_(a.normals) {
@@ -274,51 +272,4 @@ R widest_gap(const ConvexShape<R>& a, const ConvexShape<R>& b) {
   return AxisSearch<R>(a, b, ConvexDirections<R>(a, b)).gap();
 }
 
-// The real types that are used.
-template class ConvexDirections<double>;
-template ConvexSeparation<double> separation_with_normal(
-    const ConvexShape<double>& a, const ConvexShape<double>& b,
-    const ConvexDirections<double>& directions);
-template double widest_gap(const ConvexShape<double>& a, const ConvexShape<double>& b);
-template ConvexSeparation<double> separation_with_normal(const ConvexShape<double>& a,
-                                                         const ConvexShape<double>& b);
-template double gap_along(const ConvexShape<double>& a, const ConvexShape<double>& b,
-                          const Vec3<double>& n);
-template double surface_distance(const ConvexShape<double>& shape, const Vec3<double>& point);
-template class ConvexDirections<long double>;
-template ConvexSeparation<long double> separation_with_normal(
-    const ConvexShape<long double>& a, const ConvexShape<long double>& b,
-    const ConvexDirections<long double>& directions);
-template long double widest_gap(const ConvexShape<long double>& a,
-                                const ConvexShape<long double>& b);
-template ConvexSeparation<long double> separation_with_normal(const ConvexShape<long double>& a,
-                                                              const ConvexShape<long double>& b);
-template long double gap_along(const ConvexShape<long double>& a, const ConvexShape<long double>& b,
-                               const Vec3<long double>& n);
-template long double surface_distance(const ConvexShape<long double>& shape,
-                                      const Vec3<long double>& point);
-template class ConvexDirections<Digits<100>>;
-template ConvexSeparation<Digits<100>> separation_with_normal(
-    const ConvexShape<Digits<100>>& a, const ConvexShape<Digits<100>>& b,
-    const ConvexDirections<Digits<100>>& directions);
-template Digits<100> widest_gap(const ConvexShape<Digits<100>>& a,
-                                const ConvexShape<Digits<100>>& b);
-template ConvexSeparation<Digits<100>> separation_with_normal(const ConvexShape<Digits<100>>& a,
-                                                              const ConvexShape<Digits<100>>& b);
-template Digits<100> gap_along(const ConvexShape<Digits<100>>& a, const ConvexShape<Digits<100>>& b,
-                               const Vec3<Digits<100>>& n);
-template Digits<100> surface_distance(const ConvexShape<Digits<100>>& shape,
-                                      const Vec3<Digits<100>>& point);
-template class ConvexDirections<Digits<1500>>;
-template ConvexSeparation<Digits<1500>> separation_with_normal(
-    const ConvexShape<Digits<1500>>& a, const ConvexShape<Digits<1500>>& b,
-    const ConvexDirections<Digits<1500>>& directions);
-template Digits<1500> widest_gap(const ConvexShape<Digits<1500>>& a,
-                                 const ConvexShape<Digits<1500>>& b);
-template ConvexSeparation<Digits<1500>> separation_with_normal(const ConvexShape<Digits<1500>>& a,
-                                                               const ConvexShape<Digits<1500>>& b);
-template Digits<1500> gap_along(const ConvexShape<Digits<1500>>& a,
-                                const ConvexShape<Digits<1500>>& b, const Vec3<Digits<1500>>& n);
-template Digits<1500> surface_distance(const ConvexShape<Digits<1500>>& shape,
-                                       const Vec3<Digits<1500>>& point);
 }  // namespace carom::oracle
