@@ -23,6 +23,7 @@
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/load-inl.h"
 #include "narrowphase/batch/report-inl.h"
+#include "narrowphase/batch/tail-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -130,9 +131,7 @@ struct BatchLoop {
     // not change.
     const bool is_odd = !hn::AllTrue(FloatTag(), plain);
     if (HWY_UNLIKELY(is_odd)) {
-      Mask found = plain;  // `valid` itself stays in a register
-      find_valid({source, A::kKind, B::kKind, row}, found);
-      valid = found;
+      valid = valid_lanes(source, row);
       clear_unless(valid, positions, pose, a, b);
     }
     const F up = to_units<Kernel::kUnits>(pose, a, b);
@@ -153,6 +152,14 @@ struct BatchLoop {
       positions.a_low = zero_unless(valid, positions.a_low);
       positions.b_low = zero_unless(valid, positions.b_low);
     }
+  }
+
+  static HWY_NOINLINE Mask valid_lanes(const Batch& batch, size_t row) {
+    HWY_ALIGN float flags[kLanes];
+    for (size_t i = 0; i < kLanes; ++i) {
+      flags[i] = is_valid_pair(batch, A::kKind, B::kKind, row + i) ? 1.0f : 0.0f;
+    }
+    return hn::Gt(hn::Load(FloatTag(), flags), hn::Zero(FloatTag()));
   }
 };
 

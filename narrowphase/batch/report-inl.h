@@ -11,11 +11,16 @@
 
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/load-inl.h"
-#include "narrowphase/batch/rare_lanes-inl.h"
+#include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/store-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
+
+struct AnswerLanes {
+  F separation;
+  F3 normal, arm_a, arm_b;
+};
 
 // Writes columns at Detail::overlap or Detail::contact. Kernels may report in other units than
 // metres.
@@ -76,17 +81,12 @@ struct LaneReport {
   HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
     if (batch.single_precision) unsure = hn::AndNot(is_good_enough(answer), unsure);
-    // What is handed over lies in memory; `answer` itself stays in registers.
     if constexpr (Kernel::kUnsure == Unsure::separation) {
-      F separation = answer.separation;
-      refine_separation({source, A::kKind, B::kKind, row}, unsure, separation);
-      answer.separation = separation;
+      answer.separation = refined(unsure, answer.separation);
     } else {
-      AnswerLanes refined = answer;
-      Mask refined_degenerate = degenerate;
-      refine_all({source, A::kKind, B::kKind, row}, unsure, refined, refined_degenerate);
-      answer = refined;
-      degenerate = refined_degenerate;
+      AnswerLanes in_memory = answer;  // `answer` itself stays in registers
+      refine_all(unsure, in_memory, degenerate);
+      answer = in_memory;
     }
     overlap = hn::Le(answer.separation, splat(0));
   }
@@ -128,6 +128,40 @@ struct LaneReport {
     if constexpr (!kHasContact) return hn::Not(no_lanes());
     const F squared = dot(answer.normal, answer.normal);
     return hn::And(hn::Ge(squared, splat(0.9f)), hn::Le(squared, splat(1.1f)));
+  }
+
+  HWY_NOINLINE F refined(Mask unsure, F separation) const {
+    HWY_ALIGN float values[kLanes];
+    hn::Store(separation, FloatTag(), values);
+    for_each_lane(unsure, [&](size_t i) {
+      values[i] = near_touch_separation(source, A::kKind, B::kKind, row + i);
+    });
+    return hn::Load(FloatTag(), values);
+  }
+
+  HWY_NOINLINE void refine_all(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
+    constexpr size_t kNumbers = 11;
+    HWY_ALIGN float values[kNumbers][kLanes];
+    F* const columns[kNumbers - 1] = {
+        &answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z, &answer.arm_a.x,
+        &answer.arm_a.y,    &answer.arm_a.z,  &answer.arm_b.x,  &answer.arm_b.y,  &answer.arm_b.z};
+    for (size_t c = 0; c + 1 < kNumbers; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
+    hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kNumbers - 1]);
+    for_each_lane(unsure, [&](size_t i) {
+      const std::array<float, kNumbers> exact = exact_answer(source, A::kKind, B::kKind, row + i);
+      for (size_t c = 0; c < kNumbers; ++c) values[c][i] = exact[c];
+    });
+    for (size_t c = 0; c + 1 < kNumbers; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
+    degenerate = hn::Ne(hn::Load(FloatTag(), values[kNumbers - 1]), splat(0));
+  }
+
+  template <class Body>
+  static HWY_INLINE void for_each_lane(Mask mask, const Body& body) {
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(hn::IfThenElseZero(mask, splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] != 0) body(i);
+    }
   }
 
   HWY_INLINE F3 witness(const F3& position, const F3& low, const F3& arm) const {
