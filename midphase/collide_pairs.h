@@ -5,8 +5,8 @@
 
 #include "carom/base/parallelism.h"
 #include "carom/base/result.h"
-#include "carom/results/result_columns.h"
 #include "carom/results/pair.h"
+#include "carom/results/result_columns.h"
 #include "carom/results/tier.h"
 #include "carom/shapes/views.h"
 #include "narrowphase/batch/packed_direction.h"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "carom/results/pair.h"
 #include "carom/results/tier.h"
 #include "midphase/placed_part.h"
 #include "narrowphase/batch/column_memory.h"

@@ -10,8 +10,8 @@
 #include "bench/support/bodies.h"
 #include "carom/base/result.h"
 #include "carom/reference/reference.h"
-#include "carom/results/result_arrays.h"
 #include "carom/results/pair.h"
+#include "carom/results/result_arrays.h"
 
 namespace carom::bench {
 

@@ -245,8 +245,8 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
                               : test_pairs(*set, options, *detail, *accuracy, console);
   if (!tested) return tested.error();
   const float* toi = finds_impacts(options) ? tested->toi.data() : nullptr;
-  Result<void> written = io::write_pair_results(options.output, set->size(),
-                                                tested->results.columns(), toi);
+  Result<void> written =
+      io::write_pair_results(options.output, set->size(), tested->results.columns(), toi);
   if (!written) return written.error();
 
   PairsReport report = summarize(*tested, *accuracy, options);

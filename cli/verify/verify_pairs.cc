@@ -60,7 +60,9 @@ bool same_bits(const ResultRow& x, const ResultRow& y) {
   return same;
 }
 
-bool is_invalid(const ResultRow& row) { return row.status == static_cast<uint8_t>(Status::invalid); }
+bool is_invalid(const ResultRow& row) {
+  return row.status == static_cast<uint8_t>(Status::invalid);
+}
 
 std::array<float, 3> array_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 

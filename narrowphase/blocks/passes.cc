@@ -155,16 +155,14 @@ void run_search(const PairKind& kind, const Batch& batch, const PassPlan& plan,
   Batch search = batch;
   search.pass = plan.search;
   search.detail = plan.search_detail;
-  switch (plan.known) {
-    case PassPlan::Known::nothing:
-      return kind.run(search);
-    case PassPlan::Known::directions:
-      return run_test(kind, batch, direction);
-    case PassPlan::Known::features: {
-      RowFlags open;
-      run_recall(kind, batch, plan.search == Pass::distance, open);
-      return test_open(kind, search, open);
-    }
+  if (direction && plan.known == PassPlan::Known::directions) {
+    run_test(kind, batch, direction);
+  } else if (plan.known == PassPlan::Known::features) {
+    RowFlags open;
+    run_recall(kind, batch, plan.search == Pass::distance, open);
+    test_open(kind, search, open);
+  } else {
+    kind.run(search);
   }
 }
 

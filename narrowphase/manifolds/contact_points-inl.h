@@ -7,6 +7,8 @@
 #define CAROM_NARROWPHASE_MANIFOLDS_CONTACT_POINTS_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "narrowphase/manifolds/face_contact-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,7 +29,14 @@ HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
   Rectangle face, other;
   face_towards(contact.normal, a, placed.a, face);
   face_towards(-contact.normal, b, placed.b, other);
-  touch_boxes(face, other, contact, out);
+  if constexpr (std::is_same_v<A, AabbLanes> && std::is_same_v<B, AabbLanes>) {
+    // The axes are constants here, with which the compiler drops a part of clipping.
+    ClipPoints<12> all;
+    clip(face, other, contact.normal, all);
+    put_on_frame(face.frame, all, splat(kSamePoint), out);
+  } else {
+    touch_boxes(face, other, contact, out);
+  }
 }
 
 template <AnyBox A>

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "narrowphase/batch/row_store.h"
 #include "narrowphase/batch/column_memory.h"
+#include "narrowphase/batch/row_store.h"
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/stated_body.h"
 #include "narrowphase/doubles/furthest.h"

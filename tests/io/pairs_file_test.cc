@@ -1,6 +1,5 @@
 #include "io/pairs_file.h"
 
-
 #include <cmath>
 
 #include "carom/results/result_arrays.h"
@@ -151,8 +150,8 @@ TEST_F(PairsTest, NoPairsAreAFileToo) {
   const auto pairs = read_pairs(path("p.npz"));
   ASSERT_TRUE(succeeds(pairs));
   EXPECT_EQ(pairs->pairs, 0u);
-  EXPECT_TRUE(succeeds(
-      write_pair_results(path("r.npz"), 0, ResultArrays(0, Detail::manifold).columns())));
+  EXPECT_TRUE(
+      succeeds(write_pair_results(path("r.npz"), 0, ResultArrays(0, Detail::manifold).columns())));
 }
 
 }  // namespace

@@ -28,11 +28,9 @@ Row untouched_row() {
 
 bool same_bits(const Row& x, const Row& y) {
   bool same = true;
-  for_each_column(
-      [&](const ColumnInfo&, const auto& a, const auto& b) {
-        same = same && std::memcmp(&a, &b, sizeof a) == 0;
-      },
-      x, y);
+  for_each_column([&](const ColumnInfo&, const auto& a,
+                      const auto& b) { same = same && std::memcmp(&a, &b, sizeof a) == 0; },
+                  x, y);
   return same;
 }
 
@@ -106,9 +104,8 @@ std::vector<Row> rows_of(std::span<const reference::PairResult> results,
 }
 
 Columns::Columns(size_t count, unsigned missing) : count_(count), missing_(missing) {
-  for_each_needed(
-      [&]<class T>(int, T*) { columns_.emplace_back(count, sizeof(T), sizeof(T)); },
-      ResultColumns());
+  for_each_needed([&]<class T>(int, T*) { columns_.emplace_back(count, sizeof(T), sizeof(T)); },
+                  ResultColumns());
 }
 
 ResultColumns Columns::out() {
@@ -139,7 +136,8 @@ std::vector<Row> Columns::rows() const {
 void forget_columns(Row& row, unsigned missing) {
   for_each_needed(
       [missing](int number, auto& field) {
-        if (missing >> number & 1) std::memset(static_cast<void*>(&field), kUntouched, sizeof field);
+        if (missing >> number & 1)
+          std::memset(static_cast<void*>(&field), kUntouched, sizeof field);
       },
       row);
 }

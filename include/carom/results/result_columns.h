@@ -89,7 +89,8 @@ constexpr void for_each_result(const Visit& visit, Columns&&... columns) {
 template <class Visit, class... Columns>
 constexpr void for_each_column(const Visit& visit, Columns&&... columns) {
   const auto each = [&](const ColumnInfo& info, auto&... field) {
-    if constexpr ((requires { std::tuple_size<std::remove_cvref_t<decltype(field)>>::value; } && ...)) {
+    if constexpr ((requires { std::tuple_size<std::remove_cvref_t<decltype(field)>>::value; } &&
+                   ...)) {
       for (size_t axis = 0; axis < 3; ++axis) visit(info, field[axis]...);
     } else {
       visit(info, field...);

@@ -12,18 +12,18 @@ namespace carom {
 /// A row of ResultColumns: fields, signs and frames are those of the columns. A field whose column
 /// does not exist is zero.
 struct ResultRow {
-  uint8_t overlap = 0;                ///< 1 overlap, 0 separate
-  uint8_t status = 0;                 ///< Status
-  float separation = 0;               ///< metres
-  std::array<float, 3> normal{};      ///< from A to B
-  std::array<float, 3> point_a{};     ///< witness point of A
-  std::array<float, 3> point_b{};     ///< witness point of B
-  uint8_t manifold_count = 0;         ///< 0 to 4
-  ManifoldPoints manifold{};          ///< on A
-  float separation_bound = 0;         ///< metres
-  uint32_t sub_a = 0;                 ///< sub-shape of A
-  uint32_t sub_b = 0;                 ///< sub-shape of B
-  uint64_t features = 0;              ///< what the caller hands in again
+  uint8_t overlap = 0;             ///< 1 overlap, 0 separate
+  uint8_t status = 0;              ///< Status
+  float separation = 0;            ///< metres
+  std::array<float, 3> normal{};   ///< from A to B
+  std::array<float, 3> point_a{};  ///< witness point of A
+  std::array<float, 3> point_b{};  ///< witness point of B
+  uint8_t manifold_count = 0;      ///< 0 to 4
+  ManifoldPoints manifold{};       ///< on A
+  float separation_bound = 0;      ///< metres
+  uint32_t sub_a = 0;              ///< sub-shape of A
+  uint32_t sub_b = 0;              ///< sub-shape of B
+  uint64_t features = 0;           ///< what the caller hands in again
 };
 
 /// The row `i` of the columns.
