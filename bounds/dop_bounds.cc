@@ -89,12 +89,12 @@ void fill_record(float lower, float upper, size_t size, float* record) {
 // Writes the record of a body of any kind.
 void write_single(const BodyReader& reader, const DopDirections& directions, size_t i,
                   float* record) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   const size_t size = 2 * directions.count;
   if (!reader.is_valid(i)) {
-    fill_record(kInfinity, -kInfinity, size, record);
+    fill_record(kUnbounded, -kUnbounded, size, record);
   } else if (reader.kind(i) == ShapeKind::halfspace) {
-    fill_record(-kInfinity, kInfinity, size, record);
+    fill_record(-kUnbounded, kUnbounded, size, record);
   } else {
     const Position<double> p = reader.position<double>(i);
     write_record(directions, dop_core(reader, i), {p.x, p.y, p.z}, record);
