@@ -16,13 +16,15 @@ namespace carom {
 /// resize(). Their contents after resize() are not those of before.
 class ResultArrays {
  public:
-  ResultArrays() = default;
+  ResultArrays() = default;  ///< no columns
   /// As resize().
   explicit ResultArrays(size_t count, Detail detail,
                         std::initializer_list<ColumnRole> wanted = {}) {
     resize(count, detail, wanted);
   }
+  /// Takes the memory over; the other one may only be resized, assigned to or destroyed.
   ResultArrays(ResultArrays&&) = default;
+  /// Likewise.
   ResultArrays& operator=(ResultArrays&&) = default;
   ResultArrays(const ResultArrays&) = delete;
   ResultArrays& operator=(const ResultArrays&) = delete;
