@@ -45,11 +45,21 @@ void for_everything(const std::function<void(const Asked&, const PassPlan&)>& ch
 TEST(PassPlan, OnlyHasPassesOfTheKind) {
   for_everything([](const Asked& asked, const PassPlan& plan) {
     const PairKind& kind = asked.kind;
-    if (plan.known == PassPlan::Known::directions) EXPECT_TRUE(kind.has_direction_pass());
-    if (plan.known == PassPlan::Known::features) EXPECT_TRUE(kind.has_recall_pass());
-    if (plan.search != Pass::test) EXPECT_TRUE(kind.measures_at_once());
-    if (plan.measures_separate) EXPECT_TRUE(kind.has_distance_pass());
-    if (plan.points == PassPlan::Points::clipped) EXPECT_TRUE(kind.has_manifold_pass());
+    if (plan.known == PassPlan::Known::directions) {
+      EXPECT_TRUE(kind.has_direction_pass());
+    }
+    if (plan.known == PassPlan::Known::features) {
+      EXPECT_TRUE(kind.has_recall_pass());
+    }
+    if (plan.search != Pass::test) {
+      EXPECT_TRUE(kind.measures_at_once());
+    }
+    if (plan.measures_separate) {
+      EXPECT_TRUE(kind.has_distance_pass());
+    }
+    if (plan.points == PassPlan::Points::clipped) {
+      EXPECT_TRUE(kind.has_manifold_pass());
+    }
   });
 }
 
@@ -63,9 +73,15 @@ TEST(PassPlan, WhatNobodyAskedForIsNotComputed) {
       EXPECT_FALSE(plan.measures_separate);
       EXPECT_EQ(plan.search, Pass::test);
     }
-    if (!contacts) EXPECT_EQ(plan.known, PassPlan::Known::nothing);
-    if (!asked.directions) EXPECT_NE(plan.known, PassPlan::Known::directions);
-    if (!asked.features) EXPECT_NE(plan.known, PassPlan::Known::features);
+    if (!contacts) {
+      EXPECT_EQ(plan.known, PassPlan::Known::nothing);
+    }
+    if (!asked.directions) {
+      EXPECT_NE(plan.known, PassPlan::Known::directions);
+    }
+    if (!asked.features) {
+      EXPECT_NE(plan.known, PassPlan::Known::features);
+    }
   });
 }
 
