@@ -15,8 +15,8 @@ struct ConvexSeparation {
   Vec3<R> normal;  // unit, from A to B; the gap along it is the separation
 };
 
-// What the search for the separation of two cores tries that does not depend on where they are:
-// directions alone. A caller that only moves the shapes computes it once.
+// The directions that the search for the separation of two cores tries. They do not depend on where
+// the cores are, so a caller that only moves the shapes computes them once.
 template <class R>
 class ConvexDirections {
  public:

@@ -65,7 +65,7 @@ class AccuracyOption : public WorldOption {
     return metres > 0 ? text + " --motion-tolerance " + shortest(metres) : text;
   }
 
-  // Of the knobs, those that are set.
+  // Lists only the knobs that are set.
   void add_json(const RunReport& report, Json& json) const override {
     const Accuracy& accuracy = report.settings.world.accuracy;
     const std::vector<std::string> names = names_of(accuracy.knobs);
@@ -112,7 +112,7 @@ class DetailOption : public WorldOption {
   std::string name_ = "contact";
 };
 
-// Of the bodies, not of the world: all dynamic ones get it. The row of the bodies looked after
+// A setting of bodies: all dynamic ones get it. The row of the bodies looked after
 // (run_report.cc) names it.
 class DetectionOption : public WorldOption {
  public:

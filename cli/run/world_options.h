@@ -29,10 +29,10 @@ class WorldOptions {
 
   // The command line sets variables of this object, so it must live until it has been parsed.
   void add_to(Command& command);
-  // What the command line chose. Settings that no option sets have their defaults.
+  // The settings of the command line; those that no option sets have their defaults.
   Result<RunSettings> read() const;
 
-  // What a run used, and how the world understood it.
+  // Adds the settings that a run used, as the world understood them.
   void add_json(const RunReport& report, nlohmann::ordered_json& json) const;
   void add_rows(const RunReport& report, Table& table) const;
 

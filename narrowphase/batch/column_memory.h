@@ -52,9 +52,9 @@ class ColumnMemory {
 // Small enough for the scratch of a block to stay in L2, large enough to amortise a task.
 inline constexpr size_t kPairsPerBlock = 1024;
 
-// What tests write.
+// The columns that tests write.
 using TestColumns = ColumnMemory<kPairsPerBlock, ColumnRole::test>;
-// What run_passes() writes.
+// The columns that run_passes() writes.
 using BlockColumns = ColumnMemory<kPairsPerBlock, ColumnRole::test, ColumnRole::manifold,
                                   ColumnRole::bound, ColumnRole::memory>;
 

@@ -8,7 +8,7 @@ namespace carom {
 
 // The passes of a batch, in the order in which they run.
 struct PassPlan {
-  // What spares pairs the search: nothing, the direction that separated them before, or their
+  // A pair may be spared the search by the direction that separated it before, or by its
   // closest features of the last call.
   enum class Known : uint8_t { nothing, directions, features };
   // Where manifold points come from. `zero`: there are none, and the columns say so.

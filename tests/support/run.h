@@ -43,7 +43,7 @@ void expect_success(const Call& call, const Work& work) {
 // Pairs laid out once for several calls: pair i is (a[i], b[i]) of two sets.
 class LaidOutRowPairs {
  public:
-  // Of the call, only the layouts count.
+  // Only the layouts of the call count.
   LaidOutRowPairs(std::span<const TestPair> pairs, const Call& call);
 
   // Calls collide_rows().
@@ -78,7 +78,7 @@ std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, con
 // of them reversed.
 class LaidOutListPairs {
  public:
-  // Of the call, only the layouts count.
+  // Only the layouts of the call count.
   LaidOutListPairs(std::span<const TestPair> pairs, const Call& call);
 
   // Calls collide().

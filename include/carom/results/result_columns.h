@@ -58,7 +58,7 @@ constexpr bool is_optional(ColumnRole role) {
   return role != ColumnRole::test && role != ColumnRole::manifold;
 }
 
-/// What a column holds.
+/// The entry of a column in the list.
 struct ColumnInfo {
   const char* name;  ///< the name of the field, and of the array in files of results
   Detail detail;     ///< the least detail that fills it
