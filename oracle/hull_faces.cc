@@ -44,6 +44,11 @@ class KnownFaces {
 }  // namespace
 
 HullFaces::HullFaces(std::span<const Eigen::Vector3f> points) : points_(points) {
+  find();
+  points_ = {};  // the faces may outlive the points
+}
+
+void HullFaces::find() {
   const std::vector<uint32_t> all = distinct();
   const Outline plane = find_plane(all);
   if (plane.size() < 3) {

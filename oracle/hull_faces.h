@@ -31,6 +31,8 @@ class HullFaces {
   const std::vector<Outline>& faces() const { return faces_; }
 
  private:
+  void find();
+
   // Indices of distinct points in the order of their coordinates.
   std::vector<uint32_t> distinct() const;
 
@@ -95,7 +97,7 @@ class HullFaces {
   // A bound of several roundings of double. Products of three floats neither overflow nor vanish.
   static constexpr double kRounding = 0x1p-48;
 
-  std::span<const Eigen::Vector3f> points_;
+  std::span<const Eigen::Vector3f> points_;  // while the faces are found
   int dimension_ = 0;
   std::vector<uint32_t> corners_;
   std::vector<Outline> faces_;
