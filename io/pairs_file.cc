@@ -150,7 +150,9 @@ Result<void> write_pair_results(const std::string& path, uint64_t pairs,
   Result<void> done;
   const auto add = [&](const ColumnInfo& info, const auto& column) {
     using Column = std::remove_cvref_t<decltype(column)>;
-    if (!done || column == Column{}) return;
+    const bool is_member = info.role != ColumnRole::bound && info.role != ColumnRole::memory;
+    const bool is_there = column != Column{} || (pairs == 0 && is_member);
+    if (!done || !is_there) return;
     if constexpr (std::is_same_v<Column, ManifoldPoints*>) {
       done = add_manifolds(*writer, columns, pairs);
     } else {
@@ -158,7 +160,7 @@ Result<void> write_pair_results(const std::string& path, uint64_t pairs,
     }
   };
   for_each_result(add, columns);
-  if (done && toi) done = add_column(*writer, "toi", toi, pairs);
+  if (done && (toi || pairs == 0)) done = add_column(*writer, "toi", toi, pairs);
   if (done) done = writer->finish();
   return done;
 }

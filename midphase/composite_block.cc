@@ -267,8 +267,8 @@ class CompositeRun {
     return contact;
   }
 
-  // Of the pairs [begin, end), tests those again that only have contacts over inner edges, with
-  // such directions forbidden. It does not change the decision that they overlap.
+  // Tests pairs of [begin, end) again if all their contacts are over inner edges, with such
+  // directions forbidden. It does not change the decision that they overlap.
   void write_over_edges(size_t begin, size_t end) {
     again_.clear();
     for (size_t k = begin; k < end; ++k) {

@@ -43,9 +43,9 @@ class Option {
   // Refuses the command line if it has `other`, too, which the command must have already.
   Option excludes(const std::string& other);
 
-  // Of vectors: one text holds several values.
+  // A vector: one text holds several values.
   Option separated_by(char separator);
-  // Of vectors: the option may be given several times.
+  // A vector: the option may be given several times.
   Option take_all();
 
  private:

@@ -24,7 +24,7 @@ class JsonOutput {
   bool standard_output_ = false;
 };
 
-// Of the library that writes the JSON.
+// The version of the library that writes the JSON.
 std::string json_library_version();
 
 }  // namespace carom::cli

@@ -1,7 +1,6 @@
 #include "cli/verify/verify_pairs.h"
 
 #include <array>
-#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -45,19 +44,6 @@ Result<void> check_kernels(const PairSet& pairs) {
                  name(b)};
   }
   return {};
-}
-
-template <class T>
-bool same_bits(const T& x, const T& y) {
-  return std::memcmp(&x, &y, sizeof(T)) == 0;
-}
-
-bool same_bits(const ResultRow& x, const ResultRow& y) {
-  bool same = true;
-  for_each_result(
-      [&](const ColumnInfo&, const auto& a, const auto& b) { same = same && same_bits(a, b); }, x,
-      y);
-  return same;
 }
 
 bool is_invalid(const ResultRow& row) {

@@ -1,6 +1,9 @@
 #include "io/pairs_file.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "carom/results/result_arrays.h"
 #include "tests/io/io_test_util.h"
@@ -144,6 +147,20 @@ TEST_F(PairsTest, ColumnsThatAreNotThereAreNotInTheFile) {
               HasSubstr("none/r.npz: cannot be created"));
 }
 
+// Every column that files of results have is in the page of formats.
+TEST_F(PairsTest, FormatsNameEveryColumn) {
+  std::ifstream page(std::string(CAROM_TEST_DATA_DIR) + "/../../docs/formats.md");
+  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  ASSERT_THAT(text, HasSubstr("`overlap`"));
+  for_each_result(
+      [&](const ColumnInfo& info, const auto&) {
+        if (info.role == ColumnRole::bound || info.role == ColumnRole::memory) return;
+        const bool is_two = info.name == std::string("manifold");
+        EXPECT_THAT(text, HasSubstr("`" + std::string(info.name) + (is_two ? "_point`" : "`")));
+      },
+      ResultColumns());
+}
+
 TEST_F(PairsTest, NoPairsAreAFileToo) {
   PairsFile none;
   ASSERT_TRUE(succeeds(write_pairs(path("p.npz"), none)));
@@ -151,7 +168,15 @@ TEST_F(PairsTest, NoPairsAreAFileToo) {
   ASSERT_TRUE(succeeds(pairs));
   EXPECT_EQ(pairs->pairs, 0u);
   EXPECT_TRUE(
-      succeeds(write_pair_results(path("r.npz"), 0, ResultArrays(0, Detail::manifold).columns())));
+      succeeds(write_pair_results(path("r.npz"), 0, ResultArrays(0, Detail::overlap).columns())));
+  const auto results = NpzReader::open(path("r.npz"));
+  ASSERT_TRUE(succeeds(results));
+  EXPECT_EQ(results->members(),
+            (std::vector<std::string>{"overlap", "status", "separation", "normal", "point_a",
+                                      "point_b", "manifold_count", "manifold_point",
+                                      "manifold_separation", "sub_a", "sub_b", "toi"}));
+  EXPECT_TRUE(results->read<float>("manifold_point", {0, 4, 3})->empty());
+  EXPECT_TRUE((results->read<std::array<float, 3>>("normal", {0})->empty()));
 }
 
 }  // namespace

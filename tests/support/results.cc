@@ -26,14 +26,6 @@ Row untouched_row() {
 
 }  // namespace
 
-bool same_bits(const Row& x, const Row& y) {
-  bool same = true;
-  for_each_column([&](const ColumnInfo&, const auto& a,
-                      const auto& b) { same = same && std::memcmp(&a, &b, sizeof a) == 0; },
-                  x, y);
-  return same;
-}
-
 std::string show(const ManifoldPoints& manifold) {
   std::string text;
   for (size_t i = 0; i < manifold.point.size(); ++i) {

@@ -23,8 +23,6 @@ using Row = ResultRow;
 
 inline constexpr int kUntouched = 0xa5;
 
-bool same_bits(const Row& x, const Row& y);
-
 std::string show(const ManifoldPoints& manifold);
 
 std::string show(const Row& row);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "carom/results/result_columns.h"
 
@@ -35,6 +36,15 @@ inline ResultRow result_row(const ResultColumns& columns, size_t i) {
       },
       row, columns);
   return row;
+}
+
+/// Whether two rows have the same bits in every field.
+inline bool same_bits(const ResultRow& x, const ResultRow& y) {
+  bool same = true;
+  for_each_column([&same](const ColumnInfo&, const auto& a,
+                          const auto& b) { same = same && std::memcmp(&a, &b, sizeof a) == 0; },
+                  x, y);
+  return same;
 }
 
 }  // namespace carom

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,14 +39,6 @@ void number(const ResultColumns& columns, size_t count) {
         }
       },
       columns);
-}
-
-bool same(const ResultRow& x, const ResultRow& y) {
-  bool equal = true;
-  for_each_column([&](const ColumnInfo&, const auto& a,
-                      const auto& b) { equal = equal && std::memcmp(&a, &b, sizeof a) == 0; },
-                  x, y);
-  return equal;
 }
 
 const std::multiset<std::string> kOfOverlaps = {"overlap", "status"};
@@ -146,7 +137,7 @@ TEST(Columns, RowsAreCopiedWhereBothHaveThemAndTheDetailFillsThem) {
             },
             expected, source);
       }
-      EXPECT_TRUE(same(result_row(to.columns(), row), expected)) << "row " << row;
+      EXPECT_TRUE(same_bits(result_row(to.columns(), row), expected)) << "row " << row;
     }
   }
 }
@@ -156,7 +147,7 @@ TEST(Columns, FromARowOnAllOfThemMove) {
   number(arrays.columns(), 10);
   const ResultColumns moved = from_row(arrays.columns(), 4);
   EXPECT_EQ(names_of(moved), names_of(arrays.columns()));
-  EXPECT_TRUE(same(result_row(moved, 3), result_row(arrays.columns(), 7)));
+  EXPECT_TRUE(same_bits(result_row(moved, 3), result_row(arrays.columns(), 7)));
 }
 
 TEST(Columns, CompleteMeansAllThatAreNotOptional) {
