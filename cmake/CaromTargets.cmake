@@ -18,8 +18,8 @@ endfunction()
 
 # carom_compile_together(TARGET [ALONE file...]): compiles the sources of a folder in groups of at most
 # eight, so that the headers that they share are read once a group (with CAROM_UNITY_BUILD). Files that
-# are compiled once for every instruction set are in groups of their own. ALONE: those of them that
-# take long. Files with settings of their own stay alone as well.
+# are compiled once for every instruction set are in groups of their own. ALONE: files that take long,
+# or that are slower in a group. Files with settings of their own stay alone as well.
 function(carom_compile_together target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
   list(TRANSFORM arg_ALONE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
@@ -30,7 +30,7 @@ function(carom_compile_together target)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
     get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
     file(STRINGS ${source} targets REGEX "foreach_target.h")
-    if(definitions OR targets)
+    if(definitions OR targets OR source IN_LIST arg_ALONE)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       if(targets AND NOT definitions AND NOT source IN_LIST arg_ALONE)
         list(APPEND kernels ${source})
