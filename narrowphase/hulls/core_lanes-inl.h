@@ -185,8 +185,16 @@ HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
   return turn;
 }
 
-// Compiled once an instruction set, in gjk.cc.
-void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset, CoreLanes& core);
+HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  const HullRecords records(hull);
+  const size_t count = std::min(records.most(), kMostLanePoints);
+  const Rotation turn = placing_turn(hull, q);
+  core.begin(count, records.least(), records.count_lanes());
+  records.for_each_point(
+      count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
+  core.middle = rotate(turn, records.middle()) + offset;
+}
 
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -37,15 +37,5 @@ void nearest_cores(const CoreLanes& a, const CoreLanes& b, const FrontCorners& e
                              count_facing(b, -way.normal(), way.height_of_b()));
 }
 
-void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset, CoreLanes& core) {
-  const HullRecords records(hull);
-  const size_t count = std::min(records.most(), kMostLanePoints);
-  const Rotation turn = placing_turn(hull, q);
-  core.begin(count, records.least(), records.count_lanes());
-  records.for_each_point(
-      count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
-  core.middle = rotate(turn, records.middle()) + offset;
-}
-
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
