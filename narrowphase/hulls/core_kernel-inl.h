@@ -143,30 +143,42 @@ struct CoreKernel {
   }
 
  private:
+  static HWY_INLINE void begin(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal,
+                               GjkSearch& search) {
+    if constexpr (kDecides) {
+      begin_search_inlined<true>(a, b, goal, search);
+    } else {
+      begin_search(a, b, goal, search);
+    }
+  }
+
+  static HWY_INLINE void run_rounds(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal,
+                                    size_t few, GjkSearch& search) {
+    if constexpr (kDecides) {
+      go_on_inlined<true>(a, b, goal, few, search);
+    } else {
+      go_on(a, b, goal, few, search);
+    }
+  }
+
   // Yields the lanes that go on later.
   template <class Report>
   static HWY_INLINE Mask run_stage(const CoreLanes& a, const CoreLanes& b, F radius,
                                    const Report& report, GjkSearch& search) {
     const SearchGoal goal = goal_at(radius, report.batch.features != nullptr);
-    if constexpr (kDecides && A::kKind != ShapeKind::hull) {
-      static_assert(kStage == Stage::whole);
-      begin_search_inlined<kDecides>(a, b, goal, search);
-      go_on_inlined<kDecides>(a, b, goal, 0, search);
-      return no_lanes();
-    }
     OpenSearches* const open = report.batch.open;
     if constexpr (kStage == Stage::rest) {
       resume(*open, report.row, search);
     } else {
-      begin_search<kDecides>(a, b, goal, search);
+      begin(a, b, goal, search);
     }
     if constexpr (kStage == Stage::first) {
-      go_on<kDecides>(a, b, goal, open ? kFewOpen : 0, search);
+      run_rounds(a, b, goal, open ? kFewOpen : 0, search);
       const Mask goes_on = hn::And(search.is_open, report.valid);
       if (!hn::AllFalse(FloatTag(), goes_on)) leave(search, goes_on, report.row, *open);
       return goes_on;
     } else {
-      go_on<kDecides>(a, b, goal, 0, search);
+      run_rounds(a, b, goal, 0, search);
       return no_lanes();
     }
   }

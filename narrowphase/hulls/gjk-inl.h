@@ -46,16 +46,14 @@ struct GjkSearch {
   F rounds;  // so far
 };
 
-// These are compiled once an instruction set, in gjk.cc: every kind with a hull calls them.
+// Searches that measure are compiled once an instruction set, in gjk.cc: every kind with a hull
+// calls them. Those that only decide are short, and kernels inline them (gjk_search-inl.h).
 //
-// The first two rounds. `kDecides`: only which lanes are separate is wanted; otherwise the search
-// measures.
-template <bool kDecides>
+// The first two rounds.
 void begin_search(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal,
                   GjkSearch& search);
 
 // Runs rounds until no more than `few` lanes are open.
-template <bool kDecides>
 void go_on(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal, size_t few,
            GjkSearch& search);
 

@@ -10,25 +10,15 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
-template <bool kDecides>
 void begin_search(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal,
                   GjkSearch& search) {
-  begin_search_inlined<kDecides>(a, b, goal, search);
+  begin_search_inlined<false>(a, b, goal, search);
 }
 
-template <bool kDecides>
 void go_on(const CoreLanes& a, const CoreLanes& b, const SearchGoal& goal, size_t few,
            GjkSearch& search) {
-  go_on_inlined<kDecides>(a, b, goal, few, search);
+  go_on_inlined<false>(a, b, goal, few, search);
 }
-
-template void begin_search<false>(const CoreLanes&, const CoreLanes&, const SearchGoal&,
-                                  GjkSearch&);
-template void begin_search<true>(const CoreLanes&, const CoreLanes&, const SearchGoal&, GjkSearch&);
-template void go_on<false>(const CoreLanes&, const CoreLanes&, const SearchGoal&, size_t,
-                           GjkSearch&);
-template void go_on<true>(const CoreLanes&, const CoreLanes&, const SearchGoal&, size_t,
-                          GjkSearch&);
 
 void nearest_cores(const CoreLanes& a, const CoreLanes& b, const FrontCorners& ends,
                    NearestCores& nearest) {
