@@ -62,7 +62,8 @@ class NearestSearch {
   Result<void> measure(std::span<const Pair> candidates) {
     found_.resize(candidates.size(), Detail::contact, {ColumnRole::sub_shape});
     Result<void> measured = collide(boxes_.queries(), bodies_.bodies, candidates, Detail::contact,
-                                    found_.columns(), WitnessFrame::body, parallelism_);
+                                    found_.columns(),
+                                    {.frame = WitnessFrame::body, .parallelism = parallelism_});
     for (size_t i = 0; measured && i < candidates.size(); ++i) {
       const Pair pair = candidates[i];
       NearestHit& best = best_[pair.a - first_];

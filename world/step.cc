@@ -2,6 +2,7 @@
 #include <chrono>
 #include <limits>
 
+#include "base/few_of.h"
 #include "base/float_environment.h"
 #include "carom/bounds/bounds.h"
 #include "midphase/collide_pairs.h"
@@ -30,13 +31,13 @@ const StepReport& World::State::step() {
     plan.carry_all();
     last.clear();
     pair_changes.clear();
+    if (has_identities() && !was_still) repeat_identities(parallelism, now);
   } else {
     if (needs_last()) std::swap(last, now);
     find_all();
   }
   if (has_contacts(settings.detail) && bodies.has_velocities()) {
-    run(Stage::velocities,
-        [&] { set_normal_velocities(bodies.linear_velocities(), parallelism, now.contacts); });
+    run(Stage::velocities, [&] { set_normal_velocities(bodies, parallelism, now.contacts); });
   }
   // After two still steps the old events are already all `persist`; keep them.
   if (has_events() && !(still && was_still)) {
@@ -94,6 +95,7 @@ void World::State::find_all() {
   } else {
     forget_ahead();
   }
+  if (has_distances()) run(Stage::margins, [&] { widen_bounds(); });
   if (has_margin()) {
     run(Stage::margins,
         [&] { fat_bounds.update(reach_view(), settings.margin, settings.parallelism); });
@@ -104,7 +106,8 @@ void World::State::find_all() {
   if (has_dops()) run(Stage::dops, [&] { drop_pairs(); });
   run(Stage::narrowphase, [&] { test_pairs(); });
   run(Stage::results, [&] {
-    contact_stage.run(plan, last, results, bodies, settings.detail, settings.parallelism, now);
+    contact_stage.run(plan, last, results, bodies, settings, now);
+    if (has_identities()) find_previous(last, bodies, settings.parallelism, now);
   });
   if (looks_ahead()) run(Stage::impacts, [&] { find_impacts(); });
 }
@@ -148,6 +151,7 @@ void World::State::fill_report() {
   report.kept = has_narrowphase() ? report.pairs - report.tested - report.dropped : 0;
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
   report.contacts = now.contacts.size();
+  report.left_out = has_contacts(settings.detail) ? contact_stage.left_out() : 0;
   report.undecided = has_narrowphase() ? contact_stage.undecided() : 0;
   report.swept = sweeps.swept();
   report.unswept = sweeps.unswept();
@@ -192,6 +196,14 @@ void World::State::sweep_bounds() {
   halfspaces.sweep(sweeps);
 }
 
+void World::State::widen_bounds() {
+  wide_bounds.update(bounds_view(), distances(), settings.parallelism);
+  if (looks_ahead()) {
+    wide_swept_bounds.update(swept_bounds.view(), distances(), settings.parallelism);
+  }
+  halfspaces.widen(distances());
+}
+
 void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
   finder.set_most_pairs(settings.most_pairs);
@@ -203,7 +215,7 @@ void World::State::find_pairs() {
                          now.pairs, search);
   }
   if (!looks_ahead()) return;
-  sieve.run(sweeps, present_bounds(), settings.parallelism, now.pairs);
+  sieve.run(sweeps, wide_present_bounds(), settings.parallelism, now.pairs);
   if (search.complete) search.pairs = now.pairs.size();
 }
 
@@ -239,7 +251,9 @@ void World::State::drop_pairs() {
 
 // Whether the world has two kinds whose test remembers the separating direction.
 bool World::State::uses_directions() const {
-  if (!carries() || !has_contacts(settings.detail) || has_proxies()) return false;
+  if (!carries() || !has_contacts(settings.detail) || has_proxies() || has_distances()) {
+    return false;
+  }
   const auto is_there = [this](int kind) { return bodies.has_kind(static_cast<ShapeKind>(kind)); };
   for (int a = 0; a < kShapeKindCount; ++a) {
     for (int b = 0; b < kShapeKindCount; ++b) {
@@ -258,17 +272,29 @@ void World::State::test_pairs() {
   const Collidables view = tested_shapes();
   const bool sub_shapes =
       !has_proxies() && (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
-  collide_pairs(view, plan.pairs_to_test(now.pairs), settings.detail,
-                results.prepare(plan.tested(), settings.detail, sub_shapes), direction,
-                settings.parallelism, settings.accuracy);
+  const std::vector<Pair>& pairs = plan.pairs_to_test(now.pairs);
+  FewOf<ColumnRole, 2> wanted;
+  if (sub_shapes) wanted.push_back(ColumnRole::sub_shape);
+  if (has_identities()) wanted.push_back(ColumnRole::name);
+  const ResultColumns& columns = results.prepare(plan.tested(), settings.detail, {wanted.begin(), wanted.size()});
+  CollideOptions options = {.frame = WitnessFrame::body,
+                            .parallelism = settings.parallelism,
+                            .measured = Measured::overlapping,
+                            .accuracy = settings.accuracy,
+                            .region_limits = settings.region_limits};
+  if (has_distances()) {
+    options.contact_distances = results.prepare_distances(pairs, distances(), settings.parallelism);
+  }
+  collide_pairs(view, pairs, settings.detail, columns, options, direction, results.extra_of(settings.detail));
   if (remembers) {
     directions.keep(plan, last, settings.parallelism, now);
   } else {
     now.direction.clear();
   }
-  if (has_margin() || looks_ahead()) {
-    results.reject_apart(plan.pairs_to_test(now.pairs), present_bounds(), settings.parallelism);
+  if (has_margin() || looks_ahead() || has_distances()) {
+    results.reject_apart(pairs, present_bounds(), settings.parallelism);
   }
+  if (has_distances()) results.find_near(pairs, wide_present_bounds(), settings.parallelism);
 }
 
 void World::State::find_impacts() {
@@ -302,7 +328,8 @@ WorldMemory World::State::memory() const {
   memory.bodies = bodies.bytes() + changes.bytes() + proxies.bytes() + motion_tolerance.bytes() +
                   sweeps.bytes() + bytes_of(quarantined);
   memory.bounds = swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
-                  bounding_radii.bytes() + query_index.bytes();
+                  bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
+                  wide_swept_bounds.bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
   memory.broadphase = finder.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +

@@ -21,6 +21,7 @@ World::World(const WorldSettings& settings) : state_(std::make_unique<State>(set
   [[maybe_unused]] const float tolerance = settings.accuracy.knobs.motion_tolerance;
   assert(std::isfinite(tolerance) && tolerance >= 0);
   assert(std::isfinite(settings.dt) && settings.dt >= 0);
+  assert(std::isfinite(settings.contact_distance) && settings.contact_distance >= 0);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -149,6 +150,17 @@ void World::set_sensor(BodyId id, bool sensor) {
   state_->bodies.set_sensor(id.index, sensor);
 }
 
+float World::contact_distance(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.contact_distance(id.index);
+}
+
+void World::set_contact_distance(BodyId id, float distance) {
+  assert(contains(id));
+  assert(distance >= 0 && std::isfinite(distance));
+  state_->bodies.set_contact_distance(id.index, distance);
+}
+
 bool World::is_sensor(BodyId id) const {
   assert(contains(id));
   return state_->bodies.is_sensor(id.index);
@@ -214,6 +226,7 @@ const StepReport& World::step() { return state_->step(); }
 std::span<const Pair> World::pairs() const { return state_->now.pairs; }
 std::span<const uint8_t> World::overlaps() const { return state_->now.overlaps; }
 std::span<const Contact> World::contacts() const { return state_->now.contacts; }
+std::span<const ContactIdentity> World::identities() const { return state_->now.identities; }
 std::span<const ManifoldPoints> World::manifolds() const { return state_->now.manifolds; }
 std::span<const Event> World::events() const { return state_->events; }
 std::span<const Impact> World::impacts() const { return state_->impacts.impacts(); }

@@ -32,6 +32,8 @@
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
 #include "carom/results/contact.h"
+#include "carom/results/contact_identity.h"
+#include "carom/results/contact_regions.h"
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"

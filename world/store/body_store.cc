@@ -64,6 +64,7 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   optional(self.mask_, kEverything);
   optional(self.owner_, 0u);
   optional(self.sensor_, uint8_t{0});
+  optional(self.contact_distance_, 0.0f);
   optional(self.user_, uint64_t{0});
   optional(self.geometry_, std::shared_ptr<const void>());
 }
@@ -95,6 +96,7 @@ BodyId BodyStore::add(const BodyDesc& body) {
   set_row(motion_, rows(), index, body.motion, Motion::dynamic);
   set_filter(index, body.layer, body.mask, body.owner);
   set_row(sensor_, rows(), index, uint8_t{body.sensor}, uint8_t{0});
+  set_row(contact_distance_, rows(), index, body.contact_distance, 0.0f);
   set_row(user_, rows(), index, body.user, uint64_t{0});
   if (has_velocities_ || !body.linear_velocity.isZero(0)) {
     set_linear_velocity(index, body.linear_velocity);
@@ -307,6 +309,11 @@ void BodyStore::set_sensor(uint32_t index, bool sensor) {
 
 void BodyStore::set_user(uint32_t index, uint64_t user) {
   set_row(user_, rows(), index, user, uint64_t{0});
+}
+
+void BodyStore::set_contact_distance(uint32_t index, float distance) {
+  set_row(contact_distance_, rows(), index, distance, 0.0f);
+  touch(index, kShapeTouched);
 }
 
 Eigen::Vector3f BodyStore::linear_velocity(uint32_t index) const {

@@ -49,6 +49,10 @@ class BodyStore {
   void set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner);
   bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
   void set_sensor(uint32_t index, bool sensor);
+  float contact_distance(uint32_t index) const {
+    return contact_distance_.empty() ? 0 : contact_distance_[index];
+  }
+  void set_contact_distance(uint32_t index, float distance);
   uint64_t user(uint32_t index) const { return user_.empty() ? 0 : user_[index]; }
   void set_user(uint32_t index, uint64_t user);
   Eigen::Vector3f linear_velocity(uint32_t index) const;
@@ -73,6 +77,15 @@ class BodyStore {
   bool has_angular_velocities() const { return has_angular_velocities_; }
   // Whether some body has a detection that is not discrete.
   bool has_detections() const { return detected_ > 0; }
+
+  // Whether the body is of a kind that has an orientation.
+  bool turns(uint32_t index) const {
+    return kind_[index] != ShapeKind::sphere && kind_[index] != ShapeKind::aabb;
+  }
+  // One a row; nullptr if every body has 0.
+  const float* contact_distances() const {
+    return contact_distance_.empty() ? nullptr : contact_distance_.data();
+  }
 
   // Inputs of the stages.
   bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
@@ -149,6 +162,7 @@ class BodyStore {
   std::vector<Motion> motion_;
   std::vector<uint32_t> layer_, mask_, owner_;
   std::vector<uint8_t> sensor_;
+  std::vector<float> contact_distance_;
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;
   size_t detected_ = 0;  // bodies whose detection is not discrete

@@ -39,6 +39,13 @@ struct PairResult {
   uint32_t sub_b = 0;         ///< child or triangle of B; 0 for simple shapes
 };
 
+/// All contacts of a pair, as at Detail::regions: the first is that of its PairResult.
+struct PairContacts {
+  PairResult first;                  ///< whether or not there is a contact
+  std::vector<PairResult> others;    ///< the other contacts, the deepest first
+  uint16_t left_out = 0;             ///< how many more there are, at most 65,535
+};
+
 /// A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the
 /// body is not valid, infinite for half-spaces. `positions` says in which type the position is
 /// stored: for float32 the position is rounded first.
@@ -54,9 +61,17 @@ CAROM_EXPORT bool overlap(const Box& a, const Box& b);
 /// Whether layers, masks, owners and motion let two bodies meet.
 CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b);
 
-/// Tests A against B. carom::supports() must be true of their kinds.
+/// Tests A against B. carom::supports() must be true of their kinds. A pair that is separate by at
+/// most `contact_distance` metres has manifold points, too.
 CAROM_EXPORT PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
-                                const Pose& pose_b, PositionType positions);
+                                const Pose& pose_b, PositionType positions,
+                                float contact_distance = 0);
+
+/// The same with all contacts.
+CAROM_EXPORT PairContacts find_contacts(const Shape& shape_a, const Pose& pose_a,
+                                        const Shape& shape_b, const Pose& pose_b,
+                                        PositionType positions, float contact_distance,
+                                        const RegionLimits& limits);
 
 /// When two moving bodies meet, and the contact at that time; names and signs as in ImpactColumns.
 struct Impact {
@@ -87,7 +102,7 @@ struct Frame {
   std::vector<Pair> pairs;                ///< World::pairs()
   std::vector<uint8_t> overlaps;          ///< World::overlaps()
   std::vector<Contact> contacts;          ///< World::contacts()
-  std::vector<ManifoldPoints> manifolds;  ///< at Detail::manifold one a contact, else none
+  std::vector<ManifoldPoints> manifolds;  ///< at details with manifolds one a contact, else none
   std::vector<carom::Impact> impacts;     ///< World::impacts()
   std::vector<Contact> speculative;       ///< World::speculative_contacts()
   std::vector<Event> events;              ///< World::events()

@@ -64,6 +64,9 @@ struct BodyDesc {
   uint32_t mask = 0xffffffffu;                                 ///< bits of the layers it may meet
   uint32_t owner = 0;                                          ///< 0: none
   bool sensor = false;  ///< reports overlaps and events, never contacts
+  /// Metres, finite, >= 0: separate pairs of this body have contacts from this separation on. The
+  /// distance of a pair is the larger one of its two bodies, and not less than that of the world.
+  float contact_distance = 0;
   uint64_t user = 0;    ///< handed back unchanged
 };
 

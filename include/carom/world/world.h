@@ -14,7 +14,7 @@
 #include "carom/export.h"
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
-#include "carom/results/contact.h"
+#include "carom/results/contact_identity.h"
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"
@@ -31,6 +31,15 @@ struct WorldSettings {
   Detail detail = Detail::contact;                            ///< what a step finds of each pair
   BroadphaseMethod broadphase = BroadphaseMethod::automatic;  ///< how candidate pairs are found
   Parallelism parallelism = Parallelism::arena;               ///< which threads a step may use
+  RegionLimits region_limits = {};  ///< how contacts are divided at Detail::regions
+
+  /// Metres, finite, >= 0. Separate pairs with at most this separation have contacts, too, before
+  /// they touch: with a positive separation, points, and at details with manifolds all points that
+  /// are this near. Bounds grow by it, so there are more candidate pairs. Overlaps and events do not
+  /// change. BodyDesc::contact_distance raises it for the pairs of one body: the larger distance
+  /// counts, so that a body with a wide one changes no pair of other bodies. Costs nothing while all
+  /// distances are 0. dop_bounds are not used with contact distances.
+  float contact_distance = 0;
   bool events = true;         ///< find begin, persist and end of overlaps
   bool carry_results = true;  ///< false: every step finds and tests every pair anew
 
@@ -60,6 +69,7 @@ struct WorldSettings {
   ///   carry_results this knob does nothing.
   Accuracy accuracy = {};
 
+  bool identities = false;    ///< provide World::identities(), at details with contacts
   bool pair_changes = false;  ///< provide World::added_pairs() and removed_pairs()
 
   /// The limit of candidate pairs. A step that finds more is incomplete (StepReport::search): it
@@ -199,6 +209,10 @@ class CAROM_EXPORT World {
   void set_motion(BodyId id, Motion motion);
   /// Sets the properties of the same names in BodyDesc.
   void set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner);
+  /// Metres, as it was set.
+  float contact_distance(BodyId id) const;
+  /// Sets BodyDesc::contact_distance.
+  void set_contact_distance(BodyId id, float distance);
   /// Makes a body a sensor or not: sensors have overlaps and events, but no contacts.
   void set_sensor(BodyId id, bool sensor);
   /// Whether this body is a sensor.
@@ -224,8 +238,8 @@ class CAROM_EXPORT World {
   /// makes the array, and contacts carry normal velocities from then on. The span moves when bodies
   /// are added or removed.
   std::span<Eigen::Vector3f> linear_velocities();
-  /// Angular velocities, likewise, in radians a second. They do not count in the normal velocities
-  /// of contacts().
+  /// Angular velocities, likewise, in radians a second. Once the array is there, the normal
+  /// velocities of contacts are those of the turning bodies' points.
   std::span<Eigen::Vector3f> angular_velocities();
 
   /// Sets WorldSettings::dt for the next step and those that follow.
@@ -237,17 +251,22 @@ class CAROM_EXPORT World {
 
   // Results of the last step, valid until the next one.
 
-  /// Candidate pairs, sorted by (a, b): bodies whose bounds (fat ones, if there is a margin)
-  /// overlap, and half-spaces with bodies whose bounds (never fat ones) reach into them. Two
+  /// Candidate pairs, sorted by (a, b): bodies whose bounds (grown by contact distances, and fat if
+  /// there is a margin) overlap, and half-spaces with bodies whose bounds (never fat ones) reach into
+  /// them. Two
   /// half-spaces are no pair. In a step that looks ahead, a pair with a body that is looked after
   /// uses the bounds over the interval, any other pair the bounds of now; overlaps, contacts and
   /// manifolds are of now in any case.
   std::span<const Pair> pairs() const;
   /// One a pair: 1 overlap, 0 separate, or kUndecided.
   std::span<const uint8_t> overlaps() const;
-  /// The contacts of all overlapping pairs without sensors, sorted by (a, b).
+  /// The contacts of all pairs without sensors that overlap or are within their contact distance,
+  /// sorted by (a, b). At Detail::regions those of a pair follow one another, the deepest first.
   std::span<const Contact> contacts() const;
-  /// At Detail::manifold one a contact, else none; points are relative to the position of body A.
+  /// One a contact if WorldSettings::identities, else none: which contact and points of the last
+  /// step each one continues.
+  std::span<const ContactIdentity> identities() const;
+  /// At details with manifolds one a contact, else none; points are relative to the position of body A.
   std::span<const ManifoldPoints> manifolds() const;
   /// Begins, persists and ends, sorted by (a, b), then impacts; as Event says.
   std::span<const Event> events() const;
