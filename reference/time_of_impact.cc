@@ -79,7 +79,7 @@ PlacedInTime place_at(const Simple& part, const Vector3d& pivot, const Sweep& sw
   const Pose start = part.pose();
   const Vector3d arm = vector_of(part.arm);
   if (rotation.isZero(0)) return {{moved + arm, start.orientation}, arm};
-  const scalar::Quaternion<double> turn = turn_by(rotation, t);
+  const Quaternion<double> turn = turn_by(rotation, t);
   const Vector3d arm_then = rotate(rotation_of(turn), arm);
   const Row as_row = {static_cast<float>(turn.v.x()), static_cast<float>(turn.v.y()),
                       static_cast<float>(turn.v.z()), static_cast<float>(turn.w)};

@@ -43,7 +43,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/dop.h"
 #include "carom/shapes/mesh_geometry.h"
-#include "carom/shapes/quaternion.h"
+#include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"
 #include "carom/shapes/views.h"
 #include "carom/simd/isa.h"

@@ -15,7 +15,7 @@ namespace carom::abi {
 template <class... T>
 inline constexpr bool kNaturallyAligned = ((alignof(T) <= alignof(double)) && ...);
 
-static_assert(kNaturallyAligned<Quaternion, Eigen::Vector3f, Eigen::Vector3d>);
+static_assert(kNaturallyAligned<Orientation, Eigen::Vector3f, Eigen::Vector3d>);
 static_assert(kNaturallyAligned<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh,
                                 Compound, Shape>);
 static_assert(kNaturallyAligned<HullGeometry, HullGeometry::Face, MeshRules, MeshGeometry,
@@ -33,7 +33,7 @@ static_assert(kNaturallyAligned<reference::Box, reference::PairResult, reference
 
 // The vectors are their numbers alone, and so are the structs of them.
 static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Vector3d) == 24);
-static_assert(sizeof(Quaternion) == 16 && sizeof(Pose) == 40);
+static_assert(sizeof(Orientation) == 16 && sizeof(Pose) == 40);
 static_assert(offsetof(Pose, position) == 0 && offsetof(Pose, orientation) == 24);
 static_assert(sizeof(Sphere) == 4 && sizeof(Aabb) == 24 && sizeof(Capsule) == 28);
 static_assert(sizeof(Box) == 12 && sizeof(Triangle) == 44 && sizeof(Halfspace) == 16);

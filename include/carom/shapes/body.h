@@ -6,7 +6,7 @@
 #include <compare>
 #include <cstdint>
 
-#include "carom/shapes/quaternion.h"
+#include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"
 
 namespace carom {
@@ -47,7 +47,7 @@ enum class PositionType : uint8_t {
 /// need not be a unit quaternion (R = M(q) / |q|^2), but not zero; spheres and aabbs ignore it.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world frame, metres
-  Quaternion orientation = Quaternion::Identity();     ///< from body to world frame
+  Orientation orientation = Orientation::Identity();   ///< from body to world frame
 };
 
 /// All properties of a body. Two bodies may meet if each one's layer is in the other's mask, they
@@ -55,7 +55,7 @@ struct Pose {
 struct BodyDesc {
   Shape shape = Sphere{};                                      ///< in the body's frame
   Eigen::Vector3d position = Eigen::Vector3d::Zero();          ///< world frame, metres
-  Quaternion orientation = Quaternion::Identity();             ///< as in Pose
+  Orientation orientation = Orientation::Identity();           ///< as in Pose
   Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();   ///< world frame, metres a second
   Eigen::Vector3f angular_velocity = Eigen::Vector3f::Zero();  ///< world frame, radians a second
   Motion motion = Motion::dynamic;                             ///< who moves it
