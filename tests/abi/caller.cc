@@ -54,6 +54,7 @@ Shape cross() {
   return Compound{*make_compound(children)};
 }
 
+// All numbers are exact, so that this program's own arithmetic rounds nothing.
 std::vector<BodyDesc> make_bodies() {
   const Shape shapes[] = {Sphere{0.5f},
                           Box{{0.4f, 0.5f, 0.3f}},
@@ -64,12 +65,13 @@ std::vector<BodyDesc> make_bodies() {
   std::vector<BodyDesc> bodies;
   bodies.push_back({.shape = valley(), .motion = Motion::fixed});
   for (int i = 0; i < 60; ++i) {
-    bodies.push_back({.shape = shapes[i % 6],
-                      .position = {-3 + 0.7 * (i % 9), -2.5 + 0.8 * (i / 9), 0.25 + 0.05 * (i % 7)},
-                      .orientation = turned(i),
-                      .linear_velocity = {0, 0.5f, -1},
-                      .angular_velocity = {0.25f, 0, 0},
-                      .detection = i % 4 == 0 ? Detection::continuous : Detection::discrete});
+    bodies.push_back(
+        {.shape = shapes[i % 6],
+         .position = {-3 + 0.75 * (i % 9), -2.5 + 0.875 * (i / 9), 0.25 + 0.0625 * (i % 7)},
+         .orientation = turned(i),
+         .linear_velocity = {0, 0.5f, -1},
+         .angular_velocity = {0.25f, 0, 0},
+         .detection = i % 4 == 0 ? Detection::continuous : Detection::discrete});
   }
   return bodies;
 }
