@@ -79,12 +79,12 @@ void World::set_positions(std::span<const BodyId> ids, std::span<const Eigen::Ve
   for (size_t i = 0; i < ids.size(); ++i) set_position(ids[i], positions[i]);
 }
 
-Eigen::Quaternionf World::orientation(BodyId id) const {
+Orientation World::orientation(BodyId id) const {
   assert(contains(id));
   return state_->bodies.orientation(id.index);
 }
 
-void World::set_orientation(BodyId id, const Eigen::Quaternionf& orientation) {
+void World::set_orientation(BodyId id, const Orientation& orientation) {
   assert(contains(id));
   state_->bodies.set_orientation(id.index, orientation);
 }

@@ -77,7 +77,7 @@ std::string parameters(const Mesh& mesh) {
          text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "");
 }
 
-std::string list(const Eigen::Quaternionf& q) {
+std::string list(const Orientation& q) {
   return "(" + text_of(q.x()) + ", " + text_of(q.y()) + ", " + text_of(q.z()) + ", " +
          text_of(q.w()) + ")";
 }

@@ -21,6 +21,7 @@
 /// may run on several threads at once if their outputs differ.
 #pragma once
 
+#include "carom/base/jobs.h"
 #include "carom/base/parallelism.h"
 #include "carom/base/result.h"
 #include "carom/base/thread_arena.h"
@@ -45,6 +46,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/dop.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"
 #include "carom/shapes/views.h"
 #include "carom/simd/isa.h"

@@ -152,12 +152,12 @@ void BodyStore::set_position(uint32_t index, const Eigen::Vector3d& position) {
   }
 }
 
-Eigen::Quaternionf BodyStore::orientation(uint32_t index) const {
+Orientation BodyStore::orientation(uint32_t index) const {
   const Row q = row_count(kind_[index]) > 0 ? orientation_[index] : kIdentity;
   return {q[3], q[0], q[1], q[2]};
 }
 
-void BodyStore::set_orientation(uint32_t index, const Eigen::Quaternionf& q) {
+void BodyStore::set_orientation(uint32_t index, const Orientation& q) {
   if (row_count(kind_[index]) > 0) orientation_[index] = {q.x(), q.y(), q.z(), q.w()};
 }
 

@@ -37,8 +37,8 @@ class BodyStore {
   void set_position(uint32_t index, const Eigen::Vector3d& position);
   // For bodies of kinds that have one. The others have the identity, and setting another has no
   // effect.
-  Eigen::Quaternionf orientation(uint32_t index) const;
-  void set_orientation(uint32_t index, const Eigen::Quaternionf& orientation);
+  Orientation orientation(uint32_t index) const;
+  void set_orientation(uint32_t index, const Orientation& orientation);
   Shape shape(uint32_t index) const;
   void set_shape(uint32_t index, const Shape& shape);
   uint32_t box_slot(uint32_t index) const { return box_slot_[index]; }

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <compare>
 #include <cstdint>
 
+#include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"
 
 namespace carom {
@@ -46,16 +46,16 @@ enum class PositionType : uint8_t {
 /// Where a body is: a point x of its own frame is at position + R x of the world. The orientation
 /// need not be a unit quaternion (R = M(q) / |q|^2), but not zero; spheres and aabbs ignore it.
 struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< world frame, metres
-  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();  ///< from body to world frame
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world frame, metres
+  Orientation orientation = Orientation::Identity();   ///< from body to world frame
 };
 
 /// All properties of a body. Two bodies may meet if each one's layer is in the other's mask, they
 /// do not share a non-zero owner, and not both are fixed.
 struct BodyDesc {
-  Shape shape = Sphere{};                                           ///< in the body's frame
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< world frame, metres
-  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();  ///< as in Pose
+  Shape shape = Sphere{};                                      ///< in the body's frame
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();          ///< world frame, metres
+  Orientation orientation = Orientation::Identity();           ///< as in Pose
   Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();   ///< world frame, metres a second
   Eigen::Vector3f angular_velocity = Eigen::Vector3f::Zero();  ///< world frame, radians a second
   Motion motion = Motion::dynamic;                             ///< who moves it

@@ -184,9 +184,9 @@ class CAROM_EXPORT World {
   void set_positions(std::span<const BodyId> ids, std::span<const Eigen::Vector3d> positions);
   /// The rotation from the body's frame to the world. Spheres and aabbs have none: they return the
   /// identity. A body that changes from one of these kinds to another starts with the identity.
-  Eigen::Quaternionf orientation(BodyId id) const;
+  Orientation orientation(BodyId id) const;
   /// Sets an orientation, which need not be a unit quaternion. Spheres and aabbs ignore it.
-  void set_orientation(BodyId id, const Eigen::Quaternionf& orientation);
+  void set_orientation(BodyId id, const Orientation& orientation);
   /// The shape; it shares the geometry of the body.
   Shape shape(BodyId id) const;
   /// Replaces the shape.

@@ -1,4 +1,4 @@
-#include "io/build_hull.h"
+#include "carom/hulls/build_hull.h"
 
 #include <Eigen/Geometry>
 
@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "io/hull/facets.h"
-#include "io/hull/merge_facets.h"
-#include "io/hull/outline.h"
-#include "io/hull/unit_points.h"
+#include "hulls/facets.h"
+#include "hulls/merge_facets.h"
+#include "hulls/outline.h"
+#include "hulls/unit_points.h"
 
-namespace carom::io {
+namespace carom::hulls {
 namespace {
 
 using Eigen::Vector3d;
@@ -127,6 +127,11 @@ void renumber(HullFaces& faces) {
 }
 
 }  // namespace
+}  // namespace carom::hulls
+
+namespace carom {
+
+using namespace hulls;
 
 const char* name(HullForm form) {
   switch (form) {
@@ -142,7 +147,7 @@ const char* name(HullForm form) {
   return "unknown";
 }
 
-Result<BuiltHull> build_hull(std::span<const Vector3f> points) {
+Result<BuiltHull> build_hull(std::span<const Eigen::Vector3f> points) {
   if (points.empty()) return Error{"a hull without points"};
   for (size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
@@ -152,7 +157,7 @@ Result<BuiltHull> build_hull(std::span<const Vector3f> points) {
   const Form form = form_of(unit.point);
   HullFaces faces = faces_of(unit, form);
 
-  std::vector<Vector3f> kept;
+  std::vector<Eigen::Vector3f> kept;
   for (size_t i = 0; i < unit.point.size(); ++i) {
     if (faces.is_corner[i]) kept.push_back(points[unit.source[i]]);
   }
@@ -163,4 +168,4 @@ Result<BuiltHull> build_hull(std::span<const Vector3f> points) {
                    unit.point.size() - kept.size()};
 }
 
-}  // namespace carom::io
+}  // namespace carom

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace carom::io {
+namespace carom::hulls {
 
 struct Facet {
   Eigen::Vector3d normal;           // unit, outwards
@@ -28,4 +28,4 @@ struct Facets {
 // Quickhull algorithm for convex hulls, ACM Transactions on Mathematical Software 22(4), 1996.
 std::optional<Facets> find_facets(std::span<const Eigen::Vector3d> points, bool joggle);
 
-}  // namespace carom::io
+}  // namespace carom::hulls

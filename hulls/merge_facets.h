@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "io/hull/facets.h"
+#include "hulls/facets.h"
 
-namespace carom::io {
+namespace carom::hulls {
 
 struct HullFaces {
   std::vector<std::vector<uint32_t>> faces;  // outlines, counter-clockwise from outside
@@ -20,4 +20,4 @@ struct HullFaces {
 HullFaces merge_facets(std::span<const Eigen::Vector3d> points, const std::vector<Facet>& facets,
                        const Eigen::Vector3d& rounding);
 
-}  // namespace carom::io
+}  // namespace carom::hulls

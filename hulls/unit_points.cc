@@ -1,4 +1,4 @@
-#include "io/hull/unit_points.h"
+#include "hulls/unit_points.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace carom::io {
+namespace carom::hulls {
 namespace {
 
 using Eigen::Vector3d;
@@ -30,6 +30,14 @@ std::vector<uint32_t> distinct(std::span<const Vector3f> points) {
 
 }  // namespace
 
+Vector3d UnitPoints::unscaled(const Vector3d& p) const {
+  Vector3d place;
+  for (int axis = 0; axis < 3; ++axis) {
+    place[axis] = lower[axis] + std::ldexp(p[axis] + half[axis], exponent[axis]);
+  }
+  return place;
+}
+
 UnitPoints unit_points(std::span<const Vector3f> points) {
   Vector3d lower = points.front().cast<double>();
   Vector3d upper = lower;
@@ -37,14 +45,17 @@ UnitPoints unit_points(std::span<const Vector3f> points) {
     lower = lower.cwiseMin(p.cast<double>());
     upper = upper.cwiseMax(p.cast<double>());
   }
-  std::array<int, 3> exponent{};
   UnitPoints unit;
   for (int axis = 0; axis < 3; ++axis) {
-    std::frexp(upper[axis] - lower[axis], &exponent[axis]);
+    std::frexp(upper[axis] - lower[axis], &unit.exponent[axis]);
     const double largest = std::max(-lower[axis], upper[axis]);
     const double half_step = std::max(largest * double{std::numeric_limits<float>::epsilon()} / 2,
                                       double{std::numeric_limits<float>::denorm_min()});
-    unit.rounding[axis] = std::ldexp(half_step, -exponent[axis]);
+    unit.rounding[axis] = std::ldexp(half_step, -unit.exponent[axis]);
+  }
+  unit.lower = lower;
+  for (int axis = 0; axis < 3; ++axis) {
+    unit.half[axis] = std::ldexp(upper[axis] - lower[axis], -unit.exponent[axis]) / 2;
   }
   unit.source = distinct(points);
   unit.point.reserve(unit.source.size());
@@ -52,12 +63,11 @@ UnitPoints unit_points(std::span<const Vector3f> points) {
     const Vector3d above = points[source].cast<double>() - lower;
     Vector3d p;
     for (int axis = 0; axis < 3; ++axis) {
-      const double half = std::ldexp(upper[axis] - lower[axis], -exponent[axis]) / 2;
-      p[axis] = std::ldexp(above[axis], -exponent[axis]) - half;
+      p[axis] = std::ldexp(above[axis], -unit.exponent[axis]) - unit.half[axis];
     }
     unit.point.push_back(p);
   }
   return unit;
 }
 
-}  // namespace carom::io
+}  // namespace carom::hulls

@@ -1,10 +1,10 @@
-#include "io/hull/outline.h"
+#include "hulls/outline.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 
-namespace carom::io {
+namespace carom::hulls {
 namespace {
 
 using Eigen::Vector2d;
@@ -75,4 +75,4 @@ Vector3d area_vector(std::span<const Vector3d> points, std::span<const uint32_t>
   return sum;
 }
 
-}  // namespace carom::io
+}  // namespace carom::hulls

@@ -1,4 +1,4 @@
-#include "io/hull/facets.h"
+#include "hulls/facets.h"
 
 #include <libqhull_r/qhull_ra.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 #include <unordered_map>
 
-namespace carom::io {
+namespace carom::hulls {
 namespace {
 
 struct CloseFile {
@@ -86,4 +86,4 @@ std::optional<Facets> find_facets(std::span<const Eigen::Vector3d> points, bool 
   return facets;
 }
 
-}  // namespace carom::io
+}  // namespace carom::hulls

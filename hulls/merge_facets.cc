@@ -1,11 +1,11 @@
-#include "io/hull/merge_facets.h"
+#include "hulls/merge_facets.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "io/hull/outline.h"
+#include "hulls/outline.h"
 
-namespace carom::io {
+namespace carom::hulls {
 namespace {
 
 using Eigen::Vector3d;
@@ -96,4 +96,4 @@ HullFaces merge_facets(std::span<const Vector3d> points, const std::vector<Facet
   return FacetMerger(points, facets, rounding).merge();
 }
 
-}  // namespace carom::io
+}  // namespace carom::hulls

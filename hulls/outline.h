@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace carom::io {
+namespace carom::hulls {
 
 // The corners of the convex polygon of points[indices] in the plane of this normal,
 // counter-clockwise as seen from where the normal points. Points within 1e-12 of an edge are
@@ -20,4 +20,4 @@ std::vector<uint32_t> outline(std::span<const Eigen::Vector3d> points,
 Eigen::Vector3d area_vector(std::span<const Eigen::Vector3d> points,
                             std::span<const uint32_t> corners);
 
-}  // namespace carom::io
+}  // namespace carom::hulls

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace carom::io {
+namespace carom::hulls {
 namespace {
 
 using Eigen::Vector3i;
@@ -266,4 +266,4 @@ TEST(BuildHull, NamesForms) {
 }
 
 }  // namespace
-}  // namespace carom::io
+}  // namespace carom::hulls
