@@ -47,6 +47,8 @@ class BodyStore {
   Motion motion(uint32_t index) const;
   void set_motion(uint32_t index, Motion motion);
   void set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner);
+  void set_group(uint32_t index, int32_t group);
+  void set_space(uint32_t index, uint32_t space);
   bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
   void set_sensor(uint32_t index, bool sensor);
   uint64_t user(uint32_t index) const { return user_.empty() ? 0 : user_[index]; }
@@ -77,7 +79,8 @@ class BodyStore {
   // Inputs of the stages.
   bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
   Collidables view() const;
-  PairFilter filter() const;
+  // The columns of the filter; its other parts are empty.
+  PairFilter filter(FilterRule rule) const;
   const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
   const std::vector<uint32_t>& halfspaces() const { return halfspaces_; }  // indices, ascending
 
@@ -147,7 +150,8 @@ class BodyStore {
 
   // These are empty while every body has the default.
   std::vector<Motion> motion_;
-  std::vector<uint32_t> layer_, mask_, owner_;
+  std::vector<uint32_t> layer_, mask_, owner_, space_;
+  std::vector<int32_t> group_;
   std::vector<uint8_t> sensor_;
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;

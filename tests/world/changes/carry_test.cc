@@ -18,6 +18,7 @@ TEST(Carry, AStillSceneKeepsEverything) {
   for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
     WorldSettings settings;
     settings.positions = positions;
+    settings.persist_events = true;
     World world(settings);
     add_crowd(world, {.filters = true});
     const StepReport first = world.step();

@@ -25,7 +25,7 @@ BodyDesc ceiling(double z) {
 TEST(Halfspaces, MeetWhatReachesIntoThem) {
   for (const PositionType positions : kPositionTypes) {
     for (const bool ground_first : {true, false}) {
-      World world({.positions = positions});
+      World world({.positions = positions, .persist_events = true});
       const BodyId first = world.add(ground_first ? ground() : ball(10));
       const BodyId second = world.add(ground_first ? ball(10) : ground());
       const BodyId id = ground_first ? second : first;
