@@ -204,7 +204,8 @@ void World::State::find_pairs() {
   finder.set_most_pairs(settings.most_pairs);
   const BoundsView searched = has_margin() ? fat_bounds.view() : reach_view();
   std::vector<Pair>& found = halfspaces.has_any() ? halfspaces.other_pairs() : now.pairs;
-  const PairFilter filter = bodies.filter(settings.filter_rule);
+  PairFilter filter = bodies.filter();
+  filter.rule = settings.filter_rule;
   search = finder.find(searched, filter, found, settings.broadphase, settings.parallelism);
   if (halfspaces.has_any()) {
     halfspaces.add_pairs(reach_view(), filter, settings.most_pairs, settings.parallelism, now.pairs,

@@ -388,14 +388,13 @@ Collidables BodyStore::view() const {
   return view;
 }
 
-PairFilter BodyStore::filter(FilterRule rule) const {
+PairFilter BodyStore::filter() const {
   return {.layer = data_or_null(layer_),
           .mask = data_or_null(mask_),
           .owner = data_or_null(owner_),
           .motion = data_or_null(motion_),
           .group = data_or_null(group_),
-          .space = data_or_null(space_),
-          .rule = rule};
+          .space = data_or_null(space_)};
 }
 
 size_t BodyStore::bytes() const {

@@ -79,8 +79,8 @@ class BodyStore {
   // Inputs of the stages.
   bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
   Collidables view() const;
-  // The columns of the filter; its other parts are empty.
-  PairFilter filter(FilterRule rule) const;
+  // The columns of the filter; its other parts are those of a default one.
+  PairFilter filter() const;
   const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
   const std::vector<uint32_t>& halfspaces() const { return halfspaces_; }  // indices, ascending
 

@@ -235,9 +235,8 @@ TEST(FilterWorld, TheRuleIsASetting) {
   for (const FilterRule rule : {FilterRule::both, FilterRule::either}) {
     World world({.filter_rule = rule});
     BodyDesc a = ball_at(0), b = ball_at(1);
-    a.layer = 1;
-    b.mask = 1;
-    a.mask = b.layer = 2;
+    a.layer = b.mask = 1;
+    a.mask = 2;
     b.layer = 4;
     world.add(a);
     world.add(b);
