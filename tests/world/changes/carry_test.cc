@@ -44,7 +44,7 @@ TEST(Carry, AStillSceneKeepsEverything) {
 }
 
 TEST(Carry, AStillStepFindsNoBoundsAndNoPairs) {
-  World world;
+  World world({.persist_events = true});
   const std::vector<BodyId> ids = add_crowd(world, {});
   world.step();
   const StepReport& report = world.step();

@@ -74,7 +74,7 @@ TEST(ExcludedPairs, OfBodiesWithoutAnyLeaveNoTrace) {
 TEST(ExcludedPairs, AMillionOneByOne) {
   ExcludedPairs pairs;
   for (uint32_t i = 0; i < 1'000'000; ++i) {
-    const uint32_t a = i * 2654435761u % 1'000'000;
+    const auto a = static_cast<uint32_t>(uint64_t{i} * 2654435761u % 1'000'000);
     pairs.exclude({a + 1, a});
   }
   pairs.update();
