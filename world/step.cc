@@ -39,15 +39,21 @@ const StepReport& World::State::step() {
   if (has_contacts(settings.detail) && bodies.has_velocities()) {
     run(Stage::velocities, [&] { set_normal_velocities(bodies, parallelism, now.contacts); });
   }
-  // After two still steps the old events are already all `persist`; keep them.
+  // After two still steps no event is a begin or an end; keep them.
   if (has_events() && !(still && was_still)) {
     run(Stage::events, [&] {
-      event_stage.run(still ? now : last, now, bodies, parallelism, events);
+      if (still && !settings.persist_events) {
+        events.clear();
+      } else {
+        event_stage.run({still ? now : last, now, bodies, quarantined, settings.persist_events},
+                        parallelism, events);
+      }
       EventStage::add_impacts(impacts.impacts(), bodies, events);
       event_stage.remember(bodies);
     });
   }
   bodies.clear_touched();
+  predicate_changed = false;
   was_still = still;
   if (watches_rest()) watch_rest(still);
   give_back_memory(last_pairs);
@@ -65,7 +71,8 @@ bool World::State::is_still() {
     });
   }
   if (!bodies.has_detections()) stop_looking_ahead();
-  return compares && changes.all_unchanged() && !sweeps.changed();
+  const bool same_filters = !excluded.has_changes() && !predicate_changed;
+  return compares && changes.all_unchanged() && !sweeps.changed() && same_filters;
 }
 
 void World::State::find_sweeps() {
@@ -209,14 +216,23 @@ void World::State::find_pairs() {
   finder.set_most_pairs(settings.most_pairs);
   const BoundsView searched = has_margin() ? fat_bounds.view() : reach_view();
   std::vector<Pair>& found = halfspaces.has_any() ? halfspaces.other_pairs() : now.pairs;
-  search = finder.find(searched, bodies.filter(), found, settings.broadphase, settings.parallelism);
+  PairFilter filter = bodies.filter();
+  filter.rule = settings.filter_rule;
+  search = finder.find(searched, filter, found, settings.broadphase, settings.parallelism);
   if (halfspaces.has_any()) {
-    halfspaces.add_pairs(reach_view(), bodies.filter(), settings.most_pairs, settings.parallelism,
-                         now.pairs, search);
+    halfspaces.add_pairs(reach_view(), filter, settings.most_pairs, settings.parallelism, now.pairs,
+                         search);
   }
-  if (!looks_ahead()) return;
-  sieve.run(sweeps, wide_present_bounds(), settings.parallelism, now.pairs);
+  if (looks_ahead()) sieve.run(sweeps, wide_present_bounds(), settings.parallelism, now.pairs);
+  select_pairs();
   if (search.complete) search.pairs = now.pairs.size();
+}
+
+// Drops the pairs that the caller does not want.
+void World::State::select_pairs() {
+  excluded.update();
+  selection.run(excluded.pairs(), predicate ? &predicate : nullptr, settings.parallelism,
+                now.pairs);
 }
 
 // The bodies whose pairs are tested again: one byte an index.
@@ -325,13 +341,13 @@ void World::State::stop_looking_ahead() {
 
 WorldMemory World::State::memory() const {
   WorldMemory memory;
-  memory.bodies = bodies.bytes() + changes.bytes() + proxies.bytes() + motion_tolerance.bytes() +
-                  sweeps.bytes() + bytes_of(quarantined);
+  memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + proxies.bytes() +
+                  motion_tolerance.bytes() + sweeps.bytes() + bytes_of(quarantined);
   memory.bounds = swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
                   bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
                   wide_swept_bounds.bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
-  memory.broadphase = finder.bytes() + halfspaces.bytes();
+  memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              dops.pair_bytes() + directions.bytes() + results.bytes() +
                              contact_stage.bytes() + sieve.bytes() + impacts.bytes() +

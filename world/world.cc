@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "base/float_environment.h"
 #include "world/world_state.h"
@@ -42,6 +43,7 @@ void World::add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids) {
 bool World::remove(BodyId id) {
   if (!contains(id)) return false;
   state_->bodies.remove(id);
+  state_->excluded.remove_body(id.index);
   return true;
 }
 
@@ -145,6 +147,16 @@ void World::set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner)
   state_->bodies.set_filter(id.index, layer, mask, owner);
 }
 
+void World::set_group(BodyId id, int32_t group) {
+  assert(contains(id));
+  state_->bodies.set_group(id.index, group);
+}
+
+void World::set_space(BodyId id, uint32_t space) {
+  assert(contains(id));
+  state_->bodies.set_space(id.index, space);
+}
+
 void World::set_sensor(BodyId id, bool sensor) {
   assert(contains(id));
   state_->bodies.set_sensor(id.index, sensor);
@@ -214,6 +226,34 @@ std::span<Eigen::Vector3f> World::linear_velocities() { return state_->bodies.li
 
 std::span<Eigen::Vector3f> World::angular_velocities() {
   return state_->bodies.angular_velocities();
+}
+
+void World::exclude(BodyId a, BodyId b) {
+  assert(contains(a) && contains(b));
+  state_->excluded.exclude({a.index, b.index});
+}
+
+void World::exclude(std::span<const Pair> pairs) {
+  for (const Pair pair : pairs) exclude(id_of(pair.a), id_of(pair.b));
+}
+
+void World::include_again(BodyId a, BodyId b) {
+  assert(contains(a) && contains(b));
+  state_->excluded.include_again({a.index, b.index});
+}
+
+void World::include_again(std::span<const Pair> pairs) {
+  for (const Pair pair : pairs) include_again(id_of(pair.a), id_of(pair.b));
+}
+
+bool World::is_excluded(BodyId a, BodyId b) const {
+  assert(contains(a) && contains(b));
+  return state_->excluded.contains({a.index, b.index});
+}
+
+void World::set_pair_predicate(PairPredicate predicate) {
+  state_->predicate = std::move(predicate);
+  state_->predicate_changed = true;
 }
 
 void World::set_dt(double dt) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "broadphase/resting/box_memory.h"
+#include "broadphase/sort/pair_selection.h"
 #include "carom/world/world.h"
 #include "world/changes/change_tracker.h"
 #include "world/changes/motion_tolerance.h"
@@ -31,6 +32,7 @@
 #include "world/results/impact_stage.h"
 #include "world/results/speculative_stage.h"
 #include "world/store/body_store.h"
+#include "world/store/excluded_pairs.h"
 
 namespace carom {
 
@@ -43,6 +45,9 @@ struct World::State {
 
   WorldSettings settings;
   BodyStore bodies;
+  ExcludedPairs excluded;
+  PairPredicate predicate;
+  bool predicate_changed = false;  // since the last step
   StepReport report;
 
   HalfspaceStage halfspaces;
@@ -114,6 +119,7 @@ struct World::State {
   void sweep_bounds();
   void widen_bounds();
   void find_pairs();
+  void select_pairs();
   std::span<const uint8_t> changed_for_tests();
   void compare_pairs();
   void drop_pairs();
@@ -137,6 +143,7 @@ struct World::State {
   PairFinder finder;
   PairSearch search;
   PairSieve sieve;
+  PairSelection selection;
   PairHistory last;
   CarryPlan plan;
   DopStage dops;

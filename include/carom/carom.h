@@ -38,6 +38,7 @@
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"
+#include "carom/results/pair_predicate.h"
 #include "carom/results/result_arrays.h"
 #include "carom/results/result_columns.h"
 #include "carom/results/sweep.h"

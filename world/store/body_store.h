@@ -47,6 +47,8 @@ class BodyStore {
   Motion motion(uint32_t index) const;
   void set_motion(uint32_t index, Motion motion);
   void set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner);
+  void set_group(uint32_t index, int32_t group);
+  void set_space(uint32_t index, uint32_t space);
   bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
   void set_sensor(uint32_t index, bool sensor);
   float contact_distance(uint32_t index) const {
@@ -90,6 +92,7 @@ class BodyStore {
   // Inputs of the stages.
   bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
   Collidables view() const;
+  // The columns of the filter; its other parts are those of a default one.
   PairFilter filter() const;
   const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
   const std::vector<uint32_t>& halfspaces() const { return halfspaces_; }  // indices, ascending
@@ -160,7 +163,8 @@ class BodyStore {
 
   // These are empty while every body has the default.
   std::vector<Motion> motion_;
-  std::vector<uint32_t> layer_, mask_, owner_;
+  std::vector<uint32_t> layer_, mask_, owner_, space_;
+  std::vector<int32_t> group_;
   std::vector<uint8_t> sensor_;
   std::vector<float> contact_distance_;
   std::vector<uint64_t> user_;

@@ -12,6 +12,7 @@
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"
+#include "carom/results/pair_predicate.h"
 #include "carom/results/sweep.h"
 #include "carom/shapes/body.h"
 #include "carom/shapes/views.h"
@@ -58,8 +59,9 @@ CAROM_EXPORT bool is_valid(const Shape& shape, const Pose& pose, PositionType po
 /// Whether two closed boxes overlap: touching is overlap.
 CAROM_EXPORT bool overlap(const Box& a, const Box& b);
 
-/// Whether layers, masks, owners and motion let two bodies meet.
-CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b);
+/// Whether the properties of two bodies let them meet.
+CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b,
+                           FilterRule rule = FilterRule::both);
 
 /// Tests A against B. carom::supports() must be true of their kinds. A pair that is separate by at
 /// most `contact_distance` metres has manifold points, too.
@@ -105,7 +107,7 @@ struct Frame {
   std::vector<ManifoldPoints> manifolds;  ///< at details with manifolds one a contact, else none
   std::vector<carom::Impact> impacts;     ///< World::impacts()
   std::vector<Contact> speculative;       ///< World::speculative_contacts()
-  std::vector<Event> events;              ///< World::events()
+  std::vector<Event> events;              ///< World::events(), persists included
   std::vector<BodyId> quarantined;        ///< World::quarantined()
   std::vector<Event> touching;            ///< the overlaps with ids, which the next frame needs
 };
@@ -117,10 +119,18 @@ struct Ahead {
   Impacts impacts = Impacts::earliest;  ///< which impacts are kept
 };
 
+/// Which pairs a frame leaves out beside those that the properties of their bodies forbid.
+struct Filters {
+  FilterRule rule = FilterRule::both;   ///< WorldSettings::filter_rule
+  std::span<const Pair> excluded = {};  ///< body indices a < b, sorted by (a, b)
+  PairPredicate predicate = {};         ///< World::set_pair_predicate()
+};
+
 /// The results of World::step() for these bodies. Their indices must ascend, but bodies[i].id.index
 /// need not be i. `previous` is the frame before; nullptr: there was none. If `velocities`,
 /// contacts carry normal velocities. Compares every pair of boxes: O(n^2).
 CAROM_EXPORT Frame step(std::span<const Body> bodies, PositionType positions, Detail detail,
-                        bool velocities, const Frame* previous, const Ahead& ahead = {});
+                        bool velocities, const Frame* previous, const Ahead& ahead = {},
+                        const Filters& filters = {});
 
 }  // namespace carom::reference

@@ -40,8 +40,9 @@ struct WorldSettings {
   /// counts, so that a body with a wide one changes no pair of other bodies. Costs nothing while all
   /// distances are 0. dop_bounds are not used with contact distances.
   float contact_distance = 0;
-  bool events = true;         ///< find begin, persist and end of overlaps
-  bool carry_results = true;  ///< false: every step finds and tests every pair anew
+  bool events = true;                                         ///< find begins and ends of overlaps
+  bool persist_events = false;  ///< with `events`: also one event for each overlap that goes on
+  bool carry_results = true;    ///< false: every step finds and tests every pair anew
 
   /// Metres by which bounds are fattened, finite and >= 0. A body keeps its fat bounds, and the
   /// pairs that they make, until its true bounds leave them: for many bodies that move little at a
@@ -69,12 +70,14 @@ struct WorldSettings {
   ///   carry_results this knob does nothing.
   Accuracy accuracy = {};
 
+  FilterRule filter_rule = FilterRule::both;  ///< what layers and masks must say for a pair
+
   bool identities = false;    ///< provide World::identities(), at details with contacts
   bool pair_changes = false;  ///< provide World::added_pairs() and removed_pairs()
 
-  /// The limit of candidate pairs. A step that finds more is incomplete (StepReport::search): it
-  /// has no pairs, like a step in which nothing meets. Earlier overlaps end, and begin again in the
-  /// next complete step.
+  /// The limit of candidate pairs, those of excluded pairs and of the predicate counted with them.
+  /// A step that finds more is incomplete (StepReport::search): it has no pairs, like a step in
+  /// which nothing meets. Earlier overlaps end, and begin again in the next complete step.
   size_t most_pairs = PairFinder::kMostPairs;
 
   /// Seconds that a step looks ahead for bodies with a Detection other than discrete; finite, >= 0.
@@ -213,6 +216,10 @@ class CAROM_EXPORT World {
   float contact_distance(BodyId id) const;
   /// Sets BodyDesc::contact_distance.
   void set_contact_distance(BodyId id, float distance);
+  /// Sets BodyDesc::group.
+  void set_group(BodyId id, int32_t group);
+  /// Sets BodyDesc::space.
+  void set_space(BodyId id, uint32_t space);
   /// Makes a body a sensor or not: sensors have overlaps and events, but no contacts.
   void set_sensor(BodyId id, bool sensor);
   /// Whether this body is a sensor.
@@ -242,6 +249,27 @@ class CAROM_EXPORT World {
   /// velocities of contacts are those of the turning bodies' points.
   std::span<Eigen::Vector3f> angular_velocities();
 
+  // Pairs that never meet, whatever the properties of their bodies allow.
+
+  /// Excludes the pair of two bodies, in any order, from the next step on: they are no candidate
+  /// pair. Without effect if it is excluded. When one of the two is removed, the pair is forgotten;
+  /// a later body with its index does not inherit it. The next step sorts all that was excluded or
+  /// included again in between; any number of pairs may be excluded.
+  void exclude(BodyId a, BodyId b);
+  /// Excludes pairs of indices of living bodies; a != b, in any order.
+  void exclude(std::span<const Pair> pairs);
+  /// Takes exclude() back. Without effect if the pair is not excluded.
+  void include_again(BodyId a, BodyId b);
+  /// Takes exclude() back for pairs of indices of living bodies; a != b, in any order.
+  void include_again(std::span<const Pair> pairs);
+  /// Whether the pair is excluded. Looks through all changes since the last step.
+  bool is_excluded(BodyId a, BodyId b) const;
+
+  /// Sets the predicate that a step asks last about its candidate pairs; an empty function: none.
+  /// It gets body indices, and may call is_alive(), id_of() and user() of this world. Set it again
+  /// when its answers change: a step in which no body changed does not ask it.
+  void set_pair_predicate(PairPredicate predicate);
+
   /// Sets WorldSettings::dt for the next step and those that follow.
   void set_dt(double dt);
 
@@ -268,7 +296,7 @@ class CAROM_EXPORT World {
   std::span<const ContactIdentity> identities() const;
   /// At details with manifolds one a contact, else none; points are relative to the position of body A.
   std::span<const ManifoldPoints> manifolds() const;
-  /// Begins, persists and ends, sorted by (a, b), then impacts; as Event says.
+  /// Begins and ends, and persists if asked for, sorted by (a, b), then impacts; as Event says.
   std::span<const Event> events() const;
 
   /// The pairs with a continuous body that will meet in the interval ahead if all bodies go on as
