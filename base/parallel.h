@@ -6,28 +6,10 @@
 #include <cstddef>
 
 #include "base/float_environment.h"
+#include "carom/base/function_ref.h"
 #include "carom/base/parallelism.h"
 
 namespace carom {
-
-// A non-owning reference to a callable: no allocation, unlike std::function.
-template <class Signature>
-class FunctionRef;
-
-template <class R, class... Args>
-class FunctionRef<R(Args...)> {
- public:
-  template <class F>
-  FunctionRef(const F& f)
-      : object_(&f), call_([](const void* object, Args... args) -> R {
-          return (*static_cast<const F*>(object))(args...);
-        }) {}
-  R operator()(Args... args) const { return call_(object_, args...); }
-
- private:
-  const void* object_;
-  R (*call_)(const void*, Args...);
-};
 
 // True if the caller's arena has more than one thread and may be used.
 bool uses_threads(Parallelism parallelism);

@@ -21,6 +21,7 @@
 /// may run on several threads at once if their outputs differ.
 #pragma once
 
+#include "carom/base/function_ref.h"
 #include "carom/base/parallelism.h"
 #include "carom/base/result.h"
 #include "carom/base/thread_arena.h"
@@ -31,6 +32,7 @@
 #include "carom/narrowphase/collide.h"
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
+#include "carom/queries/query_options.h"
 #include "carom/results/contact.h"
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
