@@ -279,7 +279,10 @@ TEST(MeshCast, BackfacesAreAsIfTheMeshWereMadeSo) {
       const std::vector<CastHit> from_front = run(one, Backfaces::as_made);
       const std::vector<CastHit> from_both = run(two, Backfaces::as_made);
       EXPECT_GT(from_front.size(), 60u);
-      EXPECT_GT(from_both.size(), from_front.size() + 60);
+      EXPECT_GT(from_both.size(), 60u);
+      EXPECT_GT(std::count_if(from_both.begin(), from_both.end(), [&](const CastHit& hit) {
+        return bits_of(from_front).find(bits_of({hit})) == std::string::npos;
+      }), 60);
       EXPECT_EQ(bits_of(run(one, Backfaces::hit)), bits_of(from_both));
       EXPECT_EQ(bits_of(run(two, Backfaces::hit)), bits_of(from_both));
       EXPECT_EQ(bits_of(run(one, Backfaces::ignore)), bits_of(from_front));

@@ -10,8 +10,8 @@ namespace carom {
 template <class Signature>
 class FunctionRef;
 
-/// Refers to anything that can be called with `Args` and returns R: a lambda, a function object. It
-/// must outlive every call. A temporary lambda lives until the end of the full expression, so it
+/// Refers to anything that can be called with `Args` and returns R: a lambda, a function object, a
+/// function. It must outlive every call. A temporary lambda lives until the end of the full expression, so it
 /// may be written straight into the arguments of a call, but not into a variable of options.
 template <class R, class... Args>
 class FunctionRef<R(Args...)> {
@@ -20,20 +20,31 @@ class FunctionRef<R(Args...)> {
   FunctionRef() = default;
   /// Refers to `f`.
   template <class F>
-    requires(std::is_invocable_r_v<R, const F&, Args...>)
+    requires(std::is_object_v<F> && std::is_invocable_r_v<R, const F&, Args...>)
   FunctionRef(const F& f)
-      : object_(&f), call_([](const void* object, Args... args) -> R {
-          return (*static_cast<const F*>(object))(args...);
+      : target_{.object = &f}, call_([](Target target, Args... args) -> R {
+          return (*static_cast<const F*>(target.object))(args...);
+        }) {}
+  /// Refers to a plain function.
+  FunctionRef(R (*f)(Args...))
+      : target_{.function = reinterpret_cast<void (*)()>(f)},
+        call_([](Target target, Args... args) -> R {
+          return reinterpret_cast<R (*)(Args...)>(target.function)(args...);
         }) {}
 
   /// Calls the function.
-  R operator()(Args... args) const { return call_(object_, args...); }
+  R operator()(Args... args) const { return call_(target_, args...); }
   /// Whether it refers to a function.
   explicit operator bool() const { return call_ != nullptr; }
 
  private:
-  const void* object_ = nullptr;
-  R (*call_)(const void*, Args...) = nullptr;
+  union Target {
+    const void* object;
+    void (*function)();
+  };
+
+  Target target_{.object = nullptr};
+  R (*call_)(Target, Args...) = nullptr;
 };
 
 }  // namespace carom
