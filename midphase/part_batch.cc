@@ -27,6 +27,7 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
   first_row_[body] = rows_used_;
   if (is_of_mesh(body)) {
     put_triangle_rows(part.mesh(), part.triangle, rows_.data() + rows_used_);
+    if (part.one_sided) rows_[rows_used_ + 1][3] = *part.one_sided ? 1.0f : 0.0f;
   } else {
     std::copy_n(part.part->rows.data(), row_count(kind_[body]), rows_.data() + rows_used_);
   }

@@ -100,10 +100,11 @@ Result<void> find_nearest(const Collidables& queries, float within, const Search
 }
 
 Result<void> find_nearest(const Collidables& queries, float within, const Collidables& bodies,
-                          std::vector<NearestHit>& hits, Parallelism parallelism) {
+                          std::vector<NearestHit>& hits, const QueryOptions& options) {
   const FloatEnvironment environment;
-  const BodyIndex index = index_bodies(bodies, parallelism);
-  return find_nearest(queries, within, SearchedBodies{bodies, index}, hits, parallelism);
+  const BodyIndex index = index_bodies(bodies, options.parallelism);
+  return find_nearest(queries, within, SearchedBodies{bodies, index, options.filter}, hits,
+                      options.parallelism);
 }
 
 }  // namespace carom

@@ -50,10 +50,11 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
 }
 
 Result<void> find_overlaps(const Collidables& queries, const Collidables& bodies,
-                           std::vector<OverlapHit>& hits, Parallelism parallelism) {
+                           std::vector<OverlapHit>& hits, const QueryOptions& options) {
   const FloatEnvironment environment;
-  const BodyIndex index = index_bodies(bodies, parallelism);
-  return find_overlaps(queries, SearchedBodies{bodies, index}, hits, parallelism);
+  const BodyIndex index = index_bodies(bodies, options.parallelism);
+  return find_overlaps(queries, SearchedBodies{bodies, index, options.filter}, hits,
+                       options.parallelism);
 }
 
 }  // namespace carom

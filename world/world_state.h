@@ -42,6 +42,7 @@ struct World::State {
   const StepReport& step();
   BoundsView bounds_view() const;
   WorldMemory memory() const;
+  const BodyIndex& index_for_queries(Parallelism parallelism);
 
   WorldSettings settings;
   BodyStore bodies;

@@ -22,6 +22,7 @@
 #pragma once
 
 #include "carom/base/jobs.h"
+#include "carom/base/function_ref.h"
 #include "carom/base/parallelism.h"
 #include "carom/base/result.h"
 #include "carom/base/thread_arena.h"
@@ -32,6 +33,7 @@
 #include "carom/narrowphase/collide.h"
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
+#include "carom/queries/query_options.h"
 #include "carom/results/contact.h"
 #include "carom/results/contact_identity.h"
 #include "carom/results/contact_regions.h"

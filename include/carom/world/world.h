@@ -143,7 +143,9 @@ struct WorldMemory {
 /// Bodies and their collisions. All functions take ids of living bodies unless they say otherwise;
 /// a dead id is a programming mistake. Spans of results are those of the last step, and valid until
 /// the next one. Queries (find_points(), cast(), find_overlaps(), find_nearest()) read the bounds
-/// of the last step: bodies must not have changed since. One thread at a time may use a World.
+/// of the last step: bodies must not have changed since. Any number of threads may call functions
+/// that are const at the same time; while one calls a function that is not, no other may use the
+/// World.
 class CAROM_EXPORT World {
  public:
   /// An empty world.
@@ -328,7 +330,9 @@ class CAROM_EXPORT World {
   /// With WorldSettings::pair_changes: pairs of the step before that this step does not have.
   std::span<const Pair> removed_pairs() const;
 
-  // Queries. They read the bounds of the last step: bodies must not have changed since.
+  // Queries. They read the bounds of the last step: bodies must not have changed since. Between two
+  // steps any number of threads may call them at the same time; nothing else may run then but
+  // functions that are const.
 
   /// Replaces `hits` by all bodies that contain each point (`count` records of x, y, z float32,
   /// world frame, metres, `stride` bytes apart), sorted by (point, body). Points that are not
@@ -336,17 +340,21 @@ class CAROM_EXPORT World {
   void find_points(const float* xyz, size_t count, size_t stride,
                    std::vector<PointHit>& hits) const;
 
-  /// carom::cast() (carom/queries/cast.h) against the bodies whose layer has a bit of `mask`,
-  /// sensors included. The first query after a step sorts the bodies into a tree, which the world
-  /// keeps until the next step; later calls cost little more than their queries.
-  void cast(const Collidables& queries, const SweepView& sweep, CastHits which,
-            std::vector<CastHit>& hits, uint32_t mask = ~0u) const;
-  /// carom::find_overlaps() (carom/queries/queries.h) against the same bodies as cast().
+  /// carom::cast() (carom/queries/cast.h) against the bodies of the world that the filter of the
+  /// options lets through. The world keeps an index of its bodies. The first query after a step
+  /// brings it up to date on its own thread, while other queries wait (prepare_queries()); later
+  /// calls cost little more than their queries.
+  void cast(const Collidables& queries, const SweepView& sweep, std::vector<CastHit>& hits,
+            const CastOptions& options = {}) const;
+  /// carom::find_overlaps() (carom/queries/queries.h), likewise.
   void find_overlaps(const Collidables& queries, std::vector<OverlapHit>& hits,
-                     uint32_t mask = ~0u) const;
-  /// carom::find_nearest() (carom/queries/queries.h) against the same bodies as cast().
+                     const QueryOptions& options = {}) const;
+  /// carom::find_nearest() (carom/queries/queries.h), likewise.
   void find_nearest(const Collidables& queries, float within, std::vector<NearestHit>& hits,
-                    uint32_t mask = ~0u) const;
+                    const QueryOptions& options = {}) const;
+  /// Brings the index of queries up to date with the last step, with the threads of the world.
+  /// Queries do it themselves otherwise. Hits are the same.
+  void prepare_queries();
 
   /// Memory held, in bytes, by purpose.
   WorldMemory memory() const;
