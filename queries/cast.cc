@@ -134,7 +134,7 @@ class Caster {
 
   Result<void> impacts_of(std::span<const Pair> candidates, const ImpactColumns& out) const {
     return time_of_impact(boxes_.queries(), sweep_, bodies_.bodies, {}, candidates, out,
-                          WitnessFrame::body, parallelism_);
+                          {.frame = WitnessFrame::body, .parallelism = parallelism_});
   }
 
   static constexpr uint32_t kNone = 0xffffffffu;  // greater than every index
