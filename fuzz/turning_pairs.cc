@@ -1,7 +1,10 @@
 // Draws pairs of bodies that turn and compares their times of impact with the oracle, which
-// advances in steps that it proves free, in double and long double precision: turning_pairs COUNT
-// [SEED]. COUNT motions of every two kinds in every family that turns. Prints a row for each two
-// kinds, one for each family, and the motions that are wrong.
+// advances in steps that it proves free, in double and long double precision:
+//
+//     turning_pairs COUNT [SEED [FAMILY]]
+//
+// COUNT motions of every two kinds in every family that turns and has FAMILY in its name. Prints a
+// row for each two kinds, one for each family, and the motions that are wrong.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -90,10 +93,12 @@ void check(const MotionFamily& family, const KindPair& kinds, size_t count, uint
   }
 }
 
-std::vector<MotionFamily> turning_families() {
+std::vector<MotionFamily> turning_families(const std::string& named) {
   std::vector<MotionFamily> families = plain_motions(), hard = hard_motions();
   families.insert(families.end(), hard.begin(), hard.end());
-  std::erase_if(families, [](const MotionFamily& family) { return family.most_turn == 0; });
+  std::erase_if(families, [&](const MotionFamily& family) {
+    return family.most_turn == 0 || std::string(family.name).find(named) == std::string::npos;
+  });
   return families;
 }
 
@@ -101,7 +106,7 @@ std::vector<MotionFamily> turning_families() {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "turning_pairs COUNT [SEED]\n");
+    std::fprintf(stderr, "turning_pairs COUNT [SEED [FAMILY]]\n");
     return 2;
   }
   const size_t count = std::strtoull(argv[1], nullptr, 10);
@@ -109,7 +114,7 @@ int main(int argc, char** argv) {
   std::printf("lengths are shares of size plus travel\n");
   std::printf("%-30s %9s %9s %6s %6s %6s %6s %7s  %8s  %8s  %8s\n", "", "pairs", "impacts", "early",
               "late", "missed", "budget", "unknown", "gap", "too soon", "depth");
-  const std::vector<MotionFamily> families = turning_families();
+  const std::vector<MotionFamily> families = turning_families(argc > 3 ? argv[3] : "");
   std::vector<Row> of_family(families.size());
   Row all;
   uint64_t next_seed = seed << 20;
