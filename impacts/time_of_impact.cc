@@ -85,15 +85,17 @@ ImpactColumns from_row(const ImpactColumns& columns, size_t row) {
 
 Result<void> time_of_impact(const Collidables& a, const SweepView& sweep_a, const Collidables& b,
                             const SweepView& sweep_b, std::span<const Pair> pairs,
-                            const ImpactColumns& out, WitnessFrame frame, Parallelism parallelism) {
+                            const ImpactColumns& out, const ImpactOptions& options) {
   if (Result<void> checked = check_pairs(a, b, pairs); !checked) return checked;
   const MovingSide side_a{a, sweep_a}, side_b{b, sweep_b};
-  for_each_block(pairs.size(), kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+  const auto run_block = [&](size_t, size_t begin, size_t end) {
     static thread_local const auto scratch = std::make_unique<ImpactScratch>();
     const ImpactColumns block_out = from_row(out, begin);
-    ImpactBlock(side_a, side_b, pairs.subspan(begin, end - begin), block_out, frame, *scratch)
+    ImpactBlock(side_a, side_b, pairs.subspan(begin, end - begin), block_out, options.frame,
+                *scratch)
         .run();
-  });
+  };
+  for_each_block(pairs.size(), kPairsPerBlock, options.parallelism, run_block);
   return {};
 }
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {

@@ -50,7 +50,8 @@ Result<void> System::time_of_impact(const Collidables& a, const SweepView& sweep
                                     const Collidables& b, const SweepView& sweep_b,
                                     std::span<const Pair> pairs, const ImpactColumns& out,
                                     WitnessFrame frame, Parallelism parallelism) {
-  return carom::time_of_impact(a, sweep_a, b, sweep_b, pairs, out, frame, parallelism);
+  return carom::time_of_impact(a, sweep_a, b, sweep_b, pairs, out,
+                               {.frame = frame, .parallelism = parallelism});
 }
 
 }  // namespace carom::cli
