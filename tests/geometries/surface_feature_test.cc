@@ -20,7 +20,7 @@ using Eigen::Vector3f;
 class PartOf {
  public:
   explicit PartOf(const Shape& shape)
-      : laid_out_({PlacedShape{shape}}, {}), view_(laid_out_.view()) {}
+      : laid_out_(std::vector<PlacedShape>{{shape}}, {}), view_(laid_out_.view()) {}
 
   uint32_t name(const Double3& point, uint32_t triangle = kNoTriangle) const {
     return surface_feature(body_part(BodyReader{view_}, 0), triangle, point);
@@ -34,7 +34,7 @@ class PartOf {
 // The names of all 26 features of a box with these ends, and of random points on each of them.
 void expect_box_features(const Shape& shape, const Vector3f& lower, const Vector3f& upper) {
   const PartOf part(shape);
-  Random random(5);
+  oracle::Random random(5);
   std::set<uint32_t> names;
   for (int code = 0; code < 27; ++code) {
     const int side[3] = {code % 3, code / 3 % 3, code / 9};

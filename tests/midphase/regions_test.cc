@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "carom/results/result_arrays.h"
+#include "carom/results/result_row.h"
 #include "tests/support/composites.h"
 #include "tests/support/rounds.h"
 
@@ -211,9 +213,9 @@ TEST(Regions, CoverAllParts) {
 TEST(Regions, OfNoPairsAndOfSimplePairs) {
   const Listed none = list_contacts({}, PositionType::float32, {});
   EXPECT_EQ(none.regions.first, std::vector<uint64_t>{0});
-  const std::vector<TestPair> pairs = {{sphere({0, 0, 0}, 1), sphere({1, 0, 0}, 1)},
-                                       {sphere({0, 0, 0}, 1), sphere({3, 0, 0}, 1)},
-                                       {sphere({0, 0, 0}, NAN), sphere({0, 0, 0}, 1)}};
+  const std::vector<TestPair> pairs = {{sphere(0, 0, 0, 1), sphere(1, 0, 0, 1)},
+                                       {sphere(0, 0, 0, 1), sphere(3, 0, 0, 1)},
+                                       {sphere(0, 0, 0, NAN), sphere(0, 0, 0, 1)}};
   const Listed simple = list_contacts(pairs, PositionType::float32, {});
   EXPECT_EQ(simple.regions.first, (std::vector<uint64_t>{0, 1, 1, 1}));
   const Listed near = list_contacts(pairs, PositionType::float32, {.contact_distance = 1});

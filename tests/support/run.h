@@ -76,8 +76,7 @@ std::vector<Row> run_pairs(const LaidOut& a, const LaidOut& b, size_t count, con
   Columns columns(count, call.missing);
   expect_success(call, [&] {
     return carom::collide(a.view(), b.view(), std::span(list.as<Pair>(), count), call.detail,
-                          columns.out(), call.frame, call.parallelism, call.measured,
-                          call.accuracy);
+                          columns.out(), options_of(call));
   });
   return columns.rows();
 }

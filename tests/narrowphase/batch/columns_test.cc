@@ -33,6 +33,9 @@ void number(const ResultColumns& columns, size_t count) {
           if constexpr (std::is_same_v<T, ManifoldPoints>) {
             column[i] = {};
             column[i].separation[0] = static_cast<float>(next++);
+          } else if constexpr (std::is_same_v<T, PointNames>) {
+            column[i] = {};
+            column[i].point[0] = static_cast<uint64_t>(next++);
           } else {
             column[i] = static_cast<T>(next++);
           }
@@ -96,6 +99,8 @@ TEST(Columns, ArraysDoNotOverlapAndCanBeUsedAgain) {
           for (size_t i = 0; i < count; ++i, ++expected) {
             if constexpr (std::is_same_v<T, ManifoldPoints>) {
               EXPECT_EQ(column[i].separation[0], static_cast<float>(expected));
+            } else if constexpr (std::is_same_v<T, PointNames>) {
+              EXPECT_EQ(column[i].point[0], static_cast<uint64_t>(expected));
             } else {
               EXPECT_EQ(column[i], static_cast<T>(expected));
             }

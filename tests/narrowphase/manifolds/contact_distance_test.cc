@@ -104,8 +104,8 @@ TEST(DistanceManifolds, StayWhenBodiesMoveApart) {
 }
 
 TEST(DistanceManifolds, DistancesThatAreNoDistancesAreErrors) {
-  const TestPair pair{sphere({0, 0, 0}, 1), sphere({1, 0, 0}, 1)};
-  const LaidOut a({pair.a}, {}), b({pair.b}, {});
+  const TestPair pair{sphere(0, 0, 0, 1), sphere(1, 0, 0, 1)};
+  const LaidOut a(side_a({&pair, 1}), {}), b(side_b({&pair, 1}), {});
   uint8_t overlap = 77;
   for (const float distance : {-1.0f, NAN, INFINITY, -INFINITY}) {
     const Result<void> each = collide_rows(a.view(), b.view(), Detail::overlap,

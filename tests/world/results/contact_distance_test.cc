@@ -84,7 +84,7 @@ TEST(ContactDistance, HistoriesMatchTheReferenceOnEveryIsaAndOnThreads) {
   });
 }
 
-constexpr CrowdSpec kCrowd{.oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
+constexpr CrowdSpec kDistanceCrowd{.oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
 
 // Contacts of separate pairs are left out.
 std::vector<Contact> touching(const World& world) {
@@ -97,8 +97,8 @@ std::vector<Contact> touching(const World& world) {
 
 TEST(ContactDistance, ChangesNoOverlapAndNoEvent) {
   World with({.contact_distance = 0.25f}), without;
-  const std::vector<BodyId> ids = add_crowd(with, kCrowd);
-  add_crowd(without, kCrowd);
+  const std::vector<BodyId> ids = add_crowd(with, kDistanceCrowd);
+  add_crowd(without, kDistanceCrowd);
   Random one(3), two(3);
   size_t near = 0;
   for (int frame = 0; frame < 6; ++frame) {
@@ -121,10 +121,10 @@ TEST(ContactDistance, ChangesNoOverlapAndNoEvent) {
 }
 
 TEST(ContactDistance, AMarginChangesNoContact) {
-  World with({.detail = Detail::manifold, .margin = 0.2f, .contact_distance = 0.1f});
+  World with({.detail = Detail::manifold, .contact_distance = 0.1f, .margin = 0.2f});
   World without({.detail = Detail::manifold, .contact_distance = 0.1f});
-  const std::vector<BodyId> ids = add_crowd(with, kCrowd);
-  add_crowd(without, kCrowd);
+  const std::vector<BodyId> ids = add_crowd(with, kDistanceCrowd);
+  add_crowd(without, kDistanceCrowd);
   Random one(3), two(3);
   for (int frame = 0; frame < 10; ++frame) {
     with.step();
@@ -176,11 +176,11 @@ TEST(ContactDistance, GivesWholeManifolds) {
 
 TEST(ContactDistance, CostsNoMemoryUnlessItIsUsed) {
   World with({.contact_distance = 0.1f}), without;
-  add_crowd(with, kCrowd);
-  add_crowd(without, kCrowd);
+  add_crowd(with, kDistanceCrowd);
+  add_crowd(without, kDistanceCrowd);
   with.step();
   without.step();
-  EXPECT_GE(with.memory().bounds, without.memory().bounds + 6 * sizeof(float) * kCrowd.count);
+  EXPECT_GE(with.memory().bounds, without.memory().bounds + 6 * sizeof(float) * kDistanceCrowd.count);
 }
 
 }  // namespace

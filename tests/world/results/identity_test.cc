@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr CrowdSpec kCrowd{.oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
-constexpr WorldSettings kSettings{.detail = Detail::manifold, .identities = true};
+constexpr CrowdSpec kIdentityCrowd{.oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
+constexpr WorldSettings kIdentitySettings{.detail = Detail::manifold, .identities = true};
 
 // What a step leaves for the next one to be compared with.
 struct Before {
@@ -58,7 +58,7 @@ void expect_consistent(const World& world, const Before& before, size_t& continu
 TEST(Identities, AreConsistentWhileBodiesMove) {
   for (const Detail detail : {Detail::manifold, Detail::regions}) {
     World world({.detail = detail, .contact_distance = 0.05f, .identities = true});
-    const std::vector<BodyId> ids = add_crowd(world, kCrowd);
+    const std::vector<BodyId> ids = add_crowd(world, kIdentityCrowd);
     Random random(5);
     size_t continued = 0, points = 0;
     world.step();
@@ -75,8 +75,8 @@ TEST(Identities, AreConsistentWhileBodiesMove) {
 }
 
 TEST(Identities, OfAStillStepContinueThemselves) {
-  World world(kSettings);
-  add_crowd(world, kCrowd);
+  World world(kIdentitySettings);
+  add_crowd(world, kIdentityCrowd);
   world.step();
   for (const ContactIdentity& identity : world.identities()) {
     EXPECT_EQ(identity.previous, kNoPrevious);
@@ -98,7 +98,7 @@ TEST(Identities, OfAStillStepContinueThemselves) {
 
 // A box that slides over the ground keeps its four corners, wherever contacts before it come from.
 TEST(Identities, OfABoxThatSlidesAndTurns) {
-  World world(kSettings);
+  World world(kIdentitySettings);
   const BodyId ground = world.add({.shape = Halfspace{}});
   const BodyId box = world.add({.shape = Box{{1, 2, 0.5f}}, .position = {0, 0, 0.4375}});
   std::set<uint64_t> names;
@@ -138,12 +138,12 @@ TEST(Identities, ARemovedBodyContinuesNothing) {
 
 // Where results are carried, what continues what is the same as where everything is tested anew.
 TEST(Identities, DoNotDependOnCarriedResults) {
-  WorldSettings settings = kSettings;
+  WorldSettings settings = kIdentitySettings;
   World carrying(settings);
   settings.carry_results = false;
   World testing(settings);
-  const std::vector<BodyId> ids = add_crowd(carrying, kCrowd);
-  add_crowd(testing, kCrowd);
+  const std::vector<BodyId> ids = add_crowd(carrying, kIdentityCrowd);
+  add_crowd(testing, kIdentityCrowd);
   Random one(5), two(5);
   for (int frame = 0; frame < 10; ++frame) {
     carrying.step();
@@ -157,7 +157,7 @@ TEST(Identities, DoNotDependOnCarriedResults) {
 TEST(Identities, AreTheSameOnEveryIsaAndOnThreads) {
   const auto all = [](Detail detail) {
     World world({.detail = detail, .contact_distance = 0.1f, .identities = true});
-    const std::vector<BodyId> ids = add_crowd(world, kCrowd);
+    const std::vector<BodyId> ids = add_crowd(world, kIdentityCrowd);
     world.add({.shape = flat_grid(6, 1), .position = {0, 0, 1}, .motion = Motion::fixed});
     Random random(5);
     std::string bytes;
@@ -183,7 +183,7 @@ TEST(Identities, AreTheSameOnEveryIsaAndOnThreads) {
 
 TEST(Identities, AreThereOnlyIfAskedFor) {
   World world;
-  add_crowd(world, kCrowd);
+  add_crowd(world, kIdentityCrowd);
   world.step();
   EXPECT_FALSE(world.contacts().empty());
   EXPECT_TRUE(world.identities().empty());
