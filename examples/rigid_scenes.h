@@ -2,6 +2,7 @@
 // where they are put or fall to where they belong. Metres, kilograms; z is up.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -19,8 +20,8 @@
 namespace rigid {
 
 struct Scene {
-  Solver solver;
-  std::vector<BodyId> moving;  // in the order in which they were added
+  Solver solver = Solver();
+  std::vector<BodyId> moving = {};  // in the order in which they were added
 };
 
 // ------------------------------------------------------------ masses: 1000 kg a cubic metre
@@ -85,11 +86,10 @@ inline BodyId add_moving(Scene& scene, carom::BodyDesc body, const Mass& mass) {
 
 inline BodyId add_box(Scene& scene, const Vector3f& half, const Vector3f& position,
                       const Quaternionf& orientation = Quaternionf::Identity()) {
-  return add_moving(scene,
-                    {.shape = carom::Box{half},
-                     .position = position.cast<double>(),
-                     .orientation = orientation},
-                    mass_of_box(half));
+  return add_moving(
+      scene,
+      {.shape = carom::Box{half}, .position = position.cast<double>(), .orientation = orientation},
+      mass_of_box(half));
 }
 
 // The top of the floor is z = 0.
@@ -178,16 +178,19 @@ inline std::pair<std::vector<Vector3f>, Faces> make_solid(int kind) {
             {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
   }
   if (kind == 1) {
-    return {{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-            {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
+    return {
+        {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+        {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}}};
   }
   const uint32_t sides = kind == 2 ? 4 : 6;
   std::vector<Vector3f> corners;
   std::vector<uint32_t> below, above;
   Faces faces;
   for (uint32_t i = 0; i < sides; ++i) {
-    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);
-    for (const float z : {-0.6f, 0.6f}) corners.emplace_back(0.8f * std::cos(angle), 0.8f * std::sin(angle), z);
+    const float angle =
+        2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(sides);
+    for (const float z : {-0.6f, 0.6f})
+      corners.emplace_back(0.8f * std::cos(angle), 0.8f * std::sin(angle), z);
     const uint32_t next = (i + 1) % sides;
     faces.push_back({2 * i, 2 * next, 2 * next + 1, 2 * i + 1});
     below.insert(below.begin(), 2 * i);
@@ -284,7 +287,8 @@ inline Scene make_marbles() {
   return scene;
 }
 
-// A box in the corner of three planes, which stands on its tip: the normals are the diagonals' thirds.
+// A box in the corner of three planes that are equally steep: it rests on three sides. 1 cm off
+// each.
 inline Scene make_corner() {
   Scene scene;
   const Quaternionf tip = Quaternionf::FromTwoVectors(Vector3f(1, 1, 1), Vector3f::UnitZ());
@@ -295,22 +299,34 @@ inline Scene make_corner() {
   return scene;
 }
 
+// The same corner as one mesh: the pair of it and the box has three contacts.
+inline Scene make_mesh_corner() {
+  Scene scene;
+  const Quaternionf tip = Quaternionf::FromTwoVectors(Vector3f(1, 1, 1), Vector3f::UnitZ());
+  const std::vector<Vector3f> corners = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0},
+                                         {0, 4, 4}, {0, 0, 4}, {4, 0, 4}};
+  const std::vector<std::array<uint32_t, 3>> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4},
+                                                          {0, 4, 5}, {0, 5, 6}, {0, 6, 1}};
+  scene.solver.add({.shape = carom::Mesh{expect(carom::make_mesh(
+                        corners, triangles, {.one_sided = true, .thickness = 0.5f}))},
+                    .orientation = tip});
+  add_box(scene, {0.5f, 0.4f, 0.3f}, tip * Vector3f(0.51f, 0.41f, 0.31f), tip);
+  return scene;
+}
+
 // 20 capsules that are joined end to end, held at one end beside a beam, swing down on it. Each
 // overlaps its neighbours.
 inline Scene make_chain() {
   Scene scene;
   add_floor(scene);
   scene.solver.add({.shape = carom::Box{{0.5f, 2, 0.5f}}, .position = {3, 0, 3}});
-  const BodyId peg = scene.solver.add(
-      {.shape = carom::Sphere{0.1f}, .position = {0, 0, 6}, .layer = 4, .mask = 0});
+  const BodyId peg = scene.solver.add({.shape = carom::Sphere{0.1f}, .position = {0, 0, 6}});
   const float half = 0.2f, radius = 0.1f;
   BodyId last = peg;
   for (int i = 0; i < 20; ++i) {
     const Vector3f start(2 * half * static_cast<float>(i), 0, 6);
     carom::BodyDesc link{.shape = carom::Capsule{{-half, 0, 0}, {half, 0, 0}, radius}};
     link.position = (start + Vector3f(half, 0, 0)).cast<double>();
-    link.layer = i % 2 ? 1 : 2;
-    link.mask = ~(i % 2 ? 2u : 1u);
     const BodyId id = add_moving(scene, link, mass_of_capsule(half, radius));
     scene.solver.join(last, id, start);
     last = id;
@@ -318,15 +334,20 @@ inline Scene make_chain() {
   return scene;
 }
 
+// What a scene has to hold to, whatever the number of steps.
 struct NamedScene {
   const char* name;
   Scene (*make)();
+  float most_depth;  // of any overlap, metres
+  double most_way;   // of any body, metres
 };
 
 inline constexpr NamedScene kScenes[] = {
-    {"stack", make_stack},     {"wall", make_wall},   {"pyramid", make_pyramid},
-    {"hulls", make_hulls},     {"cards", make_cards}, {"marbles", make_marbles},
-    {"corner", make_corner},   {"chain", make_chain}};
+    {"stack", make_stack, 0.002f, 0.01},     {"wall", make_wall, 0.002f, 0.005},
+    {"pyramid", make_pyramid, 0.002f, 0.01}, {"hulls", make_hulls, 0.2f, 20},
+    {"cards", make_cards, 0.002f, 0.005},    {"marbles", make_marbles, 0.04f, 10},
+    {"corner", make_corner, 0.002f, 0.05},   {"mesh_corner", make_mesh_corner, 0.002f, 0.05},
+    {"chain", make_chain, 0.04f, 10}};
 
 // Kinetic energy and that of height, in joules.
 inline double energy(const Scene& scene) {

@@ -14,51 +14,22 @@
 #include <span>
 #include <vector>
 
+#include "rigid_body.h"
+#include "rigid_joint.h"
+
 namespace rigid {
 
 using carom::BodyId;
-using Eigen::Matrix3f;
-using Eigen::Quaternionf;
-using Eigen::Vector3f;
-
-// SI units. The body's position is its centre of mass.
-struct Mass {
-  float mass = 0;                      // 0: the body does not move
-  Matrix3f inertia = Matrix3f::Zero();  // in the body's frame, about its position
-};
 
 struct SolverSettings {
   Vector3f gravity = {0, 0, -9.81f};
   float dt = 1.0f / 60;
-  int substeps = 8;
+  int substeps = 10;
   float friction = 0.6f;
   // Overlaps are pushed out by a spring of this frequency and damping, no faster than push_speed.
   float hertz = 120;
-  float damping_ratio = 5;
+  float damping_ratio = 2;
   float push_speed = 3;
-  float slop = 0.0005f;  // overlap that is left alone, so that contacts last; metres
-};
-
-struct Body {
-  float inverse_mass = 0;
-  Matrix3f inverse_inertia = Matrix3f::Zero();        // in the body's frame
-  Matrix3f inverse_inertia_world = Matrix3f::Zero();  // of this step
-  Vector3f velocity = Vector3f::Zero();
-  Vector3f spin = Vector3f::Zero();               // angular velocity
-  Vector3f moved = Vector3f::Zero();              // since the collision step
-  Quaternionf turned = Quaternionf::Identity();  // since the collision step
-
-  Vector3f velocity_at(const Vector3f& arm) const { return velocity + spin.cross(arm); }
-  Vector3f motion_of(const Vector3f& arm) const { return moved + turned * arm - arm; }
-  void push(const Vector3f& impulse, const Vector3f& arm) {
-    velocity += inverse_mass * impulse;
-    spin += inverse_inertia_world * arm.cross(impulse);
-  }
-  // How much an impulse of one along this direction changes the velocity there.
-  float give(const Vector3f& arm, const Vector3f& direction) const {
-    const Vector3f turn = arm.cross(direction);
-    return inverse_mass + turn.dot(inverse_inertia_world * turn);
-  }
 };
 
 // Arms go from the bodies' positions to one point in the world, halfway between the surfaces.
@@ -79,31 +50,10 @@ struct ContactConstraint {
   std::array<ContactPoint, 4> points = {};
 };
 
-// Two points, one of each body, that stay together.
-struct BallJoint {
-  uint32_t a, b;
-  Vector3f local_a, local_b;                                    // in the bodies' frames
-  Vector3f arm_a = Vector3f::Zero(), arm_b = Vector3f::Zero();  // of this step
-  Vector3f gap = Vector3f::Zero();  // from the point of A to that of B, at the collision step
-  Matrix3f mass = Matrix3f::Zero();
-  Vector3f impulse = Vector3f::Zero();
-};
-
-// The soft constraint: a damped spring, integrated implicitly over h.
-struct Softness {
-  float bias_rate = 0, mass_scale = 1, impulse_scale = 0;
-
-  static Softness of(float hertz, float damping_ratio, float h) {
-    const float omega = 2 * 3.14159265f * hertz;
-    const float damping = 2 * damping_ratio + h * omega, stiffness = h * omega * damping;
-    return {omega / damping, stiffness / (1 + stiffness), 1 / (1 + stiffness)};
-  }
-};
-
 class Solver {
  public:
   explicit Solver(const SolverSettings& settings = {}, carom::WorldSettings world = {})
-      : settings_(settings), world_(with_manifolds(world)) {}
+      : settings_(settings), world_(with_contacts(world)) {}
 
   BodyId add(const carom::BodyDesc& desc, const Mass& mass = {}) {
     carom::BodyDesc described = desc;
@@ -120,12 +70,13 @@ class Solver {
     return id;
   }
 
-  // Joins two bodies at a point of the world.
+  // Joins two bodies at a point of the world. They do not meet each other any more.
   void join(BodyId a, BodyId b, const Vector3f& point) {
     const auto local = [&](BodyId id) -> Vector3f {
       return world_.orientation(id).conjugate() * (point - world_.position(id).cast<float>());
     };
-    joints_.push_back({.a = a.index, .b = b.index, .local_a = local(a), .local_b = local(b)});
+    world_.exclude(a, b);
+    joints_.emplace_back(a.index, b.index, local(a), local(b));
   }
 
   const SolverSettings& settings() const { return settings_; }
@@ -140,10 +91,10 @@ class Solver {
     world_.step();
     start_bodies();
     make_contacts();
-    start_joints();
+    for (BallJoint& joint : joints_) start(joint);
     const float h = settings_.dt / static_cast<float>(settings_.substeps);
-    const Softness soft = Softness::of(std::min(settings_.hertz, 0.25f / h),
-                                       settings_.damping_ratio, h);
+    const Softness soft =
+        Softness::of(std::min(settings_.hertz, 0.25f / h), settings_.damping_ratio, h);
     for (int i = 0; i < settings_.substeps; ++i) {
       accelerate(h);
       warm_start();
@@ -155,8 +106,12 @@ class Solver {
   }
 
  private:
-  static carom::WorldSettings with_manifolds(carom::WorldSettings world) {
-    world.detail = carom::Detail::manifold;
+  // What this solver needs of a world: all planes in which bodies touch, a little before they do,
+  // and which points those of the last step are.
+  static carom::WorldSettings with_contacts(carom::WorldSettings world) {
+    world.detail = carom::Detail::regions;
+    world.identities = true;
+    if (world.contact_distance == 0) world.contact_distance = 0.1f;  // 6 m/s in a frame of 1/60 s
     return world;
   }
 
@@ -171,15 +126,13 @@ class Solver {
     }
   }
 
-  // The contacts of the world, with the impulses of the last step.
+  // The contacts of the world in their order, with the impulses of the last step.
   void make_contacts() {
     last_.swap(contacts_);
     contacts_.clear();
     for (size_t i = 0; i < world_.contacts().size(); ++i) {
-      const carom::Contact& contact = world_.contacts()[i];
-      if (bodies_[contact.a].inverse_mass + bodies_[contact.b].inverse_mass == 0) continue;
-      contacts_.push_back(constraint(contact, world_.manifolds()[i]));
-      take_over_impulses(contacts_.back());
+      contacts_.push_back(constraint(world_.contacts()[i], world_.manifolds()[i]));
+      take_over_impulses(world_.identities()[i], contacts_.back());
     }
   }
 
@@ -208,46 +161,24 @@ class Solver {
     return made;
   }
 
-  // Matches the points of a pair with those of the last step.
-  void take_over_impulses(ContactConstraint& contact) const {
-    const auto before = [](const ContactConstraint& x, const ContactConstraint& y) {
-      return x.a != y.a ? x.a < y.a : x.b < y.b;
-    };
-    constexpr float kNear = 0.05f;  // metres
-    const auto [begin, end] = std::equal_range(last_.begin(), last_.end(), contact, before);
+  // Warm start: points begin with the impulses of the points that they continue.
+  void take_over_impulses(const carom::ContactIdentity& identity,
+                          ContactConstraint& contact) const {
     for (int i = 0; i < contact.count; ++i) {
+      const uint32_t place = identity.previous_point[i];
+      if (place == carom::kNoPrevious) continue;
+      const ContactPoint& old = last_[place / 4].points[place % 4];
       ContactPoint& point = contact.points[i];
-      float least = kNear * kNear;
-      for (auto old = begin; old != end; ++old) {
-        for (int k = 0; k < old->count; ++k) {
-          const float way = (old->points[k].arm_a - point.arm_a).squaredNorm();
-          if (way >= least) continue;
-          least = way;
-          point.normal_impulse = old->points[k].normal_impulse;
-          point.friction_impulse = old->points[k].friction_impulse;
-        }
-      }
-      point.friction_impulse -= point.friction_impulse.dot(contact.normal) * contact.normal;
+      point.normal_impulse = old.normal_impulse;
+      point.friction_impulse =
+          old.friction_impulse - old.friction_impulse.dot(contact.normal) * contact.normal;
     }
   }
 
-  void start_joints() {
-    for (BallJoint& joint : joints_) {
-      const BodyId a = world_.id_of(joint.a), b = world_.id_of(joint.b);
-      joint.arm_a = world_.orientation(a) * joint.local_a;
-      joint.arm_b = world_.orientation(b) * joint.local_b;
-      joint.gap = (world_.position(b) - world_.position(a)).cast<float>() + joint.arm_b - joint.arm_a;
-      joint.mass = (give(joint.a, joint.arm_a) + give(joint.b, joint.arm_b)).inverse();
-    }
-  }
-
-  // How an impulse at this arm changes the velocity there.
-  Matrix3f give(uint32_t index, const Vector3f& arm) const {
-    const Body& body = bodies_[index];
-    Matrix3f cross;
-    cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
-    return body.inverse_mass * Matrix3f::Identity() -
-           cross * body.inverse_inertia_world * cross;
+  void start(BallJoint& joint) const {
+    const BodyId a = world_.id_of(joint.a), b = world_.id_of(joint.b);
+    joint.start(bodies_[joint.a], bodies_[joint.b], world_.orientation(a), world_.orientation(b),
+                (world_.position(b) - world_.position(a)).cast<float>());
   }
 
   void accelerate(float h) {
@@ -263,9 +194,7 @@ class Solver {
   }
 
   void warm_start() {
-    for (const BallJoint& joint : joints_) {
-      push(joint.a, joint.b, joint.impulse, joint.arm_a, joint.arm_b);
-    }
+    for (const BallJoint& joint : joints_) joint.warm_start(bodies_[joint.a], bodies_[joint.b]);
     for (const ContactConstraint& contact : contacts_) {
       for (int i = 0; i < contact.count; ++i) {
         const ContactPoint& point = contact.points[i];
@@ -276,7 +205,9 @@ class Solver {
   }
 
   void solve(float h, const Softness& soft, bool push_out) {
-    for (BallJoint& joint : joints_) solve(joint, push_out ? soft : Softness{});
+    for (BallJoint& joint : joints_) {
+      joint.solve(bodies_[joint.a], bodies_[joint.b], push_out ? soft : Softness{});
+    }
     for (ContactConstraint& contact : contacts_) {
       for (int i = 0; i < contact.count; ++i) {
         solve_normal(contact, contact.points[i], h, soft, push_out);
@@ -284,28 +215,17 @@ class Solver {
       for (int i = 0; i < contact.count; ++i) solve_friction(contact, contact.points[i]);
     }
   }
-  void solve(BallJoint& joint, const Softness& soft) {
-    const Body &a = bodies_[joint.a], &b = bodies_[joint.b];
-    const Vector3f gap = joint.gap + b.motion_of(joint.arm_b) - a.motion_of(joint.arm_a);
-    const Vector3f velocity = b.velocity_at(joint.arm_b) - a.velocity_at(joint.arm_a);
-    const Vector3f change = -soft.mass_scale * (joint.mass * (velocity + soft.bias_rate * gap)) -
-                            soft.impulse_scale * joint.impulse;
-    joint.impulse += change;
-    push(joint.a, joint.b, change, joint.arm_a, joint.arm_b);
-  }
 
   void solve_normal(const ContactConstraint& contact, ContactPoint& point, float h, Softness soft,
                     bool push_out) {
     const Body &a = bodies_[contact.a], &b = bodies_[contact.b];
     const float separation =
-        point.separation +
-        contact.normal.dot(b.motion_of(point.arm_b) - a.motion_of(point.arm_a));
+        point.separation + contact.normal.dot(b.motion_of(point.arm_b) - a.motion_of(point.arm_a));
     float bias = 0;
     if (separation > 0) {
       bias = separation / h;  // may use up the gap, no more
     } else if (push_out) {
-      bias = std::max(soft.bias_rate * std::min(separation + settings_.slop, 0.0f),
-                      -settings_.push_speed);
+      bias = std::max(soft.bias_rate * separation, -settings_.push_speed);
     }
     if (separation > 0 || !push_out) soft = {};
     const float velocity =
@@ -313,6 +233,7 @@ class Solver {
     const float change = -soft.mass_scale * point.normal_mass * (velocity + bias) -
                          soft.impulse_scale * point.normal_impulse;
     const float before = point.normal_impulse;
+    if (before == 0 && change <= 0) return;
     point.normal_impulse = std::max(before + change, 0.0f);  // contacts push, they do not pull
     push(contact.a, contact.b, (point.normal_impulse - before) * contact.normal, point.arm_a,
          point.arm_b);
@@ -320,14 +241,15 @@ class Solver {
 
   // Coulomb's law: the friction is at most a share of the normal impulse.
   void solve_friction(const ContactConstraint& contact, ContactPoint& point) {
-    const Vector3f velocity = bodies_[contact.b].velocity_at(point.arm_b) -
-                              bodies_[contact.a].velocity_at(point.arm_a);
+    const float most = settings_.friction * point.normal_impulse;
+    if (most == 0 && point.friction_impulse.isZero(0)) return;
+    const Vector3f velocity =
+        bodies_[contact.b].velocity_at(point.arm_b) - bodies_[contact.a].velocity_at(point.arm_a);
     const Vector3f before = point.friction_impulse;
     for (int i = 0; i < 2; ++i) {
       const Vector3f& tangent = contact.tangents[i];
       point.friction_impulse -= point.tangent_mass[i] * tangent.dot(velocity) * tangent;
     }
-    const float most = settings_.friction * point.normal_impulse;
     const float length = point.friction_impulse.norm();
     if (length > most) point.friction_impulse *= most / length;
     push(contact.a, contact.b, point.friction_impulse - before, point.arm_a, point.arm_b);

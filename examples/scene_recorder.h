@@ -25,8 +25,8 @@ class ArrayArchive {
   template <class T>
   void write(const std::string& name, const char* type, const std::string& shape,
              const std::vector<T>& values) {
-    std::string header = std::string("{'descr': '") + type +
-                         "', 'fortran_order': False, 'shape': " + shape + ", }";
+    std::string header =
+        std::string("{'descr': '") + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
     header.resize((header.size() + 11 + 63) / 64 * 64 - 11, ' ');
     header += '\n';
     std::string member("\x93NUMPY\x01\x00", 8);

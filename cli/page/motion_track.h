@@ -10,12 +10,12 @@ namespace carom::cli {
 
 class MotionTrack {
  public:
-  // A run of `frames` frames with `bodies` bodies. Every frame is kept, or every second, third and so
-  // on if the poses of all would take more than kMostBytes. The last frame is always kept.
+  // A run of `frames` frames with `bodies` bodies. Every frame is kept, or every second, third and
+  // so on if the poses of all would take more than kMostBytes. The last frame is always kept.
   MotionTrack(uint64_t bodies, uint64_t frames);
 
-  // Keeps this frame, if it is one of those: the poses of all bodies that are not fixed. Bodies must
-  // be those of the first call.
+  // Keeps this frame, if it is one of those: the poses of all bodies that are not fixed. Bodies
+  // must be those of the first call.
   void note(const World& world, uint64_t frame);
 
   static constexpr uint64_t kMostBytes = 8'000'000;

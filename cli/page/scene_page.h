@@ -14,7 +14,8 @@ class ScenePage {
  public:
   static Result<ScenePage> create(const std::string& path);
 
-  // Writes the world after its last step, and the poses before, `dt` seconds a frame. Call this once.
+  // Writes the world after its last step, and the poses before, `dt` seconds a frame. Call this
+  // once.
   Result<void> add_frame(const World& world, const std::string& scene, uint64_t frame,
                          const MotionTrack& track, double dt);
   Result<void> finish() { return file_.commit(); }

@@ -43,7 +43,6 @@ struct RunRecord {
 // and `track` may be absent.
 Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
                          uint64_t frames, std::optional<PairsOutput>& pairs_out, Progress& progress,
-                         Detection detection = Detection::discrete,
-                         MotionTrack* track = nullptr);
+                         Detection detection = Detection::discrete, MotionTrack* track = nullptr);
 
 }  // namespace carom::cli

@@ -120,8 +120,8 @@ Result<RunReport> run_scene(const RunOptions& options, RunSettings settings, Out
   report.memory = world.memory();
   report.peak_rss_bytes = peak_rss_bytes();
   if (outputs.page) {
-    Result<void> added = outputs.page->add_frame(
-        world, report.scene, report.frames - 1, track, info.dt);
+    Result<void> added =
+        outputs.page->add_frame(world, report.scene, report.frames - 1, track, info.dt);
     if (!added) return added.error();
   }
   return report;
@@ -177,8 +177,9 @@ void add_run_command(CommandLine& program) {
   command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)")
       .file_name();
   command
-      .add_option("--page", options->page,
-                  "Write a page that plays the frames in 3D and shows the last one's contacts (.html)")
+      .add_option(
+          "--page", options->page,
+          "Write a page that plays the frames in 3D and shows the last one's contacts (.html)")
       .file_name();
   command.run([options](const Console& console) { return run(*options, console); });
 }

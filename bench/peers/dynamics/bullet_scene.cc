@@ -88,9 +88,9 @@ BulletScene::BulletScene(const rigid::Scene& scene, int substeps) : state_(new S
     state.add(scene.solver.world(), i, scene.solver.bodies()[i], settings.friction);
   }
   for (const rigid::BallJoint& joint : scene.solver.joints()) {
-    state.joints.push_back(std::make_unique<btPoint2PointConstraint>(
-        *state.bodies[joint.a], *state.bodies[joint.b], bullet(joint.local_a),
-        bullet(joint.local_b)));
+    state.joints.push_back(
+        std::make_unique<btPoint2PointConstraint>(*state.bodies[joint.a], *state.bodies[joint.b],
+                                                  bullet(joint.local_a), bullet(joint.local_b)));
     state.world.addConstraint(state.joints.back().get(), true);
   }
 }

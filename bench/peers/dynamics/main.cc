@@ -1,6 +1,6 @@
-// carom_stacks [STEPS]: the scenes of examples/rigid_scenes.h in Bullet's world and in the example's
-// solver on Carom's contacts, for 1,000 steps of 1/60 s. How far the furthest body went, how fast the
-// fastest still is, and how deep two bodies overlapped.
+// carom_stacks [STEPS]: the scenes of examples/rigid_scenes.h in Bullet's world and in the
+// example's solver on Carom's contacts, for 1,000 steps of 1/60 s. How far the furthest body went,
+// how fast the fastest still is, and how deep two bodies overlapped.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -20,7 +20,8 @@ struct Outcome {
 };
 
 double ms_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
 }
 
 Outcome run_bullet(rigid::Scene (*make)(), int steps, int substeps) {
