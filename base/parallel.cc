@@ -7,7 +7,9 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <mutex>
+#include <utility>
 
+#include "carom/base/jobs.h"
 #include "carom/base/thread_arena.h"
 
 // ThreadSanitizer does not see oneTBB's synchronisation; these calls tell it.
@@ -35,13 +37,27 @@ void happens_after(void* event) {
 #endif
 }
 
-}  // namespace
+// The scheduler of the calling thread; nullptr: oneTBB.
+thread_local Jobs* thread_jobs = nullptr;
 
-bool uses_threads(Parallelism parallelism) {
-  return parallelism == Parallelism::arena && tbb::this_task_arena::max_concurrency() > 1;
+// Runs what is inside of a task.
+class OneThread : public Jobs {
+ public:
+  int threads() const override { return 1; }
+  void run(size_t count, FunctionRef<void(size_t)> task) override {
+    for (size_t i = 0; i < count; ++i) task(i);
+  }
+};
+
+void run_on_jobs(Jobs& jobs, size_t count, FunctionRef<void(size_t)> task) {
+  OneThread alone;
+  jobs.run(count, [&](size_t i) {
+    const JobsScope scope(alone);
+    task(i);
+  });
 }
 
-void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
+void run_on_arena(size_t count, FunctionRef<void(size_t)> task) {
   char started, finished;
   happens_before(&started);
   tbb::parallel_for(size_t{0}, count, [&](size_t i) {
@@ -51,6 +67,27 @@ void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
   });
   happens_after(&finished);
 }
+
+}  // namespace
+
+bool uses_threads(Parallelism parallelism) {
+  if (parallelism != Parallelism::arena) return false;
+  if (thread_jobs) return thread_jobs->threads() > 1;
+  return tbb::this_task_arena::max_concurrency() > 1;
+}
+
+void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
+  if (thread_jobs) {
+    run_on_jobs(*thread_jobs, count, task);
+  } else {
+    run_on_arena(count, task);
+  }
+}
+
+Jobs::~Jobs() = default;
+
+JobsScope::JobsScope(Jobs& jobs) : outer_(thread_jobs) { thread_jobs = &jobs; }
+JobsScope::~JobsScope() { thread_jobs = outer_; }
 
 namespace {
 
@@ -89,7 +126,12 @@ Parallelism ThreadArena::parallelism() const {
 
 void ThreadArena::run(const std::function<void()>& work) {
   if (state_) {
-    state_->arena.execute(work);
+    state_->arena.execute([&] {
+      // Inside, the arena counts, whatever the thread's Jobs are.
+      Jobs* const outer = std::exchange(thread_jobs, nullptr);
+      work();
+      thread_jobs = outer;
+    });
   } else {
     work();
   }

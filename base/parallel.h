@@ -6,33 +6,16 @@
 #include <cstddef>
 
 #include "base/float_environment.h"
+#include "carom/base/function_ref.h"
 #include "carom/base/parallelism.h"
 
 namespace carom {
 
-// A non-owning reference to a callable: no allocation, unlike std::function.
-template <class Signature>
-class FunctionRef;
-
-template <class R, class... Args>
-class FunctionRef<R(Args...)> {
- public:
-  template <class F>
-  FunctionRef(const F& f)
-      : object_(&f), call_([](const void* object, Args... args) -> R {
-          return (*static_cast<const F*>(object))(args...);
-        }) {}
-  R operator()(Args... args) const { return call_(object_, args...); }
-
- private:
-  const void* object_;
-  R (*call_)(const void*, Args...);
-};
-
-// True if the caller's arena has more than one thread and may be used.
+// True if the caller's scheduler, its Jobs or its arena, may be used and has more than one thread.
 bool uses_threads(Parallelism parallelism);
 
-// Runs task(i) for i in [0, count) on the caller's arena, in no particular order.
+// Runs task(i) for i in [0, count) on the caller's scheduler, in no particular order. A task that
+// runs on Jobs finds no threads: it does not start tasks of its own.
 void run_tasks(size_t count, FunctionRef<void(size_t)> task);
 
 inline size_t block_count(size_t count, size_t block_size) {

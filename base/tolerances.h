@@ -262,6 +262,10 @@ inline constexpr double kSameHeight = 0x1p-15;
 // deep.
 inline constexpr double kSameDepth = 0x1p-18;
 
+// A point within this share of a shape's size of a feature lies on it: points of manifolds are off
+// by much less.
+inline constexpr double kOnFeature = 0x1p-14;
+
 // If the lengths of a search reach this, every part counts as near.
 inline constexpr double kBeyondSearch = 0x1p120;
 
@@ -293,8 +297,13 @@ inline constexpr float kSameCorner = 0x1p-20f;
 
 // --- Manifolds, in scaled units ---
 
-// Points of a manifold may be separate by this much, which is what rounding does to them.
+// Points of a manifold may be separate by this much, which is what rounding does to them. A contact
+// distance raises it, up to kGreatestReach.
 inline constexpr float kTouchingPoint = 0x1p-18f;
+inline constexpr float kGreatestReach = 0x1p20f;
+
+// The gap at a point that does not exist.
+inline constexpr float kNoPoint = 2 * kGreatestReach;
 
 // Clipping moves the sides of a face outwards by this, so that an edge that lies on a side is kept.
 inline constexpr float kClipSlack = 0x1p-20f;

@@ -7,6 +7,7 @@
 #include "base/float_environment.h"
 #include "broadphase/grid/cell_search.h"
 #include "broadphase/resting/resting_boxes.h"
+#include "broadphase/sort/pair_selection.h"
 #include "broadphase/sort/sort_pairs.h"
 #include "broadphase/sweep/box_columns.h"
 #include "broadphase/sweep/scan.h"
@@ -30,7 +31,7 @@ constexpr double kMostCrowded = 512;
 class PairSink final : public HitSink {
  public:
   PairSink(const BoxColumns& columns, const PairFilter& filter, PairList& out)
-      : columns_(columns), filter_(filter), out_(out) {}
+      : columns_(columns), filter_(filter), filters_(!lets_all_meet(filter)), out_(out) {}
 
   void add(size_t box_row, const uint32_t* rows, size_t count) override {
     const uint32_t body = columns_.body[box_row];
@@ -39,12 +40,17 @@ class PairSink final : public HitSink {
       const uint32_t other = columns_.body[rows[i]];
       pairs[i] = {std::min(body, other), std::max(body, other)};
     }
-    out_.commit(count, filter_);
+    if (filters_) {
+      out_.commit(count, filter_);
+    } else {
+      out_.commit(count);
+    }
   }
 
  private:
   const BoxColumns& columns_;
   const PairFilter& filter_;
+  const bool filters_;
   PairList& out_;
 };
 
@@ -71,6 +77,7 @@ struct PairFinder::State {
   size_t most_pairs = kMostPairs;
   FoundPairs found;
   PairSorter sorter;
+  PairSelection selection;
   Scratch scratch;
   // Used by brute force and the sweep.
   SweepOrder order;
@@ -181,7 +188,12 @@ PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
     const bool sweep = choice.method == BroadphaseMethod::sweep;
     state_->find_by_rows(bounds, filter, sweep, parallelism, out, search);
   }
-  if (!search.complete) out.clear();
+  if (!search.complete) {
+    out.clear();
+    return search;
+  }
+  state_->selection.run(filter.excluded, filter.predicate, parallelism, out);
+  search.pairs = out.size();
   return search;
 }
 
@@ -194,8 +206,8 @@ void PairFinder::set_most_pairs(size_t pairs) {
 
 size_t PairFinder::bytes() const {
   const State& s = *state_;
-  return s.found.bytes() + s.sorter.bytes() + s.scratch.bytes() + s.order.bytes() +
-         s.columns.bytes() + s.resting.bytes() + s.cells.bytes();
+  return s.found.bytes() + s.sorter.bytes() + s.scratch.bytes() + s.selection.bytes() +
+         s.order.bytes() + s.columns.bytes() + s.resting.bytes() + s.cells.bytes();
 }
 
 size_t find_pairs(const BoundsView& bounds, const PairFilter& filter, std::span<Pair> out,

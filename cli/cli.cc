@@ -11,6 +11,7 @@
 #include "carom_build_info.h"
 #include "cli/support/command_line.h"
 #include "cli/support/options.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {
@@ -30,7 +31,8 @@ Result<void> check_command(const std::vector<std::string>& commands,
   const std::string& word = arguments.front();
   if (word == "--help" || word == "-h" || word == "--version") return {};
   if (std::find(commands.begin(), commands.end(), word) != commands.end()) return {};
-  return Error{"unknown command '" + word + "' (commands: " + joined(commands) + ")"};
+  return Error{"unknown command " + io::quoted_name(word) + " (commands: " + joined(commands) +
+               ")"};
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }

@@ -28,7 +28,7 @@ int main() {
   constexpr float kLength = 20;
   const carom::Rays rays(origins[0].data(), directions[0].data(), kRays, kLength);
   std::vector<carom::CastHit> hits;
-  world.cast(rays.queries(), rays.sweep(), carom::CastHits::closest, hits);
+  world.cast(rays.queries(), rays.sweep(), hits);
   for (const carom::CastHit& hit : hits) {
     if (hit.query % 7 != 0) continue;
     std::printf("ray %2u: %s %u after %.2f m, normal (%.2f, %.2f, %.2f)\n", hit.query,
@@ -40,8 +40,8 @@ int main() {
   const std::vector<float> ball = {0, 9, 0.31f, 0.3f};
   const std::vector<float> way = {12, 0, 0};
   std::vector<carom::CastHit> in_the_way;
-  world.cast(carom::sphere_records(ball.data(), 1), {.displacement = way.data()},
-             carom::CastHits::all, in_the_way);
+  world.cast(carom::sphere_records(ball.data(), 1), {.displacement = way.data()}, in_the_way,
+             {.hits = carom::CastHits::all});
   for (const carom::CastHit& hit : in_the_way) {
     std::printf("the ball meets body %u after %.2f m\n", hit.body, hit.toi * way[0]);
   }

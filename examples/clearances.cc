@@ -68,8 +68,7 @@ int main() {
   std::vector<uint64_t> features(kCount, 0);  // kept from step to step
   const auto measure = [&](const carom::ResultColumns& out) {
     return carom::collide(still.view(), turning.view(), pairs, carom::Detail::contact, out,
-                          carom::WitnessFrame::world, carom::Parallelism::none,
-                          carom::Measured::separate);
+                          {.measured = carom::Measured::separate});
   };
   bool all_agree = true;
   for (int step = 0; step < kSteps; ++step) {

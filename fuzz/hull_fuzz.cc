@@ -16,7 +16,7 @@ namespace {
 
 using namespace carom;
 using namespace carom::fuzz;
-using carom::io::BuiltHull;
+
 using Eigen::Vector3d;
 
 enum Flag : uint8_t {
@@ -39,26 +39,26 @@ size_t take_count(Data& data) {
 
 // As a share of the extents: a face contains points that are in its plane up to the rounding of the
 // coordinates.
-double face_tolerance(const io::Points& points) {
+double face_tolerance(const hulls::Points& points) {
   double largest = 0;
   for (const Eigen::Vector3f& p : points)
     largest = std::max<double>(largest, p.cwiseAbs().maxCoeff());
-  return 1e-5 + 0x1p-19 * largest / io::extents(points).maxCoeff();
+  return 1e-5 + 0x1p-19 * largest / hulls::extents(points).maxCoeff();
 }
 
-void check_hull(const io::Points& points, const BuiltHull& hull) {
-  io::expect_subset(points, hull);
+void check_hull(const hulls::Points& points, const BuiltHull& hull) {
+  hulls::expect_subset(points, hull);
   std::mt19937_64 random(points.size());
-  io::expect_same_support(points, hull, random);
-  io::expect_faces_outside(points, hull, face_tolerance(points));
-  if (hull.geometry->points().size() <= kMostJudged) io::expect_inside(points, hull);
+  hulls::expect_same_support(points, hull, random);
+  hulls::expect_faces_outside(points, hull, face_tolerance(points));
+  if (hull.geometry->points().size() <= kMostJudged) hulls::expect_inside(points, hull);
 }
 
 std::optional<Hull> take_hull(Data& data) {
   const size_t count = take_count(data);
   const double size = take_size(data);
-  const io::Points points = CloudReader(size, data).points(count);
-  const auto hull = io::build_hull(points);
+  const hulls::Points points = CloudReader(size, data).points(count);
+  const auto hull = build_hull(points);
   const auto is_finite = [](const Eigen::Vector3f& p) { return p.allFinite(); };
   EXPECT_EQ(bool(hull), std::all_of(points.begin(), points.end(), is_finite));
   if (!hull) return std::nullopt;

@@ -62,7 +62,7 @@ Row kernel_row(const Collidables& a, const Collidables& b, Detail detail) {
   }
   out.manifold_count = manifold_count.data();
   out.manifold = manifold.data();
-  if (!collide_rows(a, b, detail, out, WitnessFrame::body)) std::abort();
+  if (!collide_rows(a, b, detail, out, {.frame = WitnessFrame::body})) std::abort();
   Row row;
   row.overlap = overlap[0];
   row.status = status[0];

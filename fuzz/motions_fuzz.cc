@@ -79,7 +79,8 @@ Row kernel_row(const Collidables& a, const Sweep& sweep_a, const Collidables& b,
     out.point_a[axis] = columns[5 + axis].data();
     out.point_b[axis] = columns[8 + axis].data();
   }
-  if (!time_of_impact(a, view_of(sweeps_a), b, view_of(sweeps_b), kList, out, WitnessFrame::body)) {
+  if (!time_of_impact(a, view_of(sweeps_a), b, view_of(sweeps_b), kList, out,
+                      {.frame = WitnessFrame::body})) {
     std::abort();
   }
   Row row;

@@ -13,156 +13,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/few_of.h"
 #include "carom/results/contact.h"
+#include "impacts/direction_gap.h"
 #include "impacts/linear/crossing_scalar.h"
-#include "impacts/turning.h"
 #include "narrowphase/doubles/gjk.h"
 #include "narrowphase/doubles/make_core.h"
 
 namespace carom::scalar {
-
-// A moving core. At time t its points are rotated by t * rotation, then moved. `arm` leads from the
-// pivot of the body to the core and always rotates; the core itself rotates only if `turns`.
-struct MovingCore {
-  const Core* core = nullptr;
-  Vector3d arm = Vector3d::Zero();
-  Vector3d rotation = Vector3d::Zero();
-  bool turns = true;
-  double speed = 0;   // of rotation, radians per interval
-  double reach = 0;   // from the pivot to the furthest rotating point
-  double extent = 0;  // from the pivot to the furthest point
-
-  // The rotation from the start to time t.
-  Rotation<double> turn(double t) const {
-    if (!(speed > 0)) return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
-    return rotation_of(turn_by(rotation, t));
-  }
-};
-
-inline constexpr double kSpeedUpwards = 1 + 0x1p-40;  // exceeds the rounding of lengths
-
-inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vector3d& rotation,
-                              bool turns) {
-  double greatest = 0;
-  for (size_t i = 0; i < core.size(); ++i) {
-    const CoreVector p = core.point(i);
-    greatest = max(greatest, dot(p, p));
-  }
-  const double size = std::sqrt(greatest), arm_length = std::sqrt(dot(arm, arm));
-  const double reach = (turns ? size : 0.0) + arm_length;
-  const bool is_round_about_pivot = !(reach > 0);
-  const Vector3d turning = is_round_about_pivot ? Vector3d(Vector3d::Zero()) : rotation;
-  return {&core,
-          arm,
-          turning,
-          turns,
-          angle_of(turning) * kSpeedUpwards,
-          reach * kSpeedUpwards,
-          (size + arm_length) * kSpeedUpwards};
-}
-
-// The plane of a half-space, as one of its points. It rotates even if that point is the pivot.
-inline MovingCore turning_plane(const Core& point, const Vector3d& rotation) {
-  MovingCore plane = moving_core(point, Vector3d::Zero(), rotation, true);
-  plane.rotation = rotation;
-  plane.speed = angle_of(rotation) * kSpeedUpwards;
-  return plane;
-}
-
-// Two moving cores. B's position relative to A is `from` + t * `way`.
-struct MovingPair {
-  MovingCore a, b;
-  Vector3d from, way;
-  double radii = 0;
-  FurthestPoint furthest = nullptr;
-};
-
-// The support point of a moving core along a direction.
-struct MovingSupport {
-  double height;
-  double rate;     // of the support point along the direction
-  Vector3d point;  // from the body's pivot
-
-  MovingSupport(const MovingCore& moving, const Rotation<double>& turn, const Vector3d& n,
-                FurthestPoint furthest) {
-    const Vector3d own = moving.turns ? rotate_back(turn, n) : n;
-    const Vector3d corner =
-        eigen_vector(moving.core->point(furthest(*moving.core, core_vector(own))));
-    const Vector3d arm = rotate(turn, moving.arm);
-    const Vector3d turned = moving.turns ? Vector3d(rotate(turn, corner) + arm) : arm;
-    point = moving.turns ? turned : Vector3d(corner + arm);
-    height = dot(n, point);
-    rate = dot(n, cross(moving.rotation, turned));
-  }
-};
-
-// What a direction is fixed to. A shape that lies flat on a face needs a direction that rotates
-// with the face's body.
-enum class FixedTo { world, a, b };
-
-// The gap along a direction from A to B, minus the radii, as a function of time.
-class DirectionGap {
- public:
-  // The direction is `n` at time t, in world axes.
-  DirectionGap(const MovingPair& pair, const Vector3d& n, double t, FixedTo fixed)
-      : pair_(pair), fixed_(fixed), n_(n) {
-    if (fixed == FixedTo::a) n_ = rotate_back(pair.a.turn(t), n);
-    if (fixed == FixedTo::b) n_ = rotate_back(pair.b.turn(t), n);
-    set_bounds(t);
-  }
-
-  struct Value {
-    double gap, rate;
-  };
-  Value at(double t) const {
-    const Rotation<double> turn_a = pair_.a.turn(t), turn_b = pair_.b.turn(t);
-    const Vector3d n = fixed_ == FixedTo::world ? n_
-                       : fixed_ == FixedTo::a   ? rotate(turn_a, n_)
-                                                : rotate(turn_b, n_);
-    const MovingSupport a(pair_.a, turn_a, n, pair_.furthest);
-    const MovingSupport b(pair_.b, turn_b, -n, pair_.furthest);
-    const Vector3d place = pair_.from + pair_.way * t;
-    double rate = dot(n, pair_.way) - (a.rate + b.rate);
-    if (fixed_ != FixedTo::world) {
-      const Vector3d& turning = fixed_ == FixedTo::a ? pair_.a.rotation : pair_.b.rotation;
-      rate += dot(cross(turning, n), Vector3d((place + b.point) - a.point));
-    }
-    return {(dot(n, place) - (a.height + b.height)) - pair_.radii, rate};
-  }
-
-  // Bounds from t on: how fast the gap closes, and its second derivatives.
-  double most_closing() const { return most_closing_; }
-  double most_curved() const { return most_curved_; }
-
- private:
-  static double length(const Vector3d& v) { return std::sqrt(dot(v, v)); }
-  static double own_turning(const MovingCore& core, const Vector3d& n) {
-    return length(cross(n, core.rotation)) * core.reach;
-  }
-
-  // The points of the body that carries the direction do not move along it.
-  void set_bounds(double t) {
-    const MovingCore &a = pair_.a, &b = pair_.b;
-    if (fixed_ == FixedTo::world) {
-      most_closing_ = (own_turning(a, n_) + own_turning(b, n_)) - dot(n_, pair_.way);
-      most_curved_ = a.speed * a.speed * a.reach + b.speed * b.speed * b.reach;
-      return;
-    }
-    const MovingCore& frame = fixed_ == FixedTo::a ? a : b;
-    const MovingCore& other = fixed_ == FixedTo::a ? b : a;
-    const double start = length(pair_.from + pair_.way * t), end = length(pair_.from + pair_.way);
-    const double furthest = max(start, end) + other.extent;
-    const double fastest = length(pair_.way) + other.speed * other.reach;
-    most_closing_ = frame.speed * furthest + fastest;
-    most_curved_ = frame.speed * (frame.speed * furthest + 2 * fastest) +
-                   other.speed * other.speed * other.reach;
-  }
-
-  const MovingPair& pair_;
-  const FixedTo fixed_;
-  Vector3d n_;  // in the frame that it is fixed to
-  double most_closing_ = 0, most_curved_ = 0;
-};
 
 // Whether a function stays above `least` over a time s. `first` and `last` are its values at both
 // ends; its second derivatives are at most `curved`.
@@ -239,33 +97,109 @@ inline CoreScratch& core_scratch_of_thread() {
   return scratch;
 }
 
-// Advances from t along the direction. With `spinning` it also tries directions that rotate with
-// either body, and takes the one that leads furthest.
-inline double advance_along(const MovingPair& pair, const Vector3d& n, double t, double tolerance,
-                            bool spinning) {
-  double next = advance(DirectionGap(pair, n, t, FixedTo::world), t, tolerance);
-  if (spinning && pair.a.speed > 0 && next <= 1) {
-    next = max(next, advance(DirectionGap(pair, n, t, FixedTo::a), t, tolerance));
+// The edge of a core at its furthest point along n: from there to the point to which the way falls
+// least steeply. Zero for a core that is one point.
+inline Vector3d edge_along(const Core& placed, const Vector3d& n, FurthestPoint furthest) {
+  const Vector3d top = eigen_vector(placed.point(furthest(placed, core_vector(n))));
+  Vector3d edge = Vector3d::Zero();
+  double fall = 1, squared = 0;  // of the edge
+  for (size_t i = 0; i < placed.size(); ++i) {
+    const Vector3d side = eigen_vector(placed.point(i)) - top;
+    const double its_fall = dot(n, side), its_squared = dot(side, side);
+    if (!(its_fall * its_fall * squared < fall * fall * its_squared)) continue;
+    edge = side;
+    fall = its_fall;
+    squared = its_squared;
   }
-  if (spinning && pair.b.speed > 0 && next <= 1) {
-    next = max(next, advance(DirectionGap(pair, n, t, FixedTo::b), t, tolerance));
-  }
+  return edge - n * dot(n, edge);
+}
+
+// The velocity at which n rotates if it stays perpendicular to an edge of each of two placed cores;
+// zero if the edges are parallel, or if one of the two has none.
+inline Vector3d spin_with_edges(const MovingPair& pair, const Vector3d& n, const Core& placed_a,
+                                const Core& placed_b) {
+  const Vector3d edge_a = edge_along(placed_a, n, pair.furthest);
+  const Vector3d edge_b = edge_along(placed_b, -n, pair.furthest);
+  const double area = dot(n, cross(edge_a, edge_b));
+  const bool are_parallel =
+      !(area * area > kParallelEdges * (dot(edge_a, edge_a) * dot(edge_b, edge_b)));
+  if (are_parallel) return Vector3d::Zero();
+  const double rise_a = dot(n, cross(pair.a.rotation, edge_a));
+  const double rise_b = dot(n, cross(pair.b.rotation, edge_b));
+  const Vector3d tilt = (cross(n, edge_b) * rise_a - cross(n, edge_a) * rise_b) / area;
+  return cross(n, tilt);
+}
+
+// Advances from t along the direction n.
+inline double advance_along(const MovingPair& pair, const Vector3d& n, double t, double tolerance) {
+  return advance(DirectionGap(pair, n, t, FixedTo::world), t, tolerance);
+}
+
+// Also tries directions that rotate, and takes the one that leads furthest.
+inline double advance_spinning(const MovingPair& pair, const Vector3d& n, double t,
+                               double tolerance, const CoreScratch& scratch) {
+  double next = advance_along(pair, n, t, tolerance);
+  const auto try_gap = [&](const DirectionGap& gap) {
+    if (next <= 1) next = max(next, advance(gap, t, tolerance));
+  };
+  if (pair.a.speed > 0) try_gap({pair, n, t, FixedTo::a});
+  if (pair.b.speed > 0) try_gap({pair, n, t, FixedTo::b});
+  const Vector3d spin = spin_with_edges(pair, n, scratch.placed_a, scratch.placed_b);
+  if (!spin.isZero(0)) try_gap({pair, n, t, spin});
   return next;
 }
 
 inline constexpr int kMostRounds = 256;  // grazing pairs halve the gap per round; most need 1 to 5
-inline constexpr int kEasyRounds = 6;  // most pairs have met by then; spinning directions cost more
+inline constexpr int kEasyRounds = 3;  // most pairs have met by then; spinning directions cost more
+
+using FewEdges = FewOf<Vector3d, 2>;
+
+// The unit vector next to `way` that is perpendicular to these edges; NaN if there is none.
+inline Vector3d perpendicular(const Vector3d& way, const FewEdges& edges) {
+  Vector3d n = way;
+  if (edges.size() == 1) n -= edges[0] * (dot(way, edges[0]) / dot(edges[0], edges[0]));
+  if (edges.size() == 2) n = cross(edges[0], edges[1]);
+  if (dot(n, way) < 0) n = -n;
+  return n / std::sqrt(dot(n, n));
+}
 
 // The unit vector between the nearest points. If it ends inside an edge, its part along that edge
 // is rounding and is removed. For cores that nearly touch it is most of the error, and the gap at
 // the ends of the edge would vanish.
 inline Vector3d direction_of(const NearestWay& nearest) {
-  Vector3d way = eigen_vector(nearest.way);
+  FewEdges edges;
   if (nearest.corners.size() == 2) {
-    const Vector3d edge = eigen_vector(nearest.corners[1] - nearest.corners[0]);
-    way -= edge * (dot(way, edge) / dot(edge, edge));
+    edges.push_back(eigen_vector(nearest.corners[1] - nearest.corners[0]));
   }
-  return way / std::sqrt(dot(way, way));
+  return perpendicular(eigen_vector(nearest.way), edges);
+}
+
+// GJK knows the distance of cores that nearly touch, but not the direction: turning it by 1e-6
+// changes the length of a short vector by less than rounding, and still a corner far along a face
+// closes the gap. This makes the direction perpendicular to the edges that lead to such corners, as
+// far as it can, and returns the one with the widest gap.
+inline Vector3d direction_past_corners(const CoreScratch& scratch, const NearestWay& nearest,
+                                       FurthestPoint furthest) {
+  constexpr int kMostTurns = 8;  // one or two are usual
+  const Vector3d way = eigen_vector(nearest.way), corner = eigen_vector(nearest.corners[0]);
+  FewEdges edges;
+  for (size_t i = 1; i < nearest.corners.size(); ++i) {
+    edges.push_back(eigen_vector(nearest.corners[i]) - corner);
+  }
+  Vector3d best = perpendicular(way, {}), n = perpendicular(way, edges);
+  double widest = -HUGE_VAL;
+  for (int turn = 0; turn < kMostTurns && dot(n, n) > 0; ++turn) {
+    const Vector3d lowest = eigen_vector(
+        difference_point(scratch.placed_a, scratch.placed_b, core_vector(n), furthest));
+    const double gap = dot(n, lowest);
+    if (gap > widest) best = n;
+    widest = max(gap, widest);
+    if (gap >= dot(n, corner) / 2) break;
+    if (edges.is_full()) edges = {edges[1]};
+    edges.push_back(lowest - corner);
+    n = perpendicular(way, edges);
+  }
+  return best;
 }
 
 // The time at which the balls around the rotating cores meet; the cores cannot meet earlier. This
@@ -288,7 +222,12 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
     const bool is_touching = nearest.corners.size() == 4 || distance <= kTouchingCores;
     if (is_touching || distance - pair.radii <= tolerance) return {t};
     const Vector3d n = direction_of(nearest);
-    const double next = advance_along(pair, n, t, tolerance, round >= kEasyRounds);
+    double next = round < kEasyRounds ? advance_along(pair, n, t, tolerance)
+                                      : advance_spinning(pair, n, t, tolerance, scratch);
+    if (next == t) {
+      const Vector3d past = direction_past_corners(scratch, nearest, pair.furthest);
+      next = advance_spinning(pair, past, t, tolerance, scratch);
+    }
     if (next > 1) return {kNever};
     if (next == t) return {t, distance - pair.radii <= 2 * tolerance ? Status::ok : Status::budget};
     t = next;

@@ -1,9 +1,14 @@
 #include "impacts/composite_times.h"
 
+#include <algorithm>
+#include <deque>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <tuple>
+#include <vector>
 
+#include "impacts/mesh_path.h"
 #include "impacts/moving_body.h"
 #include "impacts/part_sweep.h"
 #include "midphase/part_batch.h"
@@ -54,6 +59,9 @@ BodySweep sweep_of(const MovingReader& side, size_t i) {
   return {{d.x, d.y, d.z}, {w.x, w.y, w.z}};
 }
 
+// Triangles per pair in the first round of a search along a path, and in the last ones.
+constexpr size_t kFirstTriangles = 4, kMostTriangles = 32;
+
 // Finds the first time among the pairs of parts of each pair of bodies. Pairs of parts of many
 // bodies share a batch.
 class CompositeTimes {
@@ -101,6 +109,56 @@ class CompositeTimes {
   Scratch& scratch_;
 };
 
+// A pair of a mesh and a simple shape that move in straight lines, while its triangles are searched.
+struct PathSearch {
+  const size_t owner;
+  const double limit;
+  const PlacedBodies bodies;
+  const BodySweep sweep_a, sweep_b;
+  const bool mesh_is_a;
+  std::optional<MeshPath> path;
+  TreeWalk walk;
+
+  PathSearch(const MovingSide& a, const MovingSide& b, Pair pair, size_t its_owner, double its_limit)
+      : owner(its_owner),
+        limit(its_limit),
+        bodies(a, b, pair),
+        sweep_a(sweep_of({a}, pair.a)),
+        sweep_b(sweep_of({b}, pair.b)),
+        mesh_is_a(bodies.a.kind() == ShapeKind::mesh) {
+    if (!MeshPath::serves(mesh(), mesh_is_a ? sweep_a : sweep_b, shape(),
+                          mesh_is_a ? sweep_b : sweep_a)) {
+      return;
+    }
+    path.emplace(mesh(), mesh_is_a ? sweep_a : sweep_b, shape(), mesh_is_a ? sweep_b : sweep_a,
+                 limit);
+    if (!path->is_in_range()) path.reset();
+    if (path && !path->is_empty()) walk.start(mesh().mesh().tree());
+  }
+
+  const PlacedPart& mesh() const { return mesh_is_a ? bodies.a : bodies.b; }
+  const PlacedPart& shape() const { return mesh_is_a ? bodies.b : bodies.a; }
+  bool is_of_point() const {
+    return shape().kind() == ShapeKind::sphere && shape().part->radius == 0;
+  }
+
+  // Calls use(part of A, part of B) for some more triangles.
+  template <class Use>
+  void find(double latest, size_t most, const Use& use) {
+    static thread_local std::vector<uint32_t> triangles;
+    triangles.clear();
+    if (is_of_point()) {
+      path->find_for_point(std::min(latest, limit), walk, triangles);
+    } else {
+      path->find(std::min(latest, limit), most, walk, triangles);
+    }
+    for (const uint32_t triangle : triangles) {
+      const PlacedPart part = mesh().item(triangle);
+      use(mesh_is_a ? part : shape(), mesh_is_a ? shape() : part);
+    }
+  }
+};
+
 }  // namespace
 
 PlacedBodies::PlacedBodies(const MovingSide& side_a, const MovingSide& side_b, Pair pair)
@@ -109,11 +167,18 @@ PlacedBodies::PlacedBodies(const MovingSide& side_a, const MovingSide& side_b, P
       a(part_a, {}),
       b(part_b, {}) {
   b.position = place_between({side_a}, {side_b}, pair);
+  a.one_sided = side_a.one_sided;
+  b.one_sided = side_b.one_sided;
 }
 
 void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
-                          std::span<const uint16_t> rows, std::span<FirstTime> times) {
+                          std::span<const uint16_t> rows, const double* latest,
+                          std::span<FirstTime> times) {
   static thread_local const auto scratch = std::make_unique<Scratch>();
+  static thread_local std::deque<PathSearch> searches;
+  static thread_local std::vector<PathSearch*> active;
+  searches.clear();
+  active.clear();
   const MovingReader reader_a{a}, reader_b{b};
   CompositeTimes run(times, *scratch);
   for (size_t owner = 0; owner < rows.size(); ++owner) {
@@ -123,12 +188,32 @@ void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* 
       continue;
     }
     times[owner] = {scalar::kNever};
-    const PlacedBodies bodies(a, b, pair);
-    const BodySweep sweep_a = sweep_of(reader_a, pair.a), sweep_b = sweep_of(reader_b, pair.b);
-    find_swept_part_pairs(bodies.a, sweep_a, bodies.b, sweep_b,
-                          [&](const PlacedPart& part_a, const PlacedPart& part_b) {
-                            run.add(owner, part_a, sweep_a, part_b, sweep_b);
-                          });
+    const double limit = latest ? std::min(latest[rows[owner]], 1.0) : 1.0;
+    PathSearch& search = searches.emplace_back(a, b, pair, owner, limit);
+    const auto add = [&](const PlacedPart& part_a, const PlacedPart& part_b) {
+      run.add(owner, part_a, search.sweep_a, part_b, search.sweep_b);
+    };
+    if (!search.path) {
+      find_swept_part_pairs(search.bodies.a, search.sweep_a, search.bodies.b, search.sweep_b, add);
+    } else if (search.is_of_point() && !search.walk.is_done()) {
+      search.find(limit, 0, add);
+    }
+    if (search.path && !search.walk.is_done()) {
+      active.push_back(&search);
+    } else {
+      searches.pop_back();
+    }
+  }
+  // Each round tests some more triangles of every pair. The times found limit the next round.
+  for (size_t most = kFirstTriangles; !active.empty(); most = std::min(2 * most, kMostTriangles)) {
+    for (PathSearch* search : active) {
+      search->find(times[search->owner].time, most,
+                   [&](const PlacedPart& part_a, const PlacedPart& part_b) {
+                     run.add(search->owner, part_a, search->sweep_a, part_b, search->sweep_b);
+                   });
+    }
+    run.run();
+    std::erase_if(active, [](PathSearch* search) { return search->walk.is_done(); });
   }
   run.run();
 }

@@ -19,8 +19,10 @@ struct PlacedBodies {
   PlacedBodies& operator=(const PlacedBodies&) = delete;
 };
 
-// Finds the first time of the pairs in `rows`; times[i] belongs to pairs[rows[i]].
+// Finds the first time of the pairs in `rows`; times[i] belongs to pairs[rows[i]]. `latest`, by row
+// or nullptr: as for find_first_times().
 void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
-                          std::span<const uint16_t> rows, std::span<FirstTime> times);
+                          std::span<const uint16_t> rows, const double* latest,
+                          std::span<FirstTime> times);
 
 }  // namespace carom

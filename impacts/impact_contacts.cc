@@ -171,7 +171,7 @@ class ImpactContacts {
     PlacedPart b = part_at(bodies.b, first_.parts[row][1]);
     scratch_.arms[i] = {place(a, bodies.a.position, a_, pairs_[row].a, row),
                         place(b, bodies.b.position, b_, pairs_[row].b, row)};
-    scratch_.parts.add(row, a, b);
+    scratch_.parts.add(row, a, b, 0);
   }
 
   // Moves a part to its time of impact; `pivot` is its body's pivot at the start. Returns the arm

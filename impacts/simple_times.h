@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "carom/results/contact.h"
 #include "carom/results/pair.h"
@@ -17,6 +18,7 @@ struct MovingSide {
   const Collidables& bodies;
   SweepView sweep;
   const Double3* arm = nullptr;  // per body: from its pivot to its position; nullptr: zero
+  std::optional<bool> one_sided = {};  // of the triangles of meshes; without it, as they are made
 };
 
 // Times in double precision, before they are rounded to float.

@@ -1,4 +1,5 @@
 #include "io/recording.h"
+#include "io/printable.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // Scenes (.npz) and recordings of bounds (.aabb, .aabbs) behind one interface that streams frames.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -28,7 +29,9 @@ struct SceneInfo {
   std::vector<uint32_t> layer;
   std::vector<uint32_t> mask;
   std::vector<uint32_t> owner;
+  std::vector<uint32_t> space;
   std::vector<uint8_t> sensor;
+  std::vector<std::array<uint32_t, 2>> excluded_pairs;  // a < b, in any order
 };
 
 // Checks shapes, indices, flags and dt; `path` is for the message.

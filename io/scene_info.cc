@@ -25,6 +25,18 @@ Result<void> check_body_array(const std::string& path, const std::string& name,
   return {};
 }
 
+Result<void> check_excluded_pairs(const SceneInfo& info, const std::string& path) {
+  for (size_t i = 0; i < info.excluded_pairs.size(); ++i) {
+    const auto& [a, b] = info.excluded_pairs[i];
+    if (a < b && b < info.bodies) continue;
+    return member_error(path, "excluded_pairs",
+                        "row " + std::to_string(i) + " is (" + std::to_string(a) + ", " +
+                            std::to_string(b) + ") (two bodies a < b of " +
+                            std::to_string(info.bodies) + " were expected)");
+  }
+  return {};
+}
+
 Result<void> check_body_shapes(const SceneInfo& info, const std::string& path) {
   if (info.bodies > 0 && info.body_shape.empty()) {
     return member_error(path, "body_shape", "is missing (one element a body was expected)");
@@ -54,7 +66,9 @@ Result<void> check_scene(const SceneInfo& info, const std::string& path) {
   if (result) result = check_body_array(path, "body_layer", info.layer, info.bodies, UINT32_MAX);
   if (result) result = check_body_array(path, "body_mask", info.mask, info.bodies, UINT32_MAX);
   if (result) result = check_body_array(path, "body_owner", info.owner, info.bodies, UINT32_MAX);
+  if (result) result = check_body_array(path, "body_space", info.space, info.bodies, UINT32_MAX);
   if (result) result = check_body_array(path, "body_sensor", info.sensor, info.bodies, 1);
+  if (result) result = check_excluded_pairs(info, path);
   return result;
 }
 

@@ -118,14 +118,21 @@ class InfoParser {
     if (result) result = read_per_body("body_layer", info_.layer);
     if (result) result = read_per_body("body_mask", info_.mask);
     if (result) result = read_per_body("body_owner", info_.owner);
+    if (result) result = read_per_body("body_space", info_.space);
     if (result) result = read_per_body("body_sensor", info_.sensor);
+    if (result) result = read_optional("excluded_pairs", kAny, info_.excluded_pairs);
     return result;
   }
 
   template <class T>
   Result<void> read_per_body(const char* name, std::vector<T>& out) {
+    return read_optional(name, info_.bodies, out);
+  }
+
+  template <class T>
+  Result<void> read_optional(const char* name, uint64_t rows, std::vector<T>& out) {
     if (!reader_.has(name)) return {};
-    Result<std::vector<T>> values = reader_.read<T>(name, {info_.bodies});
+    Result<std::vector<T>> values = reader_.read<T>(name, {rows});
     if (!values) return values.error();
     out = std::move(*values);
     return {};

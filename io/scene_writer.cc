@@ -6,7 +6,7 @@ namespace carom::io {
 namespace {
 
 template <class T>
-Result<void> write_per_body(NpzWriter& writer, const char* name, const std::vector<T>& values) {
+Result<void> write_optional(NpzWriter& writer, const char* name, const std::vector<T>& values) {
   if (values.empty()) return {};
   return writer.add(name, values);
 }
@@ -15,11 +15,13 @@ Result<void> write_constants(const SceneInfo& info, NpzWriter& writer) {
   Result<void> result = write_version(writer);
   if (result) result = write_shapes(info.shapes, writer);
   if (result) result = writer.add("body_shape", info.body_shape);
-  if (result) result = write_per_body(writer, "body_motion", info.body_motion);
-  if (result) result = write_per_body(writer, "body_layer", info.layer);
-  if (result) result = write_per_body(writer, "body_mask", info.mask);
-  if (result) result = write_per_body(writer, "body_owner", info.owner);
-  if (result) result = write_per_body(writer, "body_sensor", info.sensor);
+  if (result) result = write_optional(writer, "body_motion", info.body_motion);
+  if (result) result = write_optional(writer, "body_layer", info.layer);
+  if (result) result = write_optional(writer, "body_mask", info.mask);
+  if (result) result = write_optional(writer, "body_owner", info.owner);
+  if (result) result = write_optional(writer, "body_space", info.space);
+  if (result) result = write_optional(writer, "body_sensor", info.sensor);
+  if (result) result = write_optional(writer, "excluded_pairs", info.excluded_pairs);
   if (result) result = writer.add("dt", std::vector<double>{info.dt});
   return result;
 }

@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cfloat>
 #include <string>
+#include <vector>
 
 #include "base/parallel.h"
 #include "midphase/collide_pairs.h"
+#include "carom/results/result_arrays.h"
+#include "midphase/contact_of_row.h"
 #include "midphase/mixed_block.h"
+#include "midphase/point_names.h"
+#include "narrowphase/batch/world_point.h"
 #include "narrowphase/blocks/pair_block.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "shapes/body_reader.h"
@@ -89,26 +95,134 @@ void fill_sub_shapes(const ResultColumns& out, size_t begin, size_t end) {
   }
 }
 
-void collide_blocks(const Collidables& a, const Collidables& b, const Pair* pairs, size_t count,
-                    Detail detail, const ResultColumns& out, WitnessFrame frame, Measured measured,
-                    uint32_t* direction, Parallelism parallelism, const Accuracy& accuracy) {
-  if (detail == Detail::pairs || count == 0) return;
-  const bool composites = may_have_composites(a, b, pairs, count);
-  for_each_block(count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    if (has_contacts(detail)) fill_sub_shapes(out, begin, end);
-    const auto run = composites ? run_mixed_block : run_pair_block;
-    run({.a = a,
-         .b = b,
-         .pairs = pairs ? pairs + begin : nullptr,
-         .first = begin,
-         .count = end - begin,
-         .detail = detail,
-         .frame = frame,
-         .measured = measured,
-         .direction = direction ? direction + begin : nullptr,
-         .accuracy = accuracy,
-         .out = from_row(out, begin)});
-  });
+// The distances of a block that has one for all.
+std::array<float, kPairsPerBlock> filled(float distance) {
+  std::array<float, kPairsPerBlock> distances;
+  distances.fill(distance);
+  return distances;
+}
+
+// `pairs` nullptr: the pairs are (0, 0), (1, 1), ...
+struct CollideCall {
+  const Collidables& a;
+  const Collidables& b;
+  const Pair* pairs;
+  size_t count;
+  Detail detail;
+  const ResultColumns& out;
+  const CollideOptions& options;
+  uint32_t* direction = nullptr;
+  ExtraContacts* extra = nullptr;
+
+  Pair pair(size_t i) const {
+    const auto index = static_cast<uint32_t>(i);
+    return pairs ? pairs[i] : Pair{index, index};
+  }
+};
+
+void run_blocks(const CollideCall& call) {
+  if (call.detail == Detail::pairs || call.count == 0) return;
+  const CollideOptions& options = call.options;
+  const bool composites = may_have_composites(call.a, call.b, call.pairs, call.count);
+  if (call.extra) call.extra->prepare(composites ? call.count : 0);
+  const ExtraRequest extra{composites ? call.extra : nullptr, options.region_limits};
+  const bool has_distance = has_contacts(call.detail) && options.contact_distance > 0;
+  const auto one_distance = filled(has_distance ? options.contact_distance : 0);
+  const float* const distances = has_contacts(call.detail) ? options.contact_distances : nullptr;
+  for_each_block(
+      call.count, kPairsPerBlock, options.parallelism, [&](size_t, size_t begin, size_t end) {
+        if (has_contacts(call.detail)) fill_sub_shapes(call.out, begin, end);
+        const PairBlock block = {.a = call.a,
+                                 .b = call.b,
+                                 .pairs = call.pairs ? call.pairs + begin : nullptr,
+                                 .first = begin,
+                                 .count = end - begin,
+                                 .detail = call.detail,
+                                 .frame = options.frame,
+                                 .measured = options.measured,
+                                 .reach = distances      ? distances + begin
+                                          : has_distance ? one_distance.data()
+                                                         : nullptr,
+                                 .direction = call.direction ? call.direction + begin : nullptr,
+                                 .accuracy = options.accuracy,
+                                 .out = from_row(call.out, begin)};
+        composites ? run_mixed_block(block, extra) : run_pair_block(block);
+        if (block.out.point_names && has_contacts(call.detail)) name_simple_points(block);
+      });
+}
+
+void move_to_world(const ResultColumns& columns, size_t row, const CollideCall& call) {
+  const Pair pair = call.pair(row);
+  const BodyReader a{call.a}, b{call.b};
+  const auto move = [row](const std::array<float*, 3>& point, const BodyReader& reader,
+                          size_t body) {
+    const auto moved = world_point(reader, body, {point[0][row], point[1][row], point[2][row]});
+    for (size_t axis = 0; axis < 3; ++axis) point[axis][row] = moved[axis];
+  };
+  move(columns.point_a, a, pair.a);
+  move(columns.point_b, b, pair.b);
+  for (size_t k = 0; k < columns.manifold_count[row]; ++k) {
+    std::array<float, 3>& point = columns.manifold[row].point[k];
+    point = world_point(a, pair.a, point);
+  }
+}
+
+Result<void> check_distances(const CollideOptions& options, size_t count) {
+  const auto is_good = [](float distance) { return distance >= 0 && distance <= FLT_MAX; };
+  const float* const each = options.contact_distances;
+  if (each ? std::all_of(each, each + count, is_good) : is_good(options.contact_distance)) {
+    return {};
+  }
+  return Error{"a contact distance is not a finite number >= 0"};
+}
+
+std::vector<ColumnRole> optional_roles(const ResultColumns& columns) {
+  std::vector<ColumnRole> roles = {ColumnRole::sub_shape};
+  if (columns.separation_bound) roles.push_back(ColumnRole::bound);
+  if (columns.features) roles.push_back(ColumnRole::memory);
+  if (columns.point_names) roles.push_back(ColumnRole::name);
+  return roles;
+}
+
+// Runs the call in the frame of the bodies, in which contacts are listed, and moves points to the
+// frame that the caller wants afterwards.
+void list_regions(const CollideCall& asked, ContactRegions& regions) {
+  ResultArrays rows;
+  rows.resize(asked.count, Detail::manifold, optional_roles(asked.out));
+  const ResultColumns& columns = rows.columns();
+  if (columns.features) std::copy_n(asked.out.features, asked.count, columns.features);
+  ExtraContacts extra;
+  CollideOptions options = asked.options;
+  options.frame = WitnessFrame::body;
+  run_blocks({asked.a, asked.b, asked.pairs, asked.count, asked.detail, columns, options, nullptr,
+              &extra});
+
+  regions.first.assign(asked.count + 1, 0);
+  regions.contacts.clear();
+  regions.manifolds.clear();
+  regions.point_names.clear();
+  for (size_t i = 0; i < asked.count; ++i) {
+    const float* const each = options.contact_distances;
+    if (has_contact(columns, i, each ? each[i] : options.contact_distance)) {
+      add_contacts(columns, i, asked.pair(i), extra, regions);
+    }
+    regions.first[i + 1] = regions.contacts.size();
+  }
+
+  if (asked.options.frame == WitnessFrame::world) {
+    for (size_t i = 0; i < asked.count; ++i) move_to_world(columns, i, asked);
+  }
+  copy_rows(columns, asked.out, Detail::manifold, asked.count, [](size_t i) { return i; });
+}
+
+Result<void> run(const CollideCall& call) {
+  if (Result<void> checked = check_distances(call.options, call.count); !checked) return checked;
+  if (call.detail == Detail::regions && call.options.regions) {
+    list_regions(call, *call.options.regions);
+  } else {
+    run_blocks(call);
+  }
+  return {};
 }
 
 }  // namespace
@@ -128,32 +242,25 @@ Result<void> check_pairs(const Collidables& a, const Collidables& b, std::span<c
 }
 
 Result<void> collide(const Collidables& a, const Collidables& b, std::span<const Pair> pairs,
-                     Detail detail, const ResultColumns& out, WitnessFrame frame,
-                     Parallelism parallelism, Measured measured, const Accuracy& accuracy) {
+                     Detail detail, const ResultColumns& out, const CollideOptions& options) {
   if (Result<void> checked = check_pairs(a, b, pairs); !checked) return checked;
-  collide_blocks(a, b, pairs.data(), pairs.size(), detail, out, frame, measured, nullptr,
-                 parallelism, accuracy);
-  return {};
+  return run({a, b, pairs.data(), pairs.size(), detail, out, options});
 }
 
 Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
-                          const ResultColumns& out, WitnessFrame frame, Parallelism parallelism,
-                          Measured measured, const Accuracy& accuracy) {
+                          const ResultColumns& out, const CollideOptions& options) {
   assert(a.count == b.count);
   const auto pair_at = [](size_t i) -> Pair {
     return {static_cast<uint32_t>(i), static_cast<uint32_t>(i)};
   };
   if (Result<void> checked = check_kinds(a, b, a.count, pair_at); !checked) return checked;
-  collide_blocks(a, b, nullptr, a.count, detail, out, frame, measured, nullptr, parallelism,
-                 accuracy);
-  return {};
+  return run({a, b, nullptr, a.count, detail, out, options});
 }
 
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
-                   const ResultColumns& out, uint32_t* direction, Parallelism parallelism,
-                   const Accuracy& accuracy) {
-  collide_blocks(bodies, bodies, pairs.data(), pairs.size(), detail, out, WitnessFrame::body,
-                 Measured::overlapping, direction, parallelism, accuracy);
+                   const ResultColumns& out, const CollideOptions& options, uint32_t* direction,
+                   ExtraContacts* extra) {
+  run_blocks({bodies, bodies, pairs.data(), pairs.size(), detail, out, options, direction, extra});
 }
 
 bool uses_directions(ShapeKind a, ShapeKind b) {

@@ -3,25 +3,24 @@
 
 #include <span>
 
-#include "carom/base/parallelism.h"
-#include "carom/base/result.h"
-#include "carom/results/pair.h"
-#include "carom/results/result_columns.h"
-#include "carom/results/tier.h"
-#include "carom/shapes/views.h"
+#include "carom/narrowphase/collide.h"
+#include "midphase/extra_contacts.h"
 #include "narrowphase/batch/packed_direction.h"
 
 namespace carom {
 
-// collide() within one set, with witness points relative to the bodies. The kinds must have been
-// checked when the bodies were added. For a separate pair only the decision is sure to be written.
+// collide() within one set. The kinds must have been checked when the bodies were added, and so
+// must the contact distances.
 //
 // `direction`: nullptr, or one entry a pair, kNoDirection at first. The caller hands an entry in
 // again with the pair's next test; a pair that is still separate in that direction takes a short
-// cut. Results are the same.
+// cut. Results are the same. It must be nullptr unless only overlapping pairs are measured, without
+// contact distances.
+//
+// `extra`: nullptr, or at Detail::regions what receives the contacts beside the first one of a pair.
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
-                   const ResultColumns& out, uint32_t* direction, Parallelism parallelism,
-                   const Accuracy& accuracy);
+                   const ResultColumns& out, const CollideOptions& options, uint32_t* direction,
+                   ExtraContacts* extra);
 
 // Fails if no kernel exists for the kinds of some pair.
 Result<void> check_pairs(const Collidables& a, const Collidables& b, std::span<const Pair> pairs);

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
-#include <vector>
 
+#include "midphase/body_pair.h"
 #include "midphase/contact_runs.h"
+#include "midphase/outcome.h"
 #include "midphase/part_batch.h"
 #include "midphase/part_search.h"
+#include "midphase/point_names.h"
 #include "narrowphase/batch/world_point.h"
 #include "narrowphase/manifolds/merge.h"
 #include "narrowphase/pairs/pair_kinds.h"
@@ -16,75 +17,6 @@
 
 namespace carom {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-// Two placed bodies.
-struct BodyPair {
-  Part part_a, part_b;
-  PlacedPart a, b;
-
-  // Positions are in world coordinates. If there is a compound, they are relative to A, since
-  // children are placed in double precision.
-  BodyPair(const BodyReader& reader_a, const BodyReader& reader_b, Pair pair)
-      : part_a(body_part(reader_a, pair.a)),
-        part_b(body_part(reader_b, pair.b)),
-        a(part_a, position(reader_a, pair.a)),
-        b(part_b, position(reader_b, pair.b)) {
-    if (part_a.kind != ShapeKind::compound && part_b.kind != ShapeKind::compound) return;
-    b.position = minus(b.position, a.position);
-    a.position = {};
-  }
-  BodyPair(const BodyPair&) = delete;
-  BodyPair& operator=(const BodyPair&) = delete;
-
- private:
-  static Double3 position(const BodyReader& reader, size_t i) {
-    const Position<double> p = reader.position<double>(i);
-    return {p.x, p.y, p.z};
-  }
-};
-
-// A pair of parts that may be the one to report, and how it overlaps.
-struct Finding {
-  uint8_t overlap = 0;
-  std::array<uint8_t, 2> edges_to_close{};  // inner edges of triangles over which the contact came
-  float separation = kInfinity;
-  std::array<uint64_t, 2> parts{};
-
-  bool is_over_edge() const { return edges_to_close[0] != 0 || edges_to_close[1] != 0; }
-
-  // Orders overlapping pairs before undecided ones before separate ones. Contacts that came over an
-  // inner edge go last, since the neighbouring triangle has the correct normal.
-  bool is_before(const Finding& other) const {
-    const auto order = [](const Finding& f) {
-      const int rank = f.overlap == 1 ? 0 : f.overlap == kUndecided ? 1 : 2;
-      return std::tuple(rank, f.is_over_edge(), f.separation, f.parts);
-    };
-    return order(*this) < order(other);
-  }
-};
-
-// The result of a pair of bodies so far: that of the deepest pair of parts.
-struct Outcome : Finding {
-  uint8_t status = static_cast<uint8_t>(Status::ok);
-  bool is_found = false;
-  std::array<float, 3> normal = {kNan, kNan, kNan};
-  std::array<float, 3> arm_a = {kNan, kNan, kNan};
-  std::array<float, 3> arm_b = {kNan, kNan, kNan};
-  float bound = 0;
-  double nearest = HUGE_VAL;  // a lower bound of the true separation
-
-  bool is_invalid() const { return status == static_cast<uint8_t>(Status::invalid); }
-};
-
-Outcome no_answer() {
-  Outcome outcome;
-  outcome.status = static_cast<uint8_t>(Status::invalid);
-  outcome.separation = outcome.bound = kNan;
-  return outcome;
-}
 
 std::array<float, 3> at_row(const std::array<float*, 3>& columns, size_t row) {
   return {columns[0][row], columns[1][row], columns[2][row]};
@@ -117,7 +49,7 @@ struct CompositeScratch {
   PartBatch batch, again;
   std::array<Outcome, kPairsPerBlock> outcomes;
   ContactRuns contacts;
-  std::vector<merging::SeenPoint> seen;
+  RegionMerger merger;
   std::array<uint16_t, kPairsPerBlock> to_measure;
 };
 
@@ -129,20 +61,23 @@ Measured of_parts(Measured measured) {
 
 class CompositeRun {
  public:
-  CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, CompositeScratch& scratch)
+  CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, const ExtraRequest& extra,
+               CompositeScratch& scratch)
       : block_(block),
+        extra_(extra),
         a_{block.a},
         b_{block.b},
         rows_(rows),
-        tests_{.manifolds = block.detail == Detail::manifold,
+        tests_{.manifolds = has_manifolds(block.detail),
                .bounds = block.out.separation_bound != nullptr,
+               .reach = block.reach != nullptr,
                .measured = of_parts(block.measured),
                .accuracy = block.accuracy},
         batch_(scratch.batch),
         again_(scratch.again),
         outcomes_(scratch.outcomes),
         contacts_(scratch.contacts),
-        seen_(scratch.seen),
+        merger_(scratch.merger),
         to_measure_(scratch.to_measure) {
     batch_.clear();
     contacts_.clear();
@@ -151,7 +86,7 @@ class CompositeRun {
   void run() {
     for (current_ = 0; current_ < rows_.size(); ++current_) {
       outcomes_[current_] = is_valid(pair(current_)) ? Outcome{} : no_answer();
-      if (!outcomes_[current_].is_invalid()) search(current_, 0);
+      if (!outcomes_[current_].is_invalid()) search(current_, reach(current_));
     }
     flush();
     const bool is_asked = has_contacts(block_.detail) || tests_.bounds;
@@ -166,6 +101,13 @@ class CompositeRun {
     return {index, index};
   }
 
+  float reach(size_t k) const { return block_.reach ? block_.reach[rows_[k]] : 0; }
+
+  // Whether pair k gets a contact from parts with this result.
+  bool is_contact(size_t k, uint8_t overlap, float separation) const {
+    return overlap == 1 || (tests_.reach && overlap == 0 && separation <= reach(k));
+  }
+
   bool is_valid(Pair p) const { return a_.is_valid(p.a) && b_.is_valid(p.b); }
 
   void search(size_t k, double reach) {
@@ -177,7 +119,7 @@ class CompositeRun {
   void add(size_t k, const PlacedPart& a, const PlacedPart& b) {
     if (!find_pair_kind(a.kind(), b.kind()).exists()) return;
     if (batch_.is_full()) flush();
-    batch_.add(k, a, b);
+    batch_.add(k, a, b, reach(k));
   }
 
   // Tests the waiting pairs of parts. All pairs of bodies before the current one are then complete.
@@ -219,24 +161,29 @@ class CompositeRun {
     const ResultColumns& out = batch_.results();
     const size_t k = batch_.owner(i);
     Outcome& best = outcomes_[k];
-    if (best.overlap == 1 && out.overlap[i] == 0 && !tests_.bounds) return;
+    const bool touches = is_contact(k, out.overlap[i], out.separation[i]);
+    if (best.overlap == 1 && out.overlap[i] == 0 && !touches && !tests_.bounds) return;
     Finding found{out.overlap[i], {}, out.separation[i], batch_.orders(i)};
     // A finding that is not the best in any case need not know over which edge it came.
     const bool may_be_best = !best.is_found || found.is_before(best);
     if (!may_be_best && !tests_.manifolds && !tests_.bounds) return;
-    if (found.overlap == 1) found.edges_to_close = batch_.edges_to_close(i);
+    std::array<uint8_t, 2> edges{};
+    if (touches) edges = batch_.edges_to_close(i);
+    if (found.overlap == 1) found.edges_to_close = edges;
     const bool is_best = may_be_best && (!best.is_found || found.is_before(best));
     if (tests_.bounds) keep_bound(i, found, is_best, best);
     if (is_best) {
       static_cast<Finding&>(best) = found;
       best.is_found = true;
-      if (found.overlap != 0 || tests_.measured == Measured::all) {
+      if (found.overlap != 0 || touches || tests_.measured == Measured::all) {
         set_contact(batch_, i, best);
       } else {
         best.status = out.status[i];
       }
     }
-    if (tests_.manifolds && found.overlap == 1) contacts_.add(k, contact_of(batch_, i, found));
+    if (tests_.manifolds && touches) {
+      contacts_.add(k, contact_of(batch_, i, found.parts, edges[0] != 0 || edges[1] != 0));
+    }
   }
 
   // Must run before `best` is replaced.
@@ -257,10 +204,18 @@ class CompositeRun {
     outcome.arm_b = moved(at_row(out.point_b, i), batch.arm_b(i));
   }
 
-  static PartContact contact_of(const PartBatch& batch, size_t i, const Finding& found) {
+  static PartContact contact_of(const PartBatch& batch, size_t i,
+                                const std::array<uint64_t, 2>& parts, bool is_over_edge) {
     const ResultColumns& out = batch.results();
-    PartContact contact{found.parts,           at_row(out.normal, i), found.separation,
-                        out.manifold_count[i], out.manifold[i],       found.is_over_edge()};
+    PartContact contact{.parts = parts,
+                        .normal = at_row(out.normal, i),
+                        .separation = out.separation[i],
+                        .arm_a = moved(at_row(out.point_a, i), batch.arm_a(i)),
+                        .arm_b = moved(at_row(out.point_b, i), batch.arm_b(i)),
+                        .status = out.status[i],
+                        .is_over_edge = is_over_edge,
+                        .count = out.manifold_count[i],
+                        .points = out.manifold[i]};
     for (size_t k = 0; k < contact.count; ++k) {
       contact.points.point[k] = moved(contact.points.point[k], batch.arm_a(i));
     }
@@ -275,31 +230,33 @@ class CompositeRun {
       const Outcome& o = outcomes_[k];
       if (!o.is_over_edge()) continue;
       const BodyPair bodies(a_, b_, pair(k));
-      again_.add(k, part_at(bodies.a, o.parts[0]), part_at(bodies.b, o.parts[1]), o.edges_to_close);
+      again_.add(k, part_at(bodies.a, o.parts[0]), part_at(bodies.b, o.parts[1]), reach(k),
+                 o.edges_to_close);
     }
     again_.run(tests_);
     for (size_t i = 0; i < again_.count(); ++i) {
       const size_t k = again_.owner(i);
       Outcome& o = outcomes_[k];
-      PartContact contact{o.parts, o.normal, o.separation, 1, {}, false};
+      PartContact contact{.parts = o.parts,
+                          .normal = o.normal,
+                          .separation = o.separation,
+                          .arm_a = o.arm_a,
+                          .arm_b = o.arm_b,
+                          .status = o.status,
+                          .is_over_edge = false,
+                          .count = 1,
+                          .points = {}};
       contact.points.point[0] = o.arm_a;
       contact.points.separation[0] = o.separation;
       if (again_.results().overlap[i] == 1) {
         set_contact(again_, i, o);
-        if (tests_.manifolds) contact = contact_of(again_, i, o);
-        contact.is_over_edge = false;
+        if (tests_.manifolds) contact = contact_of(again_, i, o.parts, false);
       }
-      write(k, replaced(contacts_.of(k), contact));
+      for (PartContact& each : contacts_.of(k)) {
+        if (each.parts == contact.parts) each = contact;
+      }
+      write(k, contacts_.of(k));
     }
-  }
-
-  // Replaces the contact of the same parts among the contacts of a pair.
-  static std::span<PartContact> replaced(std::span<PartContact> contacts,
-                                         const PartContact& contact) {
-    for (PartContact& each : contacts) {
-      if (each.parts == contact.parts) each = contact;
-    }
-    return contacts;
   }
 
   static PlacedPart part_at(const PlacedPart& body, uint64_t part) {
@@ -315,7 +272,8 @@ class CompositeRun {
     size_t count = 0;
     for (size_t k = 0; k < rows_.size(); ++k) {
       const Outcome& o = outcomes_[k];
-      if (!o.is_invalid() && o.overlap != 1) to_measure_[count++] = static_cast<uint16_t>(k);
+      const bool is_known = o.is_invalid() || (o.is_found && is_contact(k, o.overlap, o.separation));
+      if (!is_known && o.overlap != 1) to_measure_[count++] = static_cast<uint16_t>(k);
     }
     const std::span<const uint16_t> to_measure = std::span(to_measure_).first(count);
     for (const size_t k : to_measure) {
@@ -351,18 +309,91 @@ class CompositeRun {
     set_row(out.point_b, row, in_frame(b_, p.b, o.arm_b));
     set_row(out.sub_a, row, sub_shape(a_.kind(p.a), o.parts[0]));
     set_row(out.sub_b, row, sub_shape(b_.kind(p.b), o.parts[1]));
-    if (block_.detail == Detail::manifold) write_manifold(k, contacts);
+    if (tests_.manifolds) {
+      write_manifold(k, contacts);
+    } else if (out.point_names) {
+      out.point_names[row] = {};
+      if (is_contact(k, o.overlap, o.separation)) {
+        out.point_names[row].point[0] =
+            name_of(BodyPair(a_, b_, p), o.parts, o.arm_a, o.normal, o.separation);
+      }
+    }
   }
 
   void write_manifold(size_t k, std::span<PartContact> contacts) {
     const size_t row = rows_[k];
-    MergedManifold manifold = merged_manifold(contacts, seen_);
+    const Outcome& o = outcomes_[k];
+    for (PartContact& contact : contacts) {
+      // The nearest contact of separate bodies counts in any case.
+      if (contact.parts == o.parts) contact.is_over_edge = false;
+    }
+    const bool are_named = block_.out.point_names != nullptr;
+    if (are_named) block_.out.point_names[row] = {};
+    MergedManifold manifold =
+        extra_.found ? first_region(k, contacts) : merger_.first(contacts, kSameManifold);
+    if (are_named) block_.out.point_names[row] = names_of(k, manifold);
     for (size_t i = 0; i < manifold.count; ++i) {
       std::array<float, 3>& point = manifold.points.point[i];
       point = in_frame(a_, pair(k).a, point);
     }
     set_row(block_.out.manifold_count, row, manifold.count);
     set_row(block_.out.manifold, row, manifold.points);
+  }
+
+  // Keeps the other regions.
+  MergedManifold first_region(size_t k, std::span<PartContact> contacts) {
+    if (contacts.empty()) return {};
+    uint32_t left_out;
+    const std::span<const PartRegion> regions =
+        merger_.all(contacts, extra_.limits.cosine, std::clamp(extra_.limits.most, 1u, 0xffffu), left_out);
+    left_out += contacts_.dropped(k);
+    const size_t pair = block_.first + rows_[k];
+    extra_.found->begin(pair, static_cast<uint16_t>(std::min(left_out, 0xffffu)));
+    for (const PartRegion& region : regions.subspan(1)) {
+      extra_.found->add(pair, contact_of_region(k, region));
+    }
+    return regions[0].manifold;
+  }
+
+  ContactWithPoints contact_of_region(size_t k, const PartRegion& region) const {
+    const PartContact& deepest = *region.deepest;
+    const Pair p = pair(k);
+    const auto vector = [](const std::array<float, 3>& v) -> Eigen::Vector3f {
+      return {v[0], v[1], v[2]};
+    };
+    return {{.a = p.a,
+             .b = p.b,
+             .sub_a = sub_shape(a_.kind(p.a), deepest.parts[0]),
+             .sub_b = sub_shape(b_.kind(p.b), deepest.parts[1]),
+             .normal = vector(deepest.normal),
+             .separation = deepest.separation,
+             .arm_a = vector(deepest.arm_a),
+             .normal_velocity = 0,
+             .arm_b = vector(deepest.arm_b),
+             .status = static_cast<Status>(deepest.status),
+             .manifold_count = region.manifold.count},
+            region.manifold.points,
+            block_.out.point_names ? names_of(k, region.manifold) : PointNames{}};
+  }
+
+  PointNames names_of(size_t k, const MergedManifold& manifold) const {
+    const BodyPair bodies(a_, b_, pair(k));
+    PointNames names{};
+    for (size_t i = 0; i < manifold.count; ++i) {
+      const PartContact& from = *manifold.from[i];
+      names.point[i] = name_of(bodies, from.parts, manifold.points.point[i], from.normal,
+                               manifold.points.separation[i]);
+    }
+    return names;
+  }
+
+  static uint64_t name_of(const BodyPair& bodies, const std::array<uint64_t, 2>& parts,
+                          const std::array<float, 3>& point, const std::array<float, 3>& normal,
+                          float separation) {
+    const PlacedPart a = part_at(bodies.a, parts[0]), b = part_at(bodies.b, parts[1]);
+    const auto wide = [](const std::array<float, 3>& v) { return Double3{v[0], v[1], v[2]}; };
+    return PartsInTouch{a, b}.name_of(wide(point), wide(normal), separation,
+                                      minus(bodies.b.position, bodies.a.position));
   }
 
   std::array<float, 3> in_frame(const BodyReader& reader, size_t body,
@@ -382,6 +413,7 @@ class CompositeRun {
   }
 
   const PairBlock& block_;
+  const ExtraRequest& extra_;
   const BodyReader a_, b_;
   const std::span<const uint16_t> rows_;
   const PartTests tests_;
@@ -389,7 +421,7 @@ class CompositeRun {
   PartBatch& again_;  // pairs to test again without inner edges
   std::array<Outcome, kPairsPerBlock>& outcomes_;
   ContactRuns& contacts_;
-  std::vector<merging::SeenPoint>& seen_;
+  RegionMerger& merger_;
   std::array<uint16_t, kPairsPerBlock>& to_measure_;
   size_t current_ = 0;
   size_t first_open_ = 0;
@@ -397,9 +429,10 @@ class CompositeRun {
 
 }  // namespace
 
-void run_composite_pairs(const PairBlock& block, std::span<const uint16_t> rows) {
+void run_composite_pairs(const PairBlock& block, std::span<const uint16_t> rows,
+                         const ExtraRequest& extra) {
   static thread_local const auto scratch = std::make_unique<CompositeScratch>();
-  CompositeRun(block, rows, *scratch).run();
+  CompositeRun(block, rows, extra, *scratch).run();
 }
 
 }  // namespace carom

@@ -16,6 +16,7 @@ struct MixedScratch {
   std::array<uint16_t, kPairsPerBlock> simple, composite;
   std::array<Pair, kPairsPerBlock> pairs;
   std::array<uint32_t, kPairsPerBlock> direction;
+  std::array<float, kPairsPerBlock> reach;
   BlockColumns memory;
 
   std::span<const uint16_t> simple_rows() const { return std::span(simple).first(simple_count); }
@@ -64,6 +65,10 @@ void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
     for (size_t i = 0; i < rows.size(); ++i) scratch.direction[i] = block.direction[rows[i]];
     simple.direction = scratch.direction.data();
   }
+  if (block.reach) {
+    for (size_t i = 0; i < rows.size(); ++i) scratch.reach[i] = block.reach[rows[i]];
+    simple.reach = scratch.reach.data();
+  }
   run_pair_block(simple);
   copy_rows(out, block.out, block.detail, rows.size(), [rows](size_t i) { return rows[i]; });
   for (size_t i = 0; block.direction && i < rows.size(); ++i) {
@@ -73,12 +78,12 @@ void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
 
 }  // namespace
 
-void run_mixed_block(const PairBlock& block) {
+void run_mixed_block(const PairBlock& block, const ExtraRequest& extra) {
   static thread_local const auto scratch = std::make_unique<MixedScratch>();
   sort_out(block, *scratch);
   if (scratch->composite_count == 0) return run_pair_block(block);
   if (scratch->simple_count > 0) run_simple_pairs(block, *scratch);
-  run_composite_pairs(block, scratch->composite_rows());
+  run_composite_pairs(block, scratch->composite_rows(), extra);
 }
 
 }  // namespace carom

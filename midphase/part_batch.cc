@@ -27,6 +27,7 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
   first_row_[body] = rows_used_;
   if (is_of_mesh(body)) {
     put_triangle_rows(part.mesh(), part.triangle, rows_.data() + rows_used_);
+    if (part.one_sided) rows_[rows_used_ + 1][3] = *part.one_sided ? 1.0f : 0.0f;
   } else {
     std::copy_n(part.part->rows.data(), row_count(kind_[body]), rows_.data() + rows_used_);
   }
@@ -89,14 +90,15 @@ void PartBatch::clear() {
   for (PartColumns& side : sides_) side.clear();
 }
 
-void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b) {
+void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach) {
+  reach_[count_] = reach;
   owner_[count_] = static_cast<uint32_t>(owner);
   pairs_[count_++] = {sides_[0].put(owner, a), sides_[1].put(owner, b)};
 }
 
-void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b,
+void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
                     const std::array<uint8_t, 2>& inner_edges) {
-  add(owner, a, b);
+  add(owner, a, b, reach);
   const Pair pair = pairs_[count_ - 1];
   if (inner_edges[0] != 0) sides_[0].set_inner_edges(pair.a, inner_edges[0]);
   if (inner_edges[1] != 0) sides_[1].set_inner_edges(pair.b, inner_edges[1]);
@@ -114,6 +116,7 @@ void PartBatch::run(const PartTests& tests) {
                   .detail = tests.manifolds ? Detail::manifold : Detail::contact,
                   .frame = WitnessFrame::body,
                   .measured = tests.measured,
+                  .reach = tests.reach ? reach_.data() : nullptr,
                   .accuracy = tests.accuracy,
                   .out = asked});
 }

@@ -73,6 +73,7 @@ class PartColumns {
 struct PartTests {
   bool manifolds = false;
   bool bounds = false;
+  bool reach = false;  // pairs have contact distances
   Measured measured = Measured::all;
   Accuracy accuracy;
 };
@@ -83,10 +84,10 @@ class PartBatch {
   size_t count() const { return count_; }
   bool is_full() const { return count_ == kPairsPerBlock; }
   void clear();
-  // Adds a pair for `owner`. Its kinds must have a kernel.
-  void add(size_t owner, const PlacedPart& a, const PlacedPart& b);
+  // Adds a pair for `owner`, with its contact distance. Its kinds must have a kernel.
+  void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach);
   // The same, and sets the inner edges of triangles.
-  void add(size_t owner, const PlacedPart& a, const PlacedPart& b,
+  void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
            const std::array<uint8_t, 2>& inner_edges);
 
   // Tests all pairs.
@@ -101,7 +102,7 @@ class PartBatch {
   const Double3& arm_b(size_t i) const { return sides_[1].arm(pairs_[i].b); }
   // The results of the last run, in the columns that were asked for.
   const ResultColumns& results() const { return results_; }
-  // For an overlapping pair, by side: all inner edges of the triangle if the contact came over one
+  // For a pair with a contact, by side: all inner edges of the triangle if the contact came over one
   // of them; 0 otherwise.
   std::array<uint8_t, 2> edges_to_close(size_t i) const;
 
@@ -110,6 +111,7 @@ class PartBatch {
   std::array<PartColumns, 2> sides_;
   std::array<Pair, kPairsPerBlock> pairs_;
   std::array<uint32_t, kPairsPerBlock> owner_;
+  std::array<float, kPairsPerBlock> reach_;
   ColumnMemory<kPairsPerBlock, ColumnRole::test, ColumnRole::manifold, ColumnRole::bound> memory_;
   const ResultColumns results_ = memory_.columns();
 };

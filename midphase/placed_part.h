@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "carom/shapes/compound_geometry.h"
 #include "geometries/part.h"
@@ -21,6 +22,7 @@ struct PlacedPart {
   Turn turn;
   uint32_t child = 0;
   uint32_t triangle = kWhole;  // index in the mesh; kWhole: no triangle of a mesh
+  std::optional<bool> one_sided = {};  // of triangles of meshes; without it, as they are made
 
   // Places a whole body.
   PlacedPart(const Part& body, const Double3& at)

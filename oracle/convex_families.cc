@@ -124,8 +124,8 @@ ConvexPair ConvexPairMaker::next() {
 }
 
 void ConvexPairMaker::orient(ConvexPair& pair) {
-  Eigen::Quaternionf& a = pair.pose_a.orientation;
-  Eigen::Quaternionf& b = pair.pose_b.orientation;
+  Orientation& a = pair.pose_a.orientation;
+  Orientation& b = pair.pose_b.orientation;
   const bool lattice = family_.placement == ConvexPlacement::lattice;
   a = lattice ? shapes_.quarter_turns() : shapes_.orientation();
   b = lattice ? shapes_.quarter_turns() : shapes_.orientation();
@@ -133,7 +133,7 @@ void ConvexPairMaker::orient(ConvexPair& pair) {
   if (family_.placement == ConvexPlacement::same_pose) b = a;
 }
 
-void ConvexPairMaker::turn_a_little(Eigen::Quaternionf& a, Eigen::Quaternionf& b) {
+void ConvexPairMaker::turn_a_little(Orientation& a, Orientation& b) {
   if (random_.chance(0.6)) a = shapes_.quarter_turns();
   const int power = shapes_.integer(1, 9);
   const double angle = power == 9 ? 0 : std::pow(10.0, -power);

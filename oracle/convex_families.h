@@ -87,7 +87,7 @@ class ConvexPairMaker {
 
   // Turns b from a by a small angle. A quaternion near identity stores the small angle; others lose
   // it in rounding.
-  void turn_a_little(Eigen::Quaternionf& a, Eigen::Quaternionf& b);
+  void turn_a_little(Orientation& a, Orientation& b);
 
   Eigen::Vector3d stored(const Eigen::Vector3d& position) const;
 

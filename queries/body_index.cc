@@ -1,7 +1,8 @@
 #include "queries/body_index.h"
 
+#include <algorithm>
 #include <array>
-#include <limits>
+#include <atomic>
 
 #include "broadphase/box_source.h"
 #include "carom/bounds/bounds.h"
@@ -13,7 +14,7 @@ namespace carom {
 namespace {
 
 constexpr size_t kBodiesPerBlock = 4096;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr uint8_t kMoving = 1, kStatic = 0, kNoPart = 2;  // parts of the tree: static bodies first
 
 TreeBox box_at(const BoundsView& bounds, size_t i) {
   TreeBox box;
@@ -24,36 +25,93 @@ TreeBox box_at(const BoundsView& bounds, size_t i) {
   return box;
 }
 
+bool are_same(const TreeBox& a, const TreeBox& b) {
+  bool same = true;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    same = same & (a.lower[axis] == b.lower[axis]) & (a.upper[axis] == b.upper[axis]);
+  }
+  return same;
+}
+
 }  // namespace
 
-BodyIndex index_bodies(const Collidables& bodies, const BoundsView& bounds,
+void BodyIndex::update(const Collidables& bodies, const BoundsView& bounds, const Motion* motion,
                        std::span<const WorldHalfspace> halfspaces, Parallelism parallelism) {
-  constexpr TreeBox kEmpty = {{kInfinity, kInfinity, kInfinity},
-                              {-kInfinity, -kInfinity, -kInfinity}};
+  if (bounds.count < boxes_.size() / 2) *this = {};  // gives back memory
+  halfspaces_.assign(halfspaces.begin(), halfspaces.end());
+  const PartChanges changes = update_boxes(bodies, bounds, motion, parallelism);
+  for (size_t part = 0; part < RefittedTree::kParts; ++part) {
+    const bool build = !tree_.is_built() || (changes[part] & kJoined) != 0;
+    if (!build && changes[part] != 0) {
+      tree_.refit(part, boxes_, parallelism);
+      ++counts_[part].refits;
+    }
+    if (!build && !tree_.is_worn(part)) continue;
+    leave_out_empty();
+    // Nodes of the parts behind move, so they are built, too.
+    tree_.build(part, boxes_, part_, parallelism);
+    for (size_t built = part; built < RefittedTree::kParts; ++built) ++counts_[built].builds;
+    return;
+  }
+}
+
+// Bodies without a box get no place in a tree that is built.
+void BodyIndex::leave_out_empty() {
+  for (size_t i = 0; i < boxes_.size(); ++i) {
+    if (is_empty(boxes_[i])) part_[i] = kNoPart;
+  }
+}
+
+// Updates the boxes, and the parts of bodies that come into a part. The part of a body whose box
+// becomes empty stays, as does its place in the tree.
+BodyIndex::PartChanges BodyIndex::update_boxes(const Collidables& bodies, const BoundsView& bounds,
+                                               const Motion* motion, Parallelism parallelism) {
+  const size_t rows = std::max(boxes_.size(), bounds.count);
+  boxes_.resize(rows, kNothing);
+  part_.resize(rows, kNoPart);
   const BodyReader reader{bodies};
-  std::vector<TreeBox> boxes(bounds.count);
-  for_each_block(bounds.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+  std::array<std::atomic<uint32_t>, RefittedTree::kParts> changes{};
+  for_each_block(rows, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+    PartChanges in_block{};
     for (size_t i = begin; i < end; ++i) {
-      boxes[i] =
-          takes_part(bounds, i) ? grown(box_at(bounds, i), reader.position<double>(i)) : kEmpty;
+      const bool is_there = i < bounds.count && takes_part(bounds, i);
+      const TreeBox box = is_there ? grown(box_at(bounds, i), reader.position<double>(i)) : kNothing;
+      if (are_same(box, boxes_[i]) && !is_there) continue;
+      const uint8_t part = motion && is_there && motion[i] == Motion::fixed ? kStatic : kMoving;
+      if (is_there && part != part_[i]) {
+        if (part_[i] != kNoPart) in_block[part_[i]] |= kJoined;
+        in_block[part] |= kJoined;
+        part_[i] = part;
+      } else if (!are_same(box, boxes_[i])) {
+        in_block[part_[i]] |= kMoved;
+      }
+      boxes_[i] = box;
+    }
+    for (size_t part = 0; part < RefittedTree::kParts; ++part) {
+      if (in_block[part] != 0) changes[part].fetch_or(in_block[part], std::memory_order_relaxed);
     }
   });
-  return {BoxTree::packed(boxes, parallelism), {halfspaces.begin(), halfspaces.end()}};
+  return {changes[0].load(std::memory_order_relaxed), changes[1].load(std::memory_order_relaxed)};
+}
+
+size_t BodyIndex::bytes() const {
+  return tree_.tree().bytes() + boxes_.capacity() * sizeof(TreeBox) + part_.capacity() +
+         halfspaces_.capacity() * sizeof(WorldHalfspace);
 }
 
 BodyIndex index_bodies(const Collidables& bodies, Parallelism parallelism) {
   BoundsOf bounds(bodies, parallelism);
   std::vector<WorldHalfspace> halfspaces;
   const BodyReader reader{bodies};
-  if (!bodies.kind && bodies.uniform_kind != ShapeKind::halfspace) {
-    return index_bodies(bodies, bounds.view(), halfspaces, parallelism);
-  }
-  for (uint32_t i = 0; i < bodies.count; ++i) {
+  const bool may_have_halfspaces = bodies.kind || bodies.uniform_kind == ShapeKind::halfspace;
+  for (uint32_t i = 0; may_have_halfspaces && i < bodies.count; ++i) {
     if (reader.kind(i) != ShapeKind::halfspace || !takes_part(bounds.view(), i)) continue;
     halfspaces.push_back(world_halfspace(bodies, i));
     bounds.empty(i);
   }
-  return index_bodies(bodies, bounds.view(), halfspaces, parallelism);
+  BodyIndex index;
+  index.update(bodies, bounds.view(), nullptr, halfspaces, parallelism);
+  return index;
 }
 
 }  // namespace carom

@@ -62,7 +62,8 @@ class NearestSearch {
   Result<void> measure(std::span<const Pair> candidates) {
     found_.resize(candidates.size(), Detail::contact, {ColumnRole::sub_shape});
     Result<void> measured = collide(boxes_.queries(), bodies_.bodies, candidates, Detail::contact,
-                                    found_.columns(), WitnessFrame::body, parallelism_);
+                                    found_.columns(),
+                                    {.frame = WitnessFrame::body, .parallelism = parallelism_});
     for (size_t i = 0; measured && i < candidates.size(); ++i) {
       const Pair pair = candidates[i];
       NearestHit& best = best_[pair.a - first_];
@@ -99,10 +100,11 @@ Result<void> find_nearest(const Collidables& queries, float within, const Search
 }
 
 Result<void> find_nearest(const Collidables& queries, float within, const Collidables& bodies,
-                          std::vector<NearestHit>& hits, Parallelism parallelism) {
+                          std::vector<NearestHit>& hits, const QueryOptions& options) {
   const FloatEnvironment environment;
-  const BodyIndex index = index_bodies(bodies, parallelism);
-  return find_nearest(queries, within, SearchedBodies{bodies, index}, hits, parallelism);
+  const BodyIndex index = index_bodies(bodies, options.parallelism);
+  return find_nearest(queries, within, SearchedBodies{bodies, index, options.filter}, hits,
+                      options.parallelism);
 }
 
 }  // namespace carom

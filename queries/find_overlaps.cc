@@ -29,7 +29,7 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
   const auto test = [&](std::span<const Pair> candidates) {
     overlap.resize(candidates.size());
     Result<void> tested = collide(queries, bodies.bodies, candidates, Detail::overlap,
-                                  {.overlap = overlap.data()}, WitnessFrame::body, parallelism);
+                                  {.overlap = overlap.data()}, {.parallelism = parallelism});
     for (size_t i = 0; tested && i < candidates.size(); ++i) {
       if (overlap[i]) hits.push_back({candidates[i].a, candidates[i].b});
     }
@@ -50,10 +50,11 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
 }
 
 Result<void> find_overlaps(const Collidables& queries, const Collidables& bodies,
-                           std::vector<OverlapHit>& hits, Parallelism parallelism) {
+                           std::vector<OverlapHit>& hits, const QueryOptions& options) {
   const FloatEnvironment environment;
-  const BodyIndex index = index_bodies(bodies, parallelism);
-  return find_overlaps(queries, SearchedBodies{bodies, index}, hits, parallelism);
+  const BodyIndex index = index_bodies(bodies, options.parallelism);
+  return find_overlaps(queries, SearchedBodies{bodies, index, options.filter}, hits,
+                       options.parallelism);
 }
 
 }  // namespace carom

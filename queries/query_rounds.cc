@@ -57,7 +57,7 @@ class Rounds {
       const std::optional<MovingBox> box = queries_.box(first_ + i);
       if (!box) continue;
       searches_.push_back({static_cast<uint32_t>(first_ + i), *box, {}});
-      searches_.back().walk.start(bodies_.index.tree);
+      searches_.back().walk.start(bodies_.index.tree());
     }
   }
 
@@ -66,14 +66,28 @@ class Rounds {
     found_.reset(block_count(searches_.size(), kQueriesPerBlock));
     for_each_block(searches_.size(), kQueriesPerBlock, parallelism_,
                    [&](size_t block, size_t begin, size_t end) {
-                     for (size_t i = begin; i < end; ++i) find(searches_[i], found_[block]);
+                     std::vector<Pair>& found = found_[block];
+                     for (size_t i = begin; i < end; ++i) find(searches_[i], found);
+                     if (bodies_.filter.predicate && !found.empty()) ask_predicate(found);
                    });
+  }
+
+  // Drops the candidates that the caller's predicate does not keep.
+  void ask_predicate(std::vector<Pair>& found) const {
+    std::vector<uint8_t> keep(found.size(), 1);
+    bodies_.filter.predicate(found, keep);
+    size_t kept = 0;
+    for (size_t i = 0; i < found.size(); ++i) {
+      found[kept] = found[i];
+      kept += keep[i] != 0;
+    }
+    found.resize(kept);
   }
 
   void find_halfspaces(const Search& search, std::vector<Pair>& found) const {
     const BodyReader reader{queries_.queries()};
     if (reader.kind(search.query) == ShapeKind::halfspace) return;
-    for (const WorldHalfspace& halfspace : bodies_.index.halfspaces) {
+    for (const WorldHalfspace& halfspace : bodies_.index.halfspaces()) {
       const bool reaches = what_ == SearchFor::near || may_reach(search.box, halfspace);
       if (reaches && bodies_.is_met(halfspace.body))
         found.push_back({search.query, halfspace.body});
@@ -84,7 +98,7 @@ class Rounds {
     static thread_local std::vector<uint32_t> items;
     items.clear();
     const float limit = limit_[search.query - first_];
-    const BoxTree& tree = bodies_.index.tree;
+    const BoxTree& tree = bodies_.index.tree();
     if (what_ == SearchFor::met) {
       walk_met(tree, search.box, limit, most, search.walk, items);
     } else {

@@ -1,4 +1,5 @@
-// The searches behind the queries of arrays and of worlds. The bodies come with their index.
+// The searches behind the queries of arrays and of worlds. The bodies come with their index and the
+// filter, which the options repeat.
 #pragma once
 
 #include <vector>
@@ -10,7 +11,7 @@
 namespace carom {
 
 Result<void> cast(const Collidables& queries, const SweepView& sweep, const SearchedBodies& bodies,
-                  CastHits which, std::vector<CastHit>& hits, Parallelism parallelism);
+                  std::vector<CastHit>& hits, const CastOptions& options);
 
 Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bodies,
                            std::vector<OverlapHit>& hits, Parallelism parallelism);

@@ -84,21 +84,30 @@ PairResult no_answer() {
 }  // namespace
 
 PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
-                   const Pose& pose_b, PositionType positions) {
+                   const Pose& pose_b, PositionType positions, float contact_distance) {
+  return find_contacts(shape_a, pose_a, shape_b, pose_b, positions, contact_distance, {}).first;
+}
+
+PairContacts find_contacts(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
+                           const Pose& pose_b, PositionType positions, float contact_distance,
+                           const RegionLimits& limits) {
   const FloatEnvironment environment;
   if (!is_valid(shape_a, pose_a, positions) || !is_valid(shape_b, pose_b, positions)) {
-    return no_answer();
+    return {no_answer(), {}};
   }
   if (is_composite(kind_of(shape_a)) || is_composite(kind_of(shape_b))) {
-    return collide_parts(shape_a, pose_a, shape_b, pose_b, positions);
+    return collide_parts(shape_a, pose_a, shape_b, pose_b, positions, contact_distance, limits);
   }
   const Poses poses = positions == PositionType::float32 ? poses_of<float>(pose_a, pose_b)
                                                          : poses_of<double>(pose_a, pose_b);
   const Separation s = test_any(shape_a, shape_b, poses);
   const bool overlap = s.separation <= 0;
-  const Manifold manifold = overlap ? manifold_of(shape_a, shape_b, poses.rounded, s) : Manifold{};
-  return {overlap, s.status,       s.separation,    s.normal, s.arm_a,
-          s.arm_b, manifold.count, manifold.points, 0,        0};
+  const bool touches = has_contact(overlap, s.separation, contact_distance);
+  const Manifold manifold =
+      touches ? manifold_of(shape_a, shape_b, poses.rounded, s, contact_distance) : Manifold{};
+  const PairResult result = {overlap, s.status,       s.separation,    s.normal, s.arm_a,
+                             s.arm_b, manifold.count, manifold.points, 0,        0};
+  return {result, {}};
 }
 
 }  // namespace carom::reference

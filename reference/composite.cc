@@ -14,8 +14,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-PairResult test(const Simple& a, const Simple& b) {
-  return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64);
+PairResult test(const Simple& a, const Simple& b, float distance) {
+  return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64, distance);
 }
 
 // The inner edges of a triangle of a mesh, if the other part is pushed out over one of them; else
@@ -61,9 +61,23 @@ PairResult nothing() {
 
 PartContact contact_of(const PairResult& result, const Simple& a, const Simple& b,
                        bool is_over_edge) {
-  const Vector3f& n = result.normal;
-  return {{a.order, b.order},    {n.x(), n.y(), n.z()}, result.separation,
-          result.manifold_count, result.manifold,       is_over_edge};
+  const auto array = [](const Vector3f& v) { return std::array{v.x(), v.y(), v.z()}; };
+  return {.parts = {a.order, b.order},
+          .normal = array(result.normal),
+          .separation = result.separation,
+          .arm_a = array(result.arm_a),
+          .arm_b = array(result.arm_b),
+          .status = static_cast<uint8_t>(result.status),
+          .is_over_edge = is_over_edge,
+          .count = result.manifold_count,
+          .points = result.manifold};
+}
+
+// The sub-shape that results report for a part.
+uint32_t sub_of(const std::vector<Simple>& parts, uint64_t order) {
+  return std::find_if(parts.begin(), parts.end(), [&](const Simple& part) {
+           return part.order == order;
+         })->sub;
 }
 
 // Ranks overlapping pairs of parts before separate ones, and contacts over inner edges after
@@ -82,9 +96,9 @@ struct Best {
 
 // Tests again with directions over inner edges forbidden. The pair still counts as overlapping. If
 // this test finds no overlap, the old contact stays.
-void close_edges(Best& best) {
-  const PairResult again =
-      test(with_inner_edges(*best.a, best.closed[0]), with_inner_edges(*best.b, best.closed[1]));
+void close_edges(Best& best, float distance) {
+  const PairResult again = test(with_inner_edges(*best.a, best.closed[0]),
+                                with_inner_edges(*best.b, best.closed[1]), distance);
   if (again.overlap) {
     best.result = from_parts(again, *best.a, *best.b);
     return;
@@ -96,6 +110,32 @@ void close_edges(Best& best) {
   best.result.manifold.separation[0] = best.result.separation;
 }
 
+// Divides the contacts of parts into regions. `first`: the result without its manifold.
+PairContacts with_regions(const PairResult& first, std::span<PartContact> contacts,
+                          const std::vector<Simple>& parts_a, const std::vector<Simple>& parts_b,
+                          const RegionLimits& limits) {
+  PairContacts result{first, {}};
+  result.first.manifold_count = 0;
+  result.first.manifold = {};
+  if (contacts.empty()) return result;
+  RegionMerger merger;
+  uint32_t left_out;
+  const std::span<const PartRegion> regions =
+      merger.all(contacts, limits.cosine, limits.most, left_out);
+  result.left_out = static_cast<uint16_t>(std::min(left_out, 0xffffu));
+  result.first.manifold_count = regions[0].manifold.count;
+  result.first.manifold = regions[0].manifold.points;
+  const auto vector = [](const std::array<float, 3>& v) { return Vector3f(v[0], v[1], v[2]); };
+  for (const PartRegion& region : regions.subspan(1)) {
+    const PartContact& deepest = *region.deepest;
+    result.others.push_back({deepest.separation <= 0, static_cast<Status>(deepest.status),
+                             deepest.separation, vector(deepest.normal), vector(deepest.arm_a),
+                             vector(deepest.arm_b), region.manifold.count, region.manifold.points,
+                             sub_of(parts_a, deepest.parts[0]), sub_of(parts_b, deepest.parts[1])});
+  }
+  return result;
+}
+
 Double3 stored(const Vector3d& position, PositionType positions) {
   const Vector3d p =
       positions == PositionType::float32 ? position.cast<float>().cast<double>() : position;
@@ -104,8 +144,9 @@ Double3 stored(const Vector3d& position, PositionType positions) {
 
 }  // namespace
 
-PairResult collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
-                         const Pose& pose_b, PositionType positions) {
+PairContacts collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
+                           const Pose& pose_b, PositionType positions, float contact_distance,
+                           const RegionLimits& limits) {
   Double3 position_a = stored(pose_a.position, positions);
   Double3 position_b = stored(pose_b.position, positions);
   // Children are placed in double precision, so the pair is moved near the origin.
@@ -120,30 +161,33 @@ PairResult collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& 
   std::vector<PartContact> contacts;
   for (const Simple& a : parts_a) {
     for (const Simple& b : parts_b) {
-      const PairResult result = from_parts(test(a, b), a, b);
+      const PairResult result = from_parts(test(a, b, contact_distance), a, b);
       const Double3 way = {result.normal.x(), result.normal.y(), result.normal.z()};
+      const bool touches = has_contact(result.overlap, result.separation, contact_distance);
       std::array<uint8_t, 2> closed{};
-      if (result.overlap) {
-        closed = {edges_to_close(a, b, way), edges_to_close(b, a, minus({}, way))};
-      }
+      if (touches) closed = {edges_to_close(a, b, way), edges_to_close(b, a, minus({}, way))};
       const bool is_over_edge = closed[0] != 0 || closed[1] != 0;
-      const Rank rank(result.overlap ? 0 : 1, is_over_edge, result.separation, a.order, b.order);
+      if (touches) contacts.push_back(contact_of(result, a, b, is_over_edge));
+      if (!result.overlap) closed = {};
+      const Rank rank(result.overlap ? 0 : 1, closed[0] != 0 || closed[1] != 0, result.separation,
+                      a.order, b.order);
       if (rank < best.rank) best = {rank, result, &a, &b, closed};
-      if (result.overlap) contacts.push_back(contact_of(result, a, b, is_over_edge));
     }
   }
   if (best.is_over_edge()) {
-    close_edges(best);
+    close_edges(best, contact_distance);
     const PartContact closed = contact_of(best.result, *best.a, *best.b, false);
     for (PartContact& contact : contacts) {
       if (contact.parts == closed.parts) contact = closed;
     }
   }
-  std::vector<merging::SeenPoint> seen;
-  const MergedManifold manifold = merged_manifold(contacts, seen);
-  best.result.manifold_count = manifold.count;
-  best.result.manifold = manifold.points;
-  return best.result;
+  for (PartContact& contact : contacts) {
+    // The nearest contact of separate bodies counts in any case.
+    if (best.a && contact.parts == std::array{best.a->order, best.b->order}) {
+      contact.is_over_edge = false;
+    }
+  }
+  return with_regions(best.result, contacts, parts_a, parts_b, limits);
 }
 
 }  // namespace carom::reference

@@ -162,6 +162,21 @@ void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
              settings.detail, settings.ahead.dt, frame);
 }
 
+// Asks about one pair at a time.
+bool keeps(const PairPredicate& predicate, Pair pair) {
+  if (!predicate) return true;
+  uint8_t keep = 1;
+  predicate({&pair, 1}, {&keep, 1});
+  return keep != 0;
+}
+
+bool passes(const Candidate& candidate, const Filters& filters) {
+  const Pair pair = {candidate.a->id.index, candidate.b->id.index};
+  return may_meet(candidate.a->desc, candidate.b->desc, filters.rule) &&
+         !std::binary_search(filters.excluded.begin(), filters.excluded.end(), pair) &&
+         keeps(filters.predicate, pair);
+}
+
 void add_impact_events(std::span<const Body> bodies, Frame& frame) {
   const auto id_of = [&](uint32_t index) {
     const auto body = std::lower_bound(
@@ -179,12 +194,12 @@ void add_impact_events(std::span<const Body> bodies, Frame& frame) {
 }  // namespace
 
 Frame step(std::span<const Body> bodies, PositionType positions, Detail detail, bool velocities,
-           const Frame* previous, const Ahead& ahead) {
+           const Frame* previous, const Ahead& ahead, const Filters& filters) {
   const FloatEnvironment environment;
   Frame frame;
   const Participants all = participants(bodies, positions, ahead, frame.quarantined);
   for (const Candidate& pair : candidates(all)) {
-    if (!may_meet(pair.a->desc, pair.b->desc)) continue;
+    if (!passes(pair, filters)) continue;
     frame.pairs.push_back({pair.a->id.index, pair.b->id.index});
     if (detail != Detail::pairs) {
       test_pair(pair, {positions, detail, velocities, ahead}, frame);
@@ -192,7 +207,8 @@ Frame step(std::span<const Body> bodies, PositionType positions, Detail detail, 
   }
   settle(ahead.impacts, frame.impacts);
   const std::vector<Event> none;
-  frame.events = events(previous ? previous->touching : none, frame.touching);
+  frame.events =
+      events(previous ? previous->touching : none, frame.touching, bodies, frame.quarantined);
   add_impact_events(bodies, frame);
   return frame;
 }

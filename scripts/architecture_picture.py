@@ -42,6 +42,7 @@ NARROWPHASE = {
 }
 AROUND = {
     "reference": "all of it again in plain scalar C++",
+    "hulls": "points -> convex hulls, simpler ones",
     "io": "files of scenes, pairs and results; generators",
     "oracle": "exact answers by brute force",
     "accuracy": "measures what accuracy costs",

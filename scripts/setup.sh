@@ -12,7 +12,7 @@ build_packages=(
   libqhull-dev libassimp-dev
 )
 dev_packages=(clang clang-format clang-tidy libclang-rt-dev)
-peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev)
+peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev libembree-dev)
 ci_packages=("${dev_packages[@]}" "${peer_packages[@]}" doxygen g++-aarch64-linux-gnu)
 
 case "${1:-build}" in

@@ -1,11 +1,13 @@
 // Builds a tree bottom up: it sorts the boxes along a Morton curve, puts eight neighbours into a
-// node, and eight nodes into a node above.
+// node, and eight nodes into a node above. Refitting keeps who is whose neighbour.
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/radix_sort.h"
+#include "trees/refitted_tree.h"
 #include "trees/tree.h"
 
 namespace carom {
@@ -14,6 +16,15 @@ namespace {
 constexpr size_t kItemsPerBlock = 4096;
 constexpr size_t kNodesPerBlock = 512;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr TreeBox kNoChild = {{kNan, kNan, kNan}, {kNan, kNan, kNan}};
+
+// Which items belong to a part of a tree. Without a list, all do.
+struct PartOfItem {
+  std::span<const uint8_t> parts = {};
+  size_t part = 0;
+
+  bool has(size_t item) const { return parts.empty() || parts[item] == part; }
+};
 
 float middle_of(const TreeBox& box, size_t axis) {
   return 0.5f * box.lower[axis] + 0.5f * box.upper[axis];
@@ -31,9 +42,9 @@ class PlaceKeys {
  public:
   static constexpr uint32_t kEmpty = ~0u;  // greater than all keys
 
-  explicit PlaceKeys(std::span<const TreeBox> boxes) {
+  PlaceKeys(std::span<const TreeBox> boxes, const PartOfItem& part) {
     std::array<float, 3> width{};
-    for (size_t axis = 0; axis < 3; ++axis) width[axis] = lay_out(boxes, axis);
+    for (size_t axis = 0; axis < 3; ++axis) width[axis] = lay_out(boxes, part, axis);
     widest_ = *std::max_element(width.begin(), width.end());
     share_bits(width);
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -59,12 +70,12 @@ class PlaceKeys {
   static constexpr size_t kSamples = 1024;
 
   // Sets where the grid begins on this axis, and returns how wide it is.
-  float lay_out(std::span<const TreeBox> boxes, size_t axis) {
+  float lay_out(std::span<const TreeBox> boxes, const PartOfItem& part, size_t axis) {
     const size_t step = std::max<size_t>(1, boxes.size() / kSamples);
     std::vector<float> sample;
     for (size_t i = 0; i < boxes.size(); i += step) {
       const float at = middle_of(boxes[i], axis);
-      if (!is_empty(boxes[i]) && std::isfinite(at)) sample.push_back(at);
+      if (part.has(i) && !is_empty(boxes[i]) && std::isfinite(at)) sample.push_back(at);
     }
     if (sample.empty()) return 0;
     std::sort(sample.begin(), sample.end());
@@ -107,12 +118,16 @@ class PlaceKeys {
   std::array<std::array<uint8_t, kBits>, 3> place_of_bit_{};  // the highest bit of a cell first
 };
 
-// The boxes that are not empty, in the order of their keys: key << 32 | item.
-std::vector<uint64_t> sorted_items(std::span<const TreeBox> boxes, Parallelism parallelism) {
-  const PlaceKeys keys(boxes);
+// The boxes of a part that are not empty, in the order of their keys: key << 32 | item.
+std::vector<uint64_t> sorted_items(std::span<const TreeBox> boxes, const PartOfItem& part,
+                                   Parallelism parallelism) {
+  const PlaceKeys keys(boxes, part);
   std::vector<uint64_t> items(boxes.size()), scratch;
   for_each_block(boxes.size(), kItemsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) items[i] = uint64_t{keys.key(boxes[i])} << 32 | i;
+    for (size_t i = begin; i < end; ++i) {
+      const uint32_t key = part.has(i) ? keys.key(boxes[i]) : PlaceKeys::kEmpty;
+      items[i] = uint64_t{key} << 32 | i;
+    }
   });
   std::vector<uint32_t> histograms;
   radix_sort_by_key(items, scratch, histograms, parallelism);
@@ -122,79 +137,147 @@ std::vector<uint64_t> sorted_items(std::span<const TreeBox> boxes, Parallelism p
   return items;
 }
 
-void set_child(size_t i, uint32_t child, const TreeBox& box, BoxTree::Node& node) {
-  node.child[i] = child;
+void set_box(size_t i, const TreeBox& box, BoxTree::Node& node) {
   for (size_t axis = 0; axis < 3; ++axis) {
     node.lower[axis][i] = box.lower[axis];
     node.upper[axis][i] = box.upper[axis];
   }
 }
 
+// The box of all children. It is empty if all of them are.
 TreeBox box_of(const BoxTree::Node& node) {
-  TreeBox box = node.box(0);
-  // comparisons with the NaN of an empty place are false
-  for (size_t i = 1; i < BoxTree::kChildren; ++i) {
-    for (size_t axis = 0; axis < 3; ++axis) {
+  TreeBox box = kNothing;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    // comparisons with the NaN of an empty place are false
+    for (size_t i = 0; i < BoxTree::kChildren; ++i) {
       const float lower = node.lower[axis][i], upper = node.upper[axis][i];
-      if (lower < box.lower[axis]) box.lower[axis] = lower;
-      if (upper > box.upper[axis]) box.upper[axis] = upper;
+      box.lower[axis] = lower < box.lower[axis] ? lower : box.lower[axis];
+      box.upper[axis] = upper > box.upper[axis] ? upper : box.upper[axis];
     }
   }
   return box;
 }
 
-// Fills nodes [first, first + count) with children 0, 1, ... of `children`: get(child, place, node)
-// sets one.
-template <class Get>
-void fill_nodes(size_t first, size_t count, size_t children, Parallelism parallelism,
-                std::vector<BoxTree::Node>& nodes, const Get& get) {
-  constexpr TreeBox kNothing = {{kNan, kNan, kNan}, {kNan, kNan, kNan}};
-  for_each_block(count, kNodesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      BoxTree::Node& node = nodes[first + i];
-      for (size_t k = 0; k < BoxTree::kChildren; ++k) {
-        const size_t child = i * BoxTree::kChildren + k;
-        if (child < children) {
-          get(child, k, node);
-        } else {
-          set_child(k, BoxTree::kItem, kNothing, node);
-        }
-      }
-    }
-  });
+// A sum of terms that threads add block by block, in an order that does not depend on them.
+class BlockSum {
+ public:
+  explicit BlockSum(size_t blocks) : terms_(blocks) {}
+  double& of(size_t block) { return terms_[block]; }
+  double total() const { return std::accumulate(terms_.begin(), terms_.end(), 0.0); }
+
+ private:
+  std::vector<double> terms_;
+};
+
+// The nodes of one level get the boxes of their children, and keep which children they are. Returns
+// the sum of the areas of the boxes of the level.
+template <class BoxOf>
+double fit_level(const PackedLevels::Level& level, Parallelism parallelism,
+                 std::vector<BoxTree::Node>& nodes, const BoxOf& box_of_child) {
+  BlockSum areas(block_count(level.count, kNodesPerBlock));
+  for_each_block(level.count, kNodesPerBlock, parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   double sum = 0;
+                   for (size_t i = begin; i < end; ++i) {
+                     BoxTree::Node& node = nodes[level.first + i];
+                     for (size_t k = 0; k < BoxTree::kChildren; ++k) {
+                       const size_t child = i * BoxTree::kChildren + k;
+                       if (child < level.children) set_box(k, box_of_child(node.child[k]), node);
+                     }
+                     sum += half_area(box_of(node));
+                   }
+                   areas.of(block) = sum;
+                 });
+  return areas.total();
 }
 
 }  // namespace
 
+// Lays out the levels of a tree of `items` items from the root down, from this node on.
+void PackedLevels::lay_out(size_t first_node, size_t items) {
+  levels_.clear();
+  first_ = end_ = first_node;
+  if (items == 0) return;
+  size_t children = items;
+  do {
+    const size_t count = block_count(children, BoxTree::kChildren);
+    levels_.push_back({0, count, children});
+    children = count;
+    end_ += count;
+  } while (children > 1);
+  size_t next = end_;
+  for (Level& level : levels_) level.first = next -= level.count;
+}
+
+void PackedLevels::build(std::span<const TreeBox> boxes, std::span<const uint64_t> items,
+                         size_t first_node, Parallelism parallelism,
+                         std::vector<BoxTree::Node>& nodes) {
+  lay_out(first_node, items.size());
+  nodes.resize(end_);
+  size_t below = 0;  // first node of the level below
+  for (size_t l = 0; l < levels_.size(); ++l) {
+    const Level& level = levels_[l];
+    for_each_block(level.count, kNodesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+      for (size_t i = begin * BoxTree::kChildren; i < end * BoxTree::kChildren; ++i) {
+        BoxTree::Node& node = nodes[level.first + i / BoxTree::kChildren];
+        uint32_t child = BoxTree::kItem;
+        if (i < level.children) {
+          child = l == 0 ? static_cast<uint32_t>(items[i]) + BoxTree::kItem
+                         : static_cast<uint32_t>(below + i);
+        }
+        node.child[i % BoxTree::kChildren] = child;
+        set_box(i % BoxTree::kChildren, kNoChild, node);
+      }
+    });
+    below = level.first;
+  }
+  refit(boxes, parallelism, nodes);
+  area_when_built_ = area_;
+}
+
+void PackedLevels::refit(std::span<const TreeBox> boxes, Parallelism parallelism,
+                         std::vector<BoxTree::Node>& nodes) {
+  area_ = 0;
+  for (size_t l = 0; l < levels_.size(); ++l) {
+    area_ += l == 0 ? fit_level(levels_[l], parallelism, nodes,
+                                [&](uint32_t child) { return boxes[child - BoxTree::kItem]; })
+                    : fit_level(levels_[l], parallelism, nodes,
+                                [&](uint32_t child) { return box_of(nodes[child]); });
+  }
+}
+
 BoxTree BoxTree::packed(std::span<const TreeBox> boxes, Parallelism parallelism) {
   BoxTree tree;
-  const std::vector<uint64_t> items = sorted_items(boxes, parallelism);
-  if (items.empty()) return tree;
-  // from the lowest level up
-  std::vector<size_t> level_sizes = {block_count(items.size(), kChildren)};
-  while (level_sizes.back() > 1) {
-    level_sizes.push_back(block_count(level_sizes.back(), kChildren));
-  }
-  size_t first = 0;  // first node of the level; the levels are stored from the root down
-  for (const size_t size : level_sizes) first += size;
-  tree.nodes_.resize(first);
-  std::vector<Node>& nodes = tree.nodes_;
-  first -= level_sizes[0];
-  fill_nodes(first, level_sizes[0], items.size(), parallelism, nodes,
-             [&](size_t child, size_t place, Node& node) {
-               const auto item = static_cast<uint32_t>(items[child]);
-               set_child(place, item + kItem, boxes[item], node);
-             });
-  for (size_t level = 1; level < level_sizes.size(); ++level) {
-    const size_t below = first;
-    first -= level_sizes[level];
-    fill_nodes(first, level_sizes[level], level_sizes[level - 1], parallelism, nodes,
-               [&](size_t child, size_t place, Node& node) {
-                 set_child(place, static_cast<uint32_t>(below + child),
-                           box_of(nodes[below + child]), node);
-               });
-  }
+  PackedLevels().build(boxes, sorted_items(boxes, {}, parallelism), 0, parallelism, tree.nodes_);
   return tree;
+}
+
+void RefittedTree::build(size_t first_part, std::span<const TreeBox> boxes,
+                         std::span<const uint8_t> parts, Parallelism parallelism) {
+  std::vector<BoxTree::Node>& nodes = tree_.nodes_;
+  nodes.resize(1);
+  for (size_t part = 0; part < kParts; ++part) {
+    if (part >= first_part) {
+      const std::vector<uint64_t> items = sorted_items(boxes, {parts, part}, parallelism);
+      levels_[part].build(boxes, items, part == 0 ? 1 : levels_[part - 1].end(), parallelism,
+                          nodes);
+    }
+  }
+  fit_root();
+}
+
+void RefittedTree::refit(size_t part, std::span<const TreeBox> boxes, Parallelism parallelism) {
+  levels_[part].refit(boxes, parallelism, tree_.nodes_);
+  fit_root();
+}
+
+void RefittedTree::fit_root() {
+  BoxTree::Node& root = tree_.nodes_[0];
+  for (size_t i = 0; i < BoxTree::kChildren; ++i) {
+    const bool has_nodes = i < kParts && levels_[i].has_nodes();
+    root.child[i] = has_nodes ? static_cast<uint32_t>(levels_[i].first()) : BoxTree::kItem;
+    set_box(i, has_nodes ? box_of(tree_.nodes_[levels_[i].first()]) : kNoChild, root);
+  }
 }
 
 }  // namespace carom

@@ -16,22 +16,11 @@
 namespace carom {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr TreeBox kNothing = {{kInfinity, kInfinity, kInfinity},
-                              {-kInfinity, -kInfinity, -kInfinity}};
-
 void include(const TreeBox& box, TreeBox& in) {
   for (size_t axis = 0; axis < 3; ++axis) {
     in.lower[axis] = std::min(in.lower[axis], box.lower[axis]);
     in.upper[axis] = std::max(in.upper[axis], box.upper[axis]);
   }
-}
-
-double half_area(const TreeBox& box) {
-  const double x = double{box.upper[0]} - box.lower[0];
-  const double y = double{box.upper[1]} - box.lower[1];
-  const double z = double{box.upper[2]} - box.lower[2];
-  return (x * y + y * z) + z * x;
 }
 
 double middle(const TreeBox& box, size_t axis) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,6 +24,18 @@ inline bool is_empty(const TreeBox& box) {
     if (!(box.lower[axis] <= box.upper[axis])) return true;
   }
   return false;
+}
+
+inline constexpr TreeBox kNothing = {{INFINITY, INFINITY, INFINITY},
+                                     {-INFINITY, -INFINITY, -INFINITY}};
+
+// Half of the area of the surface; zero for an empty box.
+inline double half_area(const TreeBox& box) {
+  if (is_empty(box)) return 0;
+  const double x = double{box.upper[0]} - box.lower[0];
+  const double y = double{box.upper[1]} - box.lower[1];
+  const double z = double{box.upper[2]} - box.lower[2];
+  return (x * y + y * z) + z * x;
 }
 
 // All points within a radius of a box; a ball if the box is a point.
@@ -93,6 +106,7 @@ class BoxTree {
   uint32_t low_item(const Double3& normal) const;
 
  private:
+  friend class RefittedTree;
   BoxTree() = default;
 
   std::vector<Node> nodes_;

@@ -17,8 +17,8 @@ void World::find_points(const float* xyz, size_t count, size_t stride,
   std::vector<float> separation(candidates.size());
   // Cannot fail: points are spheres here, and every kind has a kernel against spheres.
   (void)collide(points(xyz, count, stride), state_->bodies.view(), candidates, Detail::contact,
-                {.overlap = overlap.data(), .separation = separation.data()}, WitnessFrame::body,
-                parallelism);
+                {.overlap = overlap.data(), .separation = separation.data()},
+                {.frame = WitnessFrame::body, .parallelism = parallelism});
   for (size_t i = 0; i < candidates.size(); ++i) {
     if (overlap[i]) hits.push_back({candidates[i].a, candidates[i].b, separation[i]});
   }

@@ -1,8 +1,10 @@
-// The search index over the bodies of the last step, which the first query after the step builds.
+// The search index over the bodies of the last step. The first query after the step brings it up to
+// date; others that come meanwhile wait.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
-#include <optional>
+#include <mutex>
 #include <span>
 
 #include "queries/body_index.h"
@@ -11,18 +13,31 @@ namespace carom {
 
 class QueryIndex {
  public:
+  // Threads must not take other queries of this world on while they wait for those that help them
+  // here, since these would wait for them: a query passes Parallelism::none.
   const BodyIndex& of_step(uint64_t step, const Collidables& bodies, const BoundsView& bounds,
-                           std::span<const WorldHalfspace> halfspaces, Parallelism parallelism) {
-    if (!index_ || step_ != step) index_ = index_bodies(bodies, bounds, halfspaces, parallelism);
-    step_ = step;
-    return *index_;
+                           const Motion* motion, std::span<const WorldHalfspace> halfspaces,
+                           Parallelism parallelism) {
+    if (step_.load(std::memory_order_acquire) == step) return index_;
+    const std::lock_guard lock(mutex_);
+    if (step_.load(std::memory_order_relaxed) != step) {
+      index_.update(bodies, bounds, motion, halfspaces, parallelism);
+      step_.store(step, std::memory_order_release);
+    }
+    return index_;
   }
 
-  size_t bytes() const { return index_ ? index_->bytes() : 0; }
+  size_t bytes() const {
+    const std::lock_guard lock(mutex_);
+    return index_.bytes();
+  }
 
  private:
-  std::optional<BodyIndex> index_;
-  uint64_t step_ = 0;
+  static constexpr uint64_t kNever = ~uint64_t{0};
+
+  mutable std::mutex mutex_;
+  BodyIndex index_;
+  std::atomic<uint64_t> step_{kNever};
 };
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <limits>
 
+#include "base/few_of.h"
 #include "base/float_environment.h"
 #include "carom/bounds/bounds.h"
 #include "midphase/collide_pairs.h"
@@ -30,23 +31,29 @@ const StepReport& World::State::step() {
     plan.carry_all();
     last.clear();
     pair_changes.clear();
+    if (has_identities() && !was_still) repeat_identities(parallelism, now);
   } else {
     if (needs_last()) std::swap(last, now);
     find_all();
   }
   if (has_contacts(settings.detail) && bodies.has_velocities()) {
-    run(Stage::velocities,
-        [&] { set_normal_velocities(bodies.linear_velocities(), parallelism, now.contacts); });
+    run(Stage::velocities, [&] { set_normal_velocities(bodies, parallelism, now.contacts); });
   }
-  // After two still steps the old events are already all `persist`; keep them.
+  // After two still steps no event is a begin or an end; keep them.
   if (has_events() && !(still && was_still)) {
     run(Stage::events, [&] {
-      event_stage.run(still ? now : last, now, bodies, parallelism, events);
+      if (still && !settings.persist_events) {
+        events.clear();
+      } else {
+        event_stage.run({still ? now : last, now, bodies, quarantined, settings.persist_events},
+                        parallelism, events);
+      }
       EventStage::add_impacts(impacts.impacts(), bodies, events);
       event_stage.remember(bodies);
     });
   }
   bodies.clear_touched();
+  predicate_changed = false;
   was_still = still;
   if (watches_rest()) watch_rest(still);
   give_back_memory(last_pairs);
@@ -64,7 +71,8 @@ bool World::State::is_still() {
     });
   }
   if (!bodies.has_detections()) stop_looking_ahead();
-  return compares && changes.all_unchanged() && !sweeps.changed();
+  const bool same_filters = !excluded.has_changes() && !predicate_changed;
+  return compares && changes.all_unchanged() && !sweeps.changed() && same_filters;
 }
 
 void World::State::find_sweeps() {
@@ -94,6 +102,7 @@ void World::State::find_all() {
   } else {
     forget_ahead();
   }
+  if (has_distances()) run(Stage::margins, [&] { widen_bounds(); });
   if (has_margin()) {
     run(Stage::margins,
         [&] { fat_bounds.update(reach_view(), settings.margin, settings.parallelism); });
@@ -104,7 +113,8 @@ void World::State::find_all() {
   if (has_dops()) run(Stage::dops, [&] { drop_pairs(); });
   run(Stage::narrowphase, [&] { test_pairs(); });
   run(Stage::results, [&] {
-    contact_stage.run(plan, last, results, bodies, settings.detail, settings.parallelism, now);
+    contact_stage.run(plan, last, results, bodies, settings, now);
+    if (has_identities()) find_previous(last, bodies, settings.parallelism, now);
   });
   if (looks_ahead()) run(Stage::impacts, [&] { find_impacts(); });
 }
@@ -148,6 +158,7 @@ void World::State::fill_report() {
   report.kept = has_narrowphase() ? report.pairs - report.tested - report.dropped : 0;
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
   report.contacts = now.contacts.size();
+  report.left_out = has_contacts(settings.detail) ? contact_stage.left_out() : 0;
   report.undecided = has_narrowphase() ? contact_stage.undecided() : 0;
   report.swept = sweeps.swept();
   report.unswept = sweeps.unswept();
@@ -192,19 +203,36 @@ void World::State::sweep_bounds() {
   halfspaces.sweep(sweeps);
 }
 
+void World::State::widen_bounds() {
+  wide_bounds.update(bounds_view(), distances(), settings.parallelism);
+  if (looks_ahead()) {
+    wide_swept_bounds.update(swept_bounds.view(), distances(), settings.parallelism);
+  }
+  halfspaces.widen(distances());
+}
+
 void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
   finder.set_most_pairs(settings.most_pairs);
   const BoundsView searched = has_margin() ? fat_bounds.view() : reach_view();
   std::vector<Pair>& found = halfspaces.has_any() ? halfspaces.other_pairs() : now.pairs;
-  search = finder.find(searched, bodies.filter(), found, settings.broadphase, settings.parallelism);
+  PairFilter filter = bodies.filter();
+  filter.rule = settings.filter_rule;
+  search = finder.find(searched, filter, found, settings.broadphase, settings.parallelism);
   if (halfspaces.has_any()) {
-    halfspaces.add_pairs(reach_view(), bodies.filter(), settings.most_pairs, settings.parallelism,
-                         now.pairs, search);
+    halfspaces.add_pairs(reach_view(), filter, settings.most_pairs, settings.parallelism, now.pairs,
+                         search);
   }
-  if (!looks_ahead()) return;
-  sieve.run(sweeps, present_bounds(), settings.parallelism, now.pairs);
+  if (looks_ahead()) sieve.run(sweeps, wide_present_bounds(), settings.parallelism, now.pairs);
+  select_pairs();
   if (search.complete) search.pairs = now.pairs.size();
+}
+
+// Drops the pairs that the caller does not want.
+void World::State::select_pairs() {
+  excluded.update();
+  selection.run(excluded.pairs(), predicate ? &predicate : nullptr, settings.parallelism,
+                now.pairs);
 }
 
 // The bodies whose pairs are tested again: one byte an index.
@@ -239,7 +267,9 @@ void World::State::drop_pairs() {
 
 // Whether the world has two kinds whose test remembers the separating direction.
 bool World::State::uses_directions() const {
-  if (!carries() || !has_contacts(settings.detail) || has_proxies()) return false;
+  if (!carries() || !has_contacts(settings.detail) || has_proxies() || has_distances()) {
+    return false;
+  }
   const auto is_there = [this](int kind) { return bodies.has_kind(static_cast<ShapeKind>(kind)); };
   for (int a = 0; a < kShapeKindCount; ++a) {
     for (int b = 0; b < kShapeKindCount; ++b) {
@@ -258,17 +288,29 @@ void World::State::test_pairs() {
   const Collidables view = tested_shapes();
   const bool sub_shapes =
       !has_proxies() && (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
-  collide_pairs(view, plan.pairs_to_test(now.pairs), settings.detail,
-                results.prepare(plan.tested(), settings.detail, sub_shapes), direction,
-                settings.parallelism, settings.accuracy);
+  const std::vector<Pair>& pairs = plan.pairs_to_test(now.pairs);
+  FewOf<ColumnRole, 2> wanted;
+  if (sub_shapes) wanted.push_back(ColumnRole::sub_shape);
+  if (has_identities()) wanted.push_back(ColumnRole::name);
+  const ResultColumns& columns = results.prepare(plan.tested(), settings.detail, {wanted.begin(), wanted.size()});
+  CollideOptions options = {.frame = WitnessFrame::body,
+                            .parallelism = settings.parallelism,
+                            .measured = Measured::overlapping,
+                            .accuracy = settings.accuracy,
+                            .region_limits = settings.region_limits};
+  if (has_distances()) {
+    options.contact_distances = results.prepare_distances(pairs, distances(), settings.parallelism);
+  }
+  collide_pairs(view, pairs, settings.detail, columns, options, direction, results.extra_of(settings.detail));
   if (remembers) {
     directions.keep(plan, last, settings.parallelism, now);
   } else {
     now.direction.clear();
   }
-  if (has_margin() || looks_ahead()) {
-    results.reject_apart(plan.pairs_to_test(now.pairs), present_bounds(), settings.parallelism);
+  if (has_margin() || looks_ahead() || has_distances()) {
+    results.reject_apart(pairs, present_bounds(), settings.parallelism);
   }
+  if (has_distances()) results.find_near(pairs, wide_present_bounds(), settings.parallelism);
 }
 
 void World::State::find_impacts() {
@@ -299,12 +341,13 @@ void World::State::stop_looking_ahead() {
 
 WorldMemory World::State::memory() const {
   WorldMemory memory;
-  memory.bodies = bodies.bytes() + changes.bytes() + proxies.bytes() + motion_tolerance.bytes() +
-                  sweeps.bytes() + bytes_of(quarantined);
+  memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + proxies.bytes() +
+                  motion_tolerance.bytes() + sweeps.bytes() + bytes_of(quarantined);
   memory.bounds = swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
-                  bounding_radii.bytes() + query_index.bytes();
+                  bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
+                  wide_swept_bounds.bytes();
   for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
-  memory.broadphase = finder.bytes() + halfspaces.bytes();
+  memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              dops.pair_bytes() + directions.bytes() + results.bytes() +
                              contact_stage.bytes() + sieve.bytes() + impacts.bytes() +

@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "base/float_environment.h"
 #include "world/world_state.h"
@@ -21,6 +22,7 @@ World::World(const WorldSettings& settings) : state_(std::make_unique<State>(set
   [[maybe_unused]] const float tolerance = settings.accuracy.knobs.motion_tolerance;
   assert(std::isfinite(tolerance) && tolerance >= 0);
   assert(std::isfinite(settings.dt) && settings.dt >= 0);
+  assert(std::isfinite(settings.contact_distance) && settings.contact_distance >= 0);
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -41,6 +43,7 @@ void World::add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids) {
 bool World::remove(BodyId id) {
   if (!contains(id)) return false;
   state_->bodies.remove(id);
+  state_->excluded.remove_body(id.index);
   return true;
 }
 
@@ -78,12 +81,12 @@ void World::set_positions(std::span<const BodyId> ids, std::span<const Eigen::Ve
   for (size_t i = 0; i < ids.size(); ++i) set_position(ids[i], positions[i]);
 }
 
-Eigen::Quaternionf World::orientation(BodyId id) const {
+Orientation World::orientation(BodyId id) const {
   assert(contains(id));
   return state_->bodies.orientation(id.index);
 }
 
-void World::set_orientation(BodyId id, const Eigen::Quaternionf& orientation) {
+void World::set_orientation(BodyId id, const Orientation& orientation) {
   assert(contains(id));
   state_->bodies.set_orientation(id.index, orientation);
 }
@@ -144,9 +147,30 @@ void World::set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner)
   state_->bodies.set_filter(id.index, layer, mask, owner);
 }
 
+void World::set_group(BodyId id, int32_t group) {
+  assert(contains(id));
+  state_->bodies.set_group(id.index, group);
+}
+
+void World::set_space(BodyId id, uint32_t space) {
+  assert(contains(id));
+  state_->bodies.set_space(id.index, space);
+}
+
 void World::set_sensor(BodyId id, bool sensor) {
   assert(contains(id));
   state_->bodies.set_sensor(id.index, sensor);
+}
+
+float World::contact_distance(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.contact_distance(id.index);
+}
+
+void World::set_contact_distance(BodyId id, float distance) {
+  assert(contains(id));
+  assert(distance >= 0 && std::isfinite(distance));
+  state_->bodies.set_contact_distance(id.index, distance);
 }
 
 bool World::is_sensor(BodyId id) const {
@@ -204,6 +228,34 @@ std::span<Eigen::Vector3f> World::angular_velocities() {
   return state_->bodies.angular_velocities();
 }
 
+void World::exclude(BodyId a, BodyId b) {
+  assert(contains(a) && contains(b));
+  state_->excluded.exclude({a.index, b.index});
+}
+
+void World::exclude(std::span<const Pair> pairs) {
+  for (const Pair pair : pairs) exclude(id_of(pair.a), id_of(pair.b));
+}
+
+void World::include_again(BodyId a, BodyId b) {
+  assert(contains(a) && contains(b));
+  state_->excluded.include_again({a.index, b.index});
+}
+
+void World::include_again(std::span<const Pair> pairs) {
+  for (const Pair pair : pairs) include_again(id_of(pair.a), id_of(pair.b));
+}
+
+bool World::is_excluded(BodyId a, BodyId b) const {
+  assert(contains(a) && contains(b));
+  return state_->excluded.contains({a.index, b.index});
+}
+
+void World::set_pair_predicate(PairPredicate predicate) {
+  state_->predicate = std::move(predicate);
+  state_->predicate_changed = true;
+}
+
 void World::set_dt(double dt) {
   assert(std::isfinite(dt) && dt >= 0);
   state_->settings.dt = dt;
@@ -214,6 +266,7 @@ const StepReport& World::step() { return state_->step(); }
 std::span<const Pair> World::pairs() const { return state_->now.pairs; }
 std::span<const uint8_t> World::overlaps() const { return state_->now.overlaps; }
 std::span<const Contact> World::contacts() const { return state_->now.contacts; }
+std::span<const ContactIdentity> World::identities() const { return state_->now.identities; }
 std::span<const ManifoldPoints> World::manifolds() const { return state_->now.manifolds; }
 std::span<const Event> World::events() const { return state_->events; }
 std::span<const Impact> World::impacts() const { return state_->impacts.impacts(); }

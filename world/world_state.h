@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "broadphase/resting/box_memory.h"
+#include "broadphase/sort/pair_selection.h"
 #include "carom/world/world.h"
 #include "world/changes/change_tracker.h"
 #include "world/changes/motion_tolerance.h"
@@ -17,6 +18,7 @@
 #include "world/motion/proxy_spheres.h"
 #include "world/motion/sweeps.h"
 #include "world/motion/swept_bounds.h"
+#include "world/motion/wide_bounds.h"
 #include "world/pairs/direction_memory.h"
 #include "world/pairs/dop_stage.h"
 #include "world/pairs/halfspace_stage.h"
@@ -26,9 +28,11 @@
 #include "world/query_index.h"
 #include "world/results/contact_stage.h"
 #include "world/results/event_stage.h"
+#include "world/results/identity_stage.h"
 #include "world/results/impact_stage.h"
 #include "world/results/speculative_stage.h"
 #include "world/store/body_store.h"
+#include "world/store/excluded_pairs.h"
 
 namespace carom {
 
@@ -38,9 +42,13 @@ struct World::State {
   const StepReport& step();
   BoundsView bounds_view() const;
   WorldMemory memory() const;
+  const BodyIndex& index_for_queries(Parallelism parallelism);
 
   WorldSettings settings;
   BodyStore bodies;
+  ExcludedPairs excluded;
+  PairPredicate predicate;
+  bool predicate_changed = false;  // since the last step
   StepReport report;
 
   HalfspaceStage halfspaces;
@@ -62,10 +70,17 @@ struct World::State {
   bool has_motion_tolerance() const {
     return is_fast() && carries() && settings.accuracy.knobs.motion_tolerance > 0;
   }
-  // No k-DOPs with proxy spheres: testing balls is faster than testing their k-DOPs.
+  // No k-DOPs with proxy spheres: testing balls is faster than testing their k-DOPs. None with
+  // contact distances either, since pairs with separate k-DOPs may have contacts.
   bool has_dops() const {
-    return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_proxies();
+    return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_proxies() &&
+           !has_distances();
   }
+  ContactDistances distances() const {
+    if (!has_contacts(settings.detail)) return {};
+    return {settings.contact_distance, bodies.contact_distances()};
+  }
+  bool has_distances() const { return distances().any(); }
   bool carries() const { return settings.carry_results && has_narrowphase(); }
   // At detail pairs there are no results to carry, so comparing all bodies pays only while none
   // moves.
@@ -73,11 +88,22 @@ struct World::State {
   bool compares_bodies() const { return carries() || (watches_rest() && rest_watch.is_on()); }
   bool looks_ahead() const { return sweeps.any(); }
   PresentBounds present_bounds() const { return {bounds_view(), halfspaces}; }
+  // The same, grown by the contact distances.
+  PresentBounds wide_present_bounds() const {
+    return has_distances() ? PresentBounds{wide_bounds.view(), halfspaces, distances()}
+                           : present_bounds();
+  }
   // The bounds from which pairs are made, before any margin.
-  BoundsView reach_view() const { return looks_ahead() ? swept_bounds.view() : bounds_view(); }
+  BoundsView reach_view() const {
+    if (has_distances()) return looks_ahead() ? wide_swept_bounds.view() : wide_bounds.view();
+    return looks_ahead() ? swept_bounds.view() : bounds_view();
+  }
   Collidables tested_shapes() const { return has_proxies() ? proxies.view(bodies) : bodies.view(); }
   bool uses_directions() const;
-  bool needs_last() const { return carries() || has_events() || settings.pair_changes; }
+  bool has_identities() const { return settings.identities && has_contacts(settings.detail); }
+  bool needs_last() const {
+    return carries() || has_events() || settings.pair_changes || has_identities();
+  }
 
   template <class Work>
   void run(Stage stage, const Work& work);
@@ -92,7 +118,9 @@ struct World::State {
   void find_bounds();
   void find_quarantined();
   void sweep_bounds();
+  void widen_bounds();
   void find_pairs();
+  void select_pairs();
   std::span<const uint8_t> changed_for_tests();
   void compare_pairs();
   void drop_pairs();
@@ -111,10 +139,12 @@ struct World::State {
   std::array<std::vector<float>, 6> bounds;
   Sweeps sweeps;
   SweptBounds swept_bounds;
+  WideBounds wide_bounds, wide_swept_bounds;  // of bodies now, and over the interval ahead
   FatBounds fat_bounds;
   PairFinder finder;
   PairSearch search;
   PairSieve sieve;
+  PairSelection selection;
   PairHistory last;
   CarryPlan plan;
   DopStage dops;

@@ -74,9 +74,7 @@ class Pairs {
 std::vector<uint8_t> decisions(const BodyArrays& a, const BodyArrays& b, Tier tier) {
   std::vector<uint8_t> overlap(kBatch), status(kBatch);
   const ResultColumns out = {.overlap = overlap.data(), .status = status.data()};
-  const Accuracy accuracy = {.tier = tier};
-  (void)collide_rows(a.view(), b.view(), Detail::overlap, out, WitnessFrame::world,
-                     Parallelism::none, Measured::all, accuracy);
+  (void)collide_rows(a.view(), b.view(), Detail::overlap, out, {.accuracy = {.tier = tier}});
   return overlap;
 }
 

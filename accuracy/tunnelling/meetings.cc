@@ -65,7 +65,8 @@ std::vector<MovingBody> moving_bodies(std::span<const BodyDesc> bodies, double d
   return moving;
 }
 
-std::vector<PairMeeting> find_meetings(std::span<const MovingBody> bodies, PositionType positions,
+std::vector<PairMeeting> find_meetings(std::span<const MovingBody> bodies,
+                                       std::span<const Pair> excluded, PositionType positions,
                                        MeetingSearch& search) {
   std::vector<std::vector<MovingPart>> parts(bodies.size());
   std::vector<WayBox> boxes;
@@ -76,10 +77,12 @@ std::vector<PairMeeting> find_meetings(std::span<const MovingBody> bodies, Posit
   std::vector<PairMeeting> meetings;
   for (size_t a = 0; a < bodies.size(); ++a) {
     for (size_t b = a + 1; b < bodies.size(); ++b) {
+      const Pair pair = {static_cast<uint32_t>(a), static_cast<uint32_t>(b)};
       if (!boxes[a].meets(boxes[b]) || !may_meet(bodies[a], bodies[b])) continue;
+      if (std::binary_search(excluded.begin(), excluded.end(), pair)) continue;
       const MeetingTime time = search(bodies[a], parts[a], bodies[b], parts[b]);
       if (time.meeting == Meeting::none) continue;
-      meetings.push_back({{static_cast<uint32_t>(a), static_cast<uint32_t>(b)}, time});
+      meetings.push_back({pair, time});
     }
   }
   return meetings;

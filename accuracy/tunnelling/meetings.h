@@ -18,8 +18,9 @@ struct PairMeeting {
 std::vector<MovingBody> moving_bodies(std::span<const BodyDesc> bodies, double dt);
 
 // The meetings of dynamic bodies with everything they may meet, sorted by pair. Invalid bodies meet
-// nothing. Tries every two bodies.
-std::vector<PairMeeting> find_meetings(std::span<const MovingBody> bodies, PositionType positions,
+// nothing, and the sorted pairs `excluded` do not meet. Tries every two bodies.
+std::vector<PairMeeting> find_meetings(std::span<const MovingBody> bodies,
+                                       std::span<const Pair> excluded, PositionType positions,
                                        MeetingSearch& search);
 
 }  // namespace carom::accuracy

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "carom/results/pair.h"
 #include "carom/shapes/body.h"
 
 namespace carom::accuracy {
@@ -19,6 +21,8 @@ class MovingScene {
   virtual double dt() const = 0;
   // The same bodies in the same order in every frame, with velocities.
   virtual std::vector<BodyDesc> bodies(size_t frame) const = 0;
+  // The pairs of bodies that never meet, sorted.
+  virtual std::span<const Pair> excluded() const = 0;
 };
 
 }  // namespace carom::accuracy

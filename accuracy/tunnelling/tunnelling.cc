@@ -52,7 +52,7 @@ class Viewer {
  public:
   Viewer(const MovingScene& scene, const TunnellingOptions& options, Detection detection,
          int substeps)
-      : detection_(detection), substeps_(substeps) {
+      : excluded_(scene.excluded()), detection_(detection), substeps_(substeps) {
     WorldSettings settings;
     settings.positions = scene.positions();
     settings.parallelism = options.parallelism;
@@ -96,6 +96,7 @@ class Viewer {
       if (desc.motion == Motion::dynamic) desc.detection = detection_;
       ids_.push_back(world_.add(desc));
     }
+    world_.exclude(excluded_);
   }
 
   void move(const Frame& frame, double t) {
@@ -119,6 +120,7 @@ class Viewer {
     }
   }
 
+  std::span<const Pair> excluded_;
   Detection detection_;
   int substeps_;
   World world_;
@@ -232,7 +234,7 @@ class Measurement {
       progress(i);
       Frame& frame = frames_.emplace_back();
       frame.bodies = moving_bodies(without_sensors(scene_.bodies(i)), scene_.dt());
-      frame.meetings = find_meetings(frame.bodies, scene_.positions(), search);
+      frame.meetings = find_meetings(frame.bodies, scene_.excluded(), scene_.positions(), search);
       note_reference(frame, i, report_);
     }
     report_.poses = search.poses();

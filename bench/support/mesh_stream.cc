@@ -98,8 +98,7 @@ void MeshStream::ask_reference() {
 }
 
 Result<void> MeshStream::run(Detail detail, const ResultColumns& out, Measured measured) const {
-  return collide_rows(a_->view(), b_->view(), detail, out, WitnessFrame::world, Parallelism::none,
-                      measured);
+  return collide_rows(a_->view(), b_->view(), detail, out, {.measured = measured});
 }
 
 std::optional<std::string> MeshStream::difference(Detail detail, const ResultColumns& out) const {

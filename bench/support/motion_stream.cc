@@ -100,7 +100,8 @@ double MotionStream::hit_percent() const {
 Result<void> MotionStream::run(const ImpactColumns& out) const {
   const SweepView sweep_a{.rotation = data_of(rotation_a_)};
   const SweepView sweep_b{.displacement = data_of(displacement_), .rotation = data_of(rotation_b_)};
-  return time_of_impact(a_->view(), sweep_a, b_->view(), sweep_b, pairs_, out, WitnessFrame::body);
+  return time_of_impact(a_->view(), sweep_a, b_->view(), sweep_b, pairs_, out,
+                        {.frame = WitnessFrame::body});
 }
 
 void MotionStream::run_reference(std::vector<reference::Impact>& out) const {

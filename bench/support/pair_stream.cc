@@ -170,12 +170,11 @@ Result<void> PairStream::run_next_step(Detail detail, const ResultColumns& out,
 
 Result<void> PairStream::run(const DenseBodies& b, Detail detail, const ResultColumns& out,
                              Measured measured) const {
-  const auto frame = WitnessFrame::world;
-  const auto parallelism = Parallelism::none;
+  const CollideOptions options = {.measured = measured};
   if (spec_.access == Access::rows) {
-    return collide_rows(a_->view(), b.view(), detail, out, frame, parallelism, measured);
+    return collide_rows(a_->view(), b.view(), detail, out, options);
   }
-  return collide(a_->view(), b.view(), pairs_, detail, out, frame, parallelism, measured);
+  return collide(a_->view(), b.view(), pairs_, detail, out, options);
 }
 
 void PairStream::draw_next_step() {

@@ -86,6 +86,7 @@ class Queries {
  public:
   Queries(const Yard& yard, const World& world)
       : world_(world),
+        parallelism_(world.settings().parallelism),
         rays_(yard.records.data(), yard.directions[0].data(), kQueries,
               static_cast<float>(yard.side), 4 * sizeof(float)),
         spheres_(sphere_records(yard.records.data(), kQueries)) {}
@@ -95,23 +96,26 @@ class Queries {
     switch (what) {
       case What::closest:
       case What::all:
-        world_.cast(rays_.queries(), rays_.sweep(),
-                    what == What::all ? CastHits::all : CastHits::closest, hits_);
+        world_.cast(rays_.queries(), rays_.sweep(), hits_,
+                    {.hits = what == What::all ? CastHits::all : CastHits::closest,
+                     .parallelism = parallelism_});
         return hits_.size();
       case What::spheres:
-        world_.cast(spheres_, rays_.sweep(), CastHits::closest, hits_);
+        world_.cast(spheres_, rays_.sweep(), hits_, {.parallelism = parallelism_});
         return hits_.size();
       case What::overlaps:
-        world_.find_overlaps(spheres_, overlaps_);
+        world_.find_overlaps(spheres_, overlaps_, {.parallelism = parallelism_});
         return overlaps_.size();
       default:
-        world_.find_nearest(spheres_, std::numeric_limits<float>::infinity(), nearest_);
+        world_.find_nearest(spheres_, std::numeric_limits<float>::infinity(), nearest_,
+                            {.parallelism = parallelism_});
         return nearest_.size();
     }
   }
 
  private:
   const World& world_;
+  const Parallelism parallelism_;
   const Rays rays_;
   const Collidables spheres_;
   std::vector<CastHit> hits_;
@@ -125,7 +129,7 @@ HitList hits_of_first(const Yard& yard, const World& world) {
   const Rays rays(yard.records.data(), yard.directions[0].data(), kChecked,
                   static_cast<float>(yard.side), 4 * sizeof(float));
   std::vector<CastHit> hits;
-  world.cast(rays.queries(), rays.sweep(), CastHits::all, hits);
+  world.cast(rays.queries(), rays.sweep(), hits, {.hits = CastHits::all});
   HitList list;
   for (const CastHit& hit : hits) list.emplace_back(hit.query, hit.toi, hit.body);
   return list;

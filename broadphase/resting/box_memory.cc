@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace carom {
 namespace {
@@ -63,7 +64,10 @@ void BoxMemory::resize(const BoundsView& bounds, const PairFilter& filter) {
   same_columns &= resize_column(filter.mask, count_, known_, filter_.mask);
   same_columns &= resize_column(filter.owner, count_, known_, filter_.owner);
   same_columns &= resize_column(filter.motion, count_, known_, filter_.motion);
-  if (!same_columns) known_ = 0;
+  same_columns &= resize_column(filter.group, count_, known_, filter_.group);
+  same_columns &= resize_column(filter.space, count_, known_, filter_.space);
+  const bool same_rule = std::exchange(filter_.rule, filter.rule) == filter.rule;
+  if (!same_columns || !same_rule) known_ = 0;
 }
 
 void BoxMemory::update_block(const BoxSource& source, const PairFilter& filter, size_t begin,
@@ -81,6 +85,8 @@ void BoxMemory::update_block(const BoxSource& source, const PairFilter& filter, 
   any |= compare_column(filter.mask, filter_.mask, begin, block.count, differs);
   any |= compare_column(filter.owner, filter_.owner, begin, block.count, differs);
   any |= compare_column(filter.motion, filter_.motion, begin, block.count, differs);
+  any |= compare_column(filter.group, filter_.group, begin, block.count, differs);
+  any |= compare_column(filter.space, filter_.space, begin, block.count, differs);
   if (!any && end <= known_) return;
   for (size_t i = begin; i < end; ++i) {
     if (differs[i - begin] || i >= known_) changed.push_back(static_cast<uint32_t>(i));
@@ -88,9 +94,11 @@ void BoxMemory::update_block(const BoxSource& source, const PairFilter& filter, 
 }
 
 size_t BoxMemory::bytes() const {
-  size_t sum = lists_.bytes() + filter_.motion.capacity() * sizeof(Motion);
+  size_t sum = lists_.bytes() + filter_.motion.capacity() * sizeof(Motion) +
+               filter_.group.capacity() * sizeof(int32_t);
   for (const std::vector<float>& column : columns_) sum += column.capacity() * sizeof(float);
-  for (const std::vector<uint32_t>* column : {&filter_.layer, &filter_.mask, &filter_.owner}) {
+  for (const std::vector<uint32_t>* column :
+       {&filter_.layer, &filter_.mask, &filter_.owner, &filter_.space}) {
     sum += column->capacity() * sizeof(uint32_t);
   }
   return sum;

@@ -32,8 +32,10 @@ class BoxMemory {
  private:
   // Copies of the filter's columns; absent ones are empty.
   struct FilterCopy {
-    std::vector<uint32_t> layer, mask, owner;
+    std::vector<uint32_t> layer, mask, owner, space;
+    std::vector<int32_t> group;
     std::vector<Motion> motion;
+    FilterRule rule = FilterRule::both;
   };
 
   void resize(const BoundsView& bounds, const PairFilter& filter);
@@ -41,7 +43,7 @@ class BoxMemory {
                     std::vector<uint32_t>& changed);
 
   size_t count_ = 0;
-  size_t known_ = 0;  // bodies in both of the last two updates; 0 if the filter's columns changed
+  size_t known_ = 0;  // bodies in both of the last two updates; 0 if the filter has other columns
   std::array<std::vector<float>, 6> columns_;
   FilterCopy filter_;
   BlockLists<uint32_t> lists_;

@@ -12,14 +12,25 @@
 
 namespace carom {
 
-// Whether the filter allows the pair of two bodies.
-inline bool may_meet(const PairFilter& f, uint32_t a, uint32_t b) {
-  if (f.motion && f.motion[a] == Motion::fixed && f.motion[b] == Motion::fixed) return false;
-  if (f.layer && (!(f.layer[a] & f.mask[b]) || !(f.layer[b] & f.mask[a]))) return false;
-  return !f.owner || f.owner[a] == 0 || f.owner[a] != f.owner[b];
+inline bool layers_allow(const PairFilter& f, uint32_t a, uint32_t b) {
+  const bool b_lets_a = (f.layer[a] & f.mask[b]) != 0;
+  const bool a_lets_b = (f.layer[b] & f.mask[a]) != 0;
+  return f.rule == FilterRule::both ? b_lets_a && a_lets_b : b_lets_a || a_lets_b;
 }
 
-inline bool lets_all_meet(const PairFilter& f) { return !f.motion && !f.layer && !f.owner; }
+// Whether the columns of the filter allow the pair of two bodies. PairSelection does the rest.
+inline bool may_meet(const PairFilter& f, uint32_t a, uint32_t b) {
+  if (f.motion && f.motion[a] == Motion::fixed && f.motion[b] == Motion::fixed) return false;
+  if (f.owner && f.owner[a] != 0 && f.owner[a] == f.owner[b]) return false;
+  if (f.space && f.space[a] != f.space[b]) return false;
+  if (f.group && f.group[a] != 0 && f.group[a] == f.group[b]) return f.group[a] > 0;
+  return !f.layer || layers_allow(f, a, b);
+}
+
+// Whether the columns forbid nothing.
+inline bool lets_all_meet(const PairFilter& f) {
+  return !f.motion && !f.layer && !f.owner && !f.group && !f.space;
+}
 
 // The number of pairs that a search may keep. Once it is spent, lists only count.
 class PairBudget {

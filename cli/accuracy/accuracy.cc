@@ -17,6 +17,7 @@
 #include "cli/support/progress.h"
 #include "cli/support/table.h"
 #include "io/files/atomic_file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {
@@ -43,7 +44,9 @@ Result<std::vector<accuracy::NamedKinds>> chosen_kinds(const std::vector<std::st
   for (const std::string& name : names) {
     const bool is_known = std::any_of(chosen.begin(), chosen.end(),
                                       [&](const auto& kinds) { return kinds.name == name; });
-    if (!is_known) return Error{"--pairs " + name + ": no pair of kinds, as sphere_box is one"};
+    if (!is_known)
+      return Error{"--pairs " + io::printable_name(name) +
+                   ": no pair of kinds, as sphere_box is one"};
   }
   return chosen;
 }

@@ -43,6 +43,8 @@ class FramesAhead : public accuracy::MovingScene {
     return bodies;
   }
 
+  std::span<const Pair> excluded() const override { return scene_.player().excluded(); }
+
  private:
   const LoadedScene& scene_;
 };

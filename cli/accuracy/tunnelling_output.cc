@@ -7,7 +7,7 @@
 #include "cli/support/options.h"
 #include "cli/support/table.h"
 #include "io/cpu_name.h"
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {

@@ -176,7 +176,7 @@ std::vector<AdviceRow> not_needed(const Advice& advice) {
   add(survey.frames > 1 && events_of(run) == 0, "events", "no overlap began or ended");
   add(!survey.has_velocities, "velocities", "the scene gives none");
   add(!survey.has_filters && survey.fixed == 0, "filters",
-      "no layers, masks, owners or static bodies");
+      "no layers, masks, owners, spaces, excluded pairs or static bodies");
   add(survey.sensors == 0, "sensors", "there are none");
   add(survey.pairs.pairs > 0 && survey.pairs.near == 0, "certified and exact tier",
       "no separation is within 2^-17 of the bodies' size");

@@ -5,7 +5,7 @@
 #include "cli/advise/advice.h"
 #include "cli/support/number_text.h"
 #include "cli/support/table.h"
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {

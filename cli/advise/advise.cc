@@ -11,6 +11,7 @@
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {
@@ -34,7 +35,7 @@ Result<void> check(const AdviseOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", options.tolerance);
-    return Error{"--tolerance " + std::string(text) + ": not a number of metres above 0"};
+    return Error{"--tolerance " + io::printable_name(text) + ": not a number of metres above 0"};
   }
   return options.threads == 0 ? Result<void>() : check_threads(options.threads);
 }

@@ -39,7 +39,8 @@ void survey_bodies(const LoadedScene& scene, SceneSurvey& survey, std::vector<do
   const auto narrows = [](uint32_t bits) { return bits != 0xffffffffu; };
   survey.has_filters = std::any_of(info.layer.begin(), info.layer.end(), narrows) ||
                        std::any_of(info.mask.begin(), info.mask.end(), narrows) ||
-                       any_above(info.owner, 0u);
+                       any_above(info.owner, 0u) || any_above(info.space, 0u) ||
+                       !info.excluded_pairs.empty();
   survey.has_velocities = info.has_linear_velocity;
 }
 

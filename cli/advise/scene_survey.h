@@ -42,7 +42,7 @@ struct SceneSurvey {
   BodiesOfKind kinds{};
   uint64_t fixed = 0;  // static bodies
   uint64_t sensors = 0;
-  bool has_filters = false;  // layers, masks or owners
+  bool has_filters = false;  // layers, masks, owners, spaces or excluded pairs
   bool has_velocities = false;
   bool has_orientation = false;  // the scene gives orientations that some body's kind reads
   bool all_unturned = false;     // no body whose kind reads orientations is ever turned

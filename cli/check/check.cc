@@ -30,7 +30,7 @@ void add_vertices(const io::SceneShapes& shapes, ShapeReport& report) {
 }
 
 void check_hull(ShapeReport& report) {
-  Result<io::BuiltHull> hull = io::build_hull(report.vertices);
+  Result<BuiltHull> hull = build_hull(report.vertices);
   if (hull) report.hull = std::move(*hull);
 }
 

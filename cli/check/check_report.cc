@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {
@@ -69,7 +69,7 @@ class Printer {
     if (more > 0) out_ << "    and " << more << " more\n";
   }
 
-  void print_hull(const io::BuiltHull& hull) {
+  void print_hull(const BuiltHull& hull) {
     row("vertices", std::to_string(report_.vertices.size()) + ": " +
                         counted(hull.geometry->points().size(), "corner", "corners") + ", " +
                         counted(hull.duplicates, "duplicate", "duplicates") + ", " +
@@ -164,7 +164,7 @@ class JsonReport {
     return {{"count", findings.count}, {"first", first}};
   }
 
-  void add_hull(const io::BuiltHull& hull, Json& json) const {
+  void add_hull(const BuiltHull& hull, Json& json) const {
     json["vertices"] = report_.vertices.size();
     json["form"] = name(hull.form);
     json["corners"] = hull.geometry->points().size();

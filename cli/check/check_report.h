@@ -13,7 +13,7 @@
 #include "carom/shapes/shape.h"
 #include "cli/check/mesh_check.h"
 #include "cli/support/json_output.h"
-#include "io/build_hull.h"
+#include "carom/hulls/build_hull.h"
 
 namespace carom::cli {
 
@@ -26,7 +26,7 @@ struct ShapeReport {
   std::vector<std::array<uint32_t, 3>> triangles;
   size_t children = 0;  // compounds
   std::optional<MeshReport> mesh;
-  std::optional<io::BuiltHull> hull;
+  std::optional<BuiltHull> hull;
 };
 
 // Where the reports of a file go, one after the other: into the JSON if that is wanted, to standard

@@ -118,7 +118,7 @@ Result<Tested> find_impacts(const PairSet& pairs, const PairsOptions& options,
   const SweepView sweep_b = pairs.motions_b.view();
   const std::vector<Pair> rows = rows_in_order(pairs.size());
   auto times = time_runs(pairs.size(), options, console, [&](Parallelism parallelism) {
-    return time_of_impact(a, sweep_a, b, sweep_b, rows, columns, WitnessFrame::world, parallelism);
+    return time_of_impact(a, sweep_a, b, sweep_b, rows, columns, {.parallelism = parallelism});
   });
   if (!times) return times.error();
   results.mark_meetings();

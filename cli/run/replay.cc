@@ -27,7 +27,7 @@ class Recorder {
     record_.search = report.search;
     record_.searched.push_back(report.ran(Stage::broadphase) ? report.search.searched : 0);
     record_.stages_run |= report.stages_run;
-    note_events();
+    note_events(report);
     for (BodyId id : world_.quarantined()) was_quarantined_[id.index] = true;
     record_.hash.add(world_.pairs());
     record_.hash.add(world_.overlaps());
@@ -52,9 +52,14 @@ class Recorder {
     record_.hash.add(world_.speculative_contacts());
   }
 
-  void note_events() {
+  // The world writes no persist events; every overlap that does not begin persists.
+  void note_events(const StepReport& report) {
     std::array<uint64_t, kEventKindCount> counts{};
     for (const Event& event : world_.events()) ++counts[static_cast<size_t>(event.kind)];
+    if (world_.settings().events) {
+      counts[static_cast<size_t>(EventKind::persist)] =
+          report.overlaps - counts[static_cast<size_t>(EventKind::begin)];
+    }
     for (size_t kind = 0; kind < counts.size(); ++kind) {
       record_.events[kind].push_back(counts[kind]);
     }

@@ -10,7 +10,7 @@
 #include "cli/support/options.h"
 #include "cli/support/statistics.h"
 #include "cli/support/table.h"
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {

@@ -1,6 +1,7 @@
 #include "cli/scenes/player.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -31,10 +32,21 @@ bool reads_orientations(const io::SceneInfo& info, const std::vector<Shape>& sha
                      [&](uint32_t shape) { return row_count(kind_of(shapes[shape])) > 0; });
 }
 
+std::vector<Pair> sorted_pairs(const std::vector<std::array<uint32_t, 2>>& rows) {
+  std::vector<Pair> pairs;
+  pairs.reserve(rows.size());
+  for (const auto& [a, b] : rows) pairs.push_back({a, b});
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 }  // namespace
 
 Player::Player(const io::SceneInfo& info, std::vector<Shape> shapes)
-    : info_(&info), shapes_(std::move(shapes)), oriented_(reads_orientations(*info_, shapes_)) {}
+    : info_(&info),
+      shapes_(std::move(shapes)),
+      excluded_(sorted_pairs(info.excluded_pairs)),
+      oriented_(reads_orientations(*info_, shapes_)) {}
 
 Result<Player> Player::create(const io::SceneInfo& info, const std::string& source) {
   Result<std::vector<Shape>> shapes = convert_shapes(info.shapes, source);
@@ -84,6 +96,7 @@ BodyDesc Player::body(const io::SceneFrame& frame, size_t index) const {
   if (!info_->layer.empty()) desc.layer = info_->layer[index];
   if (!info_->mask.empty()) desc.mask = info_->mask[index];
   if (!info_->owner.empty()) desc.owner = info_->owner[index];
+  if (!info_->space.empty()) desc.space = info_->space[index];
   if (!info_->sensor.empty()) desc.sensor = info_->sensor[index] != 0;
   desc.user = index;
   return desc;
@@ -103,6 +116,7 @@ void Player::start(const io::SceneFrame& frame, World& world, Detection detectio
     }
     world.add(bodies, ids);
   }
+  world.exclude(excluded_);
   write_velocities(frame, world);
 }
 

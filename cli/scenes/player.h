@@ -1,6 +1,7 @@
 // Feeds the frames of a scene to worlds.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ class Player {
   PositionType positions() const;
   // The number of bodies of each kind.
   BodiesOfKind bodies_of_kind() const;
+  // The pairs that never meet, sorted.
+  std::span<const Pair> excluded() const { return excluded_; }
   // The arrays of a frame that worlds at this detail read; velocities if they look ahead.
   io::SceneArrays wanted(Detail detail, bool looks_ahead = false) const;
 
@@ -43,6 +46,7 @@ class Player {
 
   const io::SceneInfo* info_;
   std::vector<Shape> shapes_;
+  std::vector<Pair> excluded_;
   bool oriented_;  // the scene has orientations and some body's kind reads them
 };
 

@@ -6,7 +6,7 @@
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
-#include "io/build_hull.h"
+#include "carom/hulls/build_hull.h"
 #include "io/files/file.h"
 
 namespace carom::cli {
@@ -53,7 +53,7 @@ Result<Shape> convert_mesh(const io::SceneShapes& shapes, size_t index) {
 Result<Shape> convert_hull(const io::SceneShapes& shapes, size_t index) {
   const std::vector<Eigen::Vector3f> points = vertices_of(shapes, index);
   if (points.empty()) return Error{"a hull without vertices"};
-  Result<io::BuiltHull> hull = io::build_hull(points);
+  Result<BuiltHull> hull = build_hull(points);
   return Shape(hull ? Hull{std::move(hull->geometry)} : Hull{});
 }
 

@@ -11,7 +11,7 @@
 namespace carom::cli {
 
 // `source` names the file in messages. A mesh of one triangle becomes a Triangle, a dop the slabs
-// of its vertices, a hull the result of io::build_hull(). Sizes are not checked, because the
+// of its vertices, a hull the result of build_hull(). Sizes are not checked, because the
 // kernels report invalid shapes; a geometry that cannot be built from invalid numbers is null.
 // Fails for empty shapes (a hull without vertices, a mesh without triangles, a compound without
 // children), unknown dops, and compounds with half-spaces.

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "carom/base/result.h"
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 

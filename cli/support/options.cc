@@ -9,6 +9,7 @@
 
 #include "cli/support/command_line.h"
 #include "cli/support/number_text.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {
@@ -31,7 +32,7 @@ bool names_file(const OutputFile& output) {
 }
 
 Error unknown(const std::string& what, const std::string& text, const std::string& available) {
-  return {"unknown " + what + " '" + text + "' (there are: " + available + ")"};
+  return {"unknown " + what + " " + io::quoted_name(text) + " (there are: " + available + ")"};
 }
 
 // All in the order of their enum.
@@ -52,7 +53,7 @@ Result<void> set_knob(const std::string& name, KnobsOf served, FastKnobs& knobs)
   for (const NamedKnob& entry : kKnobs) {
     const bool is_served = entry.of == KnobsOf::pairs || served == KnobsOf::worlds;
     if (name == entry.name && !is_served) {
-      return Error{"knob '" + name + "' is for scenes only (carom run)"};
+      return Error{"knob " + io::quoted_name(name) + " is for scenes only (carom run)"};
     }
     if (name == entry.name) {
       knobs.*entry.knob = true;
@@ -87,7 +88,8 @@ Result<std::optional<Isa>> parse_isa(const std::string& name) {
   if (!isa) return unknown("ISA", name, "auto, scalar, sse4, avx2, avx512, neon");
   std::vector<Isa> usable = usable_isas();
   if (std::find(usable.begin(), usable.end(), *isa) == usable.end()) {
-    return Error{"ISA '" + name + "' cannot be used here: this build or this machine lacks it " +
+    return Error{"ISA " + io::quoted_name(name) +
+                 " cannot be used here: this build or this machine lacks it " +
                  "(usable: " + join_names(usable) + ")"};
   }
   return isa;
@@ -188,7 +190,7 @@ Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail
     names += (names.empty() ? "" : ", ") + std::string(entry.name);
   }
   if (contains(kOfPairs, text)) {
-    return Error{"detail '" + text + "' is for files of pairs only (carom pairs)"};
+    return Error{"detail " + io::quoted_name(text) + " is for files of pairs only (carom pairs)"};
   }
   return unknown("detail", text, names);
 }

@@ -1,6 +1,6 @@
 #include "cli/support/progress.h"
 
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 

@@ -16,6 +16,7 @@
 #include "cli/verify/verify_pairs.h"
 #include "cli/verify/verify_scene.h"
 #include "io/files/npz.h"
+#include "io/printable.h"
 
 namespace carom::cli {
 namespace {

@@ -126,8 +126,8 @@ void make_all_kinds(io::SceneShapes& shapes) {
   shapes.vertices[10][1] = kNan;  // of a hull
 }
 
-// A generated scene of boxes, some changed to other kinds, with layers, masks, owners, sensors and
-// all kinds of motion. In some frames some bodies are ill-formed.
+// A generated scene of boxes, some changed to other kinds, with layers, masks, owners, spaces,
+// excluded pairs, sensors and all kinds of motion. In some frames some bodies are ill-formed.
 class MixedScene : public io::SceneReader {
  public:
   // `oriented`: half of the bodies turn in every frame.
@@ -142,7 +142,10 @@ class MixedScene : public io::SceneReader {
       info_.layer.push_back(1u << i % 5);
       info_.mask.push_back(i % 4 == 0 ? 0x0fu : 0x1fu);
       info_.owner.push_back(i % 10 < 4 ? 1 + i % 4 : 0);
+      info_.space.push_back(i % 16 == 5);
       info_.sensor.push_back(i % 7 == 0);
+      for (uint32_t b = i + 1 + i % 3; b < info_.bodies; b += 7)
+        info_.excluded_pairs.push_back({i, b});
     }
   }
 

@@ -5,7 +5,7 @@
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
-#include "io/build_hull.h"
+#include "carom/hulls/build_hull.h"
 
 namespace carom::cli {
 namespace {
@@ -22,7 +22,7 @@ Dop even_dop(float size) {
 
 // Returns an invalid hull if none can be built.
 Hull hull_of(const std::vector<Eigen::Vector3f>& points) {
-  Result<io::BuiltHull> hull = io::build_hull(points);
+  Result<BuiltHull> hull = build_hull(points);
   return hull ? Hull{std::move(hull->geometry)} : Hull{};
 }
 

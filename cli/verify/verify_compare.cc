@@ -63,8 +63,8 @@ const T* find(std::span<const T> list, Pair pair) {
 std::string event_text(const Event& event) {
   constexpr const char* kEventNames[kEventKindCount] = {"begin", "persist", "end", "impact"};
   return std::string(kEventNames[static_cast<size_t>(event.kind)]) +
-         (event.sensor ? " of a sensor" : "") + ", contact " +
-         (event.contact == kNoContact ? "none" : std::to_string(event.contact));
+         (event.sensor ? " of a sensor" : "") + ", gone " + std::to_string(event.gone) +
+         ", contact " + (event.contact == kNoContact ? "none" : std::to_string(event.contact));
 }
 
 std::string manifold_text(const FrameView& frame, const Contact& contact) {

@@ -102,6 +102,7 @@ class SceneVerifier {
             .detail = variant.detail,
             .broadphase = variant.broadphase,
             .parallelism = engine.arena->parallelism(),
+            .persist_events = true,
             .carry_results = variant.carry_results};
   }
 
@@ -110,9 +111,9 @@ class SceneVerifier {
     for (size_t i = 0; i < bodies_.size(); ++i) {
       bodies_[i] = {BodyId{static_cast<uint32_t>(i), 0}, player_.body(frame, i)};
     }
-    expected_ =
-        reference::step(bodies_, player_.positions(), Detail::manifold,
-                        player_.info().has_linear_velocity, frame_ == 0 ? nullptr : &expected_);
+    expected_ = reference::step(
+        bodies_, player_.positions(), Detail::manifold, player_.info().has_linear_velocity,
+        frame_ == 0 ? nullptr : &expected_, {}, {.excluded = player_.excluded()});
     expected_contact_ = without_manifolds(expected_);
     expected_overlap_ = without_contacts(expected_contact_);
   }

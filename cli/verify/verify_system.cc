@@ -35,21 +35,23 @@ std::unique_ptr<Stepper> System::make_stepper(const Player& player, const WorldS
 Result<void> System::collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                                   const ResultColumns& out, WitnessFrame frame,
                                   Parallelism parallelism, Tier tier) {
-  return carom::collide_rows(a, b, detail, out, frame, parallelism, Measured::all, {.tier = tier});
+  return carom::collide_rows(a, b, detail, out,
+                             {.frame = frame, .parallelism = parallelism, .accuracy = {.tier = tier}});
 }
 
 Result<void> System::collide(const Collidables& a, const Collidables& b,
                              std::span<const Pair> pairs, Detail detail, const ResultColumns& out,
                              WitnessFrame frame, Parallelism parallelism, Tier tier) {
-  return carom::collide(a, b, pairs, detail, out, frame, parallelism, Measured::all,
-                        {.tier = tier});
+  return carom::collide(a, b, pairs, detail, out,
+                        {.frame = frame, .parallelism = parallelism, .accuracy = {.tier = tier}});
 }
 
 Result<void> System::time_of_impact(const Collidables& a, const SweepView& sweep_a,
                                     const Collidables& b, const SweepView& sweep_b,
                                     std::span<const Pair> pairs, const ImpactColumns& out,
                                     WitnessFrame frame, Parallelism parallelism) {
-  return carom::time_of_impact(a, sweep_a, b, sweep_b, pairs, out, frame, parallelism);
+  return carom::time_of_impact(a, sweep_a, b, sweep_b, pairs, out,
+                               {.frame = frame, .parallelism = parallelism});
 }
 
 }  // namespace carom::cli

@@ -77,7 +77,7 @@ std::string parameters(const Mesh& mesh) {
          text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "");
 }
 
-std::string list(const Eigen::Quaternionf& q) {
+std::string list(const Orientation& q) {
   return "(" + text_of(q.x()) + ", " + text_of(q.y()) + ", " + text_of(q.z()) + ", " +
          text_of(q.w()) + ")";
 }
@@ -123,9 +123,9 @@ std::string text_of(const BodyDesc& body, PositionType positions) {
   std::string text = text_of(body.shape, {body.position, body.orientation}, positions) +
                      " velocity " + text_of(body.linear_velocity);
   char rest[120];
-  std::snprintf(rest, sizeof rest, " motion %d layer %#x mask %#x owner %u%s",
-                static_cast<int>(body.motion), body.layer, body.mask, body.owner,
-                body.sensor ? " sensor" : "");
+  std::snprintf(rest, sizeof rest, " motion %d layer %#x mask %#x owner %u group %d space %u%s",
+                static_cast<int>(body.motion), body.layer, body.mask, body.owner, body.group,
+                body.space, body.sensor ? " sensor" : "");
   return text + rest;
 }
 

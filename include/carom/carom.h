@@ -21,6 +21,8 @@
 /// may run on several threads at once if their outputs differ.
 #pragma once
 
+#include "carom/base/jobs.h"
+#include "carom/base/function_ref.h"
 #include "carom/base/parallelism.h"
 #include "carom/base/result.h"
 #include "carom/base/thread_arena.h"
@@ -31,10 +33,14 @@
 #include "carom/narrowphase/collide.h"
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
+#include "carom/queries/query_options.h"
 #include "carom/results/contact.h"
+#include "carom/results/contact_identity.h"
+#include "carom/results/contact_regions.h"
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"
+#include "carom/results/pair_predicate.h"
 #include "carom/results/result_arrays.h"
 #include "carom/results/result_columns.h"
 #include "carom/results/sweep.h"
@@ -43,6 +49,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/dop.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"
 #include "carom/shapes/views.h"
 #include "carom/simd/isa.h"

@@ -9,22 +9,16 @@
 #include <cerrno>
 #include <system_error>
 
+#include "io/printable.h"
+
 namespace carom::io {
 
 Error file_error(const std::string& path, const std::string& text) {
-  return {printable(path) + ": " + text};
+  return {printable_name(path) + ": " + text};
 }
 
 Error system_error(const std::string& path, const std::string& text, int error_number) {
   return file_error(path, text + ": " + std::generic_category().message(error_number));
-}
-
-std::string printable(const std::string& text) {
-  std::string out = text;
-  std::replace_if(
-      out.begin(), out.end(),
-      [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '?');
-  return out;
 }
 
 std::string folder_of(const std::string& path) {

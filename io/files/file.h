@@ -42,8 +42,6 @@ class File {
 Error file_error(const std::string& path, const std::string& text);
 // An error "path: text: reason of errno".
 Error system_error(const std::string& path, const std::string& text, int error_number);
-// Control characters become '?', so that a name read from a file cannot break a line.
-std::string printable(const std::string& text);
 
 // "folder/" of a path, "./" if it names none.
 std::string folder_of(const std::string& path);

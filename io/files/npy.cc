@@ -5,6 +5,8 @@
 #include <cstring>
 #include <optional>
 
+#include "io/printable.h"
+
 namespace carom::io {
 namespace {
 
@@ -83,7 +85,7 @@ class DictParser {
 };
 
 Result<DType> parse_descr(std::string_view descr) {
-  const std::string quoted = std::string("'").append(descr) + "'";
+  const std::string quoted = quoted_name(descr);
   if (descr.size() < 2) return header_error("unknown dtype " + quoted);
   const std::string_view code = descr.substr(1);
   for (size_t i = 0; i < std::size(kDTypes); ++i) {
@@ -145,7 +147,7 @@ Result<NpyHeader> parse_npy_dict(std::string_view text) {
       if (!parsed) return parsed.error();
       shape = std::move(*parsed);
     } else {
-      return header_error("unknown or repeated key '" + std::string(*key) + "'");
+      return header_error("unknown or repeated key " + quoted_name(*key));
     }
     if (parser.accept(',')) continue;
     if (!parser.accept('}')) return header_error("the dictionary does not end");

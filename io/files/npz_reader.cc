@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "io/files/npz.h"
+#include "io/printable.h"
 
 namespace carom::io {
 
@@ -54,7 +55,7 @@ std::string entry_problem(const zip_stat_t& entry, uint64_t archive_bytes) {
 }  // namespace
 
 Error member_error(const std::string& path, const std::string& name, const std::string& text) {
-  return {printable(path) + ": member " + printable(name) + ": " + printable(text)};
+  return {printable_name(path) + ": member " + printable_name(name) + ": " + printable(text)};
 }
 
 struct NpzReader::State {

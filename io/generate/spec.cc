@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-#include "io/files/file.h"
+#include "io/printable.h"
 
 namespace carom::io {
 namespace {
@@ -14,7 +14,7 @@ constexpr uint64_t kMaxBodies = 100'000'000;
 constexpr uint64_t kMaxFrames = 1'000'000'000;
 
 Error spec_error(const GeneratorSpec& spec, const std::string& text) {
-  return {printable("generator '" + spec.text + "': " + text)};
+  return {"generator " + quoted_name(spec.text) + ": " + text};
 }
 
 std::optional<GeneratorKind> kind_from_name(std::string_view name) {
@@ -66,7 +66,7 @@ class SpecParser {
   Result<void> assign(std::string_view item) {
     size_t equals = item.find('=');
     if (equals == std::string_view::npos) {
-      return spec_error(spec_, "'" + std::string(item) + "' is not key=value");
+      return spec_error(spec_, quoted_name(item) + " is not key=value");
     }
     key_ = item.substr(0, equals);
     value_ = item.substr(equals + 1);
@@ -97,8 +97,8 @@ class SpecParser {
     if (key_ == "motion" && spec_.kind == GeneratorKind::level) {
       return choice("dynamic", "static", spec_.mark_static);
     }
-    return spec_error(
-        spec_, "unknown key '" + std::string(key_) + "' (keys: " + keys_of(spec_.kind) + ")");
+    return spec_error(spec_,
+                      "unknown key " + quoted_name(key_) + " (keys: " + keys_of(spec_.kind) + ")");
   }
 
   Result<void> integer(uint64_t lower, uint64_t upper, uint64_t& out) {
@@ -140,7 +140,7 @@ class SpecParser {
     return {};
   }
 
-  std::string quoted() const { return "'" + std::string(key_) + "=" + std::string(value_) + "'"; }
+  std::string quoted() const { return quoted_name(std::string(key_) + "=" + std::string(value_)); }
 
   GeneratorSpec& spec_;
   std::set<std::string> seen_;
@@ -193,8 +193,8 @@ Result<GeneratorSpec> parse_generator(const std::string& text) {
   std::string_view name = rest.substr(0, rest.find(':'));
   std::optional<GeneratorKind> kind = kind_from_name(name);
   if (!kind) {
-    return Error{"unknown generator '" + printable(std::string(name)) +
-                 "' (generators: " + kGeneratorKinds + ")"};
+    return Error{"unknown generator " + quoted_name(name) + " (generators: " + kGeneratorKinds +
+                 ")"};
   }
   spec.kind = *kind;
   if (spec.kind == GeneratorKind::bullets) {

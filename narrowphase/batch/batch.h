@@ -35,7 +35,7 @@ enum class Pass : uint8_t {
   test,       // decision and contact; separate pairs may have none if there is a distance pass
   distance,   // contact columns of separate pairs; for GJK kinds, all columns of all pairs
   clearance,  // GJK kinds only: decision, and the contact columns of separate pairs
-  manifold,   // manifold points of overlapping pairs, whose contacts are in `tested`
+  manifold,   // manifold points of pairs whose contacts are in `tested`
 };
 
 // The passes of a kind beside the test. A direction pass pays if the test tries many axes. For GJK
@@ -78,6 +78,7 @@ struct Batch {
   const uint32_t* direction = nullptr;  // Pass::direction only: packed_direction.h
   uint64_t* features = nullptr;         // Pass::recall reads it, distance and clearance write it
   OpenSearches* open = nullptr;         // of the second stage: hulls/core_stages-inl.h
+  const float* reach = nullptr;         // contact distance by row, metres; nullptr: 0
   // Pass::manifold only.
   ResultColumns tested;                    // separation, normal and point_a, relative to A
   const uint16_t* manifold_row = nullptr;  // the row of `out` for row i

@@ -34,7 +34,7 @@ std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKi
                                    size_t row);
 
 // Writes the manifold points of row `row`, relative to A, and returns their number. `batch.tested`
-// has the contact. Both bodies are valid and overlap.
+// has the contact. Both bodies are valid.
 uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
                         ManifoldPoints& points);
 

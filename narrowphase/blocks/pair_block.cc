@@ -122,7 +122,7 @@ class BlockRunner {
   // Kernels find manifolds relative to the bodies, so points in world coordinates are moved
   // afterwards.
   bool moves_points() const {
-    return block_.detail == Detail::manifold && block_.frame == WitnessFrame::world;
+    return has_manifolds(block_.detail) && block_.frame == WitnessFrame::world;
   }
 
   static size_t slot(PairKindRef kind) { return size_t{kind.index} * 2 + kind.flipped; }
@@ -156,6 +156,7 @@ class BlockRunner {
       whole.pairs_are_rows = true;
     }
     whole.count = block_.count;
+    whole.reach = block_.reach;
     whole.out = block_.out;
     run_passes(kPairKinds[kind.index], whole, block_.measured, block_.direction, block_.accuracy);
   }
@@ -183,6 +184,8 @@ class BlockRunner {
     part.pairs = pairs_.data();
     part.count = count;
     part.out = as_asked(memory_.columns(), block_.out);
+    for (size_t i = 0; block_.reach && i < count; ++i) reach_[i] = block_.reach[rows_[i]];
+    if (block_.reach) part.reach = reach_.data();
     uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
     for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
     for (size_t i = 0; part.out.features && i < count; ++i) {
@@ -225,7 +228,7 @@ class BlockRunner {
   }
 
   void flip(ResultColumns& columns, size_t count) const {
-    for (size_t i = 0; block_.detail == Detail::manifold && i < count; ++i) {
+    for (size_t i = 0; has_manifolds(block_.detail) && i < count; ++i) {
       for (size_t k = 0; k < columns.manifold_count[i]; ++k) move_to_other_side(columns, i, k);
     }
     for (float* column : columns.normal) negate(column, count);
@@ -303,6 +306,7 @@ class BlockRunner {
   std::array<uint16_t, kPairsPerBlock> rows_;
   std::array<Pair, kPairsPerBlock> pairs_;
   std::array<uint32_t, kPairsPerBlock> directions_;
+  std::array<float, kPairsPerBlock> reach_;
   BlockColumns memory_;
 };
 

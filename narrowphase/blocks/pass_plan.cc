@@ -4,7 +4,7 @@ namespace carom {
 namespace {
 
 PassPlan::Points points_of(const PairKind& kind, Detail detail, Measured measured) {
-  if (detail != Detail::manifold) return PassPlan::Points::none;
+  if (detail < Detail::manifold) return PassPlan::Points::none;
   if (measured == Measured::separate) return PassPlan::Points::zero;
   return kind.has_manifold_pass() ? PassPlan::Points::clipped : PassPlan::Points::witnesses;
 }
@@ -19,8 +19,8 @@ PassPlan plan_passes(const PairKind& kind, const Batch& batch, Measured wanted, 
   // A proof may turn an overlapping row into a separate one, so overlapping rows need contact
   // columns, too.
   const Measured measured = plan.proves && wanted == Measured::separate ? Measured::all : wanted;
-  const bool measures =
-      has_contacts(batch.detail) && kind.has_distance_pass() && measured != Measured::overlapping;
+  const bool is_wide = measured != Measured::overlapping || batch.reach;
+  const bool measures = has_contacts(batch.detail) && kind.has_distance_pass() && is_wide;
   const bool at_once = measures && kind.measures_at_once();
 
   if (has_directions && kind.has_direction_pass() && has_contacts(batch.detail)) {

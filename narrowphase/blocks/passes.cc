@@ -14,6 +14,12 @@ namespace {
 
 bool overlaps(const Batch& batch, size_t row) { return batch.out.overlap[row] == 1; }
 
+// Whether a row has manifold points: it overlaps, or is separate by no more than its reach.
+bool touches(const Batch& batch, size_t row) {
+  return overlaps(batch, row) || (batch.reach && batch.out.overlap[row] == 0 &&
+                                  batch.out.separation[row] <= batch.reach[row]);
+}
+
 bool is_invalid(const Batch& batch, size_t row) {
   return batch.out.status[row] == static_cast<uint8_t>(Status::invalid);
 }
@@ -115,37 +121,42 @@ void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
   remember_directions(batch, open, direction);
 }
 
-// The manifold of an overlapping pair is its witness point. Without branches, since half of the
+// The manifold of a pair that touches is its witness point. Without branches, since half of the
 // pairs may overlap.
 void copy_witnesses(const Batch& batch) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
-    const bool overlap = overlaps(batch, row);
-    const auto if_overlap = [=](float x) { return overlap ? x : 0; };
+    const bool touch = touches(batch, row);
+    const auto if_touch = [=](float x) { return touch ? x : 0; };
     ManifoldPoints points{};
     for (size_t axis = 0; axis < 3; ++axis) {
-      points.point[0][axis] = if_overlap(out.point_a[axis][row]);
+      points.point[0][axis] = if_touch(out.point_a[axis][row]);
     }
-    points.separation[0] = if_overlap(out.separation[row]);
+    points.separation[0] = if_touch(out.separation[row]);
     out.manifold[row] = points;
-    out.manifold_count[row] = overlap;
+    out.manifold_count[row] = touch;
   }
 }
 
 void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pairs) {
   std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
   if (of_separate_pairs) std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
-  RowSelection overlapping(batch);
-  overlapping.select([&](size_t row) { return overlaps(batch, row); });
-  if (overlapping.count() == 0) return;
+  RowSelection touching(batch);
+  touching.select([&](size_t row) { return touches(batch, row); });
+  if (touching.count() == 0) return;
   TestColumns contacts;
-  Batch manifolds = overlapping.batch(Pass::manifold);
+  std::array<float, kPairsPerBlock> reach;
+  Batch manifolds = touching.batch(Pass::manifold);
   manifolds.tested = contacts.columns();
-  manifolds.manifold_row = overlapping.rows();
-  overlapping.gather(batch.out.separation, manifolds.tested.separation);
+  manifolds.manifold_row = touching.rows();
+  if (batch.reach) {
+    touching.gather(batch.reach, reach.data());
+    manifolds.reach = reach.data();
+  }
+  touching.gather(batch.out.separation, manifolds.tested.separation);
   for (size_t axis = 0; axis < 3; ++axis) {
-    overlapping.gather(batch.out.normal[axis], manifolds.tested.normal[axis]);
-    overlapping.gather(batch.out.point_a[axis], manifolds.tested.point_a[axis]);
+    touching.gather(batch.out.normal[axis], manifolds.tested.normal[axis]);
+    touching.gather(batch.out.point_a[axis], manifolds.tested.point_a[axis]);
   }
   kind.run(manifolds);
 }

@@ -14,10 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The s of an unused place. Its x is NaN, so it fails every comparison.
-inline constexpr float kNoPoint = 1;
-static_assert(kNoPoint > kTouchingPoint);
-
+// An unused place has kNoPoint as its s. Its x is NaN, so it fails every comparison.
 HWY_INLINE Mask is_point(F s) { return hn::Lt(s, splat(kNoPoint)); }
 
 HWY_INLINE F s_where(Mask is_one, F s) { return hn::IfThenElse(is_one, s, splat(kNoPoint)); }
@@ -156,7 +153,8 @@ HWY_INLINE void confine(const Face&, F&, F&) {}
 // not clipped is exact.
 template <class Face, size_t kCount, size_t kSeen>
 HWY_INLINE void put_edge(const Face& face, Mask is_open, const Seen<kSeen>& seen, size_t from,
-                         size_t to, const SeenWay& way, size_t first, ClipPoints<kCount>& out) {
+                         size_t to, const SeenWay& way, F touching, size_t first,
+                         ClipPoints<kCount>& out) {
   F near = splat(0);
   F far = splat(1);
   clip_edge(face, seen, from, to, way, near, far);
@@ -170,8 +168,8 @@ HWY_INLINE void put_edge(const Face& face, Mask is_open, const Seen<kSeen>& seen
   const F far_s = hn::Sub(seen.s[to], hn::Mul(way.s, rest));
   confine(face, near_x, near_y);
   confine(face, far_x, far_y);
-  out.put(first, in_sight, near_x, near_y, near_s, splat(kTouchingPoint));
-  out.put(first + 1, in_sight, far_x, far_y, far_s, splat(kTouchingPoint));
+  out.put(first, in_sight, near_x, near_y, near_s, touching);
+  out.put(first + 1, in_sight, far_x, far_y, far_s, touching);
 }
 
 template <size_t kSeen>
@@ -210,7 +208,7 @@ HWY_INLINE void see(const FaceView& view, const Rectangle& face, Seen<4>& seen, 
 // both pairs of its sides.
 template <size_t kFirst, size_t kCount>
 HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& seen,
-                            const SeenWay& u, const SeenWay& v, ClipPoints<kCount>& out) {
+                            const SeenWay& u, const SeenWay& v, F touching, ClipPoints<kCount>& out) {
   const F zero = splat(0);
   const F area = area_left(u.x, u.y, v.x, v.y);
   const F side = hn::IfThenElse(hn::Lt(area, zero), splat(-1), splat(1));
@@ -232,14 +230,14 @@ HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& 
     const Mask below = hn::And(hn::Le(beside_u, most_u), hn::Le(beside_v, most_v));
     const F rise = hn::Add(hn::Mul(r_x, slope_x), hn::Mul(r_y, slope_y));
     out.put(kFirst + k, hn::And(has_area, hn::And(above, below)), face.corner_x(k),
-            face.corner_y(k), hn::Add(seen.s[0], rise), splat(kTouchingPoint));
+            face.corner_y(k), hn::Add(seen.s[0], rise), touching);
   }
 }
 
 // Stores the corners of the face that a polygon with this normal covers, from point kFirst on.
 template <size_t kFirst, class Face, size_t kSeen, size_t kCount>
 HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, const F3& m,
-                            const Seen<kSeen>& seen, const SeenWay (&ways)[kSeen],
+                            const Seen<kSeen>& seen, const SeenWay (&ways)[kSeen], F touching,
                             ClipPoints<kCount>& out) {
   const F zero = splat(0);
   const F facing = dot(normal, m);
@@ -282,29 +280,29 @@ HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, co
     }
     const F rise =
         hn::Add(hn::Mul(hn::Sub(seen.x[0], x), slope_x), hn::Mul(hn::Sub(seen.y[0], y), slope_y));
-    out.put(kFirst + k, covered, x, y, hn::Add(seen.s[0], rise), splat(kTouchingPoint));
+    out.put(kFirst + k, covered, x, y, hn::Add(seen.s[0], rise), touching);
   }
 }
 
 // The corners of the region that two box faces cover, seen along m, a unit vector. Corners where
-// the other face is more than kTouchingPoint above are left out.
-HWY_INLINE void clip(const Rectangle& face, const Rectangle& other, const F3& m,
+// the other face is more than `touching` above are left out.
+HWY_INLINE void clip(const Rectangle& face, const Rectangle& other, const F3& m, F touching,
                      ClipPoints<12>& out) {
   const FaceView view(face.frame, m);
   const Mask is_open = view.is_open;
   Seen<4> seen;
   SeenWay u, v;
   see(view, other, seen, u, v);
-  put_edge(face, is_open, seen, 0, 1, u, 0, out);
-  put_edge(face, is_open, seen, 3, 2, u, 2, out);
-  put_edge(face, is_open, seen, 1, 2, v, 4, out);
-  put_edge(face, is_open, seen, 0, 3, v, 6, out);
-  put_corners<8>(face, is_open, seen, u, v, out);
+  put_edge(face, is_open, seen, 0, 1, u, touching, 0, out);
+  put_edge(face, is_open, seen, 3, 2, u, touching, 2, out);
+  put_edge(face, is_open, seen, 1, 2, v, touching, 4, out);
+  put_edge(face, is_open, seen, 0, 3, v, touching, 6, out);
+  put_corners<8>(face, is_open, seen, u, v, touching, out);
 }
 
 // The same for another polygon. Its normal is zero if it has no area.
 template <class Face, class OtherFace, size_t kCount>
-HWY_INLINE void clip(const Face& face, const FaceSide<OtherFace>& other, const F3& m,
+HWY_INLINE void clip(const Face& face, const FaceSide<OtherFace>& other, const F3& m, F touching,
                      ClipPoints<kCount>& out) {
   constexpr size_t kSeen = OtherFace::kCorners;
   static_assert(kCount == 2 * kSeen + Face::kCorners);
@@ -317,9 +315,10 @@ HWY_INLINE void clip(const Face& face, const FaceSide<OtherFace>& other, const F
   for (size_t i = 0; i < kSeen; ++i) {
     const size_t next = (i + 1) % kSeen;
     way_between(seen, i, next, ways[i]);
-    put_edge(face, other.face.where(i, view.is_open), seen, i, next, ways[i], 2 * i, out);
+    put_edge(face, other.face.where(i, view.is_open), seen, i, next, ways[i], touching, 2 * i,
+             out);
   }
-  put_corners<2 * kSeen>(face, view.is_open, other.face.frame.n, m, seen, ways, out);
+  put_corners<2 * kSeen>(face, view.is_open, other.face.frame.n, m, seen, ways, touching, out);
 }
 
 }  // namespace carom::HWY_NAMESPACE

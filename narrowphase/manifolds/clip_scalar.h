@@ -158,7 +158,7 @@ inline void keep(const ClipPoint& c, float touching, ClipPoints& out) {
 
 // Clips an edge to the face and adds its ends. An end that was not clipped is exact.
 template <class Face>
-void add_edge(const Face& face, const SeenEdge& edge, ClipPoints& out) {
+void add_edge(const Face& face, const SeenEdge& edge, float touching, ClipPoints& out) {
   const Span span = clip_edge(face, edge);
   if (!(span.near <= span.far)) return;
   const auto& [from, to, way] = edge;
@@ -168,8 +168,8 @@ void add_edge(const Face& face, const SeenEdge& edge, ClipPoints& out) {
   ClipPoint far = {to.x - way.x * rest, to.y - way.y * rest, to.s - way.s * rest};
   confine(face, near);
   confine(face, far);
-  keep(near, kTouchingPoint, out);
-  keep(far, kTouchingPoint, out);
+  keep(near, touching, out);
+  keep(far, touching, out);
 }
 
 // The face of a box, projected into the coordinates of another face.
@@ -208,7 +208,8 @@ inline float slack_of_way(const ClipPoint& way) {
 }
 
 // Adds the corners of the face that a rectangle covers. They lie between both pairs of its sides.
-inline void add_corners(const Rectangle& face, const SeenRectangle& seen, ClipPoints& out) {
+inline void add_corners(const Rectangle& face, const SeenRectangle& seen, float touching,
+                        ClipPoints& out) {
   const ClipPoint& u = seen.way_u;
   const ClipPoint& v = seen.way_v;
   const float area = cross2(u, v);
@@ -224,14 +225,14 @@ inline void add_corners(const Rectangle& face, const SeenRectangle& seen, ClipPo
     const bool covered = beside_u + slack_u >= 0 && beside_u <= area * side + slack_u &&
                          beside_v + slack_v >= 0 && beside_v <= area * side + slack_v;
     const float s = seen.corners[0].s + (r.x * slope_x + r.y * slope_y);
-    if (covered) keep({corner.x, corner.y, s}, kTouchingPoint, out);
+    if (covered) keep({corner.x, corner.y, s}, touching, out);
   }
 }
 
 // Adds the corners of the face that a polygon with this normal covers.
 template <class Face>
 void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
-                 const SeenPolygon& seen, ClipPoints& out) {
+                 const SeenPolygon& seen, float touching, ClipPoints& out) {
   const float facing = dot(normal, m);
   if (!(std::fabs(facing) > kEdgeOn)) return;
   const size_t count = seen.size();
@@ -259,35 +260,36 @@ void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
     }
     const float s =
         seen[0].s + ((seen[0].x - corner.x) * slope_x + (seen[0].y - corner.y) * slope_y);
-    if (covered) keep({corner.x, corner.y, s}, kTouchingPoint, out);
+    if (covered) keep({corner.x, corner.y, s}, touching, out);
   }
 }
 
 // The corners of the region that two box faces cover, seen along m, a unit vector. Corners where
-// the other face is more than kTouchingPoint above are left out.
-inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vector3f& m) {
+// the other face is more than `touching` above are left out.
+inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vector3f& m,
+                       float touching) {
   ClipPoints out;
   const FaceView view(face.frame, m);
   if (view.is_edge_on()) return out;
   const SeenRectangle seen(view, other);
-  for (const SeenEdge& edge : seen.edges()) add_edge(face, edge, out);
-  add_corners(face, seen, out);
+  for (const SeenEdge& edge : seen.edges()) add_edge(face, edge, touching, out);
+  add_corners(face, seen, touching, out);
   return out;
 }
 
 // The same for a polygon with this normal, which is zero if it has no area.
 template <class Face, class Corners>
-ClipPoints clip(const Face& face, const Corners& corners, const Vector3f& normal,
-                const Vector3f& m) {
+ClipPoints clip(const Face& face, const Corners& corners, const Vector3f& normal, const Vector3f& m,
+                float touching) {
   ClipPoints out;
   const FaceView view(face.frame, m);
   if (view.is_edge_on()) return out;
   SeenPolygon seen;
   for (const Vector3f& corner : corners) seen.push_back(view.project(corner));
   for (size_t i = 0; i < seen.size(); ++i) {
-    add_edge(face, edge_between(seen[i], seen[(i + 1) % seen.size()]), out);
+    add_edge(face, edge_between(seen[i], seen[(i + 1) % seen.size()]), touching, out);
   }
-  add_corners(face, normal, m, seen, out);
+  add_corners(face, normal, m, seen, touching, out);
   return out;
 }
 

@@ -32,7 +32,7 @@ HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
   if constexpr (std::is_same_v<A, AabbLanes> && std::is_same_v<B, AabbLanes>) {
     // The axes are constants here, with which the compiler drops a part of clipping.
     ClipPoints<12> all;
-    clip(face, other, contact.normal, all);
+    clip(face, other, contact.normal, contact.touching(), all);
     put_on_frame(face.frame, all, splat(kSamePoint), out);
   } else {
     touch_boxes(face, other, contact, out);
@@ -116,7 +116,7 @@ HWY_INLINE void contact_points(const A& a, const HalfspaceLanes&, const PlacedPa
   }
   const F lowest = max(max(max(depth[0], depth[1]), depth[2]), depth[3]);
   const F size = a.extent();
-  const F touching = hn::Mul(splat(kTouchingPoint), size);
+  const F touching = contact.touching(size);
   const Mask every = hn::Not(no_lanes());
   ClipPoints<4> all;
   for (size_t k = 0; k < 4; ++k) {
@@ -155,7 +155,7 @@ HWY_INLINE void contact_points(const HalfspaceLanes&, const TriangleLanes& b,
                         dot(contact.normal, rotate(placed.b.turn, b.c))};
   const F lowest = min(min(heights[0], heights[1]), heights[2]);
   const F size = b.extent();
-  const F touching = hn::Mul(splat(kTouchingPoint), size);
+  const F touching = contact.touching(size);
   const Mask shown = shows_face(b, face.frame.n, -contact.normal);
   ClipPoints<3> all;
   for (size_t k = 0; k < 3; ++k) {

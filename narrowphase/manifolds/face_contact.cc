@@ -52,7 +52,7 @@ HWY_INLINE void swap_where(Mask mask, FaceSide<Face>& a, FaceSide<Face>& b) {
 void touch_boxes(const Rectangle& face, const Rectangle& other, const ContactLanes& contact,
                  PointLanes& out) {
   ClipPoints<12> all;
-  clip(face, other, contact.normal, all);
+  clip(face, other, contact.normal, contact.touching(), all);
   put_on_frame(face.frame, all, splat(kSamePoint), out);
 }
 
@@ -60,7 +60,7 @@ template <class Face>
 void touch_box(const Rectangle& face, const FaceSide<Face>& other, const ContactLanes& contact,
                PointLanes& out) {
   ClipPoints<4 + 2 * Face::kCorners> all;
-  clip(face, other, contact.normal, all);
+  clip(face, other, contact.normal, contact.touching(), all);
   put_on_frame(face.frame, all, splat(kSamePoint), out);
 }
 
@@ -72,7 +72,7 @@ void touch_faces(FaceSide<Face>& a, FaceSide<Face>& b, const ContactLanes& conta
   swap_where(on_b, a, b);
   const F3 m = negate_if(on_b, n);
   ClipPoints<3 * Face::kCorners> all;
-  clip(a.face, b, m, all);
+  clip(a.face, b, m, contact.touching(), all);
   put_on_frame(a.face.frame, all, splat(kSamePoint), out);
   for (size_t k = 0; k < 4; ++k) {
     out.point[k] = select(on_b, out.point[k] + m * out.s[k], out.point[k]);

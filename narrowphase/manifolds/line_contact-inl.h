@@ -16,6 +16,11 @@ struct ContactLanes {
   F separation;
   F3 normal;  // from A to B
   F3 arm_a;
+  F reach;  // the contact distance, at most kGreatestReach
+
+  // The greatest s of a point, for shapes of a size.
+  HWY_INLINE F touching(F size) const { return max(hn::Mul(splat(kTouchingPoint), size), reach); }
+  HWY_INLINE F touching() const { return max(splat(kTouchingPoint), reach); }
 };
 
 // Points on A, the used ones first. s is the gap from there to B along the normal. With fewer than
@@ -40,15 +45,15 @@ struct TwoPoints {
   F s[2];
 };
 
-// Takes the deeper of the two points if it is as deep as the witness point, else the witness point;
-// then the point farthest from that. `limit`: see reduce().
-HWY_INLINE void reduce_line(const ContactLanes& contact, const TwoPoints& two, F touching, F limit,
-                            PointLanes& out) {
+// Takes the deeper of the two points if it is as deep as the witness point, up to `same_depth`,
+// else the witness point; then the point farthest from that. `limit`: see reduce().
+HWY_INLINE void reduce_line(const ContactLanes& contact, const TwoPoints& two, F same_depth,
+                            F limit, PointLanes& out) {
   witness_only(out);
   const Mask second_is_deeper = hn::Lt(two.s[1], two.s[0]);
   const F deepest = hn::IfThenElse(second_is_deeper, two.s[1], two.s[0]);
   const Mask is_witness =
-      hn::Not(hn::And(is_point(deepest), hn::Le(deepest, hn::Add(contact.separation, touching))));
+      hn::Not(hn::And(is_point(deepest), hn::Le(deepest, hn::Add(contact.separation, same_depth))));
   const F3 first =
       select(is_witness, contact.arm_a, select(second_is_deeper, two.point[1], two.point[0]));
   out.point[0] = first;
@@ -99,7 +104,8 @@ HWY_INLINE void touch_face(const SurfaceLine& line, const Face& face, const Cont
   view.project(line.a, ends.x[0], ends.y[0], ends.s[0]);
   view.project(line.b, ends.x[1], ends.y[1], ends.s[1]);
   way_between(ends, 0, 1, way);
-  put_edge(face, hn::And(line.exists, view.is_open), ends, 0, 1, way, 0, clipped);
+  put_edge(face, hn::And(line.exists, view.is_open), ends, 0, 1, way, contact.touching(), 0,
+           clipped);
   TwoPoints two;
   for (size_t i = 0; i < 2; ++i) {
     two.point[i] = face.frame.point(clipped.x[i], clipped.y[i]) + m * clipped.s[i];
@@ -116,7 +122,7 @@ HWY_INLINE void touch_plane(const CapsuleLanes& capsule, const Placed& placed,
   SurfaceLine line;
   line_towards(m, capsule, placed, line);
   const F size = capsule.extent();
-  const F touching = hn::Mul(splat(kTouchingPoint), size);
+  const F touching = contact.touching(size);
   const F end_a = dot(m, rotate(placed.turn, capsule.a));
   const F end_b = dot(m, rotate(placed.turn, capsule.b));
   const F lowest = hn::Add(max(end_a, end_b), capsule.radius);
@@ -127,13 +133,14 @@ HWY_INLINE void touch_plane(const CapsuleLanes& capsule, const Placed& placed,
     const F s = hn::Add(contact.separation, hn::Sub(lowest, dot(m, two.point[i])));
     two.s[i] = s_where(hn::And(line.exists, hn::Le(s, touching)), s);
   }
-  reduce_line(contact, two, touching, hn::Mul(splat(kSamePoint), hn::Mul(size, size)), out);
+  reduce_line(contact, two, hn::Mul(splat(kTouchingPoint), size),
+              hn::Mul(splat(kSamePoint), hn::Mul(size, size)), out);
 }
 
 // The length along n from a point to the cylinder around an axis; kNoPoint if it misses, or hits
 // beyond the ends.
 HWY_INLINE F enter_cylinder(const F3& point, const F3& n, const F3& start, const F3& axis, F radius,
-                            Mask exists) {
+                            Mask exists, F touching) {
   const F zero = splat(0);
   const F one = splat(1);
   const F squared = dot(axis, axis);
@@ -150,7 +157,7 @@ HWY_INLINE F enter_cylinder(const F3& point, const F3& n, const F3& start, const
   const F reach = hn::Add(hn::Mul(splat(kOverhang), radius), splat(kClipSlack));
   const Mask ends_well = hn::Le(hn::Mul(hn::Mul(over, over), squared), hn::Mul(reach, reach));
   const Mask hit = hn::And(hn::And(hn::Ge(left, zero), ends_well), exists);
-  return s_where(hn::And(hit, hn::Le(s, splat(kTouchingPoint))), s);
+  return s_where(hn::And(hit, hn::Le(s, touching)), s);
 }
 
 // Two capsules. They have two points if their axes are nearly parallel.
@@ -175,7 +182,8 @@ HWY_INLINE void touch_capsule(const CapsuleLanes& capsule_a, const Placed& place
   for (size_t i = 0; i < 2; ++i) {
     const F t = clamp(hn::Div(dot(ends[i] - shift, axis), rate), splat(0), splat(1));
     two.point[i] = line.a + along * t;
-    two.s[i] = enter_cylinder(two.point[i], n, ends[0], axis, capsule_b.radius, exists);
+    two.s[i] = enter_cylinder(two.point[i], n, ends[0], axis, capsule_b.radius, exists,
+                              contact.touching());
   }
   reduce_line(contact, two, splat(kTouchingPoint), splat(kSamePoint), out);
 }

@@ -10,6 +10,10 @@ struct ScaledContact {
   float separation;
   Vector3f normal;  // from A to B
   Vector3f arm_a;
+  float reach;  // the contact distance, at most kGreatestReach
+
+  // The greatest s of a point, for shapes of a size.
+  float touching(float size = 1) const { return max(kTouchingPoint * size, reach); }
 };
 
 struct ContactPoint {
@@ -37,17 +41,18 @@ inline SurfaceLine line_towards(const Vector3f& m, const CapsuleShape<float>& ca
   return {a + way, b + way, squared > kEndOn};
 }
 
-// Takes the deeper of the two points if it is as deep as the witness point, else the witness point;
-// then the point farthest from that. A single point is always the witness point. Points with an s
-// beyond `touching` do not count. `limit`: see reduce().
+// Takes the deeper of the two points if it is as deep as the witness point, for shapes of a size,
+// else the witness point; then the point farthest from that. A single point is always the witness
+// point. Points with an s beyond contact.touching() do not count.
 inline ContactPoints reduce_line(const ScaledContact& contact, const ContactPoints& two,
-                                 float touching, float limit) {
+                                 float size = 1) {
+  const float touching = contact.touching(size), limit = kSamePoint * (size * size);
   ContactPoint first = {contact.arm_a, contact.separation};
   const ContactPoint* deepest = nullptr;
   for (const ContactPoint& p : two) {
     if (p.s <= touching && (!deepest || p.s < deepest->s)) deepest = &p;
   }
-  if (deepest && deepest->s <= contact.separation + touching) first = *deepest;
+  if (deepest && deepest->s <= contact.separation + kTouchingPoint * size) first = *deepest;
   ContactPoint second = first;
   float farthest = 0;
   for (const ContactPoint& p : two) {
@@ -70,10 +75,11 @@ ContactPoints touch_face(const SurfaceLine& line, const Face& face, const Scaled
   ContactPoints two;
   if (line.exists && !view.is_edge_on()) {
     ClipPoints ends;
-    add_edge(face, edge_between(view.project(line.a), view.project(line.b)), ends);
+    add_edge(face, edge_between(view.project(line.a), view.project(line.b)), contact.touching(),
+             ends);
     for (const ClipPoint& c : ends) two.push_back({face.frame.point(c.x, c.y) + m * c.s, c.s});
   }
-  return reduce_line(contact, two, kTouchingPoint, kSamePoint);
+  return reduce_line(contact, two);
 }
 
 // A capsule (A) on a plane. Tolerances follow the capsule's own size, not the distance of the
@@ -91,14 +97,13 @@ inline ContactPoints touch_plane(const CapsuleShape<float>& capsule, const Place
     two = {{line.a, contact.separation + (lowest - dot(m, line.a))},
            {line.b, contact.separation + (lowest - dot(m, line.b))}};
   }
-  return reduce_line(contact, two, kTouchingPoint * size, kSamePoint * (size * size));
+  return reduce_line(contact, two, size);
 }
 
-// The length along n from a point to the cylinder around an axis; kMissed if it misses, or hits
+// The length along n from a point to the cylinder around an axis; kNoPoint if it misses, or hits
 // beyond the ends.
 inline ContactPoint enter_cylinder(const Vector3f& point, const Vector3f& n, const Vector3f& start,
                                    const Vector3f& axis, float radius) {
-  constexpr float kMissed = 1;
   const float squared = dot(axis, axis);
   const Vector3f r = point - start;
   const Vector3f n_across = n - axis * (dot(n, axis) / squared);
@@ -112,7 +117,7 @@ inline ContactPoint enter_cylinder(const Vector3f& point, const Vector3f& n, con
   const float over = max(max(-t, t - 1), 0.0f);
   const float reach = kOverhang * radius + kClipSlack;
   const bool hit = left >= 0 && (over * over) * squared <= reach * reach;
-  return {point, hit ? s : kMissed};
+  return {point, hit ? s : kNoPoint};
 }
 
 // Two capsules. They have two points if their axes are nearly parallel.
@@ -136,7 +141,7 @@ inline ContactPoints touch_capsule(const CapsuleShape<float>& capsule_a, const P
       two.push_back(enter_cylinder(line.a + along * t, n, start, axis, capsule_b.radius));
     }
   }
-  return reduce_line(contact, two, kTouchingPoint, kSamePoint);
+  return reduce_line(contact, two);
 }
 
 }  // namespace carom::scalar

@@ -1,4 +1,4 @@
-// The manifold pass of a batch: takes overlapping rows with their contacts, and gives up to four
+// The manifold pass of a batch: takes rows with their contacts, and gives up to four
 // points per row.
 #if defined(CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_MANIFOLDS_MANIFOLD_INL_H_
@@ -64,7 +64,8 @@ class ManifoldLoop {
         hn::Mul(column(tested.separation), down),
         {column(tested.normal[0]), column(tested.normal[1]), column(tested.normal[2])},
         {hn::Mul(column(tested.point_a[0]), down), hn::Mul(column(tested.point_a[1]), down),
-         hn::Mul(column(tested.point_a[2]), down)}};
+         hn::Mul(column(tested.point_a[2]), down)},
+        batch.reach ? min(hn::Mul(column(batch.reach), down), splat(kGreatestReach)) : splat(0)};
     PointLanes points;
     if constexpr (A::kKind == ShapeKind::hull || B::kKind == ShapeKind::hull) {
       leave_unless(contact_points(a, b, placed, contact, points), batch, row);
@@ -95,8 +96,8 @@ class ManifoldLoop {
     store_bytes(bytes_where(hn::Not(is_known), 1), batch.unsure, row);
   }
 
-  // Converts to metres. No point is deeper than the contact, and none is separate. A single point
-  // is the witness point.
+  // Converts to metres. No point is deeper than the contact, and none is further than the reach. A
+  // single point is the witness point.
   static HWY_INLINE void put_records(PointLanes& points, const ContactLanes& contact, F up,
                                      ManifoldRows& rows) {
     const Mask has_more = points.used[1];
@@ -109,7 +110,7 @@ class ManifoldLoop {
     for (size_t k = 0; k < 4; ++k) {
       count = hn::Add(count, hn::IfThenElseZero(points.used[k], splat(1)));
       points.point[k] = zero_unless(points.used[k], points.point[k] * up);
-      s[k] = min(max(points.s[k], contact.separation), splat(0));
+      s[k] = min(max(points.s[k], contact.separation), contact.reach);
       s[k] = hn::IfThenElseZero(points.used[k], hn::Mul(s[k], up));
     }
     const F3(&p)[4] = points.point;

@@ -40,7 +40,7 @@ requires(std::is_same_v<A, AabbShape<float>> || std::is_same_v<A, B>)  // as in 
     manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
   const Rectangle other = face_towards(-contact.normal, b, placed.b);
-  const ClipPoints points = reduce(clip(face, other, contact.normal), kSamePoint);
+  const ClipPoints points = reduce(clip(face, other, contact.normal, contact.touching()), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
 }
 
@@ -51,7 +51,7 @@ ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPa
   const Vector3f normal = triangle_face(corners).frame.n;
   if (!shows_face(b, normal, -contact.normal)) return witness_only(contact);
   const Rectangle face = face_towards(contact.normal, a, placed.a);
-  const ClipPoints points = reduce(clip(face, corners, normal, contact.normal), kSamePoint);
+  const ClipPoints points = reduce(clip(face, corners, normal, contact.normal, contact.touching()), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
 }
 
@@ -63,12 +63,12 @@ ContactPoints touch_faces(const FaceA& face_a, const CornersA& corners_a, const 
   const Vector3f& n = contact.normal;
   if (std::fabs(dot(face_b.frame.n, n)) > std::fabs(dot(face_a.frame.n, n))) {
     const Vector3f m = -n;
-    const ClipPoints few = reduce(clip(face_b, corners_a, face_a.frame.n, m), kSamePoint);
+    const ClipPoints few = reduce(clip(face_b, corners_a, face_a.frame.n, m, contact.touching()), kSamePoint);
     ContactPoints points = on_frame(face_b.frame, few);
     for (ContactPoint& p : points) p.point += m * p.s;
     return or_witness(points, contact);
   }
-  const ClipPoints few = reduce(clip(face_a, corners_b, face_b.frame.n, n), kSamePoint);
+  const ClipPoints few = reduce(clip(face_a, corners_b, face_b.frame.n, n, contact.touching()), kSamePoint);
   return or_witness(on_frame(face_a.frame, few), contact);
 }
 
@@ -115,7 +115,7 @@ ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
   const Rectangle face = face_towards(contact.normal, a, placed.a);
   const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
   const ClipPoints points =
-      reduce(clip(face, side.corners, side.face.frame.n, contact.normal), kSamePoint);
+      reduce(clip(face, side.corners, side.face.frame.n, contact.normal, contact.touching()), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
 }
 
@@ -165,7 +165,7 @@ ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPai
   const float size = a.size();
   ClipPoints all;
   for (const Point2& p : corners) {
-    keep({p.x, p.y, contact.separation + (lowest - depth(p))}, kTouchingPoint * size, all);
+    keep({p.x, p.y, contact.separation + (lowest - depth(p))}, contact.touching(size), all);
   }
   return or_witness(on_frame(face.frame, reduce(all, kSamePoint * (size * size))), contact);
 }
@@ -198,7 +198,7 @@ inline ContactPoints manifold(const HalfspaceShape<float>&, const TriangleShape<
   for (size_t i = 0; i < 3; ++i) {
     const Vector3f r = corners[i] - frame.origin;
     keep({dot(frame.u, r), dot(frame.v, r), contact.separation + (heights[i] - lowest)},
-         kTouchingPoint * size, all);
+         contact.touching(size), all);
   }
   return or_witness(on_frame(frame, reduce(all, kSamePoint * (size * size))), contact);
 }
@@ -214,7 +214,7 @@ ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPai
   ClipPoints all;
   for (const Vector3f& p : side.corners) {
     const Vector3f r = p - frame.origin;
-    keep({dot(frame.u, r), dot(frame.v, r), contact.separation - dot(m, r)}, kTouchingPoint * size,
+    keep({dot(frame.u, r), dot(frame.v, r), contact.separation - dot(m, r)}, contact.touching(size),
          all);
   }
   ContactPoints points = on_frame(frame, reduce(all, kSamePoint * (size * size)));
@@ -235,12 +235,12 @@ Placed placed_at(const Vector3f& origin, const Quaternion<float>& q) {
   return {rotation_of(q), origin};
 }
 
-// Converts to metres. No point is deeper than the contact, and none is separate.
+// Converts to metres. No point is deeper than the contact, and none is further than the reach.
 inline Manifold in_metres(const ContactPoints& points, const ScaledContact& contact, float up) {
   Manifold result;
   for (const ContactPoint& p : points) {
     Eigen::Map<Vector3f>(result.points.point[result.count].data()) = p.point * up;
-    result.points.separation[result.count] = min(max(p.s, contact.separation), 0.0f) * up;
+    result.points.separation[result.count] = min(max(p.s, contact.separation), contact.reach) * up;
     ++result.count;
   }
   return result;
@@ -250,10 +250,11 @@ inline Manifold in_metres(const ContactPoints& points, const ScaledContact& cont
 template <class A, class B>
 requires HasFaces<A, B> Manifold manifold_in_order(const A& a, const B& b,
                                                    const PairPose<float>& pose,
-                                                   const Separation& contact) {
+                                                   const Separation& contact, float reach) {
   const Scale scale = scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
   const ScaledContact scaled = {contact.separation * scale.down, contact.normal,
-                                contact.arm_a * scale.down};
+                                contact.arm_a * scale.down,
+                                min(reach * scale.down, kGreatestReach)};
   // Adding 0 turns -0 into 0, because the sign of zero depends on which body is A.
   const Vector3f d = pose.d * scale.down + Vector3f::Zero();
   const PlacedPair placed = {placed_at<A>(Vector3f::Zero(), pose.a), placed_at<B>(d, pose.b)};
@@ -264,7 +265,7 @@ requires HasFaces<A, B> Manifold manifold_in_order(const A& a, const B& b,
 // Spheres touch in one point.
 template <class B>
 Manifold manifold_in_order(const SphereShape<float>&, const B&, const PairPose<float>&,
-                           const Separation& contact) {
+                           const Separation& contact, float) {
   Manifold result;
   result.count = 1;
   Eigen::Map<Vector3f>(result.points.point[0].data()) = contact.arm_a;
@@ -274,7 +275,7 @@ Manifold manifold_in_order(const SphereShape<float>&, const B&, const PairPose<f
 
 template <class A, class B>
 concept HasManifold = requires(A a, B b, PairPose<float> pose, Separation contact) {
-  manifold_in_order(a, b, pose, contact);
+  manifold_in_order(a, b, pose, contact, 0.0f);
 };
 
 // Turns a manifold found with A and B exchanged into points on A.
@@ -290,12 +291,12 @@ inline Manifold flipped(Manifold manifold, const Vector3f& d, const Separation& 
 
 template <class A, class B>
 Manifold manifold_of_kinds(const A& a, const B& b, const PairPose<float>& pose,
-                           const Separation& contact) {
+                           const Separation& contact, float reach) {
   if constexpr (HasManifold<A, B>) {
-    return manifold_in_order(a, b, pose, contact);
+    return manifold_in_order(a, b, pose, contact, reach);
   } else if constexpr (HasManifold<B, A>) {
     const Separation other = flipped(contact);
-    return flipped(manifold_in_order(b, a, flipped(pose), other), pose.d, other);
+    return flipped(manifold_in_order(b, a, flipped(pose), other, reach), pose.d, other);
   } else {
     return {};  // no such pair
   }

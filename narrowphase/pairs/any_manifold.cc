@@ -6,10 +6,10 @@
 namespace carom::scalar {
 
 Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<float>& pose,
-                     const Separation& contact) {
+                     const Separation& contact, float reach) {
   return std::visit(
       [&](const auto& a, const auto& b) {
-        return manifold_of_kinds(shape_as<float>(a), shape_as<float>(b), pose, contact);
+        return manifold_of_kinds(shape_as<float>(a), shape_as<float>(b), pose, contact, reach);
       },
       shape_a, shape_b);
 }

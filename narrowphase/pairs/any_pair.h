@@ -12,8 +12,9 @@ namespace carom::scalar {
 template <class Real>
 SeparationAs<Real> separation_of(const Shape& a, const Shape& b, const PairPose<Real>& pose);
 
-// The manifold of an overlap, in metres, on A's surface, relative to A's position.
+// The manifold of a contact, in metres, on A's surface, relative to A's position. Its points may be
+// `reach` metres from B.
 Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<float>& pose,
-                     const Separation& contact);
+                     const Separation& contact, float reach);
 
 }  // namespace carom::scalar

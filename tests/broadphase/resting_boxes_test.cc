@@ -40,7 +40,7 @@ class History {
   History(uint64_t seed, size_t count, BoxFamily family)
       : maker_(seed), family_(family), boxes_(make_boxes(family, count, seed)) {
     add_filters();
-    parts_ = static_cast<unsigned>(maker_.random().below(8));
+    parts_ = random_parts();
   }
 
   const Boxes& boxes() const { return boxes_; }
@@ -77,7 +77,7 @@ class History {
         finder_ = PairFinder(std::move(finder_));
         return;
       case 11:
-        parts_ = static_cast<unsigned>(random().below(8));
+        parts_ = random_parts();
         return;
       case 12:
       case 13:
@@ -126,6 +126,7 @@ class History {
 
  private:
   Random& random() { return maker_.random(); }
+  unsigned random_parts() { return static_cast<unsigned>(random().below(Filters::kAllParts)); }
   TestBox fresh() { return make_box(family_, maker_, random().below(1000), boxes_.size()); }
 
   BoundsView view_of_records() const {
@@ -179,6 +180,8 @@ class History {
       filters_.mask.push_back(more.mask[i]);
       filters_.owner.push_back(more.owner[i]);
       filters_.motion.push_back(more.motion[i]);
+      filters_.group.push_back(more.group[i]);
+      filters_.space.push_back(more.space[i]);
     }
   }
 
@@ -186,7 +189,7 @@ class History {
     const Filters other(boxes_.size(), random().bits());
     for (size_t i = 0; i < boxes_.size(); ++i) {
       if (!random().chance(share)) continue;
-      switch (random().below(4)) {
+      switch (random().below(6)) {
         case 0:
           filters_.layer[i] = other.layer[i];
           break;
@@ -196,11 +199,18 @@ class History {
         case 2:
           filters_.owner[i] = other.owner[i];
           break;
+        case 3:
+          filters_.group[i] = other.group[i];
+          break;
+        case 4:
+          filters_.space[i] = other.space[i];
+          break;
         default:
           filters_.motion[i] = other.motion[i];
       }
     }
-    filters_changed_ = parts_ != 0;
+    filters_changed_ = (parts_ & 31) != 0;
+    filters_.exclude_some(plain_pairs(boxes_), boxes_.size(), random().bits());
   }
 
   void count(const PairSearch& search, size_t pairs) {

@@ -318,20 +318,37 @@ TEST_F(ErrorsTest, HalfspacesAgainstEachOther) {
 }
 
 TEST_F(ErrorsTest, ControlCharactersDoNotBreakTheLine) {
-  expect_error({"fro\nb"}, {"unknown command 'fro?b'"});
-  expect_error({"generate", "brown\nian", "-o", path("x.npz")}, {"'brown?ian'"});
-  expect_error({"run", "brownian:n=\n5"}, {"'n=?5'"});
-  expect_error({"run", "still:n=5", "--detail", "so\nme"}, {"'so?me'"});
-  expect_error({"run", path("a\nb.npz")}, {"a?b.npz"});
+  expect_error({"fro\nb"}, {"unknown command 'fro\\x0ab'"});
+  expect_error({"generate", "brown\nian", "-o", path("x.npz")}, {"'brown\\x0aian'"});
+  expect_error({"run", "brownian:n=\n5"}, {"'n=\\x0a5'"});
+  expect_error({"run", "still:n=5", "--detail", "so\nme"}, {"'so\\x0ame'"});
+  expect_error({"run", path("a\nb.npz")}, {"a\\x0ab.npz"});
   write_scene(path("a\nb.npz"), 4);
-  expect_error({"run", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
-  expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
+  expect_error({"run", path("a\nb.npz")}, {"a\\x0ab.npz: shape_kind"});
+  expect_error({"verify", path("a\nb.npz")}, {"a\\x0ab.npz: shape_kind"});
   write_pairs(path("a\nb.npz"), 4);
-  expect_error({"pairs", path("a\nb.npz"), "-o", path("x.npz")}, {"a?b.npz: shape_kind"});
-  expect_error({"verify", path("a\nb.npz")}, {"a?b.npz: shape_kind"});
+  expect_error({"pairs", path("a\nb.npz"), "-o", path("x.npz")}, {"a\\x0ab.npz: shape_kind"});
+  expect_error({"verify", path("a\nb.npz")}, {"a\\x0ab.npz: shape_kind"});
   write_pairs(path("a\nb.npz"), 2);
   const std::string table = run_command({"verify", path("a\nb.npz"), "--threads", "1"}).out;
-  EXPECT_NE(table.find("a?b.npz"), std::string::npos) << table;
+  EXPECT_NE(table.find("a\\x0ab.npz"), std::string::npos) << table;
+}
+
+TEST_F(ErrorsTest, ForeignBytesDoNotReachTheTerminal) {
+  const std::string steering =
+      "\x1b]0;owned\x07\x9b"
+      "31m\xff";
+  const std::string shown = "\\x1b]0;owned\\x07\\x9b31m\\xff";
+  expect_error({steering}, {"unknown command '" + shown + "'"});
+  expect_error({"run", steering}, {shown});
+  expect_error({"run", "still:n=" + steering}, {"'n=" + shown + "'"});
+  expect_error({"run", "still:n=5", "--detail", steering}, {"'" + shown + "'"});
+  expect_error({"run", "still:n=5", "--isa", steering}, {shown});
+  expect_error({"run", "still:n=5", "--" + steering}, {shown});
+  expect_error({"accuracy", "--pairs", steering}, {shown});
+  const std::string endless(100'000, 'x');
+  const std::string message = run_command({endless}).err;
+  EXPECT_LT(message.size(), 1000u) << message;
 }
 
 TEST_F(ErrorsTest, OutputsOfAFailedRunDoNotAppear) {

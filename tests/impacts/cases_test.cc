@@ -257,5 +257,28 @@ TEST(ImpactCases, CornersThatAlmostCoincide) {
   });
 }
 
+// Edges that cross while both turn and hardly approach each other. Along a direction that does not
+// turn with them the search crept, and ended 1e-3 of the size too early.
+TEST(ImpactCases, EdgesThatCrossWhileTheyTurn) {
+  const Box half{{0x1.287ceap-1f, 0x1.94a4aep-2f, 0x1.c10d92p-1f}};
+  MovedPair pair = moved({half,
+                          {-0x1.84750cp+2, -0x1.e3d3f4p+0, -0x1.61aab8p+0},
+                          {0x1.3f5bb8p-1f, -0x1.777814p-1f, -0x1.e8d9dcp-3f, -0x1.04807p-3f}},
+                         {0x1.5fe902p-1f, 0x1.8f7d78p-1f, 0x1.0d8792p-5f},
+                         {half,
+                          {-0x1.26da98p+2, -0x1.1cb104p+0, -0x1.03a15ap+0},
+                          {-0x1.dce84cp-1f, 0x1.5a72a8p-3f, -0x1.48cf22p-5f, 0x1.4749b8p-2f}});
+  pair.sweep_a.rotation = {-0x1.db6cc2p-5f, 0x1.c73f04p-7f, -0x1.da7b62p-8f};
+  pair.sweep_b.rotation = {-0x1.2fe612p-3f, -0x1.a710f6p-1f, 0x1.8f3812p+0f};
+  for_each_isa([&] {
+    for (const MovedPair& motion : {pair, swapped(pair)}) {
+      const ImpactRow row = impact_of(motion);
+      EXPECT_EQ(row.status, static_cast<uint32_t>(Status::ok));
+      EXPECT_NEAR(row.toi, 0.467821754, 1e-7);
+      EXPECT_EQ(judge(motion, row.toi).fault, Fault::none);
+    }
+  });
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -35,7 +35,9 @@ SceneInfo full_info() {
   info.layer = {1, 2, 3};
   info.mask = {4, 5, 6};
   info.owner = {0, 7, 7};
+  info.space = {0, 4, 4};
   info.sensor = {0, 0, 1};
+  info.excluded_pairs = {{1, 2}, {0, 2}};
   return info;
 }
 
@@ -142,7 +144,9 @@ TEST_F(SceneTest, ReadsWhatItWritesAndWrapsAround) {
     EXPECT_EQ(read.layer, info.layer);
     EXPECT_EQ(read.mask, info.mask);
     EXPECT_EQ(read.owner, info.owner);
+    EXPECT_EQ(read.space, info.space);
     EXPECT_EQ(read.sensor, info.sensor);
+    EXPECT_EQ(read.excluded_pairs, info.excluded_pairs);
     SceneFrame frame;
     for (size_t f = 0; f < 7; ++f) {
       ASSERT_TRUE(succeeds((*scene)->read_frame(frame)));
@@ -238,6 +242,17 @@ TEST_F(SceneTest, WrongMembersAreNamed) {
               HasSubstr("member orientation: has shape (1, 2, 3) (float32 (1, 2, 4)"));
   EXPECT_THAT(error_with(array<float>("body_motion", "<f4", "(2,)", {1, 1})),
               HasSubstr("member body_motion: has dtype float32 (uint8 (2,)"));
+  EXPECT_THAT(error_with(array<uint32_t>("body_space", "<u4", "(1,)", {1})),
+              HasSubstr("member body_space: has shape (1,) (uint32 (2,) was expected)"));
+  EXPECT_THAT(error_with(array<uint32_t>("excluded_pairs", "<u4", "(2,)", {0, 1})),
+              HasSubstr("member excluded_pairs: has shape (2,) (uint32 (any, 2) was expected)"));
+  EXPECT_THAT(error_with(array<uint32_t>("excluded_pairs", "<u4", "(1, 3)", {0, 1, 1})),
+              HasSubstr("member excluded_pairs: has shape (1, 3)"));
+  EXPECT_THAT(error_with(array<int32_t>("excluded_pairs", "<i4", "(1, 2)", {0, 1})),
+              HasSubstr("member excluded_pairs: has dtype int32"));
+  EXPECT_THAT(error_with(array<uint32_t>("excluded_pairs", "<u4", "(2, 2)", {0, 1, 1, 0})),
+              HasSubstr("member excluded_pairs: row 1 is (1, 0)"));
+  EXPECT_EQ(error_with(array<uint32_t>("excluded_pairs", "<u4", "(0, 2)", {})), "");
   EXPECT_THAT(error_with(array<double>("dt", "<f8", "()", {1})),
               HasSubstr("member dt: has shape () (float64 (1,)"));
 }
@@ -265,6 +280,25 @@ TEST_F(SceneTest, ChecksValuesAndIndices) {
             "F: member body_motion: element 0 is 3 (at most 2 was expected)");
   EXPECT_EQ(check_after([](SceneInfo& i) { i.sensor[0] = 2; }),
             "F: member body_sensor: element 0 is 2 (at most 1 was expected)");
+  EXPECT_THAT(check_after([](SceneInfo& i) { i.space.push_back(1); }),
+              HasSubstr("F: member body_space: holds 4 elements"));
+  EXPECT_EQ(check_after([](SceneInfo& i) {
+              i.excluded_pairs[1] = {2, 1};
+            }),
+            "F: member excluded_pairs: row 1 is (2, 1) (two bodies a < b of 3 were expected)");
+  EXPECT_THAT(check_after([](SceneInfo& i) {
+                i.excluded_pairs[0] = {1, 1};
+              }),
+              HasSubstr("F: member excluded_pairs: row 0 is (1, 1)"));
+  EXPECT_THAT(check_after([](SceneInfo& i) {
+                i.excluded_pairs[0] = {0, 3};
+              }),
+              HasSubstr("F: member excluded_pairs: row 0 is (0, 3)"));
+  EXPECT_EQ(check_after([](SceneInfo& i) {
+              i.excluded_pairs.assign(9, {0, 1});
+            }),
+            "")
+      << "a pair may be there twice";
   EXPECT_THAT(check_after([](SceneInfo& i) { i.layer.pop_back(); }),
               HasSubstr("member body_layer: holds 2 elements"));
   EXPECT_EQ(check_after([](SceneInfo& i) {

@@ -18,7 +18,7 @@ std::vector<CastHit> cast_all(const Collidables& queries, const SweepView& sweep
                               const Collidables& bodies, CastHits which,
                               Parallelism parallelism = Parallelism::none) {
   std::vector<CastHit> hits(3);
-  const Result<void> done = cast(queries, sweep, bodies, which, hits, parallelism);
+  const Result<void> done = cast(queries, sweep, bodies, hits, {.hits = which, .parallelism = parallelism});
   EXPECT_TRUE(bool(done)) << done.error().message;
   return hits;
 }
@@ -180,8 +180,8 @@ TEST(Cast, FailsForAKindThatIsNone) {
   Collidables query = sphere_records(record.data(), 1);
   std::vector<CastHit> hits(2);
   query.uniform_kind = static_cast<ShapeKind>(77);
-  for (const CastHits which : {CastHits::all, CastHits::closest}) {
-    const Result<void> done = cast(query, {}, bodies.view(), which, hits);
+  for (const CastHits which : {CastHits::all, CastHits::closest, CastHits::any}) {
+    const Result<void> done = cast(query, {}, bodies.view(), hits, {.hits = which});
     EXPECT_TRUE(hits.empty());
     EXPECT_FALSE(bool(done));
   }
@@ -240,7 +240,7 @@ TEST(Cast, InAnyFloatMode) {
     std::vector<CastHit> hits;
     {
       const ScopedFloatMode scoped(mode);
-      (void)cast(a.view(), sweeps.view(), b.view(), CastHits::closest, hits);
+      (void)cast(a.view(), sweeps.view(), b.view(), hits);
     }
     EXPECT_TRUE(bits_of(hits) == bits_of(expected)) << mode.name;
   }

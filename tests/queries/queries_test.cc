@@ -88,7 +88,8 @@ std::vector<Nearest> expected_nearest(const std::vector<PlacedShape>& queries,
   const std::vector<Pair> pairs = all_pairs(queries, bodies);
   Measurements all(pairs.size());
   EXPECT_TRUE(
-      bool(collide(a.view(), b.view(), pairs, Detail::contact, all.columns(), WitnessFrame::body)));
+      bool(collide(a.view(), b.view(), pairs, Detail::contact, all.columns(),
+                   {.frame = WitnessFrame::body})));
   std::vector<Nearest> nearest;
   for (size_t i = 0; i < pairs.size();) {
     const uint32_t query = pairs[i].a;
@@ -113,11 +114,11 @@ void expect_hits(const std::vector<PlacedShape>& queries, const std::vector<Plac
                  Parallelism parallelism = Parallelism::none) {
   const LaidOut a(queries, {.positions = positions}), b(bodies, {.positions = positions});
   std::vector<OverlapHit> overlaps = {{1, 2}};
-  ASSERT_TRUE(bool(find_overlaps(a.view(), b.view(), overlaps, parallelism)));
+  ASSERT_TRUE(bool(find_overlaps(a.view(), b.view(), overlaps, {.parallelism = parallelism})));
   EXPECT_TRUE(overlaps == expected_overlaps(queries, bodies, positions));
   for (const float within : {-0.1f, 0.0f, 0.3f, kNoLimit}) {
     std::vector<NearestHit> nearest(1);
-    ASSERT_TRUE(bool(find_nearest(a.view(), within, b.view(), nearest, parallelism)));
+    ASSERT_TRUE(bool(find_nearest(a.view(), within, b.view(), nearest, {.parallelism = parallelism})));
     EXPECT_TRUE(nearest_of(nearest) == expected_nearest(queries, bodies, within, positions))
         << "within " << within << ", " << queries.size() << " queries, " << bodies.size()
         << " bodies, " << nearest.size() << " hits";
@@ -169,8 +170,8 @@ TEST(Queries, AreTheSameOnThreadsAndInAnyOrder) {
     arena.run([&] {
       std::vector<OverlapHit> again;
       std::vector<NearestHit> nearest_again;
-      ASSERT_TRUE(bool(find_overlaps(a.view(), b.view(), again, arena.parallelism())));
-      ASSERT_TRUE(bool(find_nearest(a.view(), 1, b.view(), nearest_again, arena.parallelism())));
+      ASSERT_TRUE(bool(find_overlaps(a.view(), b.view(), again, {.parallelism = arena.parallelism()})));
+      ASSERT_TRUE(bool(find_nearest(a.view(), 1, b.view(), nearest_again, {.parallelism = arena.parallelism()})));
       EXPECT_TRUE(again == overlaps);
       EXPECT_TRUE(nearest_of(nearest_again) == expected);
     });

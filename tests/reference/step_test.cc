@@ -57,6 +57,8 @@ class Crowd {
     body.desc.mask = static_cast<uint32_t>(1 + random_.below(7));
     body.desc.owner = static_cast<uint32_t>(random_.below(6));
     body.desc.sensor = random_.chance(0.2);
+    if (random_.chance(0.3)) body.desc.group = static_cast<int32_t>(random_.below(5)) - 2;
+    body.desc.space = random_.chance(0.1) ? 1 : 0;
     if (random_.chance(0.03)) body.desc.position.x() = std::nan("");
     return body;
   }
@@ -88,9 +90,12 @@ bool boxes_overlap(const Body& a, const Body& b, PositionType positions) {
   return true;
 }
 
-bool filter_passes(const BodyDesc& a, const BodyDesc& b) {
+bool filter_passes(const BodyDesc& a, const BodyDesc& b, FilterRule rule = FilterRule::both) {
   if (a.motion == Motion::fixed && b.motion == Motion::fixed) return false;
   if (a.owner == b.owner && a.owner != 0) return false;
+  if (a.space != b.space) return false;
+  if (a.group == b.group && a.group != 0) return a.group > 0;
+  if (rule == FilterRule::either) return (a.layer & b.mask) || (b.layer & a.mask);
   return (a.layer & b.mask) && (b.layer & a.mask);
 }
 
@@ -126,16 +131,27 @@ Touching simple_touching(const std::vector<Body>& bodies, PositionType positions
   return touching;
 }
 
-using EventKey = std::tuple<BodyId, BodyId, EventKind, bool>;
+using EventKey = std::tuple<BodyId, BodyId, EventKind, bool, int>;
 
-std::set<EventKey> simple_events(const Touching& before, const Touching& now) {
+// 1: removed, 4: quarantined.
+int simple_fate(BodyId id, const std::vector<Body>& bodies) {
+  for (const Body& body : bodies) {
+    if (body.id == id) return is_spoilt(body) ? 4 : 0;
+  }
+  return 1;
+}
+
+std::set<EventKey> simple_events(const Touching& before, const Touching& now,
+                                 const std::vector<Body>& bodies) {
   std::set<EventKey> events;
   for (const auto& [ids, sensor] : now) {
     const EventKind kind = before.contains(ids) ? EventKind::persist : EventKind::begin;
-    events.insert({ids.first, ids.second, kind, sensor});
+    events.insert({ids.first, ids.second, kind, sensor, 0});
   }
   for (const auto& [ids, sensor] : before) {
-    if (!now.contains(ids)) events.insert({ids.first, ids.second, EventKind::end, sensor});
+    if (now.contains(ids)) continue;
+    const int gone = simple_fate(ids.first, bodies) + 2 * simple_fate(ids.second, bodies);
+    events.insert({ids.first, ids.second, EventKind::end, sensor, gone});
   }
   return events;
 }
@@ -194,8 +210,8 @@ void check_frame(const Frame& frame, const std::vector<Body>& bodies, PositionTy
   expect_event_contacts(frame);
   expect_sorted(frame.events);
   std::set<EventKey> events;
-  for (const Event& e : frame.events) events.insert({e.a, e.b, e.kind, e.sensor});
-  EXPECT_EQ(events, simple_events(before, now));
+  for (const Event& e : frame.events) events.insert({e.a, e.b, e.kind, e.sensor, e.gone});
+  EXPECT_EQ(events, simple_events(before, now, bodies));
   std::vector<BodyId> quarantined;
   for (const Body& body : bodies) {
     if (is_spoilt(body)) quarantined.push_back(body.id);
@@ -398,9 +414,30 @@ TEST(ReferenceStep, ApproachingBodiesHaveNegativeNormalVelocity) {
   EXPECT_EQ(frame.contacts[0].separation, -0.5f);
 }
 
+TEST(ReferenceFilter, ExcludedPairsAndThePredicate) {
+  const Crowd crowd(150, 3);
+  const auto pairs = [&](const reference::Filters& filters) {
+    return reference::step(crowd.bodies(), PositionType::float32, Detail::pairs, false, nullptr, {},
+                           filters)
+        .pairs;
+  };
+  const std::vector<Pair> all = pairs({});
+  ASSERT_GT(all.size(), 20u);
+  std::vector<Pair> excluded, left;
+  for (size_t i = 0; i < all.size(); ++i) (i % 3 == 0 ? excluded : left).push_back(all[i]);
+  EXPECT_EQ(pairs({.excluded = excluded}), left);
+  const PairPredicate odd = [](std::span<const Pair> asked, std::span<uint8_t> keep) {
+    for (size_t i = 0; i < asked.size(); ++i) keep[i] = asked[i].b % 2;
+  };
+  std::erase_if(left, [](Pair pair) { return pair.b % 2 == 0; });
+  EXPECT_FALSE(left.empty());
+  EXPECT_EQ(pairs({.excluded = excluded, .predicate = odd}), left);
+  EXPECT_GT(pairs({.rule = FilterRule::either}).size(), all.size());
+}
+
 RC_GTEST_PROP(ReferenceFilter, IsSymmetric,
               (uint8_t layer_a, uint8_t mask_a, uint8_t layer_b, uint8_t mask_b, bool owned,
-               bool fixed_a, bool fixed_b)) {
+               bool fixed_a, bool fixed_b, bool apart)) {
   BodyDesc a;
   BodyDesc b;
   a.layer = layer_a;
@@ -410,8 +447,13 @@ RC_GTEST_PROP(ReferenceFilter, IsSymmetric,
   a.owner = b.owner = owned ? 5 : 0;
   if (fixed_a) a.motion = Motion::fixed;
   if (fixed_b) b.motion = Motion::fixed;
-  RC_ASSERT(reference::may_meet(a, b) == reference::may_meet(b, a));
-  RC_ASSERT(reference::may_meet(a, b) == filter_passes(a, b));
+  a.group = *rc::gen::inRange(-1, 2);
+  b.group = *rc::gen::inRange(-1, 2);
+  b.space = apart ? 1 : 0;
+  for (const FilterRule rule : {FilterRule::both, FilterRule::either}) {
+    RC_ASSERT(reference::may_meet(a, b, rule) == reference::may_meet(b, a, rule));
+    RC_ASSERT(reference::may_meet(a, b, rule) == filter_passes(a, b, rule));
+  }
 }
 
 TEST(ReferenceOverlap, ClosedBoxes) {

@@ -169,6 +169,31 @@ Filters::Filters(size_t count, uint64_t seed) {
     owner.push_back(static_cast<uint32_t>(random.below(6)));
     motion.push_back(static_cast<Motion>(random.below(3)));
   }
+  Random others(seed + 1);
+  for (size_t i = 0; i < count; ++i) {
+    group.push_back(static_cast<int32_t>(others.below(7)) - 3);
+    space.push_back(others.chance(0.2) ? 1 : 0);
+  }
+}
+
+void Filters::exclude_some(const std::vector<Pair>& pairs, size_t count, uint64_t seed) {
+  Random random(seed);
+  excluded.clear();
+  for (const Pair pair : pairs) {
+    if (random.chance(0.3)) excluded.push_back(pair);
+    const auto a = static_cast<uint32_t>(random.below(count));
+    const auto b = static_cast<uint32_t>(random.below(count));
+    if (a != b && random.chance(0.3)) excluded.push_back({std::min(a, b), std::max(a, b)});
+  }
+  std::sort(excluded.begin(), excluded.end());
+  excluded.erase(std::unique(excluded.begin(), excluded.end()), excluded.end());
+}
+
+void Filters::drops_some(std::span<const Pair> pairs, std::span<uint8_t> keep) {
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const uint64_t mixed = pair_key(pairs[i]) * 0x9e3779b97f4a7c15u;
+    if (mixed >> 62 == 0) keep[i] = 0;
+  }
 }
 
 PairFilter Filters::view(unsigned parts) const {
@@ -177,14 +202,27 @@ PairFilter Filters::view(unsigned parts) const {
   if (parts & 1) filter.mask = mask.data();
   if (parts & 2) filter.owner = owner.data();
   if (parts & 4) filter.motion = motion.data();
+  if (parts & 8) filter.group = group.data();
+  if (parts & 16) filter.space = space.data();
+  if (parts & 32) filter.rule = FilterRule::either;
+  if (parts & 64) filter.excluded = excluded;
+  if (parts & 128) filter.predicate = &predicate;
   return filter;
 }
 
 bool may_meet(const PairFilter& f, uint32_t a, uint32_t b) {
-  const bool layers = !f.layer || ((f.layer[a] & f.mask[b]) != 0 && (f.layer[b] & f.mask[a]) != 0);
+  const int agree = f.layer ? ((f.layer[a] & f.mask[b]) != 0) + ((f.layer[b] & f.mask[a]) != 0) : 2;
+  const bool layers = agree >= (f.rule == FilterRule::both ? 2 : 1);
   const bool owners = !f.owner || f.owner[a] != f.owner[b] || f.owner[a] == 0;
   const bool motion = !f.motion || f.motion[a] != Motion::fixed || f.motion[b] != Motion::fixed;
-  return layers && owners && motion;
+  const bool spaces = !f.space || f.space[a] == f.space[b];
+  const int32_t group = f.group && f.group[a] == f.group[b] ? f.group[a] : 0;
+  if (!owners || !motion || !spaces || group < 0 || (!layers && group == 0)) return false;
+  const Pair pair = {a, b};
+  if (std::find(f.excluded.begin(), f.excluded.end(), pair) != f.excluded.end()) return false;
+  uint8_t keep = 1;
+  if (f.predicate) (*f.predicate)({&pair, 1}, {&keep, 1});
+  return keep != 0;
 }
 
 std::vector<Pair> plain_pairs(const Boxes& boxes, const PairFilter& filter) {

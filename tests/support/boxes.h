@@ -93,14 +93,28 @@ Boxes make_boxes(BoxFamily family, size_t count, uint64_t seed = 1);
 struct Filters {
   std::vector<uint32_t> layer, mask, owner;
   std::vector<Motion> motion;
+  std::vector<int32_t> group;
+  std::vector<uint32_t> space;
+  std::vector<Pair> excluded;  // sorted
+  PairPredicate predicate = drops_some;
 
   Filters() = default;
+  // Random columns; no pair is excluded.
   Filters(size_t count, uint64_t seed);
 
-  // The filters whose bits are set: bit 0 layers and masks, 1 owners, 2 motion.
+  // Excludes some of these pairs and as many that need not meet, of `count` boxes.
+  void exclude_some(const std::vector<Pair>& pairs, size_t count, uint64_t seed);
+
+  // The filters whose bits are set: bit 0 layers and masks, 1 owners, 2 motion, 3 groups, 4 spaces,
+  // 5 FilterRule::either, 6 excluded pairs, 7 the predicate.
   PairFilter view(unsigned parts) const;
+  static constexpr unsigned kAllParts = 256;
+
+  // A predicate that drops about one pair in four.
+  static void drops_some(std::span<const Pair> pairs, std::span<uint8_t> keep);
 };
 
+// Slow and plain: asks the predicate about one pair.
 bool may_meet(const PairFilter& f, uint32_t a, uint32_t b);
 
 // --- The brute-force search ---

@@ -47,7 +47,7 @@ std::vector<CastHit> brute_force(const Collidables& queries, const SweepView& sw
                                             .normal = three(0),
                                             .point_b = three(3),
                                             .sub_b = sub_shape.data()},
-                                           WitnessFrame::body);
+                                           {.frame = WitnessFrame::body});
   EXPECT_TRUE(bool(done)) << done.error().message;
   std::vector<CastHit> hits;
   for (size_t i = 0; i < count; ++i) {

@@ -1,6 +1,6 @@
 #include "tests/support/hull_checks.h"
 
-namespace carom::io {
+namespace carom::hulls {
 
 double support(std::span<const Vector3f> points, const Vector3d& direction) {
   double best = -std::numeric_limits<double>::infinity();
@@ -97,4 +97,4 @@ void expect_closed(const BuiltHull& hull) {
   }
 }
 
-}  // namespace carom::io
+}  // namespace carom::hulls

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "io/build_hull.h"
+#include "carom/hulls/build_hull.h"
 #include "oracle/convex_oracle.h"
 
-namespace carom::io {
+namespace carom::hulls {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -52,4 +52,4 @@ void expect_inside(const Points& points, const BuiltHull& hull, double tolerance
 // Every edge occurs once in each direction.
 void expect_closed(const BuiltHull& hull);
 
-}  // namespace carom::io
+}  // namespace carom::hulls

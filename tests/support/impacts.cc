@@ -101,9 +101,9 @@ Result<void> try_impacts(std::span<const MovedPair> pairs, const ImpactCall& cal
   for (uint32_t i = 0; i < count; ++i) list.set(place(i), Pair{i, i});
   ImpactTable table(count, call.missing);
   const ScopedFloatMode mode(call.mode);
-  const Result<void> result =
-      time_of_impact(a.view(), moved_a.view(), b.view(), moved_b.view(),
-                     std::span(list.as<Pair>(), count), table.out(), call.frame, call.parallelism);
+  const Result<void> result = time_of_impact(
+      a.view(), moved_a.view(), b.view(), moved_b.view(), std::span(list.as<Pair>(), count),
+      table.out(), {.frame = call.frame, .parallelism = call.parallelism});
   for (uint32_t i = 0; i < count; ++i) rows.push_back(table.row(place(i)));
   return result;
 }

@@ -89,6 +89,26 @@ std::vector<MotionFamily> hard_motions() {
        .most_travel = 0,
        .most_turn = 6,
        .through_contact = true},
+      {.name = "crossing edges",
+       .plan = crossing,
+       .positions = float64,
+       .least_travel = 1e-3,
+       .most_travel = 1,
+       .most_turn = 2},
+      {.name = "crossing edges that spin",
+       .plan = crossing,
+       .positions = float64,
+       .least_travel = 1e-3,
+       .most_travel = 10,
+       .most_turn = 30},
+      {.name = "crossing edges nearly parallel",
+       .plan = crossing,
+       .positions = float64,
+       .least_travel = 1e-3,
+       .most_travel = 1,
+       .most_turn = 2,
+       .near_parallel = true,
+       .turn_together = true},
   };
 }
 
@@ -124,6 +144,9 @@ MovedPair MotionMaker::next() {
       move(tangent() + normal() * random_.log_uniform(1e-6, 10));
       break;
     case MotionPlan::coincident:
+      break;
+    case MotionPlan::crossing:
+      cross_edges();
       break;
   }
   if (family_.through_contact) turn_on_contact();
@@ -170,6 +193,11 @@ Eigen::Quaternionf MotionMaker::turned_a_little(const Eigen::Quaternionf& q) {
 void MotionMaker::make_sweeps() {
   for (Sweep* sweep : {&pair_.sweep_a, &pair_.sweep_b}) {
     if (random_.chance(0.7)) sweep->rotation = turn().cast<float>();
+  }
+  if (family_.turn_together) {
+    const Eigen::Vector3f& both = pair_.sweep_a.rotation;
+    const Vec change = random_.direction() * both.norm() * random_.log_uniform(1e-6, 1);
+    pair_.sweep_b.rotation = both + change.cast<float>();
   }
   if (family_.most_travel == 0) return;
   move(random_.direction() * random_.log_uniform(family_.least_travel, family_.most_travel));
@@ -278,6 +306,31 @@ Eigen::Vector3d MotionMaker::tangent() {
   const double travel = random_.log_uniform(family_.least_travel, family_.most_travel);
   const Vec any = random_.direction() * travel;
   return any - normal_ * normal_.dot(any);
+}
+
+void MotionMaker::cross_edges() {
+  if (is_plane(a()) || is_plane(b())) return aim(most_miss());
+  const double t = random_.uniform(0.1, 1);
+  const MovingShape<double> shape_a(a().shape, a().pose(), pair_.sweep_a);
+  const MovingShape<double> shape_b(b().shape, b().pose(), pair_.sweep_b);
+  const TurnedShape<double> turned_a(shape_a, t), turned_b(shape_b, t);
+  normal_ = random_.direction();
+  Vec edge_a = Vec::Zero(), edge_b = Vec::Zero();
+  const auto way = [&](double sign) -> Vec3<double> {
+    return {sign * normal_.x(), sign * normal_.y(), sign * normal_.z()};
+  };
+  for (int i = 0; i < 4; ++i) {  // after a few rounds the normal mostly points out of both edges
+    edge_a = eigen(turned_a.ridge(way(1)));
+    edge_b = eigen(turned_b.ridge(way(-1)));
+    const Vec across = edge_a.cross(edge_b);
+    if (!(across.norm() > 0)) break;
+    normal_ = across.normalized() * (across.dot(normal_) < 0 ? -1 : 1);
+  }
+  const Vec on_a = eigen(turned_a.corner(way(1))) + edge_a * random_.uniform(0, 1);
+  const Vec on_b = eigen(turned_b.corner(way(-1))) + edge_b * random_.uniform(0, 1);
+  move(tangent() - normal() * random_.log_uniform(1e-6, 1));
+  const Vec apart = normal() * (shape_a.radius() + shape_b.radius() + near_gap() * size_);
+  b().position = stored(a().position + (on_a - on_b) + apart - velocity() * t);
 }
 
 void MotionMaker::turn_on_contact() {

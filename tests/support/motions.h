@@ -43,6 +43,7 @@ enum class MotionPlan {
   touching,    // starts within that distance of touching, and moves in any direction
   parting,     // starts separate, and moves away
   coincident,  // starts at the same position
+  crossing,    // an edge of each meets the other's, or misses it by that distance, while both turn
 };
 
 struct MotionFamily {
@@ -60,6 +61,7 @@ struct MotionFamily {
   bool degenerate = false;       // zero radii, zero lengths, flat boxes, triangles without area
   bool near_parallel = false;    // orientations of the two differ by 0, 1e-8 or 1e-4
   bool through_contact = false;  // B turns about an axis through its point nearest to A
+  bool turn_together = false;    // rotations of the two differ by 1e-6 to 1 of A's
 };
 
 // The name of a family in failures.
@@ -150,6 +152,9 @@ class MotionMaker {
 
   Vec normal() const { return normal_; }
   Vec tangent();
+
+  // Places B so that an edge of A and one of B cross at some time, and lets the gap close slowly.
+  void cross_edges();
 
   void turn_on_contact();
 

@@ -28,8 +28,7 @@ LaidOutRowPairs::LaidOutRowPairs(std::span<const TestPair> pairs, const Call& ca
 std::vector<Row> LaidOutRowPairs::run(const Call& call) const {
   Columns columns(a_.view().count, call.missing);
   expect_success(call, [&] {
-    return collide_rows(a_.view(), b_.view(), call.detail, columns.out(), call.frame,
-                        call.parallelism, call.measured, call.accuracy);
+    return collide_rows(a_.view(), b_.view(), call.detail, columns.out(), options_of(call));
   });
   return columns.rows();
 }

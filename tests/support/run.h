@@ -22,7 +22,16 @@ struct Call {
   FloatMode mode = kDefaultMode;
   Measured measured = Measured::all;
   Accuracy accuracy = {};
+  float contact_distance = 0;
 };
+
+inline CollideOptions options_of(const Call& call) {
+  return {.frame = call.frame,
+          .parallelism = call.parallelism,
+          .measured = call.measured,
+          .accuracy = call.accuracy,
+          .contact_distance = call.contact_distance};
+}
 
 Call call_with(PositionType positions);
 

@@ -45,6 +45,7 @@ bool are_same(const std::vector<NearestHit>& x, const std::vector<NearestHit>& y
 // `ids`, which ascend by index, are the bodies that queries may meet.
 void expect_cast_hits(const World& world, std::span<const BodyId> ids, uint32_t mask = ~0u) {
   const PositionType positions = world.settings().positions;
+  const Parallelism parallelism = world.settings().parallelism;
   const AsArrays arrays = as_arrays(world, ids);
   const std::vector<PlacedShape> queries =
       make_bodies({.count = 50, .side = 7, .positions = positions}, 3);
@@ -54,19 +55,22 @@ void expect_cast_hits(const World& world, std::span<const BodyId> ids, uint32_t 
 
   for (const CastHits which : {CastHits::all, CastHits::closest}) {
     std::vector<CastHit> expected, hits(1);
-    ASSERT_TRUE(bool(cast(a.view(), sweeps.view(), b.view(), which, expected)));
-    world.cast(a.view(), sweeps.view(), which, hits, mask);
+    ASSERT_TRUE(bool(cast(a.view(), sweeps.view(), b.view(), expected, {.hits = which})));
+    world.cast(a.view(), sweeps.view(), hits,
+               {.hits = which, .filter = {.mask = mask}, .parallelism = parallelism});
     EXPECT_TRUE(bits_of(hits) == bits_of(with_indices(expected, arrays)))
         << show(hits, with_indices(expected, arrays));
   }
   std::vector<OverlapHit> expected_overlaps, overlaps(1);
   ASSERT_TRUE(bool(find_overlaps(a.view(), b.view(), expected_overlaps)));
-  world.find_overlaps(a.view(), overlaps, mask);
+  world.find_overlaps(a.view(), overlaps,
+                      {.filter = {.mask = mask}, .parallelism = parallelism});
   EXPECT_TRUE(overlaps == with_indices(expected_overlaps, arrays));
   for (const float within : {0.2f, std::numeric_limits<float>::infinity()}) {
     std::vector<NearestHit> expected_nearest, nearest(1);
     ASSERT_TRUE(bool(find_nearest(a.view(), within, b.view(), expected_nearest)));
-    world.find_nearest(a.view(), within, nearest, mask);
+    world.find_nearest(a.view(), within, nearest,
+                       {.filter = {.mask = mask}, .parallelism = parallelism});
     EXPECT_TRUE(are_same(nearest, with_indices(expected_nearest, arrays)));
   }
 }

@@ -24,6 +24,8 @@ BodyDesc History::random_body(double side, bool filters) {
   if (chance(0.3)) body.mask = 5;
   if (chance(0.3)) body.owner = 1 + static_cast<uint32_t>(uniform(0, 4));
   body.sensor = chance(0.2);
+  if (filters_.chance(0.2)) body.group = static_cast<int32_t>(filters_.below(5)) - 2;
+  if (filters_.chance(0.1)) body.space = static_cast<uint32_t>(filters_.below(3));
   if (chance(0.02)) body.position.x() = NAN;
   return body;
 }
@@ -41,6 +43,8 @@ void History::remove_random() {
   EXPECT_FALSE(world_.contains(id));
   EXPECT_FALSE(world_.remove(id));
   bodies_.erase(id.index);
+  std::erase_if(excluded_,
+                [&](const Pair& pair) { return pair.a == id.index || pair.b == id.index; });
 }
 
 void History::move(double share, double distance) {
@@ -119,7 +123,11 @@ void History::change_random_body(double side, bool filters) {
       body.desc.layer = other.layer;
       body.desc.mask = other.mask;
       body.desc.owner = other.owner;
+      body.desc.group = other.group;
+      body.desc.space = other.space;
       world_.set_filter(body.id, other.layer, other.mask, other.owner);
+      world_.set_group(body.id, other.group);
+      world_.set_space(body.id, other.space);
       break;
     default:
       body.desc.sensor = other.sensor;
@@ -127,23 +135,73 @@ void History::change_random_body(double side, bool filters) {
   }
 }
 
+void History::change_excluded() {
+  if (bodies_.size() < 2) return;
+  const auto random_body = [&] {
+    return std::next(bodies_.begin(), static_cast<ptrdiff_t>(filters_.below(bodies_.size())))
+        ->second.id;
+  };
+  for (size_t i = filters_.below(10); i > 0; --i) {
+    BodyId a = random_body(), b = random_body();
+    if (!frame_.pairs.empty() && filters_.chance(0.7)) {
+      const Pair pair = frame_.pairs[filters_.below(frame_.pairs.size())];
+      if (!bodies_.contains(pair.a) || !bodies_.contains(pair.b)) continue;
+      a = bodies_[pair.a].id;
+      b = bodies_[pair.b].id;
+    }
+    if (!excluded_.empty() && filters_.chance(0.3)) {
+      const auto at = static_cast<ptrdiff_t>(filters_.below(excluded_.size()));
+      const Pair pair = *std::next(excluded_.begin(), at);
+      a = bodies_[pair.a].id;
+      b = bodies_[pair.b].id;
+    }
+    if (a == b) continue;
+    if (filters_.chance(0.5)) std::swap(a, b);
+    const Pair pair = {std::min(a.index, b.index), std::max(a.index, b.index)};
+    if (filters_.chance(excluded_.contains(pair) ? 0.2 : 0.9)) {
+      world_.exclude(a, b);
+      excluded_.insert(pair);
+    } else {
+      world_.include_again(a, b);
+      excluded_.erase(pair);
+    }
+    EXPECT_EQ(world_.is_excluded(a, b), excluded_.contains(pair));
+  }
+}
+
+void History::change_predicate() {
+  const uint64_t odd = filters_.bits() | 1;
+  predicate_ = [odd](std::span<const Pair> pairs, std::span<uint8_t> keep) {
+    for (size_t i = 0; i < pairs.size(); ++i)
+      keep[i] = (pair_key(pairs[i]) * odd) >> 32 >= 0x33333333u;
+  };
+  world_.set_pair_predicate(predicate_);
+}
+
+std::vector<Event> History::wanted_events(std::vector<Event> events) const {
+  if (!world_.settings().events) return {};
+  if (world_.settings().persist_events) return events;
+  std::erase_if(events, [](const Event& event) { return event.kind == EventKind::persist; });
+  return events;
+}
+
 void History::step_and_check() {
   const StepReport& report = world_.step();
   std::vector<reference::Body> list;
   for (const auto& [index, body] : bodies_) list.push_back(body);
+  const std::vector<Pair> excluded(excluded_.begin(), excluded_.end());
   const WorldSettings& settings = world_.settings();
   reference::Frame frame = reference::step(list, settings.positions, settings.detail, true,
                                            report.step == 1 ? nullptr : &frame_,
-                                           {settings.dt, settings.fast_share, settings.impacts});
+                                           {settings.dt, settings.fast_share, settings.impacts},
+                                           {settings.filter_rule, excluded, predicate_});
   EXPECT_TRUE(same_bytes<Pair>(world_.pairs(), frame.pairs)) << "pairs";
   EXPECT_TRUE(same_bytes<uint8_t>(world_.overlaps(), frame.overlaps)) << "overlaps";
   EXPECT_TRUE(same_bytes<Contact>(world_.contacts(), frame.contacts)) << "contacts";
   EXPECT_TRUE(same_bytes<ManifoldPoints>(world_.manifolds(), frame.manifolds)) << "manifolds";
   EXPECT_TRUE(same_bytes<Impact>(world_.impacts(), frame.impacts)) << "impacts";
   EXPECT_TRUE(same_bytes<Contact>(world_.speculative_contacts(), frame.speculative));
-  if (settings.events) {
-    EXPECT_TRUE(same_bytes<Event>(world_.events(), frame.events)) << "events";
-  }
+  EXPECT_TRUE(same_bytes<Event>(world_.events(), wanted_events(frame.events))) << "events";
   EXPECT_TRUE(same_bytes<BodyId>(world_.quarantined(), frame.quarantined)) << "quarantined";
   EXPECT_EQ(report.bodies, bodies_.size());
   if (settings.detail != Detail::pairs) {
@@ -158,7 +216,9 @@ void History::step_and_check() {
   for (const Event& event : world_.events()) {
     ++coverage.events[static_cast<int>(event.kind)];
     coverage.sensors += event.sensor;
+    coverage.gone += event.gone != 0;
   }
+  coverage.excluded += excluded.size();
   cover_halfspaces();
   cover_ahead(report);
   for (const Contact& contact : world_.contacts()) ++coverage.manifolds[contact.manifold_count];

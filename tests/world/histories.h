@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 #include <random>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct Coverage {
   size_t manifolds[5] = {};                            // by number of points
   size_t impacts = 0, overlaps_ahead = 0, impacts_of_sensors = 0, speculative = 0;
   size_t swept = 0, unswept = 0;
+  size_t excluded = 0, gone = 0;  // pairs; events of removed or quarantined bodies
 };
 
 enum class Kinds { spheres_and_aabbs, all };
@@ -47,7 +49,7 @@ enum class Kinds { spheres_and_aabbs, all };
 class History {
  public:
   History(const WorldSettings& settings, uint32_t seed, Kinds kinds = Kinds::spheres_and_aabbs)
-      : world_(settings), random_(seed), shapes_(seed), kinds_(kinds) {}
+      : world_(settings), random_(seed), shapes_(seed), filters_(seed), kinds_(kinds) {}
 
   Coverage coverage;
 
@@ -60,8 +62,8 @@ class History {
   // From now on new bodies, and bodies whose motion changes, get detections and high velocities.
   void look_ahead() { looks_ahead_ = true; }
 
-  // A body in a box of side `side`; with `filters`, some have layers, owners, are sensors or
-  // static.
+  // A body in a box of side `side`; with `filters`, some have layers, owners, groups, spaces, are
+  // sensors or static.
   BodyDesc random_body(double side, bool filters);
 
   void add(const BodyDesc& body);
@@ -82,6 +84,12 @@ class History {
   void change_motions(double share);
 
   void change_random_body(double side, bool filters);
+
+  // Excludes some pairs, most of which are pairs of the last step, and includes some again.
+  void change_excluded();
+
+  // Sets a predicate that drops about one pair in five; another one at each call.
+  void change_predicate();
 
   // Steps the world and compares everything with the reference.
   void step_and_check();
@@ -104,12 +112,18 @@ class History {
 
   void write(uint32_t index, const Eigen::Vector3d& position);
 
+  // As World::events() has them.
+  std::vector<Event> wanted_events(std::vector<Event> events) const;
+
   World world_;
   std::mt19937 random_;
   Random shapes_;
+  Random filters_;
   Kinds kinds_;
   bool looks_ahead_ = false;
   std::map<uint32_t, reference::Body> bodies_;
+  std::set<Pair> excluded_;
+  PairPredicate predicate_;
   reference::Frame frame_;
 };
 

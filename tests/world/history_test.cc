@@ -18,6 +18,7 @@ void run_history(const WorldSettings& settings, uint32_t seed, int steps,
   const bool filters = seed % 3 != 0;
   const double side = history.uniform(2, 8);
   if (coverage) history.coverage = *coverage;
+  if (filters && seed % 5 == 0) history.change_predicate();
   const auto churn = [&](double count) { return static_cast<int>(history.uniform(0, count)); };
   for (int i = churn(200); i > 0; --i) history.add(history.random_body(side, filters));
   for (int step = 0; step < steps; ++step) {
@@ -30,6 +31,8 @@ void run_history(const WorldSettings& settings, uint32_t seed, int steps,
     if (history.chance(0.2)) history.move(1, side);  // all bodies teleport
     if (history.chance(0.6)) history.move(history.uniform(0, 1), 0.2);
     if (history.chance(0.3)) history.change_random_body(side, filters);
+    if (filters && step % 2 == 1) history.change_excluded();
+    if (filters && seed % 5 == 0 && step % 5 == 4) history.change_predicate();
     if (kinds == Kinds::all) {
       if (history.chance(0.5)) history.turn(history.uniform(0, 1));
       if (history.chance(0.4)) history.write_rows(history.uniform(0, 0.5));
@@ -51,6 +54,8 @@ TEST(History, MatchesReference) {
                                           : BroadphaseMethod::sweep;
     settings.carry_results = seed % 7 != 0;
     settings.detail = seed % 4 == 3 ? Detail::overlap : Detail::contact;
+    settings.filter_rule = seed % 8 < 3 ? FilterRule::either : FilterRule::both;
+    settings.persist_events = seed % 3 != 0;
     run_history(settings, seed, 12, &coverage);
     ASSERT_FALSE(HasFailure());
   }
@@ -60,6 +65,8 @@ TEST(History, MatchesReference) {
   EXPECT_GT(coverage.tested, coverage.pairs / 10);
   EXPECT_GT(coverage.quarantined, test::rounds(1000));
   EXPECT_GT(coverage.sensors, test::rounds(1000));
+  EXPECT_GT(coverage.excluded, test::rounds(1000));
+  EXPECT_GT(coverage.gone, test::rounds(1000));
   for (const EventKind kind : {EventKind::begin, EventKind::persist, EventKind::end}) {
     EXPECT_GT(coverage.events[static_cast<int>(kind)], test::rounds(1000));
   }
@@ -74,6 +81,8 @@ TEST(History, OfAllKindsMatchesReference) {
     settings.broadphase = seed % 3 ? BroadphaseMethod::automatic : BroadphaseMethod::grid;
     settings.carry_results = seed % 7 != 0;
     settings.detail = kDetails[seed % 11 < 8 ? 0 : seed % 11 - 7];
+    settings.filter_rule = seed % 8 < 3 ? FilterRule::either : FilterRule::both;
+    settings.persist_events = seed % 3 != 0;
     run_history(settings, seed, 12, &coverage, Kinds::all);
     ASSERT_FALSE(HasFailure());
   }
@@ -83,6 +92,8 @@ TEST(History, OfAllKindsMatchesReference) {
   EXPECT_GT(coverage.tested, coverage.pairs / 10);
   EXPECT_GT(coverage.quarantined, test::rounds(1000));
   EXPECT_GT(coverage.sensors, test::rounds(1000));
+  EXPECT_GT(coverage.excluded, test::rounds(1000));
+  EXPECT_GT(coverage.gone, test::rounds(1000));
   EXPECT_GT(coverage.with_halfspaces, test::rounds(10000));
   EXPECT_GT(coverage.halfspace_overlaps, test::rounds(5000));
   EXPECT_LT(coverage.halfspace_overlaps, coverage.with_halfspaces);

@@ -118,6 +118,8 @@ TEST(PayForUse, ColumnsThatNobodyNeedsDoNotExist) {
   EXPECT_GE(grows_by({.layer = 1}), 2 * 1000 * sizeof(uint32_t));
   EXPECT_GE(grows_by({.mask = 1}), 2 * 1000 * sizeof(uint32_t));
   EXPECT_GE(grows_by({.owner = 1}), 1000 * sizeof(uint32_t));
+  EXPECT_GE(grows_by({.group = -1}), 1000 * sizeof(int32_t));
+  EXPECT_GE(grows_by({.space = 1}), 1000 * sizeof(uint32_t));
   EXPECT_GE(grows_by({.sensor = true}), 1000u);
   EXPECT_GE(grows_by({.user = 1}), 1000 * sizeof(uint64_t));
   // Shapes with rows cost the index of the rows and the quaternion.
@@ -125,6 +127,19 @@ TEST(PayForUse, ColumnsThatNobodyNeedsDoNotExist) {
        {Shape(Box{}), Shape(Capsule{}), Shape(Triangle{}), Shape(Halfspace{})}) {
     EXPECT_GE(grows_by({.shape = shape}), 1000 * (sizeof(uint32_t) + 4 * sizeof(float)));
   }
+}
+
+TEST(PayForUse, ExcludedPairsCostMemoryWhileThereAreAny) {
+  World world;
+  const std::vector<BodyId> ids = add_crowd(world, {});
+  for (int i = 0; i < 3; ++i) world.step();
+  const size_t plain = world.memory().bodies;
+  for (size_t i = 1; i < ids.size(); ++i) world.exclude(ids[i - 1], ids[i]);
+  world.step();
+  EXPECT_GE(world.memory().bodies, plain + (ids.size() - 1) * sizeof(Pair));
+  for (size_t i = 1; i < ids.size(); ++i) world.include_again(ids[i - 1], ids[i]);
+  world.step();
+  EXPECT_EQ(world.memory().bodies, plain);
 }
 
 // Spheres and aabbs store no orientation, whatever the caller gives.

@@ -4,6 +4,7 @@
 #include "carom/base/thread_arena.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
+#include "tests/support/own_jobs.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -52,6 +53,8 @@ void expect_equal(const std::vector<Results>& got, const std::vector<Results>& e
     EXPECT_EQ(got[i].manifolds == expected[i].manifolds, true) << "manifolds of frame " << i;
     EXPECT_EQ(got[i].events == expected[i].events, true) << "events of frame " << i;
     EXPECT_EQ(got[i].quarantined == expected[i].quarantined, true) << "frame " << i;
+    EXPECT_EQ(got[i].impacts == expected[i].impacts, true) << "impacts of frame " << i;
+    EXPECT_EQ(got[i].speculative == expected[i].speculative, true) << "frame " << i;
   }
 }
 
@@ -105,6 +108,27 @@ TEST(SameBits, OnAnyNumberOfThreads) {
       arena.run([&] { expect_equal(history(settings, many), expected); });
     }
   }
+}
+
+TEST(SameBits, WithAnySchedulerOfTheCaller) {
+  CrowdSpec many = kOriented;
+  many.count = 12000;
+  many.side = 22;
+  many.looks_ahead = true;
+  const WorldSettings settings{.detail = Detail::manifold, .margin = 0.05f};
+  WorldSettings alone = settings;
+  alone.parallelism = Parallelism::none;
+  const std::vector<Results> expected = history(alone, many);
+  BackwardJobs backward;
+  ThreadJobs two(2), five(5);
+  for (Jobs* const jobs : std::vector<Jobs*>{&backward, &two, &five}) {
+    const JobsScope scope(*jobs);
+    expect_equal(history(settings, many), expected);
+  }
+  EXPECT_GT(backward.tasks(), 1000u);
+  EXPECT_EQ(backward.most_inside(), 1);
+  EXPECT_EQ(two.runs(), backward.runs());
+  EXPECT_EQ(five.runs(), backward.runs());
 }
 
 TEST(SameBits, InAnyFloatModeOfTheCaller) {

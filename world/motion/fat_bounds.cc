@@ -1,9 +1,9 @@
 #include "world/motion/fat_bounds.h"
 
-#include <cmath>
 #include <limits>
 
 #include "base/parallel.h"
+#include "world/motion/grown.h"
 #include "world/store/columns.h"
 #include "world/store/row_blocks.h"
 
@@ -13,16 +13,6 @@ namespace {
 // The fat bounds of a body that only moved exceed the true ones by at most two margins, up to
 // rounding. Beyond this many margins the body has shrunk.
 constexpr float kMostSlackMargins = 3;
-
-// v - margin rounded outwards, by a little more than in base/outward.h but in fewer steps: the sum
-// is off by at most half a unit in the last place, and `step` is one unit or two.
-float below(float v, float margin) {
-  const float sum = v - margin;
-  const float step = 0x1p-23f * std::abs(sum);
-  return sum - step;
-}
-
-float above(float v, float margin) { return -below(-v, margin); }
 
 // Whether lower[i] .. upper[i] lies inside the fat bounds, but not far inside. False for NaN.
 struct Fit {

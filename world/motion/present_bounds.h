@@ -23,13 +23,20 @@ inline bool has_box(const BoundsView& bounds, uint32_t body) {
 
 // Checks the pairs of a step: a body without a box is a half-space.
 struct PresentBounds {
-  BoundsView boxes;
+  BoundsView boxes;  // grown by the distances, if there are any
   const HalfspaceStage& halfspaces;
+  ContactDistances distances = {};
 
   bool meet(Pair pair) const {
-    if (!has_box(boxes, pair.a)) return halfspaces.reaches(pair.a, boxes, pair.b);
-    if (!has_box(boxes, pair.b)) return halfspaces.reaches(pair.b, boxes, pair.a);
+    if (!has_box(boxes, pair.a)) return reaches(pair.a, pair.b);
+    if (!has_box(boxes, pair.b)) return reaches(pair.b, pair.a);
     return boxes_meet(boxes, pair);
+  }
+
+ private:
+  bool reaches(uint32_t halfspace, uint32_t other) const {
+    const float growth = distances.any() ? distances.growth(halfspace) : 0;
+    return halfspaces.reaches(halfspace, boxes, other, growth);
   }
 };
 

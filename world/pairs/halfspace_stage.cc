@@ -28,6 +28,16 @@ WorldHalfspace covered(WorldHalfspace halfspace, const Sweep& sweep) {
   return halfspace;
 }
 
+WorldHalfspace grown(WorldHalfspace halfspace, float growth) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto& n = halfspace.normal;
+  const double length = (std::abs(n[0]) + std::abs(n[1])) + std::abs(n[2]);  // at least the norm
+  if (growth > 0) {
+    halfspace.limit = std::nextafter(halfspace.limit + double{growth} * length, kInfinity);
+  }
+  return halfspace;
+}
+
 }  // namespace
 
 void HalfspaceStage::set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds) {
@@ -53,7 +63,15 @@ void HalfspaceStage::sweep(const Sweeps& sweeps) {
 
 void HalfspaceStage::stay() { swept_.clear(); }
 
-bool HalfspaceStage::reaches(uint32_t body, const BoundsView& bounds, uint32_t other) const {
+void HalfspaceStage::widen(const ContactDistances& distances) {
+  if (swept_.empty()) swept_ = halfspaces_;
+  for (WorldHalfspace& halfspace : swept_) {
+    halfspace = grown(halfspace, distances.growth(halfspace.body));
+  }
+}
+
+bool HalfspaceStage::reaches(uint32_t body, const BoundsView& bounds, uint32_t other,
+                             float growth) const {
   const auto halfspace =
       std::lower_bound(halfspaces_.begin(), halfspaces_.end(), body,
                        [](const WorldHalfspace& h, uint32_t index) { return h.body < index; });
@@ -61,7 +79,7 @@ bool HalfspaceStage::reaches(uint32_t body, const BoundsView& bounds, uint32_t o
   for (size_t axis = 0; axis < 3; ++axis) {
     corner[axis] = (halfspace->normal[axis] >= 0 ? bounds.lower : bounds.upper)[axis][other];
   }
-  return may_hold(*halfspace, corner[0], corner[1], corner[2]);
+  return may_hold(grown(*halfspace, growth), corner[0], corner[1], corner[2]);
 }
 
 void HalfspaceStage::drop_all() {

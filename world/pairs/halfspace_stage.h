@@ -8,6 +8,7 @@
 
 #include "broadphase/halfspace_pairs.h"
 #include "carom/broadphase/find_pairs.h"
+#include "world/motion/contact_distances.h"
 #include "world/motion/sweeps.h"
 #include "world/store/body_store.h"
 
@@ -26,9 +27,13 @@ class HalfspaceStage {
   // interval.
   void sweep(const Sweeps& sweeps);
   void stay();  // for a step that does not look ahead
+  // After that: half-spaces pair with all that may be within the distance of a pair of them and a
+  // body, whose bounds have grown (ContactDistances).
+  void widen(const ContactDistances& distances);
 
-  // Whether the box of `other` reaches into the valid half-space of `body`, at present.
-  bool reaches(uint32_t body, const BoundsView& bounds, uint32_t other) const;
+  // Whether the box of `other` reaches into the valid half-space of `body`, at present, or is at
+  // most `growth` outside.
+  bool reaches(uint32_t body, const BoundsView& bounds, uint32_t other, float growth) const;
 
   // Where the broadphase writes the pairs of all other bodies, if there are half-spaces.
   std::vector<Pair>& other_pairs() { return other_pairs_; }
@@ -50,7 +55,7 @@ class HalfspaceStage {
   void drop_all();
 
   std::vector<WorldHalfspace> halfspaces_;  // by body index
-  // what each covers during the interval; empty if the step does not look ahead
+  // what each covers during the interval, with its growth; empty if that is what it is now
   std::vector<WorldHalfspace> swept_;
   std::optional<HalfspaceSearch> search_;  // created on first use
   std::vector<Pair> other_pairs_, own_pairs_;

@@ -13,6 +13,7 @@ void PairHistory::clear() {
   direction.clear();
   contacts.clear();
   manifolds.clear();
+  identities.clear();
 }
 
 void PairHistory::give_back_beyond(size_t count) {
@@ -22,11 +23,12 @@ void PairHistory::give_back_beyond(size_t count) {
   give_back(direction, count);
   give_back(contacts, count);
   give_back(manifolds, count);
+  give_back(identities, count);
 }
 
 size_t PairHistory::bytes() const {
   return bytes_of(pairs) + bytes_of(overlaps) + bytes_of(contact) + bytes_of(direction) +
-         bytes_of(contacts) + bytes_of(manifolds);
+         bytes_of(contacts) + bytes_of(manifolds) + bytes_of(identities);
 }
 
 MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,

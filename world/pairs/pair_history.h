@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "carom/results/contact.h"
+#include "carom/results/contact_identity.h"
 #include "carom/results/pair.h"
 
 namespace carom {
@@ -26,7 +26,12 @@ struct PairHistory {
   std::vector<uint32_t> contact;    // index into `contacts`
   std::vector<uint32_t> direction;  // DirectionMemory's; empty if unused
   std::vector<Contact> contacts;
-  std::vector<ManifoldPoints> manifolds;  // one a contact at Detail::manifold, else none
+  std::vector<ManifoldPoints> manifolds;  // one a contact at details with manifolds, else none
+
+  std::vector<ContactIdentity> identities;  // one a contact, if they are wanted
+
+  // Whether `contact` is an index.
+  bool has_contact(size_t i) const { return contact[i] < kSensor; }
 
   void clear();
   void give_back_beyond(size_t pairs);

@@ -1,30 +1,37 @@
 #include "world/results/contact_stage.h"
 
+#include <algorithm>
 #include <atomic>
+#include <limits>
 #include <utility>
 
 #include "base/parallel.h"
 #include "carom/results/tier.h"
+#include "shapes/point_velocity.h"
 #include "world/store/columns.h"
 
 namespace carom {
-namespace {
 
-Eigen::Vector3f vector_at(const std::array<float*, 3>& columns, size_t row) {
-  return {columns[0][row], columns[1][row], columns[2][row]};
+const ResultColumns& ResultBuffer::prepare(size_t pairs, Detail detail,
+                                           std::span<const ColumnRole> wanted) {
+  pairs_ = pairs;
+  arrays_.resize(pairs + 1, detail, wanted);
+  columns().overlap[pairs] = 0;
+  near_.clear();
+  extra_.clear();
+  return columns();
 }
 
-}  // namespace
-
-const ResultColumns& ResultBuffer::prepare(size_t pairs, Detail detail, bool sub_shapes) {
-  pairs_ = pairs;
-  if (sub_shapes) {
-    arrays_.resize(pairs + 1, detail, {ColumnRole::sub_shape});
-  } else {
-    arrays_.resize(pairs + 1, detail);
-  }
-  columns().overlap[pairs] = 0;
-  return columns();
+const float* ResultBuffer::prepare_distances(const std::vector<Pair>& pairs,
+                                             const ContactDistances& distances,
+                                             Parallelism parallelism) {
+  distances_.resize(pairs.size());
+  near_.assign(pairs.size() + 1, 0);
+  for_each_block(pairs.size(), kPairsPerMergeBlock, parallelism,
+                 [&](size_t, size_t begin, size_t end) {
+                   for (size_t i = begin; i < end; ++i) distances_[i] = distances.of(pairs[i]);
+                 });
+  return distances_.data();
 }
 
 void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
@@ -37,92 +44,156 @@ void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const PresentBou
   });
 }
 
-Contact ResultBuffer::contact(size_t row, Pair pair) const {
-  const ResultColumns& c = columns();
-  return {.a = pair.a,
-          .b = pair.b,
-          .sub_a = c.sub_a ? c.sub_a[row] : 0,
-          .sub_b = c.sub_b ? c.sub_b[row] : 0,
-          .normal = vector_at(c.normal, row),
-          .separation = c.separation[row],
-          .arm_a = vector_at(c.point_a, row),
-          .normal_velocity = 0,
-          .arm_b = vector_at(c.point_b, row),
-          .status = static_cast<Status>(c.status[row]),
-          .manifold_count = c.manifold_count ? c.manifold_count[row] : uint8_t{0}};
+void ResultBuffer::find_near(const std::vector<Pair>& pairs, const PresentBounds& grown,
+                             Parallelism parallelism) {
+  for_each_block(pairs_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      float& separation = columns().separation[i];
+      near_[i] = columns().overlap[i] == 0 && separation <= distances_[i] && grown.meet(pairs[i]);
+      // A test may have rounded the gap of separate bounds to zero.
+      if (near_[i]) separation = std::max(separation, std::numeric_limits<float>::min());
+    }
+  });
+}
+
+void ResultBuffer::give_back_beyond(size_t pairs) {
+  arrays_.give_back_beyond(pairs);
+  give_back_scratch(distances_, pairs);
+  give_back(near_, pairs + 1);
+}
+
+size_t ResultBuffer::bytes() const {
+  return arrays_.bytes() + bytes_of(distances_) + bytes_of(near_) + extra_.bytes();
 }
 
 void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
-                       const BodyStore& bodies, Detail detail, Parallelism parallelism,
-                       PairHistory& now) {
+                       const BodyStore& bodies, const WorldSettings& settings, PairHistory& now) {
   // First find the result of every pair, and how many contacts each block has ...
-  find_overlaps(plan, last, results, bodies, parallelism, now);
+  find_results(plan, last, results, bodies, settings, now);
   now.contacts.clear();
   now.manifolds.clear();
-  if (!has_contacts(detail)) return;
+  now.identities.clear();
+  if (!has_contacts(settings.detail)) return;
 
   // ... then write every contact to its place.
-  const bool has_manifolds = detail == Detail::manifold;
   size_t contacts = 0;
   for (size_t& first : block_first_) contacts += std::exchange(first, contacts);
   now.contacts.resize(contacts);
-  if (has_manifolds) now.manifolds.resize(contacts);
-  for_each_block(now.pairs.size(), kPairsPerMergeBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   size_t next = block_first_[block];
-                   for (size_t i = begin; i < end; ++i) {
-                     if (now.overlaps[i] != 1 || now.contact[i] == PairHistory::kSensor) continue;
-                     const uint32_t row = plan.test_row(i);
-                     const bool carried = row == CarryPlan::kCarried;
-                     const size_t old = carried ? last.contact[plan.last_index(i)] : 0;
-                     now.contacts[next] =
-                         carried ? last.contacts[old] : results.contact(row, now.pairs[i]);
-                     if (has_manifolds) {
-                       now.manifolds[next] = carried ? last.manifolds[old] : results.manifold(row);
-                     }
-                     now.contact[i] = static_cast<uint32_t>(next++);
-                   }
-                 });
+  if (has_manifolds(settings.detail)) now.manifolds.resize(contacts);
+  if (settings.identities) now.identities.resize(contacts);
+  write_contacts(plan, last, results, settings, now);
 }
 
-void ContactStage::find_overlaps(const CarryPlan& plan, const PairHistory& last,
-                                 const ResultBuffer& results, const BodyStore& bodies,
-                                 Parallelism parallelism, PairHistory& now) {
+void ContactStage::find_results(const CarryPlan& plan, const PairHistory& last,
+                                const ResultBuffer& results, const BodyStore& bodies,
+                                const WorldSettings& settings, PairHistory& now) {
+  constexpr uint32_t kToBeWritten = 0;
+  const uint32_t listed = has_contacts(settings.detail) ? kToBeWritten : PairHistory::kNone;
   const size_t pairs = now.pairs.size();
+  const bool regions = settings.detail == Detail::regions;
   now.overlaps.resize(pairs);
   now.contact.resize(pairs);
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
-  std::atomic<size_t> overlaps{0}, undecided{0};
+  std::atomic<size_t> overlaps{0}, undecided{0}, left_out{0};
   for_each_block(
-      pairs, kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
-        size_t overlapping = 0, unknown = 0;
+      pairs, kPairsPerMergeBlock, settings.parallelism,
+      [&](size_t block, size_t begin, size_t end) {
+        size_t overlapping = 0, unknown = 0, contacts = 0, unlisted = 0;
         for (size_t i = begin; i < end; ++i) {
           const uint32_t row = plan.test_row(i);
-          const uint8_t decision =
-              row == CarryPlan::kCarried ? last.overlaps[plan.last_index(i)] : results.overlap(row);
+          const bool carried = row == CarryPlan::kCarried;
+          const size_t before = carried ? plan.last_index(i) : 0;
+          const uint8_t decision = carried ? last.overlaps[before] : results.overlap(row);
           const bool overlap = decision == 1;
+          const bool touches =
+              overlap || (carried ? last.has_contact(before) : results.is_near(row));
           const Pair pair = now.pairs[i];
           const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
           now.overlaps[i] = decision;
-          now.contact[i] = overlap && sensor ? PairHistory::kSensor : PairHistory::kNone;
+          now.contact[i] = !touches ? PairHistory::kNone
+                           : sensor ? (overlap ? PairHistory::kSensor : PairHistory::kNone)
+                                    : listed;
           overlapping += overlap;
           unknown += decision == kUndecided;
-          block_first_[block] += overlap && !sensor;
+          contacts += touches && !sensor;
+          if (!regions || !touches || sensor) continue;
+          if (carried) {
+            const auto run = contact_run(last.contacts, last.contact[before]);
+            contacts += run.size() - 1;
+            unlisted += run[0].left_out;
+          } else {
+            contacts += results.extra(row).size();
+            unlisted += results.left_out(row);
+          }
         }
+        block_first_[block] = contacts;
         overlaps += overlapping;
         undecided += unknown;
+        left_out += unlisted;
       });
   overlaps_ = overlaps;
   undecided_ = undecided;
+  left_out_ = left_out;
 }
 
-void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,
+void ContactStage::write_contacts(const CarryPlan& plan, const PairHistory& last,
+                                  const ResultBuffer& results, const WorldSettings& settings,
+                                  PairHistory& now) {
+  const bool manifolds = has_manifolds(settings.detail);
+  const bool regions = settings.detail == Detail::regions;
+  const bool named = settings.identities;
+  for_each_block(
+      now.pairs.size(), kPairsPerMergeBlock, settings.parallelism,
+      [&](size_t block, size_t begin, size_t end) {
+        size_t next = block_first_[block];
+        for (size_t i = begin; i < end; ++i) {
+          if (!now.has_contact(i)) continue;
+          const uint32_t row = plan.test_row(i);
+          const bool carried = row == CarryPlan::kCarried;
+          const size_t old = carried ? last.contact[plan.last_index(i)] : 0;
+          now.contacts[next] = carried ? last.contacts[old] : results.contact(row, now.pairs[i]);
+          if (manifolds) {
+            now.manifolds[next] = carried ? last.manifolds[old] : results.manifold(row);
+          }
+          if (named) {
+            now.identities[next].names = carried ? last.identities[old].names : results.names(row);
+          }
+          now.contact[i] = static_cast<uint32_t>(next++);
+          if (!regions) continue;
+          if (carried) {
+            const size_t count = contact_run(last.contacts, old).size();
+            for (size_t k = 1; k < count; ++k) {
+              now.contacts[next] = last.contacts[old + k];
+              if (named) now.identities[next].names = last.identities[old + k].names;
+              now.manifolds[next++] = last.manifolds[old + k];
+            }
+          } else {
+            now.contacts[next - 1].left_out = results.left_out(row);
+            for (const ContactWithPoints& each : results.extra(row)) {
+              now.contacts[next] = each.contact;
+              if (named) now.identities[next].names = each.names;
+              now.manifolds[next++] = each.points;
+            }
+          }
+        }
+      });
+}
+
+void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
                            std::vector<Contact>& contacts) {
+  using Eigen::Vector3f;
+  const std::span<const Vector3f> linear = bodies.linear_velocities();
+  const std::span<const Vector3f> angular =
+      bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();
+  const auto velocity = [&](uint32_t body, const Vector3f& arm) -> Vector3f {
+    if (angular.empty() || !bodies.turns(body)) return linear[body];
+    return point_velocity(linear[body], angular[body], arm);
+  };
   for_each_block(
       contacts.size(), kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
           Contact& c = contacts[i];
-          const Eigen::Vector3f v = velocities[c.b] - velocities[c.a];
+          const Vector3f v = velocity(c.b, c.arm_b) - velocity(c.a, c.arm_a);
           c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();
         }
       });

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "carom/base/parallelism.h"
-#include "carom/results/contact.h"
 #include "carom/results/result_arrays.h"
+#include "carom/world/world.h"
+#include "midphase/contact_of_row.h"
 #include "world/motion/present_bounds.h"
 #include "world/pairs/pair_history.h"
 #include "world/store/body_store.h"
@@ -16,18 +17,32 @@ namespace carom {
 // The columns to which the narrow phase writes.
 class ResultBuffer {
  public:
-  // Makes room for `pairs` results in the columns that the detail fills; with columns for
-  // sub-shapes if `sub_shapes`. An extra row after them does not overlap; it serves pairs that need
-  // no test.
-  const ResultColumns& prepare(size_t pairs, Detail detail, bool sub_shapes);
+  // Makes room for `pairs` results in the columns that the detail fills, and in those optional ones
+  // that are wanted. An extra row after them does not overlap; it serves pairs that need no test.
+  const ResultColumns& prepare(size_t pairs, Detail detail, std::span<const ColumnRole> wanted);
+
+  // The contact distance of each pair. Only for worlds that have some: it makes room for the marks
+  // of find_near().
+  const float* prepare_distances(const std::vector<Pair>& pairs, const ContactDistances& distances,
+                                 Parallelism parallelism);
+  // Where contacts beside the first one of a pair are collected; nullptr: nowhere.
+  ExtraContacts* extra_of(Detail detail) { return detail == Detail::regions ? &extra_ : nullptr; }
 
   // Bounds are exact, tests round. So pairs with separate bounds do not overlap, even if the
   // rounded result of the test says that they touch.
   void reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
                     Parallelism parallelism);
+  // Marks the separate pairs that are within their contact distance. Their grown bounds overlap.
+  void find_near(const std::vector<Pair>& pairs, const PresentBounds& grown,
+                 Parallelism parallelism);
 
   uint8_t overlap(size_t row) const { return columns().overlap[row]; }
-  Contact contact(size_t row, Pair pair) const;
+  bool is_near(size_t row) const { return !near_.empty() && near_[row]; }
+  Contact contact(size_t row, Pair pair) const { return contact_of_row(columns(), row, pair); }
+  // The contacts beside the first one, and how many more there are beyond the limit.
+  std::span<const ContactWithPoints> extra(size_t row) const { return extra_.of(row); }
+  uint16_t left_out(size_t row) const { return extra_.left_out(row); }
+  const PointNames& names(size_t row) const { return columns().point_names[row]; }
   const ManifoldPoints& manifold(size_t row) const {
     // A row is a line of the cache, and rows of separate pairs are skipped: the processor does not
     // fetch these lines ahead.
@@ -35,8 +50,8 @@ class ResultBuffer {
     return columns().manifold[row];
   }
 
-  void give_back_beyond(size_t pairs) { arrays_.give_back_beyond(pairs); }
-  size_t bytes() const { return arrays_.bytes(); }
+  void give_back_beyond(size_t pairs);
+  size_t bytes() const;
 
  private:
   static constexpr size_t kRowsAhead = 12;
@@ -45,30 +60,37 @@ class ResultBuffer {
 
   size_t pairs_ = 0;
   ResultArrays arrays_;
+  std::vector<float> distances_;
+  std::vector<uint8_t> near_;  // one a row; empty without contact distances
+  ExtraContacts extra_;
 };
 
 // Fills overlaps, contact indices, contacts and manifolds of `now`.
 class ContactStage {
  public:
   void run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
-           const BodyStore& bodies, Detail detail, Parallelism parallelism, PairHistory& now);
+           const BodyStore& bodies, const WorldSettings& settings, PairHistory& now);
 
   size_t overlaps() const { return overlaps_; }
   size_t undecided() const { return undecided_; }
+  size_t left_out() const { return left_out_; }  // contacts beyond RegionLimits::most
   size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
 
  private:
-  void find_overlaps(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
-                     const BodyStore& bodies, Parallelism parallelism, PairHistory& now);
+  void find_results(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
+                    const BodyStore& bodies, const WorldSettings& settings, PairHistory& now);
+  void write_contacts(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
+                      const WorldSettings& settings, PairHistory& now);
 
   size_t overlaps_ = 0;
   size_t undecided_ = 0;
+  size_t left_out_ = 0;
   // number of contacts of each block, later the place of its first one
   std::vector<size_t> block_first_;
 };
 
 // Sets the normal velocity of every contact.
-void set_normal_velocities(std::span<const Eigen::Vector3f> velocities, Parallelism parallelism,
+void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
                            std::vector<Contact>& contacts);
 
 }  // namespace carom

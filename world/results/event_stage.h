@@ -1,4 +1,4 @@
-// The overlaps of two steps -> begin, persist and end events.
+// The overlaps of two steps -> begin and end events, and persist events if asked for.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,14 @@ namespace carom {
 
 class EventStage {
  public:
-  // `last` may be `now` itself if nothing changed: every overlap then persists.
-  void run(const PairHistory& last, const PairHistory& now, const BodyStore& bodies,
-           Parallelism parallelism, std::vector<Event>& events);
+  struct Input {
+    const PairHistory& last;  // may be `now` itself if nothing changed: every overlap then persists
+    const PairHistory& now;
+    const BodyStore& bodies;
+    std::span<const BodyId> quarantined;  // by index
+    bool wants_persist;
+  };
+  void run(const Input& input, Parallelism parallelism, std::vector<Event>& events);
 
   // Adds one event for each impact, in their order.
   static void add_impacts(std::span<const Impact> impacts, const BodyStore& bodies,
@@ -34,6 +39,10 @@ class EventStage {
 
  private:
   BodyId last_id(uint32_t index) const { return {index, generation_[index]}; }
+  bool is_same_body(uint32_t index, const BodyStore& bodies) const {
+    return index < generation_.size() && last_id(index) == bodies.id_of(index);
+  }
+  Event end_of(size_t pair, const Input& input) const;
 
   BlockLists<Event> lists_;
   std::vector<uint32_t> generation_;  // of the last step

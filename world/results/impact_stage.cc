@@ -87,8 +87,8 @@ void ImpactStage::test(const LookAhead& ahead) {
   const ImpactColumns out = columns(has_contacts(ahead.settings.detail), ahead.has_parts());
   const SweepView sweeps = ahead.sweeps.view();
   [[maybe_unused]] const Result<void> done =
-      time_of_impact(ahead.shapes, sweeps, ahead.shapes, sweeps, pairs_, out, WitnessFrame::body,
-                     ahead.settings.parallelism);
+      time_of_impact(ahead.shapes, sweeps, ahead.shapes, sweeps, pairs_, out,
+                     {.frame = WitnessFrame::body, .parallelism = ahead.settings.parallelism});
   assert(done);  // the kinds were checked when the bodies were added
 }
 

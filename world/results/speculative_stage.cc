@@ -53,13 +53,14 @@ void SpeculativeStage::run(const LookAhead& ahead) {
   contact_lists_.concatenate(contacts_, ahead.settings.parallelism);
 }
 
-// Lists separate pairs with a swept body and no continuous one; the latter have impacts.
+// Lists separate pairs with a swept body that have no contact, and no continuous body; the latter
+// have impacts.
 void SpeculativeStage::find_candidates(const LookAhead& ahead) {
   const PairHistory& now = ahead.now;
   const auto is_candidate = [&](size_t i) {
     const Pair pair = now.pairs[i];
     const bool is_swept = ahead.sweeps.looks_ahead(pair.a) || ahead.sweeps.looks_ahead(pair.b);
-    return now.overlaps[i] == 0 && is_swept && !ahead.is_continuous(pair) &&
+    return now.overlaps[i] == 0 && !now.has_contact(i) && is_swept && !ahead.is_continuous(pair) &&
            !ahead.has_sensor(pair) && ahead.may_meet(pair);
   };
   pair_lists_.reset(block_count(now.pairs.size(), kPairsPerMergeBlock));
@@ -74,10 +75,14 @@ void SpeculativeStage::find_candidates(const LookAhead& ahead) {
 
 // The step's narrow phase has only decided these pairs, so this measures them.
 void SpeculativeStage::measure(const LookAhead& ahead) {
-  const ResultColumns out = results_.prepare(pairs_.size(), Detail::contact, ahead.has_parts());
+  constexpr ColumnRole kParts[] = {ColumnRole::sub_shape};
+  const auto wanted = std::span(kParts).first(ahead.has_parts() ? 1 : 0);
+  const ResultColumns out = results_.prepare(pairs_.size(), Detail::contact, wanted);
   [[maybe_unused]] const Result<void> done =
-      collide(ahead.shapes, ahead.shapes, pairs_, Detail::contact, out, WitnessFrame::body,
-              ahead.settings.parallelism, Measured::all, ahead.settings.accuracy);
+      collide(ahead.shapes, ahead.shapes, pairs_, Detail::contact, out,
+              {.frame = WitnessFrame::body,
+               .parallelism = ahead.settings.parallelism,
+               .accuracy = ahead.settings.accuracy});
   assert(done);  // the kinds were checked when the bodies were added
 }
 

@@ -63,7 +63,10 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   optional(self.layer_, kEverything);
   optional(self.mask_, kEverything);
   optional(self.owner_, 0u);
+  optional(self.group_, 0);
+  optional(self.space_, 0u);
   optional(self.sensor_, uint8_t{0});
+  optional(self.contact_distance_, 0.0f);
   optional(self.user_, uint64_t{0});
   optional(self.geometry_, std::shared_ptr<const void>());
 }
@@ -94,7 +97,10 @@ BodyId BodyStore::add(const BodyDesc& body) {
   set_orientation(index, body.orientation);
   set_row(motion_, rows(), index, body.motion, Motion::dynamic);
   set_filter(index, body.layer, body.mask, body.owner);
+  set_row(group_, rows(), index, body.group, 0);
+  set_row(space_, rows(), index, body.space, 0u);
   set_row(sensor_, rows(), index, uint8_t{body.sensor}, uint8_t{0});
+  set_row(contact_distance_, rows(), index, body.contact_distance, 0.0f);
   set_row(user_, rows(), index, body.user, uint64_t{0});
   if (has_velocities_ || !body.linear_velocity.isZero(0)) {
     set_linear_velocity(index, body.linear_velocity);
@@ -150,12 +156,12 @@ void BodyStore::set_position(uint32_t index, const Eigen::Vector3d& position) {
   }
 }
 
-Eigen::Quaternionf BodyStore::orientation(uint32_t index) const {
+Orientation BodyStore::orientation(uint32_t index) const {
   const Row q = row_count(kind_[index]) > 0 ? orientation_[index] : kIdentity;
   return {q[3], q[0], q[1], q[2]};
 }
 
-void BodyStore::set_orientation(uint32_t index, const Eigen::Quaternionf& q) {
+void BodyStore::set_orientation(uint32_t index, const Orientation& q) {
   if (row_count(kind_[index]) > 0) orientation_[index] = {q.x(), q.y(), q.z(), q.w()};
 }
 
@@ -300,6 +306,16 @@ void BodyStore::set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32
   touch(index, kShapeTouched);
 }
 
+void BodyStore::set_group(uint32_t index, int32_t group) {
+  set_row(group_, rows(), index, group, 0);
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::set_space(uint32_t index, uint32_t space) {
+  set_row(space_, rows(), index, space, 0u);
+  touch(index, kShapeTouched);
+}
+
 void BodyStore::set_sensor(uint32_t index, bool sensor) {
   set_row(sensor_, rows(), index, uint8_t{sensor}, uint8_t{0});
   touch(index, kShapeTouched);
@@ -307,6 +323,11 @@ void BodyStore::set_sensor(uint32_t index, bool sensor) {
 
 void BodyStore::set_user(uint32_t index, uint64_t user) {
   set_row(user_, rows(), index, user, uint64_t{0});
+}
+
+void BodyStore::set_contact_distance(uint32_t index, float distance) {
+  set_row(contact_distance_, rows(), index, distance, 0.0f);
+  touch(index, kShapeTouched);
 }
 
 Eigen::Vector3f BodyStore::linear_velocity(uint32_t index) const {
@@ -375,7 +396,12 @@ Collidables BodyStore::view() const {
 }
 
 PairFilter BodyStore::filter() const {
-  return {data_or_null(layer_), data_or_null(mask_), data_or_null(owner_), data_or_null(motion_)};
+  return {.layer = data_or_null(layer_),
+          .mask = data_or_null(mask_),
+          .owner = data_or_null(owner_),
+          .motion = data_or_null(motion_),
+          .group = data_or_null(group_),
+          .space = data_or_null(space_)};
 }
 
 size_t BodyStore::bytes() const {

@@ -37,8 +37,8 @@ class BodyStore {
   void set_position(uint32_t index, const Eigen::Vector3d& position);
   // For bodies of kinds that have one. The others have the identity, and setting another has no
   // effect.
-  Eigen::Quaternionf orientation(uint32_t index) const;
-  void set_orientation(uint32_t index, const Eigen::Quaternionf& orientation);
+  Orientation orientation(uint32_t index) const;
+  void set_orientation(uint32_t index, const Orientation& orientation);
   Shape shape(uint32_t index) const;
   void set_shape(uint32_t index, const Shape& shape);
   uint32_t box_slot(uint32_t index) const { return box_slot_[index]; }
@@ -47,8 +47,14 @@ class BodyStore {
   Motion motion(uint32_t index) const;
   void set_motion(uint32_t index, Motion motion);
   void set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner);
+  void set_group(uint32_t index, int32_t group);
+  void set_space(uint32_t index, uint32_t space);
   bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
   void set_sensor(uint32_t index, bool sensor);
+  float contact_distance(uint32_t index) const {
+    return contact_distance_.empty() ? 0 : contact_distance_[index];
+  }
+  void set_contact_distance(uint32_t index, float distance);
   uint64_t user(uint32_t index) const { return user_.empty() ? 0 : user_[index]; }
   void set_user(uint32_t index, uint64_t user);
   Eigen::Vector3f linear_velocity(uint32_t index) const;
@@ -74,9 +80,19 @@ class BodyStore {
   // Whether some body has a detection that is not discrete.
   bool has_detections() const { return detected_ > 0; }
 
+  // Whether the body is of a kind that has an orientation.
+  bool turns(uint32_t index) const {
+    return kind_[index] != ShapeKind::sphere && kind_[index] != ShapeKind::aabb;
+  }
+  // One a row; nullptr if every body has 0.
+  const float* contact_distances() const {
+    return contact_distance_.empty() ? nullptr : contact_distance_.data();
+  }
+
   // Inputs of the stages.
   bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
   Collidables view() const;
+  // The columns of the filter; its other parts are those of a default one.
   PairFilter filter() const;
   const std::vector<uint32_t>& free_indices() { return alive_.free_indices(); }
   const std::vector<uint32_t>& halfspaces() const { return halfspaces_; }  // indices, ascending
@@ -147,8 +163,10 @@ class BodyStore {
 
   // These are empty while every body has the default.
   std::vector<Motion> motion_;
-  std::vector<uint32_t> layer_, mask_, owner_;
+  std::vector<uint32_t> layer_, mask_, owner_, space_;
+  std::vector<int32_t> group_;
   std::vector<uint8_t> sensor_;
+  std::vector<float> contact_distance_;
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;
   size_t detected_ = 0;  // bodies whose detection is not discrete

@@ -9,7 +9,8 @@ namespace carom {
 /// The threads that a call may use.
 enum class Parallelism : uint8_t {
   none,   ///< the calling thread alone; the call touches no scheduler
-  arena,  ///< the oneTBB arena of the calling thread, with its concurrency
+  arena,  ///< the oneTBB arena of the calling thread, with its concurrency; inside a JobsScope
+          ///< (carom/base/jobs.h) the caller's own scheduler
 };
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include "carom/base/parallelism.h"
 #include "carom/export.h"
 #include "carom/results/pair.h"
+#include "carom/results/pair_predicate.h"
 #include "carom/shapes/body.h"
 #include "carom/shapes/views.h"
 
@@ -26,13 +27,20 @@ enum class BroadphaseMethod : uint8_t {
 /// "auto", "brute", "sweep", "grid".
 CAROM_EXPORT const char* name(BroadphaseMethod method);
 
-/// Which boxes may be paired: dense columns with one entry a box. A column that is nullptr forbids
-/// nothing. The search itself filters, so that forbidden pairs cost no output.
+/// Which boxes may be paired: dense columns with one entry a box, a list of pairs and a predicate.
+/// What is nullptr or empty forbids nothing. The order of the rules is in docs/filters.md.
 struct PairFilter {
   const uint32_t* layer = nullptr;  ///< a pair needs (layer_a & mask_b) and (layer_b & mask_a)
   const uint32_t* mask = nullptr;   ///< goes with `layer`: give both or neither
   const uint32_t* owner = nullptr;  ///< boxes with the same non-zero owner are never paired
   const Motion* motion = nullptr;   ///< two fixed boxes are never paired
+  /// Boxes with the same negative group are never paired; layers do not part boxes with the same
+  /// positive group.
+  const int32_t* group = nullptr;
+  const uint32_t* space = nullptr;      ///< boxes of different spaces are never paired
+  FilterRule rule = FilterRule::both;   ///< `either`: one half of the rule of `layer` is enough
+  std::span<const Pair> excluded = {};  ///< never paired; a < b, sorted by (a, b)
+  const PairPredicate* predicate = nullptr;  ///< asked about the pairs that all else allows
 };
 
 /// What a search did.
@@ -72,6 +80,7 @@ class CAROM_EXPORT PairFinder {
   /// machine holds; a pair takes about 28 bytes while it is found.
   static constexpr size_t kMostPairs = size_t{1} << 28;
   /// Sets the limit of pairs, less than 2^32. A search that finds more counts them and gives none.
+  /// Here, pairs that PairFilter::excluded and PairFilter::predicate drop count, too.
   void set_most_pairs(size_t pairs);
 
   /// Memory held, in bytes.

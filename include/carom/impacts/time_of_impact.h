@@ -39,6 +39,12 @@ struct ImpactColumns {
   bool want_contacts() const { return separation || normal[0] || point_a[0] || point_b[0]; }
 };
 
+/// What time_of_impact() may be asked for beside its results.
+struct ImpactOptions {
+  WitnessFrame frame = WitnessFrame::world;     ///< of witness points
+  Parallelism parallelism = Parallelism::none;  ///< which threads the call may use
+};
+
 /// For pair i = (a[pairs[i].a], b[pairs[i].b]) finds the first time in [0, 1] at which the bodies
 /// touch, and the contact at that time, and writes row i of `out`. `a` and `b` may be the same set.
 /// Row k of a sweep is the motion of body k of its set. Indices must lie inside their sets.
@@ -51,7 +57,7 @@ struct ImpactColumns {
 /// displacement plus, for bodies that turn, the angle times that distance (for a half-space: times
 /// the greatest distance that the other body reaches from the half-space's position).
 ///
-/// Witness points refer to the bodies at the time of impact, in the frame `frame`.
+/// Witness points refer to the bodies at the time of impact, in the frame `options.frame`.
 ///
 /// Meshes and compounds: only the parts that the swept bounds reach are tested. A one-sided
 /// triangle stops a body if the body's middle is in front of the triangle's back (the plane
@@ -65,8 +71,7 @@ struct ImpactColumns {
 CAROM_EXPORT Result<void> time_of_impact(const Collidables& a, const SweepView& sweep_a,
                                          const Collidables& b, const SweepView& sweep_b,
                                          std::span<const Pair> pairs, const ImpactColumns& out,
-                                         WitnessFrame frame = WitnessFrame::world,
-                                         Parallelism parallelism = Parallelism::none);
+                                         const ImpactOptions& options = {});
 
 /// The greatest separation at a time of impact, relative to size and travel (time_of_impact()).
 inline constexpr double kImpactSlack = 1e-11;

@@ -7,6 +7,7 @@
 #include "carom/base/parallelism.h"
 #include "carom/base/result.h"
 #include "carom/export.h"
+#include "carom/results/contact_regions.h"
 #include "carom/results/pair.h"
 #include "carom/results/result_columns.h"
 #include "carom/results/tier.h"
@@ -17,9 +18,27 @@ namespace carom {
 /// Whether a kernel exists for these two kinds, in either order.
 CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 
+/// What collide() and collide_rows() may be asked for beside their results.
+struct CollideOptions {
+  WitnessFrame frame = WitnessFrame::world;     ///< of witness and manifold points
+  Parallelism parallelism = Parallelism::none;  ///< which threads the call may use
+  Measured measured = Measured::all;            ///< which pairs are measured
+  Accuracy accuracy = {};                       ///< the tier and its knobs
+  /// Metres, finite, >= 0. Separate pairs with at most this separation have contacts, too: they are
+  /// measured, whatever `measured` says, and get manifold points and regions at details that have
+  /// them. In every manifold, points may be this far from B. Overlaps do not change.
+  float contact_distance = 0;
+  /// One distance a pair instead of `contact_distance`; nullptr: that one for all.
+  const float* contact_distances = nullptr;
+  /// Receives all contacts of all pairs at Detail::regions; nullptr: nothing is collected.
+  ContactRegions* regions = nullptr;
+  RegionLimits region_limits = {};  ///< read at Detail::regions
+};
+
 /// Tests pair i = (a[pairs[i].a], b[pairs[i].b]) and writes row i of `out`. `a` and `b` may be the
 /// same set. Columns of `out` hold pairs.size() entries. At Detail::overlap only overlap and status
-/// are written, at Detail::contact all but the manifolds, at Detail::pairs nothing. Indices must
+/// are written, at Detail::contact all but the manifolds, at Detail::pairs nothing; at
+/// Detail::regions the same columns as at Detail::manifold, and CollideOptions::regions. Indices must
 /// lie inside their sets. A body behind a one-sided triangle is separate from it by +infinity, with
 /// NaN as normal and points; an invalid pair has NaN in all of these.
 ///
@@ -42,20 +61,44 @@ CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 /// pairs, more than 0 for separate ones. Undecided pairs have the separation of the standard tier,
 /// and no manifold points.
 ///
-/// Fails, and writes nothing, if no kernel exists for the kinds of a pair (supports()).
+/// At Detail::regions the row of a pair holds its first contact. `regions` has all of them: none for
+/// a pair that neither overlaps nor is within its contact distance. The parts of a mesh or a
+/// compound whose normals are within an angle (RegionLimits) share a contact, the deepest of which
+/// gives the normal. A contact over an inner edge makes none of its own.
+///
+/// Fails, and writes nothing, if no kernel exists for the kinds of a pair (supports()), or if a
+/// contact distance is not a finite number >= 0.
 CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
-                                  const ResultColumns& out,
-                                  WitnessFrame frame = WitnessFrame::world,
-                                  Parallelism parallelism = Parallelism::none,
-                                  Measured measured = Measured::all, const Accuracy& accuracy = {});
+                                  const ResultColumns& out, const CollideOptions& options = {});
 
 /// Does the same for pair i = (a[i], b[i]), i < a.count == b.count, without a list of pairs.
 CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                                        const ResultColumns& out,
-                                       WitnessFrame frame = WitnessFrame::world,
-                                       Parallelism parallelism = Parallelism::none,
-                                       Measured measured = Measured::all,
-                                       const Accuracy& accuracy = {});
+                                       const CollideOptions& options = {});
+
+/// The form of version 0.2.
+[[deprecated("pass CollideOptions")]] inline Result<void> collide(
+    const Collidables& a, const Collidables& b, std::span<const Pair> pairs, Detail detail,
+    const ResultColumns& out, WitnessFrame frame, Parallelism parallelism = Parallelism::none,
+    Measured measured = Measured::all, const Accuracy& accuracy = {}) {
+  return collide(a, b, pairs, detail, out,
+                 CollideOptions{.frame = frame,
+                                .parallelism = parallelism,
+                                .measured = measured,
+                                .accuracy = accuracy});
+}
+
+/// The form of version 0.2.
+[[deprecated("pass CollideOptions")]] inline Result<void> collide_rows(
+    const Collidables& a, const Collidables& b, Detail detail, const ResultColumns& out,
+    WitnessFrame frame, Parallelism parallelism = Parallelism::none,
+    Measured measured = Measured::all, const Accuracy& accuracy = {}) {
+  return collide_rows(a, b, detail, out,
+                      CollideOptions{.frame = frame,
+                                     .parallelism = parallelism,
+                                     .measured = measured,
+                                     .accuracy = accuracy});
+}
 
 }  // namespace carom

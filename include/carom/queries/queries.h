@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "carom/base/parallelism.h"
 #include "carom/base/result.h"
 #include "carom/export.h"
+#include "carom/queries/query_options.h"
 #include "carom/results/contact.h"
 #include "carom/shapes/views.h"
 
@@ -30,7 +30,7 @@ struct OverlapHit {
 /// ShapeKind does not name.
 CAROM_EXPORT Result<void> find_overlaps(const Collidables& queries, const Collidables& bodies,
                                         std::vector<OverlapHit>& hits,
-                                        Parallelism parallelism = Parallelism::none);
+                                        const QueryOptions& options = {});
 
 /// The nearest body of a query, as collide() measures it at Detail::contact.
 struct NearestHit {
@@ -58,6 +58,6 @@ struct NearestHit {
 /// find_overlaps().
 CAROM_EXPORT Result<void> find_nearest(const Collidables& queries, float within,
                                        const Collidables& bodies, std::vector<NearestHit>& hits,
-                                       Parallelism parallelism = Parallelism::none);
+                                       const QueryOptions& options = {});
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"
+#include "carom/results/pair_predicate.h"
 #include "carom/results/sweep.h"
 #include "carom/shapes/body.h"
 #include "carom/shapes/views.h"
@@ -39,6 +40,13 @@ struct PairResult {
   uint32_t sub_b = 0;         ///< child or triangle of B; 0 for simple shapes
 };
 
+/// All contacts of a pair, as at Detail::regions: the first is that of its PairResult.
+struct PairContacts {
+  PairResult first;                  ///< whether or not there is a contact
+  std::vector<PairResult> others;    ///< the other contacts, the deepest first
+  uint16_t left_out = 0;             ///< how many more there are, at most 65,535
+};
+
 /// A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the
 /// body is not valid, infinite for half-spaces. `positions` says in which type the position is
 /// stored: for float32 the position is rounded first.
@@ -51,12 +59,21 @@ CAROM_EXPORT bool is_valid(const Shape& shape, const Pose& pose, PositionType po
 /// Whether two closed boxes overlap: touching is overlap.
 CAROM_EXPORT bool overlap(const Box& a, const Box& b);
 
-/// Whether layers, masks, owners and motion let two bodies meet.
-CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b);
+/// Whether the properties of two bodies let them meet.
+CAROM_EXPORT bool may_meet(const BodyDesc& a, const BodyDesc& b,
+                           FilterRule rule = FilterRule::both);
 
-/// Tests A against B. carom::supports() must be true of their kinds.
+/// Tests A against B. carom::supports() must be true of their kinds. A pair that is separate by at
+/// most `contact_distance` metres has manifold points, too.
 CAROM_EXPORT PairResult collide(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
-                                const Pose& pose_b, PositionType positions);
+                                const Pose& pose_b, PositionType positions,
+                                float contact_distance = 0);
+
+/// The same with all contacts.
+CAROM_EXPORT PairContacts find_contacts(const Shape& shape_a, const Pose& pose_a,
+                                        const Shape& shape_b, const Pose& pose_b,
+                                        PositionType positions, float contact_distance,
+                                        const RegionLimits& limits);
 
 /// When two moving bodies meet, and the contact at that time; names and signs as in ImpactColumns.
 struct Impact {
@@ -87,10 +104,10 @@ struct Frame {
   std::vector<Pair> pairs;                ///< World::pairs()
   std::vector<uint8_t> overlaps;          ///< World::overlaps()
   std::vector<Contact> contacts;          ///< World::contacts()
-  std::vector<ManifoldPoints> manifolds;  ///< at Detail::manifold one a contact, else none
+  std::vector<ManifoldPoints> manifolds;  ///< at details with manifolds one a contact, else none
   std::vector<carom::Impact> impacts;     ///< World::impacts()
   std::vector<Contact> speculative;       ///< World::speculative_contacts()
-  std::vector<Event> events;              ///< World::events()
+  std::vector<Event> events;              ///< World::events(), persists included
   std::vector<BodyId> quarantined;        ///< World::quarantined()
   std::vector<Event> touching;            ///< the overlaps with ids, which the next frame needs
 };
@@ -102,10 +119,18 @@ struct Ahead {
   Impacts impacts = Impacts::earliest;  ///< which impacts are kept
 };
 
+/// Which pairs a frame leaves out beside those that the properties of their bodies forbid.
+struct Filters {
+  FilterRule rule = FilterRule::both;   ///< WorldSettings::filter_rule
+  std::span<const Pair> excluded = {};  ///< body indices a < b, sorted by (a, b)
+  PairPredicate predicate = {};         ///< World::set_pair_predicate()
+};
+
 /// The results of World::step() for these bodies. Their indices must ascend, but bodies[i].id.index
 /// need not be i. `previous` is the frame before; nullptr: there was none. If `velocities`,
 /// contacts carry normal velocities. Compares every pair of boxes: O(n^2).
 CAROM_EXPORT Frame step(std::span<const Body> bodies, PositionType positions, Detail detail,
-                        bool velocities, const Frame* previous, const Ahead& ahead = {});
+                        bool velocities, const Frame* previous, const Ahead& ahead = {},
+                        const Filters& filters = {});
 
 }  // namespace carom::reference

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "carom/results/result_columns.h"
@@ -32,6 +33,10 @@ class ResultArrays {
   /// Makes room for `count` results in the columns that `detail` fills. Of the columns that a
   /// caller need not have, those with a role in `wanted` exist.
   void resize(size_t count, Detail detail, std::initializer_list<ColumnRole> wanted = {}) {
+    resize(count, detail, std::span(wanted.begin(), wanted.size()));
+  }
+  /// The same, with a list that is made at run time.
+  void resize(size_t count, Detail detail, std::span<const ColumnRole> wanted) {
     constexpr size_t kNone = SIZE_MAX;
     std::array<size_t, kColumnCount> first_line;
     size_t column = 0, lines = 0;
@@ -76,7 +81,7 @@ class ResultArrays {
 
   size_t bytes_in_use() const { return memory_.size() * sizeof(Line); }
 
-  static bool is_among(ColumnRole role, std::initializer_list<ColumnRole> wanted) {
+  static bool is_among(ColumnRole role, std::span<const ColumnRole> wanted) {
     if (!is_optional(role)) return true;
     for (const ColumnRole each : wanted) {
       if (each == role) return true;

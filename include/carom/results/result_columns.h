@@ -34,6 +34,9 @@ struct ResultColumns {
   /// for simple shapes, and for a pair without contact. Optional, at details with contacts.
   uint32_t* sub_a = nullptr;
   uint32_t* sub_b = nullptr;  ///< the sub-shape of B, likewise
+  /// The names of the points; all 0 for a pair without contact. Optional, at details with contacts.
+  /// Far from the origin they need WitnessFrame::body.
+  PointNames* point_names = nullptr;
   /// In and out: the closest corners of two hulls, coded. Zero it at first. A caller that measures
   /// the same pairs again and again hands in the entries that the last call left; calls then take
   /// 0.60 to 0.78 of the time while pairs move slowly (docs/narrowphase_peers.md). The content does
@@ -50,6 +53,7 @@ enum class ColumnRole : uint8_t {
   manifold,   ///< the manifold of the pair; needed at Detail::manifold
   bound,      ///< the error bound of the separation; only if the caller wants it
   sub_shape,  ///< the parts that made the contact; only if the caller wants them
+  name,       ///< names of points; only if the caller wants them
   memory,     ///< what the caller hands in again in its next call; only if the caller wants it
 };
 
@@ -82,6 +86,7 @@ constexpr void for_each_result(const Visit& visit, Columns&&... columns) {
   visit(ColumnInfo{"separation_bound", Detail::overlap, bound}, columns.separation_bound...);
   visit(ColumnInfo{"sub_a", Detail::contact, sub_shape}, columns.sub_a...);
   visit(ColumnInfo{"sub_b", Detail::contact, sub_shape}, columns.sub_b...);
+  visit(ColumnInfo{"point_names", Detail::contact, name}, columns.point_names...);
   visit(ColumnInfo{"features", Detail::contact, memory}, columns.features...);
 }
 

@@ -24,6 +24,7 @@ struct ResultRow {
   float separation_bound = 0;      ///< metres
   uint32_t sub_a = 0;              ///< sub-shape of A
   uint32_t sub_b = 0;              ///< sub-shape of B
+  PointNames point_names{};        ///< of the points
   uint64_t features = 0;           ///< what the caller hands in again
 };
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <compare>
 #include <cstdint>
 
+#include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"
 
 namespace carom {
@@ -46,16 +46,24 @@ enum class PositionType : uint8_t {
 /// Where a body is: a point x of its own frame is at position + R x of the world. The orientation
 /// need not be a unit quaternion (R = M(q) / |q|^2), but not zero; spheres and aabbs ignore it.
 struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< world frame, metres
-  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();  ///< from body to world frame
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< world frame, metres
+  Orientation orientation = Orientation::Identity();   ///< from body to world frame
 };
 
-/// All properties of a body. Two bodies may meet if each one's layer is in the other's mask, they
-/// do not share a non-zero owner, and not both are fixed.
+/// What two layers and two masks must say for a pair (docs/filters.md).
+enum class FilterRule : uint8_t {
+  both,   ///< each one's layer has a bit of the other's mask
+  either  ///< at least one's layer has a bit of the other's mask
+};
+
+/// All properties of a body. Two bodies may meet unless one of these forbids it, in this order:
+/// both are fixed; they share a non-zero owner; their spaces differ; they share a negative group;
+/// they do not share a positive group, and layers and masks disagree (FilterRule); the world
+/// excludes the pair (World::exclude()); the predicate of the caller drops it.
 struct BodyDesc {
-  Shape shape = Sphere{};                                           ///< in the body's frame
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< world frame, metres
-  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();  ///< as in Pose
+  Shape shape = Sphere{};                                      ///< in the body's frame
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();          ///< world frame, metres
+  Orientation orientation = Orientation::Identity();           ///< as in Pose
   Eigen::Vector3f linear_velocity = Eigen::Vector3f::Zero();   ///< world frame, metres a second
   Eigen::Vector3f angular_velocity = Eigen::Vector3f::Zero();  ///< world frame, radians a second
   Motion motion = Motion::dynamic;                             ///< who moves it
@@ -63,7 +71,12 @@ struct BodyDesc {
   uint32_t layer = 0xffffffffu;                                ///< bits of the layers it is in
   uint32_t mask = 0xffffffffu;                                 ///< bits of the layers it may meet
   uint32_t owner = 0;                                          ///< 0: none
+  int32_t group = 0;    ///< 0: none; below: never meets its own; above: layers do not part its own
+  uint32_t space = 0;   ///< bodies of different spaces never meet
   bool sensor = false;  ///< reports overlaps and events, never contacts
+  /// Metres, finite, >= 0: separate pairs of this body have contacts from this separation on. The
+  /// distance of a pair is the larger one of its two bodies, and not less than that of the world.
+  float contact_distance = 0;
   uint64_t user = 0;    ///< handed back unchanged
 };
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "carom/base/result.h"
 #include "carom/export.h"
 #include "carom/shapes/compound.h"
+#include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"
 
 namespace carom {
@@ -25,8 +25,7 @@ struct Part;
 struct CompoundChild {
   Shape shape = Sphere{};                              ///< no compound, no half-space
   Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< compound frame, metres
-  Eigen::Quaternionf orientation =
-      Eigen::Quaternionf::Identity();  ///< need not be a unit quaternion, but not zero
+  Orientation orientation = Orientation::Identity();   ///< need not be a unit one, but not zero
 };
 
 /// The children of a compound and their tree. A body of this shape at position p with orientation q

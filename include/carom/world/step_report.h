@@ -14,7 +14,7 @@ enum class Stage : uint8_t {
   changes,     ///< which bodies changed since the last step
   bounds,      ///< world bounds of every body
   sweeps,      ///< bounds over the interval ahead, if a body is looked after (Detection)
-  margins,     ///< new fat bounds for bodies that left those they had
+  margins,     ///< bounds grown by contact distances; new fat bounds for bodies that left theirs
   broadphase,  ///< pairs of overlapping bounds
   pairs,       ///< merge with the last step's pairs: which results are kept, which pairs are tested
   dops,        ///< k-DOPs of bodies, and which pairs of them are separate
@@ -42,6 +42,7 @@ struct StepReport {
   size_t dropped = 0;      ///< pairs not tested because their k-DOPs are separate
   size_t overlaps = 0;     ///< overlapping pairs, sensors included
   size_t contacts = 0;     ///< World::contacts()
+  size_t left_out = 0;     ///< contacts beyond RegionLimits::most, at Detail::regions
   size_t undecided = 0;    ///< pairs that Tier::certified could not decide
   size_t swept = 0;        ///< bodies looked after in this step, swept or continuous
   size_t unswept = 0;      ///< bodies whose motion is not finite, in steps that may look ahead

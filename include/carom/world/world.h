@@ -14,7 +14,7 @@
 #include "carom/export.h"
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
-#include "carom/results/contact.h"
+#include "carom/results/contact_identity.h"
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"
@@ -31,8 +31,18 @@ struct WorldSettings {
   Detail detail = Detail::contact;                            ///< what a step finds of each pair
   BroadphaseMethod broadphase = BroadphaseMethod::automatic;  ///< how candidate pairs are found
   Parallelism parallelism = Parallelism::arena;               ///< which threads a step may use
-  bool events = true;         ///< find begin, persist and end of overlaps
-  bool carry_results = true;  ///< false: every step finds and tests every pair anew
+  RegionLimits region_limits = {};  ///< how contacts are divided at Detail::regions
+
+  /// Metres, finite, >= 0. Separate pairs with at most this separation have contacts, too, before
+  /// they touch: with a positive separation, points, and at details with manifolds all points that
+  /// are this near. Bounds grow by it, so there are more candidate pairs. Overlaps and events do not
+  /// change. BodyDesc::contact_distance raises it for the pairs of one body: the larger distance
+  /// counts, so that a body with a wide one changes no pair of other bodies. Costs nothing while all
+  /// distances are 0. dop_bounds are not used with contact distances.
+  float contact_distance = 0;
+  bool events = true;                                         ///< find begins and ends of overlaps
+  bool persist_events = false;  ///< with `events`: also one event for each overlap that goes on
+  bool carry_results = true;    ///< false: every step finds and tests every pair anew
 
   /// Metres by which bounds are fattened, finite and >= 0. A body keeps its fat bounds, and the
   /// pairs that they make, until its true bounds leave them: for many bodies that move little at a
@@ -60,11 +70,14 @@ struct WorldSettings {
   ///   carry_results this knob does nothing.
   Accuracy accuracy = {};
 
+  FilterRule filter_rule = FilterRule::both;  ///< what layers and masks must say for a pair
+
+  bool identities = false;    ///< provide World::identities(), at details with contacts
   bool pair_changes = false;  ///< provide World::added_pairs() and removed_pairs()
 
-  /// The limit of candidate pairs. A step that finds more is incomplete (StepReport::search): it
-  /// has no pairs, like a step in which nothing meets. Earlier overlaps end, and begin again in the
-  /// next complete step.
+  /// The limit of candidate pairs, those of excluded pairs and of the predicate counted with them.
+  /// A step that finds more is incomplete (StepReport::search): it has no pairs, like a step in
+  /// which nothing meets. Earlier overlaps end, and begin again in the next complete step.
   size_t most_pairs = PairFinder::kMostPairs;
 
   /// Seconds that a step looks ahead for bodies with a Detection other than discrete; finite, >= 0.
@@ -130,7 +143,9 @@ struct WorldMemory {
 /// Bodies and their collisions. All functions take ids of living bodies unless they say otherwise;
 /// a dead id is a programming mistake. Spans of results are those of the last step, and valid until
 /// the next one. Queries (find_points(), cast(), find_overlaps(), find_nearest()) read the bounds
-/// of the last step: bodies must not have changed since. One thread at a time may use a World.
+/// of the last step: bodies must not have changed since. Any number of threads may call functions
+/// that are const at the same time; while one calls a function that is not, no other may use the
+/// World.
 class CAROM_EXPORT World {
  public:
   /// An empty world.
@@ -174,9 +189,9 @@ class CAROM_EXPORT World {
   void set_positions(std::span<const BodyId> ids, std::span<const Eigen::Vector3d> positions);
   /// The rotation from the body's frame to the world. Spheres and aabbs have none: they return the
   /// identity. A body that changes from one of these kinds to another starts with the identity.
-  Eigen::Quaternionf orientation(BodyId id) const;
+  Orientation orientation(BodyId id) const;
   /// Sets an orientation, which need not be a unit quaternion. Spheres and aabbs ignore it.
-  void set_orientation(BodyId id, const Eigen::Quaternionf& orientation);
+  void set_orientation(BodyId id, const Orientation& orientation);
   /// The shape; it shares the geometry of the body.
   Shape shape(BodyId id) const;
   /// Replaces the shape.
@@ -199,6 +214,14 @@ class CAROM_EXPORT World {
   void set_motion(BodyId id, Motion motion);
   /// Sets the properties of the same names in BodyDesc.
   void set_filter(BodyId id, uint32_t layer, uint32_t mask, uint32_t owner);
+  /// Metres, as it was set.
+  float contact_distance(BodyId id) const;
+  /// Sets BodyDesc::contact_distance.
+  void set_contact_distance(BodyId id, float distance);
+  /// Sets BodyDesc::group.
+  void set_group(BodyId id, int32_t group);
+  /// Sets BodyDesc::space.
+  void set_space(BodyId id, uint32_t space);
   /// Makes a body a sensor or not: sensors have overlaps and events, but no contacts.
   void set_sensor(BodyId id, bool sensor);
   /// Whether this body is a sensor.
@@ -224,9 +247,30 @@ class CAROM_EXPORT World {
   /// makes the array, and contacts carry normal velocities from then on. The span moves when bodies
   /// are added or removed.
   std::span<Eigen::Vector3f> linear_velocities();
-  /// Angular velocities, likewise, in radians a second. They do not count in the normal velocities
-  /// of contacts().
+  /// Angular velocities, likewise, in radians a second. Once the array is there, the normal
+  /// velocities of contacts are those of the turning bodies' points.
   std::span<Eigen::Vector3f> angular_velocities();
+
+  // Pairs that never meet, whatever the properties of their bodies allow.
+
+  /// Excludes the pair of two bodies, in any order, from the next step on: they are no candidate
+  /// pair. Without effect if it is excluded. When one of the two is removed, the pair is forgotten;
+  /// a later body with its index does not inherit it. The next step sorts all that was excluded or
+  /// included again in between; any number of pairs may be excluded.
+  void exclude(BodyId a, BodyId b);
+  /// Excludes pairs of indices of living bodies; a != b, in any order.
+  void exclude(std::span<const Pair> pairs);
+  /// Takes exclude() back. Without effect if the pair is not excluded.
+  void include_again(BodyId a, BodyId b);
+  /// Takes exclude() back for pairs of indices of living bodies; a != b, in any order.
+  void include_again(std::span<const Pair> pairs);
+  /// Whether the pair is excluded. Looks through all changes since the last step.
+  bool is_excluded(BodyId a, BodyId b) const;
+
+  /// Sets the predicate that a step asks last about its candidate pairs; an empty function: none.
+  /// It gets body indices, and may call is_alive(), id_of() and user() of this world. Set it again
+  /// when its answers change: a step in which no body changed does not ask it.
+  void set_pair_predicate(PairPredicate predicate);
 
   /// Sets WorldSettings::dt for the next step and those that follow.
   void set_dt(double dt);
@@ -237,19 +281,24 @@ class CAROM_EXPORT World {
 
   // Results of the last step, valid until the next one.
 
-  /// Candidate pairs, sorted by (a, b): bodies whose bounds (fat ones, if there is a margin)
-  /// overlap, and half-spaces with bodies whose bounds (never fat ones) reach into them. Two
+  /// Candidate pairs, sorted by (a, b): bodies whose bounds (grown by contact distances, and fat if
+  /// there is a margin) overlap, and half-spaces with bodies whose bounds (never fat ones) reach into
+  /// them. Two
   /// half-spaces are no pair. In a step that looks ahead, a pair with a body that is looked after
   /// uses the bounds over the interval, any other pair the bounds of now; overlaps, contacts and
   /// manifolds are of now in any case.
   std::span<const Pair> pairs() const;
   /// One a pair: 1 overlap, 0 separate, or kUndecided.
   std::span<const uint8_t> overlaps() const;
-  /// The contacts of all overlapping pairs without sensors, sorted by (a, b).
+  /// The contacts of all pairs without sensors that overlap or are within their contact distance,
+  /// sorted by (a, b). At Detail::regions those of a pair follow one another, the deepest first.
   std::span<const Contact> contacts() const;
-  /// At Detail::manifold one a contact, else none; points are relative to the position of body A.
+  /// One a contact if WorldSettings::identities, else none: which contact and points of the last
+  /// step each one continues.
+  std::span<const ContactIdentity> identities() const;
+  /// At details with manifolds one a contact, else none; points are relative to the position of body A.
   std::span<const ManifoldPoints> manifolds() const;
-  /// Begins, persists and ends, sorted by (a, b), then impacts; as Event says.
+  /// Begins and ends, and persists if asked for, sorted by (a, b), then impacts; as Event says.
   std::span<const Event> events() const;
 
   /// The pairs with a continuous body that will meet in the interval ahead if all bodies go on as
@@ -281,7 +330,9 @@ class CAROM_EXPORT World {
   /// With WorldSettings::pair_changes: pairs of the step before that this step does not have.
   std::span<const Pair> removed_pairs() const;
 
-  // Queries. They read the bounds of the last step: bodies must not have changed since.
+  // Queries. They read the bounds of the last step: bodies must not have changed since. Between two
+  // steps any number of threads may call them at the same time; nothing else may run then but
+  // functions that are const.
 
   /// Replaces `hits` by all bodies that contain each point (`count` records of x, y, z float32,
   /// world frame, metres, `stride` bytes apart), sorted by (point, body). Points that are not
@@ -289,17 +340,21 @@ class CAROM_EXPORT World {
   void find_points(const float* xyz, size_t count, size_t stride,
                    std::vector<PointHit>& hits) const;
 
-  /// carom::cast() (carom/queries/cast.h) against the bodies whose layer has a bit of `mask`,
-  /// sensors included. The first query after a step sorts the bodies into a tree, which the world
-  /// keeps until the next step; later calls cost little more than their queries.
-  void cast(const Collidables& queries, const SweepView& sweep, CastHits which,
-            std::vector<CastHit>& hits, uint32_t mask = ~0u) const;
-  /// carom::find_overlaps() (carom/queries/queries.h) against the same bodies as cast().
+  /// carom::cast() (carom/queries/cast.h) against the bodies of the world that the filter of the
+  /// options lets through. The world keeps an index of its bodies. The first query after a step
+  /// brings it up to date on its own thread, while other queries wait (prepare_queries()); later
+  /// calls cost little more than their queries.
+  void cast(const Collidables& queries, const SweepView& sweep, std::vector<CastHit>& hits,
+            const CastOptions& options = {}) const;
+  /// carom::find_overlaps() (carom/queries/queries.h), likewise.
   void find_overlaps(const Collidables& queries, std::vector<OverlapHit>& hits,
-                     uint32_t mask = ~0u) const;
-  /// carom::find_nearest() (carom/queries/queries.h) against the same bodies as cast().
+                     const QueryOptions& options = {}) const;
+  /// carom::find_nearest() (carom/queries/queries.h), likewise.
   void find_nearest(const Collidables& queries, float within, std::vector<NearestHit>& hits,
-                    uint32_t mask = ~0u) const;
+                    const QueryOptions& options = {}) const;
+  /// Brings the index of queries up to date with the last step, with the threads of the world.
+  /// Queries do it themselves otherwise. Hits are the same.
+  void prepare_queries();
 
   /// Memory held, in bytes, by purpose.
   WorldMemory memory() const;

@@ -1,5 +1,6 @@
 // carom run: its report, and that results do not depend on how it runs.
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <set>
 
@@ -197,6 +198,36 @@ TEST_F(RunTest, BodiesTurnFromFrameToFrame) {
   EXPECT_EQ(report["contacts_per_frame"].get<std::vector<int>>(),
             (std::vector<int>{0, 1, 0, 1, 0, 1}));
   EXPECT_EQ(report["pair_kinds"], json::array({"sphere-box"}));
+}
+
+// Four balls that all overlap; the filters of the file part some.
+TEST_F(RunTest, ExcludedPairsAndSpacesOfAFile) {
+  const auto pairs_with = [&](const std::function<void(io::SceneInfo&)>& change) {
+    io::SceneInfo info;
+    info.bodies = 4;
+    info.shapes.kind = {0};
+    info.shapes.params = {{1}};
+    info.body_shape = {0, 0, 0, 0};
+    change(info);
+    auto writer = io::SceneWriter::create(path("filtered.npz"), info);
+    EXPECT_TRUE(writer) << writer.error().message;
+    io::SceneFrame frame;
+    frame.position32.resize(12);
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(writer->write_frame(frame));
+    EXPECT_TRUE(writer->finish());
+    EXPECT_EQ(run_command({"verify", path("filtered.npz")}).code, 0);
+    EXPECT_EQ(run_json({path("filtered.npz"), "--detail", "pairs"})["pairs_per_frame"],
+              run_json({path("filtered.npz")})["contacts_per_frame"]);
+    return run_json({path("filtered.npz")})["pairs_per_frame"][1].get<int>();
+  };
+  EXPECT_EQ(pairs_with([](io::SceneInfo&) {}), 6);
+  EXPECT_EQ(pairs_with([](io::SceneInfo& i) { i.excluded_pairs = {{2, 3}, {0, 1}, {2, 3}}; }), 4);
+  EXPECT_EQ(pairs_with([](io::SceneInfo& i) { i.space = {7, 0, 7, 0}; }), 2);
+  EXPECT_EQ(pairs_with([](io::SceneInfo& i) {
+              i.space = {7, 0, 7, 0};
+              i.excluded_pairs = {{0, 2}};
+            }),
+            1);
 }
 
 TEST_F(RunTest, DetailsAgree) {

@@ -60,8 +60,7 @@ std::vector<Row> run(std::span<const TestPair> pairs, const Call& call,
   ResultColumns out = columns.out();
   if (features) out.features = features->data();
   expect_success(call, [&] {
-    return collide_rows(a.view(), b.view(), call.detail, out, call.frame, call.parallelism,
-                        call.measured, call.accuracy);
+    return collide_rows(a.view(), b.view(), call.detail, out, options_of(call));
   });
   return columns.rows();
 }

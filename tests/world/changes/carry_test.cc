@@ -18,6 +18,7 @@ TEST(Carry, AStillSceneKeepsEverything) {
   for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
     WorldSettings settings;
     settings.positions = positions;
+    settings.persist_events = true;
     World world(settings);
     add_crowd(world, {.filters = true});
     const StepReport first = world.step();
@@ -43,7 +44,7 @@ TEST(Carry, AStillSceneKeepsEverything) {
 }
 
 TEST(Carry, AStillStepFindsNoBoundsAndNoPairs) {
-  World world;
+  World world({.persist_events = true});
   const std::vector<BodyId> ids = add_crowd(world, {});
   world.step();
   const StepReport& report = world.step();

@@ -107,7 +107,7 @@ TEST(MotionTolerance, TheSameOnThreads) {
 // A body of that shape inside a large sphere.
 struct Lone {
   explicit Lone(const Shape& shape, float metres = 0.5f, PositionType positions = {})
-      : world(with_knobs(tolerance(metres), {.positions = positions})) {
+      : world(with_knobs(tolerance(metres), {.positions = positions, .persist_events = true})) {
     id = world.add({.shape = shape});
     other = world.add({.shape = Sphere{5}, .position = {1, 0, 0}});
     world.step();

@@ -25,7 +25,7 @@ BodyDesc ceiling(double z) {
 TEST(Halfspaces, MeetWhatReachesIntoThem) {
   for (const PositionType positions : kPositionTypes) {
     for (const bool ground_first : {true, false}) {
-      World world({.positions = positions});
+      World world({.positions = positions, .persist_events = true});
       const BodyId first = world.add(ground_first ? ground() : ball(10));
       const BodyId second = world.add(ground_first ? ball(10) : ground());
       const BodyId id = ground_first ? second : first;
@@ -89,7 +89,7 @@ TEST(Halfspaces, TwoOfThemAreNoPair) {
 }
 
 TEST(Halfspaces, AreFilteredLikeOtherBodies) {
-  World world;
+  World world({.persist_events = true});
   const BodyId plane = world.add(ground());
   const BodyId id = world.add(ball(0));
   const auto meet = [&] { return world.step().pairs == 1; };
@@ -109,6 +109,17 @@ TEST(Halfspaces, AreFilteredLikeOtherBodies) {
   world.set_filter(id, 2, 1, 5);
   EXPECT_FALSE(meet());
   world.set_filter(id, 2, 1, 0);
+  EXPECT_TRUE(meet());
+  for (const BodyId body : {plane, id}) world.set_group(body, -2);
+  EXPECT_FALSE(meet());
+  for (const BodyId body : {plane, id}) world.set_group(body, 2);
+  EXPECT_TRUE(meet());
+  world.set_space(id, 1);
+  EXPECT_FALSE(meet());
+  world.set_space(id, 0);
+  world.exclude(plane, id);
+  EXPECT_FALSE(meet());
+  world.include_again(id, plane);
   EXPECT_TRUE(meet());
   world.set_sensor(plane, true);
   EXPECT_TRUE(meet());

@@ -15,6 +15,7 @@ class Heap {
   Heap(WorldSettings settings, size_t count) {
     settings.most_pairs = kLimit;
     settings.pair_changes = true;
+    settings.persist_events = true;
     world = World(settings);
     for (size_t i = 0; i < count; ++i) ids.push_back(world.add({.shape = Sphere{0.6f}}));
     spread();

@@ -77,7 +77,9 @@ TEST(CompositeWorld, DopBoundsLoseNothing) {
 // A box lies on a mesh and is pushed across its edges: it has one contact, with the plane's normal,
 // that names the triangle below.
 TEST(CompositeWorld, ABoxThatSlidesOverAMeshHasOneContact) {
-  World world(settings_with(Detail::manifold, PositionType::float32));
+  WorldSettings settings = settings_with(Detail::manifold, PositionType::float32);
+  settings.persist_events = true;
+  World world(settings);
   world.add({.shape = flat_grid(10, 1), .motion = Motion::fixed});
   const BodyId box = world.add({.shape = Box{{0.4f, 0.4f, 0.25f}}, .position = {-4, 0.3, 0.249}});
   for (int step = 0; step < 40; ++step) {

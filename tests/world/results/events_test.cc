@@ -1,7 +1,9 @@
-// Begin, persist and end; sensors; removal and replacement; quarantine and recovery.
+// Begin, persist and end; sensors; removal and replacement; quarantine and recovery; what ends say
+// about bodies that are gone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 
 #include "carom/world/world.h"
@@ -18,13 +20,14 @@ struct Told {
   BodyId a, b;
   bool sensor = false;
   bool contact = false;
+  int gone = 0;
   bool operator==(const Told&) const = default;
 };
 
 std::ostream& operator<<(std::ostream& out, const Told& t) {
   return out << "kind " << static_cast<int>(t.kind) << ", " << t.a.index << "." << t.a.generation
              << " and " << t.b.index << "." << t.b.generation << (t.sensor ? ", sensor" : "")
-             << (t.contact ? ", contact" : "");
+             << (t.contact ? ", contact" : "") << ", gone " << t.gone;
 }
 
 // Steps and returns the events; checks that their contact indices are right.
@@ -38,14 +41,15 @@ std::vector<Told> told(World& world) {
       EXPECT_EQ(contact.a, event.a.index);
       EXPECT_EQ(contact.b, event.b.index);
     }
-    all.push_back({event.kind, event.a, event.b, event.sensor, event.contact != kNoContact});
+    all.push_back(
+        {event.kind, event.a, event.b, event.sensor, event.contact != kNoContact, event.gone});
   }
   return all;
 }
 
 Told begin(BodyId a, BodyId b) { return {EventKind::begin, a, b, false, true}; }
 Told persist(BodyId a, BodyId b) { return {EventKind::persist, a, b, false, true}; }
-Told end(BodyId a, BodyId b) { return {EventKind::end, a, b}; }
+Told end(BodyId a, BodyId b, int gone = 0) { return {EventKind::end, a, b, false, false, gone}; }
 
 Told sensed(Told told) {
   told.sensor = true;
@@ -58,6 +62,7 @@ class Events : public ::testing::TestWithParam<bool> {
   Events() {
     WorldSettings settings;
     settings.carry_results = GetParam();
+    settings.persist_events = true;
     world = World(settings);
   }
   BodyId ball(double x) { return world.add({.shape = Sphere{0.5f}, .position = {x, 0, 0}}); }
@@ -111,10 +116,10 @@ TEST_P(Events, RemovedBodiesEnd) {
   const BodyId a = ball(0), b = ball(0.5), c = ball(-0.5);
   EXPECT_THAT(told(world), ElementsAre(begin(a, b), begin(a, c), begin(b, c)));
   world.remove(a);
-  EXPECT_THAT(told(world), ElementsAre(end(a, b), end(a, c), persist(b, c)));
+  EXPECT_THAT(told(world), ElementsAre(end(a, b, kRemovedA), end(a, c, kRemovedA), persist(b, c)));
   world.remove(b);
   world.remove(c);
-  EXPECT_THAT(told(world), ElementsAre(end(b, c)));
+  EXPECT_THAT(told(world), ElementsAre(end(b, c, kRemovedA | kRemovedB)));
   EXPECT_THAT(told(world), ElementsAre());
 }
 
@@ -124,8 +129,8 @@ TEST_P(Events, AnotherBodyAtTheSameIndexIsAnotherBody) {
   world.remove(b);
   const BodyId next = ball(0.5);
   ASSERT_EQ(next.index, b.index);
-  EXPECT_THAT(told(world),
-              ElementsAre(end(a, b), begin(a, next), persist(a, c), end(b, c), begin(next, c)));
+  EXPECT_THAT(told(world), ElementsAre(end(a, b, kRemovedB), begin(a, next), persist(a, c),
+                                       end(b, c, kRemovedA), begin(next, c)));
   EXPECT_THAT(told(world), ElementsAre(persist(a, next), persist(a, c), persist(next, c)));
 }
 
@@ -137,11 +142,11 @@ TEST_P(Events, ReplacedTwiceBetweenSteps) {
   world.remove(never_seen);
   const BodyId next = ball(0.5);
   EXPECT_EQ(next.generation, b.generation + 2);
-  EXPECT_THAT(told(world), ElementsAre(end(a, b), begin(a, next)));
+  EXPECT_THAT(told(world), ElementsAre(end(a, b, kRemovedB), begin(a, next)));
   world.remove(next);
   ball(0.5);
   world.remove({b.index, next.generation + 1});
-  EXPECT_THAT(told(world), ElementsAre(end(a, next)));
+  EXPECT_THAT(told(world), ElementsAre(end(a, next, kRemovedB)));
 }
 
 TEST_P(Events, FiltersEndOverlaps) {
@@ -157,7 +162,7 @@ TEST_P(Events, QuarantineAndRecovery) {
   const BodyId a = ball(0), b = ball(0.5);
   EXPECT_THAT(told(world), ElementsAre(begin(a, b)));
   world.set_position(b, {kNan, 0, 0});
-  EXPECT_THAT(told(world), ElementsAre(end(a, b)));
+  EXPECT_THAT(told(world), ElementsAre(end(a, b, kQuarantinedB)));
   EXPECT_THAT(world.quarantined(), ElementsAre(b));
   EXPECT_EQ(world.report().quarantined, 1u);
   EXPECT_EQ(world.report().bodies, 2u);
@@ -169,6 +174,37 @@ TEST_P(Events, QuarantineAndRecovery) {
   move(b, 0.5);
   EXPECT_THAT(told(world), ElementsAre(begin(a, b)));
   EXPECT_TRUE(world.quarantined().empty());
+}
+
+TEST_P(Events, EndsNameTheOneThatIsGone) {
+  const BodyId a = ball(0), b = ball(0.5), c = ball(0.25);
+  const BodyId sensor = world.add({.shape = Sphere{0.5f}, .position = {99, 0, 0}, .sensor = true});
+  const BodyId ground = world.add({.shape = Halfspace{{0, 0, 1}, 0}, .position = {0, 0, -9}});
+  told(world);
+  move(a, kNan);
+  world.remove(c);
+  EXPECT_THAT(told(world), ElementsAre(end(a, b, kQuarantinedA),
+                                       end(a, c, kQuarantinedA | kRemovedB), end(b, c, kRemovedB)));
+  world.set_position(sensor, {0.5, 0, 0});
+  world.set_position(ground, {0, 0, 0});
+  EXPECT_THAT(told(world), ElementsAre(sensed(begin(b, sensor)), begin(b, ground),
+                                       sensed(begin(sensor, ground))));
+  world.set_shape(ground, Halfspace{{0, 0, 0}, 1});
+  world.remove(sensor);
+  EXPECT_THAT(told(world),
+              ElementsAre(sensed(end(b, sensor, kRemovedB)), end(b, ground, kQuarantinedB),
+                          sensed(end(sensor, ground, kRemovedA | kQuarantinedB))));
+}
+
+// A body that was invalid and is then removed was removed.
+TEST_P(Events, RemovedGoesBeforeQuarantined) {
+  const BodyId a = ball(0), b = ball(0.5);
+  told(world);
+  move(b, kNan);
+  world.remove(b);
+  const BodyId next = ball(kNan);
+  ASSERT_EQ(next.index, b.index);
+  EXPECT_THAT(told(world), ElementsAre(end(a, b, kRemovedB)));
 }
 
 TEST_P(Events, EveryKindOfBadBodyIsQuarantined) {
@@ -219,6 +255,54 @@ TEST(EventSettings, WithoutEventsThereAreNone) {
   EXPECT_EQ(world.contacts().size(), 1u);
   EXPECT_TRUE(world.events().empty());
   EXPECT_FALSE(world.report().ran(Stage::events));
+}
+
+// Begins and ends are those of a world with persist events; nothing else is there.
+TEST(EventSettings, PersistOnlyIfAskedFor) {
+  for (const bool carries : {false, true}) {
+    World without({.carry_results = carries});
+    World with({.persist_events = true, .carry_results = carries});
+    size_t persists = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      for (World* world : {&without, &with}) {
+        if (frame == 0) {
+          for (int i = 0; i < 30; ++i) world->add({.shape = Sphere{0.5f}});
+        }
+        if (frame % 5 == 1) world->remove(world->id_of(static_cast<uint32_t>(frame / 5 + 1)));
+        if (frame % 10 == 8) world->add({.shape = Sphere{0.5f}});
+        for (uint32_t i = 0; i < 30 && frame % 4 != 3; ++i) {
+          if (world->is_alive(i))
+            world->set_position(world->id_of(i), {0.1 * (frame + 1) * i, 0, 0});
+        }
+        world->step();
+      }
+      std::vector<Event> expected;
+      for (const Event& event : with.events()) {
+        if (event.kind != EventKind::persist) expected.push_back(event);
+      }
+      persists += with.events().size() - expected.size();
+      ASSERT_EQ(without.events().size(), expected.size()) << frame;
+      for (size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(std::memcmp(&without.events()[i], &expected[i], sizeof(Event)), 0);
+      }
+    }
+    EXPECT_GT(persists, 100u);
+  }
+}
+
+TEST(EventSettings, AtRestThereAreNoneOrAllPersist) {
+  for (const bool wants_persist : {false, true}) {
+    World world({.persist_events = wants_persist});
+    for (int i = 0; i < 2; ++i) world.add({.shape = Sphere{1}});
+    world.step();
+    ASSERT_EQ(world.events().size(), 1u);
+    for (int i = 0; i < 3; ++i) {
+      world.step();
+      ASSERT_EQ(world.events().size(), wants_persist ? 1u : 0u);
+      if (!wants_persist) continue;
+      EXPECT_EQ(world.events()[0].kind, EventKind::persist);
+    }
+  }
 }
 
 TEST(EventSettings, AtDetailOverlapTheyNameNoContact) {

@@ -13,7 +13,9 @@ using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
 TEST(ImpactSteps, EventsFollowThoseOfOverlaps) {
-  World world(kSecond);
+  WorldSettings settings = kSecond;
+  settings.persist_events = true;
+  World world(settings);
   world.add(wall(10));
   world.add({.shape = Sphere{1}, .position = {5, 0, 0}, .sensor = true});
   const BodyId b = world.add(bullet(100));

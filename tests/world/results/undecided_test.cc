@@ -9,6 +9,7 @@ namespace {
 
 WorldSettings at_tier(Tier tier, WorldSettings settings = {}) {
   settings.accuracy.tier = tier;
+  settings.persist_events = true;
   return settings;
 }
 

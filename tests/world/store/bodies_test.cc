@@ -439,7 +439,7 @@ TEST(Bodies, ResultsBeforeTheFirstStepAreEmpty) {
 }
 
 TEST(Bodies, WorldsCanBeMoved) {
-  World first;
+  World first({.persist_events = true});
   const BodyId a = first.add(ball(0));
   first.add(ball(0.5));
   first.step();

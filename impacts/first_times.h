@@ -1,0 +1,26 @@
+// First times of impact of a block of pairs of any kinds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "carom/results/pair.h"
+#include "impacts/impact.h"
+#include "impacts/simple_times.h"
+
+namespace carom {
+
+// One entry a pair, as the fields of FirstTime.
+struct FirstTimeColumns {
+  double* time;
+  uint8_t* status;
+  std::array<uint64_t, 2>* parts;
+};
+
+// Finds the first times of at most kPairsPerBlock pairs. `latest`, one a pair or nullptr: a time that
+// is greater is of no use and need not be found; the answer may be a greater one, or never.
+void find_first_times(const MovingSide& a, const MovingSide& b, std::span<const Pair> pairs,
+                      const double* latest, const FirstTimeColumns& out);
+
+}  // namespace carom

@@ -1,0 +1,159 @@
+// Tests of points in double precision: C. Ericson, Real-Time Collision Detection, 2005, section
+// 5.3.6, with bounds on the rounding of each number. A test only says which triangles a point may
+// touch, and when; the kernels of linear times then decide.
+#include "impacts/mesh_path.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include "impacts/slack.h"
+
+namespace carom {
+namespace {
+
+// Shapes and tests are off by less than this share of all lengths.
+constexpr double kPathSlack = 0x1p-33;
+// What float32 makes of a path, as a share of the lengths on it.
+constexpr double kFloatSlack = 0x1p-20;
+// Longer paths are left to the search in double precision.
+constexpr double kLongestPath = 0x1p100;
+
+// Bounds on rounding and on the slack of linear times, as shares of products of lengths; more than
+// kSweepSlack and kSeam.
+constexpr double kPointSlack = 0x1p-38;
+constexpr double kParallel = 0x1p-30;
+// The square of the sine above which a face is certainly not slanted.
+constexpr double kSurelyUpright = 4 * kSlantedFace * kSlantedFace;
+
+Double3 along(const Double3& start, const Double3& way, double t) {
+  return {start[0] + way[0] * t, start[1] + way[1] * t, start[2] + way[2] * t};
+}
+
+// The half size of a box of a part, seen from the frame of another.
+Double3 half_in_frame(const Turn& frame, const Turn& turn, const Double3& half) {
+  Double3 seen{};
+  for (size_t i = 0; i < 3; ++i) {
+    const Double3 axis = turned_back(frame, {turn[0][i], turn[1][i], turn[2][i]});
+    for (size_t k = 0; k < 3; ++k) seen[k] += std::fabs(axis[k]) * half[i];
+  }
+  return seen;
+}
+
+Double3 start_of(const PlacedPart& mesh, const PlacedPart& shape) {
+  const Double3 middle = turned(shape.turn, box_of(*shape.part).middle);
+  return turned_back(mesh.turn, minus(plus(shape.position, middle), mesh.position));
+}
+
+}  // namespace
+
+bool MeshPath::serves(const PlacedPart& mesh, const BodySweep& mesh_sweep, const PlacedPart& shape,
+                      const BodySweep& shape_sweep) {
+  return mesh.kind() == ShapeKind::mesh && !shape.has_parts() &&
+         shape.kind() != ShapeKind::halfspace && !mesh_sweep.is_turning() &&
+         !shape_sweep.is_turning();
+}
+
+MeshPath::MeshPath(const PlacedPart& mesh, const BodySweep& mesh_sweep, const PlacedPart& shape,
+                   const BodySweep& shape_sweep, double limit)
+    : mesh_(mesh.mesh()),
+      one_sided_(mesh.one_sided.value_or(mesh_.rules().one_sided)),
+      start_(start_of(mesh, shape)),
+      way_(turned_back(mesh.turn, minus(shape_sweep.displacement, mesh_sweep.displacement))),
+      first_(0),
+      last_(limit) {
+  const Double3 half = half_in_frame(mesh.turn, shape.turn, box_of(*shape.part).half);
+  const Double3 lower = {mesh_.lower().x(), mesh_.lower().y(), mesh_.lower().z()};
+  const Double3 upper = {mesh_.upper().x(), mesh_.upper().y(), mesh_.upper().z()};
+  lengths_ = (greatest(start_) + greatest(way_)) +
+             (greatest(half) + std::max(greatest(lower), greatest(upper)));
+  const double slack = kPathSlack * lengths_ + FLT_TRUE_MIN;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double to_lower = (lower[axis] - half[axis] - slack) - start_[axis];
+    const double to_upper = (upper[axis] + half[axis] + slack) - start_[axis];
+    if (way_[axis] == 0) {
+      if (to_lower > 0 || to_upper < 0) return;
+      continue;
+    }
+    const auto [entry, exit] = std::minmax({to_lower / way_[axis], to_upper / way_[axis]});
+    first_ = std::max(first_, entry);
+    last_ = std::min(last_, exit);
+  }
+  if (!(first_ <= last_)) return;
+  const Double3 from = along(start_, way_, first_);
+  const Double3 way = along({}, way_, last_ - first_);
+  const double on_path = greatest(from) + greatest(half) + greatest(way);
+  is_in_range_ = on_path + slack < kLongestPath;
+  if (!is_in_range_) return;
+  const double margin = slack + kFloatSlack * on_path;
+  const Double3 grown = {half[0] + margin, half[1] + margin, half[2] + margin};
+  box_.emplace(rounded_outwards(from, grown),
+               std::array<float, 3>{static_cast<float>(way[0]), static_cast<float>(way[1]),
+                                    static_cast<float>(way[2])});
+}
+
+// A time on the cut path, rounded upwards.
+float MeshPath::limit_on_path(double limit) const {
+  const double length = last_ - first_;
+  if (!(length > 0) || limit >= last_) return limit >= first_ ? 1 : -1;
+  return static_cast<float>((limit - first_) / length * (1 + kFloatSlack) + kFloatSlack);
+}
+
+void MeshPath::find(double limit, size_t most, TreeWalk& walk,
+                    std::vector<uint32_t>& triangles) const {
+  walk_met(mesh_.tree(), *box_, limit_on_path(limit), most, walk, triangles);
+}
+
+void MeshPath::find_for_point(double limit, TreeWalk& walk,
+                              std::vector<uint32_t>& triangles) const {
+  struct Candidate {
+    uint32_t triangle;
+    double earliest;
+  };
+  static thread_local std::vector<Candidate> candidates;
+  static thread_local std::vector<uint32_t> next;
+  candidates.clear();
+  for (walk.start(mesh_.tree()); !walk.is_done();) {
+    next.clear();
+    find(limit, 1, walk, next);
+    for (const uint32_t triangle : next) {
+      const std::optional<Window> touch = window(triangle);
+      if (!touch || touch->earliest > limit) continue;
+      candidates.push_back({triangle, touch->earliest});
+      if (touch->is_sure) limit = std::min(limit, touch->latest);
+    }
+  }
+  for (const Candidate& candidate : candidates) {
+    if (candidate.earliest <= limit) triangles.push_back(candidate.triangle);
+  }
+}
+
+std::optional<MeshPath::Window> MeshPath::window(uint32_t triangle) const {
+  constexpr Window kUnknown = {0, HUGE_VAL, false};
+  if (mesh_.rules().thickness > 0) return kUnknown;
+  const Double3 a = corner(mesh_, triangle, 0);
+  const Double3 u = minus(corner(mesh_, triangle, 1), a), v = minus(corner(mesh_, triangle, 2), a);
+  const Double3 normal = cross(u, v), from = minus(start_, a);
+  const double towards = -dot(way_, normal);
+  const bool from_front = towards > 0;
+  const double sign = from_front ? 1 : -1;
+  const double rate = std::fabs(towards);
+  const double side = std::max(greatest(u), greatest(v)), travel = greatest(way_);
+  const Double3 turn = cross(from, way_);  // -way x from
+  const double along_u = sign * dot(v, turn), along_v = -sign * dot(u, turn);
+  const double doubt = kPointSlack * (side * travel * lengths_ + rate);
+  if (along_u < -doubt || along_v < -doubt || along_u + along_v > rate + doubt) {
+    return std::nullopt;
+  }
+  if (rate <= kParallel * (side * side * travel)) return kUnknown;
+  const double t = sign * dot(from, normal) / rate;
+  const double late = kPointSlack * ((side * side * lengths_ + std::fabs(t) * (side * side * travel)) / rate);
+  if (t - late > 1 || t + late < 0) return std::nullopt;
+  const bool is_inside = along_u >= doubt && along_v >= doubt && along_u + along_v <= rate - doubt;
+  const bool is_upright = dot(normal, normal) > kSurelyUpright * (dot(u, u) * dot(v, v));
+  return Window{t - late, t + late,
+                is_inside && is_upright && t >= late && t + late <= 1 &&
+                    (from_front || !one_sided_)};
+}
+
+}  // namespace carom

@@ -1,0 +1,12 @@
+# Runs the programs PLAIN and OTHER, which must print the same.
+execute_process(COMMAND ${PLAIN} OUTPUT_VARIABLE expected RESULT_VARIABLE plain_code)
+execute_process(COMMAND ${OTHER} OUTPUT_VARIABLE found RESULT_VARIABLE other_code)
+if(other_code EQUAL 77)
+  message("this machine cannot run it; its types lie in memory as they must")
+elseif(NOT plain_code EQUAL 0 OR NOT other_code EQUAL 0 OR expected MATCHES "too few")
+  message(FATAL_ERROR "exit codes ${plain_code} and ${other_code}\n${expected}")
+elseif(NOT found STREQUAL expected)
+  message(FATAL_ERROR "expected\n${expected}found\n${found}")
+else()
+  message("${found}")
+endif()

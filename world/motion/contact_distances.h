@@ -1,0 +1,32 @@
+// From which separation the pairs of bodies have contacts.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "carom/results/pair.h"
+
+namespace carom {
+
+// The distance of a pair is the larger one of its bodies' distances; no body has less than the
+// world.
+struct ContactDistances {
+  float of_world = 0;
+  const float* of_body = nullptr;  // one a body; nullptr: 0 for all
+
+  bool any() const { return of_world > 0 || of_body; }
+  float of(uint32_t body) const { return of_body ? std::max(of_world, of_body[body]) : of_world; }
+  float of(Pair pair) const { return std::max(of(pair.a), of(pair.b)); }
+
+  // By how much the bounds of a body grow, so that two bodies whose separation is at most the
+  // distance of their pair have bounds that overlap: half of the world's distance, and all that
+  // the body's own exceeds it by.
+  float growth(uint32_t body) const {
+    const double own = double{of(body)} - of_world;
+    const auto sum = static_cast<float>(of_world / 2.0 + own);
+    return std::nextafter(sum, std::numeric_limits<float>::max());
+  }
+};
+
+}  // namespace carom

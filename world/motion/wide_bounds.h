@@ -1,0 +1,24 @@
+// Bounds that have grown by the contact distances of their bodies.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "carom/base/parallelism.h"
+#include "carom/shapes/views.h"
+#include "world/motion/contact_distances.h"
+
+namespace carom {
+
+class WideBounds {
+ public:
+  // Empty bounds stay empty.
+  void update(const BoundsView& bounds, const ContactDistances& distances, Parallelism parallelism);
+  BoundsView view() const;
+  size_t bytes() const;
+
+ private:
+  std::array<std::vector<float>, 6> columns_;
+};
+
+}  // namespace carom
