@@ -21,6 +21,9 @@ bool run(const rigid::NamedScene& named, int steps, const char* file) {
   rigid::Scene scene = named.make();
   std::optional<rigid::SceneRecorder> recorder;
   if (file) recorder.emplace(scene.solver.world());
+  for (const rigid::BallJoint& joint : scene.solver.joints()) {
+    if (recorder) recorder->exclude(joint.a, joint.b);
+  }
   rigid::Watch watch(scene);
   for (int i = 0; i < steps; ++i) {
     if (recorder) recorder->add_frame();

@@ -379,11 +379,17 @@ class Watch {
 
   // The longest way of a body from where it was at the start, in metres.
   double furthest(const Scene& scene) const {
-    double most = 0;
+    const std::vector<double> all = ways(scene);
+    return *std::max_element(all.begin(), all.end());
+  }
+
+  // How far each moving body is from where it was at the start, in metres.
+  std::vector<double> ways(const Scene& scene) const {
+    std::vector<double> all;
     for (size_t i = 0; i < starts_.size(); ++i) {
-      most = std::max(most, (scene.solver.world().position(scene.moving[i]) - starts_[i]).norm());
+      all.push_back((scene.solver.world().position(scene.moving[i]) - starts_[i]).norm());
     }
-    return most;
+    return all;
   }
 
   double energy_at_start;

@@ -5,13 +5,15 @@
 
 #include <carom/carom.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <initializer_list>
+#include <span>
 #include <string>
-#include <utility>
+#include <variant>
 #include <vector>
 
 namespace rigid {
@@ -101,6 +103,12 @@ class SceneRecorder {
     }
   }
 
+  // A pair that never meets; indices of bodies.
+  void exclude(uint32_t a, uint32_t b) {
+    excluded_.push_back(std::min(a, b));
+    excluded_.push_back(std::max(a, b));
+  }
+
   void add_frame() {
     for (uint32_t i = 0; i < world_.size(); ++i) {
       const carom::BodyId id = world_.id_of(i);
@@ -127,6 +135,9 @@ class SceneRecorder {
     archive.write("triangles", "<u4", rows(triangles_.size(), 3), triangles_);
     archive.write("body_shape", "<u4", "(" + bodies + ",)", body_shape_);
     archive.write("body_motion", "|u1", "(" + bodies + ",)", motion_);
+    if (!excluded_.empty()) {
+      archive.write("excluded_pairs", "<u4", rows(excluded_.size(), 2), excluded_);
+    }
     archive.write("position", "<f4", frames + ", 3)", position_);
     archive.write("orientation", "<f4", frames + ", 4)", orientation_);
     return archive.finish();
@@ -180,6 +191,7 @@ class SceneRecorder {
   const carom::World& world_;
   std::vector<uint8_t> kind_, motion_;
   std::vector<float> params_, vertices_, position_, orientation_;
+  std::vector<uint32_t> excluded_;
   std::vector<uint32_t> vertex_range_, triangle_range_, triangles_, body_shape_;
   size_t frames_ = 0;
 };

@@ -53,7 +53,7 @@ Outcome run_example(rigid::Scene (*make)(), int steps) {
     watch.note(scene);
   }
   outcome.furthest = watch.furthest(scene);
-  outcome.top = watch.way(scene, scene.moving.size() - 1);
+  outcome.top = watch.ways(scene).back();
   outcome.deepest = watch.deepest;
   for (const BodyId id : scene.moving) {
     const double speed = scene.solver.bodies()[id.index].velocity.norm();
@@ -77,8 +77,8 @@ int main(int argc, char** argv) {
   std::printf("%-8s  %-24s  %9s  %9s  %10s  %9s  %8s\n", "scene", "solver", "last, m", "furthest",
               "speed, m/s", "depth, m", "ms");
   for (const rigid::NamedScene& named : rigid::kScenes) {
-    print(named.name, "example, 8 sub-steps", run_example(named.make, steps));
+    print(named.name, "example, 10 sub-steps", run_example(named.make, steps));
     print(named.name, "Bullet", run_bullet(named.make, steps, 1));
-    print(named.name, "Bullet, 8 steps a frame", run_bullet(named.make, steps, 8));
+    print(named.name, "Bullet, 10 steps a frame", run_bullet(named.make, steps, 10));
   }
 }
