@@ -2,13 +2,13 @@
 // jitters, nothing gains energy, and poses have the same bits on every instruction set and for any
 // number of threads. So the contacts are enough for a solver.
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <vector>
 
-#include "carom/base/thread_arena.h"
 #include "examples/rigid_scenes.h"
 #include "tests/support/isas.h"
 
@@ -21,9 +21,9 @@ constexpr int kSteps = 50;
 constexpr int kSteps = 1000;
 #endif
 
-class Run {
+class PlayedScene {
  public:
-  explicit Run(Scene (*make)(), int steps = kSteps) : scene(make()), watch(scene) {
+  explicit PlayedScene(Scene (*make)(), int steps = kSteps) : scene(make()), watch(scene) {
     for (int i = 0; i < steps; ++i) {
       scene.solver.step();
       watch.note(scene);
@@ -39,32 +39,34 @@ class Run {
 };
 
 // A pile of things of this size, in metres. The depth is the spring of the contacts.
-void expect_stands(const Run& run, double size) {
+void expect_stands(const PlayedScene& run, double size) {
   EXPECT_LT(run.watch.furthest(run.scene), 0.01 * size);
   EXPECT_LT(run.watch.deepest, 0.002 * size);
   EXPECT_LT(run.watch.energy_gain, 1e-6 * run.watch.energy_at_start);
   EXPECT_LT(fastest(run.scene), 0.005);
 }
 
-TEST(RigidBodies, AStackOf20BoxesStands) { expect_stands(Run(make_stack), 1); }
-TEST(RigidBodies, AWallStands) { expect_stands(Run(make_wall), 0.5); }
-TEST(RigidBodies, APyramidStands) { expect_stands(Run(make_pyramid), 1); }
-TEST(RigidBodies, AHouseOfCardsStands) { expect_stands(Run(make_cards), 0.6); }
+TEST(RigidBodies, AStackOf20BoxesStands) { expect_stands(PlayedScene(make_stack), 1); }
+TEST(RigidBodies, AWallStands) { expect_stands(PlayedScene(make_wall), 0.5); }
+TEST(RigidBodies, APyramidStands) { expect_stands(PlayedScene(make_pyramid), 1); }
+TEST(RigidBodies, AHouseOfCardsStands) { expect_stands(PlayedScene(make_cards), 0.6); }
 
 // In half-spaces, and in a mesh, where the three sides are contacts of one pair.
 TEST(RigidBodies, ABoxInACornerDoesNotJitter) {
+  const Vector3f rests_at = Quaternionf::FromTwoVectors(Vector3f(1, 1, 1), Vector3f::UnitZ()) *
+                            Vector3f(0.5f, 0.4f, 0.3f);
   for (const auto make : {make_corner, make_mesh_corner}) {
-    const Run run(make);
+    const PlayedScene run(make);
     EXPECT_EQ(run.scene.solver.contacts().size(), 3u);
     EXPECT_LT(fastest(run.scene), 1e-4);
     EXPECT_LT(run.watch.deepest, 1e-3);
     EXPECT_LT(run.watch.energy_gain, 1e-6 * run.watch.energy_at_start);
-    EXPECT_LT((run.position(0) - Eigen::Vector3d(0, 0, 1.2 / std::sqrt(3.0))).norm(), 0.05);
+    EXPECT_LT((run.position(0) - rests_at.cast<double>()).norm(), 0.001);
   }
 }
 
 TEST(RigidBodies, HullsStayOnTheHills) {
-  const Run run(make_hulls);
+  const PlayedScene run(make_hulls);
   for (size_t i = 0; i < run.scene.moving.size(); ++i) {
     const Eigen::Vector3d at = run.position(i);
     EXPECT_GT(at.z(), hills(static_cast<float>(at.x()), static_cast<float>(at.y()))) << i;
@@ -78,7 +80,7 @@ TEST(RigidBodies, HullsStayOnTheHills) {
 }
 
 TEST(RigidBodies, MarblesStayInTheBowl) {
-  const Run run(make_marbles);
+  const PlayedScene run(make_marbles);
   for (size_t i = 0; i < run.scene.moving.size(); ++i) {
     const Eigen::Vector3d at = run.position(i);
     EXPECT_GT(at.z(), bowl(static_cast<float>(at.x()), static_cast<float>(at.y()))) << i;
@@ -89,8 +91,8 @@ TEST(RigidBodies, MarblesStayInTheBowl) {
 }
 
 TEST(RigidBodies, AChainHangsTogether) {
-  const Run run(make_chain);
-  for (const BallJoint& joint : run.scene.solver.joints()) EXPECT_LT(joint.gap(), 0.004f);
+  const PlayedScene run(make_chain);
+  for (const BallJoint& joint : run.scene.solver.joints()) EXPECT_LT(joint.gap(), 0.01f);
   for (const carom::Contact& contact : run.scene.solver.world().contacts()) {
     EXPECT_FALSE(run.scene.solver.world().is_excluded(run.scene.solver.world().id_of(contact.a),
                                                       run.scene.solver.world().id_of(contact.b)));
@@ -102,10 +104,10 @@ TEST(RigidBodies, AChainHangsTogether) {
 // ------------------------------------------------------------ the same bits
 
 std::vector<std::array<uint64_t, 3>> bits_after(const NamedScene& named, int steps, int threads) {
-  carom::ThreadArena arena(threads);
+  tbb::task_arena arena(threads);
   std::vector<std::array<uint64_t, 3>> bits;
-  arena.run([&] {
-    const Run run(named.make, steps);
+  arena.execute([&] {
+    const PlayedScene run(named.make, steps);
     for (size_t i = 0; i < run.scene.moving.size(); ++i) {
       const Eigen::Vector3d at = run.position(i);
       bits.push_back({std::bit_cast<uint64_t>(at.x()), std::bit_cast<uint64_t>(at.y()),
@@ -115,8 +117,8 @@ std::vector<std::array<uint64_t, 3>> bits_after(const NamedScene& named, int ste
   return bits;
 }
 
-// Contacts of all scenes are there by then.
-int few_steps(const NamedScene& named) { return named.make == make_hulls ? 60 : 100; }
+// By then everything touches something.
+int few_steps(const NamedScene& named) { return named.make == make_hulls ? 60 : 40; }
 
 TEST(RigidBodies, SameBitsOnEveryInstructionSet) {
   for (const NamedScene& named : kScenes) {
