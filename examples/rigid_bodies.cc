@@ -5,7 +5,7 @@
 //   rigid_bodies                          runs every scene for 100 steps and checks it
 //   rigid_bodies SCENE STEPS [FILE.npz]   runs one scene, and records it
 //
-// `carom run FILE.npz --detail manifold --page FILE.html` then plays the recording in a browser.
+// `carom run FILE.npz --detail regions --page FILE.html` then plays the recording in a browser.
 #include <cstdio>
 #include <cstdlib>
 #include <optional>

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFlat = 1e-12;
+constexpr double kOnEdge = 1e-12;
 
 struct Corner {
   Vector2d at;
@@ -18,14 +18,14 @@ struct Corner {
 };
 
 // Whether b lies to the right of the line from a to c. If b lies between the two, it must be off
-// the line by more than kFlat.
+// the line by more than kOnEdge.
 bool is_corner(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d way = c - a;
   const Vector2d step = b - a;
   const double along = step.dot(way);
   const bool is_between = along >= 0 && along <= way.squaredNorm();
   const double area = step.x() * way.y() - step.y() * way.x();
-  return area > (is_between ? kFlat * way.norm() : 0);
+  return area > (is_between ? kOnEdge * way.norm() : 0);
 }
 
 // Appends the lower chain of sorted corners to `out`, without its last corner.

@@ -109,7 +109,8 @@ class CompositeTimes {
   Scratch& scratch_;
 };
 
-// A pair of a mesh and a simple shape that move in straight lines, while its triangles are searched.
+// A pair of a mesh and a simple shape that move in straight lines, while its triangles are
+// searched.
 struct PathSearch {
   const size_t owner;
   const double limit;
@@ -119,7 +120,8 @@ struct PathSearch {
   std::optional<MeshPath> path;
   TreeWalk walk;
 
-  PathSearch(const MovingSide& a, const MovingSide& b, Pair pair, size_t its_owner, double its_limit)
+  PathSearch(const MovingSide& a, const MovingSide& b, Pair pair, size_t its_owner,
+             double its_limit)
       : owner(its_owner),
         limit(its_limit),
         bodies(a, b, pair),

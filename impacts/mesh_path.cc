@@ -147,13 +147,14 @@ std::optional<MeshPath::Window> MeshPath::window(uint32_t triangle) const {
   }
   if (rate <= kParallel * (side * side * travel)) return kUnknown;
   const double t = sign * dot(from, normal) / rate;
-  const double late = kPointSlack * ((side * side * lengths_ + std::fabs(t) * (side * side * travel)) / rate);
+  const double late =
+      kPointSlack * ((side * side * lengths_ + std::fabs(t) * (side * side * travel)) / rate);
   if (t - late > 1 || t + late < 0) return std::nullopt;
   const bool is_inside = along_u >= doubt && along_v >= doubt && along_u + along_v <= rate - doubt;
   const bool is_upright = dot(normal, normal) > kSurelyUpright * (dot(u, u) * dot(v, v));
-  return Window{t - late, t + late,
-                is_inside && is_upright && t >= late && t + late <= 1 &&
-                    (from_front || !one_sided_)};
+  return Window{
+      t - late, t + late,
+      is_inside && is_upright && t >= late && t + late <= 1 && (from_front || !one_sided_)};
 }
 
 }  // namespace carom

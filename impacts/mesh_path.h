@@ -13,8 +13,8 @@ namespace carom {
 // The path of a simple shape in the frame of the mesh, cut to where the shape may touch the mesh.
 class MeshPath {
  public:
-  // Whether there is a path at all: the mesh is a whole body, the shape is simple and has bounds, and
-  // neither turns. The path may still end up empty, or be too long for float32 (is_in_range()).
+  // Whether there is a path at all: the mesh is a whole body, the shape is simple and has bounds,
+  // and neither turns. The path may still end up empty, or be too long for float32 (is_in_range()).
   static bool serves(const PlacedPart& mesh, const BodySweep& mesh_sweep, const PlacedPart& shape,
                      const BodySweep& shape_sweep);
 
@@ -25,8 +25,9 @@ class MeshPath {
   bool is_in_range() const { return is_in_range_; }
   bool is_empty() const { return !box_; }
 
-  // Appends triangles that the shape may touch, roughly in the order in which it gets there, until it
-  // has added `most` or none are left. Those that it may touch after `limit` alone may be left out.
+  // Appends triangles that the shape may touch, roughly in the order in which it gets there, until
+  // it has added `most` or none are left. Those that it may touch after `limit` alone may be left
+  // out.
   void find(double limit, size_t most, TreeWalk& walk, std::vector<uint32_t>& triangles) const;
 
   // The same for a point, all at once: `triangles` are those that it may touch first.

@@ -17,7 +17,7 @@ namespace carom {
 struct MovingSide {
   const Collidables& bodies;
   SweepView sweep;
-  const Double3* arm = nullptr;  // per body: from its pivot to its position; nullptr: zero
+  const Double3* arm = nullptr;        // per body: from its pivot to its position; nullptr: zero
   std::optional<bool> one_sided = {};  // of the triangles of meshes; without it, as they are made
 };
 

@@ -144,16 +144,20 @@ Result<void> write_pairs(const std::string& path, const PairsFile& pairs) {
 }
 
 Result<void> write_pair_results(const std::string& path, uint64_t pairs,
-                                const ResultColumns& columns, const float* toi) {
+                                const ResultColumns& columns, const float* toi,
+                                const RegionArrays* regions) {
   Result<NpzWriter> writer = NpzWriter::create(path);
   if (!writer) return writer.error();
   Result<void> done;
   const auto add = [&](const ColumnInfo& info, const auto& column) {
     using Column = std::remove_cvref_t<decltype(column)>;
-    const bool is_member = info.role != ColumnRole::bound && info.role != ColumnRole::memory;
+    const bool is_member = info.role != ColumnRole::bound && info.role != ColumnRole::memory &&
+                           info.role != ColumnRole::name;
     const bool is_there = column != Column{} || (pairs == 0 && is_member);
     if (!done || !is_there) return;
-    if constexpr (std::is_same_v<Column, ManifoldPoints*>) {
+    if constexpr (std::is_same_v<Column, PointNames*>) {
+      return;  // no file holds them
+    } else if constexpr (std::is_same_v<Column, ManifoldPoints*>) {
       done = add_manifolds(*writer, columns, pairs);
     } else {
       done = add_column(*writer, info.name, column, pairs);
@@ -161,6 +165,9 @@ Result<void> write_pair_results(const std::string& path, uint64_t pairs,
   };
   for_each_result(add, columns);
   if (done && (toi || pairs == 0)) done = add_column(*writer, "toi", toi, pairs);
+  if (done && (regions || pairs == 0)) {
+    done = write_regions(*writer, regions ? *regions : RegionArrays());
+  }
   if (done) done = writer->finish();
   return done;
 }

@@ -8,6 +8,7 @@
 
 #include "carom/base/result.h"
 #include "carom/results/result_columns.h"
+#include "io/region_arrays.h"
 #include "io/shape_arrays.h"
 
 namespace carom::io {
@@ -34,10 +35,11 @@ struct PairsFile {
 Result<PairsFile> read_pairs(const std::string& path);
 Result<void> write_pairs(const std::string& path, const PairsFile& pairs);
 
-// Writes the columns that are there, under their names, and the times of impact if `toi` is not
-// nullptr. A file of no pairs gets all arrays that docs/formats.md names. Unused points of a
+// Writes the columns that are there, under their names, the times of impact if `toi` is not
+// nullptr, and all contacts if `regions` is not. A file of no pairs gets all arrays that docs/formats.md names. Unused points of a
 // manifold are NaN in the file.
 Result<void> write_pair_results(const std::string& path, uint64_t pairs,
-                                const ResultColumns& columns, const float* toi = nullptr);
+                                const ResultColumns& columns, const float* toi = nullptr,
+                                const RegionArrays* regions = nullptr);
 
 }  // namespace carom::io

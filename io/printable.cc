@@ -79,7 +79,7 @@ std::string printable(std::string_view text) {
 std::string printable_name(std::string_view name) {
   // The bytes of the middle are not looked at: a name may be as long as its file.
   constexpr size_t kHalf = (kLongestName - 3) / 2;
-  if (name.size() <= kHalf * 2) {
+  if (name.size() <= kLongestName) {
     const std::string whole = printable(name);
     if (whole.size() <= kLongestName) return whole;
   }

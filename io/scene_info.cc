@@ -25,6 +25,23 @@ Result<void> check_body_array(const std::string& path, const std::string& name,
   return {};
 }
 
+Result<void> check_contact_distances(const SceneInfo& info, const std::string& path) {
+  const std::vector<float>& distances = info.contact_distance;
+  if (!distances.empty() && distances.size() != info.bodies) {
+    return member_error(path, "body_contact_distance",
+                        "holds " + std::to_string(distances.size()) +
+                            " elements (one for each of " + std::to_string(info.bodies) +
+                            " bodies was expected)");
+  }
+  for (size_t i = 0; i < distances.size(); ++i) {
+    if (std::isfinite(distances[i]) && distances[i] >= 0) continue;
+    return member_error(path, "body_contact_distance",
+                        "element " + std::to_string(i) + " is " + std::to_string(distances[i]) +
+                            " (a finite distance >= 0 was expected)");
+  }
+  return {};
+}
+
 Result<void> check_excluded_pairs(const SceneInfo& info, const std::string& path) {
   for (size_t i = 0; i < info.excluded_pairs.size(); ++i) {
     const auto& [a, b] = info.excluded_pairs[i];
@@ -68,6 +85,7 @@ Result<void> check_scene(const SceneInfo& info, const std::string& path) {
   if (result) result = check_body_array(path, "body_owner", info.owner, info.bodies, UINT32_MAX);
   if (result) result = check_body_array(path, "body_space", info.space, info.bodies, UINT32_MAX);
   if (result) result = check_body_array(path, "body_sensor", info.sensor, info.bodies, 1);
+  if (result) result = check_contact_distances(info, path);
   if (result) result = check_excluded_pairs(info, path);
   return result;
 }

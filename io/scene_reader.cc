@@ -120,6 +120,7 @@ class InfoParser {
     if (result) result = read_per_body("body_owner", info_.owner);
     if (result) result = read_per_body("body_space", info_.space);
     if (result) result = read_per_body("body_sensor", info_.sensor);
+    if (result) result = read_per_body("body_contact_distance", info_.contact_distance);
     if (result) result = read_optional("excluded_pairs", kAny, info_.excluded_pairs);
     return result;
   }

@@ -21,6 +21,7 @@ Result<void> write_constants(const SceneInfo& info, NpzWriter& writer) {
   if (result) result = write_optional(writer, "body_owner", info.owner);
   if (result) result = write_optional(writer, "body_space", info.space);
   if (result) result = write_optional(writer, "body_sensor", info.sensor);
+  if (result) result = write_optional(writer, "body_contact_distance", info.contact_distance);
   if (result) result = write_optional(writer, "excluded_pairs", info.excluded_pairs);
   if (result) result = writer.add("dt", std::vector<double>{info.dt});
   return result;

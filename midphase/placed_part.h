@@ -21,7 +21,7 @@ struct PlacedPart {
   Row orientation;
   Turn turn;
   uint32_t child = 0;
-  uint32_t triangle = kWhole;  // index in the mesh; kWhole: no triangle of a mesh
+  uint32_t triangle = kWhole;          // index in the mesh; kWhole: no triangle of a mesh
   std::optional<bool> one_sided = {};  // of triangles of meshes; without it, as they are made
 
   // Places a whole body.

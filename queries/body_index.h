@@ -13,17 +13,19 @@
 
 namespace carom {
 
-// Follows bodies from call to call. Static bodies and others are in two parts of the tree. A part in
-// which no box changed stays as it is; otherwise it is refitted, or rebuilt if it has become worn or
-// a new body has come. Hits do not depend on which of these happened.
+// Follows bodies from call to call. Static bodies and others are in two parts of the tree. A part
+// in which no box changed stays as it is; otherwise it is refitted, or rebuilt if it has become
+// worn or a new body has come. Hits do not depend on which of these happened.
 class BodyIndex {
  public:
-  // Brings the index up to date with bodies that have these bounds. The bounds of half-spaces and of
-  // bodies that take no part are empty. `motion` nullptr: no body is static.
+  // Brings the index up to date with bodies that have these bounds. The bounds of half-spaces and
+  // of bodies that take no part are empty. `motion` nullptr: no body is static.
   void update(const Collidables& bodies, const BoundsView& bounds, const Motion* motion,
               std::span<const WorldHalfspace> halfspaces, Parallelism parallelism);
 
-  const BoxTree& tree() const { return tree_.tree(); }  // of bounds grown by the error of pair tests
+  const BoxTree& tree() const {
+    return tree_.tree();
+  }  // of bounds grown by the error of pair tests
   std::span<const WorldHalfspace> halfspaces() const { return halfspaces_; }
 
   // How often each part was refitted or rebuilt.

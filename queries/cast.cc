@@ -90,9 +90,8 @@ struct Contacts {
     const auto three = [begin](std::array<std::vector<float>, 3>& v) -> std::array<float*, 3> {
       return {v[0].data() + begin, v[1].data() + begin, v[2].data() + begin};
     };
-    return {.separation = separation.data() + begin,
-            .normal = three(normal),
-            .point_b = three(point)};
+    return {
+        .separation = separation.data() + begin, .normal = three(normal), .point_b = three(point)};
   }
 };
 
@@ -118,8 +117,7 @@ class Caster {
   Result<void> run() {
     for (size_t first = 0; first < boxes_.count(); first += kQueriesAtOnce) {
       const size_t count = std::min(kQueriesAtOnce, boxes_.count() - first);
-      Result<void> done =
-          which_ == CastHits::all ? find_all(first, count) : find_one(first, count);
+      Result<void> done = which_ == CastHits::all ? find_all(first, count) : find_one(first, count);
       if (!done) {
         hits_.clear();
         return done;
@@ -153,9 +151,8 @@ class Caster {
     std::vector<Best> best(count);
     const auto test = [&](std::span<const Pair> candidates) -> Result<void> {
       // Of times that round to the same float the lowest body counts.
-      Result<void> tested = find_times(candidates, [&](Pair pair) -> double {
-        return next_up(limit[pair.a - first]);
-      });
+      Result<void> tested = find_times(
+          candidates, [&](Pair pair) -> double { return next_up(limit[pair.a - first]); });
       for (size_t i = 0; tested && i < candidates.size(); ++i) {
         const Pair pair = candidates[i];
         const FirstTime time = times_.at(i);
@@ -200,12 +197,11 @@ class Caster {
   void add_hits(const Times& times) {
     const std::span<const Pair> pairs = times.pairs();
     contacts_.resize(pairs.size());
-    for_each_block(pairs.size(), kPairsPerBlock, parallelism_,
-                   [&](size_t, size_t begin, size_t end) {
-                     find_impact_contacts(moving_, still_, pairs.data() + begin,
-                                          times.block(begin, end), WitnessFrame::body,
-                                          contacts_.columns(begin));
-                   });
+    for_each_block(
+        pairs.size(), kPairsPerBlock, parallelism_, [&](size_t, size_t begin, size_t end) {
+          find_impact_contacts(moving_, still_, pairs.data() + begin, times.block(begin, end),
+                               WitnessFrame::body, contacts_.columns(begin));
+        });
     const BodyReader bodies{still_.bodies};
     for (size_t i = 0; i < pairs.size(); ++i) {
       const FirstTime first = times.at(i);

@@ -78,12 +78,12 @@ void add_speculative(const MovingPair& pair, const PairResult& now, double dt, F
 
 }  // namespace
 
-void look_ahead(const MovingPair& pair, const PairResult& now, bool overlap, PositionType positions,
-                Detail detail, double dt, Frame& frame) {
+void look_ahead(const MovingPair& pair, const PairResult& now, bool overlap, bool near,
+                PositionType positions, Detail detail, double dt, Frame& frame) {
   if (!pair.motion_a.is_finite || !pair.motion_b.is_finite) return;
   if (pair.motion_a.is_continuous() || pair.motion_b.is_continuous()) {
     add_impact(pair, now, overlap, positions, detail, frame);
-  } else if (!overlap && !has_sensor(pair) && has_contacts(detail) && dt > 0) {
+  } else if (!overlap && !near && !has_sensor(pair) && has_contacts(detail) && dt > 0) {
     add_speculative(pair, now, dt, frame);
   }
 }

@@ -1,9 +1,12 @@
 // One frame, from bodies to events.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <variant>
 
 #include "base/float_environment.h"
+#include "base/grown.h"
 #include "carom/reference/reference.h"
 #include "narrowphase/scalar/length.h"
 #include "reference/events.h"
@@ -11,32 +14,69 @@
 #include "reference/motion.h"
 #include "reference/pairs.h"
 #include "reference/scalar.h"
+#include "shapes/point_velocity.h"
 
 namespace carom::reference {
 namespace {
 
-// A body with bounds: the present ones, and those over the interval ahead.
+// Bounds: the present ones, the same grown by the body's contact distance, and the grown ones over
+// the interval ahead.
+template <class Bounds>
+struct AllBounds {
+  Bounds now, near, ahead;
+};
+
 struct Participant {
   const Body* body;
   BodyMotion motion;
-  Box now;
-  Box ahead;
+  AllBounds<Box> bounds;
 };
 
 struct HalfspaceParticipant {
   const Body* body;
   BodyMotion motion;
-  Plane now;
-  Plane ahead;
+  AllBounds<Plane> bounds;
 };
+
+// The settings of a frame, which all its pairs share.
+struct Settings {
+  PositionType positions;
+  Detail detail;
+  bool velocities;
+  Ahead ahead;
+  ContactRules contacts;
+
+  float distance_of(const Body& body) const {
+    const bool any = has_contacts(detail);
+    return any ? std::fmax(contacts.contact_distance, body.desc.contact_distance) : 0;
+  }
+  float growth_of(const Body& body) const {
+    const float own = distance_of(body);
+    return own > 0 ? contact_growth(contacts.contact_distance, own) : 0;
+  }
+};
+
+Box grown(const Box& box, float growth) {
+  if (growth == 0) return box;
+  return {box.lower.unaryExpr([=](float x) { return below(x, growth); }),
+          box.upper.unaryExpr([=](float x) { return above(x, growth); })};
+}
+
+Plane grown(Plane plane, float growth) {
+  const Eigen::Vector3d n = plane.normal.cwiseAbs();
+  const double more = double{growth} * ((n.x() + n.y()) + n.z());
+  if (growth > 0) plane.limit = std::nextafter(plane.limit + more, HUGE_VAL);
+  return plane;
+}
 
 struct Participants {
   std::vector<Participant> bodies;
   std::vector<HalfspaceParticipant> halfspaces;
 };
 
-Participants participants(std::span<const Body> bodies, PositionType positions, const Ahead& ahead,
+Participants participants(std::span<const Body> bodies, const Settings& settings,
                           std::vector<BodyId>& quarantined) {
+  const PositionType positions = settings.positions;
   Participants result;
   for (const Body& body : bodies) {
     const Pose pose = pose_of(body.desc);
@@ -44,14 +84,17 @@ Participants participants(std::span<const Body> bodies, PositionType positions, 
       quarantined.push_back(body.id);
       continue;
     }
-    const BodyMotion motion = motion_of(body.desc, ahead);
+    const BodyMotion motion = motion_of(body.desc, settings.ahead);
+    const float growth = settings.growth_of(body);
     if (const auto* halfspace = std::get_if<Halfspace>(&body.desc.shape)) {
       const Plane plane = world_plane(*halfspace, pose, positions);
-      result.halfspaces.push_back({&body, motion, plane, plane_over(plane, motion.sweep)});
+      const Plane ahead = plane_over(plane, motion.sweep);
+      result.halfspaces.push_back(
+          {&body, motion, {plane, grown(plane, growth), grown(ahead, growth)}});
     } else {
       const Box box = bounds(body.desc.shape, pose, positions);
-      result.bodies.push_back(
-          {&body, motion, box, box_over(box, body.desc, motion.sweep, positions)});
+      const Box ahead = box_over(box, body.desc, motion.sweep, positions);
+      result.bodies.push_back({&body, motion, {box, grown(box, growth), grown(ahead, growth)}});
     }
   }
   return result;
@@ -63,19 +106,20 @@ struct Candidate {
   const Body* b;
   const BodyMotion* motion_a;
   const BodyMotion* motion_b;
-  bool meet_now;  // their present bounds overlap
+  bool meet_now;   // their present bounds overlap
+  bool near_now;   // their grown present bounds overlap
 };
 
 // Two bodies, not in order.
 Candidate in_order(const Body* x, const BodyMotion& of_x, const Body* y, const BodyMotion& of_y,
-                   bool meet_now) {
-  if (x->id.index < y->id.index) return {x, y, &of_x, &of_y, meet_now};
-  return {y, x, &of_y, &of_x, meet_now};
+                   bool meet_now, bool near_now) {
+  if (x->id.index < y->id.index) return {x, y, &of_x, &of_y, meet_now, near_now};
+  return {y, x, &of_y, &of_x, meet_now, near_now};
 }
 
 // If one of the bodies looks ahead, overlapping bounds over the interval are enough.
 bool is_candidate(const Candidate& pair) {
-  return pair.meet_now || pair.motion_a->looks_ahead() || pair.motion_b->looks_ahead();
+  return pair.near_now || pair.motion_a->looks_ahead() || pair.motion_b->looks_ahead();
 }
 
 // Pairs of bodies with overlapping bounds, and of bodies and half-spaces that they reach into;
@@ -86,17 +130,19 @@ std::vector<Candidate> candidates(const Participants& all) {
     if (is_candidate(pair)) result.push_back(pair);
   };
   std::vector<Box> boxes;
-  for (const Participant& p : all.bodies) boxes.push_back(p.ahead);
+  for (const Participant& p : all.bodies) boxes.push_back(p.bounds.ahead);
   for (const Pair& rows : overlapping_pairs(boxes)) {
     const Participant& a = all.bodies[rows.a];
     const Participant& b = all.bodies[rows.b];
-    add({a.body, b.body, &a.motion, &b.motion, overlap(a.now, b.now)});
+    add({a.body, b.body, &a.motion, &b.motion, overlap(a.bounds.now, b.bounds.now),
+         overlap(a.bounds.near, b.bounds.near)});
   }
   if (all.halfspaces.empty()) return result;
   for (const HalfspaceParticipant& h : all.halfspaces) {
     for (const Participant& p : all.bodies) {
-      if (!may_reach(p.ahead, h.ahead)) continue;
-      add(in_order(h.body, h.motion, p.body, p.motion, may_reach(p.now, h.now)));
+      if (!may_reach(p.bounds.ahead, h.bounds.ahead)) continue;
+      add(in_order(h.body, h.motion, p.body, p.motion, may_reach(p.bounds.now, h.bounds.now),
+                   may_reach(p.bounds.near, h.bounds.near)));
     }
   }
   std::sort(result.begin(), result.end(), [](const Candidate& x, const Candidate& y) {
@@ -105,8 +151,12 @@ std::vector<Candidate> candidates(const Participants& all) {
   return result;
 }
 
-float normal_velocity(const BodyDesc& a, const BodyDesc& b, const Vector3f& normal) {
-  return dot(b.linear_velocity - a.linear_velocity, normal);
+Vector3f velocity_at(const BodyDesc& body, const Vector3f& arm) {
+  const bool turns =
+      !std::holds_alternative<Sphere>(body.shape) && !std::holds_alternative<Aabb>(body.shape);
+  const Vector3f& w = body.angular_velocity;
+  return turns && !w.isZero(0) ? point_velocity(body.linear_velocity, w, arm)
+                               : body.linear_velocity;
 }
 
 Contact contact_between(const Body& a, const Body& b, const PairResult& result, bool velocities) {
@@ -120,29 +170,39 @@ Contact contact_between(const Body& a, const Body& b, const PairResult& result, 
   contact.arm_a = result.arm_a;
   contact.arm_b = result.arm_b;
   contact.status = result.status;
-  if (velocities) contact.normal_velocity = normal_velocity(a.desc, b.desc, result.normal);
+  if (velocities) {
+    const Vector3f v = velocity_at(b.desc, result.arm_b) - velocity_at(a.desc, result.arm_a);
+    contact.normal_velocity = dot(v, result.normal);
+  }
   return contact;
 }
 
-// The settings of a frame, which all its pairs share.
-struct Settings {
-  PositionType positions;
-  Detail detail;
-  bool velocities;
-  Ahead ahead;
-};
+void add_contact(const Body& a, const Body& b, const PairResult& result, const Settings& settings,
+                 Frame& frame) {
+  frame.contacts.push_back(contact_between(a, b, result, settings.velocities));
+  if (!has_manifolds(settings.detail)) return;
+  frame.contacts.back().manifold_count = result.manifold_count;
+  frame.manifolds.push_back(result.manifold);
+}
 
-void add_overlap(const Body& a, const Body& b, const PairResult& result, const Settings& settings,
+// Returns the index of the first one.
+uint32_t add_contacts(const Body& a, const Body& b, const PairContacts& found,
+                      const Settings& settings, Frame& frame) {
+  const auto first = static_cast<uint32_t>(frame.contacts.size());
+  add_contact(a, b, found.first, settings, frame);
+  if (settings.detail == Detail::regions) {
+    frame.contacts.back().left_out = found.left_out;
+    for (const PairResult& other : found.others) add_contact(a, b, other, settings, frame);
+  }
+  return first;
+}
+
+void add_overlap(const Body& a, const Body& b, const PairContacts& found, const Settings& settings,
                  Frame& frame) {
   const bool sensor = a.desc.sensor || b.desc.sensor;
   Event touch{a.id, b.id, kNoContact, EventKind::begin, sensor};
   if (has_contacts(settings.detail) && !sensor) {
-    touch.contact = static_cast<uint32_t>(frame.contacts.size());
-    frame.contacts.push_back(contact_between(a, b, result, settings.velocities));
-    if (settings.detail == Detail::manifold) {
-      frame.contacts.back().manifold_count = result.manifold_count;
-      frame.manifolds.push_back(result.manifold);
-    }
+    touch.contact = add_contacts(a, b, found, settings, frame);
   }
   frame.touching.push_back(touch);
 }
@@ -152,13 +212,20 @@ void add_overlap(const Body& a, const Body& b, const PairResult& result, const S
 void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
   const Body& a = *pair.a;
   const Body& b = *pair.b;
-  const PairResult result =
-      collide(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc), settings.positions);
+  const float distance = std::fmax(settings.distance_of(a), settings.distance_of(b));
+  PairContacts found =
+      find_contacts(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc),
+                    settings.positions, distance, settings.contacts.region_limits);
+  PairResult& result = found.first;
   const bool overlap = result.overlap && pair.meet_now;
+  const bool sensor = a.desc.sensor || b.desc.sensor;
+  const bool near = !overlap && distance > 0 && result.separation <= distance && pair.near_now;
   frame.overlaps.push_back(overlap ? 1 : 0);
-  if (overlap) add_overlap(a, b, result, settings, frame);
+  if (overlap) add_overlap(a, b, found, settings, frame);
+  if (near) result.separation = std::fmax(result.separation, std::numeric_limits<float>::min());
+  if (near && !sensor) add_contacts(a, b, found, settings, frame);
   if (!pair.motion_a->looks_ahead() && !pair.motion_b->looks_ahead()) return;
-  look_ahead({a, b, *pair.motion_a, *pair.motion_b}, result, overlap, settings.positions,
+  look_ahead({a, b, *pair.motion_a, *pair.motion_b}, result, overlap, near, settings.positions,
              settings.detail, settings.ahead.dt, frame);
 }
 
@@ -194,16 +261,16 @@ void add_impact_events(std::span<const Body> bodies, Frame& frame) {
 }  // namespace
 
 Frame step(std::span<const Body> bodies, PositionType positions, Detail detail, bool velocities,
-           const Frame* previous, const Ahead& ahead, const Filters& filters) {
+           const Frame* previous, const Ahead& ahead, const Filters& filters,
+           const ContactRules& contacts) {
   const FloatEnvironment environment;
+  const Settings settings{positions, detail, velocities, ahead, contacts};
   Frame frame;
-  const Participants all = participants(bodies, positions, ahead, frame.quarantined);
+  const Participants all = participants(bodies, settings, frame.quarantined);
   for (const Candidate& pair : candidates(all)) {
     if (!passes(pair, filters)) continue;
     frame.pairs.push_back({pair.a->id.index, pair.b->id.index});
-    if (detail != Detail::pairs) {
-      test_pair(pair, {positions, detail, velocities, ahead}, frame);
-    }
+    if (detail != Detail::pairs) test_pair(pair, settings, frame);
   }
   settle(ahead.impacts, frame.impacts);
   const std::vector<Event> none;

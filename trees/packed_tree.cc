@@ -15,6 +15,7 @@ namespace {
 
 constexpr size_t kItemsPerBlock = 4096;
 constexpr size_t kNodesPerBlock = 512;
+constexpr size_t kNodesAhead = 4;  // whose items are fetched
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr TreeBox kNoChild = {{kNan, kNan, kNan}, {kNan, kNan, kNan}};
 
@@ -171,15 +172,20 @@ class BlockSum {
 
 // The nodes of one level get the boxes of their children, and keep which children they are. Returns
 // the sum of the areas of the boxes of the level.
-template <class BoxOf>
+template <class BoxOf, class Fetch>
 double fit_level(const PackedLevels::Level& level, Parallelism parallelism,
-                 std::vector<BoxTree::Node>& nodes, const BoxOf& box_of_child) {
+                 std::vector<BoxTree::Node>& nodes, const BoxOf& box_of_child,
+                 const Fetch& fetch_child) {
   BlockSum areas(block_count(level.count, kNodesPerBlock));
   for_each_block(level.count, kNodesPerBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
                    double sum = 0;
                    for (size_t i = begin; i < end; ++i) {
                      BoxTree::Node& node = nodes[level.first + i];
+                     if (i + kNodesAhead < end) {
+                       const BoxTree::Node& later = nodes[level.first + i + kNodesAhead];
+                       for (const uint32_t child : later.child) fetch_child(child);
+                     }
                      for (size_t k = 0; k < BoxTree::kChildren; ++k) {
                        const size_t child = i * BoxTree::kChildren + k;
                        if (child < level.children) set_box(k, box_of_child(node.child[k]), node);
@@ -239,10 +245,16 @@ void PackedLevels::refit(std::span<const TreeBox> boxes, Parallelism parallelism
                          std::vector<BoxTree::Node>& nodes) {
   area_ = 0;
   for (size_t l = 0; l < levels_.size(); ++l) {
-    area_ += l == 0 ? fit_level(levels_[l], parallelism, nodes,
-                                [&](uint32_t child) { return boxes[child - BoxTree::kItem]; })
-                    : fit_level(levels_[l], parallelism, nodes,
-                                [&](uint32_t child) { return box_of(nodes[child]); });
+    area_ += l == 0 ? fit_level(
+                          levels_[l], parallelism, nodes,
+                          [&](uint32_t child) { return boxes[child - BoxTree::kItem]; },
+                          // the items of neighbours are anywhere in memory
+                          [&](uint32_t child) {
+                            __builtin_prefetch(boxes.data() + (child - BoxTree::kItem));
+                          })
+                    : fit_level(
+                          levels_[l], parallelism, nodes,
+                          [&](uint32_t child) { return box_of(nodes[child]); }, [](uint32_t) {});
   }
 }
 
@@ -255,7 +267,7 @@ BoxTree BoxTree::packed(std::span<const TreeBox> boxes, Parallelism parallelism)
 void RefittedTree::build(size_t first_part, std::span<const TreeBox> boxes,
                          std::span<const uint8_t> parts, Parallelism parallelism) {
   std::vector<BoxTree::Node>& nodes = tree_.nodes_;
-  nodes.resize(1);
+  nodes.resize(first_part == 0 ? 1 : levels_[first_part - 1].end());
   for (size_t part = 0; part < kParts; ++part) {
     if (part >= first_part) {
       const std::vector<uint64_t> items = sorted_items(boxes, {parts, part}, parallelism);

@@ -109,7 +109,7 @@ Json contacts_of(const World& world) {
   for (size_t i = 0; i < world.contacts().size(); ++i) {
     const Contact& contact = world.contacts()[i];
     columns.add(contact);
-    if (world.settings().detail == Detail::manifold) {
+    if (has_manifolds(world.settings().detail)) {
       columns.add_manifold(contact.manifold_count, world.manifolds()[i]);
     } else {
       columns.add_witness(contact);
@@ -170,7 +170,7 @@ std::string view_of(const World& world, const std::string& scene, uint64_t frame
   ShapeTable shapes;
   Json view = {{"scene", scene}, {"frame", frame}};
   view["left_out"] = world.quarantined().size();
-  view["detail"] = world.settings().detail == Detail::manifold ? "manifold" : "contact";
+  view["detail"] = has_manifolds(world.settings().detail) ? "manifold" : "contact";
   view["body"] = bodies_of(world, shapes);
   view["shapes"] = shapes_of(shapes);
   view["contact"] = contacts_of(world);

@@ -14,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/pairs/impact_arrays.h"
 #include "cli/pairs/pair_set.h"
+#include "cli/pairs/region_rows.h"
 #include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
@@ -29,6 +30,7 @@ namespace {
 constexpr NamedDetail kDetails[] = {{"overlap", Detail::overlap},
                                     {"contact", Detail::contact},
                                     {"manifold", Detail::manifold},
+                                    {"regions", Detail::regions},
                                     {"distance", Detail::contact},
                                     {"toi", Detail::contact}};
 
@@ -38,6 +40,7 @@ struct PairsOptions {
   EngineOptions engine;
   TierOptions tier;
   std::string detail = "contact";
+  double contact_distance = 0;
   int repeat = 1;
   std::string json;
 };
@@ -65,6 +68,7 @@ Result<void> check_motions(const PairSet& pairs, const std::string& path) {
 struct Tested {
   ResultArrays results;
   std::vector<float> toi;  // at detail toi only
+  ContactRegions regions;  // at detail regions only
   std::vector<double> ns_per_pair;
 };
 
@@ -98,12 +102,16 @@ Result<Tested> test_pairs(const PairSet& pairs, const PairsOptions& options, Det
   const ResultColumns& columns = results.columns();
   const Collidables a = pairs.a.view();
   const Collidables b = pairs.b.view();
+  ContactRegions regions;
   auto times = time_runs(pairs.size(), options, console, [&](Parallelism parallelism) {
-    return collide_rows(a, b, detail, columns, WitnessFrame::world, parallelism, Measured::all,
-                        accuracy);
+    return collide_rows(a, b, detail, columns,
+                        {.parallelism = parallelism,
+                         .accuracy = accuracy,
+                         .contact_distance = static_cast<float>(options.contact_distance),
+                         .regions = &regions});
   });
   if (!times) return times.error();
-  return Tested{std::move(results), {}, std::move(*times)};
+  return Tested{std::move(results), {}, std::move(regions), std::move(*times)};
 }
 
 Result<Tested> find_impacts(const PairSet& pairs, const PairsOptions& options,
@@ -122,7 +130,7 @@ Result<Tested> find_impacts(const PairSet& pairs, const PairsOptions& options,
   });
   if (!times) return times.error();
   results.mark_meetings();
-  return Tested{std::move(results.contacts), std::move(results.toi), std::move(*times)};
+  return Tested{std::move(results.contacts), std::move(results.toi), {}, std::move(*times)};
 }
 
 struct ImpactCounts {
@@ -178,6 +186,7 @@ nlohmann::ordered_json to_json(const PairsReport& report, const PairsOptions& op
   const std::vector<std::string> knobs = names_of(report.accuracy.knobs);
   if (!knobs.empty()) json["knobs"] = knobs;
   json["detail"] = options.detail;
+  json["contact_distance"] = options.contact_distance;
   json["threads"] = options.engine.threads;
   json["repeat"] = options.repeat;
   json["overlaps"] = report.overlaps;
@@ -226,6 +235,8 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   if (!accuracy) return accuracy.error();
   Result<Detail> detail = parse_detail(options.detail, kDetails);
   if (!detail) return detail.error();
+  Result<void> metres = check_metres("--contact-distance", options.contact_distance);
+  if (!metres) return metres.error();
   if (finds_impacts(options)) {
     Result<void> served = check_tier_of_impacts(*accuracy, options.tier.tier);
     if (!served) return served.error();
@@ -245,8 +256,10 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
                               : test_pairs(*set, options, *detail, *accuracy, console);
   if (!tested) return tested.error();
   const float* toi = finds_impacts(options) ? tested->toi.data() : nullptr;
+  const io::RegionArrays regions = region_arrays(tested->regions, *set);
   Result<void> written =
-      io::write_pair_results(options.output, set->size(), tested->results.columns(), toi);
+      io::write_pair_results(options.output, set->size(), tested->results.columns(), toi,
+                             *detail == Detail::regions ? &regions : nullptr);
   if (!written) return written.error();
 
   PairsReport report = summarize(*tested, *accuracy, options);
@@ -267,7 +280,11 @@ void add_pairs_command(CommandLine& program) {
   command.add_option("-o,--output", options->output, "Results (.npz)").required().file_name();
   add_engine_options(command, options->engine);
   add_tier_options(command, options->tier);
-  command.add_option("--detail", options->detail, "overlap, contact, manifold, distance or toi")
+  command.add_option("--detail", options->detail, "overlap, contact, manifold, regions, distance or toi")
+      .show_default();
+  command
+      .add_option("--contact-distance", options->contact_distance,
+                  "Metres from which pairs have contacts before they touch")
       .show_default();
   command.add_option("--repeat", options->repeat, "Runs to take the median time of")
       .between(1, 1'000'000)

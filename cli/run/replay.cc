@@ -32,7 +32,7 @@ class Recorder {
     record_.hash.add(world_.pairs());
     record_.hash.add(world_.overlaps());
     record_.hash.add(world_.contacts());
-    if (detail == Detail::manifold) record_.hash.add(world_.manifolds());
+    if (has_manifolds(detail)) record_.hash.add(world_.manifolds());
     if (looks_ahead_) note_what_is_ahead(report);
   }
 

@@ -28,7 +28,7 @@ struct RunOptions {
 // Fails if a page is wanted and the detail finds nothing that it shows.
 Result<void> check_page(const std::string& page, Detail detail) {
   if (page.empty() || has_contacts(detail)) return {};
-  return Error{std::string("--page shows contacts: it needs --detail contact or manifold, not ") +
+  return Error{std::string("--page shows contacts: it needs --detail contact, manifold or regions, not ") +
                name_of(detail)};
 }
 

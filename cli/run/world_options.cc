@@ -34,7 +34,8 @@ using Json = nlohmann::ordered_json;
 constexpr NamedDetail kDetails[] = {{"pairs", Detail::pairs},
                                     {"overlap", Detail::overlap},
                                     {"contact", Detail::contact},
-                                    {"manifold", Detail::manifold}};
+                                    {"manifold", Detail::manifold},
+                                    {"regions", Detail::regions}};
 
 // Tier, knobs and motion tolerance: knobs need the fast tier.
 class AccuracyOption : public WorldOption {
@@ -89,7 +90,7 @@ class AccuracyOption : public WorldOption {
 class DetailOption : public WorldOption {
  public:
   void add_to(Command& command) override {
-    command.add_option("--detail", name_, "pairs, overlap, contact or manifold").show_default();
+    command.add_option("--detail", name_, "pairs, overlap, contact, manifold or regions").show_default();
   }
 
   Result<void> read(RunSettings& settings) const override {
@@ -211,6 +212,34 @@ class MarginOption : public WorldOption {
   double metres_ = 0;
 };
 
+class ContactDistanceOption : public WorldOption {
+ public:
+  void add_to(Command& command) override {
+    command
+        .add_option("--contact-distance", metres_,
+                    "Metres from which pairs have contacts before they touch")
+        .show_default();
+  }
+
+  Result<void> read(RunSettings& settings) const override {
+    if (Result<void> metres = check_metres("--contact-distance", metres_); !metres) return metres;
+    settings.world.contact_distance = static_cast<float>(metres_);
+    return {};
+  }
+
+  std::string text_of(const RunSettings& settings) const override {
+    const float distance = settings.world.contact_distance;
+    return distance > 0 ? " --contact-distance " + shortest(distance) : "";
+  }
+
+  void add_json(const RunReport& report, Json& json) const override {
+    json["contact_distance"] = report.settings.world.contact_distance;
+  }
+
+ private:
+  double metres_ = 0;
+};
+
 class DopBoundsOption : public WorldOption {
  public:
   void add_to(Command& command) override {
@@ -277,6 +306,7 @@ WorldOptions::WorldOptions() {
   list_.push_back(std::make_unique<DetectionOption>());
   list_.push_back(std::make_unique<BroadphaseOption>());
   list_.push_back(std::make_unique<MarginOption>());
+  list_.push_back(std::make_unique<ContactDistanceOption>());
   list_.push_back(std::make_unique<DopBoundsOption>());
   list_.push_back(std::make_unique<CacheOption>());
 }

@@ -68,7 +68,7 @@ BodiesOfKind Player::bodies_of_kind() const {
 io::SceneArrays Player::wanted(Detail detail, bool looks_ahead) const {
   return {.orientation = oriented_,
           .linear_velocity = detail >= Detail::contact || looks_ahead,
-          .angular_velocity = looks_ahead};
+          .angular_velocity = detail >= Detail::contact || looks_ahead};
 }
 
 Shape Player::shape(const io::SceneFrame& frame, size_t index) const {
@@ -98,6 +98,7 @@ BodyDesc Player::body(const io::SceneFrame& frame, size_t index) const {
   if (!info_->owner.empty()) desc.owner = info_->owner[index];
   if (!info_->space.empty()) desc.space = info_->space[index];
   if (!info_->sensor.empty()) desc.sensor = info_->sensor[index] != 0;
+  if (!info_->contact_distance.empty()) desc.contact_distance = info_->contact_distance[index];
   desc.user = index;
   return desc;
 }

@@ -27,6 +27,9 @@ constexpr std::array kSceneVariants = {
     SceneVariant{"grid at detail manifold", BroadphaseMethod::grid, true, Detail::manifold},
     SceneVariant{"grid at detail manifold without cache", BroadphaseMethod::grid, false,
                  Detail::manifold},
+    SceneVariant{"sweep at detail regions", BroadphaseMethod::sweep, true, Detail::regions},
+    SceneVariant{"sweep at detail regions without cache", BroadphaseMethod::sweep, false,
+                 Detail::regions},
 };
 
 // With more bodies the brute broadphase would take minutes a frame on every engine, so it is left
@@ -48,6 +51,32 @@ std::string names_of(const std::vector<SceneVariant>& variants) {
     text += (text.empty() ? "" : ", ") + std::string(variant.name);
   }
   return text;
+}
+
+// The reference's frame at detail manifold, made from detail regions: the first contact of each
+// pair.
+reference::Frame without_more_regions(reference::Frame frame) {
+  std::vector<uint32_t> place;
+  std::vector<Contact> contacts;
+  std::vector<ManifoldPoints> manifolds;
+  for (size_t i = 0; i < frame.contacts.size(); ++i) {
+    const Contact& contact = frame.contacts[i];
+    place.push_back(static_cast<uint32_t>(contacts.size()));
+    if (!contacts.empty() && contacts.back().a == contact.a && contacts.back().b == contact.b) {
+      continue;
+    }
+    contacts.push_back(contact);
+    contacts.back().left_out = 0;
+    manifolds.push_back(frame.manifolds[i]);
+  }
+  frame.contacts = std::move(contacts);
+  frame.manifolds = std::move(manifolds);
+  for (Event& event : frame.events) {
+    if (event.kind != EventKind::impact && event.contact != kNoContact) {
+      event.contact = place[event.contact];
+    }
+  }
+  return frame;
 }
 
 // The reference's frame at detail contact, made from detail manifold.
@@ -112,15 +141,17 @@ class SceneVerifier {
       bodies_[i] = {BodyId{static_cast<uint32_t>(i), 0}, player_.body(frame, i)};
     }
     expected_ = reference::step(
-        bodies_, player_.positions(), Detail::manifold, player_.info().has_linear_velocity,
+        bodies_, player_.positions(), Detail::regions, player_.info().has_linear_velocity,
         frame_ == 0 ? nullptr : &expected_, {}, {.excluded = player_.excluded()});
-    expected_contact_ = without_manifolds(expected_);
+    expected_manifold_ = without_more_regions(expected_);
+    expected_contact_ = without_manifolds(expected_manifold_);
     expected_overlap_ = without_contacts(expected_contact_);
   }
 
   const reference::Frame& expected_at(Detail detail) const {
     if (detail == Detail::overlap) return expected_overlap_;
-    return detail == Detail::contact ? expected_contact_ : expected_;
+    if (detail == Detail::contact) return expected_contact_;
+    return detail == Detail::manifold ? expected_manifold_ : expected_;
   }
 
   bool verify_engine(VerifyRow& row, const SceneVariant& variant, Stepper& stepper,
@@ -146,7 +177,8 @@ class SceneVerifier {
   std::vector<VerifyRow> rows_;
   std::vector<std::unique_ptr<Stepper>> steppers_;  // variants_.size() for each row
   std::vector<reference::Body> bodies_;
-  reference::Frame expected_;  // at detail manifold
+  reference::Frame expected_;  // at detail regions
+  reference::Frame expected_manifold_;
   reference::Frame expected_contact_;
   reference::Frame expected_overlap_;
   uint64_t frame_ = 0;

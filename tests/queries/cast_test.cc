@@ -18,7 +18,8 @@ std::vector<CastHit> cast_all(const Collidables& queries, const SweepView& sweep
                               const Collidables& bodies, CastHits which,
                               Parallelism parallelism = Parallelism::none) {
   std::vector<CastHit> hits(3);
-  const Result<void> done = cast(queries, sweep, bodies, hits, {.hits = which, .parallelism = parallelism});
+  const Result<void> done =
+      cast(queries, sweep, bodies, hits, {.hits = which, .parallelism = parallelism});
   EXPECT_TRUE(bool(done)) << done.error().message;
   return hits;
 }

@@ -50,7 +50,8 @@ std::vector<CastHit> kept(std::vector<CastHit> hits, const Keep& keep) {
 TEST(QueryFilter, OfLayersMasksAndOwners) {
   const Scene scene;
   const std::vector<CastHit> everything = scene.cast({.hits = CastHits::all});
-  const PairFilter columns = {.layer = scene.layer.data(), .mask = scene.mask.data(), .owner = scene.owner.data()};
+  const PairFilter columns = {
+      .layer = scene.layer.data(), .mask = scene.mask.data(), .owner = scene.owner.data()};
   for (const uint32_t mask : {~0u, 0u, 5u}) {
     for (const uint32_t layer : {0u, 2u, 12u}) {
       for (const uint32_t owner : {0u, 3u}) {
@@ -59,7 +60,8 @@ TEST(QueryFilter, OfLayersMasksAndOwners) {
                  (layer == 0 || (scene.mask[body] & layer) != 0) &&
                  (owner == 0 || scene.owner[body] != owner);
         };
-        const QueryFilter filter = {.mask = mask, .layer = layer, .owner = owner, .bodies = columns};
+        const QueryFilter filter = {
+            .mask = mask, .layer = layer, .owner = owner, .bodies = columns};
         const std::vector<CastHit> expected = kept(everything, keep);
         EXPECT_EQ(expected.empty(), mask == 0);
         EXPECT_EQ(bits_of(scene.cast({.hits = CastHits::all, .filter = filter})),

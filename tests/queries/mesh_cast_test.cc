@@ -47,8 +47,7 @@ std::vector<FirstHit> hits_of_triangles(const Collidables& queries, const SweepV
     for (uint32_t i = 0; i < triangles.size(); ++i) pairs.push_back({q, i});
   }
   std::vector<float> toi(pairs.size());
-  EXPECT_TRUE(
-      bool(time_of_impact(queries, sweep, bodies.view(), {}, pairs, {.toi = toi.data()})));
+  EXPECT_TRUE(bool(time_of_impact(queries, sweep, bodies.view(), {}, pairs, {.toi = toi.data()})));
   std::vector<FirstHit> hits(queries.count);
   for (size_t i = 0; i < pairs.size(); ++i) {
     FirstHit& first = hits[pairs[i].a];
@@ -153,7 +152,8 @@ TEST(MeshCast, ShapesHitTheFirstTriangle) { expect_shapes_hit(false, 0.3, 0.9); 
 TEST(MeshCast, RaysAtVerticesAndEdges) {
   for (const bool one_sided : {false, true}) {
     PlacedShape mesh;
-    mesh.shape = grid_mesh(8, 1, [](float x, float) { return std::abs(x); }, {.one_sided = one_sided});
+    mesh.shape =
+        grid_mesh(8, 1, [](float x, float) { return std::abs(x); }, {.one_sided = one_sided});
     mesh.orientation = Eigen::Quaternionf::Identity();
     std::vector<Vector3f> origins, directions;
     for (const Vector3f& vertex : geometry_of(mesh).vertices()) {
@@ -218,7 +218,9 @@ TEST(MeshCast, RaysEqualAnOracleInLongDouble) {
     const Vector3l from = origins[i].cast<long double>(), way = directions[i].cast<long double>();
     for (size_t k = 0; k < geometry_of(mesh).triangles().size(); ++k) {
       const auto met = crossing(from, way, triangle_of(geometry_of(mesh), k));
-      if (met) (met->is_sure ? first : first_unsure) = std::min(met->is_sure ? first : first_unsure, met->time);
+      if (met)
+        (met->is_sure ? first : first_unsure) =
+            std::min(met->is_sure ? first : first_unsure, met->time);
     }
     if (first_unsure < std::min(first, 1.5L)) continue;
     ++sure;
@@ -245,8 +247,8 @@ std::vector<CastHit> cast_at(const Collidables& queries, const SweepView& sweep,
                              const PlacedShape& body, CastHits which, Backfaces backfaces) {
   const LaidOut laid_out(std::vector<PlacedShape>{body}, {});
   std::vector<CastHit> hits;
-  EXPECT_TRUE(bool(
-      cast(queries, sweep, laid_out.view(), hits, {.hits = which, .backfaces = backfaces})));
+  EXPECT_TRUE(
+      bool(cast(queries, sweep, laid_out.view(), hits, {.hits = which, .backfaces = backfaces})));
   return hits;
 }
 
@@ -280,9 +282,12 @@ TEST(MeshCast, BackfacesAreAsIfTheMeshWereMadeSo) {
       const std::vector<CastHit> from_both = run(two, Backfaces::as_made);
       EXPECT_GT(from_front.size(), 60u);
       EXPECT_GT(from_both.size(), 60u);
-      EXPECT_GT(std::count_if(from_both.begin(), from_both.end(), [&](const CastHit& hit) {
-        return bits_of(from_front).find(bits_of({hit})) == std::string::npos;
-      }), 60);
+      EXPECT_GT(std::count_if(from_both.begin(), from_both.end(),
+                              [&](const CastHit& hit) {
+                                return bits_of(from_front).find(bits_of({hit})) ==
+                                       std::string::npos;
+                              }),
+                60);
       EXPECT_EQ(bits_of(run(one, Backfaces::hit)), bits_of(from_both));
       EXPECT_EQ(bits_of(run(two, Backfaces::hit)), bits_of(from_both));
       EXPECT_EQ(bits_of(run(one, Backfaces::ignore)), bits_of(from_front));

@@ -118,7 +118,8 @@ void expect_hits(const std::vector<PlacedShape>& queries, const std::vector<Plac
   EXPECT_TRUE(overlaps == expected_overlaps(queries, bodies, positions));
   for (const float within : {-0.1f, 0.0f, 0.3f, kNoLimit}) {
     std::vector<NearestHit> nearest(1);
-    ASSERT_TRUE(bool(find_nearest(a.view(), within, b.view(), nearest, {.parallelism = parallelism})));
+    ASSERT_TRUE(
+        bool(find_nearest(a.view(), within, b.view(), nearest, {.parallelism = parallelism})));
     EXPECT_TRUE(nearest_of(nearest) == expected_nearest(queries, bodies, within, positions))
         << "within " << within << ", " << queries.size() << " queries, " << bodies.size()
         << " bodies, " << nearest.size() << " hits";
@@ -170,8 +171,10 @@ TEST(Queries, AreTheSameOnThreadsAndInAnyOrder) {
     arena.run([&] {
       std::vector<OverlapHit> again;
       std::vector<NearestHit> nearest_again;
-      ASSERT_TRUE(bool(find_overlaps(a.view(), b.view(), again, {.parallelism = arena.parallelism()})));
-      ASSERT_TRUE(bool(find_nearest(a.view(), 1, b.view(), nearest_again, {.parallelism = arena.parallelism()})));
+      ASSERT_TRUE(
+          bool(find_overlaps(a.view(), b.view(), again, {.parallelism = arena.parallelism()})));
+      ASSERT_TRUE(bool(find_nearest(a.view(), 1, b.view(), nearest_again,
+                                    {.parallelism = arena.parallelism()})));
       EXPECT_TRUE(again == overlaps);
       EXPECT_TRUE(nearest_of(nearest_again) == expected);
     });

@@ -63,8 +63,7 @@ void expect_cast_hits(const World& world, std::span<const BodyId> ids, uint32_t 
   }
   std::vector<OverlapHit> expected_overlaps, overlaps(1);
   ASSERT_TRUE(bool(find_overlaps(a.view(), b.view(), expected_overlaps)));
-  world.find_overlaps(a.view(), overlaps,
-                      {.filter = {.mask = mask}, .parallelism = parallelism});
+  world.find_overlaps(a.view(), overlaps, {.filter = {.mask = mask}, .parallelism = parallelism});
   EXPECT_TRUE(overlaps == with_indices(expected_overlaps, arrays));
   for (const float within : {0.2f, std::numeric_limits<float>::infinity()}) {
     std::vector<NearestHit> expected_nearest, nearest(1);

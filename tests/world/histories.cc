@@ -18,6 +18,9 @@ BodyDesc History::random_body(double side, bool filters) {
   if (kinds_ == Kinds::all && chance(0.7)) make_oriented(body, filters);
   body.linear_velocity = Eigen::Vector3f::Random();
   if (looks_ahead_) set_in_motion(body, filters);
+  if (keeps_distance_ && filters_.chance(0.4)) {
+    body.contact_distance = static_cast<float>(filters_.uniform(0, 0.8));
+  }
   if (!filters) return body;
   if (chance(0.3)) body.motion = Motion::fixed;
   if (chance(0.3)) body.layer = 1u << static_cast<int>(uniform(0, 3));
@@ -128,6 +131,9 @@ void History::change_random_body(double side, bool filters) {
       world_.set_filter(body.id, other.layer, other.mask, other.owner);
       world_.set_group(body.id, other.group);
       world_.set_space(body.id, other.space);
+      if (!keeps_distance_) break;
+      body.desc.contact_distance = other.contact_distance;
+      world_.set_contact_distance(body.id, other.contact_distance);
       break;
     default:
       body.desc.sensor = other.sensor;
@@ -194,7 +200,8 @@ void History::step_and_check() {
   reference::Frame frame = reference::step(list, settings.positions, settings.detail, true,
                                            report.step == 1 ? nullptr : &frame_,
                                            {settings.dt, settings.fast_share, settings.impacts},
-                                           {settings.filter_rule, excluded, predicate_});
+                                           {settings.filter_rule, excluded, predicate_},
+                                           {settings.contact_distance, settings.region_limits});
   EXPECT_TRUE(same_bytes<Pair>(world_.pairs(), frame.pairs)) << "pairs";
   EXPECT_TRUE(same_bytes<uint8_t>(world_.overlaps(), frame.overlaps)) << "overlaps";
   EXPECT_TRUE(same_bytes<Contact>(world_.contacts(), frame.contacts)) << "contacts";
@@ -221,7 +228,10 @@ void History::step_and_check() {
   coverage.excluded += excluded.size();
   cover_halfspaces();
   cover_ahead(report);
-  for (const Contact& contact : world_.contacts()) ++coverage.manifolds[contact.manifold_count];
+  for (const Contact& contact : world_.contacts()) {
+    ++coverage.manifolds[contact.manifold_count];
+    coverage.near += contact.separation > 0;
+  }
   frame_ = std::move(frame);
 }
 

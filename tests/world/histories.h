@@ -40,6 +40,7 @@ struct Coverage {
   size_t manifolds[5] = {};                            // by number of points
   size_t impacts = 0, overlaps_ahead = 0, impacts_of_sensors = 0, speculative = 0;
   size_t swept = 0, unswept = 0;
+  size_t near = 0;                // contacts of separate pairs
   size_t excluded = 0, gone = 0;  // pairs; events of removed or quarantined bodies
 };
 
@@ -61,6 +62,9 @@ class History {
 
   // From now on new bodies, and bodies whose motion changes, get detections and high velocities.
   void look_ahead() { looks_ahead_ = true; }
+
+  // From now on some of the new bodies, and of those that change, have contact distances.
+  void keep_distance() { keeps_distance_ = true; }
 
   // A body in a box of side `side`; with `filters`, some have layers, owners, groups, spaces, are
   // sensors or static.
@@ -121,6 +125,7 @@ class History {
   Random filters_;
   Kinds kinds_;
   bool looks_ahead_ = false;
+  bool keeps_distance_ = false;
   std::map<uint32_t, reference::Body> bodies_;
   std::set<Pair> excluded_;
   PairPredicate predicate_;

@@ -13,8 +13,8 @@ namespace carom::test {
 namespace {
 
 struct Questions {
-  std::vector<PlacedShape> shapes = make_bodies({.count = 40, .side = 9}, 3);
-  Sweeps sweeps = make_sweeps(40, 6, true, 4);
+  std::vector<PlacedShape> shapes = make_bodies({.count = 24, .side = 9, .composites = false}, 3);
+  Sweeps sweeps = make_sweeps(24, 6, false, 4);
   LaidOut queries = LaidOut(shapes, {});
 };
 
@@ -64,7 +64,7 @@ TEST(WorldQueryThreads, ManyAskFirst) {
       }
     }
     for (const std::string& each : answer) EXPECT_EQ(each, answers(world, questions));
-    EXPECT_GT(answer[0].size(), 1000u);
+    EXPECT_GT(answer[0].size(), 500u);
   }
 }
 
@@ -94,13 +94,14 @@ TEST(WorldQueryIndex, AnswersDoNotDependOnItsHistory) {
   std::vector<BodyId> ids = add_crowd(world, {.count = 300, .oriented = true, .halfspaces = 2});
   const Questions questions;
   Random random(7);
-  for (int step = 0; step < 60; ++step) {
+  for (int step = 0; step < 40; ++step) {
     if (step % 7 != 6) move_some(world, ids, step % 10 == 9 ? 1 : 0.3, random);
     if (step % 4 == 0) turn_some(world, ids, 0.2, random);
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3 && step % 5 == 1; ++i) {
       const BodyId id = ids[random.below(ids.size())];
       world.set_motion(id, random.chance(0.5) ? Motion::fixed : Motion::dynamic);
-      if (step % 5 == 1) world.set_position(ids[random.below(ids.size())], random_position(random, 20));
+      if (step % 5 == 1)
+        world.set_position(ids[random.below(ids.size())], random_position(random, 20));
     }
     if (step % 6 == 2 && ids.size() > 200) {
       for (int i = 0; i < 8; ++i) {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdint>
 
+#include "base/grown.h"
 #include "carom/results/pair.h"
 
 namespace carom {
@@ -19,13 +19,10 @@ struct ContactDistances {
   float of(uint32_t body) const { return of_body ? std::max(of_world, of_body[body]) : of_world; }
   float of(Pair pair) const { return std::max(of(pair.a), of(pair.b)); }
 
-  // By how much the bounds of a body grow, so that two bodies whose separation is at most the
-  // distance of their pair have bounds that overlap: half of the world's distance, and all that
-  // the body's own exceeds it by.
+  // By how much the bounds of a body grow.
   float growth(uint32_t body) const {
-    const double own = double{of(body)} - of_world;
-    const auto sum = static_cast<float>(of_world / 2.0 + own);
-    return std::nextafter(sum, std::numeric_limits<float>::max());
+    const float own = of(body);
+    return own > 0 ? contact_growth(of_world, own) : 0;
   }
 };
 

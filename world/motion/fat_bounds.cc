@@ -2,8 +2,8 @@
 
 #include <limits>
 
+#include "base/grown.h"
 #include "base/parallel.h"
-#include "world/motion/grown.h"
 #include "world/store/columns.h"
 #include "world/store/row_blocks.h"
 

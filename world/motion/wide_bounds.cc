@@ -1,7 +1,7 @@
 #include "world/motion/wide_bounds.h"
 
+#include "base/grown.h"
 #include "base/parallel.h"
-#include "world/motion/grown.h"
 #include "world/store/columns.h"
 #include "world/store/row_blocks.h"
 
@@ -13,11 +13,11 @@ void WideBounds::update(const BoundsView& bounds, const ContactDistances& distan
   for_each_block(bounds.count, kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const float growth = distances.growth(static_cast<uint32_t>(i));
-      const bool is_box = bounds.lower[0][i] <= bounds.upper[0][i];
+      const bool grows = growth > 0 && bounds.lower[0][i] <= bounds.upper[0][i];
       for (size_t axis = 0; axis < 3; ++axis) {
         const float lower = bounds.lower[axis][i], upper = bounds.upper[axis][i];
-        columns_[axis][i] = is_box ? below(lower, growth) : lower;
-        columns_[3 + axis][i] = is_box ? above(upper, growth) : upper;
+        columns_[axis][i] = grows ? below(lower, growth) : lower;
+        columns_[3 + axis][i] = grows ? above(upper, growth) : upper;
       }
     }
   });

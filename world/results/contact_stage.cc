@@ -186,7 +186,8 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
   const std::span<const Vector3f> angular =
       bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();
   const auto velocity = [&](uint32_t body, const Vector3f& arm) -> Vector3f {
-    if (angular.empty() || !bodies.turns(body)) return linear[body];
+    const bool turns = !angular.empty() && bodies.turns(body) && !angular[body].isZero(0);
+    if (!turns) return linear[body];
     return point_velocity(linear[body], angular[body], arm);
   };
   for_each_block(

@@ -1,6 +1,6 @@
-// carom_ray_peers [--smoke]: rays against one mesh of triangles, Carom beside Embree, on one thread.
-// Closest hits and any hits; coherent rays of a camera, and random ones. Prints a table in Markdown.
-// Exit code 1 if the hits differ by more than rays at edges may.
+// carom_ray_peers [--smoke]: rays against one mesh of triangles, Carom beside Embree, on one
+// thread. Closest hits and any hits; coherent rays of a camera, and random ones. Prints a table in
+// Markdown. Exit code 1 if the hits differ by more than rays at edges may.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -31,7 +31,8 @@ Triangles terrain(uint32_t n) {
   for (uint32_t i = 0; i <= n; ++i) {
     for (uint32_t j = 0; j <= n; ++j) {
       const float x = 100.0f * float(i) / float(n), y = 100.0f * float(j) / float(n);
-      mesh.vertices.push_back({x, y, 4 * std::sin(0.3f * x) * std::cos(0.2f * y) + std::sin(2 * x + y)});
+      mesh.vertices.push_back(
+          {x, y, 4 * std::sin(0.3f * x) * std::cos(0.2f * y) + std::sin(2 * x + y)});
       if (i == n || j == n) continue;
       const uint32_t at = i * (n + 1) + j;
       mesh.triangles.push_back({at, at + n + 1, at + n + 2});
@@ -181,7 +182,8 @@ int run(bool smoke) {
   const size_t side = smoke ? 64 : 512;
   bool same = true;
   std::printf("%zu triangles; ns a ray; ratio: Embree / Carom\n\n", mesh.triangles.size());
-  std::printf("| rays | hits | share that hits | Embree | Carom | ratio |\n|---|---|---|---|---|---|\n");
+  std::printf(
+      "| rays | hits | share that hits | Embree | Carom | ratio |\n|---|---|---|---|---|---|\n");
   for (const RayList& rays : {camera_rays(side), random_rays(side * side)}) {
     for (const bool any : {false, true}) {
       const size_t count = rays.origins.size();

@@ -11,8 +11,9 @@ template <class Signature>
 class FunctionRef;
 
 /// Refers to anything that can be called with `Args` and returns R: a lambda, a function object, a
-/// function. It must outlive every call. A temporary lambda lives until the end of the full expression, so it
-/// may be written straight into the arguments of a call, but not into a variable of options.
+/// function. It must outlive every call. A temporary lambda lives until the end of the full
+/// expression, so it may be written straight into the arguments of a call, but not into a variable
+/// of options.
 template <class R, class... Args>
 class FunctionRef<R(Args...)> {
  public:
@@ -20,8 +21,8 @@ class FunctionRef<R(Args...)> {
   FunctionRef() = default;
   /// Refers to `f`.
   template <class F>
-    requires(std::is_object_v<F> && std::is_invocable_r_v<R, const F&, Args...>)
-  FunctionRef(const F& f)
+  requires(std::is_object_v<F>&& std::is_invocable_r_v<R, const F&, Args...>)
+      FunctionRef(const F& f)
       : target_{.object = &f}, call_([](Target target, Args... args) -> R {
           return (*static_cast<const F*>(target.object))(args...);
         }) {}

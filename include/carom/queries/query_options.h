@@ -19,15 +19,14 @@ namespace carom {
 /// hits, in no particular order, and from any thread that the query uses, several at a time. The
 /// answer for a pair must depend on the pair alone. Then hits do not depend on how often or in
 /// which order pairs are asked about. It must not change the bodies.
-using QueryPredicate =
-    FunctionRef<void(std::span<const Pair> candidates, std::span<uint8_t> keep)>;
+using QueryPredicate = FunctionRef<void(std::span<const Pair> candidates, std::span<uint8_t> keep)>;
 
 /// Which bodies queries meet. The defaults meet all bodies, sensors included.
 struct QueryFilter {
   uint32_t mask = 0xffffffffu;  ///< meets bodies with a layer that is in this mask
   /// The layers of the queries: meets bodies whose mask has one of them; 0: does not ask for masks.
   uint32_t layer = 0;
-  uint32_t owner = 0;             ///< does not meet bodies of this owner; 0: does not ask for owners
+  uint32_t owner = 0;  ///< does not meet bodies of this owner; 0: does not ask for owners
   QueryPredicate predicate = {};  ///< meets bodies that this keeps; empty: keeps all
   /// The layers, masks and owners of the bodies of a call on arrays; without them all bodies have
   /// all layers, a full mask and no owner. Worlds use those of their bodies, not these.

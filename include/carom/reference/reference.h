@@ -126,11 +126,17 @@ struct Filters {
   PairPredicate predicate = {};         ///< World::set_pair_predicate()
 };
 
+/// Which contacts a frame has: the settings of the same names in WorldSettings.
+struct ContactRules {
+  float contact_distance = 0;        ///< metres
+  RegionLimits region_limits = {};   ///< at Detail::regions
+};
+
 /// The results of World::step() for these bodies. Their indices must ascend, but bodies[i].id.index
 /// need not be i. `previous` is the frame before; nullptr: there was none. If `velocities`,
 /// contacts carry normal velocities. Compares every pair of boxes: O(n^2).
 CAROM_EXPORT Frame step(std::span<const Body> bodies, PositionType positions, Detail detail,
                         bool velocities, const Frame* previous, const Ahead& ahead = {},
-                        const Filters& filters = {});
+                        const Filters& filters = {}, const ContactRules& contacts = {});
 
 }  // namespace carom::reference
