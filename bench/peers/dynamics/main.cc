@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   std::printf("%-8s  %-24s  %9s  %9s  %10s  %9s  %8s\n", "scene", "solver", "last, m", "furthest",
               "speed, m/s", "depth, m", "ms");
   for (const rigid::NamedScene& named : rigid::kScenes) {
-    print(named.name, "example, 10 sub-steps", run_example(named.make, steps));
+    print(named.name, "example", run_example(named.make, steps));
     print(named.name, "Bullet", run_bullet(named.make, steps, 1));
     print(named.name, "Bullet, 10 steps a frame", run_bullet(named.make, steps, 10));
   }
