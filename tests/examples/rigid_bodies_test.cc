@@ -101,6 +101,26 @@ TEST(RigidBodies, AChainHangsTogether) {
   EXPECT_LT(run.watch.deepest, 0.04);
 }
 
+// Points of piles at rest, those included that only come near.
+TEST(RigidBodies, PointsOfPilesContinueThoseOfTheStepBefore) {
+  for (const auto make : {make_stack, make_wall, make_cards}) {
+    PlayedScene played(make, 60);
+    size_t points = 0, continued = 0;
+    for (int i = 0; i < 20; ++i) {
+      played.scene.solver.step();
+      const carom::World& world = played.scene.solver.world();
+      for (size_t k = 0; k < world.contacts().size(); ++k) {
+        for (int point = 0; point < world.contacts()[k].manifold_count; ++point) {
+          ++points;
+          continued += world.identities()[k].previous_point[point] != carom::kNoPrevious;
+        }
+      }
+    }
+    EXPECT_GT(points, 1000u);
+    EXPECT_GE(static_cast<double>(continued), 0.99 * static_cast<double>(points));
+  }
+}
+
 // ------------------------------------------------------------ the same bits
 
 std::vector<std::array<uint64_t, 3>> bits_after(const NamedScene& named, int steps, int threads) {
