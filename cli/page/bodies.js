@@ -86,18 +86,28 @@ function instanceOf({row, index, shape, position, orientation}) {
   return instance(index, position, orientation, [radius, radius, radius, 0]);
 }
 
+const instancesOf = parts => Map.groupBy(
+  parts.filter(part => part.shape.kind !== 'halfspace').map(instanceOf), instance => instance.key);
+
 let bodyProgram, groups = [];
 function loadBodies() {
   bodyProgram = program(bodyVertex, bodyFragment);
-  for (const instances of Map.groupBy(finite.map(instanceOf), instance => instance.key).values()) {
-    const {key} = instances[0];
+  for (const [key, instances] of instancesOf(parts)) {
     const corners = key === 'ball' ? ball() : key === 'cube' ? cube() : facesOf(shapes[key]);
     const of = name => corners.flatMap(c => c[name]), each = name => instances.flatMap(instance => instance[name]);
     const {array, buffers} = vertexArray(bodyProgram, {
       corner: {size: 4, values: of('corner')}, normal: {size: 3, values: of('normal')},
       centre: {size: 3, values: each('centre'), perInstance: true}, turn: {size: 4, values: each('turn'), perInstance: true},
       size: {size: 4, values: each('size'), perInstance: true}, colour: {size: 4, values: [], perInstance: true}});
-    groups.push({array, buffers, corners: corners.length, instances});
+    groups.push({key, array, buffers, corners: corners.length, instances});
+  }
+}
+
+// Half-spaces stay where they are.
+function moveBodies(poses) {
+  const instances = instancesOf(allParts(poses));
+  for (const {key, buffers} of groups) {
+    for (const name of ['centre', 'turn']) replaceValues(buffers[name], instances.get(key).flatMap(instance => instance[name]));
   }
 }
 

@@ -31,7 +31,7 @@ function listen() {
   });
   canvas.addEventListener('click', event => {
     const mark = way < 4 ? nearestMark(event.clientX, event.clientY) : null;
-    if (mark) choose(mark.contact);
+    if (mark && state.isLast) choose(mark.contact);
   });
   canvas.addEventListener('contextmenu', event => event.preventDefault());
   canvas.addEventListener('wheel', event => {
@@ -54,6 +54,7 @@ if (gl) {
   loadBodies();
   loadGrid();
   loadMarks();
+  loadTrack();
   listen();
   const asked = Number(/^#contact=(\d+)$/.exec(location.hash)?.[1] ?? NaN);
   draw();

@@ -68,6 +68,7 @@ function showChosen() {
 
 // Shows a contact with its two bodies, or everything.
 function choose(i, instantly = false) {
+  if (i !== null && !state.isLast) { stop(); showFrame(lastFrame); }
   state.chosen = i;
   colourBodies();
   colourMarks();

@@ -1,7 +1,7 @@
 // Draws the picture in its order.
 'use strict';
 
-const state = {chosen: null, opacity: 1, normals: true, hidden: true};
+const state = {chosen: null, opacity: 1, normals: true, hidden: true, isLast: true, isPlaying: false};
 
 function drawSolid(part) {
   gl.disable(gl.BLEND);
@@ -33,6 +33,7 @@ function drawEverything() {
   else drawGhosts(drawn.free, state.opacity);
   drawGhosts(drawn.fixed, 0.13 * state.opacity);
   drawGrid();
+  if (!state.isLast) return;
   if (state.hidden) {
     gl.depthFunc(gl.GREATER);
     drawPoints({fade: 0.25, size: 2});

@@ -23,8 +23,8 @@ function reachOf(shape) {
 const reaches = shapes.map(reachOf);
 const reachOfBody = row => reaches[body.shape[row]];
 
-// Every part with its pose: a body, or a child of one.
-function partsOf(row) {
+// Every part with its pose: a body, or a child of one. `body` has the poses.
+function partsOf(row, body) {
   const place = (index, position, orientation) => {
     const shape = shapes[index];
     if (!shape.children) return [{row, index, shape, position, orientation}];
@@ -35,7 +35,8 @@ function partsOf(row) {
   };
   return place(body.shape[row], three(body.position, row), unitQuaternion(body.orientation.slice(4 * row, 4 * row + 4)));
 }
-const parts = Array.from({length: bodies}, (_, row) => partsOf(row)).flat();
+const allParts = poses => Array.from({length: bodies}, (_, row) => partsOf(row, poses)).flat();
+const parts = allParts(body);
 
 // ------------------------------------------------------------ contacts as marks
 const firstPoint = [0];

@@ -14,8 +14,9 @@ Result<ScenePage> ScenePage::create(const std::string& path) {
   return ScenePage(std::move(*file));
 }
 
-Result<void> ScenePage::add_frame(const World& world, const std::string& scene, uint64_t frame) {
-  const std::string page = io::fill_page(kPagePieces, view_of(world, scene, frame));
+Result<void> ScenePage::add_frame(const World& world, const std::string& scene, uint64_t frame,
+                                  const MotionTrack& track, double dt) {
+  const std::string page = io::fill_page(kPagePieces, view_of(world, scene, frame, track, dt));
   return file_.write(std::as_bytes(std::span(page)));
 }
 

@@ -138,9 +138,35 @@ Json shapes_of(ShapeTable& shapes) {
   return views;
 }
 
+// RFC 4648.
+std::string base64(const std::vector<float>& numbers) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto* bytes = reinterpret_cast<const uint8_t*>(numbers.data());
+  const size_t count = numbers.size() * sizeof(float);
+  std::string text;
+  for (size_t i = 0; i < count; i += 3) {
+    const auto byte = [&](size_t k) { return k < count ? uint32_t{bytes[k]} : 0; };
+    const uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (const int shift : {18, 12, 6, 0}) text += kDigits[three >> shift & 63];
+  }
+  const size_t padding = (3 - count % 3) % 3;
+  return text.replace(text.size() - padding, padding, padding, '=');
+}
+
+// Poses are float32, little endian, in base64.
+Json track_of(const MotionTrack& track, double dt) {
+  const Eigen::Vector3d& origin = track.origin();
+  return {{"dt", dt},
+          {"frame", track.frames()},
+          {"body", track.bodies()},
+          {"origin", {origin.x(), origin.y(), origin.z()}},
+          {"pose", base64(track.poses())}};
+}
+
 }  // namespace
 
-std::string view_of(const World& world, const std::string& scene, uint64_t frame) {
+std::string view_of(const World& world, const std::string& scene, uint64_t frame,
+                    const MotionTrack& track, double dt) {
   ShapeTable shapes;
   Json view = {{"scene", scene}, {"frame", frame}};
   view["left_out"] = world.quarantined().size();
@@ -149,6 +175,7 @@ std::string view_of(const World& world, const std::string& scene, uint64_t frame
   view["shapes"] = shapes_of(shapes);
   view["contact"] = contacts_of(world);
   view["surface"] = surface_of(world);
+  view["track"] = track_of(track, dt);
   return view.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

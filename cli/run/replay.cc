@@ -75,7 +75,7 @@ class Recorder {
 
 Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
                          uint64_t frames, std::optional<PairsOutput>& pairs_out, Progress& progress,
-                         Detection detection) {
+                         Detection detection, MotionTrack* track) {
   using Clock = std::chrono::steady_clock;
   Recorder recorder(world, scene.info().bodies, detection != Detection::discrete);
   io::SceneFrame frame;
@@ -96,6 +96,7 @@ Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& wo
                    std::to_string(world.settings().most_pairs)};
     }
     recorder.note(report, std::chrono::duration<double, std::milli>(end - begin).count());
+    if (track) track->note(world, i);
     if (!pairs_out) continue;
     if (Result<void> added = pairs_out->add_frame(world.pairs()); !added) return added.error();
   }

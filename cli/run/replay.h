@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "carom/world/world.h"
+#include "cli/page/motion_track.h"
 #include "cli/run/pairs_out.h"
 #include "cli/run/state_hash.h"
 #include "cli/scenes/player.h"
@@ -39,9 +40,9 @@ struct RunRecord {
 };
 
 // Replays `frames` frames into an empty world; its dynamic bodies get this detection. `pairs_out`
-// may be absent.
+// and `track` may be absent.
 Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& world,
                          uint64_t frames, std::optional<PairsOutput>& pairs_out, Progress& progress,
-                         Detection detection = Detection::discrete);
+                         Detection detection = Detection::discrete, MotionTrack* track = nullptr);
 
 }  // namespace carom::cli

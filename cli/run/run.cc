@@ -105,10 +105,11 @@ Result<RunReport> run_scene(const RunOptions& options, RunSettings settings, Out
                    .memory = {},
                    .record = {}};
   Progress progress(console, "frame", report.frames);
+  MotionTrack track(info.bodies, report.frames);
   std::optional<Error> failure;
   arena.run([&] {
-    auto record =
-        replay(**scene, *player, world, report.frames, outputs.pairs, progress, settings.detection);
+    auto record = replay(**scene, *player, world, report.frames, outputs.pairs, progress,
+                         settings.detection, outputs.page ? &track : nullptr);
     if (record) {
       report.record = std::move(*record);
     } else {
@@ -119,7 +120,8 @@ Result<RunReport> run_scene(const RunOptions& options, RunSettings settings, Out
   report.memory = world.memory();
   report.peak_rss_bytes = peak_rss_bytes();
   if (outputs.page) {
-    Result<void> added = outputs.page->add_frame(world, report.scene, report.frames - 1);
+    Result<void> added =
+        outputs.page->add_frame(world, report.scene, report.frames - 1, track, info.dt);
     if (!added) return added.error();
   }
   return report;
@@ -175,8 +177,9 @@ void add_run_command(CommandLine& program) {
   command.add_option("--pairs-out", options->pairs_out, "Write the pairs of every frame (.npz)")
       .file_name();
   command
-      .add_option("--page", options->page,
-                  "Write a page that shows the last frame and its contacts in 3D (.html)")
+      .add_option(
+          "--page", options->page,
+          "Write a page that plays the frames in 3D and shows the last one's contacts (.html)")
       .file_name();
   command.run([options](const Console& console) { return run(*options, console); });
 }

@@ -154,6 +154,42 @@ TEST_F(ScenePageTest, HullsTooLargeForTheOracleAreNotMeasured) {
   EXPECT_EQ(surface["left_out"], 1);
 }
 
+// 2 of 3 bodies move by hand.
+TEST_F(ScenePageTest, HoldsThePosesOfAllFrames) {
+  io::SceneInfo info;
+  info.bodies = 3;
+  info.dt = 0.5;
+  info.shapes.kind = {0};
+  info.shapes.params = {{1}};
+  info.body_shape = {0, 0, 0};
+  info.body_motion = {2, 0, 1};
+  auto writer = io::SceneWriter::create(path("scene.npz"), info);
+  ASSERT_TRUE(writer) << writer.error().message;
+  io::SceneFrame frame;
+  for (const float x : {1.0f, 2.0f}) {
+    frame.position32 = {x, 0, 0, 5, 5, 5, 0, 3 * x, 0};
+    ASSERT_TRUE(writer->write_frame(frame));
+  }
+  ASSERT_TRUE(writer->finish());
+  const json track = page_of(path("scene.npz"))["track"];
+  EXPECT_EQ(track["dt"], 0.5);
+  EXPECT_EQ(track["frame"], json::array({0, 1}));
+  EXPECT_EQ(track["body"], json::array({0, 2}));
+  EXPECT_EQ(track["origin"], json::array({1.0, 0.0, 0.0}));
+  // base64 of 2 frames x 2 bodies x (x y z relative to the origin, 0 0 0 1), float32.
+  const std::string expected =
+      "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAACAPwAAgL8AAEBAAAAAAAAAAAAAAAAAAAAAAAAAgD8AAIA/"
+      "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAvwAAwEAAAAAAAAAAAAAAAAAAAAAAAACAPw==";
+  EXPECT_EQ(track["pose"], expected);
+}
+
+// Poses of 100,000 bodies: 2.8 MB a frame, so that every second frame of four is kept, the last one
+// among them.
+TEST_F(ScenePageTest, KeepsNoMorePosesThanFit) {
+  const json track = page_of("brownian:n=100000,frames=4,density=0.01")["track"];
+  EXPECT_EQ(track["frame"], json::array({1, 3}));
+}
+
 TEST_F(ScenePageTest, NoContacts) {
   const json data = page_of("still:n=1,frames=2");
   EXPECT_EQ(data["body"]["index"], json::array({0}));
