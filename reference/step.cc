@@ -19,11 +19,11 @@
 namespace carom::reference {
 namespace {
 
-// Bounds: the present ones, the same grown by the body's contact distance, and the grown ones over
-// the interval ahead.
+// Bounds: the present ones, those over the interval ahead, and both grown by the body's contact
+// distance.
 template <class Bounds>
 struct AllBounds {
-  Bounds now, near, ahead;
+  Bounds now, ahead, near, near_ahead;
 };
 
 struct Participant {
@@ -90,11 +90,12 @@ Participants participants(std::span<const Body> bodies, const Settings& settings
       const Plane plane = world_plane(*halfspace, pose, positions);
       const Plane ahead = plane_over(plane, motion.sweep);
       result.halfspaces.push_back(
-          {&body, motion, {plane, grown(plane, growth), grown(ahead, growth)}});
+          {&body, motion, {plane, ahead, grown(plane, growth), grown(ahead, growth)}});
     } else {
       const Box box = bounds(body.desc.shape, pose, positions);
       const Box ahead = box_over(box, body.desc, motion.sweep, positions);
-      result.bodies.push_back({&body, motion, {box, grown(box, growth), grown(ahead, growth)}});
+      result.bodies.push_back(
+          {&body, motion, {box, ahead, grown(box, growth), grown(ahead, growth)}});
     }
   }
   return result;
@@ -106,15 +107,16 @@ struct Candidate {
   const Body* b;
   const BodyMotion* motion_a;
   const BodyMotion* motion_b;
-  bool meet_now;   // their present bounds overlap
-  bool near_now;   // their grown present bounds overlap
+  bool meet_now;    // their present bounds overlap
+  bool near_now;    // their grown present bounds overlap
+  bool meet_ahead;  // their bounds over the interval overlap
 };
 
-// Two bodies, not in order.
+// A half-space and a body, not in order.
 Candidate in_order(const Body* x, const BodyMotion& of_x, const Body* y, const BodyMotion& of_y,
                    bool meet_now, bool near_now) {
-  if (x->id.index < y->id.index) return {x, y, &of_x, &of_y, meet_now, near_now};
-  return {y, x, &of_y, &of_x, meet_now, near_now};
+  if (x->id.index < y->id.index) return {x, y, &of_x, &of_y, meet_now, near_now, true};
+  return {y, x, &of_y, &of_x, meet_now, near_now, true};
 }
 
 // If one of the bodies looks ahead, overlapping bounds over the interval are enough.
@@ -130,17 +132,17 @@ std::vector<Candidate> candidates(const Participants& all) {
     if (is_candidate(pair)) result.push_back(pair);
   };
   std::vector<Box> boxes;
-  for (const Participant& p : all.bodies) boxes.push_back(p.bounds.ahead);
+  for (const Participant& p : all.bodies) boxes.push_back(p.bounds.near_ahead);
   for (const Pair& rows : overlapping_pairs(boxes)) {
     const Participant& a = all.bodies[rows.a];
     const Participant& b = all.bodies[rows.b];
     add({a.body, b.body, &a.motion, &b.motion, overlap(a.bounds.now, b.bounds.now),
-         overlap(a.bounds.near, b.bounds.near)});
+         overlap(a.bounds.near, b.bounds.near), overlap(a.bounds.ahead, b.bounds.ahead)});
   }
   if (all.halfspaces.empty()) return result;
   for (const HalfspaceParticipant& h : all.halfspaces) {
     for (const Participant& p : all.bodies) {
-      if (!may_reach(p.bounds.ahead, h.bounds.ahead)) continue;
+      if (!may_reach(p.bounds.near_ahead, h.bounds.near_ahead)) continue;
       add(in_order(h.body, h.motion, p.body, p.motion, may_reach(p.bounds.now, h.bounds.now),
                    may_reach(p.bounds.near, h.bounds.near)));
     }
@@ -224,7 +226,8 @@ void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
   if (overlap) add_overlap(a, b, found, settings, frame);
   if (near) result.separation = std::fmax(result.separation, std::numeric_limits<float>::min());
   if (near && !sensor) add_contacts(a, b, found, settings, frame);
-  if (!pair.motion_a->looks_ahead() && !pair.motion_b->looks_ahead()) return;
+  const bool looks_ahead = pair.motion_a->looks_ahead() || pair.motion_b->looks_ahead();
+  if (!looks_ahead || !pair.meet_ahead) return;
   look_ahead({a, b, *pair.motion_a, *pair.motion_b}, result, overlap, near, settings.positions,
              settings.detail, settings.ahead.dt, frame);
 }

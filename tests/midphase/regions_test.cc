@@ -177,16 +177,22 @@ TEST(Regions, ResolveAGroove) {
 TEST(Regions, CoverAllParts) {
   Composites random(9);
   size_t covered = 0;
-  for (size_t i = 0; i < rounds(300); ++i) {
+  // Boxes along the axes of a compound turn with it, and meshes have parts themselves.
+  const auto is_plain = [](const Shape& shape) {
+    return !std::holds_alternative<Aabb>(shape) && !std::holds_alternative<Mesh>(shape);
+  };
+  for (size_t i = 0; i < rounds(1000); ++i) {
     const TestPair pair = random.pair(ShapeKind::compound, ShapeKind::compound,
                                       PositionType::float64, 1, 2);
-    const Listed listed = list_contacts({&pair, 1}, PositionType::float64, {});
+    CollideOptions options;
+    options.region_limits.most = 1000;
+    const Listed listed = list_contacts({&pair, 1}, PositionType::float64, options);
     const auto& a = *std::get<Compound>(pair.a.shape).geometry;
     const auto& b = *std::get<Compound>(pair.b.shape).geometry;
     const Vector3d offset = pair.b.position - pair.a.position;
     for (const CompoundChild& x : a.children()) {
       for (const CompoundChild& y : b.children()) {
-        if (std::holds_alternative<Mesh>(x.shape) || std::holds_alternative<Mesh>(y.shape)) continue;
+        if (!is_plain(x.shape) || !is_plain(y.shape)) continue;
         const auto placed = [](const PlacedShape& body, const CompoundChild& child,
                                const Vector3d& from) {
           const Eigen::Quaternionf q = body.orientation;
