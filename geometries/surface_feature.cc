@@ -164,8 +164,7 @@ uint32_t surface_feature(const Part& part, uint32_t triangle, const Double3& poi
     case ShapeKind::mesh:
       return mesh_feature(*geometry_at<MeshGeometry>(rows[0]), triangle, point);
     case ShapeKind::triangle:
-      return triangle_feature({vector_of(rows[0]), vector_of(rows[1]),
-                               vector_of(rows[2])},
+      return triangle_feature({vector_of(rows[0]), vector_of(rows[1]), vector_of(rows[2])},
                               {0, 1, 2}, 0, point);
     default:
       return name_of(Kind::smooth, 1);  // one surface without edges

@@ -36,8 +36,8 @@ Result<PairsFile> read_pairs(const std::string& path);
 Result<void> write_pairs(const std::string& path, const PairsFile& pairs);
 
 // Writes the columns that are there, under their names, the times of impact if `toi` is not
-// nullptr, and all contacts if `regions` is not. A file of no pairs gets all arrays that docs/formats.md names. Unused points of a
-// manifold are NaN in the file.
+// nullptr, and all contacts if `regions` is not. A file of no pairs gets all arrays that
+// docs/formats.md names. Unused points of a manifold are NaN in the file.
 Result<void> write_pair_results(const std::string& path, uint64_t pairs,
                                 const ResultColumns& columns, const float* toi = nullptr,
                                 const RegionArrays* regions = nullptr);

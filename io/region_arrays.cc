@@ -7,8 +7,8 @@ namespace carom::io {
 Result<void> write_regions(NpzWriter& writer, const RegionArrays& regions) {
   const uint64_t count = regions.separation.size();
   const float* const points = count > 0 ? regions.point[0].data() : nullptr;
-  Result<void> done = writer.add("region_first", std::span<const uint64_t>(regions.first),
-                                 {regions.first.size()});
+  Result<void> done =
+      writer.add("region_first", std::span<const uint64_t>(regions.first), {regions.first.size()});
   if (done) done = writer.add("region_normal", regions.normal);
   if (done) {
     done = writer.add("region_separation", std::span<const float>(regions.separation), {count});

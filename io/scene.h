@@ -31,7 +31,7 @@ struct SceneInfo {
   std::vector<uint32_t> owner;
   std::vector<uint32_t> space;
   std::vector<uint8_t> sensor;
-  std::vector<float> contact_distance;  // metres, >= 0
+  std::vector<float> contact_distance;                  // metres, >= 0
   std::vector<std::array<uint32_t, 2>> excluded_pairs;  // a < b, in any order
 };
 

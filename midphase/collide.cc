@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "midphase/collide_pairs.h"
 #include "carom/results/result_arrays.h"
+#include "midphase/collide_pairs.h"
 #include "midphase/contact_of_row.h"
 #include "midphase/mixed_block.h"
 #include "midphase/point_names.h"

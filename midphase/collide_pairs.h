@@ -17,7 +17,8 @@ namespace carom {
 // cut. Results are the same. It must be nullptr unless only overlapping pairs are measured, without
 // contact distances.
 //
-// `extra`: nullptr, or at Detail::regions what receives the contacts beside the first one of a pair.
+// `extra`: nullptr, or at Detail::regions what receives the contacts beside the first one of a
+// pair.
 void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
                    const ResultColumns& out, const CollideOptions& options, uint32_t* direction,
                    ExtraContacts* extra);

@@ -272,7 +272,8 @@ class CompositeRun {
     size_t count = 0;
     for (size_t k = 0; k < rows_.size(); ++k) {
       const Outcome& o = outcomes_[k];
-      const bool is_known = o.is_invalid() || (o.is_found && is_contact(k, o.overlap, o.separation));
+      const bool is_known =
+          o.is_invalid() || (o.is_found && is_contact(k, o.overlap, o.separation));
       if (!is_known && o.overlap != 1) to_measure_[count++] = static_cast<uint16_t>(k);
     }
     const std::span<const uint16_t> to_measure = std::span(to_measure_).first(count);
@@ -344,8 +345,8 @@ class CompositeRun {
   MergedManifold first_region(size_t k, std::span<PartContact> contacts) {
     if (contacts.empty()) return {};
     uint32_t left_out;
-    const std::span<const PartRegion> regions =
-        merger_.all(contacts, extra_.limits.cosine, std::clamp(extra_.limits.most, 1u, 0xffffu), left_out);
+    const std::span<const PartRegion> regions = merger_.all(
+        contacts, extra_.limits.cosine, std::clamp(extra_.limits.most, 1u, 0xffffu), left_out);
     left_out += contacts_.dropped(k);
     const size_t pair = block_.first + rows_[k];
     extra_.found->begin(pair, static_cast<uint16_t>(std::min(left_out, 0xffffu)));

@@ -102,8 +102,8 @@ class PartBatch {
   const Double3& arm_b(size_t i) const { return sides_[1].arm(pairs_[i].b); }
   // The results of the last run, in the columns that were asked for.
   const ResultColumns& results() const { return results_; }
-  // For a pair with a contact, by side: all inner edges of the triangle if the contact came over one
-  // of them; 0 otherwise.
+  // For a pair with a contact, by side: all inner edges of the triangle if the contact came over
+  // one of them; 0 otherwise.
   std::array<uint8_t, 2> edges_to_close(size_t i) const;
 
  private:

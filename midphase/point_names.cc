@@ -26,8 +26,8 @@ PointNames names_of_row(const PairBlock& block, size_t row, Pair pair, const Bod
   };
   PointNames names{};
   if (!has_manifolds(block.detail)) {
-    names.point[0] = name({out.point_a[0][row], out.point_a[1][row], out.point_a[2][row]},
-                          out.separation[row]);
+    names.point[0] =
+        name({out.point_a[0][row], out.point_a[1][row], out.point_a[2][row]}, out.separation[row]);
   } else {
     for (size_t k = 0; k < out.manifold_count[row]; ++k) {
       const std::array<float, 3>& point = out.manifold[row].point[k];

@@ -75,9 +75,9 @@ PartContact contact_of(const PairResult& result, const Simple& a, const Simple& 
 
 // The sub-shape that results report for a part.
 uint32_t sub_of(const std::vector<Simple>& parts, uint64_t order) {
-  return std::find_if(parts.begin(), parts.end(), [&](const Simple& part) {
-           return part.order == order;
-         })->sub;
+  return std::find_if(parts.begin(), parts.end(),
+                      [&](const Simple& part) { return part.order == order; })
+      ->sub;
 }
 
 // Ranks overlapping pairs of parts before separate ones, and contacts over inner edges after

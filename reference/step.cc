@@ -215,9 +215,8 @@ void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
   const Body& a = *pair.a;
   const Body& b = *pair.b;
   const float distance = std::fmax(settings.distance_of(a), settings.distance_of(b));
-  PairContacts found =
-      find_contacts(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc),
-                    settings.positions, distance, settings.contacts.region_limits);
+  PairContacts found = find_contacts(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc),
+                                     settings.positions, distance, settings.contacts.region_limits);
   PairResult& result = found.first;
   const bool overlap = result.overlap && pair.meet_now;
   const bool sensor = a.desc.sensor || b.desc.sensor;

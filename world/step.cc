@@ -292,7 +292,8 @@ void World::State::test_pairs() {
   FewOf<ColumnRole, 2> wanted;
   if (sub_shapes) wanted.push_back(ColumnRole::sub_shape);
   if (has_identities()) wanted.push_back(ColumnRole::name);
-  const ResultColumns& columns = results.prepare(plan.tested(), settings.detail, {wanted.begin(), wanted.size()});
+  const ResultColumns& columns =
+      results.prepare(plan.tested(), settings.detail, {wanted.begin(), wanted.size()});
   CollideOptions options = {.frame = WitnessFrame::body,
                             .parallelism = settings.parallelism,
                             .measured = Measured::overlapping,
@@ -301,7 +302,8 @@ void World::State::test_pairs() {
   if (has_distances()) {
     options.contact_distances = results.prepare_distances(pairs, distances(), settings.parallelism);
   }
-  collide_pairs(view, pairs, settings.detail, columns, options, direction, results.extra_of(settings.detail));
+  collide_pairs(view, pairs, settings.detail, columns, options, direction,
+                results.extra_of(settings.detail));
   if (remembers) {
     directions.keep(plan, last, settings.parallelism, now);
   } else {

@@ -59,9 +59,8 @@ bool LibrarySetting::serves(const KindPair& kinds) const {
 }
 
 void LibrarySetting::run(const PairSet& pairs, Detail detail, Answers& out) {
-  [[maybe_unused]] const Result<void> done =
-      collide_rows(pairs.a(), pairs.b(), detail, out,
-                   {.frame = WitnessFrame::body, .accuracy = accuracy_});
+  [[maybe_unused]] const Result<void> done = collide_rows(
+      pairs.a(), pairs.b(), detail, out, {.frame = WitnessFrame::body, .accuracy = accuracy_});
   assert(done);
 }
 

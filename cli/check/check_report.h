@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "carom/hulls/build_hull.h"
 #include "carom/shapes/shape.h"
 #include "cli/check/mesh_check.h"
 #include "cli/support/json_output.h"
-#include "carom/hulls/build_hull.h"
 
 namespace carom::cli {
 

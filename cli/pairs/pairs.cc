@@ -27,12 +27,9 @@ namespace {
 
 // `distance` is the same as contact, because the contact kernels of these shapes also measure
 // separate pairs. `toi` gives the contacts at the time of impact.
-constexpr NamedDetail kDetails[] = {{"overlap", Detail::overlap},
-                                    {"contact", Detail::contact},
-                                    {"manifold", Detail::manifold},
-                                    {"regions", Detail::regions},
-                                    {"distance", Detail::contact},
-                                    {"toi", Detail::contact}};
+constexpr NamedDetail kDetails[] = {{"overlap", Detail::overlap},   {"contact", Detail::contact},
+                                    {"manifold", Detail::manifold}, {"regions", Detail::regions},
+                                    {"distance", Detail::contact},  {"toi", Detail::contact}};
 
 struct PairsOptions {
   std::string input;
@@ -280,7 +277,9 @@ void add_pairs_command(CommandLine& program) {
   command.add_option("-o,--output", options->output, "Results (.npz)").required().file_name();
   add_engine_options(command, options->engine);
   add_tier_options(command, options->tier);
-  command.add_option("--detail", options->detail, "overlap, contact, manifold, regions, distance or toi")
+  command
+      .add_option("--detail", options->detail,
+                  "overlap, contact, manifold, regions, distance or toi")
       .show_default();
   command
       .add_option("--contact-distance", options->contact_distance,

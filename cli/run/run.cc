@@ -28,8 +28,9 @@ struct RunOptions {
 // Fails if a page is wanted and the detail finds nothing that it shows.
 Result<void> check_page(const std::string& page, Detail detail) {
   if (page.empty() || has_contacts(detail)) return {};
-  return Error{std::string("--page shows contacts: it needs --detail contact, manifold or regions, not ") +
-               name_of(detail)};
+  return Error{
+      std::string("--page shows contacts: it needs --detail contact, manifold or regions, not ") +
+      name_of(detail)};
 }
 
 Result<RunSettings> read_settings(const RunOptions& options) {

@@ -90,7 +90,8 @@ class AccuracyOption : public WorldOption {
 class DetailOption : public WorldOption {
  public:
   void add_to(Command& command) override {
-    command.add_option("--detail", name_, "pairs, overlap, contact, manifold or regions").show_default();
+    command.add_option("--detail", name_, "pairs, overlap, contact, manifold or regions")
+        .show_default();
   }
 
   Result<void> read(RunSettings& settings) const override {

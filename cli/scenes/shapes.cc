@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "carom/hulls/build_hull.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
-#include "carom/hulls/build_hull.h"
 #include "io/files/file.h"
 
 namespace carom::cli {

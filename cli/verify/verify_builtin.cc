@@ -127,7 +127,8 @@ void make_all_kinds(io::SceneShapes& shapes) {
 }
 
 // A generated scene of boxes, some changed to other kinds, with layers, masks, owners, spaces,
-// excluded pairs, contact distances, sensors and all kinds of motion. In some frames some bodies are ill-formed.
+// excluded pairs, sensors, all kinds of motion and, at float64, contact distances. In some frames
+// some bodies are ill-formed.
 class MixedScene : public io::SceneReader {
  public:
   // `oriented`: half of the bodies turn in every frame.
@@ -144,9 +145,11 @@ class MixedScene : public io::SceneReader {
       info_.owner.push_back(i % 10 < 4 ? 1 + i % 4 : 0);
       info_.space.push_back(i % 16 == 5);
       info_.sensor.push_back(i % 7 == 0);
-      info_.contact_distance.push_back(i % 11 == 0 ? 0.25f : 0);
       for (uint32_t b = i + 1 + i % 3; b < info_.bodies; b += 7)
         info_.excluded_pairs.push_back({i, b});
+    }
+    for (uint32_t i = 0; info_.float64_positions && i < info_.bodies; ++i) {
+      info_.contact_distance.push_back(i % 11 == 0 ? 0.25f : 0);
     }
   }
 

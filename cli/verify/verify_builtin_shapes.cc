@@ -3,9 +3,9 @@
 #include <array>
 #include <utility>
 
+#include "carom/hulls/build_hull.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
-#include "carom/hulls/build_hull.h"
 
 namespace carom::cli {
 namespace {

@@ -35,8 +35,8 @@ std::unique_ptr<Stepper> System::make_stepper(const Player& player, const WorldS
 Result<void> System::collide_rows(const Collidables& a, const Collidables& b, Detail detail,
                                   const ResultColumns& out, WitnessFrame frame,
                                   Parallelism parallelism, Tier tier) {
-  return carom::collide_rows(a, b, detail, out,
-                             {.frame = frame, .parallelism = parallelism, .accuracy = {.tier = tier}});
+  return carom::collide_rows(
+      a, b, detail, out, {.frame = frame, .parallelism = parallelism, .accuracy = {.tier = tier}});
 }
 
 Result<void> System::collide(const Collidables& a, const Collidables& b,

@@ -21,8 +21,8 @@
 /// may run on several threads at once if their outputs differ.
 #pragma once
 
-#include "carom/base/jobs.h"
 #include "carom/base/function_ref.h"
+#include "carom/base/jobs.h"
 #include "carom/base/parallelism.h"
 #include "carom/base/result.h"
 #include "carom/base/thread_arena.h"

@@ -15,11 +15,11 @@ struct PairBlock {
   const Collidables& b;
   const Pair* pairs;  // of the block; nullptr: row i is (a[first + i], b[first + i])
   size_t first;
-  size_t count;  // <= kPairsPerBlock
+  size_t count;   // <= kPairsPerBlock
   Detail detail;  // Detail::regions is as Detail::manifold here
   WitnessFrame frame;
   Measured measured = Measured::all;
-  const float* reach = nullptr;  // contact distance of each row of the block; nullptr: 0
+  const float* reach = nullptr;   // contact distance of each row of the block; nullptr: 0
   uint32_t* direction = nullptr;  // one for each row of the block; see run_passes()
   Accuracy accuracy;
   ResultColumns out;  // of the block

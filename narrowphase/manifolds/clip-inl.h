@@ -208,7 +208,8 @@ HWY_INLINE void see(const FaceView& view, const Rectangle& face, Seen<4>& seen, 
 // both pairs of its sides.
 template <size_t kFirst, size_t kCount>
 HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& seen,
-                            const SeenWay& u, const SeenWay& v, F touching, ClipPoints<kCount>& out) {
+                            const SeenWay& u, const SeenWay& v, F touching,
+                            ClipPoints<kCount>& out) {
   const F zero = splat(0);
   const F area = area_left(u.x, u.y, v.x, v.y);
   const F side = hn::IfThenElse(hn::Lt(area, zero), splat(-1), splat(1));
@@ -315,8 +316,7 @@ HWY_INLINE void clip(const Face& face, const FaceSide<OtherFace>& other, const F
   for (size_t i = 0; i < kSeen; ++i) {
     const size_t next = (i + 1) % kSeen;
     way_between(seen, i, next, ways[i]);
-    put_edge(face, other.face.where(i, view.is_open), seen, i, next, ways[i], touching, 2 * i,
-             out);
+    put_edge(face, other.face.where(i, view.is_open), seen, i, next, ways[i], touching, 2 * i, out);
   }
   put_corners<2 * kSeen>(face, view.is_open, other.face.frame.n, m, seen, ways, touching, out);
 }

@@ -40,7 +40,8 @@ requires(std::is_same_v<A, AabbShape<float>> || std::is_same_v<A, B>)  // as in 
     manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
   const Rectangle other = face_towards(-contact.normal, b, placed.b);
-  const ClipPoints points = reduce(clip(face, other, contact.normal, contact.touching()), kSamePoint);
+  const ClipPoints points =
+      reduce(clip(face, other, contact.normal, contact.touching()), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
 }
 
@@ -51,7 +52,8 @@ ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPa
   const Vector3f normal = triangle_face(corners).frame.n;
   if (!shows_face(b, normal, -contact.normal)) return witness_only(contact);
   const Rectangle face = face_towards(contact.normal, a, placed.a);
-  const ClipPoints points = reduce(clip(face, corners, normal, contact.normal, contact.touching()), kSamePoint);
+  const ClipPoints points =
+      reduce(clip(face, corners, normal, contact.normal, contact.touching()), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
 }
 
@@ -63,12 +65,14 @@ ContactPoints touch_faces(const FaceA& face_a, const CornersA& corners_a, const 
   const Vector3f& n = contact.normal;
   if (std::fabs(dot(face_b.frame.n, n)) > std::fabs(dot(face_a.frame.n, n))) {
     const Vector3f m = -n;
-    const ClipPoints few = reduce(clip(face_b, corners_a, face_a.frame.n, m, contact.touching()), kSamePoint);
+    const ClipPoints few =
+        reduce(clip(face_b, corners_a, face_a.frame.n, m, contact.touching()), kSamePoint);
     ContactPoints points = on_frame(face_b.frame, few);
     for (ContactPoint& p : points) p.point += m * p.s;
     return or_witness(points, contact);
   }
-  const ClipPoints few = reduce(clip(face_a, corners_b, face_b.frame.n, n, contact.touching()), kSamePoint);
+  const ClipPoints few =
+      reduce(clip(face_a, corners_b, face_b.frame.n, n, contact.touching()), kSamePoint);
   return or_witness(on_frame(face_a.frame, few), contact);
 }
 
@@ -114,8 +118,8 @@ ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
                        const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
   const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
-  const ClipPoints points =
-      reduce(clip(face, side.corners, side.face.frame.n, contact.normal, contact.touching()), kSamePoint);
+  const ClipPoints points = reduce(
+      clip(face, side.corners, side.face.frame.n, contact.normal, contact.touching()), kSamePoint);
   return or_witness(on_frame(face.frame, points), contact);
 }
 

@@ -156,9 +156,9 @@ uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, 
   contact.separation = tested.separation[row];
   contact.normal = vector(tested.normal);
   contact.arm_a = vector(tested.point_a);
-  const scalar::Manifold manifold = scalar::manifold_of(shape_of(a, pair.a), shape_of(b, pair.b),
-                                                        rounded_pose(a, b, pair), contact,
-                                                        batch.reach ? batch.reach[row] : 0);
+  const scalar::Manifold manifold =
+      scalar::manifold_of(shape_of(a, pair.a), shape_of(b, pair.b), rounded_pose(a, b, pair),
+                          contact, batch.reach ? batch.reach[row] : 0);
   points = manifold.points;
   return manifold.count;
 }

@@ -117,7 +117,7 @@ unsigned long long hash_of_steps() {
   const Rays rays(origins.data(), down.data(), 4, 20);
   std::vector<CastHit> hits;
   world.step();
-  world.cast(rays.queries(), rays.sweep(), CastHits::all, hits);
+  world.cast(rays.queries(), rays.sweep(), hits, {.hits = CastHits::all});
   std::vector<NearestHit> nearest;
   world.find_nearest(rays.queries(), 20, nearest);
   for (const CastHit& hit : hits) hash.add(hit.toi), hash.add(hit.normal), hash.add(hit.point);

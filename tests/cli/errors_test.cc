@@ -117,7 +117,7 @@ TEST_F(ErrorsTest, OptionsOfRun) {
                {"--pairs-out and --page name the same file"});
   for (const char* detail : {"pairs", "overlap"}) {
     expect_error({"run", scene, "--detail", detail, "--page", path("x")},
-                 {"--page", "--detail contact or manifold", detail});
+                 {"--page", "--detail contact, manifold or regions", detail});
   }
   EXPECT_EQ(files(), 0u);
 }
@@ -129,7 +129,7 @@ TEST_F(ErrorsTest, OptionsOfPairs) {
     expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), option, value}, {part});
   };
   fails("--detail", "pairs", "unknown detail 'pairs'");
-  fails("--detail", "pairs", "(there are: overlap, contact, manifold, distance, toi)");
+  fails("--detail", "pairs", "(there are: overlap, contact, manifold, regions, distance, toi)");
   fails("--tier", "best", "unknown tier 'best'");
   fails("--isa", "mmx", "unknown ISA");
   fails("--threads", "0", "--threads 0");

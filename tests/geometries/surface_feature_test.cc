@@ -44,10 +44,10 @@ void expect_box_features(const Shape& shape, const Vector3f& lower, const Vector
       Double3 point;
       for (size_t axis = 0; axis < 3; ++axis) {
         const double low = lower[axis], high = upper[axis];
-        point[axis] = side[axis] == 0   ? low
-                      : side[axis] == 1 ? high
-                                        : random.uniform(0.9 * low + 0.1 * high,
-                                                         0.1 * low + 0.9 * high);
+        point[axis] = side[axis] == 0 ? low
+                      : side[axis] == 1
+                          ? high
+                          : random.uniform(0.9 * low + 0.1 * high, 0.1 * low + 0.9 * high);
         point[axis] *= 1 + random.uniform(-1e-6, 1e-6);
       }
       of_feature.insert(part.name(point));
@@ -67,10 +67,11 @@ TEST(SurfaceFeatures, OfBoxes) {
 }
 
 TEST(SurfaceFeatures, OfAHull) {
-  const std::vector<Vector3f> corners = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                                         {0, 0, 1}};
-  const Hull hull{*make_hull(corners, std::vector<std::vector<uint32_t>>{
-                                          {3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}})};
+  const std::vector<Vector3f> corners = {
+      {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {0, 0, 1}};
+  const Hull hull{
+      *make_hull(corners, std::vector<std::vector<uint32_t>>{
+                              {3, 2, 1, 0}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}})};
   const PartOf part(hull);
   std::set<uint32_t> names;
   const auto at = [](const Vector3f& v) { return Double3{v.x(), v.y(), v.z()}; };

@@ -154,7 +154,9 @@ TEST_F(PairsTest, FormatsNameEveryColumn) {
   ASSERT_THAT(text, HasSubstr("`overlap`"));
   for_each_result(
       [&](const ColumnInfo& info, const auto&) {
-        if (info.role == ColumnRole::bound || info.role == ColumnRole::memory) return;
+        const bool is_member = info.role != ColumnRole::bound && info.role != ColumnRole::memory &&
+                               info.role != ColumnRole::name;
+        if (!is_member) return;
         const bool is_two = info.name == std::string("manifold");
         EXPECT_THAT(text, HasSubstr("`" + std::string(info.name) + (is_two ? "_point`" : "`")));
       },
@@ -172,9 +174,12 @@ TEST_F(PairsTest, NoPairsAreAFileToo) {
   const auto results = NpzReader::open(path("r.npz"));
   ASSERT_TRUE(succeeds(results));
   EXPECT_EQ(results->members(),
-            (std::vector<std::string>{"overlap", "status", "separation", "normal", "point_a",
-                                      "point_b", "manifold_count", "manifold_point",
-                                      "manifold_separation", "sub_a", "sub_b", "toi"}));
+            (std::vector<std::string>{
+                "overlap", "status", "separation", "normal", "point_a", "point_b", "manifold_count",
+                "manifold_point", "manifold_separation", "sub_a", "sub_b", "toi", "region_first",
+                "region_normal", "region_separation", "region_part", "region_point_count",
+                "region_point", "region_point_separation"}));
+  EXPECT_EQ(*results->read<uint64_t>("region_first", {1}), std::vector<uint64_t>{0});
   EXPECT_TRUE(results->read<float>("manifold_point", {0, 4, 3})->empty());
   EXPECT_TRUE((results->read<std::array<float, 3>>("normal", {0})->empty()));
 }

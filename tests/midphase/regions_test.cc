@@ -28,8 +28,8 @@ Listed list_contacts(std::span<const TestPair> pairs, PositionType positions,
   listed.rows.resize(pairs.size(), Detail::manifold, {ColumnRole::sub_shape});
   CollideOptions options = asked;
   options.regions = &listed.regions;
-  EXPECT_TRUE(bool(
-      collide_rows(a.view(), b.view(), Detail::regions, listed.rows.columns(), options)));
+  EXPECT_TRUE(
+      bool(collide_rows(a.view(), b.view(), Detail::regions, listed.rows.columns(), options)));
   return listed;
 }
 
@@ -64,9 +64,9 @@ void expect_reference_contacts(std::span<const TestPair> pairs, PositionType pos
     const reference::PairContacts expected =
         reference::find_contacts(pair.a.shape, pair.a.pose(), pair.b.shape, pair.b.pose(),
                                  positions, options.contact_distance, options.region_limits);
-    const bool touches = expected.first.overlap ||
-                         (options.contact_distance > 0 &&
-                          expected.first.separation <= options.contact_distance);
+    const bool touches =
+        expected.first.overlap ||
+        (options.contact_distance > 0 && expected.first.separation <= options.contact_distance);
     const size_t count = got.first[i + 1] - got.first[i];
     ASSERT_EQ(count, touches ? 1 + expected.others.size() : 0) << i;
     if (!touches) continue;
@@ -118,8 +118,8 @@ TEST(Regions, RowsAreThoseOfManifolds) {
     for (const WitnessFrame frame : {WitnessFrame::world, WitnessFrame::body}) {
       const Listed listed = list_contacts(pairs, PositionType::float32, {.frame = frame});
       ResultArrays rows(pairs.size(), Detail::manifold, {ColumnRole::sub_shape});
-      ASSERT_TRUE(bool(collide_rows(a.view(), b.view(), Detail::manifold, rows.columns(),
-                                    {.frame = frame})));
+      ASSERT_TRUE(bool(
+          collide_rows(a.view(), b.view(), Detail::manifold, rows.columns(), {.frame = frame})));
       for (size_t i = 0; i < pairs.size(); ++i) {
         ASSERT_TRUE(same_bits(result_row(listed.rows.columns(), i), result_row(rows.columns(), i)));
       }
@@ -182,8 +182,8 @@ TEST(Regions, CoverAllParts) {
     return !std::holds_alternative<Aabb>(shape) && !std::holds_alternative<Mesh>(shape);
   };
   for (size_t i = 0; i < rounds(1000); ++i) {
-    const TestPair pair = random.pair(ShapeKind::compound, ShapeKind::compound,
-                                      PositionType::float64, 1, 2);
+    const TestPair pair =
+        random.pair(ShapeKind::compound, ShapeKind::compound, PositionType::float64, 1, 2);
     CollideOptions options;
     options.region_limits.most = 1000;
     const Listed listed = list_contacts({&pair, 1}, PositionType::float64, options);
@@ -199,15 +199,15 @@ TEST(Regions, CoverAllParts) {
           return Pose{from + (q.normalized() * child.position).template cast<double>(),
                       Eigen::Quaternionf(q * Eigen::Quaternionf(child.orientation))};
         };
-        const reference::PairResult part = reference::collide(
-            x.shape, placed(pair.a, x, Vector3d::Zero()), y.shape, placed(pair.b, y, offset),
-            PositionType::float64);
+        const reference::PairResult part =
+            reference::collide(x.shape, placed(pair.a, x, Vector3d::Zero()), y.shape,
+                               placed(pair.b, y, offset), PositionType::float64);
         if (!part.overlap || part.separation > -1e-4f) continue;
-        const bool is_covered = std::any_of(
-            listed.regions.contacts.begin(), listed.regions.contacts.end(), [&](const Contact& c) {
-              return c.normal.dot(part.normal) > 0.95f - 1e-3f &&
-                     c.separation <= part.separation + 1e-4f;
-            });
+        const bool is_covered = std::any_of(listed.regions.contacts.begin(),
+                                            listed.regions.contacts.end(), [&](const Contact& c) {
+                                              return c.normal.dot(part.normal) > 0.95f - 1e-3f &&
+                                                     c.separation <= part.separation + 1e-4f;
+                                            });
         EXPECT_TRUE(is_covered);
         covered += is_covered;
       }

@@ -87,9 +87,8 @@ std::vector<Nearest> expected_nearest(const std::vector<PlacedShape>& queries,
   const LaidOut a(queries, {.positions = positions}), b(bodies, {.positions = positions});
   const std::vector<Pair> pairs = all_pairs(queries, bodies);
   Measurements all(pairs.size());
-  EXPECT_TRUE(
-      bool(collide(a.view(), b.view(), pairs, Detail::contact, all.columns(),
-                   {.frame = WitnessFrame::body})));
+  EXPECT_TRUE(bool(collide(a.view(), b.view(), pairs, Detail::contact, all.columns(),
+                           {.frame = WitnessFrame::body})));
   std::vector<Nearest> nearest;
   for (size_t i = 0; i < pairs.size();) {
     const uint32_t query = pairs[i].a;

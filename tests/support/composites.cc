@@ -92,9 +92,8 @@ std::vector<SubShapes> run_sub_shapes(std::span<const TestPair> pairs, const Cal
   ResultColumns out = columns.out();
   out.sub_a = sub_a.data();
   out.sub_b = sub_b.data();
-  expect_success(call, [&] {
-    return collide_rows(a.view(), b.view(), call.detail, out, options_of(call));
-  });
+  expect_success(
+      call, [&] { return collide_rows(a.view(), b.view(), call.detail, out, options_of(call)); });
   std::vector<SubShapes> all;
   for (size_t i = 0; i < pairs.size(); ++i) all.push_back({sub_a[i], sub_b[i]});
   return all;

@@ -137,23 +137,23 @@ void find_previous(const PairHistory& last, const BodyStore& bodies, Parallelism
   const auto is_replaced = [&](uint32_t body) {
     return (bodies.touched(body) & BodyStore::kReplaced) != 0;
   };
-  for_each_merge_block(
-      now.pairs.size(), parallelism, [&](size_t, size_t begin, size_t end) {
-        static thread_local std::vector<uint8_t> scratch;
-        const auto there = [&](size_t i, size_t before) {
-          if (!now.has_contact(i)) return;
-          const Pair pair = now.pairs[i];
-          const size_t first = now.contact[i];
-          const size_t count = contact_run(now.contacts, first).size();
-          for (size_t c = first; c < first + count; ++c) {
-            now.identities[c] = without_previous(now.identities[c].names);
-          }
-          const bool continues = before != kNotThere && last.has_contact(before) &&
-                                 !is_replaced(pair.a) && !is_replaced(pair.b);
-          if (continues) PairMatch(last, last.contact[before], now, first, scratch).run();
-        };
-        merge_block(last.pairs, now.pairs, begin, end, [](size_t) {}, there);
-      });
+  for_each_merge_block(now.pairs.size(), parallelism, [&](size_t, size_t begin, size_t end) {
+    static thread_local std::vector<uint8_t> scratch;
+    const auto there = [&](size_t i, size_t before) {
+      if (!now.has_contact(i)) return;
+      const Pair pair = now.pairs[i];
+      const size_t first = now.contact[i];
+      const size_t count = contact_run(now.contacts, first).size();
+      for (size_t c = first; c < first + count; ++c) {
+        now.identities[c] = without_previous(now.identities[c].names);
+      }
+      const bool continues = before != kNotThere && last.has_contact(before) &&
+                             !is_replaced(pair.a) && !is_replaced(pair.b);
+      if (continues) PairMatch(last, last.contact[before], now, first, scratch).run();
+    };
+    merge_block(
+        last.pairs, now.pairs, begin, end, [](size_t) {}, there);
+  });
 }
 
 void repeat_identities(Parallelism parallelism, PairHistory& now) {

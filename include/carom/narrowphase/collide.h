@@ -38,9 +38,9 @@ struct CollideOptions {
 /// Tests pair i = (a[pairs[i].a], b[pairs[i].b]) and writes row i of `out`. `a` and `b` may be the
 /// same set. Columns of `out` hold pairs.size() entries. At Detail::overlap only overlap and status
 /// are written, at Detail::contact all but the manifolds, at Detail::pairs nothing; at
-/// Detail::regions the same columns as at Detail::manifold, and CollideOptions::regions. Indices must
-/// lie inside their sets. A body behind a one-sided triangle is separate from it by +infinity, with
-/// NaN as normal and points; an invalid pair has NaN in all of these.
+/// Detail::regions the same columns as at Detail::manifold, and CollideOptions::regions. Indices
+/// must lie inside their sets. A body behind a one-sided triangle is separate from it by +infinity,
+/// with NaN as normal and points; an invalid pair has NaN in all of these.
 ///
 /// A mesh or a compound overlaps a body if one of its parts does. The contact is that of the pair
 /// of parts with the least separation (the deepest one, or else the nearest); among equal ones it
@@ -61,8 +61,8 @@ struct CollideOptions {
 /// pairs, more than 0 for separate ones. Undecided pairs have the separation of the standard tier,
 /// and no manifold points.
 ///
-/// At Detail::regions the row of a pair holds its first contact. `regions` has all of them: none for
-/// a pair that neither overlaps nor is within its contact distance. The parts of a mesh or a
+/// At Detail::regions the row of a pair holds its first contact. `regions` has all of them: none
+/// for a pair that neither overlaps nor is within its contact distance. The parts of a mesh or a
 /// compound whose normals are within an angle (RegionLimits) share a contact, the deepest of which
 /// gives the normal. A contact over an inner edge makes none of its own.
 ///
@@ -82,11 +82,10 @@ CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& 
     const Collidables& a, const Collidables& b, std::span<const Pair> pairs, Detail detail,
     const ResultColumns& out, WitnessFrame frame, Parallelism parallelism = Parallelism::none,
     Measured measured = Measured::all, const Accuracy& accuracy = {}) {
-  return collide(a, b, pairs, detail, out,
-                 CollideOptions{.frame = frame,
-                                .parallelism = parallelism,
-                                .measured = measured,
-                                .accuracy = accuracy});
+  return collide(
+      a, b, pairs, detail, out,
+      CollideOptions{
+          .frame = frame, .parallelism = parallelism, .measured = measured, .accuracy = accuracy});
 }
 
 /// The form of version 0.2.
@@ -94,11 +93,10 @@ CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& 
     const Collidables& a, const Collidables& b, Detail detail, const ResultColumns& out,
     WitnessFrame frame, Parallelism parallelism = Parallelism::none,
     Measured measured = Measured::all, const Accuracy& accuracy = {}) {
-  return collide_rows(a, b, detail, out,
-                      CollideOptions{.frame = frame,
-                                     .parallelism = parallelism,
-                                     .measured = measured,
-                                     .accuracy = accuracy});
+  return collide_rows(
+      a, b, detail, out,
+      CollideOptions{
+          .frame = frame, .parallelism = parallelism, .measured = measured, .accuracy = accuracy});
 }
 
 }  // namespace carom

@@ -42,9 +42,9 @@ struct PairResult {
 
 /// All contacts of a pair, as at Detail::regions: the first is that of its PairResult.
 struct PairContacts {
-  PairResult first;                  ///< whether or not there is a contact
-  std::vector<PairResult> others;    ///< the other contacts, the deepest first
-  uint16_t left_out = 0;             ///< how many more there are, at most 65,535
+  PairResult first;                ///< whether or not there is a contact
+  std::vector<PairResult> others;  ///< the other contacts, the deepest first
+  uint16_t left_out = 0;           ///< how many more there are, at most 65,535
 };
 
 /// A box that contains the body, for spheres and aabbs the smallest one of float32; empty if the
@@ -128,8 +128,8 @@ struct Filters {
 
 /// Which contacts a frame has: the settings of the same names in WorldSettings.
 struct ContactRules {
-  float contact_distance = 0;        ///< metres
-  RegionLimits region_limits = {};   ///< at Detail::regions
+  float contact_distance = 0;       ///< metres
+  RegionLimits region_limits = {};  ///< at Detail::regions
 };
 
 /// The results of World::step() for these bodies. Their indices must ascend, but bodies[i].id.index

@@ -65,14 +65,14 @@ struct Contact {
   /// Witness point of A relative to A's position, world axes: position_a + arm_a is on A, and
   /// (position_b + arm_b) - (position_a + arm_a) = separation * normal.
   Eigen::Vector3f arm_a;
-  /// Rate of change of the separation, metres a second; negative: approaching; 0 where no velocities
-  /// are given. It is (v_b - v_a) . normal, with the velocities v of the two witness points: that of
-  /// a body's position plus, if the body turns, angular velocity x arm. (Spheres and aabbs do not
-  /// turn.) This holds in every list of contacts.
+  /// Rate of change of the separation, metres a second; negative: approaching; 0 where no
+  /// velocities are given. It is (v_b - v_a) . normal, with the velocities v of the two witness
+  /// points: that of a body's position plus, if the body turns, angular velocity x arm. (Spheres
+  /// and aabbs do not turn.) This holds in every list of contacts.
   float normal_velocity;
-  Eigen::Vector3f arm_b;              ///< witness point of B relative to B's position, world axes
-  Status status;                      ///< how the contact came about
-  uint8_t manifold_count = 0;         ///< 1 to 4 at details with manifolds, else 0
+  Eigen::Vector3f arm_b;       ///< witness point of B relative to B's position, world axes
+  Status status;               ///< how the contact came about
+  uint8_t manifold_count = 0;  ///< 1 to 4 at details with manifolds, else 0
   /// At Detail::regions, in the first contact of a pair: how many more the pair has than
   /// RegionLimits::most, and how many parts touch beside the 4,096 deepest ones, of which contacts
   /// are made; at most 65,535. Otherwise 0.
@@ -92,8 +92,8 @@ inline std::span<const Contact> contact_run(std::span<const Contact> contacts, s
 
 /// The manifold of one contact, 64 bytes: up to four points on the surface of A, spread as wide as
 /// the area in which A and B overlap along the contact's normal, or are no further apart than the
-/// contact distance. No point is deeper than the contact, up to rounding. Unused entries are zero. There are no initialisers, since this is also
-/// scratch memory.
+/// contact distance. No point is deeper than the contact, up to rounding. Unused entries are zero.
+/// There are no initialisers, since this is also scratch memory.
 struct ManifoldPoints {
   std::array<std::array<float, 3>, 4> point;  ///< points on A; the owner says in which frame
   /// Point i is separation[i] * normal from B's surface, in metres. For a body with parts the
@@ -103,10 +103,10 @@ struct ManifoldPoints {
 static_assert(sizeof(ManifoldPoints) == 64);
 
 /// The names of the points of one contact: for each point of the manifold, in their order, which
-/// vertex, edge or face of A it lies on (the upper 32 bits), and of B (the lower ones). A name stays
-/// while the feature does, from call to call and whatever the pose is. Names of different features of
-/// one pair of bodies differ, but for a chance of about 2^-30. Without a manifold there is one point,
-/// the witness point. Unused entries are 0; no name is.
+/// vertex, edge or face of A it lies on (the upper 32 bits), and of B (the lower ones). A name
+/// stays while the feature does, from call to call and whatever the pose is. Names of different
+/// features of one pair of bodies differ, but for a chance of about 2^-30. Without a manifold there
+/// is one point, the witness point. Unused entries are 0; no name is.
 struct PointNames {
   std::array<uint64_t, 4> point;  ///< names
 };

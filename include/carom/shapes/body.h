@@ -77,7 +77,7 @@ struct BodyDesc {
   /// Metres, finite, >= 0: separate pairs of this body have contacts from this separation on. The
   /// distance of a pair is the larger one of its two bodies, and not less than that of the world.
   float contact_distance = 0;
-  uint64_t user = 0;    ///< handed back unchanged
+  uint64_t user = 0;  ///< handed back unchanged
 };
 
 }  // namespace carom

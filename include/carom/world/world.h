@@ -35,12 +35,12 @@ struct WorldSettings {
 
   /// Metres, finite, >= 0. Separate pairs with at most this separation have contacts, too, before
   /// they touch: with a positive separation, points, and at details with manifolds all points that
-  /// are this near. Bounds grow by it, so there are more candidate pairs. Overlaps and events do not
-  /// change. BodyDesc::contact_distance raises it for the pairs of one body: the larger distance
-  /// counts, so that a body with a wide one changes no pair of other bodies. Costs nothing while all
-  /// distances are 0. dop_bounds are not used with contact distances.
+  /// are this near. Bounds grow by it, so there are more candidate pairs. Overlaps and events do
+  /// not change. BodyDesc::contact_distance raises it for the pairs of one body: the larger
+  /// distance counts, so that a body with a wide one changes no pair of other bodies. Costs nothing
+  /// while all distances are 0. dop_bounds are not used with contact distances.
   float contact_distance = 0;
-  bool events = true;                                         ///< find begins and ends of overlaps
+  bool events = true;           ///< find begins and ends of overlaps
   bool persist_events = false;  ///< with `events`: also one event for each overlap that goes on
   bool carry_results = true;    ///< false: every step finds and tests every pair anew
 
@@ -282,11 +282,10 @@ class CAROM_EXPORT World {
   // Results of the last step, valid until the next one.
 
   /// Candidate pairs, sorted by (a, b): bodies whose bounds (grown by contact distances, and fat if
-  /// there is a margin) overlap, and half-spaces with bodies whose bounds (never fat ones) reach into
-  /// them. Two
-  /// half-spaces are no pair. In a step that looks ahead, a pair with a body that is looked after
-  /// uses the bounds over the interval, any other pair the bounds of now; overlaps, contacts and
-  /// manifolds are of now in any case.
+  /// there is a margin) overlap, and half-spaces with bodies whose bounds (never fat ones) reach
+  /// into them. Two half-spaces are no pair. In a step that looks ahead, a pair with a body that is
+  /// looked after uses the bounds over the interval, any other pair the bounds of now; overlaps,
+  /// contacts and manifolds are of now in any case.
   std::span<const Pair> pairs() const;
   /// One a pair: 1 overlap, 0 separate, or kUndecided.
   std::span<const uint8_t> overlaps() const;
@@ -296,7 +295,8 @@ class CAROM_EXPORT World {
   /// One a contact if WorldSettings::identities, else none: which contact and points of the last
   /// step each one continues.
   std::span<const ContactIdentity> identities() const;
-  /// At details with manifolds one a contact, else none; points are relative to the position of body A.
+  /// At details with manifolds one a contact, else none; points are relative to the position of
+  /// body A.
   std::span<const ManifoldPoints> manifolds() const;
   /// Begins and ends, and persists if asked for, sorted by (a, b), then impacts; as Event says.
   std::span<const Event> events() const;

@@ -143,6 +143,48 @@ TEST_F(PairsTest, ResultsAreThoseOfTheReference) {
   }
 }
 
+TEST_F(PairsTest, RegionsAreThoseOfTheReference) {
+  constexpr float kDistance = 0.25f;
+  const io::PairsFile file = random_pairs(true);
+  const nlohmann::json json = test(file, {"--detail", "regions", "--contact-distance", "0.25"});
+  EXPECT_EQ(json["detail"], "regions");
+  EXPECT_EQ(json["contact_distance"], 0.25);
+  const auto results = io::NpzReader::open(path("out.npz"));
+  ASSERT_TRUE(results);
+  const auto first = *results->read<uint64_t>("region_first", {kPairs + 1});
+  const uint64_t count = first.back();
+  const auto separation = *results->read<float>("region_separation", {count});
+  const auto part = *results->read<std::array<uint32_t, 2>>("region_part", {count});
+  const auto points = *results->read<uint8_t>("region_point_count", {count});
+  const auto point = *results->read<float>("region_point", {count, 4, 3});
+  const auto converted = convert_shapes(file.shapes, "");
+  ASSERT_TRUE(converted);
+  const auto& shapes = *converted;
+  size_t near = 0;
+  for (size_t i = 0, region = 0; i < kPairs; ++i) {
+    const reference::PairResult expected =
+        reference::collide(shapes[file.a.shape[i]], pose_of(file.a, i), shapes[file.b.shape[i]],
+                           pose_of(file.b, i), PositionType::float64, kDistance);
+    const bool touches = expected.overlap || expected.separation <= kDistance;
+    ASSERT_EQ(first[i + 1] - first[i], touches ? 1u : 0u) << i;
+    if (!touches) continue;
+    near += !expected.overlap;
+    EXPECT_EQ(separation[region], expected.separation);
+    EXPECT_EQ(part[region], (std::array<uint32_t, 2>{0xffffffffu, 0xffffffffu}));
+    ASSERT_EQ(points[region], expected.manifold_count);
+    for (size_t k = 0; k < 4; ++k) {
+      const float* const at = &point[12 * region + 3 * k];
+      if (k < points[region]) {
+        expect_at(at, pose_of(file.a, i).position, expected.manifold.point[k].data());
+      } else {
+        EXPECT_TRUE(std::isnan(at[0]));
+      }
+    }
+    ++region;
+  }
+  EXPECT_GT(near, 20u);
+}
+
 TEST_F(PairsTest, ManifoldsAreThoseOfTheReference) {
   for (const bool float64 : {false, true}) {
     const io::PairsFile file = random_pairs(float64);

@@ -28,6 +28,7 @@ RunSettings unusual_settings() {
   settings.detection = Detection::continuous;
   settings.world.broadphase = BroadphaseMethod::sweep;
   settings.world.margin = 0.1f;
+  settings.world.contact_distance = 0.05f;
   settings.world.dop_bounds = DopKind::k14;
   settings.world.carry_results = false;
   return settings;
@@ -35,7 +36,7 @@ RunSettings unusual_settings() {
 
 constexpr char kUnusualText[] =
     " --tier fast --knobs faces-only --motion-tolerance 0.125 --detail manifold --detection "
-    "continuous --broadphase sweep --margin 0.1 --dop-bounds 14 --no-cache";
+    "continuous --broadphase sweep --margin 0.1 --contact-distance 0.05 --dop-bounds 14 --no-cache";
 
 Result<RunSettings> parse(const std::string& text) {
   CommandLine program("carom", "", "");
@@ -73,6 +74,7 @@ TEST(WorldOptions, UnusualSettingsAreRead) {
   EXPECT_EQ(settings->detection, Detection::continuous);
   EXPECT_EQ(world.broadphase, BroadphaseMethod::sweep);
   EXPECT_EQ(world.margin, 0.1f);
+  EXPECT_EQ(world.contact_distance, 0.05f);
   EXPECT_EQ(world.dop_bounds, DopKind::k14);
   EXPECT_FALSE(world.carry_results);
 }
@@ -87,9 +89,9 @@ TEST(WorldOptions, TheJsonHasTheirKeys) {
   std::vector<std::string> keys;
   for (const auto& item : report.items()) keys.push_back(item.key());
   const std::vector<std::string> expected = {
-      "scene",  "bodies",           "frames",  "threads",   "isa",        "tier",
-      "knobs",  "motion_tolerance", "detail",  "detection", "broadphase", "broadphase_reason",
-      "margin", "dop_bounds",       "pipeline"};
+      "scene",  "bodies",           "frames",     "threads",   "isa",        "tier",
+      "knobs",  "motion_tolerance", "detail",     "detection", "broadphase", "broadphase_reason",
+      "margin", "contact_distance", "dop_bounds", "pipeline"};
   ASSERT_GE(keys.size(), expected.size());
   keys.resize(expected.size());
   EXPECT_EQ(keys, expected);

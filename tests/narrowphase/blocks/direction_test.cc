@@ -35,7 +35,8 @@ std::vector<Row> run(const LaidOut& bodies, Detail detail, uint32_t* direction) 
   for (uint32_t i = 0; i < count; ++i) list[i] = {i, count + i};
   Columns columns(count, 0);
   collide_pairs(bodies.view(), list, detail, columns.out(),
-                {.frame = WitnessFrame::body, .measured = Measured::overlapping}, direction, nullptr);
+                {.frame = WitnessFrame::body, .measured = Measured::overlapping}, direction,
+                nullptr);
   return columns.rows();
 }
 

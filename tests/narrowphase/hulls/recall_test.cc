@@ -59,9 +59,8 @@ std::vector<Row> run(std::span<const TestPair> pairs, const Call& call,
   Columns columns(pairs.size(), call.missing);
   ResultColumns out = columns.out();
   if (features) out.features = features->data();
-  expect_success(call, [&] {
-    return collide_rows(a.view(), b.view(), call.detail, out, options_of(call));
-  });
+  expect_success(
+      call, [&] { return collide_rows(a.view(), b.view(), call.detail, out, options_of(call)); });
   return columns.rows();
 }
 

@@ -179,8 +179,8 @@ TEST(Tiers, BoundsAndOverlapsDoNotNeedTheOtherColumns) {
   ResultColumns out;
   out.overlap = overlap.data();
   out.separation_bound = bound.data();
-  ASSERT_TRUE(collide_rows(a.view(), b.view(), Detail::overlap, out,
-                           {.accuracy = {.tier = Tier::exact}}));
+  ASSERT_TRUE(
+      collide_rows(a.view(), b.view(), Detail::overlap, out, {.accuracy = {.tier = Tier::exact}}));
   for (size_t i = 0; i < pairs.size(); ++i) {
     EXPECT_GT(bound[i], 0);
     EXPECT_EQ(overlap[i], exact(pairs[i], PositionType::float32));

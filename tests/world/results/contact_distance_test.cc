@@ -84,7 +84,8 @@ TEST(ContactDistance, HistoriesMatchTheReferenceOnEveryIsaAndOnThreads) {
   });
 }
 
-constexpr CrowdSpec kDistanceCrowd{.oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
+constexpr CrowdSpec kDistanceCrowd{
+    .oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
 
 // Contacts of separate pairs are left out.
 std::vector<Contact> touching(const World& world) {
@@ -180,7 +181,8 @@ TEST(ContactDistance, CostsNoMemoryUnlessItIsUsed) {
   add_crowd(without, kDistanceCrowd);
   with.step();
   without.step();
-  EXPECT_GE(with.memory().bounds, without.memory().bounds + 6 * sizeof(float) * kDistanceCrowd.count);
+  EXPECT_GE(with.memory().bounds,
+            without.memory().bounds + 6 * sizeof(float) * kDistanceCrowd.count);
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr CrowdSpec kIdentityCrowd{.oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
+constexpr CrowdSpec kIdentityCrowd{
+    .oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
 constexpr WorldSettings kIdentitySettings{.detail = Detail::manifold, .identities = true};
 
 // What a step leaves for the next one to be compared with.
