@@ -37,10 +37,11 @@ class Times {
   }
   FirstTime at(size_t i) const { return {time_[i], static_cast<Status>(status_[i]), parts_[i]}; }
 
-  // Finds the times of candidates. latest(pair): a time after which none is of use.
+  // Finds the times of candidates, or with `any` whether there are times. latest(pair): a time after
+  // which none is of use.
   template <class Latest>
   void find(const MovingSide& queries, const MovingSide& bodies, std::span<const Pair> candidates,
-            Parallelism parallelism, const Latest& latest) {
+            bool any, Parallelism parallelism, const Latest& latest) {
     pairs_.assign(candidates.begin(), candidates.end());
     resize(candidates.size());
     for_each_block(pairs_.size(), kPairsPerBlock, parallelism,
@@ -48,7 +49,7 @@ class Times {
                      std::array<double, kPairsPerBlock> limit;
                      for (size_t i = begin; i < end; ++i) limit[i - begin] = latest(pairs_[i]);
                      find_first_times(queries, bodies, pairs().subspan(begin, end - begin),
-                                      limit.data(), columns(begin));
+                                      {limit.data(), any}, columns(begin));
                    });
   }
 
@@ -190,7 +191,9 @@ class Caster {
   template <class Latest>
   Result<void> find_times(std::span<const Pair> candidates, const Latest& latest) {
     Result<void> checked = check_pairs(moving_.bodies, still_.bodies, candidates);
-    if (checked) times_.find(moving_, still_, candidates, parallelism_, latest);
+    if (checked) {
+      times_.find(moving_, still_, candidates, which_ == CastHits::any, parallelism_, latest);
+    }
     return checked;
   }
 
