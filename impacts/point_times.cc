@@ -12,7 +12,11 @@ struct PointTimes::Scratch {
   std::array<LeftTriangle, LinearRows::kMost> candidates;
   size_t count;
   std::vector<LeftTriangle> left;
-  RayScratch ray;
+
+  static constexpr size_t kMostRays = 64;
+  std::array<RaySearch, kMostRays> searches;
+  std::array<Point, kMostRays> points;
+  size_t ray_count;
 };
 
 namespace {
@@ -41,7 +45,7 @@ PointTimes::Scratch& PointTimes::scratch_of_thread() {
 PointTimes::PointTimes(const MovingSide& a, const MovingSide& b, bool any,
                        std::span<FirstTime> times)
     : a_{a}, b_{b}, any_(any), times_(times), scratch_(scratch_of_thread()) {
-  scratch_.count = 0;
+  scratch_.count = scratch_.ray_count = 0;
   scratch_.left.clear();
 }
 
@@ -50,10 +54,10 @@ bool PointTimes::take_mesh(bool is_a, uint32_t body) {
   const MovingReader& side = is_a ? a_ : b_;
   mesh_is_a_ = is_a;
   mesh_body_ = body;
-  ray_.mesh = geometry_at<MeshGeometry>(side.body().row(body, 0));
-  const MeshRules& rules = ray_.mesh->rules();
+  mesh_ = geometry_at<MeshGeometry>(side.body().row(body, 0));
+  const MeshRules& rules = mesh_->rules();
   mesh_serves_ = moves_straight(side, body) && rules.thickness == 0;
-  ray_.one_sided = side.side.one_sided.value_or(rules.one_sided);
+  one_sided_ = side.side.one_sided.value_or(rules.one_sided);
   orientation_ = side.body().orientation(body);
   turn_ = rotation_of(orientation_);
   return mesh_serves_;
@@ -65,40 +69,59 @@ bool PointTimes::add(size_t owner, Pair pair, double limit) {
   const MovingReader &of_mesh = mesh_is_a ? a_ : b_, &of_point = mesh_is_a ? b_ : a_;
   if (of_mesh.body().kind(mesh) != ShapeKind::mesh || !is_point(of_point, point)) return false;
   if (!take_mesh(mesh_is_a, mesh)) return false;
-  from_ = place_between(of_point, of_mesh, {point, mesh});
-  way_ = way_between(of_point, of_mesh, {point, mesh});
-  const Double3 start = turned_back(turn_, minus({}, from_));
-  if (!ray_.set(start, turned_back(turn_, minus({}, way_)), limit)) return false;
-  if (ray_.is_empty()) return true;
-  if (find_candidates(ray_, limit, any_, scratch_.ray)) {
-    times_[owner] = {limit, Status::ok};
-    return true;
+  const Double3 from = place_between(of_point, of_mesh, {point, mesh});
+  const Double3 way = way_between(of_point, of_mesh, {point, mesh});
+  if (scratch_.ray_count == Scratch::kMostRays) search();
+  RaySearch& search = scratch_.searches[scratch_.ray_count];
+  search.ray.mesh = mesh_;
+  search.ray.one_sided = one_sided_;
+  search.limit = limit;
+  if (!search.ray.set(turned_back(turn_, minus({}, from)), turned_back(turn_, minus({}, way)),
+                      limit)) {
+    return false;
   }
-  for (const RayCandidate& candidate : scratch_.ray.candidates) {
-    add_row(owner, pair, candidate.triangle);
-  }
+  if (search.ray.is_empty() || mesh_->tree().is_empty()) return true;
+  scratch_.points[scratch_.ray_count++] = {owner, pair, orientation_, from, way};
   return true;
 }
 
-void PointTimes::add_row(size_t owner, Pair pair, uint32_t triangle) {
+void PointTimes::search() {
+  const auto searches = std::span(scratch_.searches).first(scratch_.ray_count);
+  find_candidates(searches, any_);
+  for (size_t i = 0; i < searches.size(); ++i) {
+    const RaySearch& search = searches[i];
+    const Point& point = scratch_.points[i];
+    if (any_ && search.is_sure) {
+      times_[point.owner] = {search.limit, Status::ok};
+      continue;
+    }
+    for (const RayCandidate& candidate : search.candidates) {
+      add_row(point, *search.ray.mesh, candidate.triangle);
+    }
+  }
+  scratch_.ray_count = 0;
+}
+
+void PointTimes::add_row(const Point& point, const MeshGeometry& mesh, uint32_t triangle) {
   if (scratch_.count == LinearRows::kMost) test_rows();
   const size_t row = scratch_.count++;
-  scratch_.candidates[row] = {owner, pair, triangle};
+  scratch_.candidates[row] = {point.owner, point.pair, triangle};
   double* next = scratch_.rows.column(0) + row;
   const auto put = [&next](double value) {
     *next = value;
     next += LinearRows::kStride;
   };
-  for (const double x : from_) put(x + 0.0);  // so that no zero is negative
-  for (const double x : way_) put(x);
+  for (const double x : point.from) put(x + 0.0);  // so that no zero is negative
+  for (const double x : point.way) put(x);
   put(0);  // the radius
   for (size_t i = 0; i < 3; ++i) {
-    for (const double x : corner(*ray_.mesh, triangle, i)) put(x);
+    for (const double x : corner(mesh, triangle, i)) put(x);
   }
-  for (const float x : orientation_) put(x);
+  for (const float x : point.orientation) put(x);
 }
 
 const std::vector<LeftTriangle>& PointTimes::finish() {
+  search();
   test_rows();
   return scratch_.left;
 }

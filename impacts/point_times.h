@@ -35,9 +35,18 @@ class PointTimes {
   struct Scratch;
   static Scratch& scratch_of_thread();
 
+  // What the rows of a ray need.
+  struct Point {
+    size_t owner;
+    Pair pair;
+    Row orientation;   // of the mesh
+    Double3 from, way;  // of the mesh, from the point
+  };
+
+  void search();
   // Takes the mesh of a pair, mostly that of the last pair. False if it does not serve.
   bool take_mesh(bool is_a, uint32_t body);
-  void add_row(size_t owner, Pair pair, uint32_t triangle);
+  void add_row(const Point& point, const MeshGeometry& mesh, uint32_t triangle);
   void test_rows();
   bool passes(size_t row, double time) const;
 
@@ -51,8 +60,8 @@ class PointTimes {
   uint32_t mesh_body_ = 0xffffffffu;
   Row orientation_;
   Turn turn_;
-  RayInMesh ray_;
-  Double3 from_, way_;  // of the mesh, from the point
+  bool one_sided_;
+  const MeshGeometry* mesh_;
 };
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Walks the tree of a mesh along a ray, eight boxes at once, and tests triangles in double
+// Walks the tree of a mesh along rays, eight boxes at once, and tests triangles in double
 // precision: C. Ericson, Real-Time Collision Detection, 2005, sections 5.3.3 and 5.3.6, with bounds
 // on the rounding of each number.
 #include "simd/targets.h"
@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "impacts/ray_in_mesh.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
+#include <hwy/cache_control.h>
 #include <bit>
 #include <utility>
 
@@ -18,7 +19,13 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-using Step = RayScratch::Step;
+// A node that a search has still to visit, and a lower bound of the time, after ray.first, at which
+// the ray meets it.
+struct Step {
+  float key;
+  uint32_t node;
+};
+
 using ChildTag = hn::CappedTag<float, BoxTree::kChildren>;
 using Children = hn::Vec<ChildTag>;
 inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
@@ -35,52 +42,91 @@ HWY_INLINE float limit_on_path(const RayInMesh& ray, double limit) {
   return static_cast<float>((limit - ray.first) * (1 + 2.0 * kTimeRounding) + kTinyTime);
 }
 
+HWY_INLINE void prefetch(const BoxTree::Node& node) {
+  constexpr size_t kLine = 64;
+  const char* const bytes = reinterpret_cast<const char*>(&node);
+  for (size_t i = 0; i < sizeof node; i += kLine) hwy::Prefetch(bytes + i);
+}
+
+// The walk of one ray. It does a little at a time, and asks for the memory of what comes next.
 class RayWalk {
  public:
-  HWY_INLINE RayWalk(const RayInMesh& ray, double limit, bool any, RayScratch& scratch)
-      : ray_(ray),
-        nodes_(ray.mesh->tree().nodes().data()),
-        limit_(std::min(limit, ray.last)),
-        limit_on_path_(limit_on_path(ray, limit_)),
-        any_(any),
-        scratch_(scratch) {}
+  void start(RaySearch& search, bool any) {
+    search_ = &search;
+    any_ = any;
+    nodes_ = search.ray.mesh->tree().nodes().data();
+    limit_ = std::min(search.limit, search.ray.last);
+    limit_on_path_ = limit_on_path(search.ray, limit_);
+    search.candidates.clear();
+    search.is_sure = false;
+    waiting_ = triangle_count_ = 0;
+    node_ = 0;
+    stage_ = Stage::node;
+  }
 
-  // Whether it found what `any` asks for.
-  HWY_INLINE bool run() {
-    uint32_t node = 0;
-    size_t waiting = 0;
-    for (;;) {
-      if (scratch_.steps.size() < waiting + BoxTree::kChildren) {
-        scratch_.steps.resize(2 * waiting + 8 * BoxTree::kChildren);
+  // False at the end.
+  HWY_INLINE bool go_on() {
+    switch (stage_) {
+      case Stage::node:
+        expand(nodes_[node_]);
+        if (triangle_count_ == 0) return take_node();
+        stage_ = Stage::indices;
+        return true;
+      case Stage::indices:
+        for (size_t i = 0; i < triangle_count_; ++i) prefetch_corners(triangles_[i]);
+        stage_ = Stage::corners;
+        return true;
+      case Stage::corners:
+        for (size_t i = 0; i < triangle_count_; ++i) test(triangles_[i]);
+        triangle_count_ = 0;
+        return (any_ && search_->is_sure) ? false : take_node();
+    }
+    return false;
+  }
+
+ private:
+  enum class Stage : uint8_t { node, indices, corners };  // what it waits for
+
+  bool take_node() {
+    do {
+      if (waiting_ == 0) {
+        std::erase_if(search_->candidates,
+                      [&](const RayCandidate& candidate) { return candidate.earliest > limit_; });
+        return false;
       }
-      Step* const steps = scratch_.steps.data();
-      Step* const end = expand(nodes_[node], steps + waiting);
-      if (is_found_) return true;
-      waiting = static_cast<size_t>(end - steps);
-      do {
-        if (waiting == 0) return false;
-        --waiting;
-      } while (steps[waiting].key > limit_on_path_);
-      node = steps[waiting].child;
+      --waiting_;
+    } while (steps_[waiting_].key > limit_on_path_);
+    node_ = steps_[waiting_].node;
+    prefetch(nodes_[node_]);
+    stage_ = Stage::node;
+    return true;
+  }
+
+  void prefetch_corners(uint32_t triangle) const {
+    const MeshGeometry& mesh = *search_->ray.mesh;
+    for (const uint32_t vertex : mesh.triangles()[triangle]) {
+      hwy::Prefetch(&mesh.vertices()[vertex]);
     }
   }
 
-  double limit() const { return limit_; }
-
- private:
-  // Tests triangles, and adds the nodes that the ray meets, the nearest last.
-  HWY_INLINE Step* expand(const BoxTree::Node& node, Step* const begin) {
-    const ChildTag tag;
+  // Takes the triangles whose boxes the ray meets, and adds the nodes, the nearest last.
+  HWY_INLINE void expand(const BoxTree::Node& node) {
+    const RayInMesh& ray = search_->ray;
+    if (steps_.size() < waiting_ + BoxTree::kChildren) {
+      steps_.resize(2 * waiting_ + 8 * BoxTree::kChildren);
+    }
+    Step* const begin = steps_.data() + waiting_;
     Step* end = begin;
+    const ChildTag tag;
     for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
       Children entry = hn::Zero(tag), exit = child_splat(limit_on_path_);
       for (size_t axis = 0; axis < 3; ++axis) {
-        const bool forwards = ray_.inverse[axis] >= 0;
+        const bool forwards = ray.inverse[axis] >= 0;
         const float* const near = forwards ? node.lower[axis] : node.upper[axis];
         const float* const far = forwards ? node.upper[axis] : node.lower[axis];
-        const Children inverse = child_splat(ray_.inverse[axis]);
-        const Children from_near = child_splat(forwards ? ray_.upper[axis] : ray_.lower[axis]);
-        const Children from_far = child_splat(forwards ? ray_.lower[axis] : ray_.upper[axis]);
+        const Children inverse = child_splat(ray.inverse[axis]);
+        const Children from_near = child_splat(forwards ? ray.upper[axis] : ray.lower[axis]);
+        const Children from_far = child_splat(forwards ? ray.lower[axis] : ray.upper[axis]);
         // Zero times infinity is NaN, and keeps the other value.
         entry = max(hn::Mul(hn::Sub(hn::Load(tag, near + i), from_near), inverse), entry);
         exit = min(hn::Mul(hn::Sub(hn::Load(tag, far + i), from_far), inverse), exit);
@@ -90,22 +136,21 @@ class RayWalk {
           hn::Add(hn::Mul(exit, child_splat(1 + kTimeRounding)), child_splat(kTinyTime));
       uint8_t mask[8] = {};
       hn::StoreMaskBits(tag, hn::Le(key, latest), mask);
-      uint32_t bits = mask[0] & ((1u << kChildLanes) - 1);
-      if (bits == 0) continue;
       alignas(64) float keys[kChildLanes];
       hn::Store(key, tag, keys);
-      for (; bits != 0; bits &= bits - 1) {
+      for (uint32_t bits = mask[0] & ((1u << kChildLanes) - 1); bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<size_t>(std::countr_zero(bits));
         const uint32_t child = node.child[i + lane];
         if (child >= BoxTree::kItem) {
-          test(child - BoxTree::kItem);
-          if (is_found_) return end;
+          const uint32_t triangle = child - BoxTree::kItem;
+          hwy::Prefetch(&ray.mesh->triangles()[triangle]);
+          triangles_[triangle_count_++] = triangle;
         } else {
           end = insert({keys[lane], child}, begin, end);
         }
       }
     }
-    return end;
+    waiting_ += static_cast<size_t>(end - begin);
   }
 
   // Keeps steps sorted by falling keys, since the last step is taken next.
@@ -118,31 +163,48 @@ class RayWalk {
 
   HWY_INLINE void test(uint32_t triangle) {
     RayWindow window;
-    if (!window_of(ray_, triangle, window) || window.earliest > limit_) return;
-    scratch_.candidates.push_back({triangle, window.earliest});
+    if (!window_of(search_->ray, triangle, window) || window.earliest > limit_) return;
+    search_->candidates.push_back({triangle, window.earliest});
     if (!window.is_sure || window.latest > limit_) return;
     limit_ = window.latest;
-    limit_on_path_ = limit_on_path(ray_, limit_);
-    is_found_ = any_;
+    limit_on_path_ = limit_on_path(search_->ray, limit_);
+    search_->is_sure = true;
   }
 
-  const RayInMesh& ray_;
-  const BoxTree::Node* const nodes_;
+  RaySearch* search_;
+  bool any_;
+  Stage stage_;
+  const BoxTree::Node* nodes_;
   double limit_;
   float limit_on_path_;
-  const bool any_;
-  bool is_found_ = false;
-  RayScratch& scratch_;
+  uint32_t node_;
+  size_t waiting_, triangle_count_;
+  std::array<uint32_t, BoxTree::kChildren> triangles_;
+  std::vector<Step> steps_;  // the first waiting_ are in use
 };
 
-bool walk_ray(const RayInMesh& ray, double limit, bool any, RayScratch& scratch) {
-  scratch.candidates.clear();
-  RayWalk walk(ray, limit, any, scratch);
-  if (walk.run()) return true;
-  std::erase_if(scratch.candidates, [&](const RayCandidate& candidate) {
-    return candidate.earliest > walk.limit();
-  });
-  return false;
+constexpr size_t kWalks = 8;
+
+void walk_rays(std::span<RaySearch> searches, bool any) {
+  static thread_local std::array<RayWalk, kWalks> walks;
+  size_t started = 0;
+  std::array<RayWalk*, kWalks> active;
+  size_t count = 0;
+  for (; count < std::min(kWalks, searches.size()); ++count) {
+    active[count] = &walks[count];
+    active[count]->start(searches[started++], any);
+  }
+  while (count > 0) {
+    for (size_t i = 0; i < count;) {
+      if (active[i]->go_on()) {
+        ++i;
+      } else if (started < searches.size()) {
+        active[i++]->start(searches[started++], any);
+      } else {
+        active[i] = active[--count];
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -159,7 +221,7 @@ HWY_AFTER_NAMESPACE();
 namespace carom {
 namespace {
 
-HWY_EXPORT(walk_ray);
+HWY_EXPORT(walk_rays);
 
 // Rays and tests are off by less than this share of all lengths.
 constexpr double kPathSlack = 0x1p-33;
@@ -220,8 +282,8 @@ bool RayInMesh::set(const Double3& from, const Double3& displacement, double lim
   return true;
 }
 
-bool find_candidates(const RayInMesh& ray, double limit, bool any, RayScratch& scratch) {
-  return CAROM_DISPATCH(walk_ray)(ray, limit, any, scratch);
+void find_candidates(std::span<RaySearch> searches, bool any) {
+  CAROM_DISPATCH(walk_rays)(searches, any);
 }
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "midphase/placed_part.h"
@@ -13,16 +14,6 @@ namespace carom {
 struct RayCandidate {
   uint32_t triangle;
   double earliest;
-};
-
-// What a search keeps between calls, so that it needs no new memory.
-struct RayScratch {
-  struct Step {
-    float key;  // a lower bound of the time, after `first`, at which the ray meets the child
-    uint32_t child;
-  };
-  std::vector<Step> steps;
-  std::vector<RayCandidate> candidates;
 };
 
 // A ray in the frame of the mesh, cut to where it may touch the mesh's bounds. What is left is
@@ -45,10 +36,18 @@ struct RayInMesh {
   bool set(const Double3& from, const Double3& displacement, double limit);
 };
 
-// Finds the triangles that the ray may touch first, into scratch.candidates: those whose earliest
-// time is at most `limit`, or at most the time of the first triangle that it certainly touches. The
-// kernels of linear times decide which it is. With `any` the search ends, and returns true, at a
-// triangle that the ray certainly touches.
-bool find_candidates(const RayInMesh& ray, double limit, bool any, RayScratch& scratch);
+// A search for the triangles that a ray may touch first.
+struct RaySearch {
+  RayInMesh ray;
+  double limit;  // later times are of no use
+  // Triangles whose earliest time is at most the limit, and at most the time of the first triangle
+  // that the ray certainly touches. The kernels of linear times decide which it is.
+  std::vector<RayCandidate> candidates;
+  bool is_sure;  // it certainly touches one by the limit
+};
+
+// Searches for rays that are not empty, many side by side, so that they wait for memory together.
+// With `any` a search ends at a triangle that its ray certainly touches.
+void find_candidates(std::span<RaySearch> searches, bool any);
 
 }  // namespace carom
