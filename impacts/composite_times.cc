@@ -180,13 +180,13 @@ void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* 
   PointTimes points(a, b, wanted.any, times);
   for (size_t owner = 0; owner < rows.size(); ++owner) {
     const Pair pair = pairs[rows[owner]];
+    times[owner] = {scalar::kNever};
+    const double limit = wanted.latest ? std::min(wanted.latest[rows[owner]], 1.0) : 1.0;
+    if (points.add(owner, pair, limit)) continue;
     if (!reader_a.is_valid(pair.a) || !reader_b.is_valid(pair.b)) {
       times[owner] = {std::numeric_limits<double>::quiet_NaN(), Status::invalid};
       continue;
     }
-    times[owner] = {scalar::kNever};
-    const double limit = wanted.latest ? std::min(wanted.latest[rows[owner]], 1.0) : 1.0;
-    if (points.add(owner, pair, limit)) continue;
     PathSearch& search = searches.emplace_back(a, b, pair, owner, limit);
     const auto add = [&](const PlacedPart& part_a, const PlacedPart& part_b) {
       run.add(owner, part_a, search.sweep_a, part_b, search.sweep_b);

@@ -30,9 +30,9 @@ bool moves_straight(const MovingReader& side, size_t i) {
   return w.x == 0 && w.y == 0 && w.z == 0;
 }
 
-bool is_point(const MovingReader& side, size_t i) {
+bool is_valid_point(const MovingReader& side, size_t i) {
   return side.body().kind(i) == ShapeKind::sphere && side.body().radius(i) == 0 &&
-         moves_straight(side, i);
+         moves_straight(side, i) && side.has_valid_motion(i);
 }
 
 }  // namespace
@@ -54,9 +54,11 @@ bool PointTimes::take_mesh(bool is_a, uint32_t body) {
   const MovingReader& side = is_a ? a_ : b_;
   mesh_is_a_ = is_a;
   mesh_body_ = body;
+  mesh_serves_ = false;
+  if (!moves_straight(side, body) || !side.is_valid(body)) return false;
   mesh_ = geometry_at<MeshGeometry>(side.body().row(body, 0));
   const MeshRules& rules = mesh_->rules();
-  mesh_serves_ = moves_straight(side, body) && rules.thickness == 0;
+  mesh_serves_ = rules.thickness == 0;
   one_sided_ = side.side.one_sided.value_or(rules.one_sided);
   orientation_ = side.body().orientation(body);
   turn_ = rotation_of(orientation_);
@@ -67,7 +69,7 @@ bool PointTimes::add(size_t owner, Pair pair, double limit) {
   const bool mesh_is_a = a_.body().kind(pair.a) == ShapeKind::mesh;
   const auto [mesh, point] = mesh_is_a ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
   const MovingReader &of_mesh = mesh_is_a ? a_ : b_, &of_point = mesh_is_a ? b_ : a_;
-  if (of_mesh.body().kind(mesh) != ShapeKind::mesh || !is_point(of_point, point)) return false;
+  if (of_mesh.body().kind(mesh) != ShapeKind::mesh || !is_valid_point(of_point, point)) return false;
   if (!take_mesh(mesh_is_a, mesh)) return false;
   const Double3 from = place_between(of_point, of_mesh, {point, mesh});
   const Double3 way = way_between(of_point, of_mesh, {point, mesh});

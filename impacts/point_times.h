@@ -24,8 +24,8 @@ class PointTimes {
   // its limit if the two certainly meet by then.
   PointTimes(const MovingSide& a, const MovingSide& b, bool any, std::span<FirstTime> times);
 
-  // Searches a pair of valid bodies up to a limit; times[owner] must be set. False, and nothing is
-  // done, if its bodies are others.
+  // Searches a pair up to a limit; times[owner] must be set. False, and nothing is done, if its
+  // bodies are others or not valid.
   bool add(size_t owner, Pair pair, double limit);
 
   // Tests what is left, and returns what is left after that.

@@ -137,7 +137,7 @@ class Caster {
       return tested;
     };
     Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::met, kForAll, first, limit,
-                                          parallelism_, test);
+                                          parallelism_, memory_, test);
     std::sort(hits_.begin() + static_cast<ptrdiff_t>(before), hits_.end(),
               [](const CastHit& a, const CastHit& b) {
                 return std::tie(a.query, a.toi, a.body) < std::tie(b.query, b.toi, b.body);
@@ -172,7 +172,7 @@ class Caster {
       return tested;
     };
     Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::met, kForOne, first, limit,
-                                          parallelism_, test);
+                                          parallelism_, memory_, test);
     if (!found) return found;
     times_.clear();
     for (size_t i = 0; i < count; ++i) {
@@ -245,6 +245,7 @@ class Caster {
   const CastHits which_;
   std::vector<CastHit>& hits_;
   const Parallelism parallelism_;
+  SearchMemory memory_;
   Times times_;
   Contacts contacts_;
 };
