@@ -230,8 +230,7 @@ class ImpactContacts {
   void run_triangles() {
     const TouchedTriangles& triangles = scratch_.triangles;
     if (triangles.count() == 0) return;
-    const ResultColumns found =
-        test(triangles.points(), triangles.triangles(), triangles.count());
+    const ResultColumns found = test(triangles.points(), triangles.triangles(), triangles.count());
     for (size_t i = 0; i < triangles.count(); ++i) write(triangles.row(i), found, i, {});
   }
 

@@ -21,8 +21,7 @@ struct PointTimes::Scratch {
 
 namespace {
 
-constexpr size_t kFirstOfTriangle =
-    LinearRows::kPairColumns + number_count(LinearKind::sphere);
+constexpr size_t kFirstOfTriangle = LinearRows::kPairColumns + number_count(LinearKind::sphere);
 constexpr size_t kColumns = kFirstOfTriangle + number_count(LinearKind::triangle);
 
 bool moves_straight(const MovingReader& side, size_t i) {
@@ -69,7 +68,8 @@ bool PointTimes::add(size_t owner, Pair pair, double limit) {
   const bool mesh_is_a = a_.body().kind(pair.a) == ShapeKind::mesh;
   const auto [mesh, point] = mesh_is_a ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
   const MovingReader &of_mesh = mesh_is_a ? a_ : b_, &of_point = mesh_is_a ? b_ : a_;
-  if (of_mesh.body().kind(mesh) != ShapeKind::mesh || !is_valid_point(of_point, point)) return false;
+  if (of_mesh.body().kind(mesh) != ShapeKind::mesh || !is_valid_point(of_point, point))
+    return false;
   if (!take_mesh(mesh_is_a, mesh)) return false;
   const Double3 from = place_between(of_point, of_mesh, {point, mesh});
   const Double3 way = way_between(of_point, of_mesh, {point, mesh});

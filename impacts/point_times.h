@@ -39,7 +39,7 @@ class PointTimes {
   struct Point {
     size_t owner;
     Pair pair;
-    Row orientation;   // of the mesh
+    Row orientation;    // of the mesh
     Double3 from, way;  // of the mesh, from the point
   };
 

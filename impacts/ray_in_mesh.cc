@@ -183,7 +183,7 @@ class RayWalk {
   std::vector<Step> steps_;  // the first waiting_ are in use
 };
 
-constexpr size_t kWalks = 8;
+constexpr size_t kWalks = 16;
 
 void walk_rays(std::span<RaySearch> searches, bool any) {
   static thread_local std::array<RayWalk, kWalks> walks;
@@ -244,8 +244,8 @@ bool RayInMesh::set(const Double3& from, const Double3& displacement, double lim
   lengths = greatest(start) + travel;
   double of_mesh = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    of_mesh = std::max({of_mesh, std::fabs(double{mesh->lower()[axis]}),
-                        std::fabs(double{mesh->upper()[axis]})});
+    of_mesh = std::max(
+        {of_mesh, std::fabs(double{mesh->lower()[axis]}), std::fabs(double{mesh->upper()[axis]})});
   }
   lengths += of_mesh;
   const double slack = kPathSlack * lengths + FLT_TRUE_MIN;

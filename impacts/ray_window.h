@@ -39,14 +39,15 @@ inline bool window_of(const RayInMesh& ray, uint32_t triangle, RayWindow& window
   window = {0, HUGE_VAL, false};
   if (rate <= kParallel * (side * side * ray.travel)) return true;
   const double t = sign * dot(from, normal) / rate;
-  const double late = kPointSlack * ((side * side * ray.lengths +
-                                      std::fabs(t) * (side * side * ray.travel)) / rate);
+  const double late =
+      kPointSlack *
+      ((side * side * ray.lengths + std::fabs(t) * (side * side * ray.travel)) / rate);
   if (t - late > 1 || t + late < 0) return false;
   const bool is_inside = along_u >= doubt && along_v >= doubt && along_u + along_v <= rate - doubt;
   const bool is_upright = dot(normal, normal) > kSurelyUpright * (dot(u, u) * dot(v, v));
-  window = {t - late, t + late,
-            is_inside && is_upright && t >= late && t + late <= 1 &&
-                (from_front || !ray.one_sided)};
+  window = {
+      t - late, t + late,
+      is_inside && is_upright && t >= late && t + late <= 1 && (from_front || !ray.one_sided)};
   return true;
 }
 

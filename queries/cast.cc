@@ -37,8 +37,8 @@ class Times {
   }
   FirstTime at(size_t i) const { return {time_[i], static_cast<Status>(status_[i]), parts_[i]}; }
 
-  // Finds the times of candidates, or with `any` whether there are times. latest(pair): a time after
-  // which none is of use.
+  // Finds the times of candidates, or with `any` whether there are times. latest(pair): a time
+  // after which none is of use.
   template <class Latest>
   void find(const MovingSide& queries, const MovingSide& bodies, std::span<const Pair> candidates,
             bool any, Parallelism parallelism, const Latest& latest) {

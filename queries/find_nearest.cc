@@ -61,9 +61,9 @@ class NearestSearch {
  private:
   Result<void> measure(std::span<const Pair> candidates) {
     found_.resize(candidates.size(), Detail::contact, {ColumnRole::sub_shape});
-    Result<void> measured = collide(boxes_.queries(), bodies_.bodies, candidates, Detail::contact,
-                                    found_.columns(),
-                                    {.frame = WitnessFrame::body, .parallelism = parallelism_});
+    Result<void> measured =
+        collide(boxes_.queries(), bodies_.bodies, candidates, Detail::contact, found_.columns(),
+                {.frame = WitnessFrame::body, .parallelism = parallelism_});
     for (size_t i = 0; measured && i < candidates.size(); ++i) {
       const Pair pair = candidates[i];
       NearestHit& best = best_[pair.a - first_];
