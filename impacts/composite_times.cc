@@ -11,6 +11,7 @@
 #include "impacts/mesh_path.h"
 #include "impacts/moving_body.h"
 #include "impacts/part_sweep.h"
+#include "impacts/point_times.h"
 #include "midphase/part_batch.h"
 
 namespace carom {
@@ -140,20 +141,13 @@ struct PathSearch {
 
   const PlacedPart& mesh() const { return mesh_is_a ? bodies.a : bodies.b; }
   const PlacedPart& shape() const { return mesh_is_a ? bodies.b : bodies.a; }
-  bool is_of_point() const {
-    return shape().kind() == ShapeKind::sphere && shape().part->radius == 0;
-  }
 
   // Calls use(part of A, part of B) for some more triangles.
   template <class Use>
   void find(double latest, size_t most, const Use& use) {
     static thread_local std::vector<uint32_t> triangles;
     triangles.clear();
-    if (is_of_point()) {
-      path->find_for_point(std::min(latest, limit), walk, triangles);
-    } else {
-      path->find(std::min(latest, limit), most, walk, triangles);
-    }
+    path->find(std::min(latest, limit), most, walk, triangles);
     for (const uint32_t triangle : triangles) {
       const PlacedPart part = mesh().item(triangle);
       use(mesh_is_a ? part : shape(), mesh_is_a ? shape() : part);
@@ -174,7 +168,7 @@ PlacedBodies::PlacedBodies(const MovingSide& side_a, const MovingSide& side_b, P
 }
 
 void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
-                          std::span<const uint16_t> rows, const double* latest,
+                          std::span<const uint16_t> rows, const TimesWanted& wanted,
                           std::span<FirstTime> times) {
   static thread_local const auto scratch = std::make_unique<Scratch>();
   static thread_local std::deque<PathSearch> searches;
@@ -183,28 +177,35 @@ void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* 
   active.clear();
   const MovingReader reader_a{a}, reader_b{b};
   CompositeTimes run(times, *scratch);
+  PointTimes points(a, b, wanted.any, times);
   for (size_t owner = 0; owner < rows.size(); ++owner) {
     const Pair pair = pairs[rows[owner]];
+    times[owner] = {scalar::kNever};
+    const double limit = wanted.latest ? std::min(wanted.latest[rows[owner]], 1.0) : 1.0;
+    if (points.add(owner, pair, limit)) continue;
     if (!reader_a.is_valid(pair.a) || !reader_b.is_valid(pair.b)) {
       times[owner] = {std::numeric_limits<double>::quiet_NaN(), Status::invalid};
       continue;
     }
-    times[owner] = {scalar::kNever};
-    const double limit = latest ? std::min(latest[rows[owner]], 1.0) : 1.0;
     PathSearch& search = searches.emplace_back(a, b, pair, owner, limit);
     const auto add = [&](const PlacedPart& part_a, const PlacedPart& part_b) {
       run.add(owner, part_a, search.sweep_a, part_b, search.sweep_b);
     };
     if (!search.path) {
       find_swept_part_pairs(search.bodies.a, search.sweep_a, search.bodies.b, search.sweep_b, add);
-    } else if (search.is_of_point() && !search.walk.is_done()) {
-      search.find(limit, 0, add);
     }
     if (search.path && !search.walk.is_done()) {
       active.push_back(&search);
     } else {
       searches.pop_back();
     }
+  }
+  for (const LeftTriangle& left : points.finish()) {
+    const PlacedBodies bodies(a, b, left.pair);
+    const bool mesh_is_a = bodies.a.kind() == ShapeKind::mesh;
+    run.add(left.owner, mesh_is_a ? bodies.a.item(left.triangle) : bodies.a,
+            sweep_of(reader_a, left.pair.a), mesh_is_a ? bodies.b : bodies.b.item(left.triangle),
+            sweep_of(reader_b, left.pair.b));
   }
   // Each round tests some more triangles of every pair. The times found limit the next round.
   for (size_t most = kFirstTriangles; !active.empty(); most = std::min(2 * most, kMostTriangles)) {

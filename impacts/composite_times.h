@@ -19,10 +19,9 @@ struct PlacedBodies {
   PlacedBodies& operator=(const PlacedBodies&) = delete;
 };
 
-// Finds the first time of the pairs in `rows`; times[i] belongs to pairs[rows[i]]. `latest`, by row
-// or nullptr: as for find_first_times().
+// Finds the first time of the pairs in `rows`; times[i] belongs to pairs[rows[i]].
 void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
-                          std::span<const uint16_t> rows, const double* latest,
+                          std::span<const uint16_t> rows, const TimesWanted& wanted,
                           std::span<FirstTime> times);
 
 }  // namespace carom

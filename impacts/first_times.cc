@@ -26,7 +26,7 @@ bool may_have_parts(const Collidables& bodies) {
 }  // namespace
 
 void find_first_times(const MovingSide& a, const MovingSide& b, std::span<const Pair> pairs,
-                      const double* latest, const FirstTimeColumns& out) {
+                      const TimesWanted& wanted, const FirstTimeColumns& out) {
   std::fill_n(out.parts, pairs.size(), std::array<uint64_t, 2>{});
   if (!may_have_parts(a.bodies) && !may_have_parts(b.bodies)) {
     return find_simple_times(a, b, pairs.data(), pairs.size(), {out.time, out.status});
@@ -52,7 +52,7 @@ void find_first_times(const MovingSide& a, const MovingSide& b, std::span<const 
   }
   if (composite == 0) return;
   const auto composites = std::span<const uint16_t>(rows.composite).first(composite);
-  find_composite_times(a, b, pairs.data(), composites, latest, std::span(rows.found));
+  find_composite_times(a, b, pairs.data(), composites, wanted, std::span(rows.found));
   for (size_t i = 0; i < composite; ++i) {
     out.time[composites[i]] = rows.found[i].time;
     out.status[composites[i]] = static_cast<uint8_t>(rows.found[i].status);

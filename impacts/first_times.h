@@ -18,9 +18,8 @@ struct FirstTimeColumns {
   std::array<uint64_t, 2>* parts;
 };
 
-// Finds the first times of at most kPairsPerBlock pairs. `latest`, one a pair or nullptr: a time
-// that is greater is of no use and need not be found; the answer may be a greater one, or never.
+// Finds the first times of at most kPairsPerBlock pairs.
 void find_first_times(const MovingSide& a, const MovingSide& b, std::span<const Pair> pairs,
-                      const double* latest, const FirstTimeColumns& out);
+                      const TimesWanted& wanted, const FirstTimeColumns& out);
 
 }  // namespace carom

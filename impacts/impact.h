@@ -16,6 +16,15 @@ struct FirstTime {
   std::array<uint64_t, 2> parts{};  // that meet (PlacedPart::order()); zero for simple shapes
 };
 
+// Which times of pairs are of use.
+struct TimesWanted {
+  // One a pair, or nullptr: a time that is greater need not be found; the answer may be a greater
+  // one, or never.
+  const double* latest = nullptr;
+  // Whether there is a time up to `latest` is enough; the answer may be `latest`, without parts.
+  bool any = false;
+};
+
 // The first times of the pairs of a block. `parts` is set for pairs with composites only.
 struct FirstTimes {
   const double* time;

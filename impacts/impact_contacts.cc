@@ -1,7 +1,9 @@
 #include "impacts/impact_contacts.h"
 
+#include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "impacts/composite_times.h"
 #include "impacts/moving_body.h"
@@ -77,11 +79,58 @@ class PlacedSide {
   std::array<uint32_t, kPairsPerBlock> first_row_, box_slot_;
 };
 
+// Points and the triangles of meshes that they meet, packed.
+class TouchedTriangles {
+ public:
+  size_t count() const { return count_; }
+  size_t row(size_t i) const { return row_[i]; }
+  void clear() { count_ = 0; }
+
+  // The positions are relative to a frame of the pair's own.
+  void put(size_t row, const Double3& point, const Double3& position, const Row& orientation,
+           const MeshGeometry& mesh, uint32_t triangle, std::optional<bool> one_sided) {
+    row_[count_] = static_cast<uint16_t>(row);
+    point_[count_] = {point[0], point[1], point[2], 0};
+    position_[count_] = {position[0], position[1], position[2], 0};
+    orientation_[count_] = orientation;
+    put_triangle_rows(mesh, triangle, rows_[count_].data());
+    if (one_sided) rows_[count_][1][3] = *one_sided ? 1.0f : 0.0f;
+    ++count_;
+  }
+
+  Collidables points() const { return view(ShapeKind::sphere, point_); }
+  Collidables triangles() const {
+    Collidables view = this->view(ShapeKind::triangle, position_);
+    view.orientation.data = orientation_[0].data();
+    view.rows.data = rows_[0][0].data();
+    return view;
+  }
+
+ private:
+  using Records = std::array<std::array<double, 4>, kPairsPerBlock>;
+
+  Collidables view(ShapeKind kind, const Records& records) const {
+    Collidables view;
+    view.count = count_;
+    view.position = {
+        .data = records.data(), .stride = sizeof records[0], .type = PositionType::float64};
+    view.uniform_kind = kind;
+    return view;
+  }
+
+  size_t count_ = 0;
+  std::array<uint16_t, kPairsPerBlock> row_;
+  alignas(64) Records point_, position_;
+  std::array<Row, kPairsPerBlock> orientation_;
+  std::array<std::array<Row, row_count(ShapeKind::triangle)>, kPairsPerBlock> rows_;
+};
+
 struct ContactScratch {
   PlacedSide a, b;
   size_t count;
   std::array<uint16_t, kPairsPerBlock> row;  // of every placed pair
   TestColumns columns;
+  TouchedTriangles triangles;
   PartBatch parts;
   std::array<std::array<Double3, 2>, kPairsPerBlock> arms;  // of the parts of every pair
 };
@@ -107,6 +156,8 @@ class ImpactContacts {
       const bool meets = first_.time[row] <= 1;
       if (!meets) {
         write_nothing(row);
+      } else if (is_point_at_mesh(row)) {
+        add_triangle(row);
       } else if (is_composite(row)) {
         add_parts(row);
       } else {
@@ -114,10 +165,20 @@ class ImpactContacts {
       }
     }
     run_bodies();
+    run_triangles();
     run_parts();
   }
 
  private:
+  // Whether A is a point and B a mesh, and neither turns. Rays at meshes are common, and need less
+  // than other parts.
+  bool is_point_at_mesh(size_t row) const {
+    const Pair pair = pairs_[row];
+    return a_.body().kind(pair.a) == ShapeKind::sphere && a_.body().radius(pair.a) == 0 &&
+           b_.body().kind(pair.b) == ShapeKind::mesh && a_.rotation_vector(pair.a).isZero(0) &&
+           b_.rotation_vector(pair.b).isZero(0);
+  }
+
   bool is_composite(size_t row) const {
     return carom::is_composite(a_.body().kind(pairs_[row].a)) ||
            carom::is_composite(b_.body().kind(pairs_[row].b));
@@ -127,6 +188,7 @@ class ImpactContacts {
     scratch_.a.clear();
     scratch_.b.clear();
     scratch_.count = 0;
+    scratch_.triangles.clear();
     scratch_.parts.clear();
   }
 
@@ -149,18 +211,42 @@ class ImpactContacts {
 
   void run_bodies() {
     if (scratch_.count == 0) return;
-    const Collidables a = scratch_.a.view(side_a_.bodies), b = scratch_.b.view(side_b_.bodies);
+    const ResultColumns found =
+        test(scratch_.a.view(side_a_.bodies), scratch_.b.view(side_b_.bodies), scratch_.count);
+    for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {});
+  }
+
+  void add_triangle(size_t row) {
+    const Pair pair = pairs_[row];
+    const double t = first_.time[row];
+    const Row orientation = b_.body().orientation(pair.b);
+    const PlaceInTime point = place_at({}, {}, {}, a_, pair.a, t);
+    const PlaceInTime mesh = place_at(place_between(a_, b_, pair), {}, orientation, b_, pair.b, t);
+    scratch_.triangles.put(row, point.position, mesh.position, orientation,
+                           *geometry_at<MeshGeometry>(b_.body().row(pair.b, 0)),
+                           static_cast<uint32_t>(first_.parts[row][1]), side_b_.one_sided);
+  }
+
+  void run_triangles() {
+    const TouchedTriangles& triangles = scratch_.triangles;
+    if (triangles.count() == 0) return;
+    const ResultColumns found = test(triangles.points(), triangles.triangles(), triangles.count());
+    for (size_t i = 0; i < triangles.count(); ++i) write(triangles.row(i), found, i, {});
+  }
+
+  // Tests row i of A with row i of B.
+  ResultColumns test(const Collidables& a, const Collidables& b, size_t count) {
     const ResultColumns found = scratch_.columns.columns();
     run_pair_block({.a = a,
                     .b = b,
                     .pairs = nullptr,
                     .first = 0,
-                    .count = scratch_.count,
+                    .count = count,
                     .detail = Detail::contact,
                     .frame = WitnessFrame::body,
                     .accuracy = {},
                     .out = found});
-    for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {});
+    return found;
   }
 
   // Adds the two parts that meet. Positions are relative to A at the start.

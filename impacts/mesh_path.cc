@@ -1,13 +1,8 @@
-// Tests of points in double precision: C. Ericson, Real-Time Collision Detection, 2005, section
-// 5.3.6, with bounds on the rounding of each number. A test only says which triangles a point may
-// touch, and when; the kernels of linear times then decide.
 #include "impacts/mesh_path.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-
-#include "impacts/slack.h"
 
 namespace carom {
 namespace {
@@ -18,13 +13,6 @@ constexpr double kPathSlack = 0x1p-33;
 constexpr double kFloatSlack = 0x1p-20;
 // Longer paths are left to the search in double precision.
 constexpr double kLongestPath = 0x1p100;
-
-// Bounds on rounding and on the slack of linear times, as shares of products of lengths; more than
-// kSweepSlack and kSeam.
-constexpr double kPointSlack = 0x1p-38;
-constexpr double kParallel = 0x1p-30;
-// The square of the sine above which a face is certainly not slanted.
-constexpr double kSurelyUpright = 4 * kSlantedFace * kSlantedFace;
 
 Double3 along(const Double3& start, const Double3& way, double t) {
   return {start[0] + way[0] * t, start[1] + way[1] * t, start[2] + way[2] * t};
@@ -57,7 +45,6 @@ bool MeshPath::serves(const PlacedPart& mesh, const BodySweep& mesh_sweep, const
 MeshPath::MeshPath(const PlacedPart& mesh, const BodySweep& mesh_sweep, const PlacedPart& shape,
                    const BodySweep& shape_sweep, double limit)
     : mesh_(mesh.mesh()),
-      one_sided_(mesh.one_sided.value_or(mesh_.rules().one_sided)),
       start_(start_of(mesh, shape)),
       way_(turned_back(mesh.turn, minus(shape_sweep.displacement, mesh_sweep.displacement))),
       first_(0),
@@ -102,59 +89,6 @@ float MeshPath::limit_on_path(double limit) const {
 void MeshPath::find(double limit, size_t most, TreeWalk& walk,
                     std::vector<uint32_t>& triangles) const {
   walk_met(mesh_.tree(), *box_, limit_on_path(limit), most, walk, triangles);
-}
-
-void MeshPath::find_for_point(double limit, TreeWalk& walk,
-                              std::vector<uint32_t>& triangles) const {
-  struct Candidate {
-    uint32_t triangle;
-    double earliest;
-  };
-  static thread_local std::vector<Candidate> candidates;
-  static thread_local std::vector<uint32_t> next;
-  candidates.clear();
-  for (walk.start(mesh_.tree()); !walk.is_done();) {
-    next.clear();
-    find(limit, 1, walk, next);
-    for (const uint32_t triangle : next) {
-      const std::optional<Window> touch = window(triangle);
-      if (!touch || touch->earliest > limit) continue;
-      candidates.push_back({triangle, touch->earliest});
-      if (touch->is_sure) limit = std::min(limit, touch->latest);
-    }
-  }
-  for (const Candidate& candidate : candidates) {
-    if (candidate.earliest <= limit) triangles.push_back(candidate.triangle);
-  }
-}
-
-std::optional<MeshPath::Window> MeshPath::window(uint32_t triangle) const {
-  constexpr Window kUnknown = {0, HUGE_VAL, false};
-  if (mesh_.rules().thickness > 0) return kUnknown;
-  const Double3 a = corner(mesh_, triangle, 0);
-  const Double3 u = minus(corner(mesh_, triangle, 1), a), v = minus(corner(mesh_, triangle, 2), a);
-  const Double3 normal = cross(u, v), from = minus(start_, a);
-  const double towards = -dot(way_, normal);
-  const bool from_front = towards > 0;
-  const double sign = from_front ? 1 : -1;
-  const double rate = std::fabs(towards);
-  const double side = std::max(greatest(u), greatest(v)), travel = greatest(way_);
-  const Double3 turn = cross(from, way_);  // -way x from
-  const double along_u = sign * dot(v, turn), along_v = -sign * dot(u, turn);
-  const double doubt = kPointSlack * (side * travel * lengths_ + rate);
-  if (along_u < -doubt || along_v < -doubt || along_u + along_v > rate + doubt) {
-    return std::nullopt;
-  }
-  if (rate <= kParallel * (side * side * travel)) return kUnknown;
-  const double t = sign * dot(from, normal) / rate;
-  const double late =
-      kPointSlack * ((side * side * lengths_ + std::fabs(t) * (side * side * travel)) / rate);
-  if (t - late > 1 || t + late < 0) return std::nullopt;
-  const bool is_inside = along_u >= doubt && along_v >= doubt && along_u + along_v <= rate - doubt;
-  const bool is_upright = dot(normal, normal) > kSurelyUpright * (dot(u, u) * dot(v, v));
-  return Window{
-      t - late, t + late,
-      is_inside && is_upright && t >= late && t + late <= 1 && (from_front || !one_sided_)};
 }
 
 }  // namespace carom

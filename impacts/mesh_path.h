@@ -30,20 +30,10 @@ class MeshPath {
   // out.
   void find(double limit, size_t most, TreeWalk& walk, std::vector<uint32_t>& triangles) const;
 
-  // The same for a point, all at once: `triangles` are those that it may touch first.
-  void find_for_point(double limit, TreeWalk& walk, std::vector<uint32_t>& triangles) const;
-
  private:
-  // The times at which the point may touch a triangle.
-  struct Window {
-    double earliest, latest;
-    bool is_sure;  // it does touch it
-  };
-  std::optional<Window> window(uint32_t triangle) const;
   float limit_on_path(double limit) const;
 
   const MeshGeometry& mesh_;
-  const bool one_sided_;
   const Double3 start_, way_;  // of the shape's middle
   double lengths_;             // a bound on all coordinates
   double first_, last_;        // the times between which the path is cut

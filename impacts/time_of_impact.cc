@@ -28,7 +28,7 @@ class ImpactBlock {
       : a_(a), b_(b), pairs_(pairs), out_(out), frame_(frame), scratch_(scratch) {}
 
   void run() {
-    find_first_times(a_, b_, pairs_, nullptr,
+    find_first_times(a_, b_, pairs_, {},
                      {scratch_.time.data(), scratch_.status.data(), scratch_.parts.data()});
     write_times();
     write_parts(out_.sub_a, a_, 0);

@@ -37,10 +37,11 @@ class Times {
   }
   FirstTime at(size_t i) const { return {time_[i], static_cast<Status>(status_[i]), parts_[i]}; }
 
-  // Finds the times of candidates. latest(pair): a time after which none is of use.
+  // Finds the times of candidates, or with `any` whether there are times. latest(pair): a time
+  // after which none is of use.
   template <class Latest>
   void find(const MovingSide& queries, const MovingSide& bodies, std::span<const Pair> candidates,
-            Parallelism parallelism, const Latest& latest) {
+            bool any, Parallelism parallelism, const Latest& latest) {
     pairs_.assign(candidates.begin(), candidates.end());
     resize(candidates.size());
     for_each_block(pairs_.size(), kPairsPerBlock, parallelism,
@@ -48,7 +49,7 @@ class Times {
                      std::array<double, kPairsPerBlock> limit;
                      for (size_t i = begin; i < end; ++i) limit[i - begin] = latest(pairs_[i]);
                      find_first_times(queries, bodies, pairs().subspan(begin, end - begin),
-                                      limit.data(), columns(begin));
+                                      {limit.data(), any}, columns(begin));
                    });
   }
 
@@ -136,7 +137,7 @@ class Caster {
       return tested;
     };
     Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::met, kForAll, first, limit,
-                                          parallelism_, test);
+                                          parallelism_, memory_, test);
     std::sort(hits_.begin() + static_cast<ptrdiff_t>(before), hits_.end(),
               [](const CastHit& a, const CastHit& b) {
                 return std::tie(a.query, a.toi, a.body) < std::tie(b.query, b.toi, b.body);
@@ -171,7 +172,7 @@ class Caster {
       return tested;
     };
     Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::met, kForOne, first, limit,
-                                          parallelism_, test);
+                                          parallelism_, memory_, test);
     if (!found) return found;
     times_.clear();
     for (size_t i = 0; i < count; ++i) {
@@ -190,7 +191,9 @@ class Caster {
   template <class Latest>
   Result<void> find_times(std::span<const Pair> candidates, const Latest& latest) {
     Result<void> checked = check_pairs(moving_.bodies, still_.bodies, candidates);
-    if (checked) times_.find(moving_, still_, candidates, parallelism_, latest);
+    if (checked) {
+      times_.find(moving_, still_, candidates, which_ == CastHits::any, parallelism_, latest);
+    }
     return checked;
   }
 
@@ -242,6 +245,7 @@ class Caster {
   const CastHits which_;
   std::vector<CastHit>& hits_;
   const Parallelism parallelism_;
+  SearchMemory memory_;
   Times times_;
   Contacts contacts_;
 };

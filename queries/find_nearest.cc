@@ -46,7 +46,7 @@ class NearestSearch {
       limit_.assign(count, std::max(within, 0.0f));
       const auto test = [this](std::span<const Pair> candidates) { return measure(candidates); };
       Result<void> found = search_in_rounds(boxes_, bodies_, SearchFor::near, kNearestRounds, first,
-                                            limit_, parallelism_, test);
+                                            limit_, parallelism_, memory_, test);
       if (!found) {
         hits.clear();
         return found;
@@ -87,6 +87,7 @@ class NearestSearch {
   std::vector<NearestHit> best_;
   std::vector<float> limit_;
   ResultArrays found_;
+  SearchMemory memory_;
 };
 
 }  // namespace

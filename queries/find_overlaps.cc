@@ -26,6 +26,7 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
   const SweepView still;
   const QueryBoxes boxes(queries, still, parallelism);
   std::vector<uint8_t> overlap;
+  SearchMemory memory;
   const auto test = [&](std::span<const Pair> candidates) {
     overlap.resize(candidates.size());
     Result<void> tested = collide(queries, bodies.bodies, candidates, Detail::overlap,
@@ -39,7 +40,7 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
     const std::vector<float> limit(std::min(kQueriesAtOnce, queries.count - first), 1.0f);
     const auto before = static_cast<ptrdiff_t>(hits.size());
     Result<void> found = search_in_rounds(boxes, bodies, SearchFor::met, kOverlapRounds, first,
-                                          limit, parallelism, test);
+                                          limit, parallelism, memory, test);
     if (!found) {
       hits.clear();
       return found;

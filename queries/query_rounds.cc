@@ -1,6 +1,7 @@
 #include "queries/query_rounds.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/block_lists.h"
 #include "shapes/body_reader.h"
@@ -9,12 +10,6 @@ namespace carom {
 namespace {
 
 constexpr size_t kQueriesPerBlock = 64;
-
-struct Search {
-  uint32_t query;
-  MovingBox box;
-  TreeWalk walk;
-};
 
 bool may_reach(const MovingBox& moving, const WorldHalfspace& halfspace) {
   std::array<double, 3> lowest;
@@ -28,25 +23,26 @@ bool may_reach(const MovingBox& moving, const WorldHalfspace& halfspace) {
 class Rounds {
  public:
   Rounds(const QueryBoxes& queries, const SearchedBodies& bodies, SearchFor what, size_t first,
-         std::span<const float> limit, Parallelism parallelism)
+         std::span<const float> limit, Parallelism parallelism, SearchMemory& memory)
       : queries_(queries),
         bodies_(bodies),
         what_(what),
         first_(first),
         limit_(limit),
-        parallelism_(parallelism) {}
+        parallelism_(parallelism),
+        searches_(memory) {}
 
   Result<void> run(RoundSizes sizes, TestCandidates test) {
     start();
     size_t most = sizes.first;
-    for (bool first = true; !searches_.empty(); first = false) {
-      for_each_search([&](Search& search, std::vector<Pair>& found) {
+    for (bool first = true; count_ > 0; first = false) {
+      for_each_search([&](QuerySearch& search, std::vector<Pair>& found) {
         if (first) find_halfspaces(search, found);
         find(search, most, found);
       });
       most = std::min(2 * most, sizes.most);
       if (Result<void> tested = test_all(test); !tested) return tested;
-      std::erase_if(searches_, [](const Search& search) { return search.walk.is_done(); });
+      drop_done();
     }
     return {};
   }
@@ -56,15 +52,30 @@ class Rounds {
     for (size_t i = 0; i < limit_.size(); ++i) {
       const std::optional<MovingBox> box = queries_.box(first_ + i);
       if (!box) continue;
-      searches_.push_back({static_cast<uint32_t>(first_ + i), *box, {}});
-      searches_.back().walk.start(bodies_.index.tree());
+      const auto query = static_cast<uint32_t>(first_ + i);
+      if (count_ == searches_.size()) searches_.push_back({query, *box, {}});
+      QuerySearch& search = searches_[count_++];
+      search.query = query;
+      search.box = *box;
+      search.walk.start(bodies_.index.tree());
     }
+  }
+
+  // Keeps the order of the others, and the memory of all.
+  void drop_done() {
+    size_t kept = 0;
+    for (size_t i = 0; i < count_; ++i) {
+      if (searches_[i].walk.is_done()) continue;
+      if (kept != i) std::swap(searches_[kept], searches_[i]);
+      ++kept;
+    }
+    count_ = kept;
   }
 
   template <class Find>
   void for_each_search(const Find& find) {
-    found_.reset(block_count(searches_.size(), kQueriesPerBlock));
-    for_each_block(searches_.size(), kQueriesPerBlock, parallelism_,
+    found_.reset(block_count(count_, kQueriesPerBlock));
+    for_each_block(count_, kQueriesPerBlock, parallelism_,
                    [&](size_t block, size_t begin, size_t end) {
                      std::vector<Pair>& found = found_[block];
                      for (size_t i = begin; i < end; ++i) find(searches_[i], found);
@@ -84,7 +95,7 @@ class Rounds {
     found.resize(kept);
   }
 
-  void find_halfspaces(const Search& search, std::vector<Pair>& found) const {
+  void find_halfspaces(const QuerySearch& search, std::vector<Pair>& found) const {
     const BodyReader reader{queries_.queries()};
     if (reader.kind(search.query) == ShapeKind::halfspace) return;
     for (const WorldHalfspace& halfspace : bodies_.index.halfspaces()) {
@@ -94,7 +105,7 @@ class Rounds {
     }
   }
 
-  void find(Search& search, size_t most, std::vector<Pair>& found) const {
+  void find(QuerySearch& search, size_t most, std::vector<Pair>& found) const {
     static thread_local std::vector<uint32_t> items;
     items.clear();
     const float limit = limit_[search.query - first_];
@@ -120,7 +131,8 @@ class Rounds {
   const size_t first_;
   const std::span<const float> limit_;
   const Parallelism parallelism_;
-  std::vector<Search> searches_;
+  SearchMemory& searches_;  // the first count_ are in use
+  size_t count_ = 0;
   BlockLists<Pair> found_;
   std::vector<Pair> candidates_;
 };
@@ -130,8 +142,8 @@ class Rounds {
 Result<void> search_in_rounds(const QueryBoxes& queries, const SearchedBodies& bodies,
                               SearchFor what, RoundSizes sizes, size_t first,
                               std::span<const float> limit, Parallelism parallelism,
-                              TestCandidates test) {
-  return Rounds(queries, bodies, what, first, limit, parallelism).run(sizes, test);
+                              SearchMemory& memory, TestCandidates test) {
+  return Rounds(queries, bodies, what, first, limit, parallelism, memory).run(sizes, test);
 }
 
 }  // namespace carom

@@ -30,12 +30,22 @@ using TestCandidates = FunctionRef<Result<void>(std::span<const Pair> candidates
 // This many queries make full batches for the kernels, and their searches fit the cache.
 inline constexpr size_t kQueriesAtOnce = 4096;
 
+// A query that is still searched.
+struct QuerySearch {
+  uint32_t query;
+  MovingBox box;
+  TreeWalk walk;
+};
+
+// Memory that searches of one caller use again.
+using SearchMemory = std::vector<QuerySearch>;
+
 // Searches queries [first, first + limit.size()), at most kQueriesAtOnce, with one limit each.
 // Every body within a query's limit becomes a candidate of it once, if a layer of the body is met.
 // Half-spaces come in the first round. The candidates of a round are in order of the query.
 Result<void> search_in_rounds(const QueryBoxes& queries, const SearchedBodies& bodies,
                               SearchFor what, RoundSizes sizes, size_t first,
                               std::span<const float> limit, Parallelism parallelism,
-                              TestCandidates test);
+                              SearchMemory& memory, TestCandidates test);
 
 }  // namespace carom

@@ -1,0 +1,180 @@
+// Fills the columns of the kernel as gather_linear() does, without a view of bodies between.
+#include "impacts/point_times.h"
+
+#include <array>
+#include <memory>
+#include <tuple>
+
+namespace carom {
+
+struct PointTimes::Scratch {
+  LinearRows rows;
+  std::array<LeftTriangle, LinearRows::kMost> candidates;
+  size_t count;
+  std::vector<LeftTriangle> left;
+
+  static constexpr size_t kMostRays = 64;
+  std::array<RaySearch, kMostRays> searches;
+  std::array<Point, kMostRays> points;
+  size_t ray_count;
+};
+
+namespace {
+
+constexpr size_t kFirstOfTriangle = LinearRows::kPairColumns + number_count(LinearKind::sphere);
+constexpr size_t kColumns = kFirstOfTriangle + number_count(LinearKind::triangle);
+
+bool moves_straight(const MovingReader& side, size_t i) {
+  const Position<float> w = side.rotation(i);
+  return w.x == 0 && w.y == 0 && w.z == 0;
+}
+
+bool is_valid_point(const MovingReader& side, size_t i) {
+  return side.body().kind(i) == ShapeKind::sphere && side.body().radius(i) == 0 &&
+         moves_straight(side, i) && side.has_valid_motion(i);
+}
+
+}  // namespace
+
+PointTimes::Scratch& PointTimes::scratch_of_thread() {
+  static thread_local const auto scratch = std::make_unique<Scratch>();
+  return *scratch;
+}
+
+PointTimes::PointTimes(const MovingSide& a, const MovingSide& b, bool any,
+                       std::span<FirstTime> times)
+    : a_{a}, b_{b}, any_(any), times_(times), scratch_(scratch_of_thread()) {
+  scratch_.count = scratch_.ray_count = 0;
+  scratch_.left.clear();
+}
+
+bool PointTimes::take_mesh(bool is_a, uint32_t body) {
+  if (mesh_is_a_ == is_a && mesh_body_ == body) return mesh_serves_;
+  const MovingReader& side = is_a ? a_ : b_;
+  mesh_is_a_ = is_a;
+  mesh_body_ = body;
+  mesh_serves_ = false;
+  if (!moves_straight(side, body) || !side.is_valid(body)) return false;
+  mesh_ = geometry_at<MeshGeometry>(side.body().row(body, 0));
+  const MeshRules& rules = mesh_->rules();
+  mesh_serves_ = rules.thickness == 0;
+  one_sided_ = side.side.one_sided.value_or(rules.one_sided);
+  orientation_ = side.body().orientation(body);
+  turn_ = rotation_of(orientation_);
+  return mesh_serves_;
+}
+
+bool PointTimes::add(size_t owner, Pair pair, double limit) {
+  const bool mesh_is_a = a_.body().kind(pair.a) == ShapeKind::mesh;
+  const auto [mesh, point] = mesh_is_a ? std::pair(pair.a, pair.b) : std::pair(pair.b, pair.a);
+  const MovingReader &of_mesh = mesh_is_a ? a_ : b_, &of_point = mesh_is_a ? b_ : a_;
+  if (of_mesh.body().kind(mesh) != ShapeKind::mesh || !is_valid_point(of_point, point))
+    return false;
+  if (!take_mesh(mesh_is_a, mesh)) return false;
+  const Double3 from = place_between(of_point, of_mesh, {point, mesh});
+  const Double3 way = way_between(of_point, of_mesh, {point, mesh});
+  if (scratch_.ray_count == Scratch::kMostRays) search();
+  RaySearch& search = scratch_.searches[scratch_.ray_count];
+  search.ray.mesh = mesh_;
+  search.ray.one_sided = one_sided_;
+  search.limit = limit;
+  if (!search.ray.set(turned_back(turn_, minus({}, from)), turned_back(turn_, minus({}, way)),
+                      limit)) {
+    return false;
+  }
+  if (search.ray.is_empty() || mesh_->tree().is_empty()) return true;
+  scratch_.points[scratch_.ray_count++] = {owner, pair, orientation_, from, way};
+  return true;
+}
+
+void PointTimes::search() {
+  const auto searches = std::span(scratch_.searches).first(scratch_.ray_count);
+  find_candidates(searches, any_);
+  for (size_t i = 0; i < searches.size(); ++i) {
+    const RaySearch& search = searches[i];
+    const Point& point = scratch_.points[i];
+    if (any_ && search.is_sure) {
+      times_[point.owner] = {search.limit, Status::ok};
+      continue;
+    }
+    for (const RayCandidate& candidate : search.candidates) {
+      add_row(point, *search.ray.mesh, candidate.triangle);
+    }
+  }
+  scratch_.ray_count = 0;
+}
+
+void PointTimes::add_row(const Point& point, const MeshGeometry& mesh, uint32_t triangle) {
+  if (scratch_.count == LinearRows::kMost) test_rows();
+  const size_t row = scratch_.count++;
+  scratch_.candidates[row] = {point.owner, point.pair, triangle};
+  double* next = scratch_.rows.column(0) + row;
+  const auto put = [&next](double value) {
+    *next = value;
+    next += LinearRows::kStride;
+  };
+  for (const double x : point.from) put(x + 0.0);  // so that no zero is negative
+  for (const double x : point.way) put(x);
+  put(0);  // the radius
+  for (size_t i = 0; i < 3; ++i) {
+    for (const double x : corner(mesh, triangle, i)) put(x);
+  }
+  for (const float x : point.orientation) put(x);
+}
+
+const std::vector<LeftTriangle>& PointTimes::finish() {
+  search();
+  test_rows();
+  return scratch_.left;
+}
+
+void PointTimes::test_rows() {
+  if (scratch_.count == 0) return;
+  scratch_.rows.pad(kColumns, scratch_.count);
+  linear_kernel(LinearKind::sphere, LinearKind::triangle)(scratch_.rows, scratch_.count);
+  for (size_t row = 0; row < scratch_.count; ++row) {
+    const LeftTriangle& candidate = scratch_.candidates[row];
+    const double time = scratch_.rows.times()[row];
+    if (time == kNoClosedForm) {
+      scratch_.left.push_back(candidate);
+      continue;
+    }
+    FirstTime& first = times_[candidate.owner];
+    const bool mesh_is_a = a_.body().kind(candidate.pair.a) == ShapeKind::mesh;
+    FirstTime found = {time};
+    found.parts[mesh_is_a ? 0 : 1] = candidate.triangle;
+    // Among equal times the lowest triangle wins, whatever the order of the search.
+    if (std::tie(found.time, found.parts) < std::tie(first.time, first.parts) &&
+        !passes(row, time)) {
+      first = found;
+    }
+  }
+  scratch_.count = 0;
+}
+
+// Whether the point comes from behind a one-sided triangle.
+bool PointTimes::passes(size_t row, double time) const {
+  const LeftTriangle& candidate = scratch_.candidates[row];
+  const bool mesh_is_a = a_.body().kind(candidate.pair.a) == ShapeKind::mesh;
+  const MovingReader& of_mesh = mesh_is_a ? a_ : b_;
+  const size_t body = mesh_is_a ? candidate.pair.a : candidate.pair.b;
+  const MeshGeometry& mesh = *geometry_at<MeshGeometry>(of_mesh.body().row(body, 0));
+  if (!(time <= 1) || !of_mesh.side.one_sided.value_or(mesh.rules().one_sided)) return false;
+  const double* next = scratch_.rows.column(0) + row;
+  const auto take3 = [&next]() -> Eigen::Vector3d {
+    const Eigen::Vector3d v = {next[0], next[LinearRows::kStride], next[2 * LinearRows::kStride]};
+    next += 3 * LinearRows::kStride;
+    return v;
+  };
+  const Eigen::Vector3d from = take3(), way = take3();
+  next += LinearRows::kStride;  // the radius
+  Triangle triangle;
+  triangle.one_sided = true;
+  for (Eigen::Vector3f& x : triangle.corners) x = take3().cast<float>();
+  const Shape of_point = Sphere{0}, of_triangle = triangle;
+  const scalar::Quaternion<double> turned = of_mesh.orientation(body), straight{{0, 0, 0}, 1};
+  return scalar::passes_one_sided({of_point, straight, {0, 0, 0}, {0, 0, 0}},
+                                  {of_triangle, turned, {0, 0, 0}, {0, 0, 0}}, from, way, time);
+}
+
+}  // namespace carom

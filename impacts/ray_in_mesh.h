@@ -1,0 +1,53 @@
+// A point that moves in a straight line, seen from a mesh of thin triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "midphase/placed_part.h"
+
+namespace carom {
+
+// A triangle that the point may touch, and the earliest time at which it may.
+struct RayCandidate {
+  uint32_t triangle;
+  double earliest;
+};
+
+// A ray in the frame of the mesh, cut to where it may touch the mesh's bounds. What is left is
+// short, so float32 is exact enough for the walk through the tree.
+struct RayInMesh {
+  const MeshGeometry* mesh;
+  bool one_sided;
+  Double3 start, way;
+  double travel, lengths;  // bounds on the coordinates of `way`, and on all coordinates
+  double first, last;      // the times between which the ray is cut; empty if first > last
+
+  // The point at `first`, grown by more than rounding; 1 / way. On an axis along which the point
+  // hardly moves the box holds its whole path, and the inverse is infinite.
+  std::array<float, 3> lower, upper, inverse;
+
+  bool is_empty() const { return !(first <= last); }
+
+  // Sets everything below `one_sided`. Only times up to `limit` count. False if the path is too
+  // long for float32.
+  bool set(const Double3& from, const Double3& displacement, double limit);
+};
+
+// A search for the triangles that a ray may touch first.
+struct RaySearch {
+  RayInMesh ray;
+  double limit;  // later times are of no use
+  // Triangles whose earliest time is at most the limit, and at most the time of the first triangle
+  // that the ray certainly touches. The kernels of linear times decide which it is.
+  std::vector<RayCandidate> candidates;
+  bool is_sure;  // it certainly touches one by the limit
+};
+
+// Searches for rays that are not empty, many side by side, so that they wait for memory together.
+// With `any` a search ends at a triangle that its ray certainly touches.
+void find_candidates(std::span<RaySearch> searches, bool any);
+
+}  // namespace carom
