@@ -44,7 +44,14 @@ TEST_P(DistanceManifolds, EqualTheReference) {
           call.measured = measured;
           const std::vector<Row> expected =
               rows_of(results, pairs, positions, call.detail, call.frame);
-          for_each_isa([&] { EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs)); });
+          for_each_isa([&] {
+            std::vector<Row> rows = run_rows(pairs, call);
+            // The points of pairs without contact may be anything if not all pairs are measured.
+            for (Row& row : rows) {
+              if (measured != Measured::all && row.manifold_count == 0) row.manifold = {};
+            }
+            EXPECT_TRUE(same_rows(expected, rows, pairs));
+          });
         }
       }
     }
