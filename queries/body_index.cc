@@ -45,7 +45,7 @@ TreeBox grown_bounds(const BoundsView& bounds, size_t i, const Position<double>&
 bool are_same(const TreeBox& a, const TreeBox& b) {
   bool same = true;
   for (size_t axis = 0; axis < 3; ++axis) {
-    same = same & (a.lower[axis] == b.lower[axis]) & (a.upper[axis] == b.upper[axis]);
+    same = same && a.lower[axis] == b.lower[axis] && a.upper[axis] == b.upper[axis];
   }
   return same;
 }
