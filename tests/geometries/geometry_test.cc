@@ -13,10 +13,10 @@ namespace {
 using Eigen::Quaternionf;
 using Eigen::Vector3f;
 using testing::HasSubstr;
-using Triangles = std::vector<std::array<uint32_t, 3>>;
+using TriangleList = std::vector<std::array<uint32_t, 3>>;
 
 const std::vector<Vector3f> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const Triangles kHalves = {{0, 1, 2}, {0, 2, 3}};
+const TriangleList kHalves = {{0, 1, 2}, {0, 2, 3}};
 
 template <class T>
 std::string error_of(const Result<T>& result) {
@@ -25,7 +25,7 @@ std::string error_of(const Result<T>& result) {
 
 TEST(MeshGeometry, BadDataIsRefused) {
   EXPECT_THAT(error_of(make_mesh(kSquare, {})), HasSubstr("without triangles"));
-  EXPECT_THAT(error_of(make_mesh(kSquare, Triangles{{0, 1, 4}})), HasSubstr("triangle 0"));
+  EXPECT_THAT(error_of(make_mesh(kSquare, TriangleList{{0, 1, 4}})), HasSubstr("triangle 0"));
   for (const float bad : {kNan, kInfinity, -kInfinity}) {
     std::vector<Vector3f> vertices = kSquare;
     vertices[2].y() = bad;
@@ -59,7 +59,7 @@ TEST(MeshGeometry, TrianglesWithoutAreaAreCounted) {
   vertices.push_back({2, 0, 0});
   vertices.push_back({1, 0, 0});  // the same vertex again
   const auto mesh = *make_mesh(
-      vertices, Triangles{{0, 1, 2}, {0, 1, 4}, {3, 3, 3}, {1, 2, 1}, {1, 5, 2}, {0, 2, 3}});
+      vertices, TriangleList{{0, 1, 2}, {0, 1, 4}, {3, 3, 3}, {1, 2, 1}, {1, 5, 2}, {0, 2, 3}});
   EXPECT_EQ(mesh->degenerate_count(), 4u);
   const std::vector<bool> expected = {false, true, true, true, true, false};
   for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(mesh->is_degenerate(i), expected[i]) << i;
@@ -77,7 +77,7 @@ TEST(MeshGeometry, VerticesAtOnePlaceAreOne) {
   std::vector<Vector3f> vertices = kSquare;
   vertices.push_back({-0.0f, 0, -0.0f});
   vertices.push_back({1, 1, 0});
-  const auto mesh = *make_mesh(vertices, Triangles{{0, 1, 2}, {4, 5, 3}});
+  const auto mesh = *make_mesh(vertices, TriangleList{{0, 1, 2}, {4, 5, 3}});
   EXPECT_EQ(mesh->inner_edges(0, true), 0b100);
   EXPECT_EQ(mesh->inner_edges(1, true), 0b001);
 }
@@ -96,7 +96,7 @@ TEST(MeshGeometry, BentEdgesAreInnerFromInside) {
 
 // The neighbour's winding does not matter, only its position.
 TEST(MeshGeometry, NeighboursMayLookTheOtherWay) {
-  const auto mesh = *make_mesh(kSquare, Triangles{{0, 1, 2}, {0, 3, 2}});
+  const auto mesh = *make_mesh(kSquare, TriangleList{{0, 1, 2}, {0, 3, 2}});
   EXPECT_EQ(mesh->inner_edges(0, true), 0b100);
   EXPECT_EQ(mesh->inner_edges(1, false), 0b100);
 }
@@ -105,9 +105,9 @@ TEST(MeshGeometry, EdgesOfThreeTrianglesOrFoldedOnesAreNotInner) {
   std::vector<Vector3f> vertices = kSquare;
   vertices.push_back({0, 0, 1});
   vertices.push_back({0.75f, 0.25f, 0});
-  const auto three = *make_mesh(vertices, Triangles{{0, 1, 2}, {0, 2, 3}, {0, 2, 4}});
-  const auto folded = *make_mesh(vertices, Triangles{{0, 1, 2}, {0, 2, 5}});
-  const auto twice = *make_mesh(vertices, Triangles{{0, 1, 2}, {0, 1, 2}});
+  const auto three = *make_mesh(vertices, TriangleList{{0, 1, 2}, {0, 2, 3}, {0, 2, 4}});
+  const auto folded = *make_mesh(vertices, TriangleList{{0, 1, 2}, {0, 2, 5}});
+  const auto twice = *make_mesh(vertices, TriangleList{{0, 1, 2}, {0, 1, 2}});
   for (const bool from_front : {true, false}) {
     for (size_t i = 0; i < 3; ++i) EXPECT_EQ(three->inner_edges(i, from_front), 0);
     for (size_t i = 0; i < 2; ++i) EXPECT_EQ(folded->inner_edges(i, from_front), 0);
