@@ -85,6 +85,7 @@ class Cutter {
   Cut cut(const std::vector<Vector3d>& directions) const {
     Cut best;
     std::vector<Plane> planes;
+    planes.reserve(directions.size() + 2 * most_);
     for (const Vector3d& direction : directions) planes.push_back(touching(direction.normalized()));
     for (size_t round = 0; round < 2 * most_; ++round) {
       std::optional<Corners> corners = corners_of(planes);
