@@ -4,15 +4,10 @@
 #include <cfloat>
 #include <cmath>
 
+#include "impacts/slack.h"
+
 namespace carom {
 namespace {
-
-// Shapes and tests are off by less than this share of all lengths.
-constexpr double kPathSlack = 0x1p-33;
-// What float32 makes of a path, as a share of the lengths on it.
-constexpr double kFloatSlack = 0x1p-20;
-// Longer paths are left to the search in double precision.
-constexpr double kLongestPath = 0x1p100;
 
 Double3 along(const Double3& start, const Double3& way, double t) {
   return {start[0] + way[0] * t, start[1] + way[1] * t, start[2] + way[2] * t};

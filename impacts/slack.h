@@ -20,6 +20,14 @@ inline constexpr double kThinFace = 0x1p-40;
 inline constexpr double kSlantedFace = 0x1p-10;
 inline constexpr double kFaceSlack = 0.25;
 
+// Searches for the triangles of a mesh on a path: shapes, rays and tests are off by less than this
+// share of all lengths.
+inline constexpr double kPathSlack = 0x1p-33;
+// What float32 makes of a path, as a share of the lengths on it.
+inline constexpr double kFloatSlack = 0x1p-20;
+// Longer paths are left to the search in double precision.
+inline constexpr double kLongestPath = 0x1p100;
+
 // Stands for a time where the pair has no closed form that is exact enough.
 inline constexpr double kNoClosedForm = -1;
 
