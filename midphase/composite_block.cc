@@ -5,12 +5,11 @@
 #include <memory>
 
 #include "midphase/body_pair.h"
+#include "midphase/composite_results.h"
 #include "midphase/contact_runs.h"
 #include "midphase/outcome.h"
 #include "midphase/part_batch.h"
 #include "midphase/part_search.h"
-#include "midphase/point_names.h"
-#include "narrowphase/batch/world_point.h"
 #include "narrowphase/manifolds/merge.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "shapes/body_reader.h"
@@ -22,26 +21,10 @@ std::array<float, 3> at_row(const std::array<float*, 3>& columns, size_t row) {
   return {columns[0][row], columns[1][row], columns[2][row]};
 }
 
-void set_row(const std::array<float*, 3>& columns, size_t row, const std::array<float, 3>& value) {
-  for (size_t axis = 0; axis < 3; ++axis) {
-    if (columns[axis]) columns[axis][row] = value[axis];
-  }
-}
-
-template <class T>
-void set_row(T* column, size_t row, const T& value) {
-  if (column) column[row] = value;
-}
-
 // Moves a point relative to a part's position to one relative to its body's.
 std::array<float, 3> moved(const std::array<float, 3>& point, const Double3& arm) {
   return {static_cast<float>(point[0] + arm[0]), static_cast<float>(point[1] + arm[1]),
           static_cast<float>(point[2] + arm[2])};
-}
-
-float rounded_up(double x) {
-  const auto rounded = static_cast<float>(x);
-  return rounded < x ? std::nextafter(rounded, HUGE_VALF) : rounded;
 }
 
 // The working memory of one thread.
@@ -64,7 +47,6 @@ class CompositeRun {
   CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, const ExtraRequest& extra,
                CompositeScratch& scratch)
       : block_(block),
-        extra_(extra),
         a_{block.a},
         b_{block.b},
         rows_(rows),
@@ -77,7 +59,7 @@ class CompositeRun {
         again_(scratch.again),
         outcomes_(scratch.outcomes),
         contacts_(scratch.contacts),
-        merger_(scratch.merger),
+        results_(block, extra, scratch.merger),
         to_measure_(scratch.to_measure) {
     batch_.clear();
     contacts_.clear();
@@ -126,7 +108,7 @@ class CompositeRun {
   void flush() {
     run_batch();
     for (size_t k = first_open_; k < current_; ++k) {
-      if (!outcomes_[k].is_over_edge()) write(k, contacts_.of(k));
+      if (!outcomes_[k].is_over_edge()) write(k);
     }
     write_over_edges(first_open_, current_);
     first_open_ = current_;
@@ -255,15 +237,8 @@ class CompositeRun {
       for (PartContact& each : contacts_.of(k)) {
         if (each.parts == contact.parts) each = contact;
       }
-      write(k, contacts_.of(k));
+      write(k);
     }
-  }
-
-  static PlacedPart part_at(const PlacedPart& body, uint64_t part) {
-    PlacedPart result = body;
-    if (result.kind() == ShapeKind::compound) result = result.item(uint32_t(part >> 32));
-    if (result.kind() == ShapeKind::mesh) result = result.item(uint32_t(part));
-    return result;
   }
 
   // Measures the separation of pairs whose parts do not overlap. The separation of one near pair of
@@ -291,130 +266,20 @@ class CompositeRun {
     }
     run_batch();
     contacts_.clear();
-    for (const size_t k : to_measure) write(k, {});
+    for (const size_t k : to_measure) write(k);
   }
 
-  // `contacts`: those of the pair's parts, at detail manifold.
-  void write(size_t k, std::span<PartContact> contacts) {
-    const size_t row = rows_[k];
-    const Pair p = pair(k);
+  void write(size_t k) {
     const Outcome& o = outcomes_[k];
-    const ResultColumns& out = block_.out;
-    set_row(out.overlap, row, o.overlap);
-    set_row(out.status, row, o.status);
-    set_row(out.separation_bound, row, bound_of(o));
-    if (!has_contacts(block_.detail)) return;
-    set_row(out.separation, row, o.separation);
-    set_row(out.normal, row, o.normal);
-    set_row(out.point_a, row, in_frame(a_, p.a, o.arm_a));
-    set_row(out.point_b, row, in_frame(b_, p.b, o.arm_b));
-    set_row(out.sub_a, row, sub_shape(a_.kind(p.a), o.parts[0]));
-    set_row(out.sub_b, row, sub_shape(b_.kind(p.b), o.parts[1]));
-    if (tests_.manifolds) {
-      write_manifold(k, contacts);
-    } else if (out.point_names) {
-      out.point_names[row] = {};
-      if (is_contact(k, o.overlap, o.separation)) {
-        out.point_names[row].point[0] =
-            name_of(BodyPair(a_, b_, p), o.parts, o.arm_a, o.normal, o.separation);
-      }
-    }
-  }
-
-  void write_manifold(size_t k, std::span<PartContact> contacts) {
-    const size_t row = rows_[k];
-    const Outcome& o = outcomes_[k];
-    for (PartContact& contact : contacts) {
-      // The nearest contact of separate bodies counts in any case.
-      if (contact.parts == o.parts) contact.is_over_edge = false;
-    }
-    const bool are_named = block_.out.point_names != nullptr;
-    if (are_named) block_.out.point_names[row] = {};
-    MergedManifold manifold =
-        extra_.found ? first_region(k, contacts) : merger_.first(contacts, kSameManifold);
-    if (are_named) block_.out.point_names[row] = names_of(k, manifold);
-    for (size_t i = 0; i < manifold.count; ++i) {
-      std::array<float, 3>& point = manifold.points.point[i];
-      point = in_frame(a_, pair(k).a, point);
-    }
-    set_row(block_.out.manifold_count, row, manifold.count);
-    set_row(block_.out.manifold, row, manifold.points);
-  }
-
-  // Keeps the other regions.
-  MergedManifold first_region(size_t k, std::span<PartContact> contacts) {
-    if (contacts.empty()) return {};
-    uint32_t left_out;
-    const std::span<const PartRegion> regions = merger_.all(
-        contacts, extra_.limits.cosine, std::clamp(extra_.limits.most, 1u, 0xffffu), left_out);
-    left_out += contacts_.dropped(k);
-    const size_t pair = block_.first + rows_[k];
-    extra_.found->begin(pair, static_cast<uint16_t>(std::min(left_out, 0xffffu)));
-    for (const PartRegion& region : regions.subspan(1)) {
-      extra_.found->add(pair, contact_of_region(k, region));
-    }
-    return regions[0].manifold;
-  }
-
-  ContactWithPoints contact_of_region(size_t k, const PartRegion& region) const {
-    const PartContact& deepest = *region.deepest;
-    const Pair p = pair(k);
-    const auto vector = [](const std::array<float, 3>& v) -> Eigen::Vector3f {
-      return {v[0], v[1], v[2]};
-    };
-    return {{.a = p.a,
-             .b = p.b,
-             .sub_a = sub_shape(a_.kind(p.a), deepest.parts[0]),
-             .sub_b = sub_shape(b_.kind(p.b), deepest.parts[1]),
-             .normal = vector(deepest.normal),
-             .separation = deepest.separation,
-             .arm_a = vector(deepest.arm_a),
-             .normal_velocity = 0,
-             .arm_b = vector(deepest.arm_b),
-             .status = static_cast<Status>(deepest.status),
-             .manifold_count = region.manifold.count},
-            region.manifold.points,
-            block_.out.point_names ? names_of(k, region.manifold) : PointNames{}};
-  }
-
-  PointNames names_of(size_t k, const MergedManifold& manifold) const {
-    const BodyPair bodies(a_, b_, pair(k));
-    PointNames names{};
-    for (size_t i = 0; i < manifold.count; ++i) {
-      const PartContact& from = *manifold.from[i];
-      names.point[i] = name_of(bodies, from.parts, manifold.points.point[i], from.normal,
-                               manifold.points.separation[i]);
-    }
-    return names;
-  }
-
-  static uint64_t name_of(const BodyPair& bodies, const std::array<uint64_t, 2>& parts,
-                          const std::array<float, 3>& point, const std::array<float, 3>& normal,
-                          float separation) {
-    const PlacedPart a = part_at(bodies.a, parts[0]), b = part_at(bodies.b, parts[1]);
-    const auto wide = [](const std::array<float, 3>& v) { return Double3{v[0], v[1], v[2]}; };
-    return PartsInTouch{a, b}.name_of(wide(point), wide(normal), separation,
-                                      minus(bodies.b.position, bodies.a.position));
-  }
-
-  std::array<float, 3> in_frame(const BodyReader& reader, size_t body,
-                                const std::array<float, 3>& arm) const {
-    return block_.frame == WitnessFrame::body ? arm : world_point(reader, body, arm);
-  }
-
-  static uint32_t sub_shape(ShapeKind kind, uint64_t part) {
-    return static_cast<uint32_t>(kind == ShapeKind::compound ? part >> 32 : part);
-  }
-
-  // The true deepest pair of parts may be another one, deeper than the reported one by the rounding
-  // of its test.
-  static float bound_of(const Outcome& o) {
-    const double deeper = double{o.separation} - o.nearest;
-    return rounded_up(std::isfinite(deeper) ? std::max(double{o.bound}, deeper) : o.bound);
+    results_.write({.row = rows_[k],
+                    .pair = pair(k),
+                    .outcome = o,
+                    .is_contact = is_contact(k, o.overlap, o.separation),
+                    .contacts = contacts_.of(k),
+                    .dropped = contacts_.dropped(k)});
   }
 
   const PairBlock& block_;
-  const ExtraRequest& extra_;
   const BodyReader a_, b_;
   const std::span<const uint16_t> rows_;
   const PartTests tests_;
@@ -422,7 +287,7 @@ class CompositeRun {
   PartBatch& again_;  // pairs to test again without inner edges
   std::array<Outcome, kPairsPerBlock>& outcomes_;
   ContactRuns& contacts_;
-  RegionMerger& merger_;
+  CompositeResults results_;
   std::array<uint16_t, kPairsPerBlock>& to_measure_;
   size_t current_ = 0;
   size_t first_open_ = 0;

@@ -19,6 +19,13 @@ PlacedPart PlacedPart::item(uint32_t index) const {
   return result;
 }
 
+PlacedPart part_at(const PlacedPart& body, uint64_t order) {
+  PlacedPart result = body;
+  if (result.kind() == ShapeKind::compound) result = result.item(uint32_t(order >> 32));
+  if (result.kind() == ShapeKind::mesh) result = result.item(uint32_t(order));
+  return result;
+}
+
 Part body_part(const BodyReader& reader, size_t i) {
   Part part;
   part.kind = reader.kind(i);

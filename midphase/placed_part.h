@@ -43,6 +43,9 @@ struct PlacedPart {
   uint64_t order() const { return uint64_t{child} << 32 | (triangle == kWhole ? 0 : triangle); }
 };
 
+// The part of a whole body that has this order().
+PlacedPart part_at(const PlacedPart& body, uint64_t order);
+
 // Body `i` of a view, with position zero.
 Part body_part(const BodyReader& reader, size_t i);
 
