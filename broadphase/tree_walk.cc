@@ -106,12 +106,9 @@ HWY_INLINE void sort_steps(TreeWalk::Step* begin, TreeWalk::Step* end) {
 
 // Adds the children of a node that pass the test, the nearest last.
 template <class Test>
-HWY_INLINE void expand(const BoxTree::Node& node, const Test& test, float limit,
-                       std::vector<TreeWalk::Step>& steps) {
+HWY_INLINE void expand(const BoxTree::Node& node, const Test& test, float limit, TreeWalk& walk) {
   const ChildTag tag;
-  const size_t before = steps.size();
-  steps.resize(before + BoxTree::kChildren);
-  TreeWalk::Step* const begin = steps.data() + before;
+  TreeWalk::Step* const begin = walk.room(BoxTree::kChildren);
   TreeWalk::Step* end = begin;
   for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
     Children key;
@@ -127,23 +124,21 @@ HWY_INLINE void expand(const BoxTree::Node& node, const Test& test, float limit,
     }
   }
   sort_steps(begin, end);
-  steps.resize(before + static_cast<size_t>(end - begin));
+  walk.add(static_cast<size_t>(end - begin));
 }
 
 template <class Test>
 HWY_INLINE void go_on(const BoxTree& tree, const Test& test, float limit, size_t most,
                       TreeWalk& walk, std::vector<uint32_t>& items) {
   const BoxTree::Node* const nodes = tree.nodes().data();
-  std::vector<TreeWalk::Step>& steps = walk.steps();
   const size_t enough = items.size() + most;
-  while (!steps.empty() && items.size() < enough) {
-    const TreeWalk::Step step = steps.back();
-    steps.pop_back();
+  while (!walk.is_done() && items.size() < enough) {
+    const TreeWalk::Step step = walk.take();
     if (step.key > limit) continue;
     if (is_item(step.child)) {
       items.push_back(step.child - BoxTree::kItem);
     } else {
-      expand(nodes[step.child], test, limit, steps);
+      expand(nodes[step.child], test, limit, walk);
     }
   }
 }
@@ -184,8 +179,8 @@ MovingBox::MovingBox(const TreeBox& at_start, const std::array<float, 3>& displa
     : box(at_start), swept(at_start) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const float d = displacement[axis];
-    if (d < 0) swept.lower[axis] = sum_downwards(box.lower[axis], d);
-    if (d > 0) swept.upper[axis] = sum_upwards(box.upper[axis], d);
+    if (d < 0) swept.lower[axis] = next_down(box.lower[axis] + d);
+    if (d > 0) swept.upper[axis] = next_up(box.upper[axis] + d);
     const bool moves = std::abs(d) >= kLeastDisplacement;
     inverse_displacement[axis] = moves ? 1 / d : 0;
     still[axis] = moves ? 0 : INFINITY;

@@ -33,15 +33,25 @@ class TreeWalk {
 
   // Starts a search at the root.
   void start(const BoxTree& tree) {
-    steps_.clear();
-    if (!tree.is_empty()) steps_.push_back({0, 0});
+    count_ = 0;
+    if (tree.is_empty()) return;
+    *room(1) = {0, 0};
+    add(1);
   }
 
-  bool is_done() const { return steps_.empty(); }
-  std::vector<Step>& steps() { return steps_; }
+  bool is_done() const { return count_ == 0; }
+  Step take() { return steps_[--count_]; }
+
+  // The place behind the last step, with room for `most` steps; add() takes those that are there.
+  Step* room(size_t most) {
+    if (steps_.size() < count_ + most) steps_.resize(2 * (count_ + most));
+    return steps_.data() + count_;
+  }
+  void add(size_t count) { count_ += count; }
 
  private:
-  std::vector<Step> steps_;
+  std::vector<Step> steps_;  // the first count_ are in use
+  size_t count_ = 0;
 };
 
 // Appends items that the box meets to `items`, until it has added `most` or none are left. All

@@ -11,7 +11,7 @@
 #include "impacts/mesh_path.h"
 #include "impacts/moving_body.h"
 #include "impacts/part_sweep.h"
-#include "impacts/point_times.h"
+#include "impacts/rays/point_times.h"
 #include "midphase/part_batch.h"
 
 namespace carom {

@@ -5,8 +5,10 @@
 #include <memory>
 #include <optional>
 
+#include "geometries/mesh_memory.h"
 #include "impacts/composite_times.h"
 #include "impacts/moving_body.h"
+#include "impacts/rays/point_contact.h"
 #include "midphase/part_batch.h"
 #include "narrowphase/blocks/pair_block.h"
 
@@ -79,58 +81,11 @@ class PlacedSide {
   std::array<uint32_t, kPairsPerBlock> first_row_, box_slot_;
 };
 
-// Points and the triangles of meshes that they meet, packed.
-class TouchedTriangles {
- public:
-  size_t count() const { return count_; }
-  size_t row(size_t i) const { return row_[i]; }
-  void clear() { count_ = 0; }
-
-  // The positions are relative to a frame of the pair's own.
-  void put(size_t row, const Double3& point, const Double3& position, const Row& orientation,
-           const MeshGeometry& mesh, uint32_t triangle, std::optional<bool> one_sided) {
-    row_[count_] = static_cast<uint16_t>(row);
-    point_[count_] = {point[0], point[1], point[2], 0};
-    position_[count_] = {position[0], position[1], position[2], 0};
-    orientation_[count_] = orientation;
-    put_triangle_rows(mesh, triangle, rows_[count_].data());
-    if (one_sided) rows_[count_][1][3] = *one_sided ? 1.0f : 0.0f;
-    ++count_;
-  }
-
-  Collidables points() const { return view(ShapeKind::sphere, point_); }
-  Collidables triangles() const {
-    Collidables view = this->view(ShapeKind::triangle, position_);
-    view.orientation.data = orientation_[0].data();
-    view.rows.data = rows_[0][0].data();
-    return view;
-  }
-
- private:
-  using Records = std::array<std::array<double, 4>, kPairsPerBlock>;
-
-  Collidables view(ShapeKind kind, const Records& records) const {
-    Collidables view;
-    view.count = count_;
-    view.position = {
-        .data = records.data(), .stride = sizeof records[0], .type = PositionType::float64};
-    view.uniform_kind = kind;
-    return view;
-  }
-
-  size_t count_ = 0;
-  std::array<uint16_t, kPairsPerBlock> row_;
-  alignas(64) Records point_, position_;
-  std::array<Row, kPairsPerBlock> orientation_;
-  std::array<std::array<Row, row_count(ShapeKind::triangle)>, kPairsPerBlock> rows_;
-};
-
 struct ContactScratch {
   PlacedSide a, b;
   size_t count;
   std::array<uint16_t, kPairsPerBlock> row;  // of every placed pair
   TestColumns columns;
-  TouchedTriangles triangles;
   PartBatch parts;
   std::array<std::array<Double3, 2>, kPairsPerBlock> arms;  // of the parts of every pair
 };
@@ -153,11 +108,12 @@ class ImpactContacts {
   void run() {
     clear();
     for (size_t row = 0; row < first_.count; ++row) {
+      prefetch(row);
       const bool meets = first_.time[row] <= 1;
       if (!meets) {
         write_nothing(row);
       } else if (is_point_at_mesh(row)) {
-        add_triangle(row);
+        take_triangle(row);
       } else if (is_composite(row)) {
         add_parts(row);
       } else {
@@ -165,7 +121,6 @@ class ImpactContacts {
       }
     }
     run_bodies();
-    run_triangles();
     run_parts();
   }
 
@@ -175,8 +130,7 @@ class ImpactContacts {
   bool is_point_at_mesh(size_t row) const {
     const Pair pair = pairs_[row];
     return a_.body().kind(pair.a) == ShapeKind::sphere && a_.body().radius(pair.a) == 0 &&
-           b_.body().kind(pair.b) == ShapeKind::mesh && a_.rotation_vector(pair.a).isZero(0) &&
-           b_.rotation_vector(pair.b).isZero(0);
+           b_.body().kind(pair.b) == ShapeKind::mesh && !a_.turns(pair.a) && !b_.turns(pair.b);
   }
 
   bool is_composite(size_t row) const {
@@ -188,7 +142,6 @@ class ImpactContacts {
     scratch_.a.clear();
     scratch_.b.clear();
     scratch_.count = 0;
-    scratch_.triangles.clear();
     scratch_.parts.clear();
   }
 
@@ -216,22 +169,38 @@ class ImpactContacts {
     for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {});
   }
 
-  void add_triangle(size_t row) {
+  void take_triangle(size_t row) {
     const Pair pair = pairs_[row];
     const double t = first_.time[row];
+    const Double3 between = place_between(a_, b_, pair), way = way_between(a_, b_, pair);
     const Row orientation = b_.body().orientation(pair.b);
-    const PlaceInTime point = place_at({}, {}, {}, a_, pair.a, t);
-    const PlaceInTime mesh = place_at(place_between(a_, b_, pair), {}, orientation, b_, pair.b, t);
-    scratch_.triangles.put(row, point.position, mesh.position, orientation,
-                           *geometry_at<MeshGeometry>(b_.body().row(pair.b, 0)),
-                           static_cast<uint32_t>(first_.parts[row][1]), side_b_.one_sided);
+    const scalar::Separation found =
+        point_contact({.mesh = mesh_of(row),
+                       .place = plus(between, {way[0] * t, way[1] * t, way[2] * t}),
+                       .orientation = orientation,
+                       .turn = rotation_of(orientation),
+                       .one_sided = side_b_.one_sided},
+                      triangle_of(row));
+    write(row, found, {});
   }
 
-  void run_triangles() {
-    const TouchedTriangles& triangles = scratch_.triangles;
-    if (triangles.count() == 0) return;
-    const ResultColumns found = test(triangles.points(), triangles.triangles(), triangles.count());
-    for (size_t i = 0; i < triangles.count(); ++i) write(triangles.row(i), found, i, {});
+  const MeshGeometry& mesh_of(size_t row) const {
+    return *geometry_at<MeshGeometry>(b_.body().row(pairs_[row].b, 0));
+  }
+  uint32_t triangle_of(size_t row) const { return static_cast<uint32_t>(first_.parts[row][1]); }
+
+  // Triangles that rays meet lie far apart in memory.
+  void prefetch(size_t row) const {
+    constexpr size_t kIndicesAhead = 16, kCornersAhead = 8;
+    const auto takes = [&](size_t i) {
+      return first_.time[i] <= 1 && b_.body().kind(pairs_[i].b) == ShapeKind::mesh;
+    };
+    if (row + kIndicesAhead < first_.count && takes(row + kIndicesAhead)) {
+      prefetch_indices(mesh_of(row + kIndicesAhead), triangle_of(row + kIndicesAhead));
+    }
+    if (row + kCornersAhead < first_.count && takes(row + kCornersAhead)) {
+      prefetch_corners(mesh_of(row + kCornersAhead), triangle_of(row + kCornersAhead));
+    }
   }
 
   // Tests row i of A with row i of B.
@@ -279,20 +248,31 @@ class ImpactContacts {
     }
   }
 
+  void write(size_t row, const ResultColumns& found, size_t i, const std::array<Double3, 2>& arms) {
+    const auto vector = [i](const std::array<float*, 3>& columns) -> Eigen::Vector3f {
+      return {columns[0][i], columns[1][i], columns[2][i]};
+    };
+    write(row,
+          {.separation = found.separation[i],
+           .normal = vector(found.normal),
+           .arm_a = vector(found.point_a),
+           .arm_b = vector(found.point_b)},
+          arms);
+  }
+
   // `arms`: from the bodies' positions at the time of impact to the origins of the found points.
-  void write(size_t row, const ResultColumns& found, size_t i, std::array<Double3, 2> arms) {
+  void write(size_t row, const scalar::Separation& found, std::array<Double3, 2> arms) {
     if (frame_ == WitnessFrame::world) {
       arms[0] = plus(position_then(a_, pairs_[row].a, first_.time[row]), arms[0]);
       arms[1] = plus(position_then(b_, pairs_[row].b, first_.time[row]), arms[1]);
     }
-    if (out_.separation) out_.separation[row] = found.separation[i];
+    if (out_.separation) out_.separation[row] = found.separation;
     for (size_t axis = 0; axis < 3; ++axis) {
-      if (out_.normal[axis]) out_.normal[axis][row] = found.normal[axis][i];
-      const auto seen = [&](const std::array<float*, 3>& points, double arm) {
-        return static_cast<float>(points[axis][i] + arm);
-      };
-      if (out_.point_a[axis]) out_.point_a[axis][row] = seen(found.point_a, arms[0][axis]);
-      if (out_.point_b[axis]) out_.point_b[axis][row] = seen(found.point_b, arms[1][axis]);
+      const auto i = static_cast<int>(axis);
+      const auto seen = [](float point, double arm) { return static_cast<float>(point + arm); };
+      if (out_.normal[axis]) out_.normal[axis][row] = found.normal[i];
+      if (out_.point_a[axis]) out_.point_a[axis][row] = seen(found.arm_a[i], arms[0][axis]);
+      if (out_.point_b[axis]) out_.point_b[axis][row] = seen(found.arm_b[i], arms[1][axis]);
     }
   }
 

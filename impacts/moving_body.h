@@ -23,6 +23,12 @@ struct MovingReader {
   Position<float> rotation(size_t i) const {
     return load_strided<Position<float>>(side.sweep.rotation, side.sweep.rotation_stride, i);
   }
+  // Whether its rotation vector is not zero; NaN is not.
+  bool turns(size_t i) const {
+    if (!side.sweep.rotation) return false;
+    const Position<float> w = rotation(i);
+    return !(w.x == 0 && w.y == 0 && w.z == 0);
+  }
   Double3 arm(size_t i) const { return side.arm ? side.arm[i] : Double3{}; }
 
   bool is_valid(size_t i) const { return body().is_valid(i) && has_valid_motion(i); }
@@ -32,8 +38,7 @@ struct MovingReader {
   }
   // A NaN rotation counts as turning if the orientation of the kind matters.
   bool moves_in_a_line(size_t i) const {
-    const Position<float> w = rotation(i);
-    if (w.x == 0 && w.y == 0 && w.z == 0) return true;
+    if (!turns(i)) return true;
     return !scalar::turns(body().kind(i)) && arm(i) == Double3{};
   }
   Eigen::Vector3d rotation_vector(size_t i) const {

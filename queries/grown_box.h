@@ -22,13 +22,14 @@ inline TreeBox grown(const TreeBox& box, const Position<double>& position, doubl
   const std::array<double, 3> origin = {position.x, position.y, position.z};
   double reach = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
-    reach = std::max({reach, origin[axis] - box.lower[axis], box.upper[axis] - origin[axis]});
+    reach =
+        std::max(reach, std::max(origin[axis] - box.lower[axis], box.upper[axis] - origin[axis]));
   }
   const double margin = (kSearchSlack * reach + kTravelSlack * travel) + FLT_TRUE_MIN;
   TreeBox result;
   for (size_t axis = 0; axis < 3; ++axis) {
-    result.lower[axis] = sum_downwards(double{box.lower[axis]}, -margin);
-    result.upper[axis] = sum_upwards(double{box.upper[axis]}, margin);
+    result.lower[axis] = next_down(static_cast<float>(box.lower[axis] - margin));
+    result.upper[axis] = next_up(static_cast<float>(box.upper[axis] + margin));
   }
   return result;
 }

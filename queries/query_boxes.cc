@@ -57,7 +57,9 @@ std::optional<MovingBox> QueryBoxes::box(size_t query) const {
   if (!is_finite(displacement) || (may_turn && !is_finite(rotation))) return std::nullopt;
 
   const double angle = may_turn ? length(rotation[0], rotation[1], rotation[2]) : 0;
-  double travel = length(displacement[0], displacement[1], displacement[2]);
+  // No less than the length.
+  double travel = std::abs(double{displacement[0]}) + std::abs(double{displacement[1]}) +
+                  std::abs(double{displacement[2]});
   TreeBox at_start;
   if (angle > 0) {
     double arc = 0;

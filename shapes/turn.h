@@ -25,7 +25,7 @@ inline Double3 minus(const Double3& a, const Double3& b) {
 }
 
 inline double greatest(const Double3& v) {
-  return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+  return std::max(std::max(std::fabs(v[0]), std::fabs(v[1])), std::fabs(v[2]));
 }
 
 inline Double3 vector_of(const Row& row) { return {row[0], row[1], row[2]}; }

@@ -1,13 +1,14 @@
 // First times of impact of points with meshes of thin triangles, when both move in straight lines.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "impacts/impact.h"
 #include "impacts/linear/linear_rows.h"
 #include "impacts/moving_body.h"
-#include "impacts/ray_in_mesh.h"
+#include "impacts/rays/ray_in_mesh.h"
 
 namespace carom {
 
@@ -60,8 +61,7 @@ class PointTimes {
   uint32_t mesh_body_ = 0xffffffffu;
   Row orientation_;
   Turn turn_;
-  bool one_sided_;
-  const MeshGeometry* mesh_;
+  std::optional<RayTarget> target_;
 };
 
 }  // namespace carom

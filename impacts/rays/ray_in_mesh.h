@@ -16,6 +16,16 @@ struct RayCandidate {
   double earliest;
 };
 
+// A mesh that rays may touch.
+struct RayTarget {
+  const MeshGeometry* mesh;
+  bool one_sided;
+  Double3 lower, upper;  // its bounds
+  double greatest;       // of all coordinates
+
+  RayTarget(const MeshGeometry& of_mesh, bool is_one_sided);
+};
+
 // A ray in the frame of the mesh, cut to where it may touch the mesh's bounds. What is left is
 // short, so float32 is exact enough for the walk through the tree.
 struct RayInMesh {
@@ -31,9 +41,8 @@ struct RayInMesh {
 
   bool is_empty() const { return !(first <= last); }
 
-  // Sets everything below `one_sided`. Only times up to `limit` count. False if the path is too
-  // long for float32.
-  bool set(const Double3& from, const Double3& displacement, double limit);
+  // Only times up to `limit` count. False if the path is too long for float32.
+  bool set(const RayTarget& target, const Double3& from, const Double3& displacement, double limit);
 };
 
 // A search for the triangles that a ray may touch first.

@@ -1,5 +1,5 @@
 // Fills the columns of the kernel as gather_linear() does, without a view of bodies between.
-#include "impacts/point_times.h"
+#include "impacts/rays/point_times.h"
 
 #include <array>
 #include <memory>
@@ -24,14 +24,9 @@ namespace {
 constexpr size_t kFirstOfTriangle = LinearRows::kPairColumns + number_count(LinearKind::sphere);
 constexpr size_t kColumns = kFirstOfTriangle + number_count(LinearKind::triangle);
 
-bool moves_straight(const MovingReader& side, size_t i) {
-  const Position<float> w = side.rotation(i);
-  return w.x == 0 && w.y == 0 && w.z == 0;
-}
-
 bool is_valid_point(const MovingReader& side, size_t i) {
-  return side.body().kind(i) == ShapeKind::sphere && side.body().radius(i) == 0 &&
-         moves_straight(side, i) && side.has_valid_motion(i);
+  return side.body().kind(i) == ShapeKind::sphere && side.body().radius(i) == 0 && !side.turns(i) &&
+         is_finite(side.body().position<double>(i)) && is_finite(side.displacement(i));
 }
 
 }  // namespace
@@ -54,11 +49,11 @@ bool PointTimes::take_mesh(bool is_a, uint32_t body) {
   mesh_is_a_ = is_a;
   mesh_body_ = body;
   mesh_serves_ = false;
-  if (!moves_straight(side, body) || !side.is_valid(body)) return false;
-  mesh_ = geometry_at<MeshGeometry>(side.body().row(body, 0));
-  const MeshRules& rules = mesh_->rules();
+  if (side.turns(body) || !side.is_valid(body)) return false;
+  const MeshGeometry& mesh = *geometry_at<MeshGeometry>(side.body().row(body, 0));
+  const MeshRules& rules = mesh.rules();
   mesh_serves_ = rules.thickness == 0;
-  one_sided_ = side.side.one_sided.value_or(rules.one_sided);
+  target_.emplace(mesh, side.side.one_sided.value_or(rules.one_sided));
   orientation_ = side.body().orientation(body);
   turn_ = rotation_of(orientation_);
   return mesh_serves_;
@@ -75,14 +70,12 @@ bool PointTimes::add(size_t owner, Pair pair, double limit) {
   const Double3 way = way_between(of_point, of_mesh, {point, mesh});
   if (scratch_.ray_count == Scratch::kMostRays) search();
   RaySearch& search = scratch_.searches[scratch_.ray_count];
-  search.ray.mesh = mesh_;
-  search.ray.one_sided = one_sided_;
   search.limit = limit;
-  if (!search.ray.set(turned_back(turn_, minus({}, from)), turned_back(turn_, minus({}, way)),
-                      limit)) {
+  if (!search.ray.set(*target_, turned_back(turn_, minus({}, from)),
+                      turned_back(turn_, minus({}, way)), limit)) {
     return false;
   }
-  if (search.ray.is_empty() || mesh_->tree().is_empty()) return true;
+  if (search.ray.is_empty() || target_->mesh->tree().is_empty()) return true;
   scratch_.points[scratch_.ray_count++] = {owner, pair, orientation_, from, way};
   return true;
 }

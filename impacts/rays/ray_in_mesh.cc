@@ -1,4 +1,4 @@
-#include "impacts/ray_in_mesh.h"
+#include "impacts/rays/ray_in_mesh.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -16,33 +16,39 @@ constexpr double kLeastDisplacement = 0x1p-120;
 
 }  // namespace
 
-bool RayInMesh::set(const Double3& from, const Double3& displacement, double limit) {
+RayTarget::RayTarget(const MeshGeometry& of_mesh, bool is_one_sided)
+    : mesh(&of_mesh), one_sided(is_one_sided) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<int>(axis);
+    lower[axis] = mesh->lower()[i];
+    upper[axis] = mesh->upper()[i];
+  }
+  greatest = std::max(carom::greatest(lower), carom::greatest(upper));
+}
+
+bool RayInMesh::set(const RayTarget& target, const Double3& from, const Double3& displacement,
+                    double limit) {
+  mesh = target.mesh;
+  one_sided = target.one_sided;
   start = from;
   way = displacement;
   first = 0;
   last = limit;
   travel = greatest(way);
-  lengths = greatest(start) + travel;
-  double of_mesh = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    of_mesh = std::max(
-        {of_mesh, std::fabs(double{mesh->lower()[axis]}), std::fabs(double{mesh->upper()[axis]})});
-  }
-  lengths += of_mesh;
+  lengths = greatest(start) + travel + target.greatest;
   const double slack = kPathSlack * lengths + FLT_TRUE_MIN;
   Double3 inverse_way;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<int>(axis);
-    const double to_lower = (double{mesh->lower()[i]} - slack) - start[axis];
-    const double to_upper = (double{mesh->upper()[i]} + slack) - start[axis];
+    const double to_lower = (target.lower[axis] - slack) - start[axis];
+    const double to_upper = (target.upper[axis] + slack) - start[axis];
     if (way[axis] == 0) {
       if (to_lower > 0 || to_upper < 0) last = -1;
       continue;
     }
     inverse_way[axis] = 1 / way[axis];
-    const bool forwards = way[axis] > 0;
-    first = std::max(first, (forwards ? to_lower : to_upper) * inverse_way[axis]);
-    last = std::min(last, (forwards ? to_upper : to_lower) * inverse_way[axis]);
+    const double at_lower = to_lower * inverse_way[axis], at_upper = to_upper * inverse_way[axis];
+    first = std::max(first, std::min(at_lower, at_upper));
+    last = std::min(last, std::max(at_lower, at_upper));
   }
   if (is_empty()) return true;
   Double3 at_first, on_path;
@@ -56,8 +62,8 @@ bool RayInMesh::set(const Double3& from, const Double3& displacement, double lim
   for (size_t axis = 0; axis < 3; ++axis) {
     const bool moves = std::fabs(way[axis]) >= kLeastDisplacement;
     const double along = moves ? 0 : on_path[axis];
-    lower[axis] = round_downwards(at_first[axis] + std::min(along, 0.0) - margin);
-    upper[axis] = -round_downwards(-(at_first[axis] + std::max(along, 0.0) + margin));
+    lower[axis] = next_down(static_cast<float>(at_first[axis] + std::min(along, 0.0) - margin));
+    upper[axis] = next_up(static_cast<float>(at_first[axis] + std::max(along, 0.0) + margin));
     inverse[axis] = moves ? static_cast<float>(inverse_way[axis]) : INFINITY;
   }
   return true;
