@@ -55,7 +55,7 @@ class RayPacket {
   // A limit that no box meets.
   static constexpr float kDone = -1;
   // The shaft may be as wide as this share of its length.
-  static constexpr double kWidest = 0.25;
+  static constexpr double kWidest = 0.5;
 
   using Floats = std::array<float, kMost>;
   using Doubles = std::array<double, kMost>;
@@ -108,9 +108,13 @@ class RayPacket {
     limit_[i] = is_there ? hits_[i].limit_on_path() : kDone;
   }
 
-  void set_shaft_limit() {
-    shaft_limit_ = kDone;
-    for (const float limit : limit_) shaft_limit_ = std::max(shaft_limit_, limit);
+  HWY_INLINE void set_shaft_limit() {
+    const ChildTag tag;
+    Children most = hn::Load(tag, limit_.data());
+    for (size_t i = kChildLanes; i < kMost; i += kChildLanes) {
+      most = max(most, hn::Load(tag, limit_.data() + i));
+    }
+    shaft_limit_ = hn::GetLane(hn::MaxOfLanes(tag, most));
   }
 
   HWY_INLINE void visit(const BoxTree::Node& node) {
