@@ -39,18 +39,18 @@ struct CastList {
   std::vector<std::array<float, 3>> displacements;
 };
 
-// Bodies of a scene and the queries in the form of one library, ready for casts.
+// The bodies of a scene in the form of one library.
 class CastPeer {
  public:
   virtual ~CastPeer() = default;
+  // Makes the queries; the list must outlive their runs.
+  virtual void prepare(const CastList& list) = 0;
   // Writes the time of the closest hit of the first times.size() casts, above 1 if there is none.
   virtual void run(std::span<float> times) = 0;
 };
 
-// Defined in casts_bullet.cc: btCollisionWorld::convexSweepTest() with a btDbvtBroadphase.
-std::unique_ptr<CastPeer> make_bullet_casts(const CastScene& scene, const CastList& list);
-// Defined in casts_fcl.cc. FCL has no cast at many bodies. A user asks its tree for the bodies in
-// the box of the path, and continuousCollide() for each of these.
-std::unique_ptr<CastPeer> make_fcl_casts(const CastScene& scene, const CastList& list);
+// Defined in casts_bullet.cc and casts_fcl.cc. The scene must outlive the peer.
+std::unique_ptr<CastPeer> make_bullet_casts(const CastScene& scene);
+std::unique_ptr<CastPeer> make_fcl_casts(const CastScene& scene);
 
 }  // namespace carom::bench

@@ -63,7 +63,7 @@ std::unique_ptr<btConvexShape> make_convex(const CastBody& body, const CastScene
 
 class BulletCasts final : public CastPeer {
  public:
-  BulletCasts(const CastScene& scene, const CastList& list) : scene_(scene), list_(list) {
+  explicit BulletCasts(const CastScene& scene) : scene_(scene) {
     for (const CastBody& body : scene.bodies) {
       if (body.shape == CastShape::mesh) {
         shapes_.push_back(make_mesh(scene_, triangles_));
@@ -78,7 +78,6 @@ class BulletCasts final : public CastPeer {
                                 btBroadphaseProxy::AllFilter);
     }
     broadphase_.optimize();
-    for (const CastBody& query : list_.queries) queries_.push_back(make_convex(query, scene_));
   }
   BulletCasts(const BulletCasts&) = delete;
   BulletCasts& operator=(const BulletCasts&) = delete;
@@ -86,11 +85,17 @@ class BulletCasts final : public CastPeer {
     for (const auto& object : objects_) world_.removeCollisionObject(object.get());
   }
 
+  void prepare(const CastList& list) override {
+    list_ = &list;
+    queries_.clear();
+    for (const CastBody& query : list.queries) queries_.push_back(make_convex(query, scene_));
+  }
+
   void run(std::span<float> times) override {
     for (size_t i = 0; i < times.size(); ++i) {
-      const btTransform start = pose(list_.queries[i]);
+      const btTransform start = pose(list_->queries[i]);
       btTransform end = start;
-      end.getOrigin() += vector(list_.displacements[i]);
+      end.getOrigin() += vector(list_->displacements[i]);
       btCollisionWorld::ClosestConvexResultCallback closest(start.getOrigin(), end.getOrigin());
       world_.convexSweepTest(queries_[i].get(), start, end, closest);
       times[i] = closest.hasHit() ? closest.m_closestHitFraction : 2;
@@ -99,7 +104,7 @@ class BulletCasts final : public CastPeer {
 
  private:
   const CastScene& scene_;
-  const CastList& list_;
+  const CastList* list_ = nullptr;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
@@ -112,8 +117,8 @@ class BulletCasts final : public CastPeer {
 
 }  // namespace
 
-std::unique_ptr<CastPeer> make_bullet_casts(const CastScene& scene, const CastList& list) {
-  return std::make_unique<BulletCasts>(scene, list);
+std::unique_ptr<CastPeer> make_bullet_casts(const CastScene& scene) {
+  return std::make_unique<BulletCasts>(scene);
 }
 
 }  // namespace carom::bench
