@@ -11,7 +11,7 @@ namespace {
 constexpr double kNear = 0.1;       // metres; larger gaps are as good as this one
 constexpr int kSteps = 64;          // places on the way at which a missed body is looked at
 constexpr double kExact = 1e-9;     // metres; what the oracle may err
-constexpr double kRounding = 2e-6;  // metres; a time below 1, rounded to float32, of 20 m
+constexpr double kRounding = 2e-6;  // metres of 20 that a float32 below 1 may err
 
 double radius_of(const CastBody& body, const CastScene& scene) {
   const auto [x, y, z] = body.size;

@@ -176,8 +176,9 @@ int run(bool smoke) {
   const size_t wrong = run_scene("bodies", yard, among_bodies, agreements) +
                        run_scene("mesh", terrain, at_mesh, agreements);
   std::printf(
-      "\nHits that are more than %.1f mm early, or late (or none); the worst, in mm\n\n"
-      "| scene | cast | length | peer | casts | early | worst | late | worst |\n"
+      "\nHits of the peers that are more than %.1f mm early, or late or missing; the worst, in "
+      "mm\n\n"
+      "| scene | cast | length | peer | casts | early | worst | late or missing | worst |\n"
       "|---|---|---|---|---|---|---|---|---|\n%s",
       1e3 * kTolerance, agreements.c_str());
   if (wrong > 0) std::fprintf(stderr, "carom_cast_peers: %zu hits of Carom are wrong\n", wrong);
