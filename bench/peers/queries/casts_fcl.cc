@@ -3,9 +3,9 @@
 // continuousCollide(), in double precision, with these choices of its request:
 // - translations, and conservative advancement: the default solver tries ten places of the path;
 // - GJK of FCL itself: with libccd, the default, boxes and hulls miss hits.
-// A mesh is one object for each triangle. With a BVHModel, continuousCollide() takes the shape to
-// be at the origin when it walks the tree, misses most hits and tests all triangles; if the mesh is
-// the second object it recurses without end.
+// A mesh is one object for each triangle. As a BVHModel of OBBRSS, continuousCollide() misses most
+// hits and takes 20 ms at 5,000 triangles (its headers measure the boxes of the tree against the
+// shape without its pose); with the mesh as the second object it recurses without end.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
