@@ -10,55 +10,21 @@
 #include <utility>
 
 #include "broadphase/tree_walk.h"
-#include "simd/lanes-inl.h"
+#include "trees/box_path-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-using ChildTag = hn::CappedTag<float, BoxTree::kChildren>;
-using Children = hn::Vec<ChildTag>;
-using ChildMask = hn::Mask<ChildTag>;
-inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
-
-HWY_INLINE Children child_splat(float value) { return hn::Set(ChildTag(), value); }
-
-// A bound on the rounding of the times of one axis: a difference, a reciprocal and a product, each
-// by 2^-24, or 2^-22 if the reciprocal is subnormal.
-inline constexpr float kTimeRounding = 0x1p-20f;
-// A bound on what products lose by underflow.
-inline constexpr float kTinyTime = 0x1p-100f;
-
-// The keys are times. Every step of the test is a function that never decreases, so a node passes
-// whenever one of its children does.
+// The keys are times.
 struct Meeting {
   const MovingBox& moving;
 
-  HWY_INLINE ChildMask test(const BoxTree::Node& node, size_t i, Children& key) const {
+  HWY_INLINE ChildMask test(const BoxTree::Node& node, size_t i, float limit, Children& key) const {
     const ChildTag tag;
-    ChildMask in_reach = hn::Eq(hn::Zero(tag), hn::Zero(tag));
-    Children entry = child_splat(-INFINITY), exit = child_splat(INFINITY);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const Children lower = hn::Load(tag, node.lower[axis] + i);
-      const Children upper = hn::Load(tag, node.upper[axis] + i);
-      const auto starts = hn::Le(lower, child_splat(moving.swept.upper[axis]));
-      const auto ends = hn::Ge(upper, child_splat(moving.swept.lower[axis]));
-      in_reach = hn::And(in_reach, hn::And(hn::Le(lower, upper), hn::And(starts, ends)));
-
-      const Children to_lower = hn::Sub(lower, child_splat(moving.box.upper[axis]));
-      const Children to_upper = hn::Sub(upper, child_splat(moving.box.lower[axis]));
-      const bool forwards = moving.inverse_displacement[axis] >= 0;
-      const Children inverse = child_splat(moving.inverse_displacement[axis]);
-      const Children still = child_splat(moving.still[axis]);
-      const Children first = hn::Sub(hn::Mul(forwards ? to_lower : to_upper, inverse), still);
-      const Children last = hn::Add(hn::Mul(forwards ? to_upper : to_lower, inverse), still);
-      entry = max(first, entry);  // keeps the old one if the new one is NaN
-      exit = min(last, exit);
-    }
-    const Children latest =
-        hn::Add(hn::Mul(exit, child_splat(1 + kTimeRounding)), child_splat(kTinyTime));
-    key = hn::Mul(max(entry, hn::Zero(tag)), child_splat(1 - kTimeRounding));
-    return hn::And(in_reach, hn::Le(entry, latest));
+    const auto is_there =
+        hn::Le(hn::Load(tag, node.lower[0] + i), hn::Load(tag, node.upper[0] + i));
+    return hn::And(is_there, meets(moving.path, node, i, limit, key));
   }
 };
 
@@ -69,7 +35,7 @@ inline constexpr float kGapRounding = 0x1p-20f;
 struct Nearness {
   const TreeBox& box;
 
-  HWY_INLINE ChildMask test(const BoxTree::Node& node, size_t i, Children& key) const {
+  HWY_INLINE ChildMask test(const BoxTree::Node& node, size_t i, float limit, Children& key) const {
     const ChildTag tag;
     ChildMask is_there = hn::Eq(hn::Zero(tag), hn::Zero(tag));
     Children squared = hn::Zero(tag), greatest = hn::Zero(tag);
@@ -88,7 +54,7 @@ struct Nearness {
     const auto in_range = hn::Le(length, child_splat(FLT_MAX));
     const Children distance = hn::IfThenElse(in_range, max(length, greatest), greatest);
     key = hn::Mul(distance, child_splat(1 - kGapRounding));
-    return is_there;
+    return hn::And(is_there, hn::Le(key, child_splat(limit)));
   }
 };
 
@@ -107,18 +73,14 @@ HWY_INLINE void sort_steps(TreeWalk::Step* begin, TreeWalk::Step* end) {
 // Adds the children of a node that pass the test, the nearest last.
 template <class Test>
 HWY_INLINE void expand(const BoxTree::Node& node, const Test& test, float limit, TreeWalk& walk) {
-  const ChildTag tag;
   TreeWalk::Step* const begin = walk.room(BoxTree::kChildren);
   TreeWalk::Step* end = begin;
   for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
     Children key;
-    const ChildMask met = test.test(node, i, key);
-    const ChildMask passes = hn::And(met, hn::Le(key, child_splat(limit)));
-    uint8_t mask[8] = {};
-    hn::StoreMaskBits(tag, passes, mask);
+    uint32_t bits = child_bits(test.test(node, i, limit, key));
     alignas(64) float keys[kChildLanes];
-    hn::Store(key, tag, keys);
-    for (uint32_t bits = mask[0] & ((1u << kChildLanes) - 1); bits != 0; bits &= bits - 1) {
+    hn::Store(key, ChildTag(), keys);
+    for (; bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(bits));
       *end++ = {keys[lane], node.child[i + lane]};
     }
@@ -179,11 +141,16 @@ MovingBox::MovingBox(const TreeBox& at_start, const std::array<float, 3>& displa
     : box(at_start), swept(at_start) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const float d = displacement[axis];
-    if (d < 0) swept.lower[axis] = next_down(box.lower[axis] + d);
-    if (d > 0) swept.upper[axis] = next_up(box.upper[axis] + d);
     const bool moves = std::abs(d) >= kLeastDisplacement;
-    inverse_displacement[axis] = moves ? 1 / d : 0;
-    still[axis] = moves ? 0 : INFINITY;
+    const float end_lower = box.lower[axis] + d, end_upper = box.upper[axis] + d;
+    // A unit in the last place may be longer than such a way.
+    if (d < 0) swept.lower[axis] = moves ? next_down(end_lower) : sum_downwards(box.lower[axis], d);
+    if (d > 0) swept.upper[axis] = moves ? next_up(end_upper) : sum_upwards(box.upper[axis], d);
+    if (moves) {
+      path.set(axis, box.lower[axis], box.upper[axis], 1 / d);
+    } else {
+      path.set(axis, swept.lower[axis], swept.upper[axis], INFINITY);
+    }
   }
 }
 

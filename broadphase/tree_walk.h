@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trees/tree.h"
+#include "trees/box_path.h"
 
 namespace carom {
 
@@ -14,9 +14,7 @@ namespace carom {
 struct MovingBox {
   TreeBox box;
   TreeBox swept;
-  // On an axis along which the box hardly moves, inverse_displacement is 0 and `still` infinite.
-  std::array<float, 3> inverse_displacement{};
-  std::array<float, 3> still{};
+  BoxPath path;
 
   MovingBox(const TreeBox& at_start, const std::array<float, 3>& displacement);
 };

@@ -7,20 +7,13 @@
 #endif
 
 #include <algorithm>
-#include <cstddef>
 #include <vector>
 
-#include <hwy/cache_control.h>
-
 #include "impacts/rays/ray_windows-inl.h"
+#include "trees/box_path-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
-
-// A bound on the rounding of times: a difference, a reciprocal and two products.
-inline constexpr float kTimeRounding = 0x1p-20f;
-// A bound on what products lose by underflow.
-inline constexpr float kTinyTime = 0x1p-100f;
 
 // What is known of one ray's first time.
 class RayHits {
@@ -56,8 +49,8 @@ class RayHits {
  private:
   void set_limit(double limit) {
     limit_ = limit;
-    limit_on_path_ =
-        static_cast<float>((limit - search_->ray.first) * (1 + 2.0 * kTimeRounding) + kTinyTime);
+    limit_on_path_ = static_cast<float>(
+        (limit - search_->ray.first) * (1 + 2.0 * BoxPath::kTimeRounding) + BoxPath::kTinyTime);
   }
 
   RaySearch* search_;
@@ -110,42 +103,6 @@ class RaySteps {
   std::vector<RayStep> steps_;  // the first count_ are in use
   size_t count_ = 0;
 };
-
-using ChildTag = hn::CappedTag<float, BoxTree::kChildren>;
-using Children = hn::Vec<ChildTag>;
-inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
-
-HWY_INLINE Children child_splat(float value) { return hn::Set(ChildTag(), value); }
-
-// The lanes of a mask, as bits.
-HWY_INLINE uint32_t bits_of(hn::Mask<ChildTag> mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(ChildTag(), mask, bits);
-  return bits[0] & ((1u << kChildLanes) - 1);
-}
-
-HWY_INLINE void prefetch_node(const BoxTree::Node& node) {
-  constexpr size_t kLine = 64;
-  const char* const bytes = reinterpret_cast<const char*>(&node);
-  for (size_t i = 0; i < sizeof node; i += kLine) hwy::Prefetch(bytes + i);
-}
-
-// Where the nearer and the further ends of a node's boxes are, in the direction of a ray.
-struct RaySigns {
-  std::array<uint32_t, 3> near_end, far_end;
-
-  HWY_INLINE void set(size_t axis, bool forwards) {
-    constexpr uint32_t kLower = offsetof(BoxTree::Node, lower) / sizeof(float);
-    constexpr uint32_t kUpper = offsetof(BoxTree::Node, upper) / sizeof(float);
-    const auto row = static_cast<uint32_t>(axis * BoxTree::kChildren);
-    near_end[axis] = (forwards ? kLower : kUpper) + row;
-    far_end[axis] = (forwards ? kUpper : kLower) + row;
-  }
-};
-
-HWY_INLINE const float* ends_of(const BoxTree::Node& node) {
-  return reinterpret_cast<const float*>(&node);
-}
 
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

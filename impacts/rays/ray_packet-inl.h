@@ -76,12 +76,10 @@ class RayPacket {
         most = std::max(most, std::abs(ray.inverse[axis]));
       }
       if (!(most <= FLT_MAX)) return false;
-      signs_.set(axis, forwards);
+      shaft_.set(axis, lower, upper, first.inverse[axis]);
       sign_[axis] = forwards ? 1.0f : -1.0f;
-      from_near_[axis] = forwards ? upper : lower;
-      from_far_[axis] = forwards ? lower : upper;
-      least_inverse_[axis] = least * (1 - kTimeRounding);
-      most_inverse_[axis] = most * (1 + kTimeRounding);
+      least_inverse_[axis] = least * (1 - BoxPath::kTimeRounding);
+      most_inverse_[axis] = most * (1 + BoxPath::kTimeRounding);
       const double duration = first.last - first.first;
       width += (double{upper} - lower) + (1 / double{least} - 1 / double{most}) * duration;
       length += std::abs(first.way[axis]) * duration;
@@ -99,8 +97,8 @@ class RayPacket {
       const bool forwards = ray.inverse[axis] >= 0;
       ray_near_[axis][i] = forwards ? ray.upper[axis] : ray.lower[axis];
       ray_far_[axis][i] = forwards ? ray.lower[axis] : ray.upper[axis];
-      inverse_near_[axis][i] = ray.inverse[axis] * (1 - kTimeRounding);
-      inverse_far_[axis][i] = ray.inverse[axis] * (1 + kTimeRounding);
+      inverse_near_[axis][i] = ray.inverse[axis] * (1 - BoxPath::kTimeRounding);
+      inverse_far_[axis][i] = ray.inverse[axis] * (1 + BoxPath::kTimeRounding);
     }
     travel_[i] = ray.travel;
     lengths_[i] = ray.lengths;
@@ -146,15 +144,15 @@ class RayPacket {
       const Children sign = child_splat(sign_[axis]);
       const Children least = child_splat(least_inverse_[axis]);
       const Children most = child_splat(most_inverse_[axis]);
-      const Children to_near = hn::Mul(sign, hn::Sub(hn::Load(tag, ends + signs_.near_end[axis]),
-                                                     child_splat(from_near_[axis])));
-      const Children to_far = hn::Mul(
-          sign, hn::Sub(hn::Load(tag, ends + signs_.far_end[axis]), child_splat(from_far_[axis])));
+      const Children to_near = hn::Mul(sign, hn::Sub(hn::Load(tag, ends + shaft_.near_end[axis]),
+                                                     child_splat(shaft_.from_near[axis])));
+      const Children to_far = hn::Mul(sign, hn::Sub(hn::Load(tag, ends + shaft_.far_end[axis]),
+                                                    child_splat(shaft_.from_far[axis])));
       entry = max(min(hn::Mul(to_near, least), hn::Mul(to_near, most)), entry);
       exit = min(max(hn::Mul(to_far, least), hn::Mul(to_far, most)), exit);
     }
     hn::Store(entry, tag, keys);
-    return bits_of(hn::Le(entry, hn::Add(exit, child_splat(kTinyTime))));
+    return child_bits(hn::Le(entry, hn::Add(exit, child_splat(BoxPath::kTinyTime))));
   }
 
   // The rays that meet a box of a node, as bits.
@@ -166,8 +164,8 @@ class RayPacket {
       const Children limit = hn::Load(tag, limit_.data() + i);
       Children entry = hn::Zero(tag), exit = limit;
       for (size_t axis = 0; axis < 3; ++axis) {
-        const Children near_end = child_splat(ends[signs_.near_end[axis]]);
-        const Children far_end = child_splat(ends[signs_.far_end[axis]]);
+        const Children near_end = child_splat(ends[shaft_.near_end[axis]]);
+        const Children far_end = child_splat(ends[shaft_.far_end[axis]]);
         entry = max(hn::Mul(hn::Sub(near_end, hn::Load(tag, ray_near_[axis].data() + i)),
                             hn::Load(tag, inverse_near_[axis].data() + i)),
                     entry);
@@ -175,7 +173,7 @@ class RayPacket {
                            hn::Load(tag, inverse_far_[axis].data() + i)),
                    exit);
       }
-      rays |= bits_of(hn::Le(entry, hn::Add(exit, child_splat(kTinyTime)))) << i;
+      rays |= child_bits(hn::Le(entry, hn::Add(exit, child_splat(BoxPath::kTinyTime)))) << i;
     }
     return rays;
   }
@@ -215,8 +213,8 @@ class RayPacket {
   bool any_;
 
   // The shaft.
-  RaySigns signs_;
-  std::array<float, 3> sign_, from_near_, from_far_, least_inverse_, most_inverse_;
+  BoxPath shaft_;  // but for the inverses
+  std::array<float, 3> sign_, least_inverse_, most_inverse_;
   float shaft_limit_;
 
   // The rays.

@@ -24,13 +24,7 @@ class RayWalk {
     const RayInMesh& ray = search.ray;
     nodes_ = ray.mesh->tree().nodes().data();
     for (size_t axis = 0; axis < 3; ++axis) {
-      const bool forwards = ray.inverse[axis] >= 0;
-      signs_.set(axis, forwards);
-      from_near_[axis] = forwards ? ray.upper[axis] : ray.lower[axis];
-      from_far_[axis] = forwards ? ray.lower[axis] : ray.upper[axis];
-      // Rounds the times of a box outwards.
-      inverse_near_[axis] = ray.inverse[axis] * (1 - kTimeRounding);
-      inverse_far_[axis] = ray.inverse[axis] * (1 + kTimeRounding);
+      path_.set(axis, ray.lower[axis], ray.upper[axis], ray.inverse[axis]);
     }
     steps_.clear();
     node_ = 0;
@@ -45,24 +39,11 @@ class RayWalk {
     const BoxTree::Node& node = nodes_[node_];
     RayStep* const begin = steps_.room();
     RayStep* end = begin;
-    const ChildTag tag;
-    const float* const ends = ends_of(node);
     for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
-      Children entry = hn::Zero(tag), exit = child_splat(hits_.limit_on_path());
-      for (size_t axis = 0; axis < 3; ++axis) {
-        const Children near_end = hn::Load(tag, ends + signs_.near_end[axis] + i);
-        const Children far_end = hn::Load(tag, ends + signs_.far_end[axis] + i);
-        // Zero times infinity is NaN, and keeps the other value.
-        entry = max(hn::Mul(hn::Sub(near_end, child_splat(from_near_[axis])),
-                            child_splat(inverse_near_[axis])),
-                    entry);
-        exit = min(hn::Mul(hn::Sub(far_end, child_splat(from_far_[axis])),
-                           child_splat(inverse_far_[axis])),
-                   exit);
-      }
+      Children entry;
+      uint32_t bits = child_bits(meets(path_, node, i, hits_.limit_on_path(), entry));
       alignas(64) float keys[kChildLanes];
-      hn::Store(entry, tag, keys);
-      uint32_t bits = bits_of(hn::Le(entry, hn::Add(exit, child_splat(kTinyTime))));
+      hn::Store(entry, ChildTag(), keys);
       for (; bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<size_t>(std::countr_zero(bits));
         const uint32_t child = node.child[i + lane];
@@ -88,8 +69,7 @@ class RayWalk {
   RayHits hits_;
   const BoxTree::Node* nodes_;
   uint32_t node_;
-  RaySigns signs_;
-  std::array<float, 3> from_near_, from_far_, inverse_near_, inverse_far_;
+  BoxPath path_;
   RaySteps steps_;
 };
 
