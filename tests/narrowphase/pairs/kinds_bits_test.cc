@@ -192,7 +192,8 @@ TEST(KindsBits, OrientationsAreTheIdentityWhereAbsent) {
 }
 
 TEST(KindsBits, MixedKindsInOneList) {
-  for (const char* family : {"plain", "touch", "lattice", "degenerate"}) {
+  constexpr const char* kFamilies[] = {"plain", "touch", "lattice", "degenerate"};
+  for (const char* family : std::span(kFamilies).first(rounds(4))) {
     const auto families = convex_families();
     const auto found = std::find_if(families.begin(), families.end(), [&](const auto& each) {
       return std::string(each.name) == family;
