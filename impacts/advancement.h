@@ -209,11 +209,11 @@ inline double time_of_balls(const MovingPair& pair, double tolerance) {
   return meets_ball(MovingPoint(pair.from, pair.way), reach);
 }
 
-// `tolerance`: cores that are this close count as touching.
+// `tolerance`: cores that are this close count as touching. A time after pair.latest is never.
 inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
                                        CoreScratch& scratch) {
   double t = time_of_balls(pair, tolerance);
-  if (t > 1) return {kNever};
+  if (t > pair.latest) return {kNever};
   for (int round = 0; round < kMostRounds; ++round) {
     place(pair.a, Vector3d::Zero(), t, scratch.placed_a);
     place(pair.b, pair.from + pair.way * t, t, scratch.placed_b);
@@ -228,7 +228,7 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
       const Vector3d past = direction_past_corners(scratch, nearest, pair.furthest);
       next = advance_spinning(pair, past, t, tolerance, scratch);
     }
-    if (next > 1) return {kNever};
+    if (next > pair.latest) return {kNever};
     if (next == t) return {t, distance - pair.radii <= 2 * tolerance ? Status::ok : Status::budget};
     t = next;
   }

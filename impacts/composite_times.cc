@@ -45,6 +45,7 @@ struct Scratch {
   size_t count;
   std::array<Pair, kPairsPerBlock> pairs;
   std::array<uint16_t, kPairsPerBlock> owner;
+  std::array<double, kPairsPerBlock> latest;  // of each owner
   std::array<double, kPairsPerBlock> time;
   std::array<uint8_t, kPairsPerBlock> status;
 
@@ -94,9 +95,14 @@ class CompositeTimes {
  private:
   void find_times() {
     const Collidables a = scratch_.a.columns.view(), b = scratch_.b.columns.view();
+    for (size_t i = 0; i < scratch_.count; ++i) {
+      const size_t owner = scratch_.owner[i];
+      scratch_.latest[owner] = std::min(times_[owner].time, 1.0);
+    }
+    const GroupsOfRows of_owner = {scratch_.owner.data(), scratch_.latest.data()};
     find_simple_times({a, scratch_.a.sweep(), scratch_.a.arm.data()},
                       {b, scratch_.b.sweep(), scratch_.b.arm.data()}, scratch_.pairs.data(),
-                      scratch_.count, {scratch_.time.data(), scratch_.status.data()});
+                      scratch_.count, {scratch_.time.data(), scratch_.status.data()}, &of_owner);
   }
 
   // Among equal times the parts with the lowest indices win, whatever the order of the search.

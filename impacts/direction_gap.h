@@ -63,6 +63,7 @@ struct MovingPair {
   MovingCore a, b;
   Vector3d from, way;
   double radii = 0;
+  double latest = 1;  // later times are of no use
   FurthestPoint furthest = nullptr;
 };
 

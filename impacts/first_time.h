@@ -135,11 +135,12 @@ inline double meeting_distance(const MovingPair& pair) {
   return 0x1p-38 + 4 * kSweepSlack * lengths;
 }
 
+// A time after `latest` may be never.
 inline AdvancementResult advancement_time(const MovingShape& a, const MovingShape& b,
                                           const Vector3d& from, const Vector3d& way,
-                                          FurthestPoint furthest) {
+                                          FurthestPoint furthest, double latest = 1) {
   if (kind_of(a.shape) == ShapeKind::halfspace) {
-    return advancement_time(b, a, -from, -way, furthest);
+    return advancement_time(b, a, -from, -way, furthest, latest);
   }
   CoreScratch& scratch = core_scratch_of_thread();
   const auto* plane = std::get_if<Halfspace>(&b.shape);
@@ -151,6 +152,7 @@ inline AdvancementResult advancement_time(const MovingShape& a, const MovingShap
   pair.from = (from + (a.arm - b.arm)) * scale;
   pair.way = way * scale;
   pair.furthest = furthest;
+  pair.latest = latest;
   if (plane) {
     // The half-space takes the place of A.
     pair.from = -pair.from;

@@ -174,11 +174,15 @@ class ImpactContacts {
     const double t = first_.time[row];
     const Double3 between = place_between(a_, b_, pair), way = way_between(a_, b_, pair);
     const Row orientation = b_.body().orientation(pair.b);
+    if (orientation != last_orientation_) {
+      last_orientation_ = orientation;
+      last_turn_ = rotation_of(orientation);
+    }
     const scalar::Separation found =
         point_contact({.mesh = mesh_of(row),
                        .place = plus(between, {way[0] * t, way[1] * t, way[2] * t}),
                        .orientation = orientation,
-                       .turn = rotation_of(orientation),
+                       .turn = last_turn_,
                        .one_sided = side_b_.one_sided},
                       triangle_of(row));
     write(row, found, {});
@@ -289,6 +293,10 @@ class ImpactContacts {
   const WitnessFrame frame_;
   const ImpactColumns& out_;
   ContactScratch& scratch_;
+
+  // Rays mostly meet one mesh after another.
+  Row last_orientation_{};  // none that a mesh can have
+  Turn last_turn_;
 };
 
 }  // namespace

@@ -34,13 +34,14 @@ struct SimpleScratch {
 class SimpleTimes {
  public:
   SimpleTimes(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
-              const TimeColumns& out, SimpleScratch& scratch)
+              const TimeColumns& out, const GroupsOfRows* groups, SimpleScratch& scratch)
       : a_{a},
         b_{b},
         shared_group_(group_of_all(a, b)),
         pairs_(pairs),
         count_(count),
         out_(out),
+        groups_(groups),
         scratch_(scratch) {}
 
   void run() {
@@ -170,9 +171,14 @@ class SimpleTimes {
     const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
     const scalar::AdvancementResult result = scalar::advancement_time(
         a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), eigen(place_between(a_, b_, pair)),
-        eigen(way_between(a_, b_, pair)), furthest_);
+        eigen(way_between(a_, b_, pair)), furthest_, groups_ ? latest(row) : 1);
     write(row, result.t, result.status);
+    // One that passes through a one-sided triangle does not count.
+    const bool counts = !scalar::is_one_sided(shape_a) && !scalar::is_one_sided(shape_b);
+    if (groups_ && counts) latest(row) = std::min(latest(row), result.t);
   }
+
+  double& latest(size_t row) const { return groups_->latest[groups_->group[row]]; }
 
   // Removes impacts of shapes that come from behind a one-sided triangle.
   void leave_out_what_passes() {
@@ -203,17 +209,22 @@ class SimpleTimes {
   const Pair* pairs_;
   const size_t count_;
   const TimeColumns out_;
+  const GroupsOfRows* const groups_;
   SimpleScratch& scratch_;
 };
 
 }  // namespace
 
 void find_simple_times(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
-                       const TimeColumns& out) {
+                       const TimeColumns& out, const GroupsOfRows* groups) {
   static thread_local const auto scratch = std::make_unique<SimpleScratch>();
   for (size_t begin = 0; begin < count; begin += kRowsPerBlock) {
     const size_t rows = std::min(count - begin, kRowsPerBlock);
-    SimpleTimes(a, b, pairs + begin, rows, {out.time + begin, out.status + begin}, *scratch).run();
+    const GroupsOfRows of_block =
+        groups ? GroupsOfRows{groups->group + begin, groups->latest} : GroupsOfRows{};
+    SimpleTimes(a, b, pairs + begin, rows, {out.time + begin, out.status + begin},
+                groups ? &of_block : nullptr, *scratch)
+        .run();
   }
 }
 

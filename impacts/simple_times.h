@@ -27,8 +27,14 @@ struct TimeColumns {
   uint8_t* status;  // Status
 };
 
+// Of each group of rows only the first time is of use.
+struct GroupsOfRows {
+  const uint16_t* group;  // of each row
+  double* latest;         // of each group; a time after it may be never; lowered by times of rows
+};
+
 // Row i is the pair a[pairs[i].a], b[pairs[i].b]. No body may be composite.
 void find_simple_times(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
-                       const TimeColumns& out);
+                       const TimeColumns& out, const GroupsOfRows* groups = nullptr);
 
 }  // namespace carom

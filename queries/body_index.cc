@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cfloat>
-#include <cmath>
 
-#include "base/tolerances.h"
 #include "broadphase/box_source.h"
 #include "carom/bounds/bounds.h"
 #include "queries/bounds_of.h"
+#include "queries/grown_bounds.h"
 #include "shapes/body_reader.h"
 
 namespace carom {
@@ -17,38 +15,6 @@ namespace {
 
 constexpr size_t kBodiesPerBlock = 4096;
 constexpr uint8_t kMoving = 1, kStatic = 0, kNoPart = 2;  // parts of the tree: static bodies first
-
-// The bounds of a body grown at least as grown() does, in float32: this runs for all bodies after
-// every step. 2^-23 of a coordinate covers the rounding of its sum, and 2^-20 of the margin the
-// rest.
-TreeBox grown_bounds(const BoundsView& bounds, size_t i, const Position<double>& position) {
-  constexpr auto kShare = static_cast<float>(kSearchSlack * (1 + 0x1p-20));
-  const std::array<float, 3> at = {static_cast<float>(position.x), static_cast<float>(position.y),
-                                   static_cast<float>(position.z)};
-  TreeBox box;
-  float reach = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const float lower = value_at(bounds, bounds.lower[axis], i);
-    const float upper = value_at(bounds, bounds.upper[axis], i);
-    reach = std::max({reach, at[axis] - lower, upper - at[axis]});
-    box.lower[axis] = lower;
-    box.upper[axis] = upper;
-  }
-  const float margin = kShare * reach + 8 * FLT_TRUE_MIN;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    box.lower[axis] -= margin + 0x1p-23f * std::fabs(box.lower[axis]);
-    box.upper[axis] += margin + 0x1p-23f * std::fabs(box.upper[axis]);
-  }
-  return box;
-}
-
-bool are_same(const TreeBox& a, const TreeBox& b) {
-  bool same = true;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    same = same && a.lower[axis] == b.lower[axis] && a.upper[axis] == b.upper[axis];
-  }
-  return same;
-}
 
 }  // namespace
 
@@ -86,23 +52,27 @@ BodyIndex::PartChanges BodyIndex::update_boxes(const Collidables& bodies, const 
   const size_t rows = std::max(boxes_.size(), bounds.count);
   boxes_.resize(rows, kNothing);
   part_.resize(rows, kNoPart);
-  const BodyReader reader{bodies};
   std::array<std::atomic<uint32_t>, RefittedTree::kParts> changes{};
   for_each_block(rows, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     PartChanges in_block{};
-    for (size_t i = begin; i < end; ++i) {
-      const bool is_there = i < bounds.count && takes_part(bounds, i);
-      const TreeBox box = is_there ? grown_bounds(bounds, i, reader.position<double>(i)) : kNothing;
-      if (are_same(box, boxes_[i]) && !is_there) continue;
-      const uint8_t part = motion && is_there && motion[i] == Motion::fixed ? kStatic : kMoving;
-      if (is_there && part != part_[i]) {
-        if (part_[i] != kNoPart) in_block[part_[i]] |= kJoined;
-        in_block[part] |= kJoined;
-        part_[i] = part;
-      } else if (!are_same(box, boxes_[i])) {
-        in_block[part_[i]] |= kMoved;
+    for (size_t first = begin; first < end; first += kBodiesAtOnce) {
+      const size_t count = std::min(kBodiesAtOnce, end - first);
+      const ChangedBoxes in_run = update_grown_bounds(bodies, bounds, first, count, &boxes_[first]);
+      for (size_t i = first; i < first + count; ++i) {
+        const uint64_t bit = uint64_t{1} << (i - first);
+        if ((in_run.are_there & bit) == 0) {
+          if ((in_run.changed & bit) != 0) in_block[part_[i]] |= kMoved;
+          continue;
+        }
+        const uint8_t part = motion && motion[i] == Motion::fixed ? kStatic : kMoving;
+        if (part != part_[i]) {
+          if (part_[i] != kNoPart) in_block[part_[i]] |= kJoined;
+          in_block[part] |= kJoined;
+          part_[i] = part;
+        } else if ((in_run.changed & bit) != 0) {
+          in_block[part] |= kMoved;
+        }
       }
-      boxes_[i] = box;
     }
     for (size_t part = 0; part < RefittedTree::kParts; ++part) {
       if (in_block[part] != 0) changes[part].fetch_or(in_block[part], std::memory_order_relaxed);

@@ -111,18 +111,20 @@ class PlaceKeys {
 class RunDivider {
  public:
   RunDivider(std::span<const TreeBox> boxes, std::span<uint64_t> run) {
-    for (const uint64_t item : run) {
-      const TreeBox& box = boxes[static_cast<uint32_t>(item)];
-      places_.push_back({{middle_of(box, 0), middle_of(box, 1), middle_of(box, 2)}, item});
+    places_.reserve(run.size());
+    for (uint32_t i = 0; i < run.size(); ++i) {
+      const TreeBox& box = boxes[static_cast<uint32_t>(run[i])];
+      places_.push_back({{middle_of(box, 0), middle_of(box, 1), middle_of(box, 2)}, i});
     }
     divide_to_nodes(places_);
-    for (size_t i = 0; i < run.size(); ++i) run[i] = places_[i].item;
+    const std::vector<uint64_t> before(run.begin(), run.end());
+    for (size_t i = 0; i < run.size(); ++i) run[i] = before[places_[i].row];
   }
 
  private:
   struct Place {
     std::array<float, 3> middle;
-    uint64_t item;
+    uint32_t row;  // of the run
   };
 
   static void divide_to_nodes(std::span<Place> places) {
@@ -139,7 +141,7 @@ class RunDivider {
     std::nth_element(places.begin(), places.begin() + static_cast<ptrdiff_t>(half), places.end(),
                      [axis](const Place& a, const Place& b) {
                        if (a.middle[axis] != b.middle[axis]) return a.middle[axis] < b.middle[axis];
-                       return a.item < b.item;
+                       return a.row < b.row;
                      });
     divide(places.first(half), node);
     divide(places.subspan(half), node);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "trees/fit_nodes.h"
 #include "trees/packed_order.h"
 #include "trees/refitted_tree.h"
 #include "trees/tree.h"
@@ -12,7 +13,6 @@ namespace carom {
 namespace {
 
 constexpr size_t kNodesPerBlock = 512;
-constexpr size_t kNodesAhead = 4;  // whose items are fetched
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr TreeBox kNoChild = {{kNan, kNan, kNan}, {kNan, kNan, kNan}};
 
@@ -21,20 +21,6 @@ void set_box(size_t i, const TreeBox& box, BoxTree::Node& node) {
     node.lower[axis][i] = box.lower[axis];
     node.upper[axis][i] = box.upper[axis];
   }
-}
-
-// The box of all children. It is empty if all of them are.
-TreeBox box_of(const BoxTree::Node& node) {
-  TreeBox box = kNothing;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    // comparisons with the NaN of an empty place are false
-    for (size_t i = 0; i < BoxTree::kChildren; ++i) {
-      const float lower = node.lower[axis][i], upper = node.upper[axis][i];
-      box.lower[axis] = lower < box.lower[axis] ? lower : box.lower[axis];
-      box.upper[axis] = upper > box.upper[axis] ? upper : box.upper[axis];
-    }
-  }
-  return box;
 }
 
 // A sum of terms that threads add block by block, in an order that does not depend on them.
@@ -47,33 +33,6 @@ class BlockSum {
  private:
   std::vector<double> terms_;
 };
-
-// The nodes of one level get the boxes of their children, and keep which children they are. Returns
-// the sum of the areas of the boxes of the level.
-template <class BoxOf, class Fetch>
-double fit_level(const PackedLevels::Level& level, Parallelism parallelism,
-                 std::vector<BoxTree::Node>& nodes, const BoxOf& box_of_child,
-                 const Fetch& fetch_child) {
-  BlockSum areas(block_count(level.count, kNodesPerBlock));
-  for_each_block(level.count, kNodesPerBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   double sum = 0;
-                   for (size_t i = begin; i < end; ++i) {
-                     BoxTree::Node& node = nodes[level.first + i];
-                     if (i + kNodesAhead < end) {
-                       const BoxTree::Node& later = nodes[level.first + i + kNodesAhead];
-                       for (const uint32_t child : later.child) fetch_child(child);
-                     }
-                     for (size_t k = 0; k < BoxTree::kChildren; ++k) {
-                       const size_t child = i * BoxTree::kChildren + k;
-                       if (child < level.children) set_box(k, box_of_child(node.child[k]), node);
-                     }
-                     sum += half_area(box_of(node));
-                   }
-                   areas.of(block) = sum;
-                 });
-  return areas.total();
-}
 
 }  // namespace
 
@@ -121,18 +80,20 @@ void PackedLevels::build(std::span<const TreeBox> boxes, std::span<const uint64_
 
 void PackedLevels::refit(std::span<const TreeBox> boxes, Parallelism parallelism,
                          std::vector<BoxTree::Node>& nodes) {
+  node_boxes_.resize(end_);
   area_ = 0;
   for (size_t l = 0; l < levels_.size(); ++l) {
-    area_ += l == 0 ? fit_level(
-                          levels_[l], parallelism, nodes,
-                          [&](uint32_t child) { return boxes[child - BoxTree::kItem]; },
-                          // the items of neighbours are anywhere in memory
-                          [&](uint32_t child) {
-                            __builtin_prefetch(boxes.data() + (child - BoxTree::kItem));
-                          })
-                    : fit_level(
-                          levels_[l], parallelism, nodes,
-                          [&](uint32_t child) { return box_of(nodes[child]); }, [](uint32_t) {});
+    const Level& level = levels_[l];
+    const TreeBox* const of_children = l == 0 ? boxes.data() : node_boxes_.data();
+    BlockSum areas(block_count(level.count, kNodesPerBlock));
+    for_each_block(level.count, kNodesPerBlock, parallelism,
+                   [&](size_t block, size_t begin, size_t end) {
+                     const size_t first = level.first + begin;
+                     areas.of(block) = fit_nodes(std::span(nodes).subspan(first, end - begin),
+                                                 level.children - begin * BoxTree::kChildren,
+                                                 of_children, &node_boxes_[first]);
+                   });
+    area_ += areas.total();
   }
 }
 
@@ -166,7 +127,7 @@ void RefittedTree::fit_root() {
   for (size_t i = 0; i < BoxTree::kChildren; ++i) {
     const bool has_nodes = i < kParts && levels_[i].has_nodes();
     root.child[i] = has_nodes ? static_cast<uint32_t>(levels_[i].first()) : BoxTree::kItem;
-    set_box(i, has_nodes ? box_of(tree_.nodes_[levels_[i].first()]) : kNoChild, root);
+    set_box(i, has_nodes ? levels_[i].box() : kNoChild, root);
   }
 }
 

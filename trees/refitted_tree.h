@@ -30,6 +30,7 @@ class PackedLevels {
   bool has_nodes() const { return end_ > first_; }
   size_t first() const { return first_; }  // the root
   size_t end() const { return end_; }
+  const TreeBox& box() const { return node_boxes_[first_]; }  // of the root
   // The sum of the areas of all nodes, and that when the tree was built.
   double area() const { return area_; }
   double area_when_built() const { return area_when_built_; }
@@ -37,7 +38,8 @@ class PackedLevels {
  private:
   void lay_out(size_t first_node, size_t items);
 
-  std::vector<Level> levels_;  // from the items up
+  std::vector<Level> levels_;        // from the items up
+  std::vector<TreeBox> node_boxes_;  // by node; those of other parts are not set
   size_t first_ = 0, end_ = 0;
   double area_ = 0, area_when_built_ = 0;
 };

@@ -1,6 +1,6 @@
 // Casts and queries, 10,000 at a time, in a world of 10,000 bodies: cast/BODIES/WHAT/THREADS/ISA.
-// Rays start anywhere and are as long as the world is wide. cast/BODIES/tree is the first query of
-// a world, which builds its tree.
+// Rays start anywhere and are as long as the world is wide. cast/BODIES/tree and cast/BODIES/refit
+// bring the index of queries up to date after a step in which no body moved, or all did.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,9 +74,8 @@ struct Yard {
   std::vector<Eigen::Vector3f> directions;
 };
 
-World make_world(const Yard& yard, Parallelism parallelism) {
+World make_world(const Yard& yard, Parallelism parallelism, std::vector<BodyId>& ids) {
   World world({.detail = Detail::pairs, .parallelism = parallelism});
-  std::vector<BodyId> ids;
   world.add(yard.bodies, ids);
   world.step();
   return world;
@@ -155,7 +154,8 @@ void measure(benchmark::State& state, size_t bodies, What what, const Setup& set
   ThreadArena arena(setup.threads);
   if (!use_isa(state, setup.isa)) return;
   arena.run([&] {
-    const World world = make_world(yard, arena.parallelism());
+    std::vector<BodyId> ids;
+    const World world = make_world(yard, arena.parallelism(), ids);
     if (hits_of_first(yard, world) != plain_hits(yard)) return fail(state, "hits are missing");
     Queries queries(yard, world);
     PassTimes times;
@@ -167,19 +167,28 @@ void measure(benchmark::State& state, size_t bodies, What what, const Setup& set
   });
 }
 
-void measure_tree(benchmark::State& state, size_t bodies) {
+// The index of queries after a step in which no body moved, or every body by a centimetre.
+void measure_index(benchmark::State& state, size_t bodies, bool move, const Setup& setup) {
   const auto& yard = cached<Yard>(bodies);
-  if (!use_isa(state, usable_isas().back())) return;
-  World world = make_world(yard, Parallelism::none);
-  std::vector<OverlapHit> hits;
-  PassTimes times;
-  for (auto _ : state) {
-    state.PauseTiming();
-    world.step();
-    state.ResumeTiming();
-    times.measure([&] { world.find_overlaps({}, hits); });
-  }
-  report(state, "body", bodies, times);
+  ThreadArena arena(setup.threads);
+  if (!use_isa(state, setup.isa)) return;
+  arena.run([&] {
+    std::vector<BodyId> ids;
+    World world = make_world(yard, arena.parallelism(), ids);
+    std::vector<Eigen::Vector3d> positions;
+    for (const BodyDesc& body : yard.bodies) positions.push_back(body.position);
+    oracle::Random random(2);
+    PassTimes times;
+    for (auto _ : state) {
+      state.PauseTiming();
+      for (Eigen::Vector3d& position : positions) position += 0.01 * random.direction();
+      if (move) world.set_positions(ids, positions);
+      world.step();
+      state.ResumeTiming();
+      times.measure([&] { world.prepare_queries(); });
+    }
+    report(state, "body", bodies, times);
+  });
 }
 
 }  // namespace
@@ -195,9 +204,14 @@ void register_casts(const Options& options) {
             ->Unit(benchmark::kMillisecond);
       }
     }
-    benchmark::RegisterBenchmark((scene + "tree").c_str(), [bodies](benchmark::State& state) {
-      measure_tree(state, bodies);
-    })->Unit(benchmark::kMillisecond);
+    for (const Setup& setup : strongest_setups()) {
+      for (const bool move : {false, true}) {
+        const std::string name = scene + (move ? "refit/" : "tree/") + setup.name();
+        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+          measure_index(state, bodies, move, setup);
+        })->Unit(benchmark::kMillisecond);
+      }
+    }
   }
 }
 

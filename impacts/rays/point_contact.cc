@@ -27,11 +27,11 @@ std::optional<scalar::Separation> face_contact(const SeenMesh& seen, uint32_t tr
       along_u >= margin && along_v >= margin && along_u + along_v <= squared - margin;
   if (!is_inside || !(squared > kClearOfEdges * (dot(u, u) * dot(v, v)))) return std::nullopt;
 
-  const double length = std::sqrt(squared);
-  const double height = dot(from, front) / length;
+  const double per_length = 1 / std::sqrt(squared);
+  const double height = dot(from, front) * per_length;
   // A one-sided triangle pushes what lies behind it to its front.
   if (height <= 0 && seen.one_sided.value_or(mesh.rules().one_sided)) return std::nullopt;
-  const double to_unit = (height >= 0 ? -1 : 1) / length;
+  const double to_unit = height >= 0 ? -per_length : per_length;
   const Double3 normal =
       turned(seen.turn, {front[0] * to_unit, front[1] * to_unit, front[2] * to_unit});
   const double distance = std::fabs(height);

@@ -261,5 +261,18 @@ TEST(BoxTree, SomeItemIsNear) {
   }
 }
 
+// Searches read whole nodes, so a place without a child is memory for nothing.
+TEST(BoxTree, NodesAreWellFilled) {
+  Random random(8);
+  const std::vector<TreeBox> boxes = make_boxes({}, 20'000, random);
+  const BoxTree tree(boxes);
+  size_t children = 0;
+  for (const BoxTree::Node& node : tree.nodes()) {
+    for (size_t i = 0; i < BoxTree::kChildren; ++i) children += !is_empty(node.box(i));
+  }
+  EXPECT_EQ(children, boxes.size() + tree.nodes().size() - 1);
+  EXPECT_GT(children, tree.nodes().size() * 6);
+}
+
 }  // namespace
 }  // namespace carom::test

@@ -1,0 +1,163 @@
+// Four bodies at a time: their bounds and positions come in columns, their boxes go into rows.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "queries/grown_bounds.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cfloat>
+
+#include "base/tolerances.h"
+#include "queries/grown_bounds.h"
+#include "shapes/body_reader.h"
+#include "simd/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+using BoxTag = hn::CappedTag<float, 4>;
+using Bodies = hn::Vec<BoxTag>;
+constexpr size_t kBoxLanes = hn::MaxLanes(BoxTag());
+
+HWY_INLINE Bodies set(float value) { return hn::Set(BoxTag(), value); }
+
+// Columns of the bounds and positions of a run.
+class Columns {
+ public:
+  using Column = std::array<float, kBodiesAtOnce>;
+  alignas(64) std::array<Column, 3> lower, upper, position;
+
+  // Bodies from `count` on are not there.
+  HWY_INLINE void load(const Collidables& bodies, const BoundsView& bounds, size_t first,
+                       size_t count) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      copy(bounds.lower[axis], bounds.stride, first, count, lower[axis]);
+      copy(bounds.upper[axis], bounds.stride, first, count, upper[axis]);
+      std::fill(lower[axis].begin() + count, lower[axis].end(), kNothing.lower[axis]);
+      std::fill(upper[axis].begin() + count, upper[axis].end(), kNothing.upper[axis]);
+      std::fill(position[axis].begin() + count, position[axis].end(), 0.0f);
+    }
+    load_positions(bodies, first, count);
+  }
+
+ private:
+  static HWY_INLINE void copy(const float* from, size_t stride, size_t first, size_t count,
+                              Column& to) {
+    if (stride == sizeof(float)) {
+      std::copy_n(from + first, count, to.begin());
+      return;
+    }
+    for (size_t i = 0; i < count; ++i) to[i] = load_strided<float>(from, stride, first + i);
+  }
+
+  HWY_INLINE void load_positions(const Collidables& bodies, size_t first, size_t count) {
+    const PositionView& view = bodies.position;
+    size_t i = 0;
+    if (view.data && view.type == PositionType::float32 && view.stride == 4 * sizeof(float)) {
+      // Records of x, y, z and a radius.
+      const auto* record = static_cast<const float*>(view.data) + 4 * first;
+      const BoxTag tag;
+      for (; i + kBoxLanes <= count; i += kBoxLanes) {
+        Bodies x, y, z, radius;
+        hn::LoadInterleaved4(tag, record + 4 * i, x, y, z, radius);
+        hn::Store(x, tag, position[0].data() + i);
+        hn::Store(y, tag, position[1].data() + i);
+        hn::Store(z, tag, position[2].data() + i);
+      }
+    }
+    const BodyReader reader{bodies};
+    for (; i < count; ++i) {
+      const auto at = reader.position<float>(first + i);
+      position[0][i] = at.x;
+      position[1][i] = at.y;
+      position[2][i] = at.z;
+    }
+  }
+};
+
+// Grows the boxes of kBoxLanes bodies, and empties those that take no part. Returns which do.
+HWY_INLINE uint64_t grow(Columns& columns, size_t i) {
+  const BoxTag tag;
+  Bodies lower[3], upper[3], reach = hn::Zero(tag);
+  auto is_there = hn::Eq(reach, reach);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    lower[axis] = hn::Load(tag, columns.lower[axis].data() + i);
+    upper[axis] = hn::Load(tag, columns.upper[axis].data() + i);
+    const Bodies position = hn::Load(tag, columns.position[axis].data() + i);
+    is_there = hn::And(is_there, hn::Le(lower[axis], upper[axis]));
+    reach = max(hn::Sub(position, lower[axis]), reach);
+    reach = max(hn::Sub(upper[axis], position), reach);
+  }
+  // 2^-23 of a coordinate covers the rounding of its sum, and 2^-20 of the margin the rest.
+  constexpr auto kShare = static_cast<float>(kSearchSlack * (1 + 0x1p-20));
+  const Bodies margin = hn::Add(hn::Mul(set(kShare), reach), set(8 * FLT_TRUE_MIN));
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const Bodies below = hn::Add(margin, hn::Mul(set(0x1p-23f), hn::Abs(lower[axis])));
+    const Bodies above = hn::Add(margin, hn::Mul(set(0x1p-23f), hn::Abs(upper[axis])));
+    const Bodies new_lower =
+        hn::IfThenElse(is_there, hn::Sub(lower[axis], below), set(kNothing.lower[axis]));
+    const Bodies new_upper =
+        hn::IfThenElse(is_there, hn::Add(upper[axis], above), set(kNothing.upper[axis]));
+    hn::Store(new_lower, tag, columns.lower[axis].data() + i);
+    hn::Store(new_upper, tag, columns.upper[axis].data() + i);
+  }
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(tag, is_there, bits);
+  return bits[0] & ((1u << kBoxLanes) - 1);
+}
+
+// Puts a number, and returns which of its bits have changed.
+HWY_INLINE uint32_t put(float value, float& to) {
+  const uint32_t changed = std::bit_cast<uint32_t>(to) ^ std::bit_cast<uint32_t>(value);
+  to = value;
+  return changed;
+}
+
+// Puts columns into a row, and returns whether it has changed.
+HWY_INLINE bool put(const Columns& columns, size_t i, TreeBox& box) {
+  uint32_t changed = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    changed |= put(columns.lower[axis][i], box.lower[axis]);
+    changed |= put(columns.upper[axis][i], box.upper[axis]);
+  }
+  return changed != 0;
+}
+
+ChangedBoxes update(const Collidables& bodies, const BoundsView& bounds, size_t first, size_t count,
+                    TreeBox* boxes) {
+  Columns columns;
+  columns.load(bodies, bounds, first,
+               first < bounds.count ? std::min(count, bounds.count - first) : 0);
+  ChangedBoxes result{};
+  for (size_t i = 0; i < count; i += kBoxLanes) result.are_there |= grow(columns, i) << i;
+  for (size_t i = 0; i < count; ++i) {
+    result.changed |= uint64_t{put(columns, i, boxes[i])} << i;
+  }
+  return result;
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(update);
+
+}  // namespace
+
+ChangedBoxes update_grown_bounds(const Collidables& bodies, const BoundsView& bounds, size_t first,
+                                 size_t count, TreeBox* boxes) {
+  return CAROM_DISPATCH(update)(bodies, bounds, first, count, boxes);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

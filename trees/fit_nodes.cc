@@ -1,0 +1,93 @@
+// Puts the boxes of eight children into the columns of a node, and finds the box of all in lanes.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trees/fit_nodes.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <hwy/cache_control.h>
+#include <algorithm>
+
+#include "simd/lanes-inl.h"
+#include "trees/fit_nodes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+constexpr size_t kNodesAhead = 4;  // whose children are fetched
+
+using EndTag = hn::CappedTag<float, BoxTree::kChildren>;
+constexpr size_t kEndLanes = hn::MaxLanes(EndTag());
+
+// The child's index among the items or among the nodes.
+HWY_INLINE size_t index_of(uint32_t child) { return child & ~BoxTree::kItem; }
+
+// NaN, in an empty place, keeps the other value.
+HWY_INLINE float least(const float (&ends)[BoxTree::kChildren]) {
+  const EndTag tag;
+  auto all = hn::Set(tag, INFINITY);
+  for (size_t i = 0; i < BoxTree::kChildren; i += kEndLanes) {
+    all = min(hn::Load(tag, ends + i), all);
+  }
+  return hn::GetLane(hn::MinOfLanes(tag, all));
+}
+HWY_INLINE float greatest(const float (&ends)[BoxTree::kChildren]) {
+  const EndTag tag;
+  auto all = hn::Set(tag, -INFINITY);
+  for (size_t i = 0; i < BoxTree::kChildren; i += kEndLanes) {
+    all = max(hn::Load(tag, ends + i), all);
+  }
+  return hn::GetLane(hn::MaxOfLanes(tag, all));
+}
+
+HWY_INLINE void put(const TreeBox& box, BoxTree::Node& node, size_t place) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    node.lower[axis][place] = box.lower[axis];
+    node.upper[axis][place] = box.upper[axis];
+  }
+}
+
+double fit(std::span<BoxTree::Node> nodes, size_t children, const TreeBox* boxes,
+           TreeBox* node_boxes) {
+  double area = 0;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    BoxTree::Node& node = nodes[i];
+    if (i + kNodesAhead < nodes.size()) {
+      for (const uint32_t child : nodes[i + kNodesAhead].child) {
+        hwy::Prefetch(boxes + index_of(child));
+      }
+    }
+    const size_t count = std::min(BoxTree::kChildren, children - i * BoxTree::kChildren);
+    for (size_t k = 0; k < count; ++k) put(boxes[index_of(node.child[k])], node, k);
+    TreeBox& all = node_boxes[i];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      all.lower[axis] = least(node.lower[axis]);
+      all.upper[axis] = greatest(node.upper[axis]);
+    }
+    area += half_area(all);
+  }
+  return area;
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(fit);
+
+}  // namespace
+
+double fit_nodes(std::span<BoxTree::Node> nodes, size_t children, const TreeBox* boxes,
+                 TreeBox* node_boxes) {
+  return CAROM_DISPATCH(fit)(nodes, children, boxes, node_boxes);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE
