@@ -14,5 +14,5 @@ scripts/build.sh clang carom_build_info_header >/dev/null
 scripts/sources.sh |
   grep -E '^(simd|base|shapes|trees|bounds|geometries|broadphase|narrowphase|midphase|impacts|queries|world|reference|hulls|io|cli)/.*\.cc$' |
   xargs grep -L 'foreach_target.h' |
-  xargs -P "${JOBS:-$(nproc)}" -n 4 scripts/tidy.sh build/clang \
+  xargs -P "${JOBS:-$(nproc)}" -n 4 clang-tidy --quiet -p build/clang \
     2> >(grep -v "warnings generated" >&2)
