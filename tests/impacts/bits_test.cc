@@ -39,7 +39,7 @@ TEST(ImpactBits, AreTheSameOnAllInstructionSets) {
   for (const KindPair& kinds : convex_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(name(kinds));
-      const auto pairs = some_motions(kinds, positions, 2);
+      const auto pairs = some_motions(kinds, positions, rounds(2));
       ImpactCall call = impact_call(positions);
       const auto expected = expected_impacts(pairs, call);
       for_each_isa([&] {

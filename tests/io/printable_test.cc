@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/files/npy.h"
+#include "tests/support/rounds.h"
 
 namespace carom::io {
 namespace {
@@ -73,7 +74,8 @@ TEST(Printable, ShortensNames) {
 // Whatever the bytes: one line of visible ASCII and UTF-8, which stays as it is if shown again.
 TEST(Printable, AnyBytes) {
   std::mt19937_64 random(1);
-  for (int i = 0; i < 20'000; ++i) {
+  const uint32_t count = test::rounds(20'000);
+  for (uint32_t i = 0; i < count; ++i) {
     std::string bytes(random() % 300, '\0');
     for (char& c : bytes) c = static_cast<char>(random() % 4 == 0 ? 'a' : random());
     for (const std::string& shown : {printable(bytes), printable_name(bytes)}) {

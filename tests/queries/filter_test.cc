@@ -8,6 +8,7 @@
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
 #include "tests/support/cast_checks.h"
+#include "tests/support/rounds.h"
 
 namespace carom::test {
 namespace {
@@ -20,10 +21,10 @@ struct Scene {
   std::vector<uint32_t> layer, mask, owner;
   LaidOut a, b;
 
-  Scene()
-      : queries(make_bodies({.count = 100}, 1)),
+  explicit Scene(size_t count = 100)
+      : queries(make_bodies({.count = count}, 1)),
         bodies(make_bodies({.count = kBodies}, 2)),
-        sweeps(make_sweeps(100, 5, true, 3)),
+        sweeps(make_sweeps(count, 5, true, 3)),
         a(queries, {}),
         b(bodies, {}) {
     oracle::Random random(4);
@@ -48,7 +49,7 @@ std::vector<CastHit> kept(std::vector<CastHit> hits, const Keep& keep) {
 }
 
 TEST(QueryFilter, OfLayersMasksAndOwners) {
-  const Scene scene;
+  const Scene scene(rounds(100, 25));
   const std::vector<CastHit> everything = scene.cast({.hits = CastHits::all});
   const PairFilter columns = {
       .layer = scene.layer.data(), .mask = scene.mask.data(), .owner = scene.owner.data()};

@@ -5,6 +5,7 @@
 
 #include "carom/queries/cast.h"
 #include "tests/support/cast_checks.h"
+#include "tests/support/rounds.h"
 
 namespace carom::test {
 namespace {
@@ -130,7 +131,7 @@ void expect_shapes_hit(bool points, double least, double most) {
     const PlacedShape mesh = make_mesh_body(composites, round % 2 == 0, rules, far ? 1e5 : 0);
     std::vector<PlacedShape> queries;
     Sweeps sweeps;
-    for (int i = 0; i < (points ? 150 : 24); ++i) {
+    for (uint32_t i = 0; i < (points ? rounds(150, 24) : rounds(24, 12)); ++i) {
       PlacedShape query = sphere(0, 0, 0, 0);
       if (!points) query.shape = composites.simple(kKinds[i % std::size(kKinds)], 0.3);
       query.orientation = composites.orientation();
@@ -202,7 +203,8 @@ TEST(MeshCast, RaysEqualAnOracleInLongDouble) {
   PlacedShape mesh = {shape, Eigen::Vector3d::Zero(), Eigen::Quaternionf::Identity()};
   oracle::Random random(8);
   std::vector<Vector3f> origins, directions;
-  for (int i = 0; i < 3000; ++i) {
+  const uint32_t count = rounds(3000);
+  for (uint32_t i = 0; i < count; ++i) {
     origins.push_back((random.direction() * random.uniform(0, 4)).cast<float>());
     directions.push_back((random.direction() * random.uniform(0.1, 8)).cast<float>());
   }
@@ -236,9 +238,9 @@ TEST(MeshCast, RaysEqualAnOracleInLongDouble) {
     EXPECT_GT(hit.normal.dot(directions[i]), 0);
     EXPECT_NEAR((origins[i] + hit.toi * directions[i] - hit.point).norm(), 0, 1e-5);
   }
-  EXPECT_GT(sure, 2500u);
-  EXPECT_GT(hits.size(), 900u);
-  EXPECT_LT(hits.size(), 2500u);
+  EXPECT_GT(sure, rounds(2500));
+  EXPECT_GT(hits.size(), rounds(900));
+  EXPECT_LT(hits.size(), rounds(2500));
 }
 
 // --- Backfaces ---

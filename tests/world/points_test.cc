@@ -7,6 +7,7 @@
 #include "carom/reference/reference.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
+#include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -55,7 +56,8 @@ bool same_hits(std::span<const PointHit> x, std::span<const PointHit> y) {
   return as_bytes(x) == as_bytes(y);
 }
 
-void expect_hits(const World& world, std::span<const BodyId> ids, double side, size_t count = 300) {
+void expect_hits(const World& world, std::span<const BodyId> ids, double side,
+                 size_t count = rounds(300, 60)) {
   const std::vector<Point> points = make_points(world, ids, side, count);
   const std::vector<PointHit> expected = plain_hits(world, ids, points);
   std::vector<PointHit> hits = {{1, 2, 3}};

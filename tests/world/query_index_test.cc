@@ -7,6 +7,7 @@
 #include "carom/bounds/bounds.h"
 #include "queries/body_index.h"
 #include "tests/support/cast_checks.h"
+#include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -94,7 +95,7 @@ TEST(WorldQueryIndex, AnswersDoNotDependOnItsHistory) {
   std::vector<BodyId> ids = add_crowd(world, {.count = 300, .oriented = true, .halfspaces = 2});
   const Questions questions;
   Random random(7);
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < static_cast<int>(rounds(40, 14)); ++step) {
     if (step % 7 != 6) move_some(world, ids, step % 10 == 9 ? 1 : 0.3, random);
     if (step % 4 == 0) turn_some(world, ids, 0.2, random);
     for (int i = 0; i < 3 && step % 5 == 1; ++i) {

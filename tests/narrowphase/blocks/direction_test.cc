@@ -4,6 +4,7 @@
 #include "midphase/collide_pairs.h"
 #include "tests/support/isas.h"
 #include "tests/support/kind_pairs.h"
+#include "tests/support/rounds.h"
 #include "tests/support/run.h"
 
 namespace carom::test {
@@ -68,7 +69,8 @@ TEST_P(Direction, ChangesNoResult) {
   for (const KindPair& kinds : kinds_with_directions()) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(name(kinds) + ", " + name(positions));
-      std::vector<TestPair> pairs = make_kind_pairs(GetParam(), kinds, positions, 70);
+      std::vector<TestPair> pairs =
+          make_kind_pairs(GetParam(), kinds, positions, rounds_of_pairs(70));
       vary_triangles(pairs);
       Random random(7);
       const LaidOut before = laid_out(pairs, positions);
@@ -93,7 +95,7 @@ TEST(Direction, OfAnyInputChangesNoResult) {
   Random random(3);
   for (const KindPair& kinds : kinds_with_directions()) {
     SCOPED_TRACE(name(kinds));
-    const std::vector<TestPair> pairs = make_kind_nonsense(kinds, 1500);
+    const std::vector<TestPair> pairs = make_kind_nonsense(kinds, rounds(1500));
     std::vector<uint32_t> direction(pairs.size());
     for (uint32_t& any : direction) any = static_cast<uint32_t>(random.bits());
     const LaidOut bodies = laid_out(pairs, PositionType::float32);
@@ -108,7 +110,7 @@ TEST(Direction, IsKeptWhilePairsAreApart) {
   for (const KindPair& kinds : kinds_with_directions()) {
     SCOPED_TRACE(name(kinds));
     const PositionType positions = PositionType::float32;
-    const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, 500);
+    const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, rounds(500, 100));
     std::vector<uint32_t> direction(pairs.size(), kNoDirection);
     const std::vector<Row> rows =
         run(laid_out(pairs, positions), Detail::contact, direction.data());

@@ -109,7 +109,7 @@ double radius(const TestPair& pair) {
 TEST(Recall, IsItsReferenceOnEveryIsa) {
   for (const double size : {1e-25, 1.0, 1e15}) {
     SCOPED_TRACE(size);
-    std::vector<TestPair> pairs = random_pairs(rounds(600), size, 1);
+    std::vector<TestPair> pairs = random_pairs(rounds(600, 75), size, 1);
     const Call call = call_of(Measured::separate);
     std::vector<uint64_t> known(pairs.size());
     run(pairs, call, &known);
@@ -150,7 +150,7 @@ TEST(Recall, IsItsReferenceOnEveryIsa) {
 }
 
 TEST(Recall, OfAnyCornersKeepsDecisionsAndSeparations) {
-  const std::vector<TestPair> pairs = random_pairs(rounds(400), 1, 3);
+  const std::vector<TestPair> pairs = random_pairs(rounds(400, 50), 1, 3);
   Random random(4);
   for (const Measured measured : {Measured::all, Measured::separate}) {
     Call call = call_of(measured);

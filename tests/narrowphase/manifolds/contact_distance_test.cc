@@ -32,7 +32,8 @@ TEST_P(DistanceManifolds, EqualTheReference) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(name(kinds) + ", " + name(positions));
-      std::vector<TestPair> pairs = make_kind_pairs(GetParam(), kinds, positions, 40);
+      std::vector<TestPair> pairs =
+          make_kind_pairs(GetParam(), kinds, positions, rounds_of_pairs(40));
       vary_triangles(pairs);
       for (const float distance : {0.01f, 1.0f, 1e20f}) {
         const auto results = results_of(pairs, positions, distance);
@@ -67,7 +68,8 @@ TEST(DistanceManifolds, PointsAreWithinTheDistance) {
   size_t near = 0, wide = 0;
   const ConvexFamily family = convex_families()[0];
   for (const KindPair& kinds : supported_kind_pairs()) {
-    const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, PositionType::float64, 200);
+    const std::vector<TestPair> pairs =
+        make_kind_pairs(family, kinds, PositionType::float64, rounds(200));
     for (const reference::PairResult& result : results_of(pairs, PositionType::float64, 0.25f)) {
       if (!is_near(result, 0.25f)) continue;
       ++near;
@@ -79,8 +81,8 @@ TEST(DistanceManifolds, PointsAreWithinTheDistance) {
       }
     }
   }
-  EXPECT_GT(near, 500u);
-  EXPECT_GT(wide, 50u);
+  EXPECT_GT(near, rounds(500));
+  EXPECT_GT(wide, rounds(50));
 }
 
 // Bodies that touch keep their manifold when they move apart along the normal, up to rounding: each

@@ -3,6 +3,7 @@
 
 #include "tests/support/families.h"
 #include "tests/support/isas.h"
+#include "tests/support/rounds.h"
 #include "tests/support/run.h"
 
 namespace carom::test {
@@ -48,7 +49,7 @@ TEST(Bits, EqualReferenceForAnyInput) {
   for (const Sides sides : kAllSides) {
     SCOPED_TRACE(name(sides));
     for (const PositionType positions : kPositionTypes) {
-      expect_reference_bits(make_nonsense(sides, 20000), positions);
+      expect_reference_bits(make_nonsense(sides, rounds(20000)), positions);
     }
   }
 }
@@ -76,7 +77,8 @@ TEST(Bits, DoNotDependOnTheFloatModeOfTheCaller) {
     if (family.smallest > 1e-30) continue;
     for (const Sides sides : kAllSides) {
       SCOPED_TRACE(std::string(family.name) + ", " + name(sides));
-      const std::vector<TestPair> pairs = make_pairs(family, sides, PositionType::float32, 300);
+      const std::vector<TestPair> pairs =
+          make_pairs(family, sides, PositionType::float32, rounds(300));
       const std::vector<Row> expected =
           expected_rows(pairs, PositionType::float32, Detail::contact, WitnessFrame::body);
       Call call;

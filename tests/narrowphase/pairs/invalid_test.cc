@@ -3,6 +3,7 @@
 
 #include "tests/support/families.h"
 #include "tests/support/isas.h"
+#include "tests/support/rounds.h"
 #include "tests/support/run.h"
 #include "tests/support/special_floats.h"
 
@@ -68,13 +69,14 @@ TEST(Invalid, SpoilsItsOwnPairAlone) {
   for (const Sides sides : kAllSides) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(std::string(name(sides)) + ", " + name(positions));
-      const std::vector<TestPair> pairs = make_pairs({.name = ""}, sides, positions, 35);
+      const std::vector<TestPair> pairs =
+          make_pairs({.name = ""}, sides, positions, rounds_of_pairs(35));
       for (const WitnessFrame frame : {WitnessFrame::world, WitnessFrame::body}) {
         Call call = call_with(positions);
         call.frame = frame;
         const std::vector<Row> clean = expected_rows(pairs, positions, Detail::contact, frame);
         for_each_isa([&] {
-          for (const size_t place : {7, 34}) {
+          for (const size_t place : {size_t{7}, pairs.size() - 1}) {
             for (const PlacedShape& body : spoilt(pairs[place].a)) {
               check_invalid_in(pairs, place, {body, pairs[place].b}, call, clean);
             }

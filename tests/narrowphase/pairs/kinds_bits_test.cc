@@ -114,9 +114,9 @@ TEST(KindsBits, EqualReferenceForDistantFloat64Positions) {
                                 .smallest = 1e-6 * distance,
                                 .largest = 1e-3 * distance,
                                 .distance = distance};
-      expect_reference_bits(
-          make_kind_pairs(family, kinds, PositionType::float64, fewer_polytopes(kinds, 40)),
-          call_with(PositionType::float64));
+      expect_reference_bits(make_kind_pairs(family, kinds, PositionType::float64,
+                                            fewer_polytopes(kinds, rounds_of_pairs(40))),
+                            call_with(PositionType::float64));
     }
   }
 }
@@ -128,8 +128,8 @@ TEST(KindsBits, CountsAroundLanes) {
   call.detail = Detail::manifold;
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
-    const std::vector<TestPair> pairs =
-        make_kind_pairs({.name = ""}, kinds, PositionType::float32, fewer_polytopes(kinds, 1025));
+    const std::vector<TestPair> pairs = make_kind_pairs({.name = ""}, kinds, PositionType::float32,
+                                                        fewer_polytopes(kinds, rounds(1025, 65)));
     const std::vector<Row> expected = expected_rows(pairs, PositionType::float32, Detail::manifold);
     for_each_isa([&] {
       for (const size_t count : counts) {
@@ -163,7 +163,7 @@ TEST(KindsBits, Layouts) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       std::vector<TestPair> pairs =
-          make_kind_pairs({.name = ""}, kinds, positions, fewer_polytopes(kinds, 69));
+          make_kind_pairs({.name = ""}, kinds, positions, fewer_polytopes(kinds, rounds(69, 17)));
       for (size_t i = 1; i < pairs.size(); i += 3) {  // some bodies share their shapes
         pairs[i].a.shape = pairs[0].a.shape;
         pairs[i].b.shape = pairs[0].b.shape;
@@ -192,7 +192,8 @@ TEST(KindsBits, OrientationsAreTheIdentityWhereAbsent) {
 }
 
 TEST(KindsBits, MixedKindsInOneList) {
-  for (const char* family : {"plain", "touch", "lattice", "degenerate"}) {
+  constexpr const char* kFamilies[] = {"plain", "touch", "lattice", "degenerate"};
+  for (const char* family : std::span(kFamilies).first(rounds(4))) {
     const auto families = convex_families();
     const auto found = std::find_if(families.begin(), families.end(), [&](const auto& each) {
       return std::string(each.name) == family;

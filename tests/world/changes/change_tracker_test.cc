@@ -8,6 +8,7 @@
 
 #include "carom/base/thread_arena.h"
 #include "tests/support/pairs.h"
+#include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -133,7 +134,7 @@ void run(PositionType positions, Parallelism parallelism, std::span<const ShapeK
   const auto repeat = [](size_t count, const auto& what) {
     for (size_t i = 0; i < count; ++i) what();
   };
-  for (int round = 0; round < 40; ++round) {
+  for (uint32_t round = 0; round < rounds(40, 18); ++round) {
     // Many, few or no changes of each kind; sometimes most bodies are removed.
     const auto some = [&] {
       constexpr size_t kMost[] = {0, 0, 1, 3, 1000};

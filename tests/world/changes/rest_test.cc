@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -148,8 +149,9 @@ TEST(Rest, NothingIsKeptIfNothingIsCarried) {
 }
 
 TEST(Rest, RandomHistories) {
-  int still = 0;
-  for (uint64_t seed = 0; seed < 60; ++seed) {
+  const uint32_t histories = rounds(60, 6);
+  uint32_t still = 0;
+  for (uint64_t seed = 0; seed < histories; ++seed) {
     Random random(seed);
     const CrowdSpec crowd = crowd_of(kCounts[seed % 3]);
     const float margin = seed % 2 ? 0.1f : 0.0f;
@@ -171,7 +173,7 @@ TEST(Rest, RandomHistories) {
       ASSERT_TRUE(results(resting) == results(fresh)) << seed << ' ' << i;
     }
   }
-  EXPECT_GT(still, 300);
+  EXPECT_GT(still, 5 * histories);
 }
 
 TEST(RestWatch, WaitsLongerEachTimeItWasWrong) {
