@@ -131,17 +131,13 @@ namespace {
 HWY_EXPORT(go_on_meeting);
 HWY_EXPORT(go_on_near);
 
-// The reciprocal of a smaller displacement would be near the end of the range of float32, or
-// beyond.
-constexpr float kLeastDisplacement = 0x1p-120f;
-
 }  // namespace
 
 MovingBox::MovingBox(const TreeBox& at_start, const std::array<float, 3>& displacement)
     : box(at_start), swept(at_start) {
   for (size_t axis = 0; axis < 3; ++axis) {
     const float d = displacement[axis];
-    const bool moves = std::abs(d) >= kLeastDisplacement;
+    const bool moves = std::abs(d) >= BoxPath::kLeastDisplacement;
     const float end_lower = box.lower[axis] + d, end_upper = box.upper[axis] + d;
     // A unit in the last place may be longer than such a way.
     if (d < 0) swept.lower[axis] = moves ? next_down(end_lower) : sum_downwards(box.lower[axis], d);

@@ -27,7 +27,7 @@ struct TimeColumns {
   uint8_t* status;  // Status
 };
 
-// Of each group of rows only the first time is of use.
+// Groups of rows, if the caller needs only the first time of each group.
 struct GroupsOfRows {
   const uint16_t* group;  // of each row
   double* latest;         // of each group; a time after it may be never; lowered by times of rows

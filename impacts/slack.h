@@ -23,7 +23,7 @@ inline constexpr double kFaceSlack = 0.25;
 // Searches for the triangles of a mesh on a path: shapes, rays and tests are off by less than this
 // share of all lengths.
 inline constexpr double kPathSlack = 0x1p-33;
-// What float32 makes of a path, as a share of the lengths on it.
+// Float32 changes a path by less than this share of the lengths on it.
 inline constexpr double kFloatSlack = 0x1p-20;
 // Longer paths are left to the search in double precision.
 inline constexpr double kLongestPath = 0x1p100;

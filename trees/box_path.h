@@ -19,6 +19,9 @@ struct BoxPath {
   static constexpr float kTimeRounding = 0x1p-20f;
   // A bound on what products lose by underflow.
   static constexpr float kTinyTime = 0x1p-100f;
+  // A box that is displaced by less on an axis hardly moves there: the reciprocal would be near the
+  // end of the range of float32, or beyond.
+  static constexpr float kLeastDisplacement = 0x1p-120f;
 
   // On each axis: where the nearer and the further ends of boxes are in a node, and the ends of the
   // box that reach those first and last; reciprocals of the displacement, rounded so that times are

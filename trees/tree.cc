@@ -66,7 +66,7 @@ class TreeBuilder {
   struct Division {
     TreeBox box;
     std::array<uint32_t, 2> part;
-    // Of i children at most, how many the first part becomes; 0 if all items become one child.
+    // first[i]: the first part becomes so many of at most i children; 0 if all items become one.
     std::array<uint8_t, kMost + 1> first;
   };
 

@@ -1,4 +1,4 @@
-// What walks along one ray and along many have in common.
+// Walks along one ray and along many share these parts.
 #if defined(CAROM_IMPACTS_RAYS_RAY_HITS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_IMPACTS_RAYS_RAY_HITS_INL_H_
 #undef CAROM_IMPACTS_RAYS_RAY_HITS_INL_H_
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// What is known of one ray's first time.
+// Keeps what a walk has learnt about the first time of one ray.
 class RayHits {
  public:
   void start(RaySearch& search) {

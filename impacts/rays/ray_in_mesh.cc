@@ -6,16 +6,9 @@
 
 #include "base/outward.h"
 #include "impacts/slack.h"
+#include "trees/box_path.h"
 
 namespace carom {
-namespace {
-
-// The reciprocal of a smaller displacement would be near the end of the range of float32, or
-// beyond.
-constexpr double kLeastDisplacement = 0x1p-120;
-
-}  // namespace
-
 RayTarget::RayTarget(const MeshGeometry& of_mesh, bool is_one_sided)
     : mesh(&of_mesh), one_sided(is_one_sided) {
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -60,7 +53,7 @@ bool RayInMesh::set(const RayTarget& target, const Double3& from, const Double3&
   if (!(length + slack < kLongestPath && travel < kLongestPath)) return false;
   const double margin = slack + kFloatSlack * length;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const bool moves = std::fabs(way[axis]) >= kLeastDisplacement;
+    const bool moves = std::fabs(way[axis]) >= BoxPath::kLeastDisplacement;
     const double along = moves ? 0 : on_path[axis];
     lower[axis] = next_down(static_cast<float>(at_first[axis] + std::min(along, 0.0) - margin));
     upper[axis] = next_up(static_cast<float>(at_first[axis] + std::max(along, 0.0) + margin));

@@ -2,10 +2,8 @@
 // bodies and at one mesh of triangles; Carom beside Bullet and FCL, closest hits, on one thread.
 // Prints tables in Markdown. Exit code 1 if a hit of Carom is wrong.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +11,7 @@
 #include "bench/peers/queries/cast_peer.h"
 #include "bench/peers/queries/cast_referee.h"
 #include "bench/peers/queries/cast_scene.h"
+#include "bench/peers/queries/fastest_pass.h"
 
 namespace carom::bench {
 namespace {
@@ -41,7 +40,7 @@ class CaromCasts {
       times[i] = hits.empty() ? 2 : hits[0].toi;
     }
   }
-  // Of the last run().
+  // run() leaves the hits of its last call here.
   const std::vector<CastHit>& hits() const { return hits_; }
 
  private:
@@ -49,19 +48,6 @@ class CaromCasts {
   const CastArrays arrays_;
   std::vector<CastHit> hits_;
 };
-
-// Nanoseconds a cast, of the fastest pass.
-template <class Run>
-double measure(size_t casts, int passes, const Run& run) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < passes; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    run();
-    const auto duration = std::chrono::steady_clock::now() - start;
-    least = std::min(least, std::chrono::duration<double, std::nano>(duration).count());
-  }
-  return least / static_cast<double>(casts);
-}
 
 struct Agreement {
   size_t casts = 0;
@@ -140,12 +126,12 @@ size_t run_scene(const char* name, const CastWorld& scene, const Extent& extent,
       std::vector<float> ours(extent.casts), singly(extent.single_casts), of_bullet(extent.casts),
           of_fcl(extent.fcl_casts);
       const auto time = [&](size_t casts, const auto& run) {
-        return measure(casts, extent.passes, run);
+        return fastest_pass(casts, extent.passes, run);
       };
       const double ns = time(extent.casts, [&] { carom.run(ours); });
       const double ns_singly = time(extent.single_casts, [&] { carom.run_singly(singly); });
       const double ns_bullet = time(extent.casts, [&] { bullet->run(of_bullet); });
-      const double ns_fcl = measure(extent.fcl_casts, 1, [&] { fcl->run(of_fcl); });
+      const double ns_fcl = fastest_pass(extent.fcl_casts, 1, [&] { fcl->run(of_fcl); });
       std::printf("| %s | %s | %g m | %.2f | %.0f | %.0f | %.0f | %.0f | %.1f | %.1f |\n", name,
                   kShapes[shape], length, double(carom.hits().size()) / double(extent.casts), ns,
                   ns_singly, ns_bullet, ns_fcl, ns_bullet / ns, ns_fcl / ns);

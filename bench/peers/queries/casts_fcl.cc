@@ -137,7 +137,7 @@ class FclCasts final : public CastPeer {
   fcl::ContinuousCollisionRequestd request_;
   const std::shared_ptr<PathGeometry> path_ = std::make_shared<PathGeometry>();
   fcl::CollisionObjectd path_object_{path_};
-  // Of the cast that runs.
+  // These belong to the cast that runs.
   const fcl::CollisionObjectd* query_ = nullptr;
   fcl::Vector3d displacement_ = fcl::Vector3d::Zero();
   fcl::Transform3d end_ = fcl::Transform3d::Identity();

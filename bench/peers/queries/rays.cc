@@ -4,14 +4,13 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <vector>
 
+#include "bench/peers/queries/fastest_pass.h"
 #include "carom/queries/cast.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "oracle/random.h"
@@ -153,19 +152,6 @@ class Carom {
   std::vector<CastHit> hits_;
 };
 
-// Nanoseconds a ray, of the fastest pass.
-template <class Run>
-double measure(size_t rays, int passes, const Run& run) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < passes; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    run();
-    const auto duration = std::chrono::steady_clock::now() - start;
-    least = std::min(least, std::chrono::duration<double, std::nano>(duration).count());
-  }
-  return least / static_cast<double>(rays);
-}
-
 size_t differences(const Times& a, const Times& b) {
   size_t count = 0;
   for (size_t i = 0; i < a.size(); ++i) {
@@ -189,8 +175,8 @@ int run(bool smoke) {
       const size_t count = rays.origins.size();
       Times theirs(count), ours(count);
       const int passes = smoke ? 1 : 5;
-      const double of_embree = measure(count, passes, [&] { embree.run(rays, any, theirs); });
-      const double of_carom = measure(count, passes, [&] { carom.run(rays, any, ours); });
+      const double of_embree = fastest_pass(count, passes, [&] { embree.run(rays, any, theirs); });
+      const double of_carom = fastest_pass(count, passes, [&] { carom.run(rays, any, ours); });
       const auto hits = std::count_if(ours.begin(), ours.end(), [](float t) { return t <= 1; });
       same = same && differences(ours, theirs) * 10'000 <= count;
       std::printf("| %s | %s | %.2f | %.0f | %.0f | %.2f |\n", rays.name, any ? "any" : "closest",
