@@ -15,6 +15,7 @@
 
 #include "base/few_of.h"
 #include "carom/results/contact.h"
+#include "impacts/approach.h"
 #include "impacts/direction_gap.h"
 #include "impacts/linear/crossing_scalar.h"
 #include "narrowphase/doubles/gjk.h"
@@ -87,9 +88,19 @@ inline void place(const MovingCore& moving, const Vector3d& at, double t, Core& 
   placed.middle = core_vector(moved(eigen_vector(moving.core->middle)));
 }
 
+// The core of a body. The next pair uses it again if it has the same body at the same scale.
+struct KeptCore {
+  Core core;
+  MovingCore moving;  // of `core`
+  double scale = 0;   // 0: there is none
+};
+
 // The cores of one pair; the memory serves the next pair too.
 struct CoreScratch {
-  Core a, b, placed_a, placed_b;
+  KeptCore a, b;
+  Core placed_a, placed_b;
+
+  void clear() { a.scale = b.scale = 0; }
 };
 
 inline CoreScratch& core_scratch_of_thread() {
@@ -214,6 +225,11 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
                                        CoreScratch& scratch) {
   double t = time_of_balls(pair, tolerance);
   if (t > pair.latest) return {kNever};
+  if (!(pair.a.speed > 0) && !(pair.b.speed > 0)) {
+    const Approach approach(pair, t, tolerance);
+    if (approach.is_over()) return {approach.time()};
+    t = approach.time();
+  }
   for (int round = 0; round < kMostRounds; ++round) {
     place(pair.a, Vector3d::Zero(), t, scratch.placed_a);
     place(pair.b, pair.from + pair.way * t, t, scratch.placed_b);

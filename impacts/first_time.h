@@ -122,9 +122,13 @@ inline void make_core(const MovingShape& moving, double scale, Core& core) {
       moving.shape);
 }
 
-inline MovingCore moving_core(const MovingShape& moving, double scale, Core& core) {
-  make_core(moving, scale, core);
-  return moving_core(core, moving.arm * scale, moving.rotation, turns(kind_of(moving.shape)));
+inline const MovingCore& moving_core(const MovingShape& moving, double scale, KeptCore& kept) {
+  if (kept.scale == scale) return kept.moving;
+  make_core(moving, scale, kept.core);
+  kept.moving =
+      moving_core(kept.core, moving.arm * scale, moving.rotation, turns(kind_of(moving.shape)));
+  kept.scale = scale;
+  return kept.moving;
 }
 
 // Shapes that are this close count as touching, in these units. It exceeds the touching distance of
@@ -135,40 +139,61 @@ inline double meeting_distance(const MovingPair& pair) {
   return 0x1p-38 + 4 * kSweepSlack * lengths;
 }
 
-// A time after `latest` may be never.
-inline AdvancementResult advancement_time(const MovingShape& a, const MovingShape& b,
-                                          const Vector3d& from, const Vector3d& way,
-                                          FurthestPoint furthest, double latest = 1) {
-  if (kind_of(a.shape) == ShapeKind::halfspace) {
-    return advancement_time(b, a, -from, -way, furthest, latest);
-  }
-  CoreScratch& scratch = core_scratch_of_thread();
-  const auto* plane = std::get_if<Halfspace>(&b.shape);
-  double size = max(size_of_shape(a.shape), largest_component(a.arm));
-  if (!plane) size = max(size, max(size_of_shape(b.shape), largest_component(b.arm)));
+// The scale at which the greatest of these is between one and two.
+inline double scale_down(double size, const Vector3d& from, const Vector3d& way) {
   if (!(size > 0)) size = max(largest_component(from), largest_component(way));
-  const double scale = scale_of(size).down;
+  return scale_of(size).down;
+}
+
+inline double size_with_arm(const MovingShape& moving) {
+  return max(size_of_shape(moving.shape), largest_component(moving.arm));
+}
+
+inline MovingPair pair_of(const MovingShape& a, const MovingShape& b, const Vector3d& from,
+                          const Vector3d& way, double scale) {
   MovingPair pair;
   pair.from = (from + (a.arm - b.arm)) * scale;
   pair.way = way * scale;
+  return pair;
+}
+
+// A is a half-space.
+inline AdvancementResult time_over_halfspace(const MovingShape& a, const MovingShape& b,
+                                             const Vector3d& from, const Vector3d& way,
+                                             FurthestPoint furthest, CoreScratch& scratch) {
+  scratch.clear();
+  const double scale = scale_down(size_with_arm(b), from, way);
+  MovingPair pair = pair_of(a, b, from, way, scale);
+  pair.furthest = furthest;
+  const HalfspaceShape<double> half = shape_as<double>(std::get<Halfspace>(a.shape));
+  const Vector3d normal = rotate(rotation_of(a.q), half.normal);
+  Core& plane = scratch.placed_a;
+  make_core_of_points(std::array{Vector3d(normal * (half.offset * scale))}, Vector3d::Zero(),
+                      plane);
+  pair.a = turning_plane(plane, a.rotation);
+  pair.b = moving_core(b, scale, scratch.b);
+  pair.radii = scratch.b.core.radius;
+  return time_over_plane(pair, normal, meeting_distance(pair));
+}
+
+// A time after `latest` may be never. `scratch` may hold cores of these two bodies.
+inline AdvancementResult advancement_time(const MovingShape& a, const MovingShape& b,
+                                          const Vector3d& from, const Vector3d& way,
+                                          FurthestPoint furthest, double latest,
+                                          CoreScratch& scratch) {
+  if (kind_of(a.shape) == ShapeKind::halfspace) {
+    return time_over_halfspace(a, b, from, way, furthest, scratch);
+  }
+  if (kind_of(b.shape) == ShapeKind::halfspace) {
+    return time_over_halfspace(b, a, -from, -way, furthest, scratch);
+  }
+  const double scale = scale_down(max(size_with_arm(a), size_with_arm(b)), from, way);
+  MovingPair pair = pair_of(a, b, from, way, scale);
   pair.furthest = furthest;
   pair.latest = latest;
-  if (plane) {
-    // The half-space takes the place of A.
-    pair.from = -pair.from;
-    pair.way = -pair.way;
-    const HalfspaceShape<double> half = shape_as<double>(*plane);
-    const Vector3d normal = rotate(rotation_of(b.q), half.normal);
-    make_core_of_points(std::array{Vector3d(normal * (half.offset * scale))}, Vector3d::Zero(),
-                        scratch.b);
-    pair.a = turning_plane(scratch.b, b.rotation);
-    pair.b = moving_core(a, scale, scratch.a);
-    pair.radii = scratch.a.radius;
-    return time_over_plane(pair, normal, meeting_distance(pair));
-  }
   pair.a = moving_core(a, scale, scratch.a);
   pair.b = moving_core(b, scale, scratch.b);
-  pair.radii = scratch.a.radius + scratch.b.radius;
+  pair.radii = scratch.a.core.radius + scratch.b.core.radius;
   return time_of_cores(pair, meeting_distance(pair), scratch);
 }
 

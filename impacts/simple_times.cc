@@ -42,7 +42,9 @@ class SimpleTimes {
         count_(count),
         out_(out),
         groups_(groups),
-        scratch_(scratch) {}
+        scratch_(scratch) {
+    cores_.clear();
+  }
 
   void run() {
     sort_rows();
@@ -169,9 +171,12 @@ class SimpleTimes {
   void advance(size_t row) {
     const Pair pair = pairs_[row];
     const Shape shape_a = shape_of(a_.body(), pair.a), shape_b = shape_of(b_.body(), pair.b);
+    if (pair.a != advanced_.a) cores_.a.scale = 0;
+    if (pair.b != advanced_.b) cores_.b.scale = 0;
+    advanced_ = pair;
     const scalar::AdvancementResult result = scalar::advancement_time(
         a_.moving(shape_a, pair.a), b_.moving(shape_b, pair.b), eigen(place_between(a_, b_, pair)),
-        eigen(way_between(a_, b_, pair)), furthest_, groups_ ? latest(row) : 1);
+        eigen(way_between(a_, b_, pair)), furthest_, groups_ ? latest(row) : 1, cores_);
     write(row, result.t, result.status);
     // One that passes through a one-sided triangle does not count.
     const bool counts = !scalar::is_one_sided(shape_a) && !scalar::is_one_sided(shape_b);
@@ -211,6 +216,8 @@ class SimpleTimes {
   const TimeColumns out_;
   const GroupsOfRows* const groups_;
   SimpleScratch& scratch_;
+  scalar::CoreScratch& cores_ = scalar::core_scratch_of_thread();  // of the pair advanced last
+  Pair advanced_ = {};
 };
 
 }  // namespace

@@ -54,7 +54,10 @@ FirstTime time_of(const Simple& part_a, const Sweep& sweep_a, const Simple& part
   const Vector3d way = sweep_b.displacement.cast<double>() - sweep_a.displacement.cast<double>();
   FirstTime found{.t = linear_time(a, b, from, way), .a = &part_a, .b = &part_b};
   if (found.t == kNoClosedForm) {
-    const AdvancementResult advanced = advancement_time(a, b, from, way, &furthest_point);
+    CoreScratch& scratch = core_scratch_of_thread();
+    scratch.clear();
+    const AdvancementResult advanced =
+        advancement_time(a, b, from, way, &furthest_point, 1, scratch);
     found.t = advanced.t;
     found.status = advanced.status;
   }

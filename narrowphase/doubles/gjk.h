@@ -109,10 +109,13 @@ class NearestPoint {
   Corners corners_;
 };
 
+inline bool are_same(const CoreVector& a, const CoreVector& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 inline bool holds(const NearestPoint::Corners& corners, const CoreVector& point) {
-  return std::any_of(corners.begin(), corners.end(), [&](const CoreVector& corner) {
-    return corner.x == point.x && corner.y == point.y && corner.z == point.z;
-  });
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](const CoreVector& corner) { return are_same(corner, point); });
 }
 
 // The result of GJK. `way` leads from A to B. It is never shorter than the distance, and about zero
