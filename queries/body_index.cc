@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
+#include <optional>
 
 #include "broadphase/box_source.h"
 #include "carom/bounds/bounds.h"
@@ -15,6 +17,21 @@ namespace {
 
 constexpr size_t kBodiesPerBlock = 4096;
 constexpr uint8_t kMoving = 1, kStatic = 0, kNoPart = 2;  // parts of the tree: static bodies first
+
+uint8_t part_of(const Motion* motion, size_t body) {
+  return motion && motion[body] == Motion::fixed ? kStatic : kMoving;
+}
+
+// The part in which all bodies of a run were and are, if all are there.
+std::optional<uint8_t> common_part(std::span<const uint8_t> parts, const Motion* motion,
+                                   size_t first, uint64_t are_there) {
+  if (std::popcount(are_there) != static_cast<int>(parts.size())) return std::nullopt;
+  const uint8_t part = part_of(motion, first);
+  unsigned differ = 0;
+  for (const uint8_t other : parts) differ |= other ^ part;
+  for (size_t i = 0; motion && i < parts.size(); ++i) differ |= part_of(motion, first + i) ^ part;
+  return differ == 0 ? std::optional(part) : std::nullopt;
+}
 
 }  // namespace
 
@@ -58,13 +75,18 @@ BodyIndex::PartChanges BodyIndex::update_boxes(const Collidables& bodies, const 
     for (size_t first = begin; first < end; first += kBodiesAtOnce) {
       const size_t count = std::min(kBodiesAtOnce, end - first);
       const ChangedBoxes in_run = update_grown_bounds(bodies, bounds, first, count, &boxes_[first]);
+      const auto parts = std::span<const uint8_t>(part_).subspan(first, count);
+      if (const auto part = common_part(parts, motion, first, in_run.are_there)) {
+        if (in_run.changed != 0) in_block[*part] |= kMoved;
+        continue;
+      }
       for (size_t i = first; i < first + count; ++i) {
         const uint64_t bit = uint64_t{1} << (i - first);
         if ((in_run.are_there & bit) == 0) {
           if ((in_run.changed & bit) != 0) in_block[part_[i]] |= kMoved;
           continue;
         }
-        const uint8_t part = motion && motion[i] == Motion::fixed ? kStatic : kMoving;
+        const uint8_t part = part_of(motion, i);
         if (part != part_[i]) {
           if (part_[i] != kNoPart) in_block[part_[i]] |= kJoined;
           in_block[part] |= kJoined;

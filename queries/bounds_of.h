@@ -11,7 +11,10 @@ namespace carom {
 
 class BoundsOf {
  public:
-  BoundsOf(const Collidables& bodies, Parallelism parallelism) {
+  BoundsOf() = default;
+  BoundsOf(const Collidables& bodies, Parallelism parallelism) { find(bodies, parallelism); }
+
+  void find(const Collidables& bodies, Parallelism parallelism) {
     for (std::vector<float>& column : columns_) column.resize(bodies.count);
     const auto column = [this](size_t i) { return columns_[i].data(); };
     (void)compute_bounds(bodies,

@@ -110,7 +110,7 @@ class Caster {
       : bodies_(bodies),
         moving_{.bodies = queries, .sweep = sweep, .one_sided = one_sided(options.backfaces)},
         still_{.bodies = bodies.bodies, .sweep = {}, .one_sided = moving_.one_sided},
-        boxes_(queries, sweep, options.parallelism),
+        boxes_(queries, sweep),
         which_(options.hits),
         hits_(hits),
         parallelism_(options.parallelism) {}
@@ -241,7 +241,7 @@ class Caster {
 
   const SearchedBodies& bodies_;
   const MovingSide moving_, still_;
-  const QueryBoxes boxes_;
+  QueryBoxes boxes_;
   const CastHits which_;
   std::vector<CastHit>& hits_;
   const Parallelism parallelism_;

@@ -33,7 +33,7 @@ NearestHit hit_of(const ResultColumns& found, size_t row, Pair pair) {
 class NearestSearch {
  public:
   NearestSearch(const Collidables& queries, const SearchedBodies& bodies, Parallelism parallelism)
-      : bodies_(bodies), boxes_(queries, still_, parallelism), parallelism_(parallelism) {}
+      : bodies_(bodies), boxes_(queries, still_), parallelism_(parallelism) {}
 
   Result<void> run(float within, std::vector<NearestHit>& hits) {
     for (size_t first = 0; first < boxes_.count(); first += kQueriesAtOnce) {
@@ -81,7 +81,7 @@ class NearestSearch {
   static constexpr SweepView still_{};
 
   const SearchedBodies& bodies_;
-  const QueryBoxes boxes_;
+  QueryBoxes boxes_;
   const Parallelism parallelism_;
   size_t first_ = 0;
   std::vector<NearestHit> best_;

@@ -24,7 +24,7 @@ Result<void> find_overlaps(const Collidables& queries, const SearchedBodies& bod
   const FloatEnvironment environment;
   hits.clear();
   const SweepView still;
-  const QueryBoxes boxes(queries, still, parallelism);
+  QueryBoxes boxes(queries, still);
   std::vector<uint8_t> overlap;
   SearchMemory memory;
   const auto test = [&](std::span<const Pair> candidates) {

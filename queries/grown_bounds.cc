@@ -9,11 +9,13 @@
 #include <array>
 #include <bit>
 #include <cfloat>
+#include <cmath>
 
 #include "base/tolerances.h"
 #include "queries/grown_bounds.h"
+#include "queries/grown_box.h"
 #include "shapes/body_reader.h"
-#include "simd/lanes-inl.h"
+#include "trees/box_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -30,6 +32,7 @@ class Columns {
  public:
   using Column = std::array<float, kBodiesAtOnce>;
   alignas(64) std::array<Column, 3> lower, upper, position;
+  alignas(64) Column travel{};  // the margin for what each travels
 
   // Bodies from `count` on are not there.
   HWY_INLINE void load(const Collidables& bodies, const BoundsView& bounds, size_t first,
@@ -42,6 +45,17 @@ class Columns {
       std::fill(position[axis].begin() + count, position[axis].end(), 0.0f);
     }
     load_positions(bodies, first, count);
+  }
+
+  // No less than kTravelSlack times the length of each displacement.
+  HWY_INLINE void load_travels(const SweepView& sweep, size_t first, size_t count) {
+    constexpr auto kShare = static_cast<float>(kTravelSlack * (1 + 0x1p-20));
+    for (size_t i = 0; i < count; ++i) {
+      const auto way = load_strided<std::array<float, 3>>(sweep.displacement,
+                                                          sweep.displacement_stride, first + i);
+      travel[i] =
+          (std::abs(way[0]) * kShare + std::abs(way[1]) * kShare) + std::abs(way[2]) * kShare;
+    }
   }
 
  private:
@@ -94,7 +108,8 @@ HWY_INLINE uint64_t grow(Columns& columns, size_t i) {
   }
   // 2^-23 of a coordinate covers the rounding of its sum, and 2^-20 of the margin the rest.
   constexpr auto kShare = static_cast<float>(kSearchSlack * (1 + 0x1p-20));
-  const Bodies margin = hn::Add(hn::Mul(set(kShare), reach), set(8 * FLT_TRUE_MIN));
+  const Bodies margin = hn::Add(hn::Add(hn::Mul(set(kShare), reach), set(8 * FLT_TRUE_MIN)),
+                                hn::Load(tag, columns.travel.data() + i));
   for (size_t axis = 0; axis < 3; ++axis) {
     const Bodies below = hn::Add(margin, hn::Mul(set(0x1p-23f), hn::Abs(lower[axis])));
     const Bodies above = hn::Add(margin, hn::Mul(set(0x1p-23f), hn::Abs(upper[axis])));
@@ -117,8 +132,8 @@ HWY_INLINE uint32_t put(float value, float& to) {
   return changed;
 }
 
-// Puts columns into a row, and returns whether it has changed.
-HWY_INLINE bool put(const Columns& columns, size_t i, TreeBox& box) {
+// Puts the numbers of a body into its row, and returns whether that has changed.
+HWY_INLINE bool put_one(const Columns& columns, size_t i, TreeBox& box) {
   uint32_t changed = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
     changed |= put(columns.lower[axis][i], box.lower[axis]);
@@ -127,16 +142,55 @@ HWY_INLINE bool put(const Columns& columns, size_t i, TreeBox& box) {
   return changed != 0;
 }
 
+#if HWY_TARGET != HWY_SCALAR
+HWY_INLINE bool are_same(const BoxRow& a, const BoxRow& b) {
+  const hn::RebindToUnsigned<RowTag> bits;
+  const auto differ = hn::Or(hn::Xor(hn::BitCast(bits, a.first), hn::BitCast(bits, b.first)),
+                             hn::Xor(hn::BitCast(bits, a.second), hn::BitCast(bits, b.second)));
+  return hn::AllTrue(bits, hn::Eq(differ, hn::Zero(bits)));
+}
+
+// The same for four bodies; returns a bit each.
+HWY_INLINE uint64_t put_four(const Columns& columns, size_t i, TreeBox* boxes) {
+  const auto load = [&](const Columns::Column& numbers) {
+    return hn::Load(RowTag(), numbers.data() + i);
+  };
+  const auto& lower = columns.lower;
+  const auto& upper = columns.upper;
+  RowOfFour first[4] = {load(lower[0]), load(lower[1]), load(lower[2]), load(upper[0])};
+  RowOfFour second[4] = {first[2], first[3], load(upper[1]), load(upper[2])};
+  transpose(first);
+  transpose(second);
+  uint64_t changed = 0;
+  for (size_t k = 0; k < 4; ++k) {
+    const BoxRow row{first[k], second[k]};
+    changed |= uint64_t{!are_same(row, load_row(boxes[i + k]))} << k;
+    store_row(row, boxes[i + k]);
+  }
+  return changed;
+}
+#endif  // HWY_TARGET
+
+// Puts the columns into rows, and returns which of these have changed.
+HWY_INLINE uint64_t put_rows(const Columns& columns, size_t count, TreeBox* boxes) {
+  uint64_t changed = 0;
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  for (; i + 4 <= count; i += 4) changed |= put_four(columns, i, boxes) << i;
+#endif  // HWY_TARGET
+  for (; i < count; ++i) changed |= uint64_t{put_one(columns, i, boxes[i])} << i;
+  return changed;
+}
+
 ChangedBoxes update(const Collidables& bodies, const BoundsView& bounds, size_t first, size_t count,
-                    TreeBox* boxes) {
+                    TreeBox* boxes, const SweepView* sweep) {
   Columns columns;
+  if (sweep && sweep->displacement) columns.load_travels(*sweep, first, count);
   columns.load(bodies, bounds, first,
                first < bounds.count ? std::min(count, bounds.count - first) : 0);
   ChangedBoxes result{};
   for (size_t i = 0; i < count; i += kBoxLanes) result.are_there |= grow(columns, i) << i;
-  for (size_t i = 0; i < count; ++i) {
-    result.changed |= uint64_t{put(columns, i, boxes[i])} << i;
-  }
+  result.changed = put_rows(columns, count, boxes);
   return result;
 }
 
@@ -155,8 +209,8 @@ HWY_EXPORT(update);
 }  // namespace
 
 ChangedBoxes update_grown_bounds(const Collidables& bodies, const BoundsView& bounds, size_t first,
-                                 size_t count, TreeBox* boxes) {
-  return CAROM_DISPATCH(update)(bodies, bounds, first, count, boxes);
+                                 size_t count, TreeBox* boxes, const SweepView* sweep) {
+  return CAROM_DISPATCH(update)(bodies, bounds, first, count, boxes, sweep);
 }
 
 }  // namespace carom

@@ -5,9 +5,10 @@
 
 #include "base/outward.h"
 #include "bounds/extent.h"
-#include "broadphase/box_source.h"
+#include "queries/grown_bounds.h"
 #include "queries/grown_box.h"
 #include "shapes/body_reader.h"
+#include "shapes/run_of_bodies.h"
 
 namespace carom {
 namespace {
@@ -46,32 +47,37 @@ TreeBox turned_box(const BodyReader& reader, size_t i, double angle, double& arc
 
 }  // namespace
 
+void QueryBoxes::find(size_t first, size_t count, Parallelism parallelism) {
+  first_ = first;
+  const Collidables run = run_of_bodies(queries_, first, count);
+  const SweepView sweep = run_of_sweeps(sweep_, first);
+  bounds_.find(run, parallelism);
+  at_start_.resize(count);
+  for (size_t begin = 0; begin < count; begin += kBodiesAtOnce) {
+    update_grown_bounds(run, bounds_.view(), begin, std::min(kBodiesAtOnce, count - begin),
+                        &at_start_[begin], &sweep);
+  }
+}
+
 std::optional<MovingBox> QueryBoxes::box(size_t query) const {
-  const BoundsView bounds = bounds_.view();
-  if (!takes_part(bounds, query)) return std::nullopt;
+  const TreeBox& at_start = at_start_[query - first_];
+  if (is_empty(at_start)) return std::nullopt;
   const auto displacement =
       load_strided<Float3>(sweep_.displacement, sweep_.displacement_stride, query);
-  const auto rotation = load_strided<Float3>(sweep_.rotation, sweep_.rotation_stride, query);
+  if (!is_finite(displacement)) return std::nullopt;
   const BodyReader reader{queries_};
-  const bool may_turn = sweep_.rotation && turns(reader.kind(query));
-  if (!is_finite(displacement) || (may_turn && !is_finite(rotation))) return std::nullopt;
+  if (!sweep_.rotation || !turns(reader.kind(query))) return MovingBox(at_start, displacement);
 
-  const double angle = may_turn ? length(rotation[0], rotation[1], rotation[2]) : 0;
+  const auto rotation = load_strided<Float3>(sweep_.rotation, sweep_.rotation_stride, query);
+  if (!is_finite(rotation)) return std::nullopt;
+  const double angle = length(rotation[0], rotation[1], rotation[2]);
+  if (!(angle > 0)) return MovingBox(at_start, displacement);
+  double arc = 0;
+  const TreeBox turned = turned_box(reader, query, angle, arc);
   // No less than the length.
-  double travel = std::abs(double{displacement[0]}) + std::abs(double{displacement[1]}) +
-                  std::abs(double{displacement[2]});
-  TreeBox at_start;
-  if (angle > 0) {
-    double arc = 0;
-    at_start = turned_box(reader, query, angle, arc);
-    travel += arc;
-  } else {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      at_start.lower[axis] = value_at(bounds, bounds.lower[axis], query);
-      at_start.upper[axis] = value_at(bounds, bounds.upper[axis], query);
-    }
-  }
-  return MovingBox(grown(at_start, reader.position<double>(query), travel), displacement);
+  const double travel = std::abs(double{displacement[0]}) + std::abs(double{displacement[1]}) +
+                        std::abs(double{displacement[2]}) + arc;
+  return MovingBox(grown(turned, reader.position<double>(query), travel), displacement);
 }
 
 }  // namespace carom

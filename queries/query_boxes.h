@@ -15,20 +15,24 @@ namespace carom {
 class QueryBoxes {
  public:
   // With an empty sweep the queries stand still.
-  QueryBoxes(const Collidables& queries, const SweepView& sweep, Parallelism parallelism)
-      : queries_(queries), sweep_(sweep), bounds_(queries, parallelism) {}
+  QueryBoxes(const Collidables& queries, const SweepView& sweep)
+      : queries_(queries), sweep_(sweep) {}
 
   const Collidables& queries() const { return queries_; }
   size_t count() const { return queries_.count; }
 
-  // The box of a query, grown by more than tests may err. None if the query or its sweep is
+  // Finds where queries [first, first + count) start.
+  void find(size_t first, size_t count, Parallelism parallelism);
+  // The box of one of these, grown by more than tests may err. None if the query or its sweep is
   // invalid.
   std::optional<MovingBox> box(size_t query) const;
 
  private:
   const Collidables& queries_;
   const SweepView& sweep_;
-  const BoundsOf bounds_;
+  size_t first_ = 0;
+  BoundsOf bounds_;
+  std::vector<TreeBox> at_start_;  // grown; kNothing for an invalid query
 };
 
 }  // namespace carom

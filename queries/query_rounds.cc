@@ -22,7 +22,7 @@ bool may_reach(const MovingBox& moving, const WorldHalfspace& halfspace) {
 
 class Rounds {
  public:
-  Rounds(const QueryBoxes& queries, const SearchedBodies& bodies, SearchFor what, size_t first,
+  Rounds(QueryBoxes& queries, const SearchedBodies& bodies, SearchFor what, size_t first,
          std::span<const float> limit, Parallelism parallelism, SearchMemory& memory)
       : queries_(queries),
         bodies_(bodies),
@@ -49,6 +49,7 @@ class Rounds {
 
  private:
   void start() {
+    queries_.find(first_, limit_.size(), parallelism_);
     for (size_t i = 0; i < limit_.size(); ++i) {
       const std::optional<MovingBox> box = queries_.box(first_ + i);
       if (!box) continue;
@@ -125,7 +126,7 @@ class Rounds {
     return candidates_.empty() ? Result<void>{} : test(candidates_);
   }
 
-  const QueryBoxes& queries_;
+  QueryBoxes& queries_;
   const SearchedBodies& bodies_;
   const SearchFor what_;
   const size_t first_;
@@ -139,10 +140,9 @@ class Rounds {
 
 }  // namespace
 
-Result<void> search_in_rounds(const QueryBoxes& queries, const SearchedBodies& bodies,
-                              SearchFor what, RoundSizes sizes, size_t first,
-                              std::span<const float> limit, Parallelism parallelism,
-                              SearchMemory& memory, TestCandidates test) {
+Result<void> search_in_rounds(QueryBoxes& queries, const SearchedBodies& bodies, SearchFor what,
+                              RoundSizes sizes, size_t first, std::span<const float> limit,
+                              Parallelism parallelism, SearchMemory& memory, TestCandidates test) {
   return Rounds(queries, bodies, what, first, limit, parallelism, memory).run(sizes, test);
 }
 

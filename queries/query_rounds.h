@@ -43,9 +43,8 @@ using SearchMemory = std::vector<QuerySearch>;
 // Searches queries [first, first + limit.size()), at most kQueriesAtOnce, with one limit each.
 // Every body within a query's limit becomes a candidate of it once, if a layer of the body is met.
 // Half-spaces come in the first round. The candidates of a round are in order of the query.
-Result<void> search_in_rounds(const QueryBoxes& queries, const SearchedBodies& bodies,
-                              SearchFor what, RoundSizes sizes, size_t first,
-                              std::span<const float> limit, Parallelism parallelism,
-                              SearchMemory& memory, TestCandidates test);
+Result<void> search_in_rounds(QueryBoxes& queries, const SearchedBodies& bodies, SearchFor what,
+                              RoundSizes sizes, size_t first, std::span<const float> limit,
+                              Parallelism parallelism, SearchMemory& memory, TestCandidates test);
 
 }  // namespace carom

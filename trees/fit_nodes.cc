@@ -8,7 +8,7 @@
 #include <hwy/cache_control.h>
 #include <algorithm>
 
-#include "simd/lanes-inl.h"
+#include "trees/box_rows-inl.h"
 #include "trees/fit_nodes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,6 +48,51 @@ HWY_INLINE void put(const TreeBox& box, BoxTree::Node& node, size_t place) {
   }
 }
 
+TreeBox box_of_children(const BoxTree::Node& node) {
+  TreeBox box;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = least(node.lower[axis]);
+    box.upper[axis] = greatest(node.upper[axis]);
+  }
+  return box;
+}
+
+// Puts the boxes of a node's first `count` children, and returns the box around them.
+TreeBox put_some(const TreeBox* boxes, size_t count, BoxTree::Node& node) {
+  for (size_t k = 0; k < count; ++k) put(boxes[index_of(node.child[k])], node, k);
+  return box_of_children(node);
+}
+
+#if HWY_TARGET == HWY_SCALAR
+TreeBox put_all(const TreeBox* boxes, BoxTree::Node& node) {
+  return put_some(boxes, BoxTree::kChildren, node);
+}
+#else
+HWY_INLINE TreeBox put_all(const TreeBox* boxes, BoxTree::Node& node) {
+  const RowTag tag;
+  BoxRow all = load_row(boxes[index_of(node.child[0])]);
+  for (size_t half = 0; half < BoxTree::kChildren; half += 4) {
+    RowOfFour first[4], second[4];
+    for (size_t k = 0; k < 4; ++k) {
+      const BoxRow row = load_row(boxes[index_of(node.child[half + k])]);
+      all = {min(row.first, all.first), max(row.second, all.second)};
+      first[k] = row.first;
+      second[k] = row.second;
+    }
+    transpose(first);
+    transpose(second);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      hn::Store(first[axis], tag, node.lower[axis] + half);
+      hn::Store(second[axis + 1], tag, node.upper[axis] + half);
+    }
+  }
+  alignas(16) float lower[4], upper[4];
+  hn::Store(all.first, tag, lower);
+  hn::Store(all.second, tag, upper);
+  return {{lower[0], lower[1], lower[2]}, {upper[1], upper[2], upper[3]}};
+}
+#endif  // HWY_TARGET
+
 double fit(std::span<BoxTree::Node> nodes, size_t children, const TreeBox* boxes,
            TreeBox* node_boxes) {
   double area = 0;
@@ -59,13 +104,9 @@ double fit(std::span<BoxTree::Node> nodes, size_t children, const TreeBox* boxes
       }
     }
     const size_t count = std::min(BoxTree::kChildren, children - i * BoxTree::kChildren);
-    for (size_t k = 0; k < count; ++k) put(boxes[index_of(node.child[k])], node, k);
-    TreeBox& all = node_boxes[i];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      all.lower[axis] = least(node.lower[axis]);
-      all.upper[axis] = greatest(node.upper[axis]);
-    }
-    area += half_area(all);
+    node_boxes[i] =
+        count == BoxTree::kChildren ? put_all(boxes, node) : put_some(boxes, count, node);
+    area += half_area(node_boxes[i]);
   }
   return area;
 }

@@ -1,0 +1,48 @@
+// Views of some of the bodies of a view.
+#pragma once
+
+#include "carom/results/sweep.h"
+#include "carom/shapes/views.h"
+
+namespace carom {
+
+template <class T>
+const T* moved(const T* base, size_t bytes) {
+  if (!base) return nullptr;
+  return reinterpret_cast<const T*>(reinterpret_cast<const char*>(base) + bytes);
+}
+
+// Bodies [first, first + count), at least one; the first of them gets index 0.
+inline Collidables run_of_bodies(const Collidables& bodies, size_t first, size_t count) {
+  Collidables run = bodies;
+  run.count = count;
+  run.position.data =
+      moved(static_cast<const char*>(bodies.position.data), first * bodies.position.stride);
+  run.position.radius = moved(bodies.position.radius, first * bodies.position.radius_stride);
+  run.orientation.data = moved(bodies.orientation.data, first * bodies.orientation.stride);
+  if (bodies.kind) run.kind += first;
+  if (bodies.box_slot) {
+    run.box_slot += first;
+  } else {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      run.boxes.lower[axis] = moved(bodies.boxes.lower[axis], first * bodies.boxes.stride);
+      run.boxes.upper[axis] = moved(bodies.boxes.upper[axis], first * bodies.boxes.stride);
+    }
+  }
+  if (bodies.rows.first) {
+    run.rows.first += first;
+  } else if (bodies.rows.data) {
+    // All bodies have one kind.
+    run.rows.data += 4 * first * row_count(bodies.kind ? bodies.kind[first] : bodies.uniform_kind);
+  }
+  return run;
+}
+
+inline SweepView run_of_sweeps(const SweepView& sweep, size_t first) {
+  SweepView run = sweep;
+  run.displacement = moved(sweep.displacement, first * sweep.displacement_stride);
+  run.rotation = moved(sweep.rotation, first * sweep.rotation_stride);
+  return run;
+}
+
+}  // namespace carom
