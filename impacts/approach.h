@@ -3,7 +3,7 @@
 // nearest points goes on at that time. Most pairs that do not meet are known after a few support
 // points, long before the nearest ones.
 //
-// Source: G. van den Bergh, "Ray Casting against General Convex Objects with Application to
+// Source: G. van den Bergen, "Ray Casting against General Convex Objects with Application to
 // Continuous Collision Detection", 2004.
 #pragma once
 
