@@ -45,12 +45,20 @@ TreeBox turned_box(const BodyReader& reader, size_t i, double angle, double& arc
   return box;
 }
 
+// The sweeps from the first one on; the first of them gets index 0.
+SweepView sweeps_from(const SweepView& sweep, size_t first) {
+  SweepView run = sweep;
+  run.displacement = moved(sweep.displacement, first * sweep.displacement_stride);
+  run.rotation = moved(sweep.rotation, first * sweep.rotation_stride);
+  return run;
+}
+
 }  // namespace
 
 void QueryBoxes::find(size_t first, size_t count, Parallelism parallelism) {
   first_ = first;
   const Collidables run = run_of_bodies(queries_, first, count);
-  const SweepView sweep = run_of_sweeps(sweep_, first);
+  const SweepView sweep = sweeps_from(sweep_, first);
   bounds_.find(run, parallelism);
   at_start_.resize(count);
   for (size_t begin = 0; begin < count; begin += kBodiesAtOnce) {

@@ -1,7 +1,6 @@
-// Views of some of the bodies of a view.
+// A view of some of the bodies of a view.
 #pragma once
 
-#include "carom/results/sweep.h"
 #include "carom/shapes/views.h"
 
 namespace carom {
@@ -35,13 +34,6 @@ inline Collidables run_of_bodies(const Collidables& bodies, size_t first, size_t
     // All bodies have one kind.
     run.rows.data += 4 * first * row_count(bodies.kind ? bodies.kind[first] : bodies.uniform_kind);
   }
-  return run;
-}
-
-inline SweepView run_of_sweeps(const SweepView& sweep, size_t first) {
-  SweepView run = sweep;
-  run.displacement = moved(sweep.displacement, first * sweep.displacement_stride);
-  run.rotation = moved(sweep.rotation, first * sweep.rotation_stride);
   return run;
 }
 

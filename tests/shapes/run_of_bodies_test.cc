@@ -68,13 +68,5 @@ TEST(RunOfBodies, ReadsBodiesOfOneKind) {
   }
 }
 
-TEST(RunOfBodies, SweepsThatAreLeftOutStayAway) {
-  const float ways[6] = {1, 2, 3, 4, 5, 6};
-  const SweepView sweep{.displacement = ways};
-  const SweepView run = run_of_sweeps(sweep, 1);
-  EXPECT_EQ(run.displacement, ways + 3);
-  EXPECT_EQ(run.rotation, nullptr);
-}
-
 }  // namespace
 }  // namespace carom::test
