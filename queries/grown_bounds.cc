@@ -71,8 +71,9 @@ class Columns {
   HWY_INLINE void load_positions(const Collidables& bodies, size_t first, size_t count) {
     const PositionView& view = bodies.position;
     size_t i = 0;
-    if (view.data && view.type == PositionType::float32 && view.stride == 4 * sizeof(float)) {
-      // Records of x, y, z and a radius.
+    if (view.data && view.type == PositionType::float32 && view.stride == 4 * sizeof(float) &&
+        view.radius_layout == RadiusLayout::fourth) {
+      // Records of x, y, z and a radius. Behind the last of others the memory may end.
       const auto* record = static_cast<const float*>(view.data) + 4 * first;
       const BoxTag tag;
       for (; i + kBoxLanes <= count; i += kBoxLanes) {

@@ -8,6 +8,7 @@
 
 #include "carom/base/thread_arena.h"
 #include "carom/narrowphase/collide.h"
+#include "carom/queries/cast.h"
 #include "tests/support/query_bodies.h"
 
 namespace carom::test {
@@ -211,6 +212,26 @@ TEST(Queries, InAnyFloatMode) {
     }
     EXPECT_TRUE(overlaps == expected_overlaps(queries, bodies, PositionType::float32));
     EXPECT_TRUE(nearest_of(nearest) == expected_nearest(queries, bodies, 1, PositionType::float32));
+  }
+}
+
+// Records 16 bytes apart of which 12 are there: the last one ends where memory does.
+TEST(Queries, ReadNoFourthNumberOfPoints) {
+  for (const RadiusLayout radius : {RadiusLayout::none, RadiusLayout::column}) {
+    for (const size_t count : {1, 3, 4, 5, 8, 16, 64}) {
+      std::vector<PlacedShape> shapes;
+      for (size_t i = 0; i < count; ++i) {
+        shapes.push_back(
+            sphere(static_cast<double>(i), 0, 0, radius == RadiusLayout::none ? 0 : 1));
+      }
+      const LaidOut points(shapes, {.radius = radius, .stride = 16});
+      const std::vector<float> ways(3 * count, 1.0f);
+      for_each_isa([&] {
+        std::vector<CastHit> hits;
+        EXPECT_TRUE(bool(cast(points.view(), {.displacement = ways.data()}, points.view(), hits)));
+        EXPECT_EQ(hits.size(), count);
+      });
+    }
   }
 }
 
