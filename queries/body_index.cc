@@ -47,7 +47,7 @@ void BodyIndex::update(const Collidables& bodies, const BoundsView& bounds, cons
       ++counts_[part].refits;
     }
     if (!build && !tree_.is_worn(part)) continue;
-    leave_out_empty();
+    leave_out_empty(part);
     // Nodes of the parts behind move, so they are built, too.
     tree_.build(part, boxes_, part_, parallelism);
     for (size_t built = part; built < RefittedTree::kParts; ++built) ++counts_[built].builds;
@@ -55,10 +55,10 @@ void BodyIndex::update(const Collidables& bodies, const BoundsView& bounds, cons
   }
 }
 
-// Bodies without a box get no place in a tree that is built.
-void BodyIndex::leave_out_empty() {
+// Bodies without a box get no place in the parts that are built. In the others they keep theirs.
+void BodyIndex::leave_out_empty(size_t first_part) {
   for (size_t i = 0; i < boxes_.size(); ++i) {
-    if (is_empty(boxes_[i])) part_[i] = kNoPart;
+    if (part_[i] >= first_part && is_empty(boxes_[i])) part_[i] = kNoPart;
   }
 }
 

@@ -45,7 +45,7 @@ class BodyIndex {
   PartChanges update_boxes(const Collidables& bodies, const BoundsView& bounds,
                            const Motion* motion, Parallelism parallelism);
 
-  void leave_out_empty();
+  void leave_out_empty(size_t first_part);
 
   RefittedTree tree_;
   std::vector<TreeBox> boxes_;

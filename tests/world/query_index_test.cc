@@ -183,6 +183,38 @@ class Followed {
   BodyIndex index_;
 };
 
+// A static body loses its place, comes back as another kind of motion, and must be found once.
+TEST(WorldQueryIndex, ABodyThatComesBackIsFoundOnce) {
+  World world;
+  const auto add = [&](double x, Motion motion) {
+    return world.add({.shape = Sphere{0.5f}, .position = {x, 0, 0}, .motion = motion});
+  };
+  const float query[4] = {0, 0, 0, 1}, way[3] = {0, 0, 1};
+  const auto expect_hits = [&](size_t count) {
+    std::vector<OverlapHit> overlaps;
+    world.find_overlaps(sphere_records(query, 1), overlaps);
+    EXPECT_EQ(overlaps.size(), count);
+    std::vector<CastHit> hits;
+    world.cast(sphere_records(query, 1), {.displacement = way}, hits, {.hits = CastHits::all});
+    EXPECT_EQ(hits.size(), count);
+  };
+  const BodyId body = add(0, Motion::fixed), other = add(10, Motion::fixed);
+  add(20, Motion::dynamic);
+  world.step();
+  expect_hits(1);
+  world.set_position(body, {NAN, 0, 0});
+  world.step();
+  expect_hits(0);
+  add(30, Motion::dynamic);
+  world.step();
+  expect_hits(0);
+  world.set_motion(body, Motion::dynamic);
+  world.set_position(body, {0, 0, 0});
+  world.set_position(other, {10.01, 0, 0});
+  world.step();
+  expect_hits(1);
+}
+
 TEST(BodyIndex, RefitsAPartInWhichBodiesMoved) {
   using Counts = std::array<size_t, 4>;
   Followed bodies(2000);
