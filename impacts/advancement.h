@@ -227,8 +227,9 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
   if (t > pair.latest) return {kNever};
   if (!(pair.a.speed > 0) && !(pair.b.speed > 0)) {
     const Approach approach(pair, t, tolerance);
-    if (approach.is_over()) return {approach.time()};
     t = approach.time();
+    if (t > 1) return {kNever};
+    if (approach.is_over()) return {t};
   }
   for (int round = 0; round < kMostRounds; ++round) {
     place(pair.a, Vector3d::Zero(), t, scratch.placed_a);

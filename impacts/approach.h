@@ -62,10 +62,12 @@ class Approach {
     return difference_point(*pair_.a.core, *pair_.b.core, n, pair_.furthest) + (from_ + way_ * t_);
   }
 
-  // Leaves half of the tolerance. Sets t_ and is_over_ if the gap does not close in time.
+  // Leaves half of the tolerance. Sets t_ and is_over_ if the gap certainly does not close in time:
+  // a quarter of the tolerance covers the rounding, so that a pair that meets at the latest time to
+  // the bit has that time.
   double time_to_close(double gap, double closing) {
     const double way = gap - tolerance_ / 2;
-    is_over_ = !(closing * (pair_.latest - t_) > way);
+    is_over_ = !(closing * (pair_.latest - t_) >= way - tolerance_ / 4);
     if (is_over_) t_ = kNever;
     return way / closing;
   }

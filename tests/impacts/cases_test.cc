@@ -280,5 +280,33 @@ TEST(ImpactCases, EdgesThatCrossWhileTheyTurn) {
   });
 }
 
+// Two children of a compound touch at the same time: the result is of the lower one, whichever the
+// search finds first.
+TEST(ImpactCases, TheLowestOfChildrenThatMeetAtOnce) {
+  const Shape corner = hull_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const auto children = *make_compound(std::vector<CompoundChild>{
+      {.shape = corner, .position = {1, 0, 0}}, {.shape = corner, .position = {0, 1, 0}}});
+  const PlacedShape flat{hull_of({{-5, -5, 0}, {5, -5, 0}, {0, 5, 0}}), {0, 0, 5}};
+  const MovedPair of_hulls = moved({Compound{children}, {0, 0, 0}}, {0, 0, 0}, flat, {1, 0, -6});
+
+  const Shape cube =
+      Dop::of_points(std::vector<Vector3f>{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}}, DopKind::k6);
+  const auto cubes = *make_compound(std::vector<CompoundChild>{
+      {.shape = cube, .position = {-2, 1, 0}}, {.shape = cube, .position = {-2, -1, 0}}});
+  const PlacedShape above{flat.shape, {0, 0, 2}};
+  const MovedPair of_dops =
+      moved({Compound{cubes}, {0, 0, 0}}, {0, 0, 0}, above, {0, -1, -0x1.eccccep+2f});
+
+  for (const MovedPair& pair : {of_hulls, of_dops}) {
+    const ShownIfFailed shown([&] { return show(pair); });
+    for_each_isa([&] {
+      const ImpactRow row = impact_of(pair);
+      EXPECT_TRUE(row.is_impact());
+      EXPECT_EQ(row.sub_a, 0u);
+      EXPECT_EQ(impact_of(swapped(pair)).sub_b, 0u);
+    });
+  }
+}
+
 }  // namespace
 }  // namespace carom::test
