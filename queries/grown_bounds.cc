@@ -145,7 +145,7 @@ HWY_INLINE bool put_one(const Columns& columns, size_t i, TreeBox& box) {
 
 #if HWY_TARGET != HWY_SCALAR
 HWY_INLINE bool are_same(const BoxRow& a, const BoxRow& b) {
-  const hn::RebindToUnsigned<RowTag> bits;
+  const hn::RebindToUnsigned<Quad> bits;
   const auto differ = hn::Or(hn::Xor(hn::BitCast(bits, a.first), hn::BitCast(bits, b.first)),
                              hn::Xor(hn::BitCast(bits, a.second), hn::BitCast(bits, b.second)));
   return hn::AllTrue(bits, hn::Eq(differ, hn::Zero(bits)));
@@ -154,7 +154,7 @@ HWY_INLINE bool are_same(const BoxRow& a, const BoxRow& b) {
 // The same for four bodies; returns a bit each.
 HWY_INLINE uint64_t put_four(const Columns& columns, size_t i, TreeBox* boxes) {
   const auto load = [&](const Columns::Column& numbers) {
-    return hn::Load(RowTag(), numbers.data() + i);
+    return hn::Load(Quad(), numbers.data() + i);
   };
   const auto& lower = columns.lower;
   const auto& upper = columns.upper;

@@ -48,8 +48,8 @@ TreeBox turned_box(const BodyReader& reader, size_t i, double angle, double& arc
 // The sweeps from the first one on; the first of them gets index 0.
 SweepView sweeps_from(const SweepView& sweep, size_t first) {
   SweepView run = sweep;
-  run.displacement = moved(sweep.displacement, first * sweep.displacement_stride);
-  run.rotation = moved(sweep.rotation, first * sweep.rotation_stride);
+  run.displacement = further(sweep.displacement, first * sweep.displacement_stride);
+  run.rotation = further(sweep.rotation, first * sweep.rotation_stride);
   return run;
 }
 

@@ -5,8 +5,9 @@
 
 namespace carom {
 
+// The address so many bytes further on; nullptr stays.
 template <class T>
-const T* moved(const T* base, size_t bytes) {
+const T* further(const T* base, size_t bytes) {
   if (!base) return nullptr;
   return reinterpret_cast<const T*>(reinterpret_cast<const char*>(base) + bytes);
 }
@@ -16,16 +17,16 @@ inline Collidables run_of_bodies(const Collidables& bodies, size_t first, size_t
   Collidables run = bodies;
   run.count = count;
   run.position.data =
-      moved(static_cast<const char*>(bodies.position.data), first * bodies.position.stride);
-  run.position.radius = moved(bodies.position.radius, first * bodies.position.radius_stride);
-  run.orientation.data = moved(bodies.orientation.data, first * bodies.orientation.stride);
+      further(static_cast<const char*>(bodies.position.data), first * bodies.position.stride);
+  run.position.radius = further(bodies.position.radius, first * bodies.position.radius_stride);
+  run.orientation.data = further(bodies.orientation.data, first * bodies.orientation.stride);
   if (bodies.kind) run.kind += first;
   if (bodies.box_slot) {
     run.box_slot += first;
   } else {
     for (size_t axis = 0; axis < 3; ++axis) {
-      run.boxes.lower[axis] = moved(bodies.boxes.lower[axis], first * bodies.boxes.stride);
-      run.boxes.upper[axis] = moved(bodies.boxes.upper[axis], first * bodies.boxes.stride);
+      run.boxes.lower[axis] = further(bodies.boxes.lower[axis], first * bodies.boxes.stride);
+      run.boxes.upper[axis] = further(bodies.boxes.upper[axis], first * bodies.boxes.stride);
     }
   }
   if (bodies.rows.first) {

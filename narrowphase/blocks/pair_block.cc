@@ -8,6 +8,7 @@
 #include "narrowphase/batch/world_point.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "shapes/body_reader.h"
+#include "shapes/run_of_bodies.h"
 
 namespace carom {
 namespace {
@@ -32,31 +33,6 @@ OrientationView orientation_of(const Collidables& bodies) {
 BatchSide side_of(const Collidables& bodies) {
   return {bodies.position.data, bodies.position.stride, bodies.boxes,
           bodies.box_slot,      orientation_of(bodies), bodies.rows};
-}
-
-// The side with body `first` as body 0. All bodies are of one kind.
-BatchSide from_body(BatchSide side, ShapeKind kind, size_t first) {
-  side.orientation.data += first * (side.orientation.stride / sizeof(float));
-  if (side.rows.first) {
-    side.rows.first += first;
-  } else if (side.rows.data) {
-    side.rows.data += first * row_count(kind) * std::tuple_size_v<Row>;
-  }
-  if (side.records) {
-    side.records = static_cast<const char*>(side.records) + first * side.record_stride;
-  }
-  if (side.box_slot) {
-    side.box_slot += first;
-    return side;
-  }
-  for (auto* corner : {&side.boxes.lower, &side.boxes.upper}) {
-    for (const float*& column : *corner) {
-      if (!column) continue;
-      const char* shifted = reinterpret_cast<const char*>(column) + first * side.boxes.stride;
-      column = reinterpret_cast<const float*>(shifted);
-    }
-  }
-  return side;
 }
 
 // (0, 0), (1, 1), ...: the list of pairs for a batch whose row i is bodies i and i.
@@ -150,8 +126,8 @@ class BlockRunner {
     Batch whole = batch(kind);
     whole.pairs = block_.pairs;
     if (!block_.pairs) {
-      whole.a = from_body(whole.a, kPairKinds[kind.index].a, block_.first);
-      whole.b = from_body(whole.b, kPairKinds[kind.index].b, block_.first);
+      whole.a = side_of(run_of_bodies(block_.a, block_.first, block_.count));
+      whole.b = side_of(run_of_bodies(block_.b, block_.first, block_.count));
       whole.pairs = kRowPairs.data();
       whole.pairs_are_rows = true;
     }
