@@ -228,6 +228,7 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
   if (!(pair.a.speed > 0) && !(pair.b.speed > 0)) {
     const Approach approach(pair, t, tolerance);
     t = approach.time();
+    // The margin that covers rounding may lead a little past the end.
     if (t > 1) return {kNever};
     if (approach.is_over()) return {t};
   }

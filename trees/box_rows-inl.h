@@ -9,19 +9,19 @@
 
 #include <cstddef>
 
-#include "simd/lanes-inl.h"
+#include "simd/gather-inl.h"
 #include "trees/tree.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
-using RowTag = hn::CappedTag<float, 4>;
-using RowOfFour = hn::Vec<RowTag>;
+using RowOfFour = hn::Vec<Quad>;
 
-// Turns four rows into columns, or back.
+// Turns four rows into columns, or back. transpose_records() does the same to whole vectors; code
+// that both shared gave the kernels other registers.
 HWY_INLINE void transpose(RowOfFour (&v)[4]) {
-  const RowTag tag;
+  const Quad tag;
   const RowOfFour low_even = hn::InterleaveLower(tag, v[0], v[2]);
   const RowOfFour low_odd = hn::InterleaveLower(tag, v[1], v[3]);
   const RowOfFour high_even = hn::InterleaveUpper(tag, v[0], v[2]);
@@ -42,13 +42,13 @@ static_assert(sizeof(TreeBox) == 6 * sizeof(float));
 
 HWY_INLINE BoxRow load_row(const TreeBox& box) {
   const float* const numbers = box.lower.data();
-  return {hn::LoadU(RowTag(), numbers), hn::LoadU(RowTag(), numbers + 2)};
+  return {hn::LoadU(Quad(), numbers), hn::LoadU(Quad(), numbers + 2)};
 }
 
 HWY_INLINE void store_row(const BoxRow& row, TreeBox& box) {
   float* const numbers = box.lower.data();
-  hn::StoreU(row.first, RowTag(), numbers);
-  hn::StoreU(row.second, RowTag(), numbers + 2);
+  hn::StoreU(row.first, Quad(), numbers);
+  hn::StoreU(row.second, Quad(), numbers + 2);
 }
 
 #endif  // HWY_TARGET

@@ -69,7 +69,7 @@ TreeBox put_all(const TreeBox* boxes, BoxTree::Node& node) {
 }
 #else
 HWY_INLINE TreeBox put_all(const TreeBox* boxes, BoxTree::Node& node) {
-  const RowTag tag;
+  const Quad tag;
   BoxRow all = load_row(boxes[index_of(node.child[0])]);
   for (size_t half = 0; half < BoxTree::kChildren; half += 4) {
     RowOfFour first[4], second[4];
