@@ -1,6 +1,8 @@
 // Which contacts and points continue those of the last step.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "carom/base/thread_arena.h"
@@ -21,16 +23,88 @@ constexpr WorldSettings kIdentitySettings{.detail = Detail::manifold, .identitie
 struct Before {
   std::vector<Contact> contacts;
   std::vector<ContactIdentity> identities;
+  std::vector<ManifoldPoints> manifolds;
 
   explicit Before(const World& world)
       : contacts(world.contacts().begin(), world.contacts().end()),
-        identities(world.identities().begin(), world.identities().end()) {}
+        identities(world.identities().begin(), world.identities().end()),
+        manifolds(world.manifolds().begin(), world.manifolds().end()) {}
 };
 
 bool is_same_pair(const Contact& x, const Contact& y) { return x.a == y.a && x.b == y.b; }
 
-// Checks what must hold of any identities: previous points belong to the pair, none is continued
-// twice, and one of the same name is continued if there is one.
+// A point of a contact, in one of two steps.
+struct NamedPoint {
+  uint32_t place;
+  uint64_t name;
+  Vector3f at;
+  float reach;  // how far away a point of another name may be
+};
+
+std::vector<NamedPoint> points_of(const Before& step, const Contact& pair) {
+  std::vector<NamedPoint> points;
+  for (uint32_t c = 0; c < step.contacts.size(); ++c) {
+    const Contact& contact = step.contacts[c];
+    if (!is_same_pair(contact, pair)) continue;
+    for (uint32_t k = 0; k < contact.manifold_count; ++k) {
+      const std::array<float, 3>& at = step.manifolds[c].point[k];
+      points.push_back({point_place(c, k),
+                        step.identities[c].names.point[k],
+                        {at[0], at[1], at[2]},
+                        std::min(contact.arm_a.norm(), contact.arm_b.norm()) / 4});
+    }
+  }
+  return points;
+}
+
+// How points found those that they continue.
+struct Matches {
+  size_t by_name = 0, by_name_past_a_nearer = 0, by_distance = 0, too_far = 0;
+};
+
+// The rule as its header states it: points of the same name first, then the nearest ones that are
+// left.
+void expect_rule(const Before& before, const Before& now, const Contact& pair, Matches& matches) {
+  std::vector<NamedPoint> left = points_of(before, pair);
+  std::vector<NamedPoint> rest;
+  const auto previous = [&](const NamedPoint& point) {
+    return now.identities[point.place / 4].previous_point[point.place % 4];
+  };
+  for (const NamedPoint& point : points_of(now, pair)) {
+    const auto same = std::find_if(left.begin(), left.end(),
+                                   [&](const NamedPoint& old) { return old.name == point.name; });
+    if (same == left.end()) {
+      rest.push_back(point);
+      continue;
+    }
+    ASSERT_EQ(previous(point), same->place);
+    ++matches.by_name;
+    const float distance = (same->at - point.at).norm();
+    matches.by_name_past_a_nearer += std::any_of(left.begin(), left.end(), [&](const auto& old) {
+      return (old.at - point.at).norm() < distance;
+    });
+    left.erase(same);
+  }
+  for (const NamedPoint& point : rest) {
+    const auto nearest =
+        std::min_element(left.begin(), left.end(), [&](const NamedPoint& x, const NamedPoint& y) {
+          return (x.at - point.at).norm() < (y.at - point.at).norm();
+        });
+    const float distance = nearest == left.end() ? INFINITY : (nearest->at - point.at).norm();
+    if (std::abs(distance - point.reach) <= 1e-5f * point.reach) return;  // rounding decides
+    if (distance < point.reach) {
+      ASSERT_EQ(previous(point), nearest->place);
+      ++matches.by_distance;
+      left.erase(nearest);
+    } else {
+      ASSERT_EQ(previous(point), kNoPrevious);
+      matches.too_far += nearest != left.end();
+    }
+  }
+}
+
+// Checks what must hold of any identities: previous points belong to the pair, and none is
+// continued twice.
 void expect_consistent(const World& world, const Before& before, size_t& continued) {
   ASSERT_EQ(world.identities().size(), world.contacts().size());
   std::set<uint32_t> taken;
@@ -62,16 +136,26 @@ TEST(Identities, AreConsistentWhileBodiesMove) {
     const std::vector<BodyId> ids = add_crowd(world, kIdentityCrowd);
     Random random(5);
     size_t continued = 0, points = 0;
+    Matches matches;
     world.step();
     for (int frame = 0; frame < 15; ++frame) {
       const Before before(world);
       move_some(world, ids, 0.3, random);
       world.step();
       expect_consistent(world, before, continued);
-      for (const Contact& contact : world.contacts()) points += contact.manifold_count;
+      const Before now(world);
+      for (size_t c = 0; c < now.contacts.size(); ++c) {
+        const bool is_first = c == 0 || !is_same_pair(now.contacts[c], now.contacts[c - 1]);
+        if (is_first) expect_rule(before, now, now.contacts[c], matches);
+        points += now.contacts[c].manifold_count;
+      }
       ASSERT_FALSE(HasFatalFailure());
     }
     EXPECT_GT(continued, points / 2);
+    EXPECT_GT(matches.by_name, points / 2);
+    EXPECT_GT(matches.by_name_past_a_nearer, 10u);
+    EXPECT_GT(matches.by_distance, 10u);
+    EXPECT_GT(matches.too_far, 10u);
   }
 }
 
