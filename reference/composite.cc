@@ -121,7 +121,7 @@ PairContacts with_regions(const PairResult& first, std::span<PartContact> contac
   RegionMerger merger;
   uint32_t left_out;
   const std::span<const PartRegion> regions =
-      merger.all(contacts, limits.cosine, limits.most, left_out);
+      merger.all(contacts, limits.cosine, std::clamp(limits.most, 1u, 0xffffu), left_out);
   result.left_out = static_cast<uint16_t>(std::min(left_out, 0xffffu));
   result.first.manifold_count = regions[0].manifold.count;
   result.first.manifold = regions[0].manifold.points;

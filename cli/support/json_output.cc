@@ -19,8 +19,9 @@ Result<JsonOutput> JsonOutput::open(const std::string& target) {
 }
 
 Result<void> JsonOutput::write(const nlohmann::ordered_json& json, const Console& console) {
-  // Replaces bytes that are not UTF-8: names come from files.
-  std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  // Names come from files: bytes that are not UTF-8 are replaced. All that is not ASCII is escaped,
+  // since a terminal obeys U+0080 to U+009F.
+  std::string text = json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + '\n';
   if (standard_output_) console.out << text;
   if (!file_) return {};
   Result<void> written = file_->write(std::as_bytes(std::span(text)));

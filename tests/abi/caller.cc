@@ -92,8 +92,10 @@ void print_layout() {
 
 unsigned long long hash_of_steps() {
   World world({.positions = PositionType::float64,
-               .detail = Detail::manifold,
-               .parallelism = Parallelism::none});
+               .detail = Detail::regions,
+               .parallelism = Parallelism::none,
+               .contact_distance = 0.0625f,
+               .identities = true});
   std::vector<BodyId> ids;
   world.add(make_bodies(), ids);
   Hash hash;
@@ -101,6 +103,7 @@ unsigned long long hash_of_steps() {
     world.step();
     for (const Contact& contact : world.contacts()) hash.add(contact);
     for (const ManifoldPoints& points : world.manifolds()) hash.add(points);
+    for (const ContactIdentity& identity : world.identities()) hash.add(identity);
     for (const Impact& impact : world.impacts()) hash.add(impact);
     for (const Event& event : world.events()) hash.add(event);
     for (const BodyId id : ids) {
@@ -141,6 +144,22 @@ unsigned long long hash_of_reference() {
   return hash.value();
 }
 
+unsigned long long hash_of_hulls() {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 200; ++i) {
+    points.emplace_back(static_cast<float>(i % 7), static_cast<float>(i % 11),
+                        static_cast<float>(i * i % 13));
+  }
+  const Result<BuiltHull> hull = build_hull(points);
+  const Result<SimplifiedHull> simple = simplify_hull(points, {.most_points = 8});
+  if (!hull || !simple) return 0;
+  Hash hash;
+  for (const Eigen::Vector3f& point : hull->geometry->points()) hash.add(point);
+  for (const Eigen::Vector3f& point : simple->geometry->points()) hash.add(point);
+  hash.add(simple->error);
+  return hash.value();
+}
+
 // The library is tested against Eigen's functions as this program compiles them. In a static build
 // the linker keeps one copy of each for both; the library's results must not be made of these.
 float use_eigen(const Eigen::Vector3f& u, const Eigen::Vector3d& v, const Eigen::Quaternionf& q) {
@@ -161,5 +180,6 @@ int main() {
   print_layout();
   std::printf("steps %016llx\n", hash_of_steps());
   std::printf("reference %016llx\n", hash_of_reference());
+  std::printf("hulls %016llx\n", hash_of_hulls());
   return 0;
 }

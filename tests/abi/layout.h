@@ -3,6 +3,8 @@
 #pragma once
 
 #include <carom/carom.h>
+#include <carom/hulls/build_hull.h>
+#include <carom/hulls/simplify_hull.h>
 #include <carom/reference/reference.h>
 
 #include <cstddef>
@@ -26,6 +28,10 @@ static_assert(kNaturallyAligned<BoundsColumns, DopRecords, PairFilter, PairSearc
                                 ResultColumns, ImpactColumns, Accuracy, FastKnobs>);
 static_assert(kNaturallyAligned<Pair, Contact, ManifoldPoints, Event, Impact, CastHit, OverlapHit,
                                 NearestHit, PointHit, Rays>);
+static_assert(
+    kNaturallyAligned<CollideOptions, CastOptions, QueryOptions, QueryFilter, ImpactOptions,
+                      RegionLimits, ContactRegions, PointNames, ContactIdentity>);
+static_assert(kNaturallyAligned<BuiltHull, SimplifyOptions, SimplifiedHull>);
 static_assert(kNaturallyAligned<WorldSettings, BodyArrays, BoxArrays, ShapeRowArrays, WorldMemory,
                                 StepReport, World, ThreadArena, Error, Result<void>>);
 static_assert(kNaturallyAligned<reference::Box, reference::PairResult, reference::Impact,
@@ -43,6 +49,8 @@ static_assert(offsetof(Triangle, thickness) == 36 && offsetof(Halfspace, offset)
 static_assert(offsetof(Dop, lower) == 4 && offsetof(Dop, upper) == 4 + 4 * kMostSlabs);
 static_assert(sizeof(BodyId) == 8 && sizeof(Pair) == 8);
 static_assert(offsetof(Contact, normal) == 16 && offsetof(Contact, arm_b) == 48);
+static_assert(sizeof(ManifoldPoints) == 64 && sizeof(PointNames) == 32);
+static_assert(offsetof(ManifoldPoints, separation) == 48);
 static_assert(offsetof(CompoundChild, position) == sizeof(Shape));
 static_assert(offsetof(CompoundChild, orientation) == sizeof(Shape) + 12);
 static_assert(offsetof(BodyDesc, position) == sizeof(Shape));

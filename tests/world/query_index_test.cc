@@ -215,6 +215,32 @@ TEST(WorldQueryIndex, ABodyThatComesBackIsFoundOnce) {
   expect_hits(1);
 }
 
+// All bodies have one kind of motion, so that runs of them are looked at together. Bodies are put
+// where none was, one in each run in turn, and must be found there and nowhere else.
+TEST(WorldQueryIndex, BodiesOfOneMotionAreFollowed) {
+  for (const Motion motion : {Motion::dynamic, Motion::fixed}) {
+    World world;
+    std::vector<BodyId> ids;
+    for (double x = 0; x < 400; ++x) {
+      ids.push_back(world.add({.shape = Sphere{0.25f}, .position = {x, 0, 0}, .motion = motion}));
+    }
+    const auto bodies_at = [&](size_t i, float y) {
+      const float query[4] = {static_cast<float>(i), y, 0, 0.25f};
+      std::vector<OverlapHit> hits;
+      world.find_overlaps(sphere_records(query, 1), hits);
+      return hits.size();
+    };
+    world.step();
+    for (const size_t i : {3u, 100u, 399u, 63u, 64u}) {
+      ASSERT_EQ(bodies_at(i, 0), 1u);
+      world.set_position(ids[i], {static_cast<double>(i), 2, 0});
+      world.step();
+      EXPECT_EQ(bodies_at(i, 2), 1u) << i;
+      EXPECT_EQ(bodies_at(i, 0), 0u) << i;
+    }
+  }
+}
+
 TEST(BodyIndex, RefitsAPartInWhichBodiesMoved) {
   using Counts = std::array<size_t, 4>;
   Followed bodies(2000);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <span>
 
@@ -72,6 +73,16 @@ CAROM_EXPORT Result<void> time_of_impact(const Collidables& a, const SweepView& 
                                          const Collidables& b, const SweepView& sweep_b,
                                          std::span<const Pair> pairs, const ImpactColumns& out,
                                          const ImpactOptions& options = {});
+
+/// The form of version 0.2. A template, so that `{}` in the last place is ImpactOptions.
+template <std::same_as<WitnessFrame> Frame>
+[[deprecated("pass ImpactOptions")]] Result<void> time_of_impact(
+    const Collidables& a, const SweepView& sweep_a, const Collidables& b, const SweepView& sweep_b,
+    std::span<const Pair> pairs, const ImpactColumns& out, Frame frame,
+    Parallelism parallelism = Parallelism::none) {
+  return time_of_impact(a, sweep_a, b, sweep_b, pairs, out,
+                        ImpactOptions{.frame = frame, .parallelism = parallelism});
+}
 
 /// The greatest separation at a time of impact, relative to size and travel (time_of_impact()).
 inline constexpr double kImpactSlack = 1e-11;

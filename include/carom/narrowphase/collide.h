@@ -2,6 +2,7 @@
 /// The narrow phase on the caller's own arrays: pairs and shapes in, results out.
 #pragma once
 
+#include <concepts>
 #include <span>
 
 #include "carom/base/parallelism.h"
@@ -77,10 +78,11 @@ CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& 
                                        const ResultColumns& out,
                                        const CollideOptions& options = {});
 
-/// The form of version 0.2.
-[[deprecated("pass CollideOptions")]] inline Result<void> collide(
+/// The form of version 0.2. A template, so that `{}` in the last place is CollideOptions.
+template <std::same_as<WitnessFrame> Frame>
+[[deprecated("pass CollideOptions")]] Result<void> collide(
     const Collidables& a, const Collidables& b, std::span<const Pair> pairs, Detail detail,
-    const ResultColumns& out, WitnessFrame frame, Parallelism parallelism = Parallelism::none,
+    const ResultColumns& out, Frame frame, Parallelism parallelism = Parallelism::none,
     Measured measured = Measured::all, const Accuracy& accuracy = {}) {
   return collide(
       a, b, pairs, detail, out,
@@ -88,11 +90,12 @@ CAROM_EXPORT Result<void> collide_rows(const Collidables& a, const Collidables& 
           .frame = frame, .parallelism = parallelism, .measured = measured, .accuracy = accuracy});
 }
 
-/// The form of version 0.2.
-[[deprecated("pass CollideOptions")]] inline Result<void> collide_rows(
+/// The form of version 0.2. A template, so that `{}` in the last place is CollideOptions.
+template <std::same_as<WitnessFrame> Frame>
+[[deprecated("pass CollideOptions")]] Result<void> collide_rows(
     const Collidables& a, const Collidables& b, Detail detail, const ResultColumns& out,
-    WitnessFrame frame, Parallelism parallelism = Parallelism::none,
-    Measured measured = Measured::all, const Accuracy& accuracy = {}) {
+    Frame frame, Parallelism parallelism = Parallelism::none, Measured measured = Measured::all,
+    const Accuracy& accuracy = {}) {
   return collide_rows(
       a, b, detail, out,
       CollideOptions{

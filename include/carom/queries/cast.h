@@ -77,6 +77,13 @@ CAROM_EXPORT Result<void> cast(const Collidables& queries, const SweepView& swee
                                const Collidables& bodies, std::vector<CastHit>& hits,
                                const CastOptions& options = {});
 
+/// The form of version 0.2.
+[[deprecated("pass CastOptions")]] inline Result<void> cast(
+    const Collidables& queries, const SweepView& sweep, const Collidables& bodies, CastHits which,
+    std::vector<CastHit>& hits, Parallelism parallelism = Parallelism::none) {
+  return cast(queries, sweep, bodies, hits, CastOptions{.hits = which, .parallelism = parallelism});
+}
+
 /// Rays as queries of cast(): points that move by direction * length. Origins are not copied and
 /// must outlive this object. `direction` need not be a unit vector: a hit is at
 /// origin + toi * length * direction. Rays with an end that is not finite hit nothing.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <concepts>
 #include <cstdint>
 #include <vector>
 
@@ -59,5 +60,24 @@ struct NearestHit {
 CAROM_EXPORT Result<void> find_nearest(const Collidables& queries, float within,
                                        const Collidables& bodies, std::vector<NearestHit>& hits,
                                        const QueryOptions& options = {});
+
+/// The form of version 0.2. A template, so that `{}` in the last place is QueryOptions.
+template <std::same_as<Parallelism> Threads>
+[[deprecated("pass QueryOptions")]] Result<void> find_overlaps(const Collidables& queries,
+                                                               const Collidables& bodies,
+                                                               std::vector<OverlapHit>& hits,
+                                                               Threads parallelism) {
+  return find_overlaps(queries, bodies, hits, QueryOptions{.parallelism = parallelism});
+}
+
+/// The form of version 0.2. A template, so that `{}` in the last place is QueryOptions.
+template <std::same_as<Parallelism> Threads>
+[[deprecated("pass QueryOptions")]] Result<void> find_nearest(const Collidables& queries,
+                                                              float within,
+                                                              const Collidables& bodies,
+                                                              std::vector<NearestHit>& hits,
+                                                              Threads parallelism) {
+  return find_nearest(queries, within, bodies, hits, QueryOptions{.parallelism = parallelism});
+}
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -355,6 +356,32 @@ class CAROM_EXPORT World {
   /// Brings the index of queries up to date with the last step, with the threads of the world.
   /// Queries do it themselves otherwise. Hits are the same.
   void prepare_queries();
+
+  /// The forms of version 0.2, which use the threads of the world's settings. Templates, so that
+  /// `{}` in the last place is options.
+  [[deprecated("pass CastOptions")]] void cast(const Collidables& queries, const SweepView& sweep,
+                                               CastHits which, std::vector<CastHit>& hits,
+                                               uint32_t mask = ~0u) const {
+    cast(queries, sweep, hits,
+         CastOptions{
+             .hits = which, .filter = {.mask = mask}, .parallelism = settings().parallelism});
+  }
+  template <std::integral Mask>
+  [[deprecated("pass QueryOptions")]] void find_overlaps(const Collidables& queries,
+                                                         std::vector<OverlapHit>& hits,
+                                                         Mask mask) const {
+    find_overlaps(queries, hits,
+                  QueryOptions{.filter = {.mask = static_cast<uint32_t>(mask)},
+                               .parallelism = settings().parallelism});
+  }
+  template <std::integral Mask>
+  [[deprecated("pass QueryOptions")]] void find_nearest(const Collidables& queries, float within,
+                                                        std::vector<NearestHit>& hits,
+                                                        Mask mask) const {
+    find_nearest(queries, within, hits,
+                 QueryOptions{.filter = {.mask = static_cast<uint32_t>(mask)},
+                              .parallelism = settings().parallelism});
+  }
 
   /// Memory held, in bytes, by purpose.
   WorldMemory memory() const;
