@@ -30,14 +30,20 @@ class BlockLists {
     return sum;
   }
 
-  // Replaces `out` by all items, in block order.
-  void concatenate(std::vector<T>& out, Parallelism parallelism) {
+  // Finds the places of all lists in one that has all items in block order, and returns its length.
+  size_t place() {
     size_t first = 0;
     for (size_t i = 0; i < blocks_; ++i) {
       lists_[i].first = first;
       first += lists_[i].items.size();
     }
-    out.resize(first);
+    return first;
+  }
+  size_t first(size_t block) const { return lists_[block].first; }  // after place()
+
+  // Replaces `out` by all items, in block order.
+  void concatenate(std::vector<T>& out, Parallelism parallelism) {
+    out.resize(place());
     for_each_block(blocks_, 1, parallelism, [&](size_t i, size_t, size_t) {
       std::copy(lists_[i].items.begin(), lists_[i].items.end(), out.begin() + lists_[i].first);
     });

@@ -88,6 +88,12 @@ size_t bounds_at(const Positions& positions, const BodyReader& reader, const Bou
   if (bodies.uniform_kind == ShapeKind::aabb) {
     return bounds_of(positions, BoxExtents(bodies), out, begin, end);
   }
+  if (bodies.uniform_kind == ShapeKind::box) {
+    return bounds_of(positions, TurnedExtents<BoxReach>{reader}, out, begin, end);
+  }
+  if (bodies.uniform_kind == ShapeKind::capsule) {
+    return bounds_of(positions, TurnedExtents<CapsuleReach>{reader}, out, begin, end);
+  }
   return bounds_of(positions, MixedExtents(reader), out, begin, end);
 }
 

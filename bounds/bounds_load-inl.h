@@ -11,6 +11,7 @@
 
 #include "bounds/bounds_sums-inl.h"
 #include "bounds/extent.h"
+#include "bounds/turned_extents-inl.h"
 #include "shapes/body_reader.h"
 #include "simd/gather-inl.h"
 
@@ -154,7 +155,26 @@ struct BoxExtents {
 
   HWY_INLINE size_t row(size_t i) const { return slot ? slot[i] : i; }
 
+  // One corner of the boxes of bodies i, i + 1, ... in records.
+  struct Corner {
+    const BoxExtents& boxes;
+    const float* first;
+    size_t i;
+
+    HWY_INLINE const float* numbers(size_t k) const { return first + 8 * boxes.row(i + k); }
+#if HWY_TARGET != HWY_SCALAR
+    HWY_INLINE hn::Vec<Quad> quad(size_t k) const { return hn::LoadU(Quad(), numbers(k)); }
+#endif
+    HWY_INLINE float component(size_t k, size_t c) const { return numbers(k)[c]; }
+  };
+
   HWY_INLINE void load(size_t i, F, F3& lower, F3& upper) const {
+    if (boxes.are_records) {
+      F unused;
+      transpose_records(Corner{*this, boxes.lower[0], i}, lower, unused);
+      transpose_records(Corner{*this, boxes.upper[0], i}, upper, unused);
+      return;
+    }
     if (are_consecutive(i)) {
       load_rows(row(i), lower, upper);
       return;
@@ -191,6 +211,54 @@ struct BoxExtents {
   }
 };
 
+// Reads bodies first, first + 1, ... one at a time.
+inline void load_singly(const BodyReader& reader, size_t first, F3& lower, F3& upper) {
+  HWY_ALIGN float corners[6][kLanes];
+  for (size_t i = 0; i < kLanes; ++i) {
+    const Extent extent = extent_of(reader, first + i);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      corners[axis][i] = extent.lower[axis];
+      corners[3 + axis][i] = extent.upper[axis];
+    }
+  }
+  lower = {load_scalars(corners[0]), load_scalars(corners[1]), load_scalars(corners[2])};
+  upper = {load_scalars(corners[3]), load_scalars(corners[4]), load_scalars(corners[5])};
+}
+
+// Boxes alone, or capsules alone.
+template <class Shape>
+struct TurnedExtents {
+  const BodyReader& reader;
+
+  // Row k of the shapes of bodies i, i + 1, ...
+  struct Rows {
+    const ShapeRows& rows;
+    size_t i, k;
+
+    HWY_INLINE const float* numbers(size_t lane) const {
+      const size_t body = i + lane;
+      const size_t first = rows.first ? rows.first[body] : body * row_count(Shape::kKind);
+      return rows.data + 4 * (first + k);
+    }
+#if HWY_TARGET != HWY_SCALAR
+    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), numbers(lane)); }
+#endif
+    HWY_INLINE float component(size_t lane, size_t c) const { return numbers(lane)[c]; }
+  };
+
+  HWY_INLINE void load(size_t i, F, F3& lower, F3& upper) const {
+    const Collidables& bodies = reader.bodies;
+    const Shape shape([&](size_t k) HWY_ATTR { return Rows{bodies.rows, i, k}; });
+    Quaternion q = {splat3(0), splat(1)};
+    if (bodies.orientation.data) {
+      const char* first = reinterpret_cast<const char*>(bodies.orientation.data);
+      const size_t stride = bodies.orientation.stride;
+      transpose_records(ConsecutiveRecords{first + i * stride, stride}, q.v, q.w);
+    }
+    if (!turned_extents(shape, q, lower, upper)) load_singly(reader, i, lower, upper);
+  }
+};
+
 // Bodies of any kinds, mixed.
 struct MixedExtents {
   const BodyReader& reader;
@@ -207,20 +275,7 @@ struct MixedExtents {
     }
     if (spheres == kLanes) return SphereExtents().load(first, radius, lower, upper);
     if (aabbs == kLanes) return boxes.load(first, radius, lower, upper);
-    load_singly(first, lower, upper);
-  }
-
-  void load_singly(size_t first, F3& lower, F3& upper) const {
-    HWY_ALIGN float corners[6][kLanes];
-    for (size_t i = 0; i < kLanes; ++i) {
-      const Extent extent = extent_of(reader, first + i);
-      for (size_t axis = 0; axis < 3; ++axis) {
-        corners[axis][i] = extent.lower[axis];
-        corners[3 + axis][i] = extent.upper[axis];
-      }
-    }
-    lower = {load_scalars(corners[0]), load_scalars(corners[1]), load_scalars(corners[2])};
-    upper = {load_scalars(corners[3]), load_scalars(corners[4]), load_scalars(corners[5])};
+    load_singly(reader, first, lower, upper);
   }
 };
 

@@ -12,9 +12,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-using DoubleTag = hn::ScalableTag<double>;
-using D = hn::Vec<DoubleTag>;
-
 // As many doubles as a vector has floats. They take two vectors, except on the scalar target, where
 // a vector is one number.
 #if HWY_TARGET == HWY_SCALAR
@@ -29,6 +26,14 @@ HWY_INLINE Wide load_wide(const double* from) { return {hn::LoadU(DoubleTag(), f
 // A cast instead of Highway's DemoteTo, which saturates on this target only.
 HWY_INLINE Half demote(D v) { return splat(static_cast<float>(hn::GetLane(v))); }
 HWY_INLINE F demote(const Wide& v) { return demote(v.all); }
+
+// Calls visit(wide, half_of) for the parts of a vector of floats of which a vector of doubles can
+// be made: wide(F) makes it, half_of(Wide&) is where it lies.
+template <class Visit>
+HWY_INLINE void for_each_half(const Visit& visit) {
+  visit([](F v) HWY_ATTR { return hn::PromoteTo(DoubleTag(), v); },
+        [](Wide& v) HWY_ATTR -> D& { return v.all; });
+}
 
 #else
 
@@ -45,6 +50,14 @@ HWY_INLINE Wide load_wide(const double* from) {
 HWY_INLINE Half demote(D v) { return hn::DemoteTo(HalfTag(), v); }
 HWY_INLINE F demote(const Wide& v) {
   return hn::Combine(FloatTag(), demote(v.high), demote(v.low));
+}
+
+template <class Visit>
+HWY_INLINE void for_each_half(const Visit& visit) {
+  visit([](F v) HWY_ATTR { return hn::PromoteTo(DoubleTag(), hn::LowerHalf(HalfTag(), v)); },
+        [](Wide& v) HWY_ATTR -> D& { return v.low; });
+  visit([](F v) HWY_ATTR { return hn::PromoteTo(DoubleTag(), hn::UpperHalf(HalfTag(), v)); },
+        [](Wide& v) HWY_ATTR -> D& { return v.high; });
 }
 
 #endif
@@ -90,6 +103,25 @@ HWY_INLINE F sum_upwards(F a, F b) {
 
 // A float with the sign of v. The factor keeps it from underflowing; it may be infinite.
 HWY_INLINE Half demote_sign(D v) { return demote(hn::Mul(v, hn::Set(DoubleTag(), 0x1p1000))); }
+
+// The nearest float of a number that is not NaN, clamped to the finite ones, and a number with the
+// sign of the rounding error.
+HWY_INLINE void narrow_finite(D v, Half& rounded, Half& error) {
+  const D clamped = min(max(v, splat_double(-double{FLT_MAX})), splat_double(FLT_MAX));
+  rounded = demote(clamped);
+  error = demote_sign(hn::Sub(clamped, hn::PromoteTo(DoubleTag(), rounded)));
+}
+HWY_INLINE void narrow_finite(const Wide& v, F& rounded, F& error) {
+#if HWY_TARGET == HWY_SCALAR
+  narrow_finite(v.all, rounded, error);
+#else
+  Half low, high, low_error, high_error;
+  narrow_finite(v.low, low, low_error);
+  narrow_finite(v.high, high, high_error);
+  rounded = hn::Combine(FloatTag(), high, low);
+  error = hn::Combine(FloatTag(), high_error, low_error);
+#endif
+}
 
 // `sum`: the float nearest to the float64 sum. `error`: a number with the sign of (float64 sum -
 // that float). Finite a + b does not overflow in float64.

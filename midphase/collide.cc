@@ -111,6 +111,7 @@ struct CollideCall {
   Detail detail;
   const ResultColumns& out;
   const CollideOptions& options;
+  bool composites = false;  // whether there may be meshes and compounds
   uint32_t* direction = nullptr;
   ExtraContacts* extra = nullptr;
 
@@ -123,9 +124,8 @@ struct CollideCall {
 void run_blocks(const CollideCall& call) {
   if (call.detail == Detail::pairs || call.count == 0) return;
   const CollideOptions& options = call.options;
-  const bool composites = may_have_composites(call.a, call.b, call.pairs, call.count);
-  if (call.extra) call.extra->prepare(composites ? call.count : 0);
-  const ExtraRequest extra{composites ? call.extra : nullptr, options.region_limits};
+  if (call.extra) call.extra->prepare(call.composites ? call.count : 0);
+  const ExtraRequest extra{call.composites ? call.extra : nullptr, options.region_limits};
   const bool has_distance = has_contacts(call.detail) && options.contact_distance > 0;
   const auto one_distance = filled(has_distance ? options.contact_distance : 0);
   const float* const distances = has_contacts(call.detail) ? options.contact_distances : nullptr;
@@ -146,7 +146,7 @@ void run_blocks(const CollideCall& call) {
                                  .direction = call.direction ? call.direction + begin : nullptr,
                                  .accuracy = options.accuracy,
                                  .out = from_row(call.out, begin)};
-        composites ? run_mixed_block(block, extra) : run_pair_block(block);
+        call.composites ? run_mixed_block(block, extra) : run_pair_block(block);
         if (block.out.point_names && has_contacts(call.detail)) name_simple_points(block);
       });
 }
@@ -194,8 +194,8 @@ void list_regions(const CollideCall& asked, ContactRegions& regions) {
   ExtraContacts extra;
   CollideOptions options = asked.options;
   options.frame = WitnessFrame::body;
-  run_blocks({asked.a, asked.b, asked.pairs, asked.count, asked.detail, columns, options, nullptr,
-              &extra});
+  run_blocks({asked.a, asked.b, asked.pairs, asked.count, asked.detail, columns, options,
+              asked.composites, nullptr, &extra});
 
   regions.first.assign(asked.count + 1, 0);
   regions.contacts.clear();
@@ -215,7 +215,8 @@ void list_regions(const CollideCall& asked, ContactRegions& regions) {
   copy_rows(columns, asked.out, Detail::manifold, asked.count, [](size_t i) { return i; });
 }
 
-Result<void> run(const CollideCall& call) {
+Result<void> run(CollideCall call) {
+  call.composites = may_have_composites(call.a, call.b, call.pairs, call.count);
   if (Result<void> checked = check_distances(call.options, call.count); !checked) return checked;
   if (call.detail == Detail::regions && call.options.regions) {
     list_regions(call, *call.options.regions);
@@ -257,10 +258,10 @@ Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail det
   return run({a, b, nullptr, a.count, detail, out, options});
 }
 
-void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
-                   const ResultColumns& out, const CollideOptions& options, uint32_t* direction,
-                   ExtraContacts* extra) {
-  run_blocks({bodies, bodies, pairs.data(), pairs.size(), detail, out, options, direction, extra});
+void collide_pairs(const PairsOfWorld& tested, Detail detail, const ResultColumns& out,
+                   const CollideOptions& options) {
+  run_blocks({tested.bodies, tested.bodies, tested.pairs.data(), tested.pairs.size(), detail, out,
+              options, tested.has_composites, tested.direction, tested.extra});
 }
 
 bool uses_directions(ShapeKind a, ShapeKind b) {

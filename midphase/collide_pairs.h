@@ -9,19 +9,24 @@
 
 namespace carom {
 
+// Pairs of bodies of one set.
+struct PairsOfWorld {
+  const Collidables& bodies;
+  std::span<const Pair> pairs;
+  bool has_composites;  // whether there may be meshes and compounds
+  // nullptr, or one entry a pair, kNoDirection at first. The caller hands an entry in again with
+  // the pair's next test; a pair that is still separate in that direction takes a short cut.
+  // Results are the same. It must be nullptr unless only overlapping pairs are measured, without
+  // contact distances.
+  uint32_t* direction = nullptr;
+  // nullptr, or at Detail::regions what receives the contacts beside the first one of a pair.
+  ExtraContacts* extra = nullptr;
+};
+
 // collide() within one set. The kinds must have been checked when the bodies were added, and so
 // must the contact distances.
-//
-// `direction`: nullptr, or one entry a pair, kNoDirection at first. The caller hands an entry in
-// again with the pair's next test; a pair that is still separate in that direction takes a short
-// cut. Results are the same. It must be nullptr unless only overlapping pairs are measured, without
-// contact distances.
-//
-// `extra`: nullptr, or at Detail::regions what receives the contacts beside the first one of a
-// pair.
-void collide_pairs(const Collidables& bodies, std::span<const Pair> pairs, Detail detail,
-                   const ResultColumns& out, const CollideOptions& options, uint32_t* direction,
-                   ExtraContacts* extra);
+void collide_pairs(const PairsOfWorld& tested, Detail detail, const ResultColumns& out,
+                   const CollideOptions& options);
 
 // Fails if no kernel exists for the kinds of some pair.
 Result<void> check_pairs(const Collidables& a, const Collidables& b, std::span<const Pair> pairs);

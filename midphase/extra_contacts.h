@@ -22,7 +22,9 @@ class ExtraContacts {
   // Prepares for `pairs` pairs, of which none has any.
   void prepare(size_t pairs) {
     runs_.assign(pairs, {});
-    lists_.resize((pairs + kPairsPerBlock - 1) / kPairsPerBlock);
+    // Lists that are not needed now keep their memory for the next call.
+    const size_t blocks = (pairs + kPairsPerBlock - 1) / kPairsPerBlock;
+    if (lists_.size() < blocks) lists_.resize(blocks);
     for (auto& list : lists_) list.clear();
   }
   // Without pairs: of() and left_out() then say that no pair has any.

@@ -4,11 +4,20 @@
 
 #include "base/few_of.h"
 #include "base/float_environment.h"
+#include "base/parallel.h"
 #include "carom/bounds/bounds.h"
 #include "midphase/collide_pairs.h"
 #include "world/world_state.h"
 
 namespace carom {
+namespace {
+
+// Pairs whose results are found together. Those of one thread stay in its cache; threads share
+// more, so that all have work. Both are multiples of kPairsPerMergeBlock.
+constexpr size_t kPairsOfOneThread = 4 * kPairsPerMergeBlock;
+constexpr size_t kPairsOfThreads = 16 * kPairsPerMergeBlock;
+
+}  // namespace
 
 template <class Work>
 void World::State::run(Stage stage, const Work& work) {
@@ -17,7 +26,7 @@ void World::State::run(Stage stage, const Work& work) {
   const auto duration = std::chrono::steady_clock::now() - start;
   const auto index = static_cast<size_t>(stage);
   report.stages_run |= 1u << index;
-  report.stage_ns[index] = static_cast<uint64_t>(std::chrono::nanoseconds(duration).count());
+  report.stage_ns[index] += static_cast<uint64_t>(std::chrono::nanoseconds(duration).count());
 }
 
 const StepReport& World::State::step() {
@@ -36,7 +45,7 @@ const StepReport& World::State::step() {
     if (needs_last()) std::swap(last, now);
     find_all();
   }
-  if (has_contacts(settings.detail) && bodies.has_velocities()) {
+  if (still && has_velocities()) {
     run(Stage::velocities, [&] { set_normal_velocities(bodies, parallelism, now.contacts); });
   }
   // After two still steps no event is a begin or an end; keep them.
@@ -111,11 +120,7 @@ void World::State::find_all() {
   if (settings.pair_changes || has_narrowphase()) run(Stage::pairs, [&] { compare_pairs(); });
   if (!has_narrowphase()) return;
   if (has_dops()) run(Stage::dops, [&] { drop_pairs(); });
-  run(Stage::narrowphase, [&] { test_pairs(); });
-  run(Stage::results, [&] {
-    contact_stage.run(plan, last, results, bodies, settings, now);
-    if (has_identities()) find_previous(last, bodies, settings.parallelism, now);
-  });
+  find_results();
   if (looks_ahead()) run(Stage::impacts, [&] { find_impacts(); });
 }
 
@@ -248,7 +253,10 @@ void World::State::compare_pairs() {
     pair_changes.run(last.pairs, now.pairs, bodies, settings.parallelism);
   }
   if (!has_narrowphase()) return;
-  if (carries()) {
+  // If all bodies changed, nothing is carried, and only directions need to know the pairs of
+  // before.
+  const bool all_changed = !has_motion_tolerance() && changes.changed_count() == bodies.rows();
+  if (carries() && !(all_changed && !uses_directions())) {
     plan.match(last, now.pairs, changed_for_tests(), settings.parallelism);
   } else {
     plan.test_all(now.pairs.size());
@@ -281,19 +289,56 @@ bool World::State::uses_directions() const {
   return false;
 }
 
-void World::State::test_pairs() {
+// Tests pairs and lists their contacts, range by range, so that the results of a range are read
+// while they are in the cache.
+void World::State::find_results() {
   const bool remembers = uses_directions();
-  uint32_t* const direction =
-      remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
+  uint32_t* directions_of_tests = nullptr;
+  if (remembers) {
+    run(Stage::narrowphase,
+        [&] { directions_of_tests = directions.prepare(plan, last, now, settings.parallelism); });
+  }
+  run(Stage::results, [&] { contact_stage.start(last, now); });
+  const size_t pairs = now.pairs.size();
+  const size_t at_once = uses_threads(settings.parallelism) ? kPairsOfThreads : kPairsOfOneThread;
+  for (size_t begin = 0; begin == 0 || begin < pairs; begin += at_once) {
+    const size_t end = std::min(begin + at_once, pairs);
+    const size_t first_row = plan.rows_before(begin);
+    const PairRange range{begin, end, first_row, plan.rows_before(end) - first_row};
+    run(Stage::narrowphase, [&] {
+      test_pairs(range, directions_of_tests ? directions_of_tests + first_row : nullptr);
+    });
+    size_t first_contact;
+    run(Stage::results, [&] {
+      first_contact = contact_stage.add(range, plan, last, results, bodies, settings, now);
+    });
+    if (!has_velocities()) continue;
+    run(Stage::velocities, [&] {
+      set_normal_velocities(bodies, settings.parallelism,
+                            std::span(now.contacts).subspan(first_contact));
+    });
+  }
+  if (remembers) {
+    run(Stage::narrowphase, [&] { directions.keep(plan, last, settings.parallelism, now); });
+  } else {
+    now.direction.clear();
+  }
+  if (has_identities()) {
+    run(Stage::results, [&] { find_previous(last, bodies, settings.parallelism, now); });
+  }
+}
+
+void World::State::test_pairs(const PairRange& range, uint32_t* direction) {
   const Collidables view = tested_shapes();
-  const bool sub_shapes =
+  const bool composites =
       !has_proxies() && (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
-  const std::vector<Pair>& pairs = plan.pairs_to_test(now.pairs);
+  const std::span<const Pair> pairs =
+      std::span(plan.pairs_to_test(now.pairs)).subspan(range.first_row, range.rows);
   FewOf<ColumnRole, 2> wanted;
-  if (sub_shapes) wanted.push_back(ColumnRole::sub_shape);
+  if (composites) wanted.push_back(ColumnRole::sub_shape);
   if (has_identities()) wanted.push_back(ColumnRole::name);
   const ResultColumns& columns =
-      results.prepare(plan.tested(), settings.detail, {wanted.begin(), wanted.size()});
+      results.prepare(range, settings.detail, {wanted.begin(), wanted.size()});
   CollideOptions options = {.frame = WitnessFrame::body,
                             .parallelism = settings.parallelism,
                             .measured = Measured::overlapping,
@@ -302,13 +347,8 @@ void World::State::test_pairs() {
   if (has_distances()) {
     options.contact_distances = results.prepare_distances(pairs, distances(), settings.parallelism);
   }
-  collide_pairs(view, pairs, settings.detail, columns, options, direction,
-                results.extra_of(settings.detail));
-  if (remembers) {
-    directions.keep(plan, last, settings.parallelism, now);
-  } else {
-    now.direction.clear();
-  }
+  collide_pairs({view, pairs, composites, direction, results.extra_of(settings.detail)},
+                settings.detail, columns, options);
   if (has_margin() || looks_ahead() || has_distances()) {
     results.reject_apart(pairs, present_bounds(), settings.parallelism);
   }

@@ -201,10 +201,8 @@ BodyArrays World::arrays() {
 }
 
 BoxArrays World::boxes() {
-  auto& columns = state_->bodies.boxes();
-  return {.count = columns[0].size(),
-          .lower = {columns[0].data(), columns[1].data(), columns[2].data()},
-          .upper = {columns[3].data(), columns[4].data(), columns[5].data()}};
+  std::vector<BodyStore::BoxRecord>& boxes = state_->bodies.boxes();
+  return {boxes.size(), boxes.empty() ? nullptr : boxes.front().lower.data()};
 }
 
 uint32_t World::box_slot(BodyId id) const {

@@ -57,11 +57,12 @@ struct World::State {
   PairChanges pair_changes;
   ImpactStage impacts;
   SpeculativeStage speculative;
-  std::vector<Event> events;
+  RawVector<Event> events;
   std::vector<BodyId> quarantined;
 
  private:
   bool has_narrowphase() const { return settings.detail != Detail::pairs; }
+  bool has_velocities() { return has_contacts(settings.detail) && bodies.has_velocities(); }
   bool has_events() const { return settings.events && has_narrowphase(); }
   bool has_margin() const { return settings.margin > 0; }
   bool is_fast() const { return settings.accuracy.tier == Tier::fast && has_narrowphase(); }
@@ -124,7 +125,8 @@ struct World::State {
   std::span<const uint8_t> changed_for_tests();
   void compare_pairs();
   void drop_pairs();
-  void test_pairs();
+  void find_results();
+  void test_pairs(const PairRange& range, uint32_t* direction);
   void find_impacts();
   void forget_ahead();
   void stop_looking_ahead();

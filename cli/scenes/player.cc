@@ -141,10 +141,8 @@ void Player::write_boxes(const io::SceneFrame& frame, World& world) const {
   for (size_t i = 0; i < info_->bodies; ++i) {
     uint32_t slot = world.box_slot(world.id_of(static_cast<uint32_t>(i)));
     const float* box = &frame.boxes[io::kFloatsPerBox * i];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      boxes.lower[axis][slot] = box[axis];
-      boxes.upper[axis][slot] = box[4 + axis];
-    }
+    std::copy_n(box, 3, boxes.lower(slot));
+    std::copy_n(box + 4, 3, boxes.upper(slot));
   }
 }
 

@@ -265,6 +265,23 @@ struct SphereLanes {
   HWY_INLINE void scale(F s) { radius = hn::Mul(radius, s); }
 };
 
+// One corner of boxes in records (box_records()): `corner` is that of the first record.
+template <Role kRole>
+struct CornerSource {
+  const BatchSide& side;
+  const Listed& bodies;
+  const float* corner;
+
+  HWY_INLINE const float* numbers(size_t i) const {
+    const size_t body = bodies.template body<kRole>(i);
+    return corner + 8 * (side.box_slot ? side.box_slot[body] : body);
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t i) const { return hn::LoadU(Quad(), numbers(i)); }
+#endif
+  HWY_INLINE float component(size_t i, size_t c) const { return numbers(i)[c]; }
+};
+
 struct AabbLanes {
   static constexpr ShapeKind kKind = ShapeKind::aabb;
   static constexpr bool kIsOriented = false;
@@ -277,6 +294,13 @@ struct AabbLanes {
   template <Role kRole>
   static HWY_INLINE AabbLanes load(const BatchSide& side, const Listed& bodies,
                                    const PositionLanes&) {
+    if (side.boxes.are_records) {
+      AabbLanes box;
+      F unused;
+      transpose_records(CornerSource<kRole>{side, bodies, side.boxes.lower[0]}, box.lower, unused);
+      transpose_records(CornerSource<kRole>{side, bodies, side.boxes.upper[0]}, box.upper, unused);
+      return box;
+    }
     size_t offsets[kLanes];  // in bytes
     for (size_t i = 0; i < kLanes; ++i) {
       const size_t body = bodies.template body<kRole>(i);

@@ -144,7 +144,10 @@ std::vector<Layout> box_layouts() {
   for (const PositionType positions : kPositionTypes) {
     layouts.push_back({.positions = positions});
     layouts.push_back({.positions = positions, .box_stride = 24, .box_slots = true});
+    layouts.push_back({.positions = positions, .box_stride = 0, .box_slots = true});
     layouts.push_back({.positions = positions, .radius = RadiusLayout::none, .stride = 56});
+    layouts.push_back(
+        {.positions = positions, .radius = RadiusLayout::none, .stride = 56, .box_stride = 0});
   }
   return layouts;
 }

@@ -47,7 +47,8 @@ const std::vector<Layout> kLayouts = {
     {.always_kinds = true},
     {.positions = PositionType::float64, .radius = RadiusLayout::column, .stride = 40},
     {.radius = RadiusLayout::column, .stride = 28, .radius_stride = 12, .box_stride = 8},
-    {.box_slots = true, .orientation_stride = 24, .rows = RowOrder::backwards},
+    {.box_stride = 0},
+    {.box_stride = 0, .box_slots = true, .orientation_stride = 24, .rows = RowOrder::backwards},
     {.orientation_stride = 0, .rows = RowOrder::shared},
 };
 

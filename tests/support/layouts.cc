@@ -66,7 +66,8 @@ LaidOutAabbs::LaidOutAabbs(std::span<const PlacedShape> bodies, const Layout& la
       slots_(layout.box_slots ? bodies.size() : 0, sizeof(uint32_t), sizeof(uint32_t)) {
   auto count = static_cast<uint32_t>(std::count_if(bodies.begin(), bodies.end(), is_box));
   const size_t rows = layout.box_slots || count == 0 ? count : bodies.size();
-  for (int column = 0; column < 6; ++column) {
+  if (layout.box_stride == 0) columns_.emplace_back(rows, kRecord, kRecord);
+  for (int column = 0; layout.box_stride > 0 && column < 6; ++column) {
     columns_.emplace_back(rows, sizeof(float), layout.box_stride);
   }
   // Slots run backwards, so that the order of boxes is never that of bodies.
@@ -78,18 +79,27 @@ LaidOutAabbs::LaidOutAabbs(std::span<const PlacedShape> bodies, const Layout& la
 }
 
 void LaidOutAabbs::add_to(Collidables& view) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    view.boxes.lower[axis] = columns_[axis].as<float>();
-    view.boxes.upper[axis] = columns_[3 + axis].as<float>();
+  if (layout_.box_stride == 0) {
+    view.boxes = box_records(columns_[0].as<float>());
+  } else {
+    for (int axis = 0; axis < 3; ++axis) {
+      view.boxes.lower[axis] = columns_[axis].as<float>();
+      view.boxes.upper[axis] = columns_[3 + axis].as<float>();
+    }
+    view.boxes.stride = layout_.box_stride;
   }
-  view.boxes.stride = layout_.box_stride;
   if (layout_.box_slots) view.box_slot = slots_.as<uint32_t>();
 }
 
 void LaidOutAabbs::set(size_t row, const Aabb& box) {
   for (int axis = 0; axis < 3; ++axis) {
-    columns_[axis].set(row, box.lower[axis]);
-    columns_[3 + axis].set(row, box.upper[axis]);
+    if (layout_.box_stride == 0) {
+      columns_[0].set(row, box.lower[axis], axis * sizeof(float));
+      columns_[0].set(row, box.upper[axis], (4 + axis) * sizeof(float));
+    } else {
+      columns_[axis].set(row, box.lower[axis]);
+      columns_[3 + axis].set(row, box.upper[axis]);
+    }
   }
 }
 

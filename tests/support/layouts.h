@@ -26,7 +26,7 @@ struct Layout {
   RadiusLayout radius = RadiusLayout::fourth;
   size_t stride = 0;  // 0: dense
   size_t radius_stride = sizeof(float);
-  size_t box_stride = sizeof(float);
+  size_t box_stride = sizeof(float);              // 0: in records (box_records())
   bool box_slots = false;                         // box rows in an order of their own
   bool always_kinds = false;                      // one kind a body even if all are the same
   size_t orientation_stride = 4 * sizeof(float);  // 0: absent if no body is turned
@@ -79,6 +79,8 @@ class LaidOutAabbs {
 
  private:
   static bool is_box(const PlacedShape& body) { return kind_of(body.shape) == ShapeKind::aabb; }
+
+  static constexpr size_t kRecord = 8 * sizeof(float);
 
   void set(size_t row, const Aabb& box);
 

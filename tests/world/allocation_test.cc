@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 
+#include "tests/support/composites.h"
 #include "tests/world/crowds.h"
 
 #if defined(__has_feature)
@@ -58,11 +60,15 @@ CAROM_TEST_SEEN void* aligned_alloc(size_t alignment, size_t size) noexcept {
 namespace carom::test {
 namespace {
 
+// What is done to a new world before its first step. Bodies may be added; the first ones move.
+using Prepare = std::function<void(World&, std::vector<BodyId>&)>;
+
 // Bodies that move in circles: every fourth step is the same.
 class Carousel {
  public:
-  Carousel(const WorldSettings& settings, const CrowdSpec& spec)
+  Carousel(const WorldSettings& settings, const CrowdSpec& spec, const Prepare& prepare)
       : world_(settings), ids_(add_crowd(world_, spec)) {
+    if (prepare) prepare(world_, ids_);
     for (const BodyId id : ids_) homes_.push_back(world_.position(id));
   }
 
@@ -87,8 +93,8 @@ class Carousel {
 
 // `rest`: in every second round nothing moves. `rounds`: enough for every kind of step to occur.
 void expect_no_allocations(const WorldSettings& settings, const CrowdSpec& spec, size_t movers,
-                           bool rest = false, int rounds = 4) {
-  Carousel carousel(settings, spec);
+                           bool rest = false, int rounds = 4, const Prepare& prepare = {}) {
+  Carousel carousel(settings, spec, prepare);
   const auto round = [&] {
     for (int i = 0; i < 4; ++i) carousel.turn(movers);
     if (rest) carousel.world().step();
@@ -186,6 +192,124 @@ TEST(Allocations, NoneWhenLookingAhead) {
   }
   const CrowdSpec oriented{.oriented = true, .velocities = true, .looks_ahead = true};
   for (const size_t movers : {0, 40}) expect_no_allocations({}, oriented, movers, true);
+}
+
+// --- Contacts: composites, regions, distances, identities ---
+
+// Adds meshes and compounds, of which those that move come first.
+void add_composites_first(World& world, std::vector<BodyId>& ids) {
+  Composites composites(3);
+  std::vector<BodyId> added;
+  for (size_t i = 0; i < 60; ++i) {
+    added.push_back(
+        world.add({.shape = i % 2 ? Shape(composites.mesh(0.8)) : composites.compound(0.8),
+                   .position = random_position(composites.random(), 7),
+                   .orientation = composites.orientation()}));
+  }
+  ids.insert(ids.begin(), added.begin(), added.end());
+}
+
+// One thread alone, since allocations of others are not counted.
+void expect_no_allocations_with_composites(WorldSettings settings) {
+  settings.parallelism = Parallelism::none;
+  const CrowdSpec spec{
+      .count = 80, .side = 6, .oriented = true, .halfspaces = 1, .velocities = true};
+  for (const size_t movers : {0, 1, 40, 140}) {
+    expect_no_allocations(settings, spec, movers, true, 4, add_composites_first);
+  }
+}
+
+TEST(Allocations, NoneWithComposites) {
+  for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+    expect_no_allocations_with_composites({.detail = detail});
+  }
+}
+
+TEST(Allocations, NoneWithRegions) {
+  for (const RegionLimits& limits : {RegionLimits{}, RegionLimits{.cosine = 0.999, .most = 2}}) {
+    expect_no_allocations_with_composites({.detail = Detail::regions, .region_limits = limits});
+    expect_no_allocations_with_composites(
+        {.detail = Detail::regions, .region_limits = limits, .carry_results = false});
+  }
+}
+
+// The number of blocks rises and falls with that of the tested pairs: 2,043 to 2,760 in turn.
+TEST(Allocations, NoneWithRegionsOfSeveralBlocks) {
+  const CrowdSpec spec{.oriented = true, .halfspaces = 2, .velocities = true};
+  for (const float distance : {0.0f, 0.1f}) {
+    expect_no_allocations(
+        {.detail = Detail::regions, .parallelism = Parallelism::none, .contact_distance = distance},
+        spec, 400, true, 4, add_composites_first);
+  }
+}
+
+TEST(Allocations, NoneWithContactDistancesAndIdentities) {
+  for (const Detail detail : {Detail::contact, Detail::manifold, Detail::regions}) {
+    expect_no_allocations_with_composites({.detail = detail, .contact_distance = 0.1f});
+    expect_no_allocations_with_composites({.detail = detail, .identities = true});
+    expect_no_allocations_with_composites({.detail = detail,
+                                           .contact_distance = 0.1f,
+                                           .persist_events = true,
+                                           .identities = true,
+                                           .pair_changes = true});
+  }
+  // A distance of some bodies alone.
+  expect_no_allocations({.detail = Detail::regions}, {.oriented = true}, 40, true, 4,
+                        [](World& world, std::vector<BodyId>& ids) {
+                          for (size_t i = 0; i < ids.size(); i += 3) {
+                            world.set_contact_distance(ids[i], 0.2f);
+                          }
+                        });
+}
+
+TEST(Allocations, NoneWithPersistEvents) {
+  const CrowdSpec spec{.filters = true, .velocities = true};
+  for (const size_t movers : {0, 1, 40, 400}) {
+    expect_no_allocations({.persist_events = true}, spec, movers, true);
+    expect_no_allocations({.detail = Detail::overlap, .persist_events = true}, spec, movers, true);
+  }
+}
+
+// --- Excluded pairs and a predicate ---
+
+// Excludes pairs, of which many are candidates, and drops others with a predicate.
+void exclude_and_drop(World& world, std::vector<BodyId>& ids) {
+  for (size_t i = 0; i < ids.size(); ++i) {
+    for (size_t k = 1; k < 9; ++k) world.exclude(ids[i], ids[(i + 37 * k) % ids.size()]);
+  }
+  world.set_pair_predicate([](std::span<const Pair> pairs, std::span<uint8_t> keep) {
+    for (size_t i = 0; i < pairs.size(); ++i) keep[i] = (pairs[i].a + pairs[i].b) % 5 != 0;
+  });
+}
+
+TEST(Allocations, NoneWithExcludedPairsAndAPredicate) {
+  for (const size_t movers : {0, 1, 40, 400}) {
+    for (const Detail detail : {Detail::pairs, Detail::contact}) {
+      expect_no_allocations({.detail = detail, .persist_events = true}, {.oriented = true}, movers,
+                            true, 4, exclude_and_drop);
+    }
+    expect_no_allocations({}, {.count = 9000, .side = 20}, movers, true, 4, exclude_and_drop);
+  }
+}
+
+// The predicate is set in every step.
+TEST(Allocations, NoneWhenThePredicateChanges) {
+  World world;
+  std::vector<BodyId> ids = add_crowd(world, {});
+  exclude_and_drop(world, ids);
+  const auto round = [&] {
+    for (const uint32_t odd : {3u, 5u}) {
+      world.set_pair_predicate([odd](std::span<const Pair> some, std::span<uint8_t> keep) {
+        for (size_t i = 0; i < some.size(); ++i) keep[i] = (some[i].a * odd + some[i].b) % 7 != 0;
+      });
+      world.step();
+    }
+  };
+  for (int i = 0; i < 4; ++i) round();
+  const size_t before = allocations;
+  for (int i = 0; i < 10; ++i) round();
+  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_GT(world.report().pairs, 300u);
 }
 
 // Automatic bodies that are fast now and then.

@@ -211,6 +211,10 @@ void History::step_and_check() {
   EXPECT_TRUE(same_bytes<Event>(world_.events(), wanted_events(frame.events))) << "events";
   EXPECT_TRUE(same_bytes<BodyId>(world_.quarantined(), frame.quarantined)) << "quarantined";
   EXPECT_EQ(report.bodies, bodies_.size());
+  size_t left_out = 0;
+  for (const Contact& contact : frame.contacts) left_out += contact.left_out;
+  EXPECT_EQ(report.left_out, left_out);
+  coverage.left_out += left_out;
   if (settings.detail != Detail::pairs) {
     EXPECT_EQ(report.tested + report.kept + report.dropped, report.pairs);
   }

@@ -41,6 +41,7 @@ struct Coverage {
   size_t impacts = 0, overlaps_ahead = 0, impacts_of_sensors = 0, speculative = 0;
   size_t swept = 0, unswept = 0;
   size_t near = 0;                // contacts of separate pairs
+  size_t left_out = 0;            // contacts beyond the limit of a pair
   size_t excluded = 0, gone = 0;  // pairs; events of removed or quarantined bodies
 };
 

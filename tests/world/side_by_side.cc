@@ -100,7 +100,7 @@ Eigen::Quaternionf SideBySide::turned(const Eigen::Quaternionf& q, double most) 
 void SideBySide::scale_in_arrays(World& world, BodyId id, float factor) {
   const ShapeKind kind = kind_of(world.shape(id));
   if (kind == ShapeKind::aabb) {
-    world.boxes().upper[1][world.box_slot(id)] *= factor;
+    world.boxes().upper(world.box_slot(id))[1] *= factor;
   } else if (kind == ShapeKind::sphere) {
     const BodyArrays arrays = world.arrays();
     if (arrays.record32) arrays.record32[4 * id.index + 3] *= factor;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/parallel.h"
+#include "shapes/body_reader.h"
 #include "world/store/columns.h"
 #include "world/store/row_blocks.h"
 
@@ -24,18 +25,7 @@ uint64_t difference(const T* a, const T* b) {
   return bits;
 }
 
-// Sets the flags of numbers that differ, and copies `now` to `last`.
-void compare_column(const float* now, float* last, size_t count, uint8_t* changed) {
-  for (size_t i = 0; i < count; ++i) {
-    uint32_t a, b;
-    std::memcpy(&a, now + i, sizeof(a));
-    std::memcpy(&b, last + i, sizeof(b));
-    changed[i] |= a != b;
-  }
-  std::memcpy(last, now, count * sizeof(float));
-}
-
-// The same for rows of four numbers.
+// Sets the flags of rows that differ, and copies `now` to `last`.
 void compare_rows_of(const BodyStore::Row* now, BodyStore::Row* last, size_t count,
                      uint8_t* changed) {
   for (size_t i = 0; i < count; ++i) changed[i] |= difference(now[i].data(), last[i].data()) != 0;
@@ -135,24 +125,25 @@ bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism pa
 }
 
 bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism parallelism) {
-  const size_t slots = bodies.boxes()[0].size();
-  for (std::vector<float>& column : last_boxes_) resize_and_give_back(column, slots);
+  const std::vector<BodyStore::BoxRecord>& boxes = bodies.boxes();
+  const size_t slots = boxes.size();
+  resize_and_give_back(last_boxes_, slots);
   box_changes_.resize(slots);
   std::atomic<bool> any{false};
   for_each_block(slots, kRowsPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
-    const size_t count = end - begin;
-    uint8_t* changed = &box_changes_.changed[begin];
-    bool differs = false;
-    for (size_t column = 0; column < 6; ++column) {
-      const float* now = &bodies.boxes()[column][begin];
-      float* last = &last_boxes_[column][begin];
-      if (std::memcmp(now, last, count * sizeof(float)) == 0) continue;
-      if (!differs) std::memset(changed, 0, count);
-      compare_column(now, last, count, changed);
-      differs = true;
-    }
+    const BodyStore::BoxRecord* now = &boxes[begin];
+    BodyStore::BoxRecord* last = &last_boxes_[begin];
+    const size_t size = (end - begin) * sizeof(*last);
+    const bool differs = std::memcmp(now, last, size) != 0;
     box_changes_.block_changed[block] = differs;
-    if (differs) any = true;
+    if (!differs) return;
+    for (size_t i = begin; i < end; ++i) {
+      box_changes_.changed[i] =
+          difference(boxes[i].lower.data(), last_boxes_[i].lower.data()) != 0 ||
+          difference(boxes[i].upper.data(), last_boxes_[i].upper.data()) != 0;
+    }
+    std::memcpy(last, now, size);
+    any = true;
   });
   return any;
 }
@@ -179,7 +170,7 @@ bool ChangeTracker::compare_rows(const BodyStore& bodies, Parallelism parallelis
 bool ChangeTracker::reshaped(const Collidables& view, size_t index) const {
   if (!any_reshaped_) return false;
   const ShapeKind kind = view.kind ? view.kind[index] : view.uniform_kind;
-  if (kind == ShapeKind::aabb) return box_changes_.at(view.box_slot[index]);
+  if (kind == ShapeKind::aabb) return box_changes_.at(BodyReader{view}.box(index));
   for (uint32_t k = 0; k < row_count(kind); ++k) {
     if (row_changes_.at(view.rows.first[index] + k)) return true;
   }
@@ -214,8 +205,7 @@ void ChangeTracker::mark_all() {
 size_t ChangeTracker::bytes() const {
   size_t sum = bytes_of(changed_) + bytes_of(block_changes_) + bytes_of(last_records32_) +
                bytes_of(last_records64_) + bytes_of(last_orientations_) + bytes_of(last_rows_) +
-               box_changes_.bytes() + row_changes_.bytes();
-  for (const std::vector<float>& column : last_boxes_) sum += bytes_of(column);
+               bytes_of(last_boxes_) + box_changes_.bytes() + row_changes_.bytes();
   return sum;
 }
 

@@ -2,7 +2,6 @@
 // callers may write poses straight into the arrays.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -72,7 +71,7 @@ class ChangeTracker {
   std::vector<float> last_records32_;
   std::vector<double> last_records64_;
   std::vector<BodyStore::Row> last_orientations_;
-  std::array<std::vector<float>, 6> last_boxes_;
+  std::vector<BodyStore::BoxRecord> last_boxes_;
   SlotChanges box_changes_;
   std::vector<BodyStore::Row> last_rows_;
   SlotChanges row_changes_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/raw_vector.h"
 #include "carom/results/contact_identity.h"
 #include "carom/results/pair.h"
 
@@ -25,8 +26,8 @@ struct PairHistory {
   std::vector<uint8_t> overlaps;
   std::vector<uint32_t> contact;    // index into `contacts`
   std::vector<uint32_t> direction;  // DirectionMemory's; empty if unused
-  std::vector<Contact> contacts;
-  std::vector<ManifoldPoints> manifolds;  // one a contact at details with manifolds, else none
+  RawVector<Contact> contacts;
+  RawVector<ManifoldPoints> manifolds;  // one a contact at details with manifolds, else none
 
   std::vector<ContactIdentity> identities;  // one a contact, if they are wanted
 
@@ -109,6 +110,15 @@ class CarryPlan {
   // one for a dropped pair.
   uint32_t test_row(size_t i) const { return tests_all_ ? static_cast<uint32_t>(i) : row_[i]; }
   bool tests(size_t i) const { return test_row(i) < tested_; }
+
+  // How many of the pairs before pair i are tested: the row of the first one from i on. `i` must be
+  // a multiple of kPairsPerMergeBlock, or the number of pairs.
+  size_t rows_before(size_t i) const {
+    if (tests_all_) return i;
+    const size_t block = i / kPairsPerMergeBlock;
+    return i % kPairsPerMergeBlock == 0 && block < block_first_.size() ? block_first_[block]
+                                                                       : tested_;
+  }
 
   // The index of a carried pair in the last step.
   uint32_t last_index(size_t i) const { return last_[i]; }

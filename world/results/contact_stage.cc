@@ -12,17 +12,18 @@
 
 namespace carom {
 
-const ResultColumns& ResultBuffer::prepare(size_t pairs, Detail detail,
+const ResultColumns& ResultBuffer::prepare(const PairRange& range, Detail detail,
                                            std::span<const ColumnRole> wanted) {
-  pairs_ = pairs;
-  arrays_.resize(pairs + 1, detail, wanted);
-  columns().overlap[pairs] = 0;
+  first_row_ = range.first_row;
+  rows_ = range.rows;
+  arrays_.resize(rows_ + 1, detail, wanted);
+  columns().overlap[rows_] = 0;
   near_.clear();
   extra_.clear();
   return columns();
 }
 
-const float* ResultBuffer::prepare_distances(const std::vector<Pair>& pairs,
+const float* ResultBuffer::prepare_distances(std::span<const Pair> pairs,
                                              const ContactDistances& distances,
                                              Parallelism parallelism) {
   distances_.resize(pairs.size());
@@ -34,19 +35,19 @@ const float* ResultBuffer::prepare_distances(const std::vector<Pair>& pairs,
   return distances_.data();
 }
 
-void ResultBuffer::reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
+void ResultBuffer::reject_apart(std::span<const Pair> pairs, const PresentBounds& bounds,
                                 Parallelism parallelism) {
   uint8_t* const overlap = columns().overlap;
-  for_each_block(pairs_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+  for_each_block(rows_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       if (overlap[i] && !bounds.meet(pairs[i])) overlap[i] = 0;
     }
   });
 }
 
-void ResultBuffer::find_near(const std::vector<Pair>& pairs, const PresentBounds& grown,
+void ResultBuffer::find_near(std::span<const Pair> pairs, const PresentBounds& grown,
                              Parallelism parallelism) {
-  for_each_block(pairs_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+  for_each_block(rows_, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       float& separation = columns().separation[i];
       near_[i] = columns().overlap[i] == 0 && separation <= distances_[i] && grown.meet(pairs[i]);
@@ -66,40 +67,53 @@ size_t ResultBuffer::bytes() const {
   return arrays_.bytes() + bytes_of(distances_) + bytes_of(near_) + extra_.bytes();
 }
 
-void ContactStage::run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
-                       const BodyStore& bodies, const WorldSettings& settings, PairHistory& now) {
-  // First find the result of every pair, and how many contacts each block has ...
-  find_results(plan, last, results, bodies, settings, now);
+void ContactStage::start(const PairHistory& last, PairHistory& now) {
+  overlaps_ = undecided_ = left_out_ = 0;
+  now.overlaps.resize(now.pairs.size());
+  now.contact.resize(now.pairs.size());
   now.contacts.clear();
   now.manifolds.clear();
   now.identities.clear();
-  if (!has_contacts(settings.detail)) return;
+  // Steps have about as many contacts as the last one.
+  const auto likely = [](size_t count) { return count + count / 16; };
+  now.contacts.reserve(likely(last.contacts.size()));
+  now.manifolds.reserve(likely(last.manifolds.size()));
+  now.identities.reserve(likely(last.identities.size()));
+}
+
+size_t ContactStage::add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
+                         const ResultBuffer& results, const BodyStore& bodies,
+                         const WorldSettings& settings, PairHistory& now) {
+  // First find the result of every pair, and how many contacts each block has ...
+  find_results(range, plan, last, results, bodies, settings, now);
+  const size_t first = now.contacts.size();
+  if (!has_contacts(settings.detail)) return first;
 
   // ... then write every contact to its place.
-  size_t contacts = 0;
-  for (size_t& first : block_first_) contacts += std::exchange(first, contacts);
+  size_t contacts = first;
+  for (size_t& block : block_first_) contacts += std::exchange(block, contacts);
   now.contacts.resize(contacts);
   if (has_manifolds(settings.detail)) now.manifolds.resize(contacts);
   if (settings.identities) now.identities.resize(contacts);
-  write_contacts(plan, last, results, settings, now);
+  write_contacts(range, plan, last, results, settings, now);
+  return first;
 }
 
-void ContactStage::find_results(const CarryPlan& plan, const PairHistory& last,
-                                const ResultBuffer& results, const BodyStore& bodies,
-                                const WorldSettings& settings, PairHistory& now) {
+void ContactStage::find_results(const PairRange& range, const CarryPlan& plan,
+                                const PairHistory& last, const ResultBuffer& results,
+                                const BodyStore& bodies, const WorldSettings& settings,
+                                PairHistory& now) {
   constexpr uint32_t kToBeWritten = 0;
   const uint32_t listed = has_contacts(settings.detail) ? kToBeWritten : PairHistory::kNone;
-  const size_t pairs = now.pairs.size();
+  const size_t pairs = range.end - range.begin;
   const bool regions = settings.detail == Detail::regions;
-  now.overlaps.resize(pairs);
-  now.contact.resize(pairs);
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
   std::atomic<size_t> overlaps{0}, undecided{0}, left_out{0};
   for_each_block(
       pairs, kPairsPerMergeBlock, settings.parallelism,
       [&](size_t block, size_t begin, size_t end) {
         size_t overlapping = 0, unknown = 0, contacts = 0, unlisted = 0;
-        for (size_t i = begin; i < end; ++i) {
+        for (size_t i = range.begin + begin; i < range.begin + end; ++i) {
           const uint32_t row = plan.test_row(i);
           const bool carried = row == CarryPlan::kCarried;
           const size_t before = carried ? plan.last_index(i) : 0;
@@ -131,22 +145,22 @@ void ContactStage::find_results(const CarryPlan& plan, const PairHistory& last,
         undecided += unknown;
         left_out += unlisted;
       });
-  overlaps_ = overlaps;
-  undecided_ = undecided;
-  left_out_ = left_out;
+  overlaps_ += overlaps;
+  undecided_ += undecided;
+  left_out_ += left_out;
 }
 
-void ContactStage::write_contacts(const CarryPlan& plan, const PairHistory& last,
-                                  const ResultBuffer& results, const WorldSettings& settings,
-                                  PairHistory& now) {
+void ContactStage::write_contacts(const PairRange& range, const CarryPlan& plan,
+                                  const PairHistory& last, const ResultBuffer& results,
+                                  const WorldSettings& settings, PairHistory& now) {
   const bool manifolds = has_manifolds(settings.detail);
   const bool regions = settings.detail == Detail::regions;
   const bool named = settings.identities;
   for_each_block(
-      now.pairs.size(), kPairsPerMergeBlock, settings.parallelism,
+      range.end - range.begin, kPairsPerMergeBlock, settings.parallelism,
       [&](size_t block, size_t begin, size_t end) {
         size_t next = block_first_[block];
-        for (size_t i = begin; i < end; ++i) {
+        for (size_t i = range.begin + begin; i < range.begin + end; ++i) {
           if (!now.has_contact(i)) continue;
           const uint32_t row = plan.test_row(i);
           const bool carried = row == CarryPlan::kCarried;
@@ -180,8 +194,9 @@ void ContactStage::write_contacts(const CarryPlan& plan, const PairHistory& last
 }
 
 void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
-                           std::vector<Contact>& contacts) {
+                           std::span<Contact> contacts) {
   using Eigen::Vector3f;
+  constexpr size_t kContactsAhead = 16;
   const std::span<const Vector3f> linear = bodies.linear_velocities();
   const std::span<const Vector3f> angular =
       bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();
@@ -193,6 +208,9 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
   for_each_block(
       contacts.size(), kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
+          // Bodies lie anywhere; the contacts themselves are in the cache.
+          const Contact& ahead = contacts[std::min(i + kContactsAhead, end - 1)];
+          __builtin_prefetch(&linear[ahead.b]);
           Contact& c = contacts[i];
           const Vector3f v = velocity(c.b, c.arm_b) - velocity(c.a, c.arm_a);
           c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();

@@ -1,7 +1,9 @@
 // Results of pair tests, new and carried -> the step's overlaps and contacts, sorted.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "carom/base/parallelism.h"
@@ -14,51 +16,56 @@
 
 namespace carom {
 
-// The columns to which the narrow phase writes.
+// A range of a step's pairs, whose results are found together.
+struct PairRange {
+  size_t begin, end;       // of the pairs
+  size_t first_row, rows;  // of those that are tested, among all that are tested
+};
+
+// The columns to which the narrow phase writes the results of a range. Rows are those of CarryPlan.
 class ResultBuffer {
  public:
-  // Makes room for `pairs` results in the columns that the detail fills, and in those optional ones
-  // that are wanted. An extra row after them does not overlap; it serves pairs that need no test.
-  const ResultColumns& prepare(size_t pairs, Detail detail, std::span<const ColumnRole> wanted);
+  // Makes room for the results of a range in the columns that the detail fills, and in those
+  // optional ones that are wanted. An extra row after them does not overlap; it serves pairs that
+  // need no test.
+  const ResultColumns& prepare(const PairRange& range, Detail detail,
+                               std::span<const ColumnRole> wanted);
 
   // The contact distance of each pair. Only for worlds that have some: it makes room for the marks
   // of find_near().
-  const float* prepare_distances(const std::vector<Pair>& pairs, const ContactDistances& distances,
+  const float* prepare_distances(std::span<const Pair> pairs, const ContactDistances& distances,
                                  Parallelism parallelism);
   // Where contacts beside the first one of a pair are collected; nullptr: nowhere.
   ExtraContacts* extra_of(Detail detail) { return detail == Detail::regions ? &extra_ : nullptr; }
 
   // Bounds are exact, tests round. So pairs with separate bounds do not overlap, even if the
-  // rounded result of the test says that they touch.
-  void reject_apart(const std::vector<Pair>& pairs, const PresentBounds& bounds,
+  // rounded result of the test says that they touch. `pairs`: those of the range.
+  void reject_apart(std::span<const Pair> pairs, const PresentBounds& bounds,
                     Parallelism parallelism);
   // Marks the separate pairs that are within their contact distance. Their grown bounds overlap.
-  void find_near(const std::vector<Pair>& pairs, const PresentBounds& grown,
-                 Parallelism parallelism);
+  void find_near(std::span<const Pair> pairs, const PresentBounds& grown, Parallelism parallelism);
 
-  uint8_t overlap(size_t row) const { return columns().overlap[row]; }
-  bool is_near(size_t row) const { return !near_.empty() && near_[row]; }
-  Contact contact(size_t row, Pair pair) const { return contact_of_row(columns(), row, pair); }
-  // The contacts beside the first one, and how many more there are beyond the limit.
-  std::span<const ContactWithPoints> extra(size_t row) const { return extra_.of(row); }
-  uint16_t left_out(size_t row) const { return extra_.left_out(row); }
-  const PointNames& names(size_t row) const { return columns().point_names[row]; }
-  const ManifoldPoints& manifold(size_t row) const {
-    // A row is a line of the cache, and rows of separate pairs are skipped: the processor does not
-    // fetch these lines ahead.
-    __builtin_prefetch(columns().manifold + row + kRowsAhead);
-    return columns().manifold[row];
+  uint8_t overlap(size_t row) const { return columns().overlap[place(row)]; }
+  bool is_near(size_t row) const { return !near_.empty() && near_[place(row)]; }
+  Contact contact(size_t row, Pair pair) const {
+    return contact_of_row(columns(), place(row), pair);
   }
+  // The contacts beside the first one, and how many more there are beyond the limit.
+  std::span<const ContactWithPoints> extra(size_t row) const { return extra_.of(place(row)); }
+  uint16_t left_out(size_t row) const { return extra_.left_out(place(row)); }
+  const PointNames& names(size_t row) const { return columns().point_names[place(row)]; }
+  const ManifoldPoints& manifold(size_t row) const { return columns().manifold[place(row)]; }
 
   void give_back_beyond(size_t pairs);
   size_t bytes() const;
 
  private:
-  static constexpr size_t kRowsAhead = 12;
-
   const ResultColumns& columns() const { return arrays_.columns(); }
+  // Where a row is in the columns. Dropped pairs have the row after the last one of all ranges.
+  size_t place(size_t row) const { return std::min(row - first_row_, rows_); }
 
-  size_t pairs_ = 0;
+  size_t first_row_ = 0;
+  size_t rows_ = 0;
   ResultArrays arrays_;
   std::vector<float> distances_;
   std::vector<uint8_t> near_;  // one a row; empty without contact distances
@@ -68,8 +75,13 @@ class ResultBuffer {
 // Fills overlaps, contact indices, contacts and manifolds of `now`.
 class ContactStage {
  public:
-  void run(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
-           const BodyStore& bodies, const WorldSettings& settings, PairHistory& now);
+  // Begins the lists of a step.
+  void start(const PairHistory& last, PairHistory& now);
+  // Adds the results of a range of pairs. Ranges begin at multiples of kPairsPerMergeBlock, and
+  // follow one another. Returns the place of the first contact that it has added.
+  size_t add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
+             const ResultBuffer& results, const BodyStore& bodies, const WorldSettings& settings,
+             PairHistory& now);
 
   size_t overlaps() const { return overlaps_; }
   size_t undecided() const { return undecided_; }
@@ -77,10 +89,11 @@ class ContactStage {
   size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
 
  private:
-  void find_results(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
-                    const BodyStore& bodies, const WorldSettings& settings, PairHistory& now);
-  void write_contacts(const CarryPlan& plan, const PairHistory& last, const ResultBuffer& results,
-                      const WorldSettings& settings, PairHistory& now);
+  void find_results(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
+                    const ResultBuffer& results, const BodyStore& bodies,
+                    const WorldSettings& settings, PairHistory& now);
+  void write_contacts(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
+                      const ResultBuffer& results, const WorldSettings& settings, PairHistory& now);
 
   size_t overlaps_ = 0;
   size_t undecided_ = 0;
@@ -90,7 +103,6 @@ class ContactStage {
 };
 
 // Sets the normal velocity of every contact.
-void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
-                           std::vector<Contact>& contacts);
+void set_normal_velocities(BodyStore& bodies, Parallelism parallelism, std::span<Contact> contacts);
 
 }  // namespace carom

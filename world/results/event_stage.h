@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/block_lists.h"
+#include "base/raw_vector.h"
 #include "carom/base/parallelism.h"
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
@@ -24,11 +25,11 @@ class EventStage {
     std::span<const BodyId> quarantined;  // by index
     bool wants_persist;
   };
-  void run(const Input& input, Parallelism parallelism, std::vector<Event>& events);
+  void run(const Input& input, Parallelism parallelism, RawVector<Event>& events);
 
   // Adds one event for each impact, in their order.
   static void add_impacts(std::span<const Impact> impacts, const BodyStore& bodies,
-                          std::vector<Event>& events);
+                          RawVector<Event>& events);
 
   // Remembers the generations of all bodies. The next step needs them to name the bodies of
   // overlaps that ended.
@@ -42,9 +43,16 @@ class EventStage {
   bool is_same_body(uint32_t index, const BodyStore& bodies) const {
     return index < generation_.size() && last_id(index) == bodies.id_of(index);
   }
-  Event end_of(size_t pair, const Input& input) const;
+  // What happened to a pair: of the last step for ends, else of this one.
+  struct Change {
+    uint32_t pair;
+    EventKind kind;
+  };
 
-  BlockLists<Event> lists_;
+  void find_changes(const Input& input, Parallelism parallelism);
+  void make_events(std::span<const Change> changes, const Input& input, Event* events) const;
+
+  BlockLists<Change> lists_;
   std::vector<uint32_t> generation_;  // of the last step
 };
 

@@ -77,7 +77,8 @@ void SpeculativeStage::find_candidates(const LookAhead& ahead) {
 void SpeculativeStage::measure(const LookAhead& ahead) {
   constexpr ColumnRole kParts[] = {ColumnRole::sub_shape};
   const auto wanted = std::span(kParts).first(ahead.has_parts() ? 1 : 0);
-  const ResultColumns out = results_.prepare(pairs_.size(), Detail::contact, wanted);
+  const ResultColumns out =
+      results_.prepare({0, pairs_.size(), 0, pairs_.size()}, Detail::contact, wanted);
   [[maybe_unused]] const Result<void> done =
       collide(ahead.shapes, ahead.shapes, pairs_, Detail::contact, out,
               {.frame = WitnessFrame::body,

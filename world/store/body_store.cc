@@ -185,9 +185,9 @@ Shape BodyStore::shape(uint32_t index) const {
   if (kind == ShapeKind::sphere) return Sphere{radius(index)};
   if (has_geometry(kind)) return owning_shape(kind, geometry_[index]);
   if (kind != ShapeKind::aabb) return shape_from_rows(kind, &rows_[first_row_[index]]);
-  const uint32_t slot = box_slot_[index];
-  return Aabb{{boxes_[0][slot], boxes_[1][slot], boxes_[2][slot]},
-              {boxes_[3][slot], boxes_[4][slot], boxes_[5][slot]}};
+  const BoxRecord& box = boxes_[box_slot_[index]];
+  return Aabb{{box.lower[0], box.lower[1], box.lower[2]},
+              {box.upper[0], box.upper[1], box.upper[2]}};
 }
 
 void BodyStore::set_shape(uint32_t index, const Shape& shape) {
@@ -263,25 +263,22 @@ void BodyStore::remove_halfspace(uint32_t index) {
 }
 
 void BodyStore::store_box(uint32_t index, const Aabb& box) {
-  const uint32_t slot = box_slot_[index];
-  for (int axis = 0; axis < 3; ++axis) {
-    boxes_[axis][slot] = box.lower[axis];
-    boxes_[3 + axis][slot] = box.upper[axis];
-  }
+  boxes_[box_slot_[index]] = {{box.lower.x(), box.lower.y(), box.lower.z(), 0},
+                              {box.upper.x(), box.upper.y(), box.upper.z(), 0}};
 }
 
 void BodyStore::take_box(uint32_t index) {
   if (box_slot_.empty()) box_slot_.resize(rows(), 0);
   box_slot_[index] = slots_.take();
-  if (slots_.end() == boxes_[0].size()) return;
-  for (std::vector<float>& column : boxes_) column.push_back(0);
+  boxes_elsewhere_ += box_slot_[index] != index;
+  if (slots_.end() > boxes_.size()) boxes_.push_back({});
 }
 
 void BodyStore::release_box(uint32_t index) {
+  boxes_elsewhere_ -= box_slot_[index] != index;
   slots_.release(box_slot_[index]);
   box_slot_[index] = 0;  // unused, but vectors may load it, so it must be a valid row
-  if (slots_.end() == boxes_[0].size()) return;
-  for (std::vector<float>& column : boxes_) resize_and_give_back(column, slots_.end());
+  if (slots_.end() < boxes_.size()) resize_and_give_back(boxes_, slots_.end());
 }
 
 Motion BodyStore::motion(uint32_t index) const {
@@ -386,9 +383,9 @@ Collidables BodyStore::view() const {
     view.uniform_kind = static_cast<ShapeKind>(kind);
     if (bodies_of_kind_[kind] != size()) view.kind = kind_.data();
   }
-  view.box_slot = data_or_null(box_slot_);
-  view.boxes.lower = {boxes_[0].data(), boxes_[1].data(), boxes_[2].data()};
-  view.boxes.upper = {boxes_[3].data(), boxes_[4].data(), boxes_[5].data()};
+  // Without the detour through slots where each box lies in the place of its body.
+  if (boxes_elsewhere_ > 0) view.box_slot = box_slot_.data();
+  if (!boxes_.empty()) view.boxes = box_records(boxes_.front().lower.data());
   if (!orientation_.empty()) view.orientation.data = orientation_.front().data();
   if (!rows_.empty()) view.rows.data = rows_.front().data();
   view.rows.first = data_or_null(first_row_);
@@ -406,8 +403,8 @@ PairFilter BodyStore::filter() const {
 
 size_t BodyStore::bytes() const {
   size_t sum = alive_.bytes() + slots_.bytes() + row_pool_.bytes() + bytes_of(rows_) +
-               bytes_of(halfspaces_) + bytes_of(touched_) + bytes_of(touched_indices_);
-  for (const std::vector<float>& column : boxes_) sum += bytes_of(column);
+               bytes_of(boxes_) + bytes_of(halfspaces_) + bytes_of(touched_) +
+               bytes_of(touched_indices_);
   for_each_column(*this, [&](const auto& column, auto...) { sum += bytes_of(column); });
   return sum;
 }

@@ -19,6 +19,10 @@ class BodyStore {
  public:
   using Row = std::array<float, 4>;  // a row of shape_rows(), or a quaternion x, y, z, w
   static constexpr Row kIdentity = {0, 0, 0, 1};
+  // The corners of an aabb and a zero each. A record lies in one line of the cache.
+  struct alignas(32) BoxRecord {
+    Row lower, upper;
+  };
 
   explicit BodyStore(PositionType positions) : positions_(positions) {}
 
@@ -32,6 +36,7 @@ class BodyStore {
   size_t size() const { return alive_.size(); }
   bool is_alive(uint32_t index) const { return alive_.is_used(index); }
   BodyId id_of(uint32_t index) const { return {index, generation_[index]}; }
+  std::span<const uint32_t> generations() const { return generation_; }
 
   Eigen::Vector3d position(uint32_t index) const;
   void set_position(uint32_t index, const Eigen::Vector3d& position);
@@ -67,8 +72,8 @@ class BodyStore {
   // The arrays themselves.
   std::vector<float>& records32() { return records32_; }
   std::vector<double>& records64() { return records64_; }
-  std::array<std::vector<float>, 6>& boxes() { return boxes_; }
-  const std::array<std::vector<float>, 6>& boxes() const { return boxes_; }
+  std::vector<BoxRecord>& boxes() { return boxes_; }
+  const std::vector<BoxRecord>& boxes() const { return boxes_; }
   std::vector<Row>& orientations() { return orientation_; }
   const std::vector<Row>& orientations() const { return orientation_; }
   std::span<Row> shape_rows() { return {rows_.data(), row_pool_.end()}; }
@@ -144,10 +149,11 @@ class BodyStore {
   std::vector<float> records32_;  // x, y, z, w a row; one of the two columns is empty
   std::vector<double> records64_;
 
-  // Lower and upper corners. Rows are slots, which only aabb bodies get.
+  // Rows are slots, which only aabb bodies get.
   IndexPool slots_;
-  std::array<std::vector<float>, 6> boxes_;
+  std::vector<BoxRecord> boxes_;
   std::vector<uint32_t> box_slot_;  // empty until there is a box; 0 for other kinds
+  size_t boxes_elsewhere_ = 0;      // aabb bodies whose slot is not their index
 
   // Parameters of all kinds but spheres and aabbs, in blocks of rows. After the last block follow
   // kMostRows - 1 rows of zero, so that kMostRows rows can be read from any row.

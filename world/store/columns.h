@@ -9,8 +9,8 @@
 
 namespace carom {
 
-template <class T>
-size_t bytes_of(const std::vector<T>& column) {
+template <class T, class Allocator>
+size_t bytes_of(const std::vector<T, Allocator>& column) {
   return column.capacity() * sizeof(T);
 }
 
@@ -21,12 +21,12 @@ const T* data_or_null(const std::vector<T>& column) {
 
 // Gives memory back if the column holds more than four times the `needed` rows. It keeps twice as
 // many, so that their number must halve again, or double, before the column moves again.
-template <class T>
-void give_back(std::vector<T>& column, size_t needed) {
+template <class T, class Allocator>
+void give_back(std::vector<T, Allocator>& column, size_t needed) {
   constexpr size_t kAlwaysKept = 4096 / sizeof(T);
   const size_t kept = std::max(2 * needed, kAlwaysKept);
   if (column.capacity() <= 2 * kept) return;
-  std::vector<T> smaller;
+  std::vector<T, Allocator> smaller;
   smaller.reserve(kept);
   smaller.insert(smaller.end(), column.begin(), column.end());
   column.swap(smaller);

@@ -37,7 +37,20 @@ struct AabbColumns {
   std::array<const float*, 3> lower{};  ///< lower ends in x, y and z
   std::array<const float*, 3> upper{};  ///< upper ends in x, y and z
   size_t stride = sizeof(float);        ///< bytes from one entry to the next, in all columns
+  /// Whether the columns lie in records of eight floats: lower x, y, z and any number, upper x, y,
+  /// z and any number (box_records()). Kernels then read a box at once, which is much faster if
+  /// boxes are many and pairs lie anywhere among them.
+  bool are_records = false;
 };
+
+/// The corners in records of eight floats, one after another: lower x, y, z and any number, upper
+/// x, y, z and any number. Records that start at a multiple of 32 bytes are read fastest.
+inline AabbColumns box_records(const float* corners) {
+  return {.lower = {corners, corners + 1, corners + 2},
+          .upper = {corners + 4, corners + 5, corners + 6},
+          .stride = 8 * sizeof(float),
+          .are_records = true};
+}
 
 /// Orientations as quaternions x, y, z, w, which need not be unit ones: the rotation from the
 /// body's frame to the world is M(q) / |q|^2.

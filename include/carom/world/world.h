@@ -108,12 +108,15 @@ struct BodyArrays {
   float* orientation = nullptr;
 };
 
-/// Corners of aabb bodies relative to their positions, metres, in six columns indexed by box slot
+/// Corners of aabb bodies relative to their positions, metres, in records indexed by box slot
 /// (World::box_slot()). A body keeps its slot for as long as its shape is an aabb.
 struct BoxArrays {
-  size_t count = 0;               ///< highest slot in use + 1
-  std::array<float*, 3> lower{};  ///< lower ends in x, y and z
-  std::array<float*, 3> upper{};  ///< upper ends in x, y and z
+  size_t count = 0;          ///< highest slot in use + 1
+  float* corners = nullptr;  ///< 8 * count floats: lower x, y, z, 0, upper x, y, z, 0
+
+  /// The lower corner in a slot; the upper one is lower(slot) + 4.
+  float* lower(size_t slot) const { return corners + 8 * slot; }
+  float* upper(size_t slot) const { return corners + 8 * slot + 4; }  ///< the upper corner
 };
 
 /// Parameters of all kinds but spheres and aabbs in rows of four floats, laid out as ShapeRows

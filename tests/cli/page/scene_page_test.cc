@@ -1,8 +1,12 @@
 // carom run --page: the data in the page. Only people can judge how it draws them.
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <set>
 
+#include "carom/hulls/build_hull.h"
+#include "carom/shapes/mesh_geometry.h"
+#include "examples/scene_recorder.h"
 #include "io/recording.h"
 #include "io/scene.h"
 #include "tests/cli/cli_test_util.h"
@@ -181,6 +185,92 @@ TEST_F(ScenePageTest, HoldsThePosesOfAllFrames) {
       "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAACAPwAAgL8AAEBAAAAAAAAAAAAAAAAAAAAAAAAAgD8AAIA/"
       "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAvwAAwEAAAAAAAAAAAAAAAAAAAAAAAACAPw==";
   EXPECT_EQ(track["pose"], expected);
+}
+
+// --- Scenes that the recorder of the examples has written ---
+
+// A ground of two kinds, and a body of each kind that the recorder knows, which sink into it.
+World recorded_world() {
+  World world({.detail = Detail::regions});
+  const std::vector<Eigen::Vector3f> corners = {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}};
+  const std::vector<std::array<uint32_t, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
+  const std::vector<Eigen::Vector3f> tip = {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0.5f}};
+  world.add({.shape = Halfspace{{0, 0.6f, 0.8f}, 0.25f}, .motion = Motion::fixed});
+  world.add({.shape = Mesh{*make_mesh(corners, triangles, {.one_sided = true, .thickness = 0.5f})},
+             .motion = Motion::fixed});
+  const Shape shapes[] = {Sphere{0.5f}, Capsule{{-1, 0, 0}, {1, 0, 0.25f}, 0.5f},
+                          Box{{0.5f, 0.25f, 0.75f}}, Hull{build_hull(tip)->geometry}};
+  for (const Shape& shape : shapes) {
+    const double x = 3.0 * static_cast<double>(world.size());
+    world.add({.shape = shape, .position = {x - 9, 0, 1.9375}, .motion = Motion::kinematic});
+  }
+  return world;
+}
+
+// The numbers of base64.
+std::vector<float> numbers_in(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  uint32_t bits = 0;
+  for (size_t i = 0; i < base64.size() && base64[i] != '='; ++i) {
+    bits = bits << 6 | static_cast<uint32_t>(digits.find(base64[i]));
+    if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 255);
+  }
+  std::vector<float> numbers(bytes.size() / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+  return numbers;
+}
+
+TEST_F(ScenePageTest, PlaysARecordedWorld) {
+  World world = recorded_world();
+  constexpr uint32_t kFirstMoving = 2;
+  rigid::SceneRecorder recorder(world);
+  world.exclude(world.id_of(5), world.id_of(1));
+  recorder.exclude(5, 1);
+  std::vector<float> poses;
+  const Eigen::Vector3d origin = world.position(world.id_of(kFirstMoving));
+  for (uint32_t frame = 0; frame < 7; ++frame) {
+    for (uint32_t i = kFirstMoving; i < world.size(); ++i) {
+      const BodyId id = world.id_of(i);
+      const Eigen::Vector3d position(world.position(id).x(), 0.125 * frame, 1.9375 - 0.25 * frame);
+      world.set_position(id, position);
+      world.set_orientation(id, {1, 0.0625f * static_cast<float>(frame), 0, 0});
+      for (const double x : position - origin) poses.push_back(static_cast<float>(x));
+      for (const float x : world.orientation(id).coeffs()) poses.push_back(x);
+    }
+    recorder.add_frame();
+  }
+  world.step();
+  ASSERT_TRUE(recorder.write(path("recorded.npz"), 0.25));
+
+  const json data = page_of(path("recorded.npz"), {"--detail", "regions"});
+  EXPECT_EQ(report()["frames"], 7);
+  EXPECT_EQ(report()["bodies"], world.size());
+  EXPECT_EQ(report()["contacts_per_frame"][0], 0);
+  EXPECT_EQ(data["left_out"], 0);
+  const json& track = data["track"];
+  EXPECT_EQ(track["dt"], 0.25);
+  EXPECT_EQ(track["frame"], json::array({0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(track["body"], json::array({2, 3, 4, 5}));
+  EXPECT_EQ(track["origin"], json::array({origin.x(), origin.y(), origin.z()}));
+  EXPECT_EQ(numbers_in(track["pose"]), poses);
+
+  // The contacts of the last frame are those of the world, so shapes and filters were read as well.
+  const json& contact = data["contact"];
+  EXPECT_GT(world.contacts().size(), 3u);
+  ASSERT_EQ(contact["a"].size(), world.contacts().size());
+  for (size_t i = 0; i < world.contacts().size(); ++i) {
+    const Contact& expected = world.contacts()[i];
+    EXPECT_EQ(contact["a"][i], expected.a);
+    EXPECT_EQ(contact["b"][i], expected.b);
+    EXPECT_EQ(contact["separation"][i].get<float>(), expected.separation);
+    EXPECT_EQ(contact["points"][i], expected.manifold_count);
+    EXPECT_FALSE(expected.a == 1 && expected.b == 5);
+  }
+  std::vector<std::string> kinds;
+  for (const size_t shape : data["body"]["shape"]) kinds.push_back(data["shapes"][shape]["kind"]);
+  EXPECT_EQ(kinds,
+            (std::vector<std::string>{"halfspace", "mesh", "sphere", "capsule", "box", "hull"}));
 }
 
 // Poses of 100,000 bodies: 2.8 MB a frame, so that every second frame of four is kept, the last one

@@ -89,6 +89,7 @@ TEST(Layouts, Strides) {
                        .radius_stride = 8,
                        .box_stride = 24};
       call.layout_b = call.layout_a;
+      call.layout_b.box_stride = 0;
       SCOPED_TRACE(std::string(name(sides)) + ", " + show(call.layout_a));
       for_each_isa([&] {
         for (const size_t count : {1, 3, 4, 7, 8, 15, 16, 17, 67}) {

@@ -35,9 +35,10 @@ std::vector<Row> run(const LaidOut& bodies, Detail detail, uint32_t* direction) 
   std::vector<Pair> list(count);
   for (uint32_t i = 0; i < count; ++i) list[i] = {i, count + i};
   Columns columns(count, 0);
-  collide_pairs(bodies.view(), list, detail, columns.out(),
-                {.frame = WitnessFrame::body, .measured = Measured::overlapping}, direction,
-                nullptr);
+  const Collidables view = bodies.view();
+  collide_pairs({.bodies = view, .pairs = list, .has_composites = false, .direction = direction},
+                detail, columns.out(),
+                {.frame = WitnessFrame::body, .measured = Measured::overlapping});
   return columns.rows();
 }
 

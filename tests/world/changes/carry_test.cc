@@ -95,7 +95,7 @@ TEST(Carry, AMovedBoxCornerRetestsItsPairs) {
   world.step();
   for (const BodyId id : ids) {
     if (!std::holds_alternative<Aabb>(world.shape(id))) continue;
-    world.boxes().upper[2][world.box_slot(id)] += 0.125f;
+    world.boxes().upper(world.box_slot(id))[2] += 0.125f;
     const StepReport& report = world.step();
     EXPECT_EQ(report.tested, pairs_of(world, id.index));
   }

@@ -62,7 +62,8 @@ class Tracked {
     const uint32_t index = pick();
     const ShapeKind kind = kind_of(store.shape(index));
     if (kind == ShapeKind::aabb) {
-      store.boxes()[random.below(6)][store.box_slot(index)] += 0.25f;
+      BodyStore::BoxRecord& box = store.boxes()[store.box_slot(index)];
+      (random.chance(0.5) ? box.lower : box.upper)[random.below(3)] += 0.25f;
     } else if (has_rows(index)) {
       const size_t row = store.first_row(index) + random.below(row_count(kind));
       store.shape_rows()[row][random.below(3)] += 0.25f;

@@ -209,12 +209,12 @@ TEST(Bodies, BoxesAreChangedThroughTheArrays) {
   EXPECT_EQ(world.contacts().size(), 0u);
   const BoxArrays boxes = world.boxes();
   EXPECT_EQ(boxes.count, 2u);
-  boxes.upper[0][world.box_slot(a)] = 1.75f;
+  boxes.upper(world.box_slot(a))[0] = 1.75f;
   world.step();
   ASSERT_EQ(world.contacts().size(), 1u);
   EXPECT_EQ(world.contacts()[0].separation, -0.25f);
   EXPECT_EQ(std::get<Aabb>(world.shape(a)).upper.x(), 1.75f);
-  boxes.lower[0][world.box_slot(b)] = 0.5f;
+  boxes.lower(world.box_slot(b))[0] = 0.5f;
   world.step();
   EXPECT_EQ(world.contacts().size(), 0u);
 }

@@ -1,0 +1,104 @@
+// Pairs of bodies in which more parts touch than contacts are made of: the deepest ones count, and
+// the others are left out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/tolerances.h"
+#include "tests/midphase/region_checks.h"
+#include "tests/support/composites.h"
+
+namespace carom::test {
+namespace {
+
+static_assert(kMostPartsOfManifold == 4096, "as Contact::left_out says");
+
+// Small balls or boxes in a cube of this half side.
+Compound swarm(size_t count, float half, bool boxes, oracle::Random& random) {
+  std::vector<CompoundChild> children(count);
+  for (CompoundChild& child : children) {
+    const auto size = static_cast<float>(random.uniform(0.5, 0.6));
+    child.shape = boxes ? Shape(Box{{size, 0.75f * size, size}}) : Shape(Sphere{size});
+    for (int axis = 0; axis < 3; ++axis) {
+      child.position[axis] = static_cast<float>(random.uniform(-half, half));
+    }
+    if (boxes) child.orientation = Eigen::Quaternionf(1, 0.1f, child.position.x(), 0);
+  }
+  return compound_of(children);
+}
+
+// Two swarms, and swarms and a box in bumpy ground, in all of which more than 4,096 parts touch.
+std::vector<TestPair> pairs_of_many_parts() {
+  oracle::Random random(31);
+  const auto bumps = [&](float, float) { return random.uniform(-0.05, 0.05); };
+  const Mesh ground = grid_mesh(10, 0.06f, bumps), wide = grid_mesh(48, 0.05f, bumps);
+  const Eigen::Quaternionf turn(0.9f, 0.1f, 0.3f, -0.2f);
+  return {
+      {{swarm(72, 0.1f, false, random)}, {swarm(70, 0.1f, false, random), {0.3, 0.2, 0.5}, turn}},
+      {{swarm(72, 0.1f, true, random), {5, 6, 7}},
+       {swarm(70, 0.1f, true, random), {5.3, 6.2, 7.5}, turn}},
+      {{ground}, {swarm(30, 0.1f, false, random), {0, 0, 0.2}}},
+      {{swarm(30, 0.1f, true, random), {0, 0, 0.25}}, {ground}},
+      {{wide}, {Box{{2, 2, 0.5f}}, {0, 0, 0.4}}},
+  };
+}
+
+TEST(ManyParts, EqualTheReference) {
+  const std::vector<TestPair> pairs = pairs_of_many_parts();
+  RegionCounts counts;
+  for (const RegionLimits& limits :
+       {RegionLimits{}, RegionLimits{.cosine = 0.9999, .most = 3}, RegionLimits{.most = 65535}}) {
+    for (const float distance : {0.0f, 0.1f}) {
+      CollideOptions options{.frame = WitnessFrame::body, .contact_distance = distance};
+      options.region_limits = limits;
+      const Listed listed = list_contacts(pairs, PositionType::float64, options);
+      expect_reference_contacts(pairs, PositionType::float64, listed.regions, options, counts);
+      for (size_t i = 0; i < pairs.size(); ++i) {
+        EXPECT_GT(listed.regions.contacts[listed.regions.first[i]].left_out, 100) << i;
+      }
+      ASSERT_FALSE(HasFailure());
+    }
+  }
+  EXPECT_GT(counts.several, 20u);
+}
+
+// All balls of two swarms touch, and all contacts are one region: then what is left out are the
+// pairs of balls beyond 4,096, as many as a Contact can say.
+TEST(ManyParts, CountWhatIsLeftOut) {
+  oracle::Random random(32);
+  const size_t sizes[][2] = {{64, 64}, {64, 65}, {80, 120}, {272, 256}, {272, 257}};
+  for (const auto& [a, b] : sizes) {
+    const TestPair pair{{swarm(a, 0.1f, false, random)},
+                        {swarm(b, 0.1f, false, random), {0, 0, 0.5}}};
+    CollideOptions options;
+    options.region_limits = {.cosine = -1, .most = 1};
+    const Listed listed = list_contacts({&pair, 1}, PositionType::float64, options);
+    ASSERT_EQ(listed.regions.contacts.size(), 1u);
+    EXPECT_EQ(listed.regions.contacts[0].left_out, std::min<size_t>(a * b - 4096, 65535)) << a * b;
+  }
+}
+
+// Where no two parts share a contact, contacts are the deepest parts one by one, wherever these are
+// among the others.
+TEST(ManyParts, TheDeepestAreKept) {
+  for (const uint32_t count : {5000u, 9000u}) {
+    std::vector<CompoundChild> balls;
+    for (uint32_t i = 0; i < count; ++i) {
+      const float depth = 0.001f + 0.00001f * static_cast<float>(i);
+      const float x = 0.001f * static_cast<float>(7919 * i % count);
+      balls.push_back({Sphere{0.25f}, {x, 0, 0.25f - depth}});
+    }
+    const TestPair pair{{Box{{20, 1, 0.5f}}, {0, 0, -0.5}}, {compound_of(balls)}};
+    CollideOptions options;
+    options.region_limits = {.cosine = 2, .most = 65535};
+    const Listed listed = list_contacts({&pair, 1}, PositionType::float64, options);
+    ASSERT_EQ(listed.regions.contacts.size(), 4096u);
+    EXPECT_EQ(listed.regions.contacts[0].left_out, count - 4096);
+    for (uint32_t k = 0; k < 4096; ++k) {
+      ASSERT_EQ(listed.regions.contacts[k].sub_b, count - 1 - k);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
