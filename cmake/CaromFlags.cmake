@@ -37,6 +37,9 @@ set(CAROM_COPY_FLAGS)
 if(CAROM_HAS_MOVE_MAX)
   set(CAROM_COPY_FLAGS -mmove-max=512)
 endif()
+# Static and shared libraries are made of the same objects. Exported functions are not replaced by
+# others, so that they may be inlined.
+add_compile_options(-fno-semantic-interposition)
 add_compile_options(${CAROM_MATH_FLAGS} ${CAROM_COPY_FLAGS} -Wall -Wextra -Wshadow -Wpedantic)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 sees overlapping copies inside std::string where there are none (GCC bug 105651), and where
@@ -59,9 +62,6 @@ else()
 endif()
 if(CAROM_FEW_TARGETS)
   add_compile_definitions(CAROM_FEW_TARGETS)
-endif()
-if(NOT BUILD_SHARED_LIBS)
-  add_compile_definitions(CAROM_STATIC)
 endif()
 if(CAROM_SANITIZE)
   add_compile_options(-fsanitize=${CAROM_SANITIZE} -fno-sanitize-recover=all
