@@ -41,7 +41,7 @@ docs: setup-docs ## reference pages of the public headers (build/docs/html)
 asan: setup-dev build-asan ## run the tests under AddressSanitizer and UBSan
 	ctest --preset asan -j $(JOBS)
 
-tsan: setup-dev build-tsan ## run the tests under ThreadSanitizer
+tsan: setup-dev build-tsan ## run the tests that start threads under ThreadSanitizer
 	ctest --preset tsan -j $(JOBS)
 
 fuzz: setup-dev build-fuzz ## run every fuzz target for SECONDS_EACH seconds (20)

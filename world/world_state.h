@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <span>
 #include <vector>
 
@@ -131,6 +132,7 @@ struct World::State {
   void forget_ahead();
   void stop_looking_ahead();
 
+  std::chrono::steady_clock::time_point last_stage_end;
   bool was_still = false;  // the last step repeated its predecessor
   ChangeTracker changes;
   RestWatch rest_watch;

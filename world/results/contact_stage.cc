@@ -74,11 +74,14 @@ void ContactStage::start(const PairHistory& last, PairHistory& now) {
   now.contacts.clear();
   now.manifolds.clear();
   now.identities.clear();
-  // Steps have about as many contacts as the last one.
-  const auto likely = [](size_t count) { return count + count / 16; };
-  now.contacts.reserve(likely(last.contacts.size()));
-  now.manifolds.reserve(likely(last.manifolds.size()));
-  now.identities.reserve(likely(last.identities.size()));
+  // Steps have about as many contacts as the last one. A list that has room for them keeps its
+  // memory.
+  const auto make_room = [](auto& list, size_t count) {
+    if (list.capacity() < count) list.reserve(count + count / 8);
+  };
+  make_room(now.contacts, last.contacts.size());
+  make_room(now.manifolds, last.manifolds.size());
+  make_room(now.identities, last.identities.size());
 }
 
 size_t ContactStage::add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
