@@ -369,6 +369,7 @@ class CAROM_EXPORT World {
          CastOptions{
              .hits = which, .filter = {.mask = mask}, .parallelism = settings().parallelism});
   }
+  /// Likewise.
   template <std::integral Mask>
   [[deprecated("pass QueryOptions")]] void find_overlaps(const Collidables& queries,
                                                          std::vector<OverlapHit>& hits,
@@ -377,6 +378,7 @@ class CAROM_EXPORT World {
                   QueryOptions{.filter = {.mask = static_cast<uint32_t>(mask)},
                                .parallelism = settings().parallelism});
   }
+  /// Likewise.
   template <std::integral Mask>
   [[deprecated("pass QueryOptions")]] void find_nearest(const Collidables& queries, float within,
                                                         std::vector<NearestHit>& hits,
