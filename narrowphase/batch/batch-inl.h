@@ -21,8 +21,8 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/batch/kernel_policy.h"
-#include "narrowphase/batch/load-inl.h"
 #include "narrowphase/batch/report-inl.h"
+#include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/tail-inl.h"
 
 HWY_BEFORE_NAMESPACE();

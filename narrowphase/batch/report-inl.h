@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "narrowphase/batch/kernel_policy.h"
-#include "narrowphase/batch/load-inl.h"
+#include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/store-inl.h"
 

@@ -7,7 +7,7 @@
 #define CAROM_NARROWPHASE_FEATURES_BOX_TRIANGLE_CORE_INL_H_
 #endif
 
-#include "narrowphase/batch/load-inl.h"
+#include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/features/rounded-inl.h"
 #include "narrowphase/features/segment_box-inl.h"
 

@@ -9,7 +9,7 @@
 #include <array>
 
 #include "base/tolerances.h"
-#include "narrowphase/batch/load-inl.h"
+#include "narrowphase/batch/shape_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "base/tolerances.h"
-#include "narrowphase/batch/load-inl.h"
+#include "narrowphase/batch/shape_lanes-inl.h"
 #include "simd/axis-inl.h"
 #include "simd/rotation-inl.h"
 
