@@ -24,12 +24,6 @@ class BlockLists {
   std::vector<T>& operator[](size_t block) { return lists_[block].items; }
   const std::vector<T>& operator[](size_t block) const { return lists_[block].items; }
 
-  size_t total() const {
-    size_t sum = 0;
-    for (size_t i = 0; i < blocks_; ++i) sum += lists_[i].items.size();
-    return sum;
-  }
-
   // Finds the places of all lists in one that has all items in block order, and returns its length.
   size_t place() {
     size_t first = 0;

@@ -20,8 +20,8 @@ constexpr size_t kPairsOfThreads = 16 * kPairsPerMergeBlock;
 
 }  // namespace
 
-// What a step does between two stages, which is little, counts to the second: in a small world a
-// look at the clock takes as long.
+// The time between two stages, which is short, counts to the second: in a small world a look at the
+// clock takes as long.
 template <class Work>
 void World::State::run(Stage stage, const Work& work) {
   work();

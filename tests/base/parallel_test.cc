@@ -136,7 +136,7 @@ TEST(BlockLists, AreConcatenatedInBlockOrder) {
       std::vector<size_t> out = {1, 2, 3};
       lists.concatenate(out, arena.parallelism());
       EXPECT_EQ(out, expected);
-      EXPECT_EQ(lists.total(), expected.size());
+      EXPECT_EQ(lists.place(), expected.size());
     });
   }
 }
@@ -144,14 +144,14 @@ TEST(BlockLists, AreConcatenatedInBlockOrder) {
 TEST(BlockLists, StartEmptyAndKeepTheirMemory) {
   BlockLists<int> lists;
   EXPECT_EQ(lists.blocks(), 0u);
-  EXPECT_EQ(lists.total(), 0u);
+  EXPECT_EQ(lists.place(), 0u);
   lists.reset(3);
   for (size_t i = 0; i < 3; ++i) lists[i].assign(100, 1);
   const size_t bytes = lists.bytes();
   EXPECT_GE(bytes, 3 * 100 * sizeof(int));
   lists.reset(2);
   EXPECT_EQ(lists.blocks(), 2u);
-  EXPECT_EQ(lists.total(), 0u);
+  EXPECT_EQ(lists.place(), 0u);
   EXPECT_EQ(lists.bytes(), bytes);
   std::vector<int> out = {1};
   lists.concatenate(out, Parallelism::none);

@@ -69,7 +69,7 @@ struct RegionLists {
       distances.push_back(each.distance);
     }
     rows.resize(pairs.size(), Detail::manifold, kOptionalColumns);
-    // What is there before must not be seen afterwards.
+    // The call must replace all that the lists hold.
     for_each_column(
         [&](const ColumnInfo&, auto* column) {
           if (column) std::memset(column, 0xa5, pairs.size() * sizeof *column);

@@ -60,7 +60,7 @@ CAROM_TEST_SEEN void* aligned_alloc(size_t alignment, size_t size) noexcept {
 namespace carom::test {
 namespace {
 
-// What is done to a new world before its first step. Bodies may be added; the first ones move.
+// Prepares a new world before its first step. It may add bodies; the first ones move.
 using Prepare = std::function<void(World&, std::vector<BodyId>&)>;
 
 // Bodies that move in circles: every fourth step is the same.

@@ -43,7 +43,7 @@ class EventStage {
   bool is_same_body(uint32_t index, const BodyStore& bodies) const {
     return index < generation_.size() && last_id(index) == bodies.id_of(index);
   }
-  // What happened to a pair: of the last step for ends, else of this one.
+  // A pair with an event. `pair` is a place in the last step for ends, else in this one.
   struct Change {
     uint32_t pair;
     EventKind kind;

@@ -68,7 +68,7 @@ std::string names_of(const World& world) {
   return names;
 }
 
-// What the steps of a test had, so that it does not run empty.
+// Counts what the steps of a test had, so that it does not run empty.
 struct StepsSeen {
   size_t left_out = 0;
   size_t kept_others = 0, kept_left_out = 0;  // of pairs of bodies at rest
