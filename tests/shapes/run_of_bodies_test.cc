@@ -3,11 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "shapes/body_reader.h"
 #include "tests/support/query_bodies.h"
 
 namespace carom::test {
 namespace {
+
+// A row may hold the address of a geometry, which is NaN where it is read as numbers.
+auto bits_of(const std::array<float, 4>& row) {
+  return std::bit_cast<std::array<uint32_t, 4>>(row);
+}
 
 void expect_same_body(const Collidables& run, size_t i, const Collidables& all, size_t body) {
   const BodyReader here{run}, there{all};
@@ -24,7 +31,9 @@ void expect_same_body(const Collidables& run, size_t i, const Collidables& all, 
     }
   } else {
     EXPECT_EQ(here.orientation(i), there.orientation(body));
-    for (size_t k = 0; k < row_count(kind); ++k) EXPECT_EQ(here.row(i, k), there.row(body, k));
+    for (size_t k = 0; k < row_count(kind); ++k) {
+      EXPECT_EQ(bits_of(here.row(i, k)), bits_of(there.row(body, k)));
+    }
   }
 }
 
@@ -55,6 +64,19 @@ const std::vector<Layout> kLayouts = {
 TEST(RunOfBodies, ReadsBodiesOfAllKinds) {
   const std::vector<PlacedShape> bodies = make_bodies({.invalid = 0}, 1);
   for (const Layout& layout : kLayouts) expect_runs(bodies, layout);
+}
+
+// An address whose lower half is 0x7f800001 to 0x7fffffff is no number, and unequal to itself.
+TEST(RunOfBodies, ReadsAddressesThatAreNotNumbers) {
+  const auto address = geometry_row(std::bit_cast<const void*>(uint64_t{0x55557fc00010}));
+  ASSERT_NE(address[0], address[0]);
+  const std::array<std::array<float, 4>, 2> rows = {{{1, 2, 3, 4}, address}};
+  Collidables all;
+  all.count = 2;
+  all.uniform_kind = ShapeKind::hull;
+  all.rows.data = rows[0].data();
+  const Collidables run = run_of_bodies(all, 1, 1);
+  EXPECT_EQ(bits_of(BodyReader{run}.row(0, 0)), bits_of(address));
 }
 
 TEST(RunOfBodies, ReadsBodiesOfOneKind) {
