@@ -37,7 +37,7 @@ std::optional<uint8_t> common_part(std::span<const uint8_t> parts, const Motion*
 
 void BodyIndex::update(const Collidables& bodies, const BoundsView& bounds, const Motion* motion,
                        std::span<const WorldHalfspace> halfspaces, Parallelism parallelism) {
-  if (bounds.count < boxes_.size() / 2) *this = {};  // gives back memory
+  if (bounds.count < boxes_.size() / 2) *this = {};  // most places of the tree would be empty
   halfspaces_.assign(halfspaces.begin(), halfspaces.end());
   const PartChanges changes = update_boxes(bodies, bounds, motion, parallelism);
   for (size_t part = 0; part < RefittedTree::kParts; ++part) {

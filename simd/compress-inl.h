@@ -26,6 +26,48 @@ using Indices = hn::Vec<IndexTag>;
 #define CAROM_COMPRESS_BY_TABLE 1
 #endif
 
+// Where lane k of `lanes` lanes must be, so that InterleaveLower and InterleaveUpper bring the
+// lanes into order. They work within 128-bit blocks, so the first half fills the lower halves of
+// all blocks.
+constexpr size_t place_for_interleaving(size_t k, size_t lanes) {
+  const size_t half = lanes / 2;
+  return half < 2 ? k : k % half / 2 * 4 + k / half * 2 + k % 2;
+}
+
+template <size_t kCount>
+struct alignas(64) InterleavingOrder {
+  int32_t lane[kCount];
+
+  constexpr InterleavingOrder() : lane() {
+    for (size_t k = 0; k < kCount; ++k) {
+      lane[place_for_interleaving(k, kCount)] = static_cast<int32_t>(k);
+    }
+  }
+};
+
+// Brings lanes into the order for interleaving.
+template <class Tag, class V>
+HWY_INLINE V order_for_interleaving(Tag tag, V v) {
+  constexpr size_t kCount = kLanesOf<Tag>;
+  if constexpr (kCount <= 4) {
+    return v;
+  } else {
+    static constexpr InterleavingOrder<kCount> kOrder;
+    return hn::TableLookupLanes(v, hn::SetTableIndices(tag, kOrder.lane));
+  }
+}
+
+// Writes (a, b) of one lane after the other. The lanes are in the order for interleaving.
+template <class Tag, class V>
+HWY_INLINE void store_interleaved(Tag tag, V a, V b, uint32_t* to) {
+#if HWY_TARGET == HWY_SCALAR
+  hn::StoreInterleaved2(a, b, tag, to);
+#else
+  hn::StoreU(hn::InterleaveLower(tag, a, b), tag, to);
+  hn::StoreU(hn::InterleaveUpper(tag, a, b), tag, to + kLanesOf<Tag>);
+#endif
+}
+
 #if CAROM_COMPRESS_BY_TABLE
 
 // One entry for every mask: byte place(k) is the number of the k-th selected lane; the other bytes
@@ -43,13 +85,8 @@ constexpr auto compress_table(const Place& place) {
 }
 
 inline constexpr auto kInOrder = compress_table([](size_t k) { return k; });
-
-// The order that InterleaveLower and InterleaveUpper turn into 0, 1, 2, ... They work within
-// 128-bit blocks, so the first half of the selected lanes fills the lower halves of all blocks.
-inline constexpr auto kForInterleaving = compress_table([](size_t k) {
-  constexpr size_t kHalf = kLanes / 2;
-  return k % kHalf / 2 * 4 + k / kHalf * 2 + k % 2;
-});
+inline constexpr auto kForInterleaving =
+    compress_table([](size_t k) { return place_for_interleaving(k, kLanes); });
 
 template <class Table>
 HWY_INLINE Indices permute(Indices v, const Table& table, size_t mask_bits) {
@@ -67,7 +104,8 @@ HWY_INLINE size_t bits_of(Mask mask) {
 
 #endif
 
-// Writes the selected lanes to `to` and returns their number. May write a whole vector.
+// Writes the selected lanes to `to` and returns their number. May write a whole vector. (Some
+// processors take a hundred cycles to compress to memory.)
 HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
   const IndexTag tag;
 #if CAROM_COMPRESS_BY_TABLE
@@ -75,27 +113,27 @@ HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
   hn::StoreU(permute(v, kInOrder, bits), tag, to);
   return static_cast<size_t>(std::popcount(bits));
 #else
-  return hn::CompressStore(v, hn::RebindMask(tag, mask), tag, to);
+  hn::StoreU(hn::Compress(v, hn::RebindMask(tag, mask)), tag, to);
+  return hn::CountTrue(FloatTag(), mask);
 #endif
 }
 
 // Writes a pair (smaller, larger) of `one` and each selected lane of `others`, and returns the
-// number of pairs. May write two whole vectors.
-HWY_INLINE size_t store_pairs(Indices one, Indices others, Mask mask, uint32_t* to) {
-  const IndexTag tag;
+// number of pairs. May write two whole vectors. Vectors of `tag` may be narrower than the widest
+// where the ISA has an instruction for Compress.
+template <class Tag, class V, class M>
+HWY_INLINE size_t store_pairs(Tag tag, V one, V others, M mask, uint32_t* to) {
 #if CAROM_COMPRESS_BY_TABLE
+  static_assert(kLanesOf<Tag> == kLanes);
   const size_t bits = bits_of(mask);
-  const Indices selected = permute(others, kForInterleaving, bits);
-  const Indices a = hn::Min(one, selected);
-  const Indices b = hn::Max(one, selected);
-  hn::StoreU(hn::InterleaveLower(tag, a, b), tag, to);
-  hn::StoreU(hn::InterleaveUpper(tag, a, b), tag, to + kLanes);
-  return static_cast<size_t>(std::popcount(bits));
+  const V selected = permute(others, kForInterleaving, bits);
+  const auto count = static_cast<size_t>(std::popcount(bits));
 #else
-  const Indices selected = hn::Compress(others, hn::RebindMask(tag, mask));
-  hn::StoreInterleaved2(hn::Min(one, selected), hn::Max(one, selected), tag, to);
-  return hn::CountTrue(FloatTag(), mask);
+  const V selected = order_for_interleaving(tag, hn::Compress(others, hn::RebindMask(tag, mask)));
+  const size_t count = hn::CountTrue(hn::RebindToFloat<Tag>(), mask);
 #endif
+  store_interleaved(tag, hn::Min(one, selected), hn::Max(one, selected), to);
+  return count;
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -24,6 +24,8 @@ using F = hn::Vec<FloatTag>;
 using I = hn::Vec<IntTag>;
 using Mask = hn::Mask<FloatTag>;
 inline constexpr size_t kLanes = HWY_LANES(float);
+template <class Tag>
+inline constexpr size_t kLanesOf = hn::MaxLanes(Tag());
 
 HWY_INLINE Mask no_lanes() { return hn::MaskFromVec(hn::Zero(FloatTag())); }
 HWY_INLINE F splat(float value) { return hn::Set(FloatTag(), value); }

@@ -27,6 +27,13 @@ class QueryIndex {
     return index_;
   }
 
+  // The next query builds the index anew.
+  void give_back() {
+    const std::lock_guard lock(mutex_);
+    index_ = {};
+    step_.store(kNever, std::memory_order_release);
+  }
+
   size_t bytes() const {
     const std::lock_guard lock(mutex_);
     return index_.bytes();

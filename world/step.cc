@@ -35,7 +35,6 @@ void World::State::run(Stage stage, const Work& work) {
 const StepReport& World::State::step() {
   const FloatEnvironment environment;
   const Parallelism parallelism = settings.parallelism;
-  const size_t last_pairs = now.pairs.size();
   report = {.step = report.step + 1, .search = {}};
   last_stage_end = std::chrono::steady_clock::now();
 
@@ -69,7 +68,6 @@ const StepReport& World::State::step() {
   predicate_changed = false;
   was_still = still;
   if (watches_rest()) watch_rest(still);
-  give_back_memory(last_pairs);
   fill_report();
   return report;
 }
@@ -139,25 +137,6 @@ void World::State::watch_rest(bool still) {
   }
 }
 
-// Gives back memory that neither this step nor the last one needed, so that a number of pairs that
-// rises and falls in turns costs no new memory.
-void World::State::give_back_memory(size_t last_pairs) {
-  const size_t pairs = std::max(now.pairs.size(), last_pairs);
-  now.give_back_beyond(pairs);
-  last.give_back_beyond(pairs);
-  pair_changes.give_back_beyond(pairs);
-  plan.give_back_beyond(pairs);
-  dops.give_back_beyond(pairs);
-  directions.give_back_beyond(pairs);
-  results.give_back_beyond(pairs);
-  halfspaces.give_back_beyond(pairs);
-  sieve.give_back_beyond(pairs);
-  impacts.give_back_beyond(pairs);
-  speculative.give_back_beyond(pairs);
-  event_stage.give_back_beyond(pairs);
-  give_back(events, pairs + impacts.impacts().size());
-}
-
 void World::State::fill_report() {
   report.bodies = bodies.size();
   report.quarantined = quarantined.size();
@@ -183,7 +162,7 @@ BoundsView World::State::bounds_view() const {
 }
 
 void World::State::find_bounds() {
-  for (std::vector<float>& column : bounds) resize_and_give_back(column, bodies.rows());
+  for (std::vector<float>& column : bounds) column.resize(bodies.rows());
   const size_t invalid = compute_bounds(bodies.view(),
                                         {{bounds[0].data(), bounds[1].data(), bounds[2].data()},
                                          {bounds[3].data(), bounds[4].data(), bounds[5].data()}},
@@ -380,22 +359,6 @@ void World::State::stop_looking_ahead() {
   sieve = {};
   impacts = {};
   speculative = {};
-}
-
-WorldMemory World::State::memory() const {
-  WorldMemory memory;
-  memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + proxies.bytes() +
-                  motion_tolerance.bytes() + sweeps.bytes() + bytes_of(quarantined);
-  memory.bounds = swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
-                  bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
-                  wide_swept_bounds.bytes();
-  for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
-  memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
-  memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
-                             dops.pair_bytes() + directions.bytes() + results.bytes() +
-                             contact_stage.bytes() + sieve.bytes() + impacts.bytes() +
-                             speculative.bytes() + event_stage.bytes() + bytes_of(events);
-  return memory;
 }
 
 }  // namespace carom

@@ -286,5 +286,6 @@ std::span<const Pair> World::added_pairs() const { return state_->pair_changes.a
 std::span<const Pair> World::removed_pairs() const { return state_->pair_changes.removed; }
 
 WorldMemory World::memory() const { return state_->memory(); }
+void World::give_back_memory() { state_->give_back_memory(); }
 
 }  // namespace carom

@@ -43,6 +43,7 @@ struct World::State {
   const StepReport& step();
   BoundsView bounds_view() const;
   WorldMemory memory() const;
+  void give_back_memory();
   const BodyIndex& index_for_queries(Parallelism parallelism);
 
   WorldSettings settings;
@@ -115,7 +116,6 @@ struct World::State {
   void update_radii(const ChangeTracker* reshaped);
   void find_all();
   void watch_rest(bool still);
-  void give_back_memory(size_t last_pairs);
   void fill_report();
   void find_bounds();
   void find_quarantined();

@@ -13,6 +13,14 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
+// Runs of boxes in a row of cells are short, so a wider vector would mostly be empty.
+using RunTag = hn::CappedTag<float, 8>;
+using RunIntTag = hn::RebindToSigned<RunTag>;
+using RunIndexTag = hn::RebindToUnsigned<RunTag>;
+using RunF = hn::Vec<RunTag>;
+using RunMask = hn::Mask<RunTag>;
+constexpr size_t kRunLanes = kLanesOf<RunTag>;
+
 // The columns of the searched rows, at equal distances, so that their few pointers fit the
 // registers.
 struct Columns {
@@ -26,26 +34,26 @@ struct Columns {
 
 // One box in every lane.
 struct BoxLanes {
-  F lower[3], upper[3];
-  Indices body;
+  RunF lower[3], upper[3];
+  hn::Vec<RunIndexTag> body;
 };
 
 HWY_INLINE void load_box(const Columns& columns, size_t row, BoxLanes& box) {
   const float* lower = columns.lower + row;
   const float* upper = lower + 3 * columns.stride;
-  box.body = hn::Set(IndexTag(), columns.body[row]);
+  box.body = hn::Set(RunIndexTag(), columns.body[row]);
   for (size_t k = 0; k < 3; ++k) {
-    box.lower[k] = splat(lower[k * columns.stride]);
-    box.upper[k] = splat(upper[k * columns.stride]);
+    box.lower[k] = hn::Set(RunTag(), lower[k * columns.stride]);
+    box.upper[k] = hn::Set(RunTag(), upper[k * columns.stride]);
   }
 }
 
-HWY_INLINE Mask overlaps(const Columns& columns, const BoxLanes& box, size_t row) {
-  const FloatTag tag;
+HWY_INLINE RunMask overlaps(const Columns& columns, const BoxLanes& box, size_t row) {
+  const RunTag tag;
   const float* lower = columns.lower + row;
   const float* upper = lower + 3 * columns.stride;
-  Mask all = hn::And(hn::Le(hn::LoadU(tag, lower), box.upper[0]),
-                     hn::Ge(hn::LoadU(tag, upper), box.lower[0]));
+  RunMask all = hn::And(hn::Le(hn::LoadU(tag, lower), box.upper[0]),
+                        hn::Ge(hn::LoadU(tag, upper), box.lower[0]));
   for (size_t k = 1; k < 3; ++k) {
     const size_t column = k * columns.stride;
     all = hn::And(all, hn::And(hn::Le(hn::LoadU(tag, lower + column), box.upper[k]),
@@ -58,16 +66,16 @@ HWY_INLINE Mask overlaps(const Columns& columns, const BoxLanes& box, size_t row
 // vector even if there is no row: a loop that mostly runs once is predicted well.
 HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin, size_t end,
                       Pair* hits) {
-  const FloatTag tag;
-  const IntTag index_tag;
+  const RunTag tag;
+  const RunIntTag index_tag;
   size_t row = begin;
   do {
     const auto left = hn::Set(index_tag, static_cast<int32_t>(end) - static_cast<int32_t>(row));
-    const Mask in_range = hn::RebindMask(tag, hn::Lt(hn::Iota(index_tag, 0), left));
-    const Mask hit = hn::And(overlaps(columns, box, row), in_range);
-    const Indices others = hn::LoadU(IndexTag(), columns.body + row);
-    hits += store_pairs(box.body, others, hit, &hits->a);
-    row += kLanes;
+    const RunMask in_range = hn::RebindMask(tag, hn::Lt(hn::Iota(index_tag, 0), left));
+    const RunMask hit = hn::And(overlaps(columns, box, row), in_range);
+    const auto others = hn::LoadU(RunIndexTag(), columns.body + row);
+    hits += store_pairs(RunIndexTag(), box.body, others, hit, &hits->a);
+    row += kRunLanes;
   } while (HWY_UNLIKELY(row < end));
   return hits;
 }
@@ -94,7 +102,7 @@ void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const P
       const uint32_t* in_row = first + ahead.offset[r];
       candidates += in_row[to_cell] - in_row[behind];
     }
-    Pair* const room = out.reserve(candidates + kLanes);
+    Pair* const room = out.reserve(candidates + kRunLanes);
     BoxLanes box;
     load_box(columns, i, box);
     Pair* hits = scan(columns, box, i + 1, row_end, room);
@@ -135,13 +143,13 @@ void join_across(const CellRows& queries, size_t begin, size_t end, const CellRo
   const bool filters = !lets_all_meet(filter);
   for (size_t i = begin; i < end; ++i) {
     BoxLanes box;
-    box.body = hn::Set(IndexTag(), queries.body[i]);
+    box.body = hn::Set(RunIndexTag(), queries.body[i]);
     CellRange cells[3];
     for (size_t k = 0; k < 3; ++k) {
       const float lower = queries.lower(axis[k])[i];
       const float upper = queries.upper(axis[k])[i];
-      box.lower[k] = splat(lower);
-      box.upper[k] = splat(upper);
+      box.lower[k] = hn::Set(RunTag(), lower);
+      box.upper[k] = hn::Set(RunTag(), upper);
       cells[k] = reachable_cells(grid, k, lower, upper);
     }
     size_t count = 0;
@@ -151,7 +159,7 @@ void join_across(const CellRows& queries, size_t begin, size_t end, const CellRo
         const uint32_t* row = rows.first_row() + grid.cell_at(0, y, z);
         const size_t first = row[cells[0].begin];
         const size_t last = row[cells[0].end];
-        room = out.reserve(count + (last - first) + kLanes);
+        room = out.reserve(count + (last - first) + kRunLanes);
         count = static_cast<size_t>(scan(columns, box, first, last, room + count) - room);
       }
     }

@@ -158,6 +158,25 @@ TEST(Allocations, NoneWithAllKinds) {
   }
 }
 
+// Nor does a world give memory back by itself.
+TEST(Allocations, NoneInAWorldThatGrowsAgain) {
+  World world({.detail = Detail::manifold});
+  const std::vector<BodyDesc> crowd = make_crowd({.oriented = true, .halfspaces = 2});
+  std::vector<BodyId> ids;
+  const auto grow_and_shrink = [&] {
+    world.add(crowd, ids);
+    world.step();
+    world.remove(ids);
+    world.step();
+    ids.clear();
+  };
+  for (int i = 0; i < 3; ++i) grow_and_shrink();
+  const size_t bytes = world.bytes(), before = allocations;
+  for (int i = 0; i < 3; ++i) grow_and_shrink();
+  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(world.bytes(), bytes);
+}
+
 TEST(Allocations, NoneInAWorldOfManyBlocks) {
   expect_no_allocations({}, {.count = 9000, .side = 20}, 900, true);
   expect_no_allocations({}, {.count = 9000, .side = 20}, 9000);

@@ -39,8 +39,8 @@ uint32_t count_set(const uint8_t* flags, size_t count) {
 }  // namespace
 
 void ChangeTracker::SlotChanges::resize(size_t slots) {
-  resize_and_give_back(changed, slots);
-  resize_and_give_back(block_changed, block_count(slots, kRowsPerBlock));
+  changed.resize(slots);
+  block_changed.resize(block_count(slots, kRowsPerBlock));
 }
 
 bool ChangeTracker::SlotChanges::at(size_t slot) const {
@@ -60,8 +60,8 @@ void ChangeTracker::update_shapes(const BodyStore& bodies, Parallelism paralleli
 void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
   all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
-  resize_and_give_back(changed_, rows);
-  resize_and_give_back(block_changes_, block_count(rows, kRowsPerBlock));
+  changed_.resize(rows);
+  block_changes_.resize(block_count(rows, kRowsPerBlock));
   // New rows are marked as touched, so the contents of their copies do not matter.
   bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
   moved |= compare_records(bodies.records64(), last_records64_, parallelism);
@@ -81,7 +81,7 @@ void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
 template <class T>
 bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& last,
                                     Parallelism parallelism) {
-  resize_and_give_back(last, now.size());
+  last.resize(now.size());
   std::atomic<bool> any{false};
   for_each_block(now.size() / 4, kRowsPerBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
@@ -110,7 +110,6 @@ bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism pa
   const std::vector<BodyStore::Row>& now = bodies.orientations();
   // A body that had no orientation had the identity.
   last_orientations_.resize(now.size(), BodyStore::kIdentity);
-  give_back(last_orientations_, now.size());
   std::atomic<bool> any{false};
   for_each_block(now.size(), kRowsPerBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
@@ -127,7 +126,7 @@ bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism pa
 bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism parallelism) {
   const std::vector<BodyStore::BoxRecord>& boxes = bodies.boxes();
   const size_t slots = boxes.size();
-  resize_and_give_back(last_boxes_, slots);
+  last_boxes_.resize(slots);
   box_changes_.resize(slots);
   std::atomic<bool> any{false};
   for_each_block(slots, kRowsPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
@@ -150,7 +149,7 @@ bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism paralleli
 
 bool ChangeTracker::compare_rows(const BodyStore& bodies, Parallelism parallelism) {
   const std::span<const BodyStore::Row> now = bodies.shape_rows();
-  resize_and_give_back(last_rows_, now.size());
+  last_rows_.resize(now.size());
   row_changes_.resize(now.size());
   std::atomic<bool> any{false};
   for_each_block(now.size(), kRowsPerBlock, parallelism,
@@ -200,6 +199,12 @@ void ChangeTracker::mark_all() {
     const size_t first = block * kRowsPerBlock;
     block_changes_[block] = static_cast<uint32_t>(std::min(kRowsPerBlock, changed_.size() - first));
   }
+}
+
+void ChangeTracker::give_back() {
+  carom::give_back(changed_, block_changes_, last_records32_, last_records64_, last_orientations_,
+                   last_boxes_, last_rows_);
+  for (SlotChanges* changes : {&box_changes_, &row_changes_}) changes->give_back();
 }
 
 size_t ChangeTracker::bytes() const {

@@ -38,6 +38,7 @@ class ChangeTracker {
   // True if there was a last step and nothing differs from it, not even by added or removed bodies.
   bool all_unchanged() const { return all_unchanged_; }
 
+  void give_back();
   size_t bytes() const;
 
  private:
@@ -48,6 +49,7 @@ class ChangeTracker {
 
     void resize(size_t slots);
     bool at(size_t slot) const;
+    void give_back() { carom::give_back(changed, block_changed); }
     size_t bytes() const { return bytes_of(changed) + bytes_of(block_changed); }
   };
 

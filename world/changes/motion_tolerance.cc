@@ -52,8 +52,8 @@ std::span<const uint8_t> MotionTolerance::update(const BodyStore& bodies,
                                                  const ChangeTracker& changes,
                                                  std::span<const float> radii, float tolerance,
                                                  Parallelism parallelism) {
-  resize_and_give_back(references_, bodies.rows());  // new bodies are touched
-  resize_and_give_back(exceeded_, bodies.rows());
+  references_.resize(bodies.rows());  // new bodies are touched
+  exceeded_.resize(bodies.rows());
   const Collidables view = bodies.view();
   const BodyReader reader{view};
   const double half = 0.5 * double{tolerance};

@@ -26,6 +26,7 @@ class MotionTolerance {
                                   std::span<const float> radii, float tolerance,
                                   Parallelism parallelism);
 
+  void give_back() { carom::give_back(references_, exceeded_); }
   size_t bytes() const { return bytes_of(references_) + bytes_of(exceeded_); }
 
  private:

@@ -98,7 +98,7 @@ float bounding_radius(const BodyReader& reader, size_t i) {
 
 void BoundingRadii::update(const BodyStore& bodies, const ChangeTracker* changes,
                            Parallelism parallelism) {
-  resize_and_give_back(radii_, bodies.rows());
+  radii_.resize(bodies.rows());
   const Collidables view = bodies.view();
   const BodyReader reader{view};
   for_each_block(bodies.rows(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {

@@ -25,6 +25,7 @@ class BoundingRadii {
   // One radius a body index.
   std::span<const float> radii() const { return radii_; }
 
+  void give_back() { carom::give_back(radii_); }
   size_t bytes() const { return bytes_of(radii_); }
 
  private:

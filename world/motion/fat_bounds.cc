@@ -34,7 +34,6 @@ struct Fit {
 void FatBounds::update(const BoundsView& bounds, float margin, Parallelism parallelism) {
   for (std::vector<float>& column : columns_) {
     column.resize(bounds.count, std::numeric_limits<float>::quiet_NaN());
-    give_back(column, bounds.count);
   }
   for_each_block(bounds.count, kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     const size_t count = end - begin;

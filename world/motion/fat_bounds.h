@@ -7,6 +7,7 @@
 
 #include "carom/base/parallelism.h"
 #include "carom/shapes/views.h"
+#include "world/store/columns.h"
 
 namespace carom {
 
@@ -18,6 +19,9 @@ class FatBounds {
 
   BoundsView view() const;
 
+  void give_back() {
+    for (std::vector<float>& column : columns_) carom::give_back(column);
+  }
   size_t bytes() const;
 
  private:

@@ -30,7 +30,6 @@ void ProxySpheres::update(BodyStore& bodies, std::span<const float> radii,
   write_radii(view, radii, parallelism, bodies.records64());
   const bool is_mixed = !bodies.halfspaces().empty() && view.kind;
   kind_.assign(is_mixed ? bodies.rows() : 0, ShapeKind::sphere);
-  give_back(kind_, kind_.size());
   if (!is_mixed) return;
   for (const uint32_t index : bodies.halfspaces()) kind_[index] = ShapeKind::halfspace;
 }

@@ -20,6 +20,7 @@ class ProxySpheres {
   // The bodies as of the last update. All are spheres except half-spaces.
   Collidables view(const BodyStore& bodies) const;
 
+  void give_back() { carom::give_back(kind_); }
   size_t bytes() const { return bytes_of(kind_); }
 
  private:

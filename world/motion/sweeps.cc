@@ -45,11 +45,6 @@ bool is_same(const Vector3f& a, const Vector3f& b) {
   return std::memcmp(a.data(), b.data(), sizeof a) == 0;
 }
 
-void resize(std::vector<Vector3f>& column, size_t rows) {
-  column.resize(rows, Vector3f::Zero());
-  give_back(column, rows);
-}
-
 }  // namespace
 
 Sweeps::Mode Sweeps::mode_of(Detection detection) {
@@ -93,9 +88,8 @@ void Sweeps::store(uint32_t index, const Row& row, Counts& counts) {
 void Sweeps::update(const BodyStore& bodies, double dt, float fast_share, Parallelism parallelism) {
   const size_t rows = bodies.rows();
   mode_.resize(rows, Mode::discrete);
-  give_back(mode_, rows);
-  resize(displacement_, rows);
-  resize(rotation_, bodies.has_angular_velocities() ? rows : 0);
+  displacement_.resize(rows, Vector3f::Zero());
+  rotation_.resize(bodies.has_angular_velocities() ? rows : 0, Vector3f::Zero());
   const Collidables view = bodies.view();
   std::atomic<size_t> swept{0}, continuous{0}, unswept{0};
   std::atomic<bool> changed{false};

@@ -8,6 +8,7 @@
 #include "carom/base/parallelism.h"
 #include "carom/results/sweep.h"
 #include "world/store/body_store.h"
+#include "world/store/columns.h"
 
 namespace carom {
 
@@ -39,6 +40,7 @@ class Sweeps {
   size_t swept() const { return swept_; }      // bodies that look ahead
   size_t unswept() const { return unswept_; }  // bodies whose motion is not finite
 
+  void give_back() { carom::give_back(mode_, displacement_, rotation_); }
   size_t bytes() const;
 
  private:

@@ -64,7 +64,7 @@ void move(Corners& box, const Eigen::Vector3f& displacement) {
 
 void SweptBounds::update(const Collidables& bodies, const Sweeps& sweeps, const BoundsView& bounds,
                          Parallelism parallelism) {
-  for (std::vector<float>& column : columns_) resize_and_give_back(column, bounds.count);
+  for (std::vector<float>& column : columns_) column.resize(bounds.count);
   const BodyReader reader{bodies};
   for_each_block(bounds.count, kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t axis = 0; axis < 3; ++axis) {

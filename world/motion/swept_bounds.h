@@ -8,6 +8,7 @@
 #include "carom/base/parallelism.h"
 #include "carom/shapes/views.h"
 #include "world/motion/sweeps.h"
+#include "world/store/columns.h"
 
 namespace carom {
 
@@ -20,6 +21,9 @@ class SweptBounds {
 
   BoundsView view() const;
 
+  void give_back() {
+    for (std::vector<float>& column : columns_) carom::give_back(column);
+  }
   size_t bytes() const;
 
  private:

@@ -9,7 +9,7 @@ namespace carom {
 
 void WideBounds::update(const BoundsView& bounds, const ContactDistances& distances,
                         Parallelism parallelism) {
-  for (std::vector<float>& column : columns_) resize_and_give_back(column, bounds.count);
+  for (std::vector<float>& column : columns_) column.resize(bounds.count);
   for_each_block(bounds.count, kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const float growth = distances.growth(static_cast<uint32_t>(i));

@@ -7,6 +7,7 @@
 #include "carom/base/parallelism.h"
 #include "carom/shapes/views.h"
 #include "world/motion/contact_distances.h"
+#include "world/store/columns.h"
 
 namespace carom {
 
@@ -15,6 +16,9 @@ class WideBounds {
   // Empty bounds stay empty.
   void update(const BoundsView& bounds, const ContactDistances& distances, Parallelism parallelism);
   BoundsView view() const;
+  void give_back() {
+    for (std::vector<float>& column : columns_) carom::give_back(column);
+  }
   size_t bytes() const;
 
  private:

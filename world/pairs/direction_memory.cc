@@ -41,7 +41,7 @@ void DirectionMemory::keep(const CarryPlan& plan, const PairHistory& last, Paral
       });
 }
 
-void DirectionMemory::give_back_beyond(size_t pairs) { give_back_scratch(tested_, pairs); }
+void DirectionMemory::give_back() { give_back_scratch(tested_); }
 
 size_t DirectionMemory::bytes() const { return bytes_of(tested_); }
 

@@ -19,7 +19,7 @@ class DirectionMemory {
   void keep(const CarryPlan& plan, const PairHistory& last, Parallelism parallelism,
             PairHistory& now) const;
 
-  void give_back_beyond(size_t pairs);
+  void give_back();
   size_t bytes() const;
 
  private:

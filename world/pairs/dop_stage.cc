@@ -7,7 +7,7 @@ namespace carom {
 void DopStage::update(const Collidables& bodies, DopKind kind, std::span<const uint8_t> changed,
                       Parallelism parallelism) {
   kind_ = kind;
-  resize_and_give_back(records_, bodies.count * dop_record_size(kind));
+  records_.resize(bodies.count * dop_record_size(kind));
   compute_dops(bodies, {kind, records_.data()}, parallelism, changed);
 }
 
@@ -17,7 +17,10 @@ const std::vector<uint8_t>& DopStage::test(std::span<const Pair> pairs, Parallel
   return overlap_;
 }
 
-void DopStage::give_back_beyond(size_t pairs) { give_back_scratch(overlap_, pairs); }
+void DopStage::give_back() {
+  carom::give_back(records_);
+  give_back_scratch(overlap_);
+}
 
 size_t DopStage::record_bytes() const { return bytes_of(records_); }
 size_t DopStage::pair_bytes() const { return bytes_of(overlap_); }

@@ -23,7 +23,7 @@ class DopStage {
   // One byte a pair: 1 if it must be tested, 0 if its k-DOPs are separate.
   const std::vector<uint8_t>& test(std::span<const Pair> pairs, Parallelism parallelism);
 
-  void give_back_beyond(size_t pairs);
+  void give_back();
   size_t record_bytes() const;
   size_t pair_bytes() const;
 

@@ -119,10 +119,7 @@ void HalfspaceStage::add_point_candidates(const float* xyz, size_t count, size_t
   std::inplace_merge(candidates.begin(), candidates.begin() + middle, candidates.end());
 }
 
-void HalfspaceStage::give_back_beyond(size_t pairs) {
-  give_back_scratch(other_pairs_, pairs);
-  give_back_scratch(own_pairs_, pairs);
-}
+void HalfspaceStage::give_back() { give_back_scratch(other_pairs_, own_pairs_); }
 
 size_t HalfspaceStage::bytes() const {
   return bytes_of(halfspaces_) + bytes_of(swept_) + (search_ ? search_->bytes() : 0) +

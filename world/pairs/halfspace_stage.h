@@ -48,7 +48,7 @@ class HalfspaceStage {
   void add_point_candidates(const float* xyz, size_t count, size_t stride,
                             std::vector<Pair>& candidates) const;
 
-  void give_back_beyond(size_t pairs);
+  void give_back();
   size_t bytes() const;
 
  private:

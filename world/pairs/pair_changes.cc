@@ -35,11 +35,9 @@ void PairChanges::clear() {
   removed.clear();
 }
 
-void PairChanges::give_back_beyond(size_t pairs) {
-  give_back(added, pairs);
-  give_back(removed, pairs);
-  give_back(added_lists_, pairs);
-  give_back(removed_lists_, pairs);
+void PairChanges::give_back() {
+  carom::give_back(added, removed);
+  give_back_scratch(added_lists_, removed_lists_);
 }
 
 size_t PairChanges::bytes() const {

@@ -21,8 +21,7 @@ class PairChanges {
   // For a step without changes.
   void clear();
 
-  // Gives back memory that lists of `pairs` pairs do not need.
-  void give_back_beyond(size_t pairs);
+  void give_back();
   size_t bytes() const;
 
  private:

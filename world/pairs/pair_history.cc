@@ -16,14 +16,8 @@ void PairHistory::clear() {
   identities.clear();
 }
 
-void PairHistory::give_back_beyond(size_t count) {
-  give_back(pairs, count);
-  give_back(overlaps, count);
-  give_back(contact, count);
-  give_back(direction, count);
-  give_back(contacts, count);
-  give_back(manifolds, count);
-  give_back(identities, count);
+void PairHistory::give_back() {
+  carom::give_back(pairs, overlaps, contact, direction, contacts, manifolds, identities);
 }
 
 size_t PairHistory::bytes() const {
@@ -114,13 +108,6 @@ void CarryPlan::drop(const std::vector<uint8_t>& overlap, const std::vector<Pair
   tests_all_ = false;
   dropped_ = tested_ - left;
   tested_ = left;
-}
-
-void CarryPlan::give_back_beyond(size_t pairs) {
-  give_back_scratch(row_, pairs);
-  give_back_scratch(last_, pairs);
-  give_back_scratch(to_test_, pairs);
-  give_back_scratch(left_, pairs);
 }
 
 size_t CarryPlan::bytes() const {

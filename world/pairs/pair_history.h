@@ -35,7 +35,7 @@ struct PairHistory {
   bool has_contact(size_t i) const { return contact[i] < kSensor; }
 
   void clear();
-  void give_back_beyond(size_t pairs);
+  void give_back();
   size_t bytes() const;
 };
 
@@ -123,7 +123,6 @@ class CarryPlan {
   // The index of a carried pair in the last step.
   uint32_t last_index(size_t i) const { return last_[i]; }
 
-  void give_back_beyond(size_t pairs);
   size_t bytes() const;
 
  private:

@@ -20,6 +20,4 @@ void PairSieve::run(const Sweeps& sweeps, const PresentBounds& bounds, Paralleli
   lists_.concatenate(pairs, parallelism);
 }
 
-void PairSieve::give_back_beyond(size_t pairs) { give_back(lists_, pairs); }
-
 }  // namespace carom

@@ -18,7 +18,6 @@ class PairSieve {
   void run(const Sweeps& sweeps, const PresentBounds& bounds, Parallelism parallelism,
            std::vector<Pair>& pairs);
 
-  void give_back_beyond(size_t pairs);
   size_t bytes() const { return lists_.bytes(); }
 
  private:

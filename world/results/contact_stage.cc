@@ -57,12 +57,6 @@ void ResultBuffer::find_near(std::span<const Pair> pairs, const PresentBounds& g
   });
 }
 
-void ResultBuffer::give_back_beyond(size_t pairs) {
-  arrays_.give_back_beyond(pairs);
-  give_back_scratch(distances_, pairs);
-  give_back(near_, pairs + 1);
-}
-
 size_t ResultBuffer::bytes() const {
   return arrays_.bytes() + bytes_of(distances_) + bytes_of(near_) + extra_.bytes();
 }

@@ -56,7 +56,6 @@ class ResultBuffer {
   const PointNames& names(size_t row) const { return columns().point_names[place(row)]; }
   const ManifoldPoints& manifold(size_t row) const { return columns().manifold[place(row)]; }
 
-  void give_back_beyond(size_t pairs);
   size_t bytes() const;
 
  private:

@@ -113,7 +113,7 @@ void EventStage::add_impacts(std::span<const Impact> impacts, const BodyStore& b
 }
 
 void EventStage::remember(const BodyStore& bodies) {
-  resize_and_give_back(generation_, bodies.rows());  // new rows are touched
+  generation_.resize(bodies.rows());  // new rows are touched
   for (const uint32_t index : bodies.touched_indices()) {
     if (index < generation_.size()) generation_[index] = bodies.id_of(index).generation;
   }

@@ -35,7 +35,10 @@ class EventStage {
   // overlaps that ended.
   void remember(const BodyStore& bodies);
 
-  void give_back_beyond(size_t pairs) { give_back(lists_, pairs); }
+  void give_back() {
+    carom::give_back(generation_);
+    give_back_scratch(lists_);
+  }
   size_t bytes() const { return lists_.bytes() + generation_.capacity() * sizeof(uint32_t); }
 
  private:

@@ -180,18 +180,10 @@ const Impact* ImpactStage::first_of(uint32_t body) const {
   return is_there ? &impacts_[first_[body]] : nullptr;
 }
 
-void ImpactStage::give_back_beyond(size_t pairs) {
+void ImpactStage::give_back() {
   if (impacts_.empty()) first_.clear();
-  give_back(first_, first_.size());
-  give_back(lists_, pairs);
-  give_back_scratch(candidates_, pairs);
-  give_back_scratch(pairs_, pairs);
-  give_back_scratch(toi_, pairs);
-  give_back_scratch(status_, pairs);
-  give_back_scratch(floats_, kImpactFloats * pairs);
-  give_back_scratch(sub_shape_, 2 * pairs);
-  give_back(impacts_, pairs);
-  give_back_scratch(kept_, pairs);
+  carom::give_back(impacts_, first_);
+  give_back_scratch(lists_, candidates_, pairs_, toi_, status_, floats_, sub_shape_, kept_);
 }
 
 size_t ImpactStage::bytes() const {

@@ -26,7 +26,7 @@ class ImpactStage {
   // The first impact that stops the body; nullptr if there is none.
   const Impact* first_of(uint32_t body) const;
 
-  void give_back_beyond(size_t pairs);
+  void give_back();
   size_t bytes() const;
 
  private:

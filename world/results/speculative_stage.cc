@@ -87,12 +87,9 @@ void SpeculativeStage::measure(const LookAhead& ahead) {
   assert(done);  // the kinds were checked when the bodies were added
 }
 
-void SpeculativeStage::give_back_beyond(size_t pairs) {
-  give_back(pair_lists_, pairs);
-  give_back_scratch(pairs_, pairs);
-  results_.give_back_beyond(pairs);
-  give_back(contact_lists_, pairs);
-  give_back(contacts_, pairs);
+void SpeculativeStage::give_back() {
+  carom::give_back(contacts_);
+  give_back_scratch(pair_lists_, pairs_, results_, contact_lists_);
 }
 
 size_t SpeculativeStage::bytes() const {

@@ -22,7 +22,7 @@ class SpeculativeStage {
 
   std::span<const Contact> contacts() const { return contacts_; }
 
-  void give_back_beyond(size_t pairs);
+  void give_back();
   size_t bytes() const;
 
  private:

@@ -85,7 +85,7 @@ void BodyStore::drop_rows() {
     first_generation_ = std::max(first_generation_, generation_[i]);
   }
   for_each_column(*this, [&](auto& column, bool exists, int width, const auto&) {
-    if (exists) resize_and_give_back(column, rows() * static_cast<size_t>(width));
+    if (exists) column.resize(rows() * static_cast<size_t>(width));
   });
 }
 
@@ -133,8 +133,14 @@ void BodyStore::touch(uint32_t index, uint8_t how) {
 void BodyStore::clear_touched() {
   for (const uint32_t index : touched_indices_) touched_[index] = 0;
   touched_indices_.clear();
-  give_back(touched_indices_, rows());
-  resize_and_give_back(touched_, rows());
+  touched_.resize(rows());
+}
+
+void BodyStore::give_back() {
+  for_each_column(*this, [](auto& column, bool, int, const auto&) { carom::give_back(column); });
+  for (IndexPool* pool : {&alive_, &slots_}) pool->give_back();
+  row_pool_.give_back();
+  carom::give_back(touched_, touched_indices_, boxes_, rows_, halfspaces_);
 }
 
 Eigen::Vector3d BodyStore::position(uint32_t index) const {
@@ -248,7 +254,7 @@ void BodyStore::change_rows(uint32_t index, uint32_t last_count, uint32_t count)
 void BodyStore::resize_rows() {
   const size_t needed = row_pool_.end() > 0 ? row_pool_.end() + kMostRows - 1 : 0;
   if (needed == rows_.size()) return;
-  resize_and_give_back(rows_, needed);
+  rows_.resize(needed);
   const size_t end = row_pool_.end();
   std::fill(rows_.begin() + static_cast<ptrdiff_t>(end), rows_.end(), Row{});
 }
@@ -259,7 +265,6 @@ void BodyStore::add_halfspace(uint32_t index) {
 
 void BodyStore::remove_halfspace(uint32_t index) {
   halfspaces_.erase(std::lower_bound(halfspaces_.begin(), halfspaces_.end(), index));
-  give_back(halfspaces_, halfspaces_.size());
 }
 
 void BodyStore::store_box(uint32_t index, const Aabb& box) {
@@ -278,7 +283,7 @@ void BodyStore::release_box(uint32_t index) {
   boxes_elsewhere_ -= box_slot_[index] != index;
   slots_.release(box_slot_[index]);
   box_slot_[index] = 0;  // unused, but vectors may load it, so it must be a valid row
-  if (slots_.end() < boxes_.size()) resize_and_give_back(boxes_, slots_.end());
+  if (slots_.end() < boxes_.size()) boxes_.resize(slots_.end());
 }
 
 Motion BodyStore::motion(uint32_t index) const {

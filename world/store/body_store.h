@@ -113,6 +113,7 @@ class BodyStore {
   const std::vector<uint32_t>& touched_indices() const { return touched_indices_; }
   void clear_touched();
 
+  void give_back();
   size_t bytes() const;
 
  private:

@@ -48,7 +48,6 @@ void ExcludedPairs::update() {
                    [](const Change& x, const Change& y) { return x.pair < y.pair; });
   merge();
   changes_.clear();
-  give_back(changes_, 0);
   if (pairs_.empty()) *this = {};
 }
 

@@ -28,6 +28,7 @@ class ExcludedPairs {
   // Sorted by (a, b), a < b; as of the last update.
   std::span<const Pair> pairs() const { return pairs_; }
 
+  void give_back() { carom::give_back(pairs_, changes_, is_used_); }
   size_t bytes() const { return bytes_of(pairs_) + bytes_of(changes_) + bytes_of(is_used_); }
 
  private:

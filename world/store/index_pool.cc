@@ -32,7 +32,6 @@ void IndexPool::release(uint32_t index) {
 
 void IndexPool::drop_free_at_end() {
   while (!used_.empty() && !used_.back()) used_.pop_back();
-  give_back(used_, end());
   // More than half of the entries are dropped ones, so going through all of them pays.
   const size_t free_count = end() - size_;
   if (free_.size() > 2 * free_count) forget_dropped();
@@ -41,7 +40,11 @@ void IndexPool::drop_free_at_end() {
 void IndexPool::forget_dropped() {
   std::erase_if(free_, [&](uint32_t index) { return index >= end(); });
   std::make_heap(free_.begin(), free_.end(), std::greater<>());
-  give_back(free_, free_.size());
+}
+
+void IndexPool::give_back() {
+  forget_dropped();
+  carom::give_back(used_, free_);
 }
 
 const std::vector<uint32_t>& IndexPool::free_indices() {

@@ -21,6 +21,7 @@ class IndexPool {
   // The free indices below end(), in no order.
   const std::vector<uint32_t>& free_indices();
 
+  void give_back();
   size_t bytes() const { return bytes_of(used_) + bytes_of(free_); }
 
  private:

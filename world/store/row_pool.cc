@@ -52,7 +52,6 @@ void RowPool::drop_free_at_end() {
     state_.erase(state_.end() - static_cast<ptrdiff_t>(rows), state_.end());
     --free_blocks(rows).count;
   }
-  give_back(state_, end());
   // Where more than half of the entries are dropped ones, going through all of them pays.
   for (size_t rows = 1; rows <= kMostRows; ++rows) {
     if (free_blocks(rows).heap.size() > 2 * free_blocks(rows).count) forget_dropped(rows);
@@ -64,7 +63,14 @@ void RowPool::forget_dropped(size_t rows) {
   std::erase_if(heap, [&](uint32_t first) { return !is_free(first, rows); });
   std::sort(heap.begin(), heap.end());
   heap.erase(std::unique(heap.begin(), heap.end()), heap.end());
-  give_back(heap, heap.size());
+}
+
+void RowPool::give_back() {
+  carom::give_back(state_);
+  for (size_t rows = 1; rows <= kMostRows; ++rows) {
+    forget_dropped(rows);
+    carom::give_back(free_blocks(rows).heap);
+  }
 }
 
 size_t RowPool::bytes() const {

@@ -20,6 +20,7 @@ class RowPool {
 
   size_t end() const { return state_.size(); }  // highest row in use + 1
 
+  void give_back();
   size_t bytes() const;
 
  private:

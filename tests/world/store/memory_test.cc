@@ -1,4 +1,4 @@
-// Memory of a world: it is accounted by part, and shrinking worlds give it back.
+// Memory of a world: it is accounted by part, and given back when the caller asks.
 #include <gtest/gtest.h>
 
 #include "tests/world/crowds.h"
@@ -42,13 +42,14 @@ void expect_given_back(const WorldSettings& settings, const CrowdSpec& spec) {
   world.step();
   const WorldMemory full = world.memory();
   world.remove(ids);
-  for (int i = 0; i < 3; ++i) world.step();
+  world.step();
+  world.give_back_memory();
   EXPECT_LT(world.memory().pairs_and_results, full.pairs_and_results / 20 + (128 << 10));
   EXPECT_LT(world.memory().bounds, full.bounds / 20 + (32 << 10));
   EXPECT_LT(world.memory().bodies, full.bodies / 5);
 }
 
-TEST(Memory, AnEmptiedWorldGivesItBack) {
+TEST(Memory, AnEmptiedWorldGivesItBackWhenAsked) {
   for (const WorldSettings& settings : kSettings) expect_given_back(settings, kDense);
   expect_given_back(kManifold, kDenseOriented);
 }
@@ -59,10 +60,11 @@ void expect_given_back_after_parting(const WorldSettings& settings, const CrowdS
   const std::vector<BodyId> ids = add_crowd(world, spec);
   for (int i = 0; i < 2; ++i) world.step();
   const size_t full = world.memory().pairs_and_results;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 2; ++i) {
     for (size_t k = 0; k < ids.size(); ++k) world.set_position(ids[k], {3.0 * k, 0.1 * i, 0});
     world.step();
   }
+  world.give_back_memory();
   EXPECT_LT(world.memory().pairs_and_results, full / 10 + (256 << 10));
 }
 
@@ -73,6 +75,38 @@ TEST(Memory, BodiesThatPartGiveThatOfTheirPairsBack) {
   CrowdSpec oriented = kDenseOriented;
   oriented.halfspaces = 0;
   expect_given_back_after_parting(kManifold, oriented);
+}
+
+// A world that gives memory back now and then, and one that never does.
+void expect_same_results_after_giving_back(const WorldSettings& settings, const CrowdSpec& spec) {
+  World world(settings), other(settings);
+  const std::vector<BodyId> ids = add_crowd(world, spec), other_ids = add_crowd(other, spec);
+  Random random(3), other_random(3), chance(4);
+  size_t overlaps = 0;
+  for (int step = 0; step < 12; ++step) {
+    // The world rests in some steps.
+    const double share = step % 3 == 0 ? 0 : 0.3;
+    move_some(world, ids, share, random);
+    move_some(other, other_ids, share, other_random);
+    if (chance.chance(0.4)) world.give_back_memory();
+    world.step();
+    other.step();
+    if (chance.chance(0.4)) world.give_back_memory();
+    ASSERT_EQ(results(world), results(other)) << "step " << step;
+    overlaps += world.report().overlaps;
+  }
+  EXPECT_GT(overlaps, settings.detail == Detail::pairs ? 0u : 100u);
+}
+
+TEST(Memory, GivingItBackChangesNoResult) {
+  CrowdSpec spec{.oriented = true, .halfspaces = 2, .filters = true, .velocities = true};
+  for (const WorldSettings& settings : kSettings) {
+    if (settings.detail != Detail::pairs) expect_same_results_after_giving_back(settings, spec);
+  }
+  expect_same_results_after_giving_back(kManifold, spec);
+  expect_same_results_after_giving_back({.detail = Detail::manifold, .identities = true}, spec);
+  spec.looks_ahead = true;
+  expect_same_results_after_giving_back(kManifold, spec);
 }
 
 }  // namespace
