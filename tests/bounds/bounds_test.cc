@@ -18,6 +18,7 @@
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
 #include "tests/support/layouts.h"
+#include "tests/support/rounds.h"
 #include "tests/support/show.h"
 #include "tests/support/special_floats.h"
 
@@ -170,10 +171,13 @@ TEST(Bounds, AreTheScalarSumsOnEveryIsa) {
     for (const Family& family : families()) {
       SCOPED_TRACE(family.name);
       for (const Layout& layout : sphere_layouts()) {
-        expect_bounds(make_bodies(Sides::sphere_sphere, family, layout.positions, 150), layout);
+        expect_bounds(
+            make_bodies(Sides::sphere_sphere, family, layout.positions, rounds_of_pairs(150)),
+            layout);
       }
       for (const Layout& layout : box_layouts()) {
-        expect_bounds(make_bodies(Sides::aabb_aabb, family, layout.positions, 150), layout);
+        expect_bounds(make_bodies(Sides::aabb_aabb, family, layout.positions, rounds_of_pairs(150)),
+                      layout);
       }
       ASSERT_FALSE(HasFatalFailure());
     }
@@ -246,7 +250,7 @@ TEST(Bounds, OfBoxesWithSlots) {
 
 TEST(Bounds, OfAnyCount) {
   std::vector<size_t> counts;
-  for (size_t count = 0; count <= 70; ++count) counts.push_back(count);
+  for (size_t count = 0; count <= rounds(70, 20); ++count) counts.push_back(count);
   for (const size_t block : {kBodiesPerBlock, 2 * kBodiesPerBlock}) {
     for (const size_t count : {block - 17, block - 1, block, block + 1, block + 17}) {
       counts.push_back(count);

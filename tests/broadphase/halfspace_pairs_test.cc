@@ -12,6 +12,7 @@
 #include "reference/pairs.h"
 #include "tests/support/boxes.h"
 #include "tests/support/isas.h"
+#include "tests/support/rounds.h"
 
 namespace carom::test {
 namespace {
@@ -188,7 +189,7 @@ TEST(HalfspacePairs, NoneIsLostAndThoseTooManyAreWithinRounding) {
   for (const PositionType positions : kPositionTypes) {
     PlaneMaker maker(positions == PositionType::float64 ? 1 : 2);
     HalfspaceSearch search;
-    for (int i = 0; i < 6000; ++i) {
+    for (int i = 0; i < static_cast<int>(rounds(6000)); ++i) {
       const PlacedHalfspace h = maker.next();
       const TestBox box = box_at(h, maker.random());
       const Height height = exact_height(box, exact_plane(h, positions));
@@ -206,8 +207,8 @@ TEST(HalfspacePairs, NoneIsLostAndThoseTooManyAreWithinRounding) {
       }
     }
   }
-  EXPECT_GT(near, 2000u);
-  EXPECT_GT(far, 2000u);
+  EXPECT_GT(near, rounds(2000));
+  EXPECT_GT(far, rounds(2000));
   EXPECT_LT(too_many, far / 10);
 }
 
