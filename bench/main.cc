@@ -33,12 +33,14 @@ Options take_options(std::vector<char*>& arguments) {
 }
 
 void register_all(const Options& options) {
+  register_memory();
   register_bounds();
   register_dop_bounds();
   register_find_pairs(options);
   register_narrowphase(options);
   register_impacts(options);
   register_world(options);
+  register_spaces(options);
   register_casts(options);
 }
 

@@ -9,6 +9,7 @@
 #include "broadphase/resting/resting_boxes.h"
 #include "broadphase/sort/pair_selection.h"
 #include "broadphase/sort/sort_pairs.h"
+#include "broadphase/space_order.h"
 #include "broadphase/sweep/box_columns.h"
 #include "broadphase/sweep/scan.h"
 #include "broadphase/sweep/sweep_order.h"
@@ -17,6 +18,7 @@ namespace carom {
 namespace {
 
 constexpr size_t kRowsPerBlock = 256;
+constexpr size_t kSpacesPerBlock = 16;
 
 // Up to this many boxes, testing all pairs is as fast as sorting,
 constexpr size_t kBruteForceLimit = 128;
@@ -79,7 +81,8 @@ struct PairFinder::State {
   PairSorter sorter;
   PairSelection selection;
   Scratch scratch;
-  // Used by brute force and the sweep.
+  SpaceOrder spaces;
+  // Used by brute force, also within spaces, and the sweep.
   SweepOrder order;
   BoxColumns columns;
   // Used by the grid.
@@ -104,6 +107,29 @@ struct PairFinder::State {
                      (sweep ? sweep_rows : test_rows)(columns, begin, end, sink);
                    });
     sort_found(bounds, parallelism, out, search);
+  }
+
+  // Tests all boxes of a space against one another. Returns false if a space holds too many.
+  bool find_in_spaces(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
+                      std::vector<Pair>& out, PairSearch& search) {
+    if (!spaces.update(bounds, filter.space, kSweepLimit)) return false;
+    order.forget();
+    columns.body.assign(spaces.boxes().begin(), spaces.boxes().end());
+    columns.fill(bounds, 0, parallelism);
+    found.start(most_pairs);
+    found.add(block_count(spaces.spaces(), kSpacesPerBlock));
+    for_each_block(spaces.spaces(), kSpacesPerBlock, parallelism,
+                   [&](size_t block, size_t begin, size_t end) {
+                     // The filter drops pairs with boxes of the next space.
+                     PairSink sink(columns, filter, found[block]);
+                     for (size_t i = begin; i < end; ++i) {
+                       test_group(columns, spaces.first(i), spaces.first(i + 1), sink);
+                     }
+                   });
+    sort_found(bounds, parallelism, out, search);
+    search.method = BroadphaseMethod::brute;
+    search.reason = "few boxes in each space";
+    return true;
   }
 
   void order_for_brute_force(const BoundsView& bounds) {
@@ -181,10 +207,14 @@ PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
   if (bounds.count <= kSerialLimit) parallelism = Parallelism::none;
   const Choice choice = choose(method, bounds.count);
   PairSearch search{.method = choice.method, .reason = choice.reason};
-  if (choice.method == BroadphaseMethod::grid) {
+  const bool may_split =
+      method == BroadphaseMethod::automatic && filter.space && bounds.count > kBruteForceLimit;
+  const bool is_found =
+      may_split && state_->find_in_spaces(bounds, filter, parallelism, out, search);
+  if (!is_found && choice.method == BroadphaseMethod::grid) {
     const bool must = method == BroadphaseMethod::grid;
     state_->find_by_cells(bounds, filter, must, parallelism, out, search);
-  } else {
+  } else if (!is_found) {
     const bool sweep = choice.method == BroadphaseMethod::sweep;
     state_->find_by_rows(bounds, filter, sweep, parallelism, out, search);
   }
@@ -207,7 +237,8 @@ void PairFinder::set_most_pairs(size_t pairs) {
 size_t PairFinder::bytes() const {
   const State& s = *state_;
   return s.found.bytes() + s.sorter.bytes() + s.scratch.bytes() + s.selection.bytes() +
-         s.order.bytes() + s.columns.bytes() + s.resting.bytes() + s.cells.bytes();
+         s.spaces.bytes() + s.order.bytes() + s.columns.bytes() + s.resting.bytes() +
+         s.cells.bytes();
 }
 
 size_t find_pairs(const BoundsView& bounds, const PairFilter& filter, std::span<Pair> out,

@@ -88,6 +88,9 @@ HWY_EXPORT(find_valid);
 HWY_EXPORT(find_reaching);
 
 constexpr size_t kBoxesPerPlaneTask = 4096;
+constexpr size_t kHalfspacesPerTask = 64;
+// Up to this many are tested against the boxes of all spaces.
+constexpr size_t kFewHalfspaces = 16;
 constexpr size_t kBoxesPerWord = 64;
 constexpr size_t kWordsPerBlock = BoxBlock::kBoxes / kBoxesPerWord;
 static_assert(kBoxesPerPlaneTask % BoxBlock::kBoxes == 0);
@@ -109,6 +112,16 @@ void for_each_box(uint64_t bits, size_t word, const Visit& visit) {
     visit(
         static_cast<uint32_t>(word * kBoxesPerWord + static_cast<size_t>(std::countr_zero(bits))));
   }
+}
+
+// Whether the corner of the box that is lowest along the normal may lie in the half-space.
+bool reaches(const WorldHalfspace& halfspace, const BoundsView& bounds, uint32_t box) {
+  double corner[3];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto& column = halfspace.normal[axis] >= 0 ? bounds.lower : bounds.upper;
+    corner[axis] = value_at(bounds, column[axis], box);
+  }
+  return may_hold(halfspace, corner[0], corner[1], corner[2]);
 }
 
 size_t count_of(uint64_t bits) { return static_cast<size_t>(std::popcount(bits)); }
@@ -155,6 +168,9 @@ size_t HalfspaceSearch::find(std::span<const WorldHalfspace> halfspaces, const B
                              const PairFilter& filter, size_t most_pairs, Parallelism parallelism,
                              std::vector<Pair>& out) {
   halfspaces_ = halfspaces;
+  if (filter.space && halfspaces.size() > kFewHalfspaces) {
+    return find_in_spaces(bounds, filter, most_pairs, parallelism, out);
+  }
   tasks_ = block_count(bounds.count, kBoxesPerPlaneTask);
   words_ = block_count(bounds.count, kBoxesPerWord);
   hits_.resize(halfspaces.size() * words_);
@@ -183,6 +199,32 @@ size_t HalfspaceSearch::find(std::span<const WorldHalfspace> halfspaces, const B
   halfspace_pairs_.resize(with_halfspace_first);
   for_each_task([&](const Task& task) { list_hits(task); });
   merge_pairs(box_pairs_, halfspace_pairs_, parallelism, out);
+  return count;
+}
+
+// Tests each half-space against the boxes of its own space.
+size_t HalfspaceSearch::find_in_spaces(const BoundsView& bounds, const PairFilter& filter,
+                                       size_t most_pairs, Parallelism parallelism,
+                                       std::vector<Pair>& out) {
+  spaces_.update(bounds, filter.space, bounds.count);
+  found_.start(most_pairs);
+  found_.add(block_count(halfspaces_.size(), kHalfspacesPerTask));
+  for_each_block(halfspaces_.size(), kHalfspacesPerTask, parallelism,
+                 [&](size_t task, size_t begin, size_t end) {
+                   for (const WorldHalfspace& halfspace : halfspaces_.subspan(begin, end - begin)) {
+                     const auto boxes = spaces_.boxes_of(filter.space[halfspace.body]);
+                     Pair* hits = found_[task].reserve(boxes.size() + 1);
+                     size_t count = 0;
+                     for (const uint32_t box : boxes) {
+                       hits[count] = {std::min(box, halfspace.body), std::max(box, halfspace.body)};
+                       count += reaches(halfspace, bounds, box);
+                     }
+                     found_[task].commit(count, filter);
+                   }
+                 });
+  out.clear();
+  const size_t count = found_.count();
+  if (count <= most_pairs) sorter_.sort(found_.lists(), bounds.count, parallelism, out, scratch_);
   return count;
 }
 
@@ -260,7 +302,8 @@ void HalfspaceSearch::list_hits(const Task& task) {
 size_t HalfspaceSearch::bytes() const {
   return hits_.capacity() * sizeof(uint64_t) +
          (box_first_.capacity() + halfspace_first_.capacity()) * sizeof(size_t) +
-         (box_pairs_.capacity() + halfspace_pairs_.capacity()) * sizeof(Pair);
+         (box_pairs_.capacity() + halfspace_pairs_.capacity()) * sizeof(Pair) + spaces_.bytes() +
+         found_.bytes() + sorter_.bytes() + scratch_.bytes();
 }
 
 }  // namespace carom

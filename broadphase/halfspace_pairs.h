@@ -9,6 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "base/scratch.h"
+#include "broadphase/sort/sort_pairs.h"
+#include "broadphase/space_order.h"
 #include "carom/base/parallelism.h"
 #include "carom/broadphase/find_pairs.h"
 #include "carom/results/pair.h"
@@ -56,6 +59,9 @@ class HalfspaceSearch {
     size_t index, begin, end;
   };
 
+  size_t find_in_spaces(const BoundsView& bounds, const PairFilter& filter, size_t most_pairs,
+                        Parallelism parallelism, std::vector<Pair>& out);
+
   template <class Visit>
   void for_each_word(const Task& task, const Visit& visit);
   void find_hits(const BoundsView& bounds, const Task& task);
@@ -72,6 +78,11 @@ class HalfspaceSearch {
   // task.
   std::vector<size_t> box_first_, halfspace_first_;
   std::vector<Pair> box_pairs_, halfspace_pairs_;
+  // Used if there are half-spaces in many spaces.
+  SpaceOrder spaces_;
+  FoundPairs found_;
+  PairSorter sorter_;
+  Scratch scratch_;
 };
 
 }  // namespace carom

@@ -10,12 +10,14 @@ struct Options {
   size_t max_bodies = 100'000;  // of a scene
 };
 
+void register_memory();
 void register_bounds();
 void register_dop_bounds();
 void register_find_pairs(const Options& options);
 void register_narrowphase(const Options& options);
 void register_impacts(const Options& options);
 void register_world(const Options& options);
+void register_spaces(const Options& options);
 void register_casts(const Options& options);
 
 }  // namespace carom::bench

@@ -59,11 +59,11 @@ enum class RowOrder { any, ascending };  // by lower[0]
 
 template <RowOrder kOrder>
 HWY_INLINE void scan_from(const BoxColumns& columns, const SearchBox& box, size_t box_row,
-                          size_t first_row, HitSink& sink) {
+                          size_t first_row, size_t end, HitSink& sink) {
   const FloatTag tag;
   const BoxLanes lanes(box);
   Hits hits(box_row, sink);
-  for (size_t row = first_row; row < columns.count; row += kLanes) {
+  for (size_t row = first_row; row < end; row += kLanes) {
     const Mask reached = starts_before_end(columns, lanes, 0, row);
     if (kOrder == RowOrder::ascending && hn::AllFalse(tag, reached)) break;
     const Mask x = hn::And(reached, ends_after_start(columns, lanes, 0, row));
@@ -85,7 +85,7 @@ HWY_INLINE SearchBox box_at(const BoxColumns& columns, size_t row) {
 template <RowOrder kOrder>
 void scan_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
   for (size_t row = begin; row < end; ++row) {
-    scan_from<kOrder>(columns, box_at(columns, row), row, row + 1, sink);
+    scan_from<kOrder>(columns, box_at(columns, row), row, row + 1, columns.count, sink);
   }
 }
 
@@ -97,9 +97,15 @@ void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sin
   scan_rows<RowOrder::any>(columns, begin, end, sink);
 }
 
+void test_group(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
+  for (size_t row = begin; row < end; ++row) {
+    scan_from<RowOrder::any>(columns, box_at(columns, row), row, row + 1, end, sink);
+  }
+}
+
 void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,
                HitSink& sink) {
-  scan_from<RowOrder::ascending>(columns, box, box_row, first_row, sink);
+  scan_from<RowOrder::ascending>(columns, box, box_row, first_row, columns.count, sink);
 }
 
 }  // namespace
@@ -114,6 +120,7 @@ namespace {
 
 HWY_EXPORT(sweep_rows);
 HWY_EXPORT(test_rows);
+HWY_EXPORT(test_group);
 HWY_EXPORT(sweep_box);
 
 }  // namespace
@@ -124,6 +131,10 @@ void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& si
 
 void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
   CAROM_DISPATCH(test_rows)(columns, begin, end, sink);
+}
+
+void test_group(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
+  CAROM_DISPATCH(test_group)(columns, begin, end, sink);
 }
 
 void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,

@@ -43,6 +43,7 @@
 #include "carom/results/pair_predicate.h"
 #include "carom/results/result_arrays.h"
 #include "carom/results/result_columns.h"
+#include "carom/results/space_groups.h"
 #include "carom/results/sweep.h"
 #include "carom/results/tier.h"
 #include "carom/shapes/body.h"

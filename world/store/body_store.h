@@ -53,6 +53,7 @@ class BodyStore {
   void set_motion(uint32_t index, Motion motion);
   void set_filter(uint32_t index, uint32_t layer, uint32_t mask, uint32_t owner);
   void set_group(uint32_t index, int32_t group);
+  std::span<const uint32_t> spaces() const { return space_; }  // empty: all are in space 0
   void set_space(uint32_t index, uint32_t space);
   bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
   void set_sensor(uint32_t index, bool sensor);

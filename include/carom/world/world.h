@@ -19,6 +19,7 @@
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
 #include "carom/results/pair.h"
+#include "carom/results/space_groups.h"
 #include "carom/results/tier.h"
 #include "carom/shapes/body.h"
 #include "carom/shapes/dop.h"
@@ -296,6 +297,11 @@ class CAROM_EXPORT World {
   /// The contacts of all pairs without sensors that overlap or are within their contact distance,
   /// sorted by (a, b). At Detail::regions those of a pair follow one another, the deepest first.
   std::span<const Contact> contacts() const;
+  /// The indices of pairs(), space by space, by the spaces that bodies are in now; those of bodies
+  /// removed since the step may count to space 0.
+  void group_pairs(SpaceGroups& groups) const;
+  /// Likewise of contacts().
+  void group_contacts(SpaceGroups& groups) const;
   /// One a contact if WorldSettings::identities, else none: which contact and points of the last
   /// step each one continues.
   std::span<const ContactIdentity> identities() const;

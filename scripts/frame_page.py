@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Writes the tables of docs/frame.md: what the stages of a frame cost, and what memory alone would
+cost. The text above the tables is written by hand and stays.
+
+  frame_page.py CAROM_RUN CAROM_BENCH [--frames N] [--most-bodies N]
+
+Both programs run here, one after the other: nothing else should. Times are medians over frames.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+import tempfile
+
+PAGE = pathlib.Path(__file__).parents[1] / "docs/frame.md"
+
+# Scene, detail, bytes of a body's shape and pose.
+SCENES = [
+    ("brownian:n=10000", "contact", 16),
+    ("brownian:n=100000", "contact", 16),
+    ("brownian:n=1000000", "contact", 16),
+    ("brownian:n=10000000", "contact", 16),
+    ("brownian:n=10000,shape=cube", "contact", 48),
+    ("brownian:n=100000,shape=cube", "contact", 48),
+    ("brownian:n=1000000,shape=cube", "contact", 48),
+    ("brownian:n=100000,shape=box", "manifold", 48),
+    ("freefall:n=100000", "contact", 16),
+    ("static:n=100000", "contact", 16),
+]
+
+# The least that each stage reads and writes: bytes a body, a pair, a contact and an event. `shape`
+# stands for the bytes of a body's shape and pose. All bodies are taken to have moved, except in
+# scenes that rest.
+FLOOR = {
+    "changes": lambda shape: (3 * shape + 1, 0, 0, 0),  # now, copy, new copy, flag
+    "bounds": lambda shape: (shape + 24, 0, 0, 0),
+    "broadphase": lambda shape: (24, 8, 0, 0),  # bounds in, pairs out
+    "pairs": lambda shape: (0, 16, 0, 0),  # the pairs of this step and of the last
+    "narrowphase": lambda shape: (shape, 8 + 41, 0, 0),  # overlap, separation, normal, two arms
+    "results": lambda shape: (0, 8 + 41 + 5, 64, 0),
+    "velocities": lambda shape: (12, 0, 8 + 2 * 64, 0),
+    "events": lambda shape: (0, 2 * (8 + 1), 0, 24),
+}
+
+
+def run(program, *args):
+    with tempfile.NamedTemporaryFile(suffix=".json") as out:
+        subprocess.run([program, *args, out.name], check=True, stdout=subprocess.DEVNULL)
+        return json.load(open(out.name))
+
+
+def ns_a_line(bench):
+    with tempfile.NamedTemporaryFile(suffix=".json") as out:
+        subprocess.run([bench, "--benchmark_filter=^memory/", f"--benchmark_out={out.name}",
+                        "--benchmark_out_format=json", "--benchmark_min_time=1"],
+                       check=True, stdout=subprocess.DEVNULL)
+        result = json.load(open(out.name))
+    return ({b["name"].split("/")[1]: b["ns_per_line"] for b in result["benchmarks"]},
+            result["context"])
+
+
+def mean(values):
+    values = values[1:] or values  # the first frame has no last one
+    return sum(values) / len(values)
+
+
+def floor_bytes(stage, shape, scene):
+    body, pair, contact, event = FLOOR[stage](shape)
+    events = sum(mean(of_kind) for of_kind in scene["events_per_frame"].values())
+    return (body * scene["bodies"] + pair * mean(scene["pairs_per_frame"]) +
+            contact * mean(scene["contacts_per_frame"]) + event * events)
+
+
+def scene_rows(name, detail, shape, scene, two_threads, ns):
+    bodies = scene["bodies"]
+    frame, frame_2 = scene["frame_ms"]["median"], two_threads["frame_ms"]["median"]
+    yield ""
+    yield f"### `{name}`, detail {detail}"
+    yield ""
+    yield (f"{bodies:,} bodies, {mean(scene['pairs_per_frame']):,.0f} pairs. One thread "
+           f"{frame:.3g} ms, two {frame_2:.3g} ms ({frame / frame_2:.2f} times as fast), "
+           f"{scene['bytes_per_body']:.0f} bytes a body held.")
+    yield ""
+    yield "| stage | ms | ns a body | least MB | ms for these at the speed of a copy | times that |"
+    yield "|---|---:|---:|---:|---:|---:|"
+    total = 0
+    for stage, ms in scene["stage_ms"].items():
+        if stage not in FLOOR or ms == 0:
+            continue
+        least = floor_bytes(stage, shape, scene)
+        least_ms = least / 128 * ns["copy"] / 1e6  # a copied line is read and written
+        total += least_ms
+        yield (f"| {stage} | {ms:.3g} | {1e6 * ms / bodies:.1f} | {least / 1e6:.3g} | "
+               f"{least_ms:.3g} | {ms / least_ms:.1f} |")
+    yield f"| frame | {frame:.3g} | {1e6 * frame / bodies:.1f} | | {total:.3g} | {frame / total:.1f} |"
+
+
+def page(arguments):
+    ns, context = ns_a_line(arguments.bench)
+    yield ""
+    yield (f"{context['num_cpus']} processors of {context['mhz_per_cpu'] / 1000:.1f} GHz. One thread reads "
+           f"{64 / ns['read']:.1f} GB/s, copies {64 / ns['copy']:.1f} GB/s, and fetches a line "
+           f"from a random place every {ns['gather']:.1f} ns "
+           "(`carom_bench --benchmark_filter=memory/`).")
+    yield ""
+    yield "## Scenes"
+    for name, detail, shape in SCENES:
+        count = int(name.split("n=")[1].split(",")[0])
+        if count > arguments.most_bodies:
+            continue
+        frames = max(4, min(arguments.frames, 20_000_000 // count))
+        common = [arguments.run, "run", name, "--frames", str(frames), "--detail", detail]
+        one, two = (run(*common, "--threads", threads, "--json") for threads in ("1", "2"))
+        yield from scene_rows(name, detail, shape, one, two, ns)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("run")
+    parser.add_argument("bench")
+    parser.add_argument("--frames", type=int, default=60)
+    parser.add_argument("--most-bodies", type=int, default=10_000_000)
+    tables = "\n".join(page(parser.parse_args()))
+    text, heading, _ = PAGE.read_text().partition("## The machine of the tables\n")
+    PAGE.write_text(text + heading + tables + "\n")
+
+
+if __name__ == "__main__":
+    main()
