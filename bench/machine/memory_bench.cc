@@ -38,7 +38,7 @@ void gather(const Lines& lines, Lines&) {
   benchmark::DoNotOptimize(sum);
 }
 
-void measure(benchmark::State& state, void (*way)(const Lines&, Lines&)) {
+void measure_memory(benchmark::State& state, void (*way)(const Lines&, Lines&)) {
   const Lines from(kLines, Line{{1, 2, 3, 4, 5, 6, 7, 8}});
   Lines to(kLines);
   PassTimes times;
@@ -49,9 +49,13 @@ void measure(benchmark::State& state, void (*way)(const Lines&, Lines&)) {
 }  // namespace
 
 void register_memory() {
-  benchmark::RegisterBenchmark("memory/read", measure, read)->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("memory/copy", measure, copy)->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("memory/gather", measure, gather)->Unit(benchmark::kMillisecond);
+  const auto add = [](const char* name, auto way) {
+    const auto run = [way](benchmark::State& state) { measure_memory(state, way); };
+    benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond);
+  };
+  add("memory/read", read);
+  add("memory/copy", copy);
+  add("memory/gather", gather);
 }
 
 }  // namespace carom::bench

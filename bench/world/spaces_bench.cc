@@ -68,7 +68,7 @@ class Scenes {
   bool forth_ = true;
 };
 
-void measure(benchmark::State& state, uint32_t scenes, bool together) {
+void measure_scenes(benchmark::State& state, uint32_t scenes, bool together) {
   Scenes measured(scenes, together), other(scenes, !together);
   for (Scenes* each : {&measured, &other}) each->step();
   if (measured.contacts() != other.contacts() || measured.contacts() == 0) {
@@ -89,8 +89,8 @@ void register_spaces(const Options& options) {
   for (const bool together : {true, false}) {
     const std::string name =
         "world/spaces/" + std::to_string(scenes) + (together ? "/together" : "/alone");
-    benchmark::RegisterBenchmark(name.c_str(), measure, scenes, together)
-        ->Unit(benchmark::kMillisecond);
+    const auto run = [=](benchmark::State& state) { measure_scenes(state, scenes, together); };
+    benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
   }
 }
 

@@ -169,7 +169,7 @@ void write_sorted(const PartnerLists& lists, Pair* out) {
     write_few(lists, out);
   } else if (pairs < 2 * lists.bodies) {
     write_all<kNarrow>(lists, out);
-  } else if (pairs < 5 * lists.bodies) {
+  } else if (pairs < 8 * lists.bodies) {
     write_all<kMiddle>(lists, out);
   } else {
     write_all<kLanes>(lists, out);
