@@ -42,7 +42,8 @@ WorldHalfspace grown(WorldHalfspace halfspace, float growth) {
 
 void HalfspaceStage::set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds) {
   halfspaces_.clear();
-  if (bodies.halfspaces().empty()) return drop_all();
+  swept_.clear();
+  if (bodies.halfspaces().empty()) return;
   const Collidables view = bodies.view();
   for (const uint32_t index : bodies.halfspaces()) {
     if (bounds[0][index] > bounds[3][index]) continue;
@@ -82,15 +83,6 @@ bool HalfspaceStage::reaches(uint32_t body, const BoundsView& bounds, uint32_t o
   return may_hold(grown(*halfspace, growth), corner[0], corner[1], corner[2]);
 }
 
-void HalfspaceStage::drop_all() {
-  if (bytes() == 0) return;
-  halfspaces_ = {};
-  swept_ = {};
-  search_.reset();
-  other_pairs_ = {};
-  own_pairs_ = {};
-}
-
 void HalfspaceStage::add_pairs(const BoundsView& bounds, const PairFilter& filter,
                                size_t most_pairs, Parallelism parallelism, std::vector<Pair>& pairs,
                                PairSearch& search) {
@@ -119,7 +111,11 @@ void HalfspaceStage::add_point_candidates(const float* xyz, size_t count, size_t
   std::inplace_merge(candidates.begin(), candidates.begin() + middle, candidates.end());
 }
 
-void HalfspaceStage::give_back() { give_back_scratch(other_pairs_, own_pairs_); }
+void HalfspaceStage::give_back() {
+  carom::give_back(halfspaces_, swept_);
+  give_back_scratch(other_pairs_, own_pairs_);
+  search_.reset();
+}
 
 size_t HalfspaceStage::bytes() const {
   return bytes_of(halfspaces_) + bytes_of(swept_) + (search_ ? search_->bytes() : 0) +

@@ -52,8 +52,6 @@ class HalfspaceStage {
   size_t bytes() const;
 
  private:
-  void drop_all();
-
   std::vector<WorldHalfspace> halfspaces_;  // by body index
   // what each covers during the interval, with its growth; empty if that is what it is now
   std::vector<WorldHalfspace> swept_;

@@ -268,7 +268,7 @@ TEST(Halfspaces, CanMakeAStepIncomplete) {
   }
 }
 
-TEST(Halfspaces, CostMemoryOnlyWhileThereAreSome) {
+TEST(Halfspaces, CostMemoryUntilItIsGivenBack) {
   World world;
   const std::vector<BodyId> ids = add_crowd(world, {.oriented = true});
   const auto steps = [&] {
@@ -286,6 +286,8 @@ TEST(Halfspaces, CostMemoryOnlyWhileThereAreSome) {
   EXPECT_GT(own_pairs, 100 * sizeof(Pair));
   EXPECT_GT(with, without + own_pairs);
   world.remove(plane);
+  steps();
+  world.give_back_memory();
   EXPECT_LT(steps(), with - own_pairs);
 }
 
