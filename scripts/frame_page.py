@@ -17,15 +17,15 @@ PAGE = pathlib.Path(__file__).parents[1] / "docs/frame.md"
 
 # Scene, detail, bytes of a body's shape and pose.
 SCENES = [
-    ("brownian:n=10000", "contact", 16),
-    ("brownian:n=100000", "contact", 16),
-    ("brownian:n=1000000", "contact", 16),
-    ("brownian:n=10000000", "contact", 16),
+    ("brownian:n=10000,shape=sphere", "contact", 16),
+    ("brownian:n=100000,shape=sphere", "contact", 16),
+    ("brownian:n=1000000,shape=sphere", "contact", 16),
+    ("brownian:n=10000000,shape=sphere", "contact", 16),
     ("brownian:n=10000,shape=cube", "contact", 48),
     ("brownian:n=100000,shape=cube", "contact", 48),
     ("brownian:n=1000000,shape=cube", "contact", 48),
     ("brownian:n=100000,shape=box", "manifold", 48),
-    ("freefall:n=100000", "contact", 16),
+    ("varied:n=100000", "contact", 16),
     ("static:n=100000", "contact", 16),
 ]
 
@@ -60,6 +60,10 @@ def ns_a_line(bench):
             result["context"])
 
 
+def short(number):
+    return f"{number:,.0f}" if number >= 100 else f"{number:.3g}"
+
+
 def mean(values):
     values = values[1:] or values  # the first frame has no last one
     return sum(values) / len(values)
@@ -79,7 +83,7 @@ def scene_rows(name, detail, shape, scene, two_threads, ns):
     yield f"### `{name}`, detail {detail}"
     yield ""
     yield (f"{bodies:,} bodies, {mean(scene['pairs_per_frame']):,.0f} pairs. One thread "
-           f"{frame:.3g} ms, two {frame_2:.3g} ms ({frame / frame_2:.2f} times as fast), "
+           f"{short(frame)} ms, two {short(frame_2)} ms ({frame / frame_2:.2f} times as fast), "
            f"{scene['bytes_per_body']:.0f} bytes a body held.")
     yield ""
     yield "| stage | ms | ns a body | least MB | ms for these at the speed of a copy | times that |"
@@ -91,9 +95,10 @@ def scene_rows(name, detail, shape, scene, two_threads, ns):
         least = floor_bytes(stage, shape, scene)
         least_ms = least / 128 * ns["copy"] / 1e6  # a copied line is read and written
         total += least_ms
-        yield (f"| {stage} | {ms:.3g} | {1e6 * ms / bodies:.1f} | {least / 1e6:.3g} | "
-               f"{least_ms:.3g} | {ms / least_ms:.1f} |")
-    yield f"| frame | {frame:.3g} | {1e6 * frame / bodies:.1f} | | {total:.3g} | {frame / total:.1f} |"
+        yield (f"| {stage} | {short(ms)} | {1e6 * ms / bodies:.1f} | {short(least / 1e6)} | "
+               f"{short(least_ms)} | {ms / least_ms:.1f} |")
+    yield (f"| frame | {short(frame)} | {1e6 * frame / bodies:.1f} | | {short(total)} | "
+           f"{frame / total:.1f} |")
 
 
 def page(arguments):
