@@ -1,6 +1,6 @@
 # Tests compile a third faster like this; what they test has the flags of its own folder.
-# What sanitizers add to every access makes optimizing it slow: there, without.
-if(CAROM_SANITIZE)
+# What AddressSanitizer adds to every access makes optimizing it slow: there, without.
+if(CAROM_SANITIZE MATCHES "address")
   add_compile_options(-O0 -UEIGEN_STRONG_INLINE)
 else()
   add_compile_options(-O1)
