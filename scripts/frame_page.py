@@ -20,13 +20,13 @@ SCENES = [
     ("brownian:n=10000,shape=sphere", "contact", 16),
     ("brownian:n=100000,shape=sphere", "contact", 16),
     ("brownian:n=1000000,shape=sphere", "contact", 16),
-    ("brownian:n=10000000,shape=sphere", "contact", 16),
     ("brownian:n=10000,shape=cube", "contact", 48),
     ("brownian:n=100000,shape=cube", "contact", 48),
     ("brownian:n=1000000,shape=cube", "contact", 48),
     ("brownian:n=100000,shape=box", "manifold", 48),
     ("varied:n=100000", "contact", 16),
     ("static:n=100000", "contact", 16),
+    ("brownian:n=10000000,shape=sphere", "contact", 16),
 ]
 
 # The least that each stage reads and writes: bytes a body, a pair, a contact and an event. `shape`
