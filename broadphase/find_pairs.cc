@@ -104,7 +104,11 @@ struct PairFinder::State {
     for_each_block(columns.count, kRowsPerBlock, parallelism,
                    [&](size_t block, size_t begin, size_t end) {
                      PairSink sink(columns, filter, found[block]);
-                     (sweep ? sweep_rows : test_rows)(columns, begin, end, sink);
+                     if (sweep) {
+                       sweep_rows(columns, begin, end, sink);
+                     } else {
+                       test_rows(columns, begin, end, columns.count, sink);
+                     }
                    });
     sort_found(bounds, parallelism, out, search);
   }
@@ -123,7 +127,8 @@ struct PairFinder::State {
                      // The filter drops pairs with boxes of the next space.
                      PairSink sink(columns, filter, found[block]);
                      for (size_t i = begin; i < end; ++i) {
-                       test_group(columns, spaces.first(i), spaces.first(i + 1), sink);
+                       const size_t last = spaces.first(i + 1);
+                       test_rows(columns, spaces.first(i), last, last, sink);
                      }
                    });
     sort_found(bounds, parallelism, out, search);

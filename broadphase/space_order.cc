@@ -21,7 +21,7 @@ bool SpaceOrder::update(const BoundsView& bounds, const uint32_t* space, size_t 
     keys_.push_back(key_of(space[i], i));
     greatest = std::max(greatest, space[i]);
   }
-  if (!std::is_sorted(keys_.begin(), keys_.end())) sort_keys(greatest);
+  if (!std::is_sorted(keys_.begin(), keys_.end()) && !sort_keys(greatest, most)) return false;
   boxes_.resize(keys_.size());
   spaces_.clear();
   first_.clear();
@@ -37,19 +37,23 @@ bool SpaceOrder::update(const BoundsView& bounds, const uint32_t* space, size_t 
   return true;
 }
 
-// Boxes ascend already, so sorting by space is enough.
-void SpaceOrder::sort_keys(uint32_t greatest_space) {
+// Boxes ascend already, so sorting by space is enough. May return false, before it has sorted, if a
+// space holds too many.
+bool SpaceOrder::sort_keys(uint32_t greatest_space, size_t most) {
   constexpr size_t kCountersPerBox = 4;
   if (greatest_space / kCountersPerBox > keys_.size()) {
     std::sort(keys_.begin(), keys_.end());
-    return;
+    return true;
   }
   counts_.assign(size_t{greatest_space} + 1, 0);
-  for (const uint64_t key : keys_) ++counts_[space_of(key)];
+  for (const uint64_t key : keys_) {
+    if (++counts_[space_of(key)] > most) return false;
+  }
   std::exclusive_scan(counts_.begin(), counts_.end(), counts_.begin(), 0u);
   sorted_.resize(keys_.size());
   for (const uint64_t key : keys_) sorted_[counts_[space_of(key)]++] = key;
   keys_.swap(sorted_);
+  return true;
 }
 
 std::span<const uint32_t> SpaceOrder::boxes_of(uint32_t space) const {

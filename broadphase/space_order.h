@@ -28,7 +28,7 @@ class SpaceOrder {
   size_t bytes() const;
 
  private:
-  void sort_keys(uint32_t greatest_space);
+  bool sort_keys(uint32_t greatest_space, size_t most);
 
   std::vector<uint64_t> keys_, sorted_;  // the number of the space above the index of the box
   std::vector<uint32_t> counts_;

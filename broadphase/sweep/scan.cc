@@ -83,24 +83,18 @@ HWY_INLINE SearchBox box_at(const BoxColumns& columns, size_t row) {
 }
 
 template <RowOrder kOrder>
-void scan_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
+void scan_rows(const BoxColumns& columns, size_t begin, size_t end, size_t last, HitSink& sink) {
   for (size_t row = begin; row < end; ++row) {
-    scan_from<kOrder>(columns, box_at(columns, row), row, row + 1, columns.count, sink);
+    scan_from<kOrder>(columns, box_at(columns, row), row, row + 1, last, sink);
   }
 }
 
 void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
-  scan_rows<RowOrder::ascending>(columns, begin, end, sink);
+  scan_rows<RowOrder::ascending>(columns, begin, end, columns.count, sink);
 }
 
-void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
-  scan_rows<RowOrder::any>(columns, begin, end, sink);
-}
-
-void test_group(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
-  for (size_t row = begin; row < end; ++row) {
-    scan_from<RowOrder::any>(columns, box_at(columns, row), row, row + 1, end, sink);
-  }
+void test_rows(const BoxColumns& columns, size_t begin, size_t end, size_t last, HitSink& sink) {
+  scan_rows<RowOrder::any>(columns, begin, end, last, sink);
 }
 
 void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,
@@ -120,7 +114,6 @@ namespace {
 
 HWY_EXPORT(sweep_rows);
 HWY_EXPORT(test_rows);
-HWY_EXPORT(test_group);
 HWY_EXPORT(sweep_box);
 
 }  // namespace
@@ -129,12 +122,8 @@ void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& si
   CAROM_DISPATCH(sweep_rows)(columns, begin, end, sink);
 }
 
-void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
-  CAROM_DISPATCH(test_rows)(columns, begin, end, sink);
-}
-
-void test_group(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink) {
-  CAROM_DISPATCH(test_group)(columns, begin, end, sink);
+void test_rows(const BoxColumns& columns, size_t begin, size_t end, size_t last, HitSink& sink) {
+  CAROM_DISPATCH(test_rows)(columns, begin, end, last, sink);
 }
 
 void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,

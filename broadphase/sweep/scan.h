@@ -27,11 +27,9 @@ class HitSink {
 // stops at the first one that begins after its upper[0].
 void sweep_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
 
-// The same for rows in any order: every row against all later ones.
-void test_rows(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
-
-// The same within rows [begin, end). Others behind may be tested as well.
-void test_group(const BoxColumns& columns, size_t begin, size_t end, HitSink& sink);
+// The same for rows in any order: each against all later ones before row `last`, and perhaps some
+// behind it.
+void test_rows(const BoxColumns& columns, size_t begin, size_t end, size_t last, HitSink& sink);
 
 // Tests `box` against the rows from `first_row` on, which ascend by lower[0].
 void sweep_box(const BoxColumns& columns, const SearchBox& box, size_t box_row, size_t first_row,

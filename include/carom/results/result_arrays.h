@@ -58,14 +58,6 @@ class ResultArrays {
     count_ = count;
   }
 
-  /// Gives the memory back, and the columns with it, if it has room for more than four times
-  /// `count` results.
-  void give_back_beyond(size_t count) {
-    constexpr size_t kAlwaysKept = 1 << 14;
-    const size_t bytes = count_ > 0 ? bytes_in_use() / count_ * count : 0;
-    if (this->bytes() > 4 * bytes + kAlwaysKept) *this = ResultArrays();
-  }
-
   size_t count() const { return count_; }  ///< results that there is room for
   /// The columns; nullptr for those that do not exist.
   const ResultColumns& columns() const { return columns_; }
@@ -78,8 +70,6 @@ class ResultArrays {
   struct alignas(64) Line {
     std::byte bytes[64];
   };
-
-  size_t bytes_in_use() const { return memory_.size() * sizeof(Line); }
 
   static bool is_among(ColumnRole role, std::span<const ColumnRole> wanted) {
     if (!is_optional(role)) return true;

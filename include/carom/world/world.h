@@ -400,7 +400,8 @@ class CAROM_EXPORT World {
   size_t bytes() const { return memory().total(); }
   /// Gives back memory that the bodies and the results of the last step do not need. A world never
   /// does so by itself: a scene that shrinks and grows again takes no new memory. (Steps free what
-  /// looking ahead has used once no body has a detection.) Views of arrays and spans of results
+  /// looking ahead has used once no body has a detection, and queries build a smaller index once
+  /// half of the bodies are gone.) Views of arrays and spans of results
   /// end; results stay. The next step and the next query take as long as first ones.
   void give_back_memory();
 

@@ -110,16 +110,6 @@ TEST(Columns, ArraysDoNotOverlapAndCanBeUsedAgain) {
   }
 }
 
-TEST(Columns, MemoryIsGivenBackIfFarTooLarge) {
-  ResultArrays arrays(100'000, Detail::contact);
-  const size_t bytes = arrays.bytes();
-  arrays.give_back_beyond(30'000);
-  EXPECT_EQ(arrays.bytes(), bytes);
-  arrays.give_back_beyond(10'000);
-  EXPECT_EQ(arrays.bytes(), 0u);
-  EXPECT_EQ(names_of(arrays.columns()), std::multiset<std::string>());
-}
-
 TEST(Columns, RowsAreCopiedWhereBothHaveThemAndTheDetailFillsThem) {
   constexpr size_t kCount = 5;
   ResultArrays from(kCount, Detail::manifold), to(10, Detail::manifold, {ColumnRole::bound});
