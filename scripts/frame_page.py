@@ -29,18 +29,20 @@ SCENES = [
     ("brownian:n=10000000,shape=sphere", "contact", 16),
 ]
 
-# The least that each stage reads and writes: bytes a body, a pair, a contact and an event. `shape`
-# stands for the bytes of a body's shape and pose. All bodies are taken to have moved, except in
-# scenes that rest.
+# The least that each stage reads and writes: bytes a body, a pair, a tested pair, a contact and an
+# event. `shape` stands for the bytes of a body's shape and pose, `contact` for those of a contact.
+# All bodies are taken to have moved.
 FLOOR = {
-    "changes": lambda shape: (3 * shape + 1, 0, 0, 0),  # now, copy, new copy, flag
-    "bounds": lambda shape: (shape + 24, 0, 0, 0),
-    "broadphase": lambda shape: (24, 8, 0, 0),  # bounds in, pairs out
-    "pairs": lambda shape: (0, 16, 0, 0),  # the pairs of this step and of the last
-    "narrowphase": lambda shape: (shape, 8 + 41, 0, 0),  # overlap, separation, normal, two arms
-    "results": lambda shape: (0, 8 + 41 + 5, 64, 0),
-    "velocities": lambda shape: (12, 0, 8 + 2 * 64, 0),
-    "events": lambda shape: (0, 2 * (8 + 1), 0, 24),
+    "changes": lambda shape, contact: (3 * shape + 1, 0, 0, 0, 0),  # now, copy, new copy, flag
+    "bounds": lambda shape, contact: (shape + 24, 0, 0, 0, 0),
+    "broadphase": lambda shape, contact: (24, 8, 0, 0, 0),  # bounds in, pairs out
+    "pairs": lambda shape, contact: (0, 16, 0, 0, 0),  # the pairs of this step and of the last
+    # The pair in; overlap, separation, normal and two arms out, or 64 bytes of points as well.
+    "narrowphase": lambda shape, contact: (shape, 0, 8 + 41, contact - 64, 0),
+    # All that in, or the contact of the last step; index, overlap and contact out.
+    "results": lambda shape, contact: (0, 8 + 5, 41, 2 * contact - 64, 0),
+    "velocities": lambda shape, contact: (12, 0, 0, 8 + 2 * contact, 0),
+    "events": lambda shape, contact: (0, 2 * (8 + 1), 0, 0, 24),
 }
 
 
@@ -70,9 +72,12 @@ def mean(values):
 
 
 def floor_bytes(stage, shape, scene):
-    body, pair, contact, event = FLOOR[stage](shape)
-    events = sum(mean(of_kind) for of_kind in scene["events_per_frame"].values())
+    a_contact = 128 if scene["detail"] == "manifold" else 64
+    body, pair, tested, contact, event = FLOOR[stage](shape, a_contact)
+    # Overlaps that persist are counted, but make no event.
+    events = sum(mean(scene["events_per_frame"][kind]) for kind in ("begin", "end"))
     return (body * scene["bodies"] + pair * mean(scene["pairs_per_frame"]) +
+            tested * mean(scene["tested_pairs_per_frame"]) +
             contact * mean(scene["contacts_per_frame"]) + event * events)
 
 
