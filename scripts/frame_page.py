@@ -81,6 +81,12 @@ def floor_bytes(stage, shape, scene):
             contact * mean(scene["contacts_per_frame"]) + event * events)
 
 
+def on_64_cores(one_thread, two_threads):
+    """How many times as fast 64 cores are by Amdahl's law."""
+    serial = max(0, 2 * two_threads / one_thread - 1)
+    return 1 / (serial + (1 - serial) / 64)
+
+
 def scene_rows(name, detail, shape, scene, two_threads, ns):
     bodies = scene["bodies"]
     frame, frame_2 = scene["frame_ms"]["median"], two_threads["frame_ms"]["median"]
@@ -88,7 +94,8 @@ def scene_rows(name, detail, shape, scene, two_threads, ns):
     yield f"### `{name}`, detail {detail}"
     yield ""
     yield (f"{bodies:,} bodies, {mean(scene['pairs_per_frame']):,.0f} pairs. One thread "
-           f"{short(frame)} ms, two {short(frame_2)} ms ({frame / frame_2:.2f} times as fast), "
+           f"{short(frame)} ms, two {short(frame_2)} ms ({frame / frame_2:.2f} times as fast; "
+           f"64 cores: {on_64_cores(frame, frame_2):.0f} times), "
            f"{scene['bytes_per_body']:.0f} bytes a body held.")
     yield ""
     yield "| stage | ms | ns a body | least MB | ms for these at the speed of a copy | times that |"
