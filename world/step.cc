@@ -15,7 +15,7 @@ namespace {
 
 // Pairs whose results are found together. Those of one thread stay in its cache; threads share
 // more, so that all have work. Both are multiples of kPairsPerMergeBlock.
-constexpr size_t kPairsOfOneThread = 4 * kPairsPerMergeBlock;
+constexpr size_t kPairsOfOneThread = kPairsPerMergeBlock;
 constexpr size_t kPairsOfThreads = 16 * kPairsPerMergeBlock;
 
 }  // namespace
@@ -278,7 +278,8 @@ void World::State::find_results() {
   const bool remembers = uses_directions();
   uint32_t* const directions_of_tests =
       remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
-  contact_stage.start(last, now);
+  const bool carries_some = plan.tested() + plan.dropped() < now.pairs.size();
+  contact_stage.start(carries_some || has_identities(), last, now);
   const size_t pairs = now.pairs.size();
   const size_t at_once = uses_threads(settings.parallelism) ? kPairsOfThreads : kPairsOfOneThread;
   for (size_t begin = 0; begin == 0 || begin < pairs; begin += at_once) {

@@ -11,6 +11,10 @@ void PairHistory::clear() {
   overlaps.clear();
   contact.clear();
   direction.clear();
+  clear_contacts();
+}
+
+void PairHistory::clear_contacts() {
   contacts.clear();
   manifolds.clear();
   identities.clear();

@@ -35,6 +35,7 @@ struct PairHistory {
   bool has_contact(size_t i) const { return contact[i] < kSensor; }
 
   void clear();
+  void clear_contacts();  // and what belongs to them
   void give_back();
   size_t bytes() const;
 };

@@ -1,6 +1,7 @@
 #include "world/results/contact_stage.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <utility>
@@ -11,6 +12,20 @@
 #include "world/store/columns.h"
 
 namespace carom {
+namespace {
+
+// Lists the pairs of [begin, end) that have contacts, without branches, and returns their number.
+size_t list_contacts(const PairHistory& now, size_t begin, size_t end,
+                     std::array<uint32_t, kPairsPerMergeBlock>& listed) {
+  size_t count = 0;
+  for (size_t i = begin; i < end; ++i) {
+    listed[count] = static_cast<uint32_t>(i);
+    count += now.has_contact(i);
+  }
+  return count;
+}
+
+}  // namespace
 
 const ResultColumns& ResultBuffer::prepare(const PairRange& range, Detail detail,
                                            std::span<const ColumnRole> wanted) {
@@ -61,21 +76,24 @@ size_t ResultBuffer::bytes() const {
   return arrays_.bytes() + bytes_of(distances_) + bytes_of(near_) + extra_.bytes();
 }
 
-void ContactStage::start(const PairHistory& last, PairHistory& now) {
+void ContactStage::start(bool reads_last, PairHistory& last, PairHistory& now) {
   overlaps_ = undecided_ = left_out_ = 0;
   now.overlaps.resize(now.pairs.size());
   now.contact.resize(now.pairs.size());
-  now.contacts.clear();
-  now.manifolds.clear();
-  now.identities.clear();
+  now.clear_contacts();
   // Steps have about as many contacts as the last one. A list that has room for them keeps its
   // memory.
-  const auto make_room = [](auto& list, size_t count) {
+  const auto make_room = [reads_last](auto& before, auto& list) {
+    const size_t count = before.size();
+    if (!reads_last && list.capacity() < before.capacity()) {
+      before.clear();
+      list.swap(before);
+    }
     if (list.capacity() < count) list.reserve(count + count / 8);
   };
-  make_room(now.contacts, last.contacts.size());
-  make_room(now.manifolds, last.manifolds.size());
-  make_room(now.identities, last.identities.size());
+  make_room(last.contacts, now.contacts);
+  make_room(last.manifolds, now.manifolds);
+  make_room(last.identities, now.identities);
 }
 
 size_t ContactStage::add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
@@ -101,7 +119,10 @@ void ContactStage::find_results(const PairRange& range, const CarryPlan& plan,
                                 const BodyStore& bodies, const WorldSettings& settings,
                                 PairHistory& now) {
   constexpr uint32_t kToBeWritten = 0;
-  const uint32_t listed = has_contacts(settings.detail) ? kToBeWritten : PairHistory::kNone;
+  // What `contact` says of a pair without a contact, with one, and of an overlap with a sensor.
+  const uint32_t kinds[] = {PairHistory::kNone,
+                            has_contacts(settings.detail) ? kToBeWritten : PairHistory::kNone,
+                            PairHistory::kSensor};
   const size_t pairs = range.end - range.begin;
   const bool regions = settings.detail == Detail::regions;
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
@@ -115,19 +136,19 @@ void ContactStage::find_results(const PairRange& range, const CarryPlan& plan,
           const bool carried = row == CarryPlan::kCarried;
           const size_t before = carried ? plan.last_index(i) : 0;
           const uint8_t decision = carried ? last.overlaps[before] : results.overlap(row);
+          // Whether a pair overlaps cannot be predicted, so there is no branch on it.
           const bool overlap = decision == 1;
           const bool touches =
-              overlap || (carried ? last.has_contact(before) : results.is_near(row));
+              overlap | (carried ? last.has_contact(before) : results.is_near(row));
           const Pair pair = now.pairs[i];
           const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
+          const bool listed = touches & !sensor;
           now.overlaps[i] = decision;
-          now.contact[i] = !touches ? PairHistory::kNone
-                           : sensor ? (overlap ? PairHistory::kSensor : PairHistory::kNone)
-                                    : listed;
+          now.contact[i] = kinds[listed | (overlap & sensor) << 1];
           overlapping += overlap;
           unknown += decision == kUndecided;
-          contacts += touches && !sensor;
-          if (!regions || !touches || sensor) continue;
+          contacts += listed;
+          if (!regions || !listed) continue;
           if (carried) {
             const auto run = contact_run(last.contacts, last.contact[before]);
             contacts += run.size() - 1;
@@ -157,8 +178,10 @@ void ContactStage::write_contacts(const PairRange& range, const CarryPlan& plan,
       range.end - range.begin, kPairsPerMergeBlock, settings.parallelism,
       [&](size_t block, size_t begin, size_t end) {
         size_t next = block_first_[block];
-        for (size_t i = range.begin + begin; i < range.begin + end; ++i) {
-          if (!now.has_contact(i)) continue;
+        std::array<uint32_t, kPairsPerMergeBlock> listed;
+        const size_t count = list_contacts(now, range.begin + begin, range.begin + end, listed);
+        for (size_t k = 0; k < count; ++k) {
+          const size_t i = listed[k];
           const uint32_t row = plan.test_row(i);
           const bool carried = row == CarryPlan::kCarried;
           const size_t old = carried ? last.contact[plan.last_index(i)] : 0;
@@ -172,11 +195,11 @@ void ContactStage::write_contacts(const PairRange& range, const CarryPlan& plan,
           now.contact[i] = static_cast<uint32_t>(next++);
           if (!regions) continue;
           if (carried) {
-            const size_t count = contact_run(last.contacts, old).size();
-            for (size_t k = 1; k < count; ++k) {
-              now.contacts[next] = last.contacts[old + k];
-              if (named) now.identities[next].names = last.identities[old + k].names;
-              now.manifolds[next++] = last.manifolds[old + k];
+            const size_t more = contact_run(last.contacts, old).size() - 1;
+            for (size_t each = old + 1; each <= old + more; ++each) {
+              now.contacts[next] = last.contacts[each];
+              if (named) now.identities[next].names = last.identities[each].names;
+              now.manifolds[next++] = last.manifolds[each];
             }
           } else {
             now.contacts[next - 1].left_out = results.left_out(row);

@@ -74,8 +74,9 @@ class ResultBuffer {
 // Fills overlaps, contact indices, contacts and manifolds of `now`.
 class ContactStage {
  public:
-  // Begins the lists of a step.
-  void start(const PairHistory& last, PairHistory& now);
+  // Begins the lists of a step. Unless something reads the contacts of the last one, those of this
+  // step may take their memory.
+  void start(bool reads_last, PairHistory& last, PairHistory& now);
   // Adds the results of a range of pairs. Ranges begin at multiples of kPairsPerMergeBlock, and
   // follow one another. Returns the place of the first contact that it has added.
   size_t add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,

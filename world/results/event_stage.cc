@@ -1,14 +1,10 @@
 #include "world/results/event_stage.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace carom {
 namespace {
-
-bool is_of_sensor(uint32_t contact) { return contact == PairHistory::kSensor; }
-
-// Undecided pairs have no events.
-bool overlaps(const PairHistory& history, size_t i) { return history.overlaps[i] == 1; }
 
 // What became of a body of the last step, as bits of Gone for body A.
 uint8_t fate_of(BodyId id, const EventStage::Input& input) {
@@ -19,85 +15,149 @@ uint8_t fate_of(BodyId id, const EventStage::Input& input) {
 
 }  // namespace
 
-// Which pairs have events cannot be predicted: overlaps come and go. So this part has no branches
-// on them, and the events are made afterwards.
-void EventStage::find_changes(const Input& input, Parallelism parallelism) {
-  const PairHistory& last = input.last;
-  const PairHistory& now = input.now;
-  const BodyStore& bodies = input.bodies;
-  // Whether all indices have the bodies of the last step. It saves looking at two bodies a pair.
-  const bool same_bodies = !bodies.any_touched();
-  const auto are_same_bodies = [&](Pair pair) {
-    return is_same_body(pair.a, bodies) && is_same_body(pair.b, bodies);
-  };
-  lists_.reset(merge_block_count(now.pairs.size()));
-  const auto merge = [&](size_t block, size_t begin, size_t stop) {
-    const MergeRange range = matching_range(last.pairs, now.pairs, begin, stop);
-    std::vector<Change>& list = lists_[block];
-    // At most so many, and one that is written and does not count.
-    list.resize(2 * (stop - begin) + (range.end - range.begin) + 1);
-    size_t count = 0;
-    const auto add = [&](bool happened, size_t pair, EventKind kind) {
-      list[count] = {static_cast<uint32_t>(pair), kind};
-      count += happened;
-    };
-    size_t before = range.begin, i = begin;
-    while (before < range.end && i < stop) {
-      const uint64_t key_before = pair_key(last.pairs[before]), key = pair_key(now.pairs[i]);
-      const bool was_there = key_before <= key, is_there = key <= key_before;
-      const bool overlapped = was_there & overlaps(last, before);
-      const bool overlapping = is_there & overlaps(now, i);
-      const bool persists =
-          (overlapped & overlapping) && (same_bodies || are_same_bodies(now.pairs[i]));
-      add(overlapped & !persists, before, EventKind::end);
-      add(overlapping & (!persists | input.wants_persist), i,
-          persists ? EventKind::persist : EventKind::begin);
-      before += was_there;
-      i += is_there;
-    }
-    for (; before < range.end; ++before) add(overlaps(last, before), before, EventKind::end);
-    for (; i < stop; ++i) add(overlaps(now, i), i, EventKind::begin);
-    list.resize(count);
-  };
-  for_each_merge_block(now.pairs.size(), parallelism, merge);
+// Undecided pairs have no events.
+void EventStage::Overlaps::read(const PairHistory& history, size_t begin, size_t end) {
+  key.resize(end - begin + 1);
+  contact.resize(end - begin + 1);
+  count = 0;
+  for (size_t i = begin; i < end; ++i) {
+    key[count] = pair_key(history.pairs[i]);
+    contact[count] = history.contact[i];
+    count += history.overlaps[i] == 1;
+  }
+  key[count] = ~uint64_t{0};
+  contact[count] = PairHistory::kNone;
+}
+
+size_t EventStage::Scratch::bytes() const {
+  size_t sum = bytes_of(unnamed) + bytes_of(events);
+  for (const Overlaps* each : {&last, &now}) sum += bytes_of(each->key) + bytes_of(each->contact);
+  return sum;
 }
 
 void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Event>& events) {
-  find_changes(input, parallelism);
-  events.resize(lists_.place());
-  for_each_block(lists_.blocks(), 1, parallelism, [&](size_t block, size_t, size_t) {
-    make_events(lists_[block], input, events.data() + lists_.first(block));
+  // Steps have about as many events as the last one.
+  const size_t expected = events.size() + events.size() / 8;
+  events.clear();
+  if (events.capacity() < expected) events.reserve(expected);
+  const size_t blocks = merge_block_count(input.now.pairs.size());
+  const bool shared = uses_threads(parallelism);
+  for (size_t first = 0; first < blocks; first += shared ? kBlocksAtOnce : 1) {
+    if (shared) {
+      add_blocks(input, first, std::min(first + kBlocksAtOnce, blocks), parallelism, events);
+    } else {
+      add_block(input, first, scratch_[0], events);
+    }
+  }
+}
+
+// Adds the events of a block of this step's pairs and of the last step's that belong to it.
+void EventStage::add_block(const Input& input, size_t block, Scratch& scratch,
+                           RawVector<Event>& events) const {
+  const size_t begin = block * kPairsPerMergeBlock;
+  const size_t end = std::min(begin + kPairsPerMergeBlock, input.now.pairs.size());
+  const MergeRange range = matching_range(input.last.pairs, input.now.pairs, begin, end);
+  scratch.last.read(input.last, range.begin, range.end);
+  scratch.now.read(input.now, begin, end);
+  const bool same_bodies = !input.bodies.any_touched() && input.quarantined.empty();
+  if (same_bodies && !input.bodies.any_removed()) {
+    return merge(scratch.last, scratch.now, input.wants_persist, events);
+  }
+  scratch.unnamed.clear();
+  merge(scratch.last, scratch.now, true, scratch.unnamed);
+  add_named(input, scratch.unnamed, events);
+}
+
+// The same for some blocks side by side, each to a list of its own.
+void EventStage::add_blocks(const Input& input, size_t first, size_t end, Parallelism parallelism,
+                            RawVector<Event>& events) {
+  for_each_block(end - first, 1, parallelism, [&](size_t i, size_t, size_t) {
+    scratch_[i].events.clear();
+    add_block(input, first + i, scratch_[i], scratch_[i].events);
+  });
+  std::array<size_t, kBlocksAtOnce> place;
+  size_t next = events.size();
+  for (size_t i = 0; i < end - first; ++i) {
+    place[i] = std::exchange(next, next + scratch_[i].events.size());
+  }
+  events.resize(next);
+  for_each_block(end - first, 1, parallelism, [&](size_t i, size_t, size_t) {
+    std::ranges::copy(scratch_[i].events, events.begin() + place[i]);
   });
 }
 
-void EventStage::make_events(std::span<const Change> changes, const Input& input,
-                             Event* events) const {
+// Merges two lists of overlaps and writes the events, without the generations of their bodies,
+// behind those of `events`. Which pairs have events cannot be predicted: overlaps come and go. So
+// there is no branch on it: an event is written for every pair, and counts or does not.
+void EventStage::merge(const Overlaps& last, const Overlaps& now, bool wants_persist,
+                       RawVector<Event>& events) {
+  static_assert(static_cast<int>(EventKind::begin) == 0);
+  static_assert(static_cast<int>(EventKind::persist) == 1);
+  static_assert(static_cast<int>(EventKind::end) == 2);
+  const size_t first = events.size(), most = last.count + now.count;
+  events.resize(first + most + 1);
+  Event* out = events.data() + first;
+  size_t before = 0, i = 0;
+  while (before + i < most) {
+    const uint64_t key_before = last.key[before], key = now.key[i];
+    const bool overlapped = key_before <= key, overlaps = key <= key_before;
+    const uint32_t choice = overlaps ? 0xffffffffu : 0u;  // a mask, since compilers make branches
+    const uint32_t contact = (now.contact[i] & choice) | (last.contact[before] & ~choice);
+    const bool sensor = contact == PairHistory::kSensor;
+    const bool persists = overlapped & overlaps;
+    const bool unlisted = sensor | !overlaps;
+    const uint64_t pair = std::min(key_before, key);
+    *out = {.a = {static_cast<uint32_t>(pair >> 32), 0},
+            .b = {static_cast<uint32_t>(pair), 0},
+            .contact = contact | (unlisted ? kNoContact : 0u),
+            .kind = static_cast<EventKind>(persists | !overlaps << 1),
+            .sensor = sensor};
+    out += !persists | wants_persist;
+    before += overlapped;
+    i += overlaps;
+  }
+  events.resize(static_cast<size_t>(out - events.data()));
+}
+
+// Adds events with the generations of their bodies. A pair that persists but has another body at
+// one of its indices ends and begins.
+void EventStage::add_named(const Input& input, std::span<const Event> unnamed,
+                           RawVector<Event>& events) const {
   constexpr size_t kAhead = 16;
-  const bool all_stayed = !input.bodies.any_touched() && input.quarantined.empty();
-  // One array for both steps if they have the same bodies: less memory to wait for.
-  const uint32_t* const before = generation_.data();
-  const uint32_t* const after = all_stayed ? before : input.bodies.generations().data();
-  const auto history = [&](const Change& change) -> const PairHistory& {
-    return change.kind == EventKind::end ? input.last : input.now;
+  const std::span<const uint32_t> generations = input.bodies.generations();
+  const auto before = [this](Event event) {
+    event.a.generation = last_generation(event.a.index);
+    event.b.generation = last_generation(event.b.index);
+    return event;
   };
-  for (size_t k = 0; k < changes.size(); ++k) {
-    const Change& ahead = changes[std::min(k + kAhead, changes.size() - 1)];
-    __builtin_prefetch(after + history(ahead).pairs[ahead.pair].b);
-    const Change& change = changes[k];
-    const PairHistory& step = history(change);
-    const bool ends = change.kind == EventKind::end;
-    const uint32_t* const generation = ends ? before : after;
-    const Pair pair = step.pairs[change.pair];
-    const BodyId a = {pair.a, generation[pair.a]}, b = {pair.b, generation[pair.b]};
-    const uint32_t contact = step.contact[change.pair];
-    const bool sensor = is_of_sensor(contact);
-    const int gone = !ends || all_stayed ? 0 : fate_of(a, input) | fate_of(b, input) << 1;
-    events[k] = {.a = a,
-                 .b = b,
-                 .contact = ends || sensor ? kNoContact : contact,
-                 .kind = change.kind,
-                 .sensor = sensor,
-                 .gone = static_cast<uint8_t>(gone)};
+  const auto now = [&](Event event) {
+    event.a.generation = generations[event.a.index];
+    event.b.generation = generations[event.b.index];
+    return event;
+  };
+  const auto add_end = [&](const Event& event) {
+    Event end = before(event);
+    end.contact = kNoContact;
+    end.kind = EventKind::end;
+    end.gone = static_cast<uint8_t>(fate_of(end.a, input) | fate_of(end.b, input) << 1);
+    events.push_back(end);
+  };
+  for (size_t k = 0; k < unnamed.size(); ++k) {
+    const Event& ahead = unnamed[std::min(k + kAhead, unnamed.size() - 1)];
+    __builtin_prefetch(generations.data() + ahead.b.index);
+    Event event = unnamed[k];
+    if (event.kind == EventKind::end) {
+      add_end(event);
+      continue;
+    }
+    event = now(event);
+    const Event same = before(event);
+    const bool stayed = same.a == event.a && same.b == event.b;
+    if (event.kind == EventKind::persist && !stayed) {
+      add_end(event);
+      event.kind = EventKind::begin;
+    }
+    if (event.kind == EventKind::begin || input.wants_persist) events.push_back(event);
   }
 }
 
@@ -113,10 +173,22 @@ void EventStage::add_impacts(std::span<const Impact> impacts, const BodyStore& b
 }
 
 void EventStage::remember(const BodyStore& bodies) {
+  if (!bodies.any_removed()) return;
   generation_.resize(bodies.rows());  // new rows are touched
   for (const uint32_t index : bodies.touched_indices()) {
     if (index < generation_.size()) generation_[index] = bodies.id_of(index).generation;
   }
+}
+
+void EventStage::give_back() {
+  carom::give_back(generation_);
+  give_back_scratch(scratch_);
+}
+
+size_t EventStage::bytes() const {
+  size_t sum = bytes_of(generation_);
+  for (const Scratch& scratch : scratch_) sum += scratch.bytes();
+  return sum;
 }
 
 }  // namespace carom

@@ -1,11 +1,11 @@
 // The overlaps of two steps -> begin and end events, and persist events if asked for.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "base/block_lists.h"
 #include "base/raw_vector.h"
 #include "carom/base/parallelism.h"
 #include "carom/results/event.h"
@@ -35,28 +35,41 @@ class EventStage {
   // overlaps that ended.
   void remember(const BodyStore& bodies);
 
-  void give_back() {
-    carom::give_back(generation_);
-    give_back_scratch(lists_);
-  }
-  size_t bytes() const { return lists_.bytes() + generation_.capacity() * sizeof(uint32_t); }
+  void give_back();
+  size_t bytes() const;
 
  private:
-  BodyId last_id(uint32_t index) const { return {index, generation_[index]}; }
-  bool is_same_body(uint32_t index, const BodyStore& bodies) const {
-    return index < generation_.size() && last_id(index) == bodies.id_of(index);
-  }
-  // A pair with an event. `pair` is a place in the last step for ends, else in this one.
-  struct Change {
-    uint32_t pair;
-    EventKind kind;
+  // Blocks whose events are found side by side.
+  static constexpr size_t kBlocksAtOnce = 16;
+
+  // Some overlaps of a step, sorted by pair, and behind them one whose key is above all others.
+  struct Overlaps {
+    RawVector<uint64_t> key;
+    RawVector<uint32_t> contact;
+    size_t count = 0;
+
+    void read(const PairHistory& history, size_t begin, size_t end);
+  };
+  struct alignas(64) Scratch {
+    Overlaps last, now;
+    RawVector<Event> unnamed, events;
+
+    size_t bytes() const;
   };
 
-  void find_changes(const Input& input, Parallelism parallelism);
-  void make_events(std::span<const Change> changes, const Input& input, Event* events) const;
+  void add_blocks(const Input& input, size_t first, size_t end, Parallelism parallelism,
+                  RawVector<Event>& events);
+  void add_block(const Input& input, size_t block, Scratch& scratch, RawVector<Event>& events) const;
+  static void merge(const Overlaps& last, const Overlaps& now, bool wants_persist,
+                    RawVector<Event>& events);
+  void add_named(const Input& input, std::span<const Event> unnamed,
+                 RawVector<Event>& events) const;
+  uint32_t last_generation(uint32_t index) const {
+    return generation_.empty() ? 0 : generation_[index];
+  }
 
-  BlockLists<Change> lists_;
-  std::vector<uint32_t> generation_;  // of the last step
+  std::array<Scratch, kBlocksAtOnce> scratch_;
+  std::vector<uint32_t> generation_;  // of the last step; empty while no body was ever removed
 };
 
 }  // namespace carom

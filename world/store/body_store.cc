@@ -121,6 +121,7 @@ void BodyStore::remove(BodyId id) {
   change_kind(index, ShapeKind::sphere);
   if (!geometry_.empty()) geometry_[index].reset();
   ++generation_[index];
+  any_removed_ = true;
   alive_.release(index);
   if (rows() < generation_.size()) drop_rows();
 }

@@ -37,6 +37,8 @@ class BodyStore {
   bool is_alive(uint32_t index) const { return alive_.is_used(index); }
   BodyId id_of(uint32_t index) const { return {index, generation_[index]}; }
   std::span<const uint32_t> generations() const { return generation_; }
+  // Whether a body was ever removed. Until then all generations are 0.
+  bool any_removed() const { return any_removed_; }
 
   Eigen::Vector3d position(uint32_t index) const;
   void set_position(uint32_t index, const Eigen::Vector3d& position);
@@ -143,6 +145,7 @@ class BodyStore {
   std::vector<uint32_t> generation_;
   // generation of new rows, above those of all bodies that dropped rows had
   uint32_t first_generation_ = 0;
+  bool any_removed_ = false;
   std::vector<ShapeKind> kind_;  // sphere for a row without a body
   std::array<size_t, kShapeKindCount> bodies_of_kind_{};
   std::vector<uint8_t> touched_;  // includes rows that were dropped since clear_touched()
