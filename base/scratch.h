@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <span>
 #include <type_traits>
-#include <vector>
+
+#include "base/raw_vector.h"
 
 namespace carom {
 
@@ -36,7 +37,7 @@ class Scratch {
     std::byte bytes[64];
   };
 
-  std::vector<Line> lines_;
+  RawVector<Line> lines_;
   size_t used_ = 0;
 };
 

@@ -10,7 +10,7 @@ WorldMemory World::State::memory() const {
   memory.bounds = swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
                   bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
                   wide_swept_bounds.bytes();
-  for (const std::vector<float>& column : bounds) memory.bounds += bytes_of(column);
+  for (const LargeVector<float>& column : bounds) memory.bounds += bytes_of(column);
   memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              dops.pair_bytes() + directions.bytes() + results.bytes() +
@@ -29,7 +29,7 @@ void World::State::give_back_memory() {
   motion_tolerance.give_back();
   sweeps.give_back();
   give_back(quarantined, events);
-  for (std::vector<float>& column : bounds) give_back(column);
+  for (LargeVector<float>& column : bounds) give_back(column);
   swept_bounds.give_back();
   fat_bounds.give_back();
   wide_bounds.give_back();

@@ -162,7 +162,7 @@ BoundsView World::State::bounds_view() const {
 }
 
 void World::State::find_bounds() {
-  for (std::vector<float>& column : bounds) column.resize(bodies.rows());
+  for (LargeVector<float>& column : bounds) column.resize(bodies.rows());
   const size_t invalid = compute_bounds(bodies.view(),
                                         {{bounds[0].data(), bounds[1].data(), bounds[2].data()},
                                          {bounds[3].data(), bounds[4].data(), bounds[5].data()}},

@@ -201,7 +201,7 @@ BodyArrays World::arrays() {
 }
 
 BoxArrays World::boxes() {
-  std::vector<BodyStore::BoxRecord>& boxes = state_->bodies.boxes();
+  LargeVector<BodyStore::BoxRecord>& boxes = state_->bodies.boxes();
   return {boxes.size(), boxes.empty() ? nullptr : boxes.front().lower.data()};
 }
 

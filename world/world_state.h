@@ -140,7 +140,7 @@ struct World::State {
   BoundingRadii bounding_radii;
   ProxySpheres proxies;
   MotionTolerance motion_tolerance;
-  std::array<std::vector<float>, 6> bounds;
+  std::array<LargeVector<float>, 6> bounds;
   Sweeps sweeps;
   SweptBounds swept_bounds;
   WideBounds wide_bounds, wide_swept_bounds;  // of bodies now, and over the interval ahead

@@ -169,8 +169,9 @@ size_t CellRows::bytes() const {
   size_t sum = surveyor_.bytes() + reach_.capacity() * sizeof(CellReach);
   sum += corners_.capacity() * sizeof(float);
   sum += key.capacity() * sizeof(CellKey);
-  for (const std::vector<uint32_t>* column : {&body, &first_, &offsets_, &bucket_begin_}) {
-    sum += column->capacity() * sizeof(uint32_t);
+  for (const size_t numbers :
+       {body.capacity(), first_.capacity(), offsets_.capacity(), bucket_begin_.capacity()}) {
+    sum += numbers * sizeof(uint32_t);
   }
   return sum;
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "base/scratch.h"
 #include "broadphase/grid/box_records.h"
 #include "broadphase/grid/cell_grid.h"
@@ -33,8 +34,8 @@ class CellRows {
   const float* lower(size_t k) const { return corners_.data() + k * stride_; }
   const float* upper(size_t k) const { return lower(3 + k); }
   size_t column_stride() const { return stride_; }
-  std::vector<uint32_t> body;
-  std::vector<CellKey> key;
+  LargeVector<uint32_t> body;
+  LargeVector<CellKey> key;
 
   // The first row of each cell. The first row of the next cell is where a cell ends.
   const uint32_t* first_row() const { return first_.data(); }
@@ -59,8 +60,8 @@ class CellRows {
   CellGrids grids_;
   size_t count_ = 0;
   size_t stride_ = 0;
-  std::vector<float> corners_;
-  std::vector<uint32_t> first_;
+  LargeVector<float> corners_;
+  LargeVector<uint32_t> first_;
 
   Surveyor surveyor_;
   std::vector<CellReach> reach_;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "carom/broadphase/find_pairs.h"
 
 namespace carom {
@@ -104,7 +105,7 @@ class alignas(64) PairList {
 
   static constexpr size_t kSpent = ~size_t{0};
 
-  std::vector<Pair> pairs_;
+  RawVector<Pair> pairs_;
   PairBudget* budget_ = nullptr;
   size_t used_ = 0;
   size_t accounted_ = 0;  // pairs of this list that the budget has counted

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
+#include "base/huge_pages.h"
 #include "broadphase/sort/partner_lists.h"
 
 namespace carom {
@@ -31,6 +32,11 @@ void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parall
                       std::vector<Pair>& out, Scratch& scratch) {
   size_t total = 0;
   for (const PairList& list : found) total += list.pairs().size();
+  if (out.capacity() < total) {
+    out.clear();
+    out.reserve(total + total / 8);
+    prefer_huge_pages(out.data(), out.capacity() * sizeof(Pair));
+  }
   out.resize(total);
   const bool at_once = body_count <= kBodiesAtOnce && !uses_threads(parallelism);
   const size_t wanted = at_once ? 1 : std::clamp<size_t>(total / kPairsPerBucket, 1, kMostBuckets);

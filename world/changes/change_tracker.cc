@@ -79,7 +79,7 @@ void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
 
 // Runs first, so it overwrites the flags of the last step.
 template <class T>
-bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& last,
+bool ChangeTracker::compare_records(const LargeVector<T>& now, LargeVector<T>& last,
                                     Parallelism parallelism) {
   last.resize(now.size());
   std::atomic<bool> any{false};
@@ -107,7 +107,7 @@ bool ChangeTracker::compare_records(const std::vector<T>& now, std::vector<T>& l
 }
 
 bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism parallelism) {
-  const std::vector<BodyStore::Row>& now = bodies.orientations();
+  const LargeVector<BodyStore::Row>& now = bodies.orientations();
   // A body that had no orientation had the identity.
   last_orientations_.resize(now.size(), BodyStore::kIdentity);
   std::atomic<bool> any{false};
@@ -124,7 +124,7 @@ bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism pa
 }
 
 bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism parallelism) {
-  const std::vector<BodyStore::BoxRecord>& boxes = bodies.boxes();
+  const LargeVector<BodyStore::BoxRecord>& boxes = bodies.boxes();
   const size_t slots = boxes.size();
   last_boxes_.resize(slots);
   box_changes_.resize(slots);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "carom/base/parallelism.h"
 #include "world/store/body_store.h"
 #include "world/store/columns.h"
@@ -54,7 +55,7 @@ class ChangeTracker {
   };
 
   template <class T>
-  bool compare_records(const std::vector<T>& now, std::vector<T>& last, Parallelism parallelism);
+  bool compare_records(const LargeVector<T>& now, LargeVector<T>& last, Parallelism parallelism);
   bool compare_orientations(const BodyStore& bodies, Parallelism parallelism);
   bool compare_boxes(const BodyStore& bodies, Parallelism parallelism);
   bool compare_rows(const BodyStore& bodies, Parallelism parallelism);
@@ -70,12 +71,12 @@ class ChangeTracker {
   bool all_unchanged_ = false;
   bool any_reshaped_ = false;
   bool knows_last_ = false;
-  std::vector<float> last_records32_;
-  std::vector<double> last_records64_;
-  std::vector<BodyStore::Row> last_orientations_;
-  std::vector<BodyStore::BoxRecord> last_boxes_;
+  LargeVector<float> last_records32_;
+  LargeVector<double> last_records64_;
+  LargeVector<BodyStore::Row> last_orientations_;
+  LargeVector<BodyStore::BoxRecord> last_boxes_;
   SlotChanges box_changes_;
-  std::vector<BodyStore::Row> last_rows_;
+  LargeVector<BodyStore::Row> last_rows_;
   SlotChanges row_changes_;
 };
 

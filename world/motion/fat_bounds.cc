@@ -32,7 +32,7 @@ struct Fit {
 }  // namespace
 
 void FatBounds::update(const BoundsView& bounds, float margin, Parallelism parallelism) {
-  for (std::vector<float>& column : columns_) {
+  for (LargeVector<float>& column : columns_) {
     column.resize(bounds.count, std::numeric_limits<float>::quiet_NaN());
   }
   for_each_block(bounds.count, kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
@@ -73,7 +73,7 @@ BoundsView FatBounds::view() const {
 
 size_t FatBounds::bytes() const {
   size_t sum = 0;
-  for (const std::vector<float>& column : columns_) sum += bytes_of(column);
+  for (const LargeVector<float>& column : columns_) sum += bytes_of(column);
   return sum;
 }
 

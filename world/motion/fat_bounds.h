@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
 
+#include "base/raw_vector.h"
 #include "carom/base/parallelism.h"
 #include "carom/shapes/views.h"
 #include "world/store/columns.h"
@@ -20,12 +20,12 @@ class FatBounds {
   BoundsView view() const;
 
   void give_back() {
-    for (std::vector<float>& column : columns_) carom::give_back(column);
+    for (LargeVector<float>& column : columns_) carom::give_back(column);
   }
   size_t bytes() const;
 
  private:
-  std::array<std::vector<float>, 6> columns_;  // lower and upper corners, one row a body
+  std::array<LargeVector<float>, 6> columns_;  // lower and upper corners, one row a body
 };
 
 }  // namespace carom

@@ -9,7 +9,7 @@ namespace {
 
 template <class T>
 void write_radii(const Collidables& bodies, std::span<const float> radii, Parallelism parallelism,
-                 std::vector<T>& records) {
+                 LargeVector<T>& records) {
   const BodyReader reader{bodies};
   for_each_block(records.size() / 4, kRowsPerBlock, parallelism,
                  [&](size_t, size_t begin, size_t end) {

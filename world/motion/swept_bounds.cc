@@ -64,7 +64,7 @@ void move(Corners& box, const Eigen::Vector3f& displacement) {
 
 void SweptBounds::update(const Collidables& bodies, const Sweeps& sweeps, const BoundsView& bounds,
                          Parallelism parallelism) {
-  for (std::vector<float>& column : columns_) column.resize(bounds.count);
+  for (LargeVector<float>& column : columns_) column.resize(bounds.count);
   const BodyReader reader{bodies};
   for_each_block(bounds.count, kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -101,7 +101,7 @@ BoundsView SweptBounds::view() const {
 
 size_t SweptBounds::bytes() const {
   size_t sum = 0;
-  for (const std::vector<float>& column : columns_) sum += bytes_of(column);
+  for (const LargeVector<float>& column : columns_) sum += bytes_of(column);
   return sum;
 }
 

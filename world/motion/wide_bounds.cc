@@ -9,7 +9,7 @@ namespace carom {
 
 void WideBounds::update(const BoundsView& bounds, const ContactDistances& distances,
                         Parallelism parallelism) {
-  for (std::vector<float>& column : columns_) column.resize(bounds.count);
+  for (LargeVector<float>& column : columns_) column.resize(bounds.count);
   for_each_block(bounds.count, kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const float growth = distances.growth(static_cast<uint32_t>(i));
@@ -32,7 +32,7 @@ BoundsView WideBounds::view() const {
 
 size_t WideBounds::bytes() const {
   size_t sum = 0;
-  for (const std::vector<float>& column : columns_) sum += bytes_of(column);
+  for (const LargeVector<float>& column : columns_) sum += bytes_of(column);
   return sum;
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
+#include "base/raw_vector.h"
 #include "carom/base/parallelism.h"
 #include "carom/shapes/views.h"
 #include "world/motion/contact_distances.h"
@@ -17,12 +17,12 @@ class WideBounds {
   void update(const BoundsView& bounds, const ContactDistances& distances, Parallelism parallelism);
   BoundsView view() const;
   void give_back() {
-    for (std::vector<float>& column : columns_) carom::give_back(column);
+    for (LargeVector<float>& column : columns_) carom::give_back(column);
   }
   size_t bytes() const;
 
  private:
-  std::array<std::vector<float>, 6> columns_;
+  std::array<LargeVector<float>, 6> columns_;
 };
 
 }  // namespace carom

@@ -40,7 +40,7 @@ WorldHalfspace grown(WorldHalfspace halfspace, float growth) {
 
 }  // namespace
 
-void HalfspaceStage::set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds) {
+void HalfspaceStage::set_aside(const BodyStore& bodies, std::array<LargeVector<float>, 6>& bounds) {
   halfspaces_.clear();
   swept_.clear();
   if (bodies.halfspaces().empty()) return;

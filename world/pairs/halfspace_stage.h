@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "broadphase/halfspace_pairs.h"
 #include "carom/broadphase/find_pairs.h"
 #include "world/motion/contact_distances.h"
@@ -18,7 +19,7 @@ class HalfspaceStage {
  public:
   // Remembers the valid half-spaces, which are those with bounds that are not empty, and empties
   // these bounds.
-  void set_aside(const BodyStore& bodies, std::array<std::vector<float>, 6>& bounds);
+  void set_aside(const BodyStore& bodies, std::array<LargeVector<float>, 6>& bounds);
 
   bool has_any() const { return !halfspaces_.empty(); }
   std::span<const WorldHalfspace> all() const { return halfspaces_; }  // by body index

@@ -23,13 +23,13 @@ struct PairHistory {
   static constexpr uint32_t kSensor = 0xfffffffeu;
 
   std::vector<Pair> pairs;
-  std::vector<uint8_t> overlaps;
-  std::vector<uint32_t> contact;    // index into `contacts`
+  RawVector<uint8_t> overlaps;
+  RawVector<uint32_t> contact;      // index into `contacts`
   std::vector<uint32_t> direction;  // DirectionMemory's; empty if unused
   RawVector<Contact> contacts;
   RawVector<ManifoldPoints> manifolds;  // one a contact at details with manifolds, else none
 
-  std::vector<ContactIdentity> identities;  // one a contact, if they are wanted
+  LargeVector<ContactIdentity> identities;  // one a contact, if they are wanted
 
   // Whether `contact` is an index.
   bool has_contact(size_t i) const { return contact[i] < kSensor; }

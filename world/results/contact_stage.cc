@@ -81,19 +81,14 @@ void ContactStage::start(bool reads_last, PairHistory& last, PairHistory& now) {
   now.overlaps.resize(now.pairs.size());
   now.contact.resize(now.pairs.size());
   now.clear_contacts();
-  // Steps have about as many contacts as the last one. A list that has room for them keeps its
-  // memory.
-  const auto make_room = [reads_last](auto& before, auto& list) {
-    const size_t count = before.size();
-    if (!reads_last && list.capacity() < before.capacity()) {
-      before.clear();
-      list.swap(before);
-    }
-    if (list.capacity() < count) list.reserve(count + count / 8);
+  const auto take_memory = [reads_last](auto& before, auto& list) {
+    if (reads_last || list.capacity() >= before.capacity()) return;
+    before.clear();
+    list.swap(before);
   };
-  make_room(last.contacts, now.contacts);
-  make_room(last.manifolds, now.manifolds);
-  make_room(last.identities, now.identities);
+  take_memory(last.contacts, now.contacts);
+  take_memory(last.manifolds, now.manifolds);
+  take_memory(last.identities, now.identities);
 }
 
 size_t ContactStage::add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
@@ -107,9 +102,13 @@ size_t ContactStage::add(const PairRange& range, const CarryPlan& plan, const Pa
   // ... then write every contact to its place.
   size_t contacts = first;
   for (size_t& block : block_first_) contacts += std::exchange(block, contacts);
-  now.contacts.resize(contacts);
-  if (has_manifolds(settings.detail)) now.manifolds.resize(contacts);
-  if (settings.identities) now.identities.resize(contacts);
+  const auto resize = [&](auto& list) {
+    reserve_at_rate(list, contacts, range.begin, now.pairs.size());
+    list.resize(contacts);
+  };
+  resize(now.contacts);
+  if (has_manifolds(settings.detail)) resize(now.manifolds);
+  if (settings.identities) resize(now.identities);
   write_contacts(range, plan, last, results, settings, now);
   return first;
 }
@@ -127,42 +126,42 @@ void ContactStage::find_results(const PairRange& range, const CarryPlan& plan,
   const bool regions = settings.detail == Detail::regions;
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
   std::atomic<size_t> overlaps{0}, undecided{0}, left_out{0};
-  for_each_block(
-      pairs, kPairsPerMergeBlock, settings.parallelism,
-      [&](size_t block, size_t begin, size_t end) {
-        size_t overlapping = 0, unknown = 0, contacts = 0, unlisted = 0;
-        for (size_t i = range.begin + begin; i < range.begin + end; ++i) {
-          const uint32_t row = plan.test_row(i);
-          const bool carried = row == CarryPlan::kCarried;
-          const size_t before = carried ? plan.last_index(i) : 0;
-          const uint8_t decision = carried ? last.overlaps[before] : results.overlap(row);
-          // Whether a pair overlaps cannot be predicted, so there is no branch on it.
-          const bool overlap = decision == 1;
-          const bool touches =
-              overlap | (carried ? last.has_contact(before) : results.is_near(row));
-          const Pair pair = now.pairs[i];
-          const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
-          const bool listed = touches & !sensor;
-          now.overlaps[i] = decision;
-          now.contact[i] = kinds[listed | (overlap & sensor) << 1];
-          overlapping += overlap;
-          unknown += decision == kUndecided;
-          contacts += listed;
-          if (!regions || !listed) continue;
-          if (carried) {
-            const auto run = contact_run(last.contacts, last.contact[before]);
-            contacts += run.size() - 1;
-            unlisted += run[0].left_out;
-          } else {
-            contacts += results.extra(row).size();
-            unlisted += results.left_out(row);
-          }
-        }
-        block_first_[block] = contacts;
-        overlaps += overlapping;
-        undecided += unknown;
-        left_out += unlisted;
-      });
+  for_each_block(pairs, kPairsPerMergeBlock, settings.parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   size_t overlapping = 0, unknown = 0, contacts = 0, unlisted = 0;
+                   for (size_t i = range.begin + begin; i < range.begin + end; ++i) {
+                     const uint32_t row = plan.test_row(i);
+                     const bool carried = row == CarryPlan::kCarried;
+                     const size_t before = carried ? plan.last_index(i) : 0;
+                     const uint8_t decision =
+                         carried ? last.overlaps[before] : results.overlap(row);
+                     // Whether a pair overlaps cannot be predicted, so there is no branch on it.
+                     const bool overlap = decision == 1;
+                     const bool touches =
+                         overlap | (carried ? last.has_contact(before) : results.is_near(row));
+                     const Pair pair = now.pairs[i];
+                     const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
+                     const bool listed = touches & !sensor;
+                     now.overlaps[i] = decision;
+                     now.contact[i] = kinds[listed | (overlap & sensor) << 1];
+                     overlapping += overlap;
+                     unknown += decision == kUndecided;
+                     contacts += listed;
+                     if (!regions || !listed) continue;
+                     if (carried) {
+                       const auto run = contact_run(last.contacts, last.contact[before]);
+                       contacts += run.size() - 1;
+                       unlisted += run[0].left_out;
+                     } else {
+                       contacts += results.extra(row).size();
+                       unlisted += results.left_out(row);
+                     }
+                   }
+                   block_first_[block] = contacts;
+                   overlaps += overlapping;
+                   undecided += unknown;
+                   left_out += unlisted;
+                 });
   overlaps_ += overlaps;
   undecided_ += undecided;
   left_out_ += left_out;

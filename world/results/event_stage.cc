@@ -36,15 +36,15 @@ size_t EventStage::Scratch::bytes() const {
 }
 
 void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Event>& events) {
-  // Steps have about as many events as the last one.
-  const size_t expected = events.size() + events.size() / 8;
   events.clear();
-  if (events.capacity() < expected) events.reserve(expected);
   const size_t blocks = merge_block_count(input.now.pairs.size());
   const bool shared = uses_threads(parallelism);
-  for (size_t first = 0; first < blocks; first += shared ? kBlocksAtOnce : 1) {
+  const size_t at_once = shared ? kBlocksAtOnce : 1;
+  for (size_t first = 0; first < blocks; first += at_once) {
+    const size_t most = 2 * at_once * kPairsPerMergeBlock;
+    if (first > 0) reserve_at_rate(events, events.size() + most, first, blocks);
     if (shared) {
-      add_blocks(input, first, std::min(first + kBlocksAtOnce, blocks), parallelism, events);
+      add_blocks(input, first, std::min(first + at_once, blocks), parallelism, events);
     } else {
       add_block(input, first, scratch_[0], events);
     }
@@ -59,8 +59,8 @@ void EventStage::add_block(const Input& input, size_t block, Scratch& scratch,
   const MergeRange range = matching_range(input.last.pairs, input.now.pairs, begin, end);
   scratch.last.read(input.last, range.begin, range.end);
   scratch.now.read(input.now, begin, end);
-  const bool same_bodies = !input.bodies.any_touched() && input.quarantined.empty();
-  if (same_bodies && !input.bodies.any_removed()) {
+  // Until a body is removed every index keeps its body, of generation 0.
+  if (!input.bodies.any_removed() && input.quarantined.empty()) {
     return merge(scratch.last, scratch.now, input.wants_persist, events);
   }
   scratch.unnamed.clear();

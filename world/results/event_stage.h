@@ -59,7 +59,8 @@ class EventStage {
 
   void add_blocks(const Input& input, size_t first, size_t end, Parallelism parallelism,
                   RawVector<Event>& events);
-  void add_block(const Input& input, size_t block, Scratch& scratch, RawVector<Event>& events) const;
+  void add_block(const Input& input, size_t block, Scratch& scratch,
+                 RawVector<Event>& events) const;
   static void merge(const Overlaps& last, const Overlaps& now, bool wants_persist,
                     RawVector<Event>& events);
   void add_named(const Input& input, std::span<const Event> unnamed,

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/raw_vector.h"
 #include "carom/broadphase/find_pairs.h"
 #include "carom/shapes/body.h"
 #include "carom/shapes/views.h"
@@ -73,12 +74,12 @@ class BodyStore {
   void set_detection(uint32_t index, Detection detection);
 
   // The arrays themselves.
-  std::vector<float>& records32() { return records32_; }
-  std::vector<double>& records64() { return records64_; }
-  std::vector<BoxRecord>& boxes() { return boxes_; }
-  const std::vector<BoxRecord>& boxes() const { return boxes_; }
-  std::vector<Row>& orientations() { return orientation_; }
-  const std::vector<Row>& orientations() const { return orientation_; }
+  LargeVector<float>& records32() { return records32_; }
+  LargeVector<double>& records64() { return records64_; }
+  LargeVector<BoxRecord>& boxes() { return boxes_; }
+  const LargeVector<BoxRecord>& boxes() const { return boxes_; }
+  LargeVector<Row>& orientations() { return orientation_; }
+  const LargeVector<Row>& orientations() const { return orientation_; }
   std::span<Row> shape_rows() { return {rows_.data(), row_pool_.end()}; }
   std::span<const Row> shape_rows() const { return {rows_.data(), row_pool_.end()}; }
   std::span<Eigen::Vector3f> linear_velocities();
@@ -151,21 +152,21 @@ class BodyStore {
   std::vector<uint8_t> touched_;  // includes rows that were dropped since clear_touched()
   std::vector<uint32_t> touched_indices_;
 
-  std::vector<float> records32_;  // x, y, z, w a row; one of the two columns is empty
-  std::vector<double> records64_;
+  LargeVector<float> records32_;  // x, y, z, w a row; one of the two columns is empty
+  LargeVector<double> records64_;
 
   // Rows are slots, which only aabb bodies get.
   IndexPool slots_;
-  std::vector<BoxRecord> boxes_;
+  LargeVector<BoxRecord> boxes_;
   std::vector<uint32_t> box_slot_;  // empty until there is a box; 0 for other kinds
   size_t boxes_elsewhere_ = 0;      // aabb bodies whose slot is not their index
 
   // Parameters of all kinds but spheres and aabbs, in blocks of rows. After the last block follow
   // kMostRows - 1 rows of zero, so that kMostRows rows can be read from any row.
   RowPool row_pool_;
-  std::vector<Row> rows_;
+  LargeVector<Row> rows_;
   std::vector<uint32_t> first_row_;  // empty until there is such a body; 0 for other kinds
-  std::vector<Row> orientation_;     // likewise; the identity for other kinds
+  LargeVector<Row> orientation_;     // likewise; the identity for other kinds
 
   std::vector<uint32_t> halfspaces_;
 
@@ -181,7 +182,7 @@ class BodyStore {
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;
   size_t detected_ = 0;  // bodies whose detection is not discrete
-  std::vector<Eigen::Vector3f> velocity_, angular_velocity_;
+  LargeVector<Eigen::Vector3f> velocity_, angular_velocity_;
   bool has_velocities_ = false;
   bool has_angular_velocities_ = false;
 };

@@ -14,8 +14,8 @@ size_t bytes_of(const std::vector<T, Allocator>& column) {
   return column.capacity() * sizeof(T);
 }
 
-template <class T>
-const T* data_or_null(const std::vector<T>& column) {
+template <class T, class Allocator>
+const T* data_or_null(const std::vector<T, Allocator>& column) {
   return column.empty() ? nullptr : column.data();
 }
 
