@@ -7,7 +7,7 @@ endfunction()
 
 # carom_add_precompiled(NAME HEADER...): headers compiled once for all targets that say
 # target_precompile_headers(TARGET REUSE_FROM NAME) and have the flags of this folder. Every file
-# still includes what it uses: builds with clang-tidy and for AArch64 have none of this.
+# still includes what it uses: the check for AArch64 precompiles nothing but Eigen.
 function(carom_add_precompiled name)
   add_library(${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cc)
   target_link_libraries(${name} PRIVATE Eigen3::Eigen)

@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# check_neon.sh: compiles the library for AArch64, with the flags of cmake/CaromFlags.cmake that
-# matter there, without linking.
+# check_neon.sh: compiles every file of the library for AArch64, alone, with the flags of
+# cmake/CaromFlags.cmake that matter there, without linking. Files with code in lanes are compiled by
+# g++, which is strict about the instruction sets of functions; clang, which reads headers in half the
+# time, compiles the others, which g++ compiles for this machine in other builds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-compiler=aarch64-linux-gnu-g++
+rooms=(simd base shapes trees bounds geometries broadphase narrowphase midphase impacts queries world)
 out=build/neon
 mkdir -p $out/include
 # Header-only or architecture-independent headers of the host, and nothing else of it.
@@ -16,8 +18,35 @@ ln -sfn /usr/include/oneapi $out/include/oneapi
 generated=build/release/generated
 [ -d $generated ] || cmake --preset release >/dev/null
 
-find simd base shapes trees bounds geometries broadphase narrowphase midphase impacts queries world -name '*.cc' | sort |
-  xargs -P "${JOBS:-$(nproc)}" -I{} $compiler -std=c++20 -O0 -c {} -o /dev/null \
-    -march=armv8-a+crypto -I . -I include -I $generated -isystem $out/include \
-    -ffp-contract=off -fno-tree-slp-vectorize -Wall -Wextra
+flags=(-std=c++20 -O0 -march=armv8-a+crypto -I . -I include -I $generated -isystem $out/include
+       -ffp-contract=off -fno-tree-slp-vectorize -Wall -Wextra)
+gcc=(aarch64-linux-gnu-g++ "${flags[@]}")
+clang=(clang++ --target=aarch64-linux-gnu "${flags[@]}")
+
+# Eigen, half of what a file reads, is compiled once for the files that include it anyway, so that a
+# file that forgets a header is still found.
+echo '#include <Eigen/Core>' >$out/eigen.h
+"${gcc[@]}" -x c++-header $out/eigen.h -o $out/eigen.h.gch &
+"${clang[@]}" -x c++-header $out/eigen.h -o $out/eigen.h.pch
+wait $!
+
+
+# Headers that include Eigen, and those that include one of these, until there are no more.
+includes='#include <Eigen/'
+headers=
+while next=$(grep -rlF "$includes" include "${rooms[@]}" --include='*.h' | sort) &&
+  [ "$next" != "$headers" ]; do
+  headers=$next
+  includes=$'#include <Eigen/\n'$(sed 's#^include/##; s#.*#\#include "&"#' <<<"$headers")
+done
+
+# compile_alone COMPILER...: compiles the files of the standard input.
+compile_alone() { xargs -r -P "${JOBS:-$(nproc)}" -n 1 "$@" -c -o /dev/null; }
+
+sources=$(find "${rooms[@]}" -name '*.cc' | sort)
+plain=$(xargs grep -LF "$includes" <<<"$sources")
+eigen=$(comm -23 <(echo "$sources") <(echo "$plain"))
+compile_alone "${gcc[@]}" <<<"$plain"
+xargs grep -l foreach_target.h <<<"$eigen" | compile_alone "${gcc[@]}" -include $out/eigen.h
+xargs grep -L foreach_target.h <<<"$eigen" | compile_alone "${clang[@]}" -include-pch $out/eigen.h.pch
 echo "neon: the library compiles for AArch64"
