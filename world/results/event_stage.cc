@@ -59,13 +59,19 @@ void EventStage::add_block(const Input& input, size_t block, Scratch& scratch,
   const MergeRange range = matching_range(input.last.pairs, input.now.pairs, begin, end);
   scratch.last.read(input.last, range.begin, range.end);
   scratch.now.read(input.now, begin, end);
-  // Until a body is removed every index keeps its body, of generation 0.
-  if (!input.bodies.any_removed() && input.quarantined.empty()) {
-    return merge(scratch.last, scratch.now, input.wants_persist, events);
+  const bool all_valid = input.quarantined.empty();
+  const bool same_bodies = !input.bodies.any_removed() || !input.bodies.any_touched();
+  if (!all_valid || !same_bodies) {
+    scratch.unnamed.clear();
+    merge(scratch.last, scratch.now, Persisting::apart, scratch.unnamed);
+    return add_named(input, scratch.unnamed, events);
   }
-  scratch.unnamed.clear();
-  merge(scratch.last, scratch.now, true, scratch.unnamed);
-  add_named(input, scratch.unnamed, events);
+  const size_t first = events.size();
+  const Persisting persisting = input.wants_persist ? Persisting::wanted : Persisting::dropped;
+  merge(scratch.last, scratch.now, persisting, events);
+  // Until a body is removed every index has one of generation 0.
+  if (input.bodies.any_removed())
+    name(std::span(events).subspan(first), input.bodies.generations());
 }
 
 // The same for some blocks side by side, each to a list of its own.
@@ -89,18 +95,20 @@ void EventStage::add_blocks(const Input& input, size_t first, size_t end, Parall
 // Merges two lists of overlaps and writes the events, without the generations of their bodies,
 // behind those of `events`. Which pairs have events cannot be predicted: overlaps come and go. So
 // there is no branch on it: an event is written for every pair, and counts or does not.
-void EventStage::merge(const Overlaps& last, const Overlaps& now, bool wants_persist,
+void EventStage::merge(const Overlaps& last, const Overlaps& now, Persisting persisting,
                        RawVector<Event>& events) {
   static_assert(static_cast<int>(EventKind::begin) == 0);
   static_assert(static_cast<int>(EventKind::persist) == 1);
   static_assert(static_cast<int>(EventKind::end) == 2);
+  const bool joins = persisting != Persisting::apart, wanted = persisting == Persisting::wanted;
   const size_t first = events.size(), most = last.count + now.count;
   events.resize(first + most + 1);
   Event* out = events.data() + first;
   size_t before = 0, i = 0;
   while (before + i < most) {
     const uint64_t key_before = last.key[before], key = now.key[i];
-    const bool overlapped = key_before <= key, overlaps = key <= key_before;
+    const bool overlapped = key_before <= key;
+    const bool overlaps = (key < key_before) | (joins & (key == key_before));
     const uint32_t choice = overlaps ? 0xffffffffu : 0u;  // a mask, since compilers make branches
     const uint32_t contact = (now.contact[i] & choice) | (last.contact[before] & ~choice);
     const bool sensor = contact == PairHistory::kSensor;
@@ -112,18 +120,27 @@ void EventStage::merge(const Overlaps& last, const Overlaps& now, bool wants_per
             .contact = contact | (unlisted ? kNoContact : 0u),
             .kind = static_cast<EventKind>(persists | !overlaps << 1),
             .sensor = sensor};
-    out += !persists | wants_persist;
+    out += !persists | wanted;
     before += overlapped;
     i += overlaps;
   }
   events.resize(static_cast<size_t>(out - events.data()));
 }
 
-// Adds events with the generations of their bodies. A pair that persists but has another body at
-// one of its indices ends and begins.
+// Sets the generations of the bodies of events.
+void EventStage::name(std::span<Event> events, std::span<const uint32_t> generations) {
+  constexpr size_t kAhead = 16;
+  for (size_t k = 0; k < events.size(); ++k) {
+    __builtin_prefetch(&generations[events[std::min(k + kAhead, events.size() - 1)].b.index]);
+    events[k].a.generation = generations[events[k].a.index];
+    events[k].b.generation = generations[events[k].b.index];
+  }
+}
+
+// Adds events with the generations of their bodies. `unnamed`: ends and begins. An end and a begin
+// of the same bodies are one event that persists.
 void EventStage::add_named(const Input& input, std::span<const Event> unnamed,
                            RawVector<Event>& events) const {
-  constexpr size_t kAhead = 16;
   const std::span<const uint32_t> generations = input.bodies.generations();
   const auto before = [this](Event event) {
     event.a.generation = last_generation(event.a.index);
@@ -135,29 +152,24 @@ void EventStage::add_named(const Input& input, std::span<const Event> unnamed,
     event.b.generation = generations[event.b.index];
     return event;
   };
-  const auto add_end = [&](const Event& event) {
-    Event end = before(event);
-    end.contact = kNoContact;
-    end.kind = EventKind::end;
-    end.gone = static_cast<uint8_t>(fate_of(end.a, input) | fate_of(end.b, input) << 1);
-    events.push_back(end);
-  };
   for (size_t k = 0; k < unnamed.size(); ++k) {
-    const Event& ahead = unnamed[std::min(k + kAhead, unnamed.size() - 1)];
-    __builtin_prefetch(generations.data() + ahead.b.index);
-    Event event = unnamed[k];
-    if (event.kind == EventKind::end) {
-      add_end(event);
+    if (unnamed[k].kind == EventKind::begin) {
+      events.push_back(now(unnamed[k]));
       continue;
     }
-    event = now(event);
-    const Event same = before(event);
-    const bool stayed = same.a == event.a && same.b == event.b;
-    if (event.kind == EventKind::persist && !stayed) {
-      add_end(event);
-      event.kind = EventKind::begin;
+    Event end = before(unnamed[k]);
+    const bool may_persist = k + 1 < unnamed.size() && unnamed[k + 1].kind == EventKind::begin;
+    if (may_persist) {
+      Event next = now(unnamed[k + 1]);
+      if (next.a == end.a && next.b == end.b) {
+        next.kind = EventKind::persist;
+        if (input.wants_persist) events.push_back(next);
+        ++k;
+        continue;
+      }
     }
-    if (event.kind == EventKind::begin || input.wants_persist) events.push_back(event);
+    end.gone = static_cast<uint8_t>(fate_of(end.a, input) | fate_of(end.b, input) << 1);
+    events.push_back(end);
   }
 }
 

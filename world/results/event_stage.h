@@ -61,8 +61,12 @@ class EventStage {
                   RawVector<Event>& events);
   void add_block(const Input& input, size_t block, Scratch& scratch,
                  RawVector<Event>& events) const;
-  static void merge(const Overlaps& last, const Overlaps& now, bool wants_persist,
+  // What becomes of overlaps of both steps: an event, none, or an end and a begin.
+  enum class Persisting : uint8_t { wanted, dropped, apart };
+
+  static void merge(const Overlaps& last, const Overlaps& now, Persisting persisting,
                     RawVector<Event>& events);
+  static void name(std::span<Event> events, std::span<const uint32_t> generations);
   void add_named(const Input& input, std::span<const Event> unnamed,
                  RawVector<Event>& events) const;
   uint32_t last_generation(uint32_t index) const {

@@ -77,6 +77,26 @@ TEST(Memory, BodiesThatPartGiveThatOfTheirPairsBack) {
   expect_given_back_after_parting(kManifold, oriented);
 }
 
+// The contacts of the last step are there only where some are carried over.
+TEST(Memory, WhereAllBodiesMoveContactsAreHeldOnce) {
+  World world({.detail = Detail::manifold});
+  const std::vector<BodyId> ids = add_crowd(world, kDense);
+  Random random(6);
+  const auto step = [&](double share) {
+    move_some(world, ids, share, random);
+    world.step();
+    return world.memory().pairs_and_results;
+  };
+  size_t all_move = 0;
+  for (int i = 0; i < 4; ++i) all_move = step(1);
+  ASSERT_EQ(world.report().kept, 0u);
+  const size_t contacts = world.contacts().size();
+  ASSERT_GT(contacts, 10000u);
+  const size_t some_move = step(0.1);
+  ASSERT_GT(world.report().kept, 10000u);
+  EXPECT_GT(some_move, all_move + contacts * (sizeof(Contact) + sizeof(ManifoldPoints)) * 9 / 10);
+}
+
 // A world that gives memory back now and then, and one that never does.
 void expect_same_results_after_giving_back(const WorldSettings& settings, const CrowdSpec& spec) {
   World world(settings), other(settings);

@@ -1,0 +1,51 @@
+// Long lists: memory at the rate at which they grow, and large pages.
+#include "base/raw_vector.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <numeric>
+
+namespace carom::test {
+namespace {
+
+TEST(ReserveAtRate, ForeseesTheOtherParts) {
+  RawVector<uint32_t> list(100);
+  std::iota(list.begin(), list.end(), 0u);
+  reserve_at_rate(list, 101, 1, 10);
+  EXPECT_GE(list.capacity(), 1000u);
+  EXPECT_LE(list.capacity(), 1200u);
+  ASSERT_EQ(list.size(), 100u);
+  for (uint32_t i = 0; i < 100; ++i) EXPECT_EQ(list[i], i);
+}
+
+TEST(ReserveAtRate, HasRoomForWhatIsAskedFor) {
+  RawVector<uint32_t> list;
+  reserve_at_rate(list, 50, 0, 10);  // nothing is known yet
+  EXPECT_GE(list.capacity(), 50u);
+  reserve_at_rate(list, 5000, 9, 10);  // the last part has more than the others
+  EXPECT_GE(list.capacity(), 5000u);
+}
+
+TEST(ReserveAtRate, KeepsMemoryThatIsEnough) {
+  RawVector<uint32_t> list;
+  list.reserve(64);
+  const uint32_t* const memory = list.data();
+  list.resize(32);
+  reserve_at_rate(list, 64, 1, 1000);
+  EXPECT_EQ(list.data(), memory);
+  EXPECT_EQ(list.capacity(), 64u);
+}
+
+// Ranges begin and end anywhere; the memory beside them is left alone.
+TEST(HugePages, HoldWhatIsWritten) {
+  prefer_huge_pages(nullptr, 0);
+  for (const size_t count : {size_t{1}, size_t{1} << 21, (size_t{1} << 21) + 1, size_t{9} << 20}) {
+    LargeVector<uint8_t> bytes(count, uint8_t{7});
+    prefer_huge_pages(bytes.data() + bytes.size() / 3, bytes.size() / 2);
+    EXPECT_EQ(std::accumulate(bytes.begin(), bytes.end(), size_t{0}), 7 * count);
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
