@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "narrowphase/batch/world_point.h"
-#include "narrowphase/blocks/prefetch_bodies.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "shapes/body_reader.h"
 #include "shapes/run_of_bodies.h"
@@ -289,9 +288,6 @@ class BlockRunner {
 
 }  // namespace
 
-void run_pair_block(const PairBlock& block) {
-  BodyPrefetch(block).run();
-  BlockRunner(block).run();
-}
+void run_pair_block(const PairBlock& block) { BlockRunner(block).run(); }
 
 }  // namespace carom
