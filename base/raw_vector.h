@@ -11,7 +11,7 @@
 
 namespace carom {
 
-// A vector of many elements that are read before they are written.
+// A vector whose long arrays lie in large pages.
 template <class T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
@@ -38,15 +38,15 @@ template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
 // Makes room for `count` elements in a list whose elements come from the first `done` of `total`
-// parts. If that takes new memory, there is room for the other parts at the same rate, and an
-// eighth more.
+// parts. If that takes new memory, there is room for the other parts at the same rate, and in any
+// case an eighth more.
 template <class T, class Allocator>
 void reserve_at_rate(std::vector<T, Allocator>& list, size_t count, size_t done, size_t total) {
   if (count <= list.capacity()) return;
   const double rate =
       static_cast<double>(list.size()) / static_cast<double>(std::max(done, size_t{1}));
   const double expected = rate * static_cast<double>(total) * 1.125;
-  list.reserve(std::max(count, static_cast<size_t>(expected)));
+  list.reserve(std::max(count + count / 8, static_cast<size_t>(expected)));
 }
 
 }  // namespace carom

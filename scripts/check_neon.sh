@@ -30,7 +30,6 @@ echo '#include <Eigen/Core>' >$out/eigen.h
 "${clang[@]}" -x c++-header $out/eigen.h -o $out/eigen.h.pch
 wait $!
 
-
 # Headers that include Eigen, and those that include one of these, until there are no more.
 includes='#include <Eigen/'
 headers=

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/huge_pages.h"
+
 namespace carom {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr size_t kPairsPerTask = 1 << 15;
 // places in `out` follow from their places in `a` and `b`.
 void merge_pairs(const std::vector<Pair>& a, const std::vector<Pair>& b, Parallelism parallelism,
                  std::vector<Pair>& out) {
-  out.resize(a.size() + b.size());
+  resize_for_overwriting(out, a.size() + b.size());
   if (a.empty() || b.empty()) {
     const std::vector<Pair>& all = a.empty() ? b : a;
     for_each_block(all.size(), kPairsPerTask, parallelism, [&](size_t, size_t begin, size_t end) {

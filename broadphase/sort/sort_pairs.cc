@@ -32,12 +32,7 @@ void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parall
                       std::vector<Pair>& out, Scratch& scratch) {
   size_t total = 0;
   for (const PairList& list : found) total += list.pairs().size();
-  if (out.capacity() < total) {
-    out.clear();
-    out.reserve(total + total / 8);
-    prefer_huge_pages(out.data(), out.capacity() * sizeof(Pair));
-  }
-  out.resize(total);
+  resize_for_overwriting(out, total);
   const bool at_once = body_count <= kBodiesAtOnce && !uses_threads(parallelism);
   const size_t wanted = at_once ? 1 : std::clamp<size_t>(total / kPairsPerBucket, 1, kMostBuckets);
   int shift = 0;

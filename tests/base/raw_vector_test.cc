@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <vector>
 
 namespace carom::test {
 namespace {
@@ -21,8 +23,8 @@ TEST(ReserveAtRate, ForeseesTheOtherParts) {
 
 TEST(ReserveAtRate, HasRoomForWhatIsAskedFor) {
   RawVector<uint32_t> list;
-  reserve_at_rate(list, 50, 0, 10);  // nothing is known yet
-  EXPECT_GE(list.capacity(), 50u);
+  reserve_at_rate(list, 80, 0, 10);  // nothing is known yet
+  EXPECT_GE(list.capacity(), 90u);
   reserve_at_rate(list, 5000, 9, 10);  // the last part has more than the others
   EXPECT_GE(list.capacity(), 5000u);
 }
@@ -44,6 +46,21 @@ TEST(HugePages, HoldWhatIsWritten) {
     LargeVector<uint8_t> bytes(count, uint8_t{7});
     prefer_huge_pages(bytes.data() + bytes.size() / 3, bytes.size() / 2);
     EXPECT_EQ(std::accumulate(bytes.begin(), bytes.end(), size_t{0}), 7 * count);
+  }
+}
+
+// The list has the count that is asked for, keeps memory that is enough, and new memory has room.
+TEST(HugePages, ListsOfCallersGrowWithRoom) {
+  std::vector<uint32_t> list(10, 3u);
+  const uint32_t* const memory = list.data();
+  resize_for_overwriting(list, 4);
+  EXPECT_EQ(list, std::vector<uint32_t>(4, 3u));
+  EXPECT_EQ(list.data(), memory);
+  for (const size_t count : {size_t{11}, size_t{3} << 20, size_t{0}, size_t{3} << 20}) {
+    resize_for_overwriting(list, count);
+    ASSERT_EQ(list.size(), count);
+    EXPECT_GE(list.capacity(), count + count / 8);
+    std::fill(list.begin(), list.end(), 7u);
   }
 }
 

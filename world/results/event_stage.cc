@@ -13,6 +13,14 @@ uint8_t fate_of(BodyId id, const EventStage::Input& input) {
   return std::binary_search(list.begin(), list.end(), id) ? kQuarantinedA : 0;
 }
 
+// Says of ends which bodies are gone.
+void tell_fates(std::span<Event> events, const EventStage::Input& input) {
+  for (Event& event : events) {
+    if (event.kind != EventKind::end) continue;
+    event.gone = static_cast<uint8_t>(fate_of(event.a, input) | fate_of(event.b, input) << 1);
+  }
+}
+
 }  // namespace
 
 // Undecided pairs have no events.
@@ -38,15 +46,14 @@ size_t EventStage::Scratch::bytes() const {
 void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Event>& events) {
   events.clear();
   const size_t blocks = merge_block_count(input.now.pairs.size());
-  const bool shared = uses_threads(parallelism);
-  const size_t at_once = shared ? kBlocksAtOnce : 1;
-  for (size_t first = 0; first < blocks; first += at_once) {
-    const size_t most = 2 * at_once * kPairsPerMergeBlock;
-    if (first > 0) reserve_at_rate(events, events.size() + most, first, blocks);
-    if (shared) {
-      add_blocks(input, first, std::min(first + at_once, blocks), parallelism, events);
-    } else {
-      add_block(input, first, scratch_[0], events);
+  if (uses_threads(parallelism)) {
+    for (size_t first = 0; first < blocks; first += kBlocksAtOnce) {
+      add_blocks(input, first, std::min(first + kBlocksAtOnce, blocks), parallelism, events);
+    }
+  } else {
+    for (size_t block = 0; block < blocks; ++block) {
+      reserve_at_rate(events, events.size() + 2 * kPairsPerMergeBlock, block, blocks);
+      add_block(input, block, scratch_[0], events);
     }
   }
 }
@@ -59,19 +66,22 @@ void EventStage::add_block(const Input& input, size_t block, Scratch& scratch,
   const MergeRange range = matching_range(input.last.pairs, input.now.pairs, begin, end);
   scratch.last.read(input.last, range.begin, range.end);
   scratch.now.read(input.now, begin, end);
-  const bool all_valid = input.quarantined.empty();
-  const bool same_bodies = !input.bodies.any_removed() || !input.bodies.any_touched();
-  if (!all_valid || !same_bodies) {
+  const size_t first = events.size();
+  // Until a body is removed every index keeps its body, of generation 0.
+  const bool any_removed = input.bodies.any_removed();
+  const bool same_bodies = !any_removed || !input.bodies.any_touched();
+  if (same_bodies) {
+    const Persisting persisting = input.wants_persist ? Persisting::wanted : Persisting::dropped;
+    merge(scratch.last, scratch.now, persisting, events);
+    if (any_removed) name(std::span(events).subspan(first), input.bodies.generations());
+  } else {
     scratch.unnamed.clear();
     merge(scratch.last, scratch.now, Persisting::apart, scratch.unnamed);
-    return add_named(input, scratch.unnamed, events);
+    add_named(input, scratch.unnamed, events);
   }
-  const size_t first = events.size();
-  const Persisting persisting = input.wants_persist ? Persisting::wanted : Persisting::dropped;
-  merge(scratch.last, scratch.now, persisting, events);
-  // Until a body is removed every index has one of generation 0.
-  if (input.bodies.any_removed())
-    name(std::span(events).subspan(first), input.bodies.generations());
+  if (!same_bodies || !input.quarantined.empty()) {
+    tell_fates(std::span(events).subspan(first), input);
+  }
 }
 
 // The same for some blocks side by side, each to a list of its own.
@@ -86,6 +96,7 @@ void EventStage::add_blocks(const Input& input, size_t first, size_t end, Parall
   for (size_t i = 0; i < end - first; ++i) {
     place[i] = std::exchange(next, next + scratch_[i].events.size());
   }
+  reserve_at_rate(events, next, first, merge_block_count(input.now.pairs.size()));
   events.resize(next);
   for_each_block(end - first, 1, parallelism, [&](size_t i, size_t, size_t) {
     std::ranges::copy(scratch_[i].events, events.begin() + place[i]);
@@ -157,19 +168,17 @@ void EventStage::add_named(const Input& input, std::span<const Event> unnamed,
       events.push_back(now(unnamed[k]));
       continue;
     }
-    Event end = before(unnamed[k]);
-    const bool may_persist = k + 1 < unnamed.size() && unnamed[k + 1].kind == EventKind::begin;
-    if (may_persist) {
-      Event next = now(unnamed[k + 1]);
-      if (next.a == end.a && next.b == end.b) {
-        next.kind = EventKind::persist;
-        if (input.wants_persist) events.push_back(next);
-        ++k;
-        continue;
-      }
+    const Event end = before(unnamed[k]);
+    const bool is_last = k + 1 == unnamed.size();
+    Event next = is_last ? end : now(unnamed[k + 1]);
+    const bool persists = next.kind == EventKind::begin && next.a == end.a && next.b == end.b;
+    if (!persists) {
+      events.push_back(end);
+      continue;
     }
-    end.gone = static_cast<uint8_t>(fate_of(end.a, input) | fate_of(end.b, input) << 1);
-    events.push_back(end);
+    next.kind = EventKind::persist;
+    if (input.wants_persist) events.push_back(next);
+    ++k;
   }
 }
 
