@@ -227,7 +227,7 @@ PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
     out.clear();
     return search;
   }
-  state_->selection.run(filter.excluded, filter.predicate, parallelism, out);
+  state_->selection.run(filter.excluded, nullptr, filter.predicate, parallelism, out);
   search.pairs = out.size();
   return search;
 }

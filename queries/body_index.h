@@ -57,18 +57,11 @@ class BodyIndex {
 // Indexes all valid bodies of the view.
 BodyIndex index_bodies(const Collidables& bodies, Parallelism parallelism);
 
-// Bodies with their index, and which of them queries meet, but for the predicate.
+// Bodies with their index, and which of them queries meet.
 struct SearchedBodies {
   const Collidables& bodies;
   const BodyIndex& index;
   QueryFilter filter = {};
-
-  bool is_met(uint32_t body) const {
-    const PairFilter& of = filter.bodies;
-    if (((of.layer ? of.layer[body] : ~0u) & filter.mask) == 0) return false;
-    if (filter.layer != 0 && of.mask && (of.mask[body] & filter.layer) == 0) return false;
-    return filter.owner == 0 || !of.owner || of.owner[body] != filter.owner;
-  }
 };
 
 }  // namespace carom

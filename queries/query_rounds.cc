@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/block_lists.h"
+#include "queries/query_filter.h"
 #include "shapes/body_reader.h"
 
 namespace carom {
@@ -80,20 +81,8 @@ class Rounds {
                    [&](size_t block, size_t begin, size_t end) {
                      std::vector<Pair>& found = found_[block];
                      for (size_t i = begin; i < end; ++i) find(searches_[i], found);
-                     if (bodies_.filter.predicate && !found.empty()) ask_predicate(found);
+                     ask_predicate(bodies_.filter, found);
                    });
-  }
-
-  // Drops the candidates that the caller's predicate does not keep.
-  void ask_predicate(std::vector<Pair>& found) const {
-    std::vector<uint8_t> keep(found.size(), 1);
-    bodies_.filter.predicate(found, keep);
-    size_t kept = 0;
-    for (size_t i = 0; i < found.size(); ++i) {
-      found[kept] = found[i];
-      kept += keep[i] != 0;
-    }
-    found.resize(kept);
   }
 
   void find_halfspaces(const QuerySearch& search, std::vector<Pair>& found) const {
@@ -101,8 +90,8 @@ class Rounds {
     if (reader.kind(search.query) == ShapeKind::halfspace) return;
     for (const WorldHalfspace& halfspace : bodies_.index.halfspaces()) {
       const bool reaches = what_ == SearchFor::near || may_reach(search.box, halfspace);
-      if (reaches && bodies_.is_met(halfspace.body))
-        found.push_back({search.query, halfspace.body});
+      const Pair candidate = {search.query, halfspace.body};
+      if (reaches && keeps(bodies_.filter, candidate)) found.push_back(candidate);
     }
   }
 
@@ -117,7 +106,8 @@ class Rounds {
       walk_near(tree, search.box.box, limit, most, search.walk, items);
     }
     for (const uint32_t body : items) {
-      if (bodies_.is_met(body)) found.push_back({search.query, body});
+      const Pair candidate = {search.query, body};
+      if (keeps(bodies_.filter, candidate)) found.push_back(candidate);
     }
   }
 

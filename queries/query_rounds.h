@@ -41,7 +41,7 @@ struct QuerySearch {
 using SearchMemory = std::vector<QuerySearch>;
 
 // Searches queries [first, first + limit.size()), at most kQueriesAtOnce, with one limit each.
-// Every body within a query's limit becomes a candidate of it once, if a layer of the body is met.
+// Every body within a query's limit that the filter keeps becomes a candidate of it once.
 // Half-spaces come in the first round. The candidates of a round are in order of the query.
 Result<void> search_in_rounds(QueryBoxes& queries, const SearchedBodies& bodies, SearchFor what,
                               RoundSizes sizes, size_t first, std::span<const float> limit,

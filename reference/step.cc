@@ -38,23 +38,15 @@ struct HalfspaceParticipant {
   AllBounds<Plane> bounds;
 };
 
-// The settings of a frame, which all its pairs share.
-struct Settings {
-  PositionType positions;
-  Detail detail;
-  bool velocities;
-  Ahead ahead;
-  ContactRules contacts;
+float distance_of(const Body& body, const StepOptions& options) {
+  if (!has_contacts(options.detail)) return 0;
+  return std::fmax(options.contacts.contact_distance, body.desc.contact_distance);
+}
 
-  float distance_of(const Body& body) const {
-    const bool any = has_contacts(detail);
-    return any ? std::fmax(contacts.contact_distance, body.desc.contact_distance) : 0;
-  }
-  float growth_of(const Body& body) const {
-    const float own = distance_of(body);
-    return own > 0 ? contact_growth(contacts.contact_distance, own) : 0;
-  }
-};
+float growth_of(const Body& body, const StepOptions& options) {
+  const float own = distance_of(body, options);
+  return own > 0 ? contact_growth(options.contacts.contact_distance, own) : 0;
+}
 
 Box grown(const Box& box, float growth) {
   if (growth == 0) return box;
@@ -74,9 +66,9 @@ struct Participants {
   std::vector<HalfspaceParticipant> halfspaces;
 };
 
-Participants participants(std::span<const Body> bodies, const Settings& settings,
+Participants participants(std::span<const Body> bodies, const StepOptions& options,
                           std::vector<BodyId>& quarantined) {
-  const PositionType positions = settings.positions;
+  const PositionType positions = options.positions;
   Participants result;
   for (const Body& body : bodies) {
     const Pose pose = pose_of(body.desc);
@@ -84,8 +76,8 @@ Participants participants(std::span<const Body> bodies, const Settings& settings
       quarantined.push_back(body.id);
       continue;
     }
-    const BodyMotion motion = motion_of(body.desc, settings.ahead);
-    const float growth = settings.growth_of(body);
+    const BodyMotion motion = motion_of(body.desc, options.ahead);
+    const float growth = growth_of(body, options);
     if (const auto* halfspace = std::get_if<Halfspace>(&body.desc.shape)) {
       const Plane plane = world_plane(*halfspace, pose, positions);
       const Plane ahead = plane_over(plane, motion.sweep);
@@ -179,56 +171,56 @@ Contact contact_between(const Body& a, const Body& b, const PairResult& result, 
   return contact;
 }
 
-void add_contact(const Body& a, const Body& b, const PairResult& result, const Settings& settings,
+void add_contact(const Body& a, const Body& b, const PairResult& result, const StepOptions& options,
                  Frame& frame) {
-  frame.contacts.push_back(contact_between(a, b, result, settings.velocities));
-  if (!has_manifolds(settings.detail)) return;
+  frame.contacts.push_back(contact_between(a, b, result, options.velocities));
+  if (!has_manifolds(options.detail)) return;
   frame.contacts.back().manifold_count = result.manifold_count;
   frame.manifolds.push_back(result.manifold);
 }
 
 // Returns the index of the first one.
 uint32_t add_contacts(const Body& a, const Body& b, const PairContacts& found,
-                      const Settings& settings, Frame& frame) {
+                      const StepOptions& options, Frame& frame) {
   const auto first = static_cast<uint32_t>(frame.contacts.size());
-  add_contact(a, b, found.first, settings, frame);
-  if (settings.detail == Detail::regions) {
+  add_contact(a, b, found.first, options, frame);
+  if (options.detail == Detail::regions) {
     frame.contacts.back().left_out = found.left_out;
-    for (const PairResult& other : found.others) add_contact(a, b, other, settings, frame);
+    for (const PairResult& other : found.others) add_contact(a, b, other, options, frame);
   }
   return first;
 }
 
-void add_overlap(const Body& a, const Body& b, const PairContacts& found, const Settings& settings,
-                 Frame& frame) {
+void add_overlap(const Body& a, const Body& b, const PairContacts& found,
+                 const StepOptions& options, Frame& frame) {
   const bool sensor = a.desc.sensor || b.desc.sensor;
   Event touch{a.id, b.id, kNoContact, EventKind::begin, sensor};
-  if (has_contacts(settings.detail) && !sensor) {
-    touch.contact = add_contacts(a, b, found, settings, frame);
+  if (has_contacts(options.detail) && !sensor) {
+    touch.contact = add_contacts(a, b, found, options, frame);
   }
   frame.touching.push_back(touch);
 }
 
 // Tests one pair and records what it yields. A pair whose present bounds are separate does not
 // overlap, whatever its rounded test says.
-void test_pair(const Candidate& pair, const Settings& settings, Frame& frame) {
+void test_pair(const Candidate& pair, const StepOptions& options, Frame& frame) {
   const Body& a = *pair.a;
   const Body& b = *pair.b;
-  const float distance = std::fmax(settings.distance_of(a), settings.distance_of(b));
+  const float distance = std::fmax(distance_of(a, options), distance_of(b, options));
   PairContacts found = find_contacts(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc),
-                                     settings.positions, distance, settings.contacts.region_limits);
+                                     options.positions, distance, options.contacts.region_limits);
   PairResult& result = found.first;
   const bool overlap = result.overlap && pair.meet_now;
   const bool sensor = a.desc.sensor || b.desc.sensor;
   const bool near = !overlap && distance > 0 && result.separation <= distance && pair.near_now;
   frame.overlaps.push_back(overlap ? 1 : 0);
-  if (overlap) add_overlap(a, b, found, settings, frame);
+  if (overlap) add_overlap(a, b, found, options, frame);
   if (near) result.separation = std::fmax(result.separation, std::numeric_limits<float>::min());
-  if (near && !sensor) add_contacts(a, b, found, settings, frame);
+  if (near && !sensor) add_contacts(a, b, found, options, frame);
   const bool looks_ahead = pair.motion_a->looks_ahead() || pair.motion_b->looks_ahead();
   if (!looks_ahead || !pair.meet_ahead) return;
-  look_ahead({a, b, *pair.motion_a, *pair.motion_b}, result, overlap, near, settings.positions,
-             settings.detail, settings.ahead.dt, frame);
+  look_ahead({a, b, *pair.motion_a, *pair.motion_b}, result, overlap, near, options.positions,
+             options.detail, options.ahead.dt, frame);
 }
 
 // Asks about one pair at a time.
@@ -262,22 +254,19 @@ void add_impact_events(std::span<const Body> bodies, Frame& frame) {
 
 }  // namespace
 
-Frame step(std::span<const Body> bodies, PositionType positions, Detail detail, bool velocities,
-           const Frame* previous, const Ahead& ahead, const Filters& filters,
-           const ContactRules& contacts) {
+Frame step(std::span<const Body> bodies, const StepOptions& options) {
   const FloatEnvironment environment;
-  const Settings settings{positions, detail, velocities, ahead, contacts};
   Frame frame;
-  const Participants all = participants(bodies, settings, frame.quarantined);
+  const Participants all = participants(bodies, options, frame.quarantined);
   for (const Candidate& pair : candidates(all)) {
-    if (!passes(pair, filters)) continue;
+    if (!passes(pair, options.filters)) continue;
     frame.pairs.push_back({pair.a->id.index, pair.b->id.index});
-    if (detail != Detail::pairs) test_pair(pair, settings, frame);
+    if (options.detail != Detail::pairs) test_pair(pair, options, frame);
   }
-  settle(ahead.impacts, frame.impacts);
+  settle(options.ahead.impacts, frame.impacts);
   const std::vector<Event> none;
-  frame.events =
-      events(previous ? previous->touching : none, frame.touching, bodies, frame.quarantined);
+  frame.events = events(options.previous ? options.previous->touching : none, frame.touching,
+                        bodies, frame.quarantined);
   add_impact_events(bodies, frame);
   return frame;
 }

@@ -219,8 +219,8 @@ void World::State::find_pairs() {
 // Drops the pairs that the caller does not want.
 void World::State::select_pairs() {
   excluded.update();
-  selection.run(excluded.pairs(), predicate ? &predicate : nullptr, settings.parallelism,
-                now.pairs);
+  selection.run(excluded.pairs(), &excluded.digest(), predicate ? &predicate : nullptr,
+                settings.parallelism, now.pairs);
 }
 
 // The bodies whose pairs are tested again: one byte an index.

@@ -23,14 +23,18 @@ Place advance_to(Place begin, Place end, Pair pair) {
 }
 
 // Moves the pairs that are not excluded to the front, and returns how many they are.
-size_t drop_excluded(std::span<const Pair> excluded, std::span<Pair> pairs) {
+size_t drop_excluded(std::span<const Pair> excluded, const PairDigest* digest,
+                     std::span<Pair> pairs) {
   Place next = std::lower_bound(excluded.begin(), excluded.end(), pairs.front());
   const Place end = std::upper_bound(next, excluded.end(), pairs.back());
   if (next == end) return pairs.size();
   size_t kept = 0;
   for (const Pair pair : pairs) {
-    next = advance_to(next, end, pair);
-    const bool is_excluded = next != end && *next == pair;
+    bool is_excluded = false;
+    if (!digest || digest->may_hold(pair)) {
+      next = advance_to(next, end, pair);
+      is_excluded = next != end && *next == pair;
+    }
     pairs[kept] = pair;
     kept += !is_excluded;
   }
@@ -53,15 +57,16 @@ size_t ask(const PairPredicate& predicate, std::span<Pair> pairs) {
 
 }  // namespace
 
-void PairSelection::run(std::span<const Pair> excluded, const PairPredicate* predicate,
-                        Parallelism parallelism, std::vector<Pair>& pairs) {
+void PairSelection::run(std::span<const Pair> excluded, const PairDigest* digest,
+                        const PairPredicate* predicate, Parallelism parallelism,
+                        std::vector<Pair>& pairs) {
   assert(std::is_sorted(excluded.begin(), excluded.end()));
   if (pairs.empty() || (excluded.empty() && !predicate)) return;
   kept_.resize(block_count(pairs.size(), kPairsPerBlock));
   for_each_block(pairs.size(), kPairsPerBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
                    const std::span<Pair> here(pairs.data() + begin, end - begin);
-                   const size_t left = drop_excluded(excluded, here);
+                   const size_t left = drop_excluded(excluded, digest, here);
                    kept_[block] = predicate ? ask(*predicate, here.first(left)) : left;
                  });
   auto end = pairs.begin();

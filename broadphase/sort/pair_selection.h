@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "broadphase/sort/pair_digest.h"
 #include "carom/results/pair.h"
 #include "carom/results/pair_predicate.h"
 
@@ -16,9 +17,10 @@ namespace carom {
 class PairSelection {
  public:
   // Drops the pairs that are in `excluded`, and then those that the predicate (nullptr: none)
-  // drops. Both lists are sorted. The batches of the predicate do not depend on threads.
-  void run(std::span<const Pair> excluded, const PairPredicate* predicate, Parallelism parallelism,
-           std::vector<Pair>& pairs);
+  // drops. Both lists are sorted. The batches of the predicate do not depend on threads. `digest`
+  // is that of the excluded pairs; nullptr: there is none, and the list is read.
+  void run(std::span<const Pair> excluded, const PairDigest* digest, const PairPredicate* predicate,
+           Parallelism parallelism, std::vector<Pair>& pairs);
 
   size_t bytes() const { return kept_.capacity() * sizeof(size_t); }
 

@@ -143,9 +143,11 @@ class SceneVerifier {
     for (size_t i = 0; i < bodies_.size(); ++i) {
       bodies_[i] = {BodyId{static_cast<uint32_t>(i), 0}, player_.body(frame, i)};
     }
-    expected_ = reference::step(
-        bodies_, player_.positions(), Detail::regions, player_.info().has_linear_velocity,
-        frame_ == 0 ? nullptr : &expected_, {}, {.excluded = player_.excluded()});
+    expected_ = reference::step(bodies_, {.positions = player_.positions(),
+                                          .detail = Detail::regions,
+                                          .velocities = player_.info().has_linear_velocity,
+                                          .previous = frame_ == 0 ? nullptr : &expected_,
+                                          .filters = {.excluded = player_.excluded()}});
     expected_manifold_ = without_more_regions(expected_);
     expected_contact_ = without_manifolds(expected_manifold_);
     expected_overlap_ = without_contacts(expected_contact_);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "carom/base/function_ref.h"
 #include "carom/base/thread_arena.h"
 #include "carom/queries/cast.h"
 #include "carom/queries/queries.h"
@@ -18,7 +19,8 @@ constexpr size_t kBodies = 300;
 struct Scene {
   std::vector<PlacedShape> queries, bodies;
   Sweeps sweeps;
-  std::vector<uint32_t> layer, mask, owner;
+  std::vector<uint32_t> layer, mask, owner, space;
+  std::vector<int32_t> group;
   LaidOut a, b;
 
   explicit Scene(size_t count = 100)
@@ -32,6 +34,8 @@ struct Scene {
       layer.push_back(1u << random.below(4));
       mask.push_back(static_cast<uint32_t>(random.below(16)));
       owner.push_back(static_cast<uint32_t>(random.below(4)));
+      space.push_back(static_cast<uint32_t>(random.below(3)));
+      group.push_back(static_cast<int32_t>(random.below(5)) - 2);
     }
   }
 
@@ -71,6 +75,71 @@ TEST(QueryFilter, OfLayersMasksAndOwners) {
       }
     }
   }
+}
+
+// One rule at a time, so that each is seen to decide something.
+TEST(QueryFilter, OfEachRule) {
+  const Scene scene(rounds(100, 25));
+  const std::vector<CastHit> everything = scene.cast({.hits = CastHits::all});
+  const PairFilter columns = {.layer = scene.layer.data(),
+                              .mask = scene.mask.data(),
+                              .owner = scene.owner.data(),
+                              .group = scene.group.data(),
+                              .space = scene.space.data()};
+  std::vector<Pair> excluded;
+  for (size_t i = 0; i < everything.size(); i += 2) {
+    excluded.push_back({everything[i].query, everything[i].body});
+  }
+  std::sort(excluded.begin(), excluded.end());
+  struct Rule {
+    QueryFilter filter;
+    FunctionRef<bool(Pair)> keeps;
+  };
+  const auto in_mask = [&](Pair pair) { return (scene.layer[pair.b] & 3) != 0; };
+  const auto has_layer = [&](Pair pair) { return (scene.mask[pair.b] & 2) != 0; };
+  const auto either = [&](Pair pair) { return in_mask(pair) || has_layer(pair); };
+  const auto negative = [&](Pair pair) { return scene.group[pair.b] != -1; };
+  const auto positive = [&](Pair pair) { return scene.group[pair.b] == 2 || in_mask(pair); };
+  const auto first_space = [&](Pair pair) { return scene.space[pair.b] == 0; };
+  const auto last_space = [&](Pair pair) { return scene.space[pair.b] == 2; };
+  const auto not_listed = [&](Pair pair) { return !std::ranges::binary_search(excluded, pair); };
+  // Before the layers: a body of the same owner is not met although it is in the same group.
+  const auto not_owned = [&](Pair pair) { return scene.owner[pair.b] != 1 && positive(pair); };
+  const Rule rules[] = {{{.mask = 3, .layer = 2, .rule = FilterRule::either}, either},
+                        {{.mask = 3, .rule = FilterRule::either}, in_mask},
+                        {{.mask = 0, .layer = 2, .rule = FilterRule::either}, has_layer},
+                        {{.group = -1}, negative},
+                        {{.mask = 3, .group = 2}, positive},
+                        {{.space = 0}, first_space},
+                        {{.space = 2}, last_space},
+                        {{.excluded = excluded}, not_listed},
+                        {{.mask = 3, .owner = 1, .group = 2}, not_owned}};
+  for (const Rule& rule : rules) {
+    const auto keep = [&](uint32_t query, uint32_t body) { return rule.keeps({query, body}); };
+    const std::vector<CastHit> expected = kept(everything, keep);
+    EXPECT_GT(expected.size(), everything.size() / 8);
+    EXPECT_LT(expected.size(), everything.size() * 15 / 16);
+    QueryFilter filter = rule.filter;
+    filter.bodies = columns;
+    EXPECT_EQ(bits_of(scene.cast({.hits = CastHits::all, .filter = filter})), bits_of(expected));
+    EXPECT_EQ(bits_of(scene.cast({.filter = filter})), bits_of(closest_of(expected)));
+  }
+}
+
+// Without columns all bodies have a full mask, no group, and are in space 0.
+TEST(QueryFilter, OfBodiesWithoutProperties) {
+  const Scene scene(rounds(100, 25));
+  const std::string everything = bits_of(scene.cast({.hits = CastHits::all}));
+  const QueryFilter of_all[] = {{.layer = 2},
+                                {.mask = 0, .layer = 1, .rule = FilterRule::either},
+                                {.owner = 5},
+                                {.group = -1},
+                                {.space = 0}};
+  for (const QueryFilter& filter : of_all) {
+    EXPECT_EQ(bits_of(scene.cast({.hits = CastHits::all, .filter = filter})), everything);
+  }
+  EXPECT_TRUE(scene.cast({.filter = {.space = 1}}).empty());
+  EXPECT_TRUE(scene.cast({.filter = {.mask = 0, .rule = FilterRule::either}}).empty());
 }
 
 bool is_kept(uint32_t query, uint32_t body) { return (7 * query + body) % 3 == 0; }

@@ -227,8 +227,8 @@ TEST(ReferenceStep, FramesOfACrowd) {
       Touching before;
       std::set<EventKind> kinds;
       for (int i = 0; i < 12; ++i) {
-        const Frame frame = reference::step(crowd.bodies(), positions, Detail::contact, true,
-                                            i ? &previous : nullptr);
+        const Frame frame = reference::step(
+            crowd.bodies(), {.positions = positions, .previous = i ? &previous : nullptr});
         const Touching now = simple_touching(crowd.bodies(), positions);
         check_frame(frame, crowd.bodies(), positions, before, now);
         ASSERT_FALSE(HasFailure()) << "seed " << seed << ", frame " << i;
@@ -245,7 +245,7 @@ TEST(ReferenceStep, FramesOfACrowd) {
 TEST(ReferenceStep, LesserDetails) {
   const Crowd crowd(150, 1);
   const auto run = [&](Detail detail) {
-    return reference::step(crowd.bodies(), PositionType::float32, detail, true, nullptr);
+    return reference::step(crowd.bodies(), {.detail = detail});
   };
   const Frame contact = run(Detail::contact);
   const Frame overlap = run(Detail::overlap);
@@ -308,7 +308,7 @@ TEST(ReferenceStep, HalfspacesMeetWhatReachesIntoThem) {
       Quarters quarters(seed);
       std::vector<Body> bodies;
       for (uint32_t i = 0; i < 60; ++i) bodies.push_back(quarters.body(2 * i));
-      const Frame frame = reference::step(bodies, positions, Detail::contact, true, nullptr);
+      const Frame frame = reference::step(bodies, {.positions = positions});
       std::vector<Pair> expected;
       for (const Body& a : bodies) {
         for (const Body& b : bodies) {
@@ -340,8 +340,7 @@ TEST(ReferenceStep, HalfspacesThatMakeNoPlaneAreQuarantined) {
   bodies[1].desc.shape = Halfspace{{0, 0, 0}, 1};
   bodies[2].desc.orientation.coeffs().setZero();
   bodies[3].desc.orientation.coeffs()[1] = std::nanf("");
-  const Frame frame =
-      reference::step(bodies, PositionType::float32, Detail::contact, true, nullptr);
+  const Frame frame = reference::step(bodies);
   EXPECT_EQ(frame.quarantined, (std::vector<BodyId>{{1, 0}, {2, 0}, {3, 0}}));
   EXPECT_EQ(frame.pairs, (std::vector<Pair>{{0, 4}}));
 }
@@ -362,7 +361,7 @@ TEST(ReferenceStep, ManifoldsAreThoseOfThePairs) {
     bodies.push_back(body);
   }
   const auto run = [&](Detail detail) {
-    return reference::step(bodies, PositionType::float64, detail, true, nullptr);
+    return reference::step(bodies, {.positions = PositionType::float64, .detail = detail});
   };
   const Frame contact = run(Detail::contact);
   const Frame manifold = run(Detail::manifold);
@@ -389,14 +388,13 @@ TEST(ReferenceStep, ManifoldsAreThoseOfThePairs) {
 
 TEST(ReferenceStep, WithoutVelocitiesNormalVelocityIsZero) {
   const Crowd crowd(150, 1);
-  const Frame frame =
-      reference::step(crowd.bodies(), PositionType::float32, Detail::contact, false, nullptr);
+  const Frame frame = reference::step(crowd.bodies(), {.velocities = false});
   ASSERT_FALSE(frame.contacts.empty());
   for (const Contact& contact : frame.contacts) EXPECT_EQ(contact.normal_velocity, 0);
 }
 
 TEST(ReferenceStep, NothingToDo) {
-  const Frame empty = reference::step({}, PositionType::float32, Detail::contact, true, nullptr);
+  const Frame empty = reference::step({});
   EXPECT_TRUE(empty.pairs.empty());
   EXPECT_TRUE(empty.events.empty());
 }
@@ -407,8 +405,7 @@ TEST(ReferenceStep, ApproachingBodiesHaveNegativeNormalVelocity) {
   a.desc.shape = b.desc.shape = Sphere{1};
   b.desc.position.x() = 1.5;
   b.desc.linear_velocity = {-2, 5, 0};
-  const Frame frame =
-      reference::step({{a, b}}, PositionType::float32, Detail::contact, true, nullptr);
+  const Frame frame = reference::step({{a, b}});
   ASSERT_EQ(frame.contacts.size(), 1u);
   EXPECT_EQ(frame.contacts[0].normal_velocity, -2);
   EXPECT_EQ(frame.contacts[0].separation, -0.5f);
@@ -417,9 +414,7 @@ TEST(ReferenceStep, ApproachingBodiesHaveNegativeNormalVelocity) {
 TEST(ReferenceFilter, ExcludedPairsAndThePredicate) {
   const Crowd crowd(150, 3);
   const auto pairs = [&](const reference::Filters& filters) {
-    return reference::step(crowd.bodies(), PositionType::float32, Detail::pairs, false, nullptr, {},
-                           filters)
-        .pairs;
+    return reference::step(crowd.bodies(), {.detail = Detail::pairs, .filters = filters}).pairs;
   };
   const std::vector<Pair> all = pairs({});
   ASSERT_GT(all.size(), 20u);

@@ -61,6 +61,19 @@ TEST(Deprecated, Collide) {
   EXPECT_EQ(rows_as_text(actual_rows), rows_as_text(expected_rows));
 }
 
+TEST(Deprecated, StepOfTheReference) {
+  const std::vector<reference::Body> bodies = {
+      {{0, 0}, {.shape = Sphere{1}}}, {{1, 0}, {.shape = Sphere{1}, .position = {1, 0, 0}}}};
+  const reference::Frame expected = reference::step(bodies);
+  const reference::Frame actual =
+      reference::step(bodies, PositionType::float32, Detail::contact, true, &expected);
+  ASSERT_EQ(actual.contacts.size(), 1u);
+  EXPECT_TRUE(as_bytes(std::span<const Contact>(actual.contacts)) ==
+              as_bytes(std::span<const Contact>(expected.contacts)));
+  ASSERT_EQ(actual.events.size(), 1u);
+  EXPECT_EQ(actual.events[0].kind, EventKind::persist);
+}
+
 TEST(Deprecated, TimeOfImpact) {
   const ManyBodies scene;
   const Collidables bodies = scene.bodies();

@@ -197,11 +197,13 @@ void History::step_and_check() {
   for (const auto& [index, body] : bodies_) list.push_back(body);
   const std::vector<Pair> excluded(excluded_.begin(), excluded_.end());
   const WorldSettings& settings = world_.settings();
-  reference::Frame frame = reference::step(list, settings.positions, settings.detail, true,
-                                           report.step == 1 ? nullptr : &frame_,
-                                           {settings.dt, settings.fast_share, settings.impacts},
-                                           {settings.filter_rule, excluded, predicate_},
-                                           {settings.contact_distance, settings.region_limits});
+  reference::Frame frame =
+      reference::step(list, {.positions = settings.positions,
+                             .detail = settings.detail,
+                             .previous = report.step == 1 ? nullptr : &frame_,
+                             .ahead = {settings.dt, settings.fast_share, settings.impacts},
+                             .filters = {settings.filter_rule, excluded, predicate_},
+                             .contacts = {settings.contact_distance, settings.region_limits}});
   EXPECT_TRUE(same_bytes<Pair>(world_.pairs(), frame.pairs)) << "pairs";
   EXPECT_TRUE(same_bytes<uint8_t>(world_.overlaps(), frame.overlaps)) << "overlaps";
   EXPECT_TRUE(same_bytes<Contact>(world_.contacts(), frame.contacts)) << "contacts";

@@ -153,6 +153,30 @@ TEST(FindPoints, OfAnEmptyWorld) {
   EXPECT_TRUE(hits.empty());
 }
 
+TEST(FindPoints, InBodiesThatTheFilterKeeps) {
+  World world;
+  const std::vector<BodyId> ids = add_crowd(world, {.count = 400});
+  for (size_t i = 0; i < ids.size(); ++i) {
+    world.set_filter(ids[i], 1u << (i % 3), 7, 0);
+    world.set_space(ids[i], static_cast<uint32_t>(i % 2));
+  }
+  world.step();
+  const std::vector<Point> points = make_points(world, ids, 7, rounds(300, 60));
+  const std::vector<PointHit> everything = plain_hits(world, ids, points);
+  const auto drop_a_third = [](std::span<const Pair> pairs, std::span<uint8_t> keep) {
+    for (size_t i = 0; i < pairs.size(); ++i) keep[i] = (pairs[i].a + pairs[i].b) % 3 != 0;
+  };
+  std::vector<PointHit> expected, hits;
+  for (const PointHit& hit : everything) {
+    const bool keeps = hit.body % 3 != 1 && hit.body % 2 == 1 && (hit.point + hit.body) % 3 != 0;
+    if (keeps) expected.push_back(hit);
+  }
+  EXPECT_GT(expected.size(), 10u);
+  world.find_points(reinterpret_cast<const float*>(points.data()), points.size(), sizeof(Point),
+                    hits, {.filter = {.mask = 5, .space = 1, .predicate = drop_a_third}});
+  EXPECT_TRUE(same_hits(hits, expected)) << hits.size() << " hits instead of " << expected.size();
+}
+
 // Points with subnormal coordinates, which flush-to-zero would make equal.
 TEST(FindPoints, InAnyFloatMode) {
   const float unit = 0x1p-149f;

@@ -48,7 +48,11 @@ void ExcludedPairs::update() {
                    [](const Change& x, const Change& y) { return x.pair < y.pair; });
   merge();
   changes_.clear();
-  if (pairs_.empty()) *this = {};
+  if (pairs_.empty()) {
+    *this = {};
+  } else {
+    digest_.build(pairs_);
+  }
 }
 
 // Drops removed bodies: from the list, and from the changes before the removal.

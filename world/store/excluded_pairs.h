@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "broadphase/sort/pair_digest.h"
 #include "carom/results/pair.h"
 #include "world/store/columns.h"
 
@@ -27,9 +28,12 @@ class ExcludedPairs {
   void update();
   // Sorted by (a, b), a < b; as of the last update.
   std::span<const Pair> pairs() const { return pairs_; }
+  const PairDigest& digest() const { return digest_; }
 
   void give_back() { carom::give_back(pairs_, changes_, is_used_); }
-  size_t bytes() const { return bytes_of(pairs_) + bytes_of(changes_) + bytes_of(is_used_); }
+  size_t bytes() const {
+    return bytes_of(pairs_) + digest_.bytes() + bytes_of(changes_) + bytes_of(is_used_);
+  }
 
  private:
   enum class Kind : uint8_t { exclude, include, remove };
@@ -42,6 +46,7 @@ class ExcludedPairs {
   void merge();
 
   std::vector<Pair> pairs_;
+  PairDigest digest_;
   std::vector<Change> changes_;   // in the order of the calls
   std::vector<uint8_t> is_used_;  // by body: 0 if it has no excluded pair
 };

@@ -132,11 +132,31 @@ struct ContactRules {
   RegionLimits region_limits = {};  ///< at Detail::regions
 };
 
+/// What a frame computes, and from what. Names that WorldSettings has, too, mean the same there.
+struct StepOptions {
+  PositionType positions = PositionType::float32;  ///< how positions are stored
+  Detail detail = Detail::contact;                 ///< how much of each pair is computed
+  bool velocities = true;           ///< contacts carry normal velocities; false: those are 0
+  const Frame* previous = nullptr;  ///< the frame before; nullptr: there was none
+  Ahead ahead = {};                 ///< how the frame looks ahead
+  Filters filters = {};             ///< which pairs are left out
+  ContactRules contacts = {};       ///< which contacts there are
+};
+
 /// The results of World::step() for these bodies. Their indices must ascend, but bodies[i].id.index
-/// need not be i. `previous` is the frame before; nullptr: there was none. If `velocities`,
-/// contacts carry normal velocities. Compares every pair of boxes: O(n^2).
-CAROM_EXPORT Frame step(std::span<const Body> bodies, PositionType positions, Detail detail,
-                        bool velocities, const Frame* previous, const Ahead& ahead = {},
-                        const Filters& filters = {}, const ContactRules& contacts = {});
+/// need not be i. Compares every pair of boxes: O(n^2).
+CAROM_EXPORT Frame step(std::span<const Body> bodies, const StepOptions& options = {});
+
+/// The form of version 0.2.
+[[deprecated("pass StepOptions")]] inline Frame step(std::span<const Body> bodies,
+                                                     PositionType positions, Detail detail,
+                                                     bool velocities, const Frame* previous,
+                                                     const Ahead& ahead = {}) {
+  return step(bodies, StepOptions{.positions = positions,
+                                  .detail = detail,
+                                  .velocities = velocities,
+                                  .previous = previous,
+                                  .ahead = ahead});
+}
 
 }  // namespace carom::reference

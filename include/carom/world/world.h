@@ -345,10 +345,11 @@ class CAROM_EXPORT World {
   // functions that are const.
 
   /// Replaces `hits` by all bodies that contain each point (`count` records of x, y, z float32,
-  /// world frame, metres, `stride` bytes apart), sorted by (point, body). Points that are not
-  /// finite are in no body. Unlike step(), every call allocates its memory.
-  void find_points(const float* xyz, size_t count, size_t stride,
-                   std::vector<PointHit>& hits) const;
+  /// world frame, metres, `stride` bytes apart) and that the filter of the options lets through,
+  /// sorted by (point, body). Points that are not finite are in no body. Unlike step(), every call
+  /// allocates its memory.
+  void find_points(const float* xyz, size_t count, size_t stride, std::vector<PointHit>& hits,
+                   const QueryOptions& options = {}) const;
 
   /// carom::cast() (carom/queries/cast.h) against the bodies of the world that the filter of the
   /// options lets through. The world keeps an index of its bodies. The first query after a step
