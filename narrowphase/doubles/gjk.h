@@ -11,6 +11,7 @@
 #include "base/few_of.h"
 #include "base/tolerances.h"
 #include "narrowphase/doubles/core.h"
+#include "narrowphase/doubles/sliver_cross.h"
 
 namespace carom {
 
@@ -61,11 +62,15 @@ class NearestPoint {
     if (along > 0 && along < length) keep(last_ + side * (along / length), others);
   }
 
+  // `sliver`: the triangle is nearly a line, and rounding may not be forgotten.
   struct Plane {
     CoreVector point, normal;
+    bool sliver;
   };
   static Plane plane_from(const CoreVector& a, const CoreVector& b, const CoreVector& c) {
-    return {a, cross(b - a, c - a)};
+    const CoreVector u = b - a, v = c - a, n = cross(u, v);
+    const bool sliver = is_of_sliver(n, u, v);
+    return {a, sliver ? sliver_cross(u, v) : n, sliver};
   }
   // Rounding moves the plane of a sliver least near the corner from which it is computed, so start
   // at the corner nearest to zero.
@@ -78,9 +83,11 @@ class NearestPoint {
   void try_triangle(const CoreVector& p, const CoreVector& q, unsigned others) {
     const Plane plane = plane_of(last_, p, q);
     const CoreVector& n = plane.normal;
-    const bool is_over =
-        dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 && dot(n, cross(last_, p)) > 0;
-    if (is_over) keep(n * (dot(n, plane.point) / dot(n, n)), others);
+    const auto is_inside_of = [&](const CoreVector& from, const CoreVector& to) {
+      return dot(n, plane.sliver ? sliver_cross(from, to) : cross(from, to)) > 0;
+    };
+    if (!is_inside_of(p, q) || !is_inside_of(q, last_) || !is_inside_of(last_, p)) return;
+    keep(n * (dot(n, plane.point) / dot(n, n)), others);
   }
 
   // Zero is inside if, for every face, it is on the same side as the fourth corner. Corners in one

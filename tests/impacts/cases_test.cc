@@ -280,6 +280,30 @@ TEST(ImpactCases, EdgesThatCrossWhileTheyTurn) {
   });
 }
 
+// A box passes a k-DOP of the same orientation, but for a unit in the last place. The distance of
+// their edges, which are nearly parallel, was off by 4.6e-9: that of a plane through a triangle
+// that is nearly a line.
+TEST(ImpactCases, EdgesThatAreParallelButForRounding) {
+  Dop dop = Dop::of_points(std::vector<Vector3f>{{0x1.76cedap-2f, -0x1.48ec1p+0f, -0x1.2774cep-3f},
+                                                 {0x1.eb0b7cp-1f, 0x1.d08b38p-3f, 0x1.c0028ap-2f}},
+                           DopKind::k6);
+  MovedPair pair =
+      moved({dop, {0, 0, 0}, {0x1.bc9a76p-3f, -0x1.b331ap-4f, -0x1.4a981cp-1f, -0x1.72dc5ap-1f}},
+            {0x1.59a2fp-4f, -0x1.3059cap-6f, 0x1.78596p-5f},
+            {Box{{0x1.ef381p-2f, 0x1.9480e4p-2f, 0x1.2ebf3ep-1f}},
+             {-0x1.04149ff27c3bep-4, 0x1.0997ed2817321p+0, 0x1.88c96a0197f8bp-2},
+             {0x1.bc9a76p-3f, -0x1.b3319ep-4f, -0x1.4a981cp-1f, -0x1.72dc5ap-1f}},
+            {0x1.9f003ep-3f, -0x1.3b70dp-5f, -0x1.5ee354p-3f});
+  for_each_isa([&] {
+    for (const MovedPair& motion : {pair, swapped(pair)}) {
+      const ImpactRow row = impact_of(motion);
+      EXPECT_EQ(row.status, static_cast<uint32_t>(Status::ok));
+      const Judgement found = judge(motion, row.toi);
+      EXPECT_EQ(found.fault, Fault::none) << row.toi << ": " << found.separation;
+    }
+  });
+}
+
 // Two children of a compound touch at the same time: the result is of the lower one, whichever the
 // search finds first.
 TEST(ImpactCases, TheLowestOfChildrenThatMeetAtOnce) {
