@@ -145,7 +145,7 @@ class Bullets : public SceneReader {
       const Quaternion turn = normalized(random.rotation());
       const Vec3 velocity = random.in_shell(fastest / 6, fastest);
       first_.add(place, turn, velocity, random.in_ball(spec_.spin.value_or(kBulletSpin)));
-      info_.body_shape.push_back(static_cast<uint32_t>(i % shapes));
+      info_.body_shape.push_back(static_cast<uint32_t>(i % kBulletShapes));
       info_.body_motion.push_back(2);
     }
   }
