@@ -3,7 +3,7 @@ SHELL := /bin/bash
 .NOTPARALLEL:
 JOBS ?= $(shell nproc)
 
-.PHONY: run program test bench peers grid lint format docs asan tsan fuzz clean help
+.PHONY: run program test bench count peers grid lint format docs asan tsan fuzz clean help
 
 help: ## list these commands
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-7s %s\n", $$1, $$2}' Makefile
@@ -21,6 +21,10 @@ test: build-release ## run all tests
 bench: setup-build ## run the benchmarks; JSON goes to build/bench
 	@scripts/build.sh release carom_bench
 	@scripts/bench.sh build/release/bench/carom_bench
+
+count: setup-dev ## count the instructions of ten scenes and compare with bench/instructions.txt
+	@scripts/build.sh release carom_run_program
+	@scripts/instruction_counts.py build/release/cli/carom-run
 
 peers: setup-peers ## compare with other libraries; ARGS="--large FILE.aabb"; writes docs/peers.md
 	@scripts/build.sh peers carom_peers

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # setup.sh build|dev|peers|docs|ci: installs missing packages (Debian 12, Ubuntu 24.04 or later).
-# build: what building, testing and benchmarking need. dev: clang and its tools as well.
+# build: what building, testing and benchmarking need. dev: clang, its tools and valgrind as well.
 # peers: build, and the libraries Carom is compared with. docs: build, and doxygen. ci: all, and a
 # cross compiler for AArch64.
 set -euo pipefail
@@ -11,7 +11,7 @@ build_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libboost-dev
   libqhull-dev libassimp-dev
 )
-dev_packages=(clang clang-format clang-tidy libclang-rt-dev)
+dev_packages=(clang clang-format clang-tidy libclang-rt-dev valgrind)
 peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev libembree-dev)
 ci_packages=("${dev_packages[@]}" "${peer_packages[@]}" doxygen g++-aarch64-linux-gnu)
 
