@@ -160,7 +160,7 @@ inline double advance_spinning(const MovingPair& pair, const Vector3d& n, double
   return next;
 }
 
-inline constexpr int kMostRounds = 256;  // grazing pairs halve the gap per round; most need 1 to 5
+inline constexpr int kMostRounds = 1024;  // grazing pairs halve the gap per round; most need 1 to 5
 inline constexpr int kEasyRounds = 3;  // most pairs have met by then; spinning directions cost more
 
 using FewEdges = FewOf<Vector3d, 2>;

@@ -83,11 +83,14 @@ class NearestPoint {
   void try_triangle(const CoreVector& p, const CoreVector& q, unsigned others) {
     const Plane plane = plane_of(last_, p, q);
     const CoreVector& n = plane.normal;
-    const auto is_inside_of = [&](const CoreVector& from, const CoreVector& to) {
-      return dot(n, plane.sliver ? sliver_cross(from, to) : cross(from, to)) > 0;
-    };
-    if (!is_inside_of(p, q) || !is_inside_of(q, last_) || !is_inside_of(last_, p)) return;
-    keep(n * (dot(n, plane.point) / dot(n, n)), others);
+    const bool is_over = plane.sliver ? is_over_sliver(n, p, q)
+                                      : dot(n, cross(p, q)) > 0 && dot(n, cross(q, last_)) > 0 &&
+                                            dot(n, cross(last_, p)) > 0;
+    if (is_over) keep(n * (dot(n, plane.point) / dot(n, n)), others);
+  }
+  bool is_over_sliver(const CoreVector& n, const CoreVector& p, const CoreVector& q) const {
+    return dot(n, sliver_cross(p, q)) > 0 && dot(n, sliver_cross(q, last_)) > 0 &&
+           dot(n, sliver_cross(last_, p)) > 0;
   }
 
   // Zero is inside if, for every face, it is on the same side as the fourth corner. Corners in one

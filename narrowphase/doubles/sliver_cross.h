@@ -27,7 +27,8 @@ inline double difference_of_products(double a, double b, double c, double d) {
   return (ab - cd) + (rounding(a, b, ab) - rounding(c, d, cd));
 }
 
-inline CoreVector sliver_cross(const CoreVector& u, const CoreVector& v) {
+// Apart from its callers, which seldom need it.
+[[gnu::noinline]] inline CoreVector sliver_cross(const CoreVector& u, const CoreVector& v) {
   return {difference_of_products(u.y, v.z, u.z, v.y), difference_of_products(u.z, v.x, u.x, v.z),
           difference_of_products(u.x, v.y, u.y, v.x)};
 }
