@@ -6,6 +6,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <chrono>
 #include <mutex>
 #include <utility>
 
@@ -39,6 +40,27 @@ void happens_after(void* event) {
 
 // The scheduler of the calling thread; nullptr: oneTBB.
 thread_local Jobs* thread_jobs = nullptr;
+
+thread_local uint64_t shared_ns = 0;
+thread_local bool is_sharing = false;
+
+// The time of a call of run_tasks().
+class SharedTime {
+ public:
+  SharedTime() : is_outermost_(!std::exchange(is_sharing, true)) {}
+  ~SharedTime() {
+    if (!is_outermost_) return;
+    const auto time = std::chrono::steady_clock::now() - start_;
+    shared_ns += static_cast<uint64_t>(std::chrono::nanoseconds(time).count());
+    is_sharing = false;
+  }
+  SharedTime(const SharedTime&) = delete;
+  SharedTime& operator=(const SharedTime&) = delete;
+
+ private:
+  const bool is_outermost_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 // Runs what is inside of a task.
 class OneThread : public Jobs {
@@ -76,7 +98,10 @@ bool uses_threads(Parallelism parallelism) {
   return tbb::this_task_arena::max_concurrency() > 1;
 }
 
+uint64_t shared_nanoseconds() { return shared_ns; }
+
 void run_tasks(size_t count, FunctionRef<void(size_t)> task) {
+  const SharedTime time;
   if (thread_jobs) {
     run_on_jobs(*thread_jobs, count, task);
   } else {

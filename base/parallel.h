@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "base/float_environment.h"
 #include "carom/base/function_ref.h"
@@ -17,6 +18,10 @@ bool uses_threads(Parallelism parallelism);
 // Runs task(i) for i in [0, count) on the caller's scheduler, in no particular order. A task that
 // runs on Jobs finds no threads: it does not start tasks of its own.
 void run_tasks(size_t count, FunctionRef<void(size_t)> task);
+
+// Nanoseconds that the calling thread has spent in run_tasks() so far, in calls that were no part
+// of another: the time that it shared with other threads.
+uint64_t shared_nanoseconds();
 
 inline size_t block_count(size_t count, size_t block_size) {
   return (count + block_size - 1) / block_size;

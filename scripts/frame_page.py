@@ -83,7 +83,7 @@ def floor_bytes(stage, shape, scene):
 
 def on_64_cores(one_thread, two_threads):
     """How many times as fast 64 cores are by Amdahl's law."""
-    serial = max(0, 2 * two_threads / one_thread - 1)
+    serial = min(1, sum(two_threads["serial_ms"].values()) / one_thread["frame_ms"]["median"])
     return 1 / (serial + (1 - serial) / 64)
 
 
@@ -95,11 +95,12 @@ def scene_rows(name, detail, shape, scene, two_threads, ns):
     yield ""
     yield (f"{bodies:,} bodies, {mean(scene['pairs_per_frame']):,.0f} pairs. One thread "
            f"{short(frame)} ms, two {short(frame_2)} ms ({frame / frame_2:.2f} times as fast; "
-           f"64 cores: {on_64_cores(frame, frame_2):.0f} times), "
+           f"64 cores: {on_64_cores(scene, two_threads):.0f} times), "
            f"{scene['bytes_per_body']:.0f} bytes a body held.")
     yield ""
-    yield "| stage | ms | ns a body | least MB | ms for these at the speed of a copy | times that |"
-    yield "|---|---:|---:|---:|---:|---:|"
+    yield ("| stage | ms | ns a body | least MB | ms for these at the speed of a copy | times that | "
+           "ms on two threads | of these serial |")
+    yield "|---|---:|---:|---:|---:|---:|---:|---:|"
     total = 0
     for stage, ms in scene["stage_ms"].items():
         if stage not in FLOOR or ms == 0:
@@ -108,9 +109,11 @@ def scene_rows(name, detail, shape, scene, two_threads, ns):
         least_ms = least / 128 * ns["copy"] / 1e6  # a copied line is read and written
         total += least_ms
         yield (f"| {stage} | {short(ms)} | {1e6 * ms / bodies:.1f} | {short(least / 1e6)} | "
-               f"{short(least_ms)} | {ms / least_ms:.1f} |")
+               f"{short(least_ms)} | {ms / least_ms:.1f} | {short(two_threads['stage_ms'][stage])} | "
+               f"{short(two_threads['serial_ms'][stage])} |")
     yield (f"| frame | {short(frame)} | {1e6 * frame / bodies:.1f} | | {short(total)} | "
-           f"{frame / total:.1f} |")
+           f"{frame / total:.1f} | {short(frame_2)} | "
+           f"{short(sum(two_threads['serial_ms'].values()))} |")
 
 
 def page(arguments):

@@ -24,12 +24,15 @@ constexpr size_t kPairsOfThreads = 16 * kPairsPerMergeBlock;
 // clock takes as long.
 template <class Work>
 void World::State::run(Stage stage, const Work& work) {
+  const uint64_t shared_before = shared_nanoseconds();
   work();
   const auto end = std::chrono::steady_clock::now();
   const auto duration = end - std::exchange(last_stage_end, end);
   const auto index = static_cast<size_t>(stage);
+  const auto ns = static_cast<uint64_t>(std::chrono::nanoseconds(duration).count());
   report.stages_run |= 1u << index;
-  report.stage_ns[index] += static_cast<uint64_t>(std::chrono::nanoseconds(duration).count());
+  report.stage_ns[index] += ns;
+  report.serial_ns[index] += ns - std::min(shared_nanoseconds() - shared_before, ns);
 }
 
 const StepReport& World::State::step() {

@@ -14,6 +14,7 @@ class Recorder {
     record_.frame_ms.push_back(frame_ms);
     for (int stage = 0; stage < kStageCount; ++stage) {
       record_.stage_ms[stage].push_back(static_cast<double>(report.stage_ns[stage]) * 1e-6);
+      record_.serial_ms[stage].push_back(static_cast<double>(report.serial_ns[stage]) * 1e-6);
     }
     record_.pairs.push_back(report.pairs);
     record_.undecided.push_back(report.undecided);

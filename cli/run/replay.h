@@ -20,6 +20,7 @@ namespace carom::cli {
 struct RunRecord {
   std::vector<double> frame_ms;  // World::step() alone, without reading and copying poses
   std::array<std::vector<double>, kStageCount> stage_ms;
+  std::array<std::vector<double>, kStageCount> serial_ms;  // of these, on one thread alone
   std::vector<uint64_t> pairs;
   std::vector<uint64_t> contacts;  // at detail overlap: overlapping pairs; at pairs: empty
   std::vector<uint64_t> undecided;

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "carom_build_info.h"
@@ -30,8 +31,16 @@ std::vector<Stage> stages_run(const RunRecord& record) {
   return stages;
 }
 
-double stage_median(const RunRecord& record, Stage stage) {
-  return median(steady(record.stage_ms[static_cast<size_t>(stage)]));
+using StageTimes = std::array<std::vector<double>, kStageCount>;
+
+double stage_median(const StageTimes& times, Stage stage) {
+  return median(steady(times[static_cast<size_t>(stage)]));
+}
+
+Json stages_json(const RunRecord& record, const StageTimes& times) {
+  Json json = Json::object();
+  for (Stage stage : stages_run(record)) json[name(stage)] = stage_median(times, stage);
+  return json;
 }
 
 double bytes_per_body(const RunReport& report) {
@@ -81,9 +90,8 @@ Json to_json(const RunReport& report, const WorldOptions& options) {
   json["pair_kinds"] = report.pair_kinds;
   json["frame_ms"] = {
       {"median", frame.median}, {"min", frame.min}, {"p99", frame.p99}, {"mean", frame.mean}};
-  json["stage_ms"] = Json::object();
-  for (Stage stage : stages_run(record))
-    json["stage_ms"][name(stage)] = stage_median(record, stage);
+  json["stage_ms"] = stages_json(record, record.stage_ms);
+  json["serial_ms"] = stages_json(record, record.serial_ms);
   json["pairs_per_frame"] = record.pairs;
   json["contacts_per_frame"] = record.contacts;
   if (is_certified(report)) json["undecided_per_frame"] = record.undecided;
@@ -126,7 +134,8 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
   table.add({"frame", number("%.3f ms median", frame.median) + number(", %.3f min", frame.min) +
                           number(", %.3f p99", frame.p99) + number(", %.3f mean", frame.mean)});
   for (Stage stage : stages_run(record)) {
-    table.add({std::string("  ") + name(stage), number("%.3f ms", stage_median(record, stage))});
+    table.add(
+        {std::string("  ") + name(stage), number("%.3f ms", stage_median(record.stage_ms, stage))});
   }
   table.add({"pairs", extent(record.pairs)});
   table.add(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <mutex>
 #include <set>
@@ -225,6 +226,27 @@ TEST(FloatEnvironment, HoldsInBlocksOnEveryThread) {
       EXPECT_EQ(after, before);
     }
   }
+}
+
+// A loop on threads counts as shared, with what it starts itself; one on this thread alone does
+// not.
+TEST(SharedNanoseconds, AreThoseOfLoopsOnThreads) {
+  using std::chrono::milliseconds;
+  using std::chrono::steady_clock;
+  const auto wait = [](size_t, size_t, size_t) { std::this_thread::sleep_for(milliseconds(2)); };
+  ThreadArena arena(2);
+  arena.run([&] {
+    const uint64_t before = shared_nanoseconds();
+    for_each_block(4, 1, Parallelism::none, wait);
+    EXPECT_EQ(shared_nanoseconds(), before);
+    const auto start = steady_clock::now();
+    for_each_block(4, 1, Parallelism::arena,
+                   [&](size_t, size_t, size_t) { for_each_block(2, 1, Parallelism::arena, wait); });
+    const std::chrono::nanoseconds all = steady_clock::now() - start;
+    const uint64_t shared = shared_nanoseconds() - before;
+    EXPECT_GE(shared, uint64_t{2'000'000});
+    EXPECT_LE(shared, static_cast<uint64_t>(all.count()));
+  });
 }
 
 }  // namespace

@@ -48,6 +48,30 @@ TEST(PayForUse, StagesThatRun) {
             "changes bounds broadphase pairs narrowphase results velocities events");
 }
 
+// Without threads all of a stage is serial. With threads less is, where there is enough to share.
+TEST(PayForUse, StagesSayWhatIsSerial) {
+  for (const int threads : {1, 2}) {
+    ThreadArena arena(threads);
+    arena.run([&] {
+      World world({.detail = Detail::manifold, .parallelism = arena.parallelism()});
+      add_crowd(world, {.count = 8000, .side = 30});
+      const StepReport& report = world.step();
+      uint64_t all = 0, serial = 0;
+      for (int i = 0; i < kStageCount; ++i) {
+        EXPECT_LE(report.serial_ns[i], report.stage_ns[i]);
+        all += report.stage_ns[i];
+        serial += report.serial_ns[i];
+      }
+      EXPECT_GT(serial, 0u);
+      if (threads == 1) {
+        EXPECT_EQ(serial, all);
+      } else {
+        EXPECT_LT(serial, all);
+      }
+    });
+  }
+}
+
 TEST(PayForUse, DopsAreThereIfAskedForAndOfUse) {
   const CrowdSpec spec{.oriented = true};
   const auto bytes = [&](const WorldSettings& settings) {

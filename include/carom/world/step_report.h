@@ -52,6 +52,9 @@ struct StepReport {
   PairSearch search;
   uint32_t stages_run = 0;              ///< bit s: Stage(s) ran
   uint64_t stage_ns[kStageCount] = {};  ///< nanoseconds of each stage, 0 where it did not run
+  /// Of these, how long one thread worked alone: all of them in a world without threads. What n
+  /// threads can gain is bound by their sum (Amdahl's law).
+  uint64_t serial_ns[kStageCount] = {};
 
   /// Whether this stage ran.
   bool ran(Stage stage) const { return stages_run >> static_cast<int>(stage) & 1; }
