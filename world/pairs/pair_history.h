@@ -31,8 +31,9 @@ struct PairHistory {
 
   LargeVector<ContactIdentity> identities;  // one a contact, if they are wanted
 
-  // Whether `contact` is an index.
-  bool has_contact(size_t i) const { return contact[i] < kSensor; }
+  // Whether a value of `contact` is an index.
+  static bool is_place(uint32_t contact) { return contact < kSensor; }
+  bool has_contact(size_t i) const { return is_place(contact[i]); }
 
   void clear();
   void clear_contacts();  // and what belongs to them
@@ -99,6 +100,7 @@ class CarryPlan {
   void drop(const std::vector<uint8_t>& overlap, const std::vector<Pair>& now,
             Parallelism parallelism);
 
+  bool tests_all() const { return tests_all_; }
   size_t tested() const { return tested_; }
   size_t dropped() const { return dropped_; }
 

@@ -177,14 +177,26 @@ void ContactStage::write_contacts(const PairRange& range, const CarryPlan& plan,
       range.end - range.begin, kPairsPerMergeBlock, settings.parallelism,
       [&](size_t block, size_t begin, size_t end) {
         size_t next = block_first_[block];
+        const size_t first_pair = range.begin + begin, pairs = end - begin;
+        // Where nothing is carried over, contacts are written in lanes; then what belongs to them.
+        const bool in_lanes = plan.tests_all() && !regions;
+        if (in_lanes) {
+          write_contact_rows(
+              results.rows_of(std::span(now.pairs).subspan(first_pair, pairs), first_pair,
+                              std::span(now.contact).subspan(first_pair, pairs)),
+              next, now.contacts);
+          if (!manifolds && !named) return;
+        }
         std::array<uint32_t, kPairsPerMergeBlock> listed;
-        const size_t count = list_contacts(now, range.begin + begin, range.begin + end, listed);
+        const size_t count = list_contacts(now, first_pair, first_pair + pairs, listed);
         for (size_t k = 0; k < count; ++k) {
           const size_t i = listed[k];
           const uint32_t row = plan.test_row(i);
           const bool carried = row == CarryPlan::kCarried;
           const size_t old = carried ? last.contact[plan.last_index(i)] : 0;
-          now.contacts[next] = carried ? last.contacts[old] : results.contact(row, now.pairs[i]);
+          if (!in_lanes) {
+            now.contacts[next] = carried ? last.contacts[old] : results.contact(row, now.pairs[i]);
+          }
           if (manifolds) {
             now.manifolds[next] = carried ? last.manifolds[old] : results.manifold(row);
           }

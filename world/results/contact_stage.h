@@ -12,6 +12,7 @@
 #include "midphase/contact_of_row.h"
 #include "world/motion/present_bounds.h"
 #include "world/pairs/pair_history.h"
+#include "world/results/contact_rows.h"
 #include "world/store/body_store.h"
 
 namespace carom {
@@ -47,6 +48,10 @@ class ResultBuffer {
 
   uint8_t overlap(size_t row) const { return columns().overlap[place(row)]; }
   bool is_near(size_t row) const { return !near_.empty() && near_[place(row)]; }
+  // Of pairs that are all tested, whose rows begin with this one.
+  PairRows rows_of(std::span<const Pair> pairs, size_t row, std::span<uint32_t> contact) const {
+    return {columns(), place(row), pairs, contact};
+  }
   Contact contact(size_t row, Pair pair) const {
     return contact_of_row(columns(), place(row), pair);
   }

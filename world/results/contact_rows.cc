@@ -1,0 +1,135 @@
+// Columns become rows by transposing four of each. Whether a pair has a contact cannot be
+// predicted: all pairs are written, those without one to a place that nobody reads.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "world/results/contact_rows.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+#include "midphase/contact_of_row.h"
+#include "trees/box_rows-inl.h"
+#include "world/pairs/pair_history.h"
+#include "world/results/contact_rows.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+#if HWY_TARGET != HWY_SCALAR
+using QuadOfInts = hn::FixedTag<uint32_t, 4>;
+using Ints = hn::Vec<QuadOfInts>;
+
+static_assert(offsetof(Contact, sub_a) == 8 && offsetof(Contact, normal) == 16 &&
+              offsetof(Contact, separation) == 28 && offsetof(Contact, arm_a) == 32 &&
+              offsetof(Contact, normal_velocity) == 44 && offsetof(Contact, arm_b) == 48 &&
+              offsetof(Contact, status) == 60 && offsetof(Contact, manifold_count) == 61);
+
+HWY_INLINE Ints load_or_zero(const uint32_t* column, size_t row) {
+  const QuadOfInts tag;
+  return column ? hn::LoadU(tag, column + row) : hn::Zero(tag);
+}
+
+HWY_INLINE Ints load_bytes(const uint8_t* column, size_t row) {
+  const hn::FixedTag<uint8_t, 4> bytes;
+  return hn::PromoteTo(QuadOfInts(), hn::LoadU(bytes, column + row));
+}
+
+// The last number of a contact: status, and how many points the manifold has.
+HWY_INLINE RowOfFour load_marks(const ResultColumns& columns, size_t row) {
+  Ints marks = load_bytes(columns.status, row);
+  if (columns.manifold_count) {
+    marks = hn::Or(marks, hn::ShiftLeft<8>(load_bytes(columns.manifold_count, row)));
+  }
+  return hn::BitCast(Quad(), marks);
+}
+
+// The four rows of four contacts: part[p][k] holds the numbers 4 p to 4 p + 3 of contact k.
+struct FourContacts {
+  RowOfFour part[4][4];
+
+  HWY_INLINE void load(const PairRows& rows, size_t i) {
+    const ResultColumns& columns = rows.columns;
+    const size_t row = rows.first_row + i;
+    load_indices(columns, row, &rows.pairs[i]);
+    load_vector(columns.normal, row, hn::LoadU(Quad(), columns.separation + row), part[1]);
+    load_vector(columns.point_a, row, hn::Zero(Quad()), part[2]);
+    load_vector(columns.point_b, row, load_marks(columns, row), part[3]);
+  }
+
+  HWY_INLINE void store(size_t k, Contact& to) const {
+    auto* const numbers = reinterpret_cast<float*>(&to);
+    for (size_t p = 0; p < 4; ++p) hn::StoreU(part[p][k], Quad(), numbers + 4 * p);
+  }
+
+ private:
+  HWY_INLINE void load_indices(const ResultColumns& columns, size_t row, const Pair* pairs) {
+    const QuadOfInts tag;
+    const auto* const indices = reinterpret_cast<const uint32_t*>(pairs);
+    const Ints sub_a = load_or_zero(columns.sub_a, row), sub_b = load_or_zero(columns.sub_b, row);
+    const Ints subs[2] = {hn::InterleaveLower(tag, sub_a, sub_b),
+                          hn::InterleaveUpper(tag, sub_a, sub_b)};
+    for (size_t half = 0; half < 2; ++half) {
+      const Ints bodies = hn::LoadU(tag, indices + 4 * half);
+      part[0][2 * half] = hn::BitCast(Quad(), hn::ConcatLowerLower(tag, subs[half], bodies));
+      part[0][2 * half + 1] = hn::BitCast(Quad(), hn::ConcatUpperUpper(tag, subs[half], bodies));
+    }
+  }
+
+  static HWY_INLINE void load_vector(const std::array<float*, 3>& columns, size_t row,
+                                     RowOfFour fourth, RowOfFour (&out)[4]) {
+    for (size_t axis = 0; axis < 3; ++axis) out[axis] = hn::LoadU(Quad(), columns[axis] + row);
+    out[3] = fourth;
+    transpose(out);
+  }
+};
+#endif  // HWY_TARGET
+
+void write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  Contact unread;
+  for (; i + 4 <= rows.pairs.size(); i += 4) {
+    FourContacts four;
+    four.load(rows, i);
+    for (size_t k = 0; k < 4; ++k) {
+      uint32_t& contact = rows.contact[i + k];
+      const bool has_one = PairHistory::is_place(contact);
+      Contact* const places[] = {&unread, contacts.data() + next};
+      const uint32_t marks[] = {contact, static_cast<uint32_t>(next)};
+      four.store(k, *places[has_one]);
+      contact = marks[has_one];
+      next += has_one;
+    }
+  }
+#endif  // HWY_TARGET
+  for (; i < rows.pairs.size(); ++i) {
+    if (!PairHistory::is_place(rows.contact[i])) continue;
+    contacts[next] = contact_of_row(rows.columns, rows.first_row + i, rows.pairs[i]);
+    rows.contact[i] = static_cast<uint32_t>(next++);
+  }
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(write);
+
+}  // namespace
+
+void write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts) {
+  CAROM_DISPATCH(write)(rows, next, contacts);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE

@@ -1,0 +1,27 @@
+// Rows of results -> contacts, four pairs at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "carom/results/contact.h"
+#include "carom/results/pair.h"
+#include "carom/results/result_columns.h"
+
+namespace carom {
+
+// Pairs that follow one another, with their results in as many rows of the columns, and what each
+// has: PairHistory::contact.
+struct PairRows {
+  const ResultColumns& columns;
+  size_t first_row;
+  std::span<const Pair> pairs;
+  std::span<uint32_t> contact;
+};
+
+// Writes the first contact of each pair that has one, as contact_of_row() makes it, to
+// contacts[next] and behind, and notes its place in `contact`.
+void write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts);
+
+}  // namespace carom
