@@ -207,8 +207,10 @@ void test_pair(const Candidate& pair, const StepOptions& options, Frame& frame) 
   const Body& a = *pair.a;
   const Body& b = *pair.b;
   const float distance = std::fmax(distance_of(a, options), distance_of(b, options));
-  PairContacts found = find_contacts(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc),
-                                     options.positions, distance, options.contacts.region_limits);
+  const bool regions = options.detail == Detail::regions;
+  PairContacts found =
+      find_contacts(a.desc.shape, pose_of(a.desc), b.desc.shape, pose_of(b.desc), options.positions,
+                    distance, regions ? options.contacts.region_limits : RegionLimits{});
   PairResult& result = found.first;
   const bool overlap = result.overlap && pair.meet_now;
   const bool sensor = a.desc.sensor || b.desc.sensor;

@@ -389,6 +389,8 @@ Collidables BodyStore::view() const {
     view.uniform_kind = static_cast<ShapeKind>(kind);
     if (bodies_of_kind_[kind] != size()) view.kind = kind_.data();
   }
+  // Rows without a body have nothing that could be read as the address of a geometry.
+  if (has_geometry(view.uniform_kind) && rows() != size()) view.kind = kind_.data();
   // Without the detour through slots where each box lies in the place of its body.
   if (boxes_elsewhere_ > 0) view.box_slot = box_slot_.data();
   if (!boxes_.empty()) view.boxes = box_records(boxes_.front().lower.data());

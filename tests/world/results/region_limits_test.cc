@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "carom/base/thread_arena.h"
+#include "carom/reference/reference.h"
 #include "carom/results/result_arrays.h"
 #include "tests/support/composites.h"
 #include "tests/world/crowds.h"
@@ -168,6 +169,28 @@ TEST(RegionLimits, CountWhatIsLeftOutInEveryStep) {
     EXPECT_EQ(world.contacts().size(), 1u);
     EXPECT_EQ(world.report().left_out, 0u);
   }
+}
+
+// The limits are those of regions: a manifold does not depend on them, in the reference either.
+TEST(RegionLimits, DoNotCountAtOtherDetails) {
+  const Mesh steps =
+      mesh_of({{-1, -1, 0}, {1, -1, 0}, {1, 0, 0}, {-1, 0, 0}, {1, 1, 1}, {-1, 1, 1}},
+              {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}});
+  const std::vector<reference::Body> bodies = {
+      {{0, 0}, {.shape = steps}},
+      {{1, 0}, {.shape = Box{{0.5f, 0.5f, 0.5f}}, .position = {0, -0.4, 0.2}}}};
+  const reference::Frame expected = reference::step(bodies, {.detail = Detail::manifold});
+  const RegionLimits wide{.cosine = -0.5, .most = 16};
+  const reference::Frame limited =
+      reference::step(bodies, {.detail = Detail::manifold, .contacts = {.region_limits = wide}});
+  World world({.detail = Detail::manifold, .region_limits = wide});
+  for (const reference::Body& body : bodies) world.add(body.desc);
+  world.step();
+  ASSERT_EQ(expected.manifolds.size(), 1u);
+  EXPECT_TRUE(as_bytes(std::span<const ManifoldPoints>(limited.manifolds)) ==
+              as_bytes(std::span<const ManifoldPoints>(expected.manifolds)));
+  EXPECT_TRUE(as_bytes(world.manifolds()) ==
+              as_bytes(std::span<const ManifoldPoints>(expected.manifolds)));
 }
 
 }  // namespace

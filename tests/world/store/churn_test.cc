@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "tests/support/composites.h"
 #include "tests/support/pairs.h"
 #include "tests/world/crowds.h"
 #include "world/store/index_pool.h"
@@ -209,6 +210,38 @@ TEST(Churn, ManyStepsOfASmallWorldDoNotGrowIt) {
   // Also without a step in between.
   for (int i = 0; i < 20000; ++i) world.remove(world.add(body_at(i)));
   EXPECT_LE(world.bytes(), bytes * 3 / 2);
+}
+
+// A body is removed from an index below bodies of one kind that has geometries: what is left in its
+// place, numbers of a box or the address of a geometry that is gone, is not read as a geometry.
+TEST(Churn, PlacesWithoutABodyHoldNoGeometry) {
+  const std::vector<Eigen::Vector3f> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Triangles faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const auto shape_of = [&](ShapeKind kind) -> Shape {
+    if (kind == ShapeKind::hull) return hull_of(corners);
+    if (kind == ShapeKind::mesh) return mesh_of(corners, faces);
+    return compound_of({{Sphere{1}}, {Box{{1, 1, 1}}, {1, 0, 0}}});
+  };
+  for (const ShapeKind kind : {ShapeKind::hull, ShapeKind::mesh, ShapeKind::compound}) {
+    const Shape below[] = {Box{{0.5f, 0.4f, 0.3f}}, Triangle{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}},
+                           shape_of(kind)};
+    for (const Shape& removed : below) {
+      for (const bool stepped : {false, true}) {
+        World world;
+        const BodyId gone = world.add({.shape = removed});
+        world.add({.shape = shape_of(kind)});
+        world.add({.shape = shape_of(kind), .position = {0.25, 0, 0}});
+        if (stepped) world.step();
+        world.remove(gone);
+        world.step();
+        EXPECT_EQ(world.contacts().size(), 1u);
+        std::vector<OverlapHit> hits;
+        const float ball[4] = {0.1f, 0.1f, 0.1f, 0.3f};
+        world.find_overlaps(sphere_records(ball, 1), hits);
+        EXPECT_FALSE(hits.empty());
+      }
+    }
+  }
 }
 
 }  // namespace
