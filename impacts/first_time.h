@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "geometries/part.h"
 #include "impacts/advancement.h"
 #include "impacts/linear/linear.h"
 #include "narrowphase/scalar/scaled.h"
@@ -228,10 +229,19 @@ inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const
   return comes_from_behind(rules, middle_of(b, scale) + from * scale);
 }
 
-// The shape at time t, relative to its pivot.
+// The shape at time t, relative to its pivot, with its orientation rounded as that of its contact
+// is. Otherwise a triangle could be met by a body that its contact says is behind it.
 inline MovingShape at_time(const MovingShape& moving, double t) {
+  if (moving.rotation.isZero(0)) return moving;
   const Quaternion<double> turn = turn_by(moving.rotation, t);
-  return {moving.shape, product(turn, moving.q), rotate(rotation_of(turn), moving.arm),
+  const auto row_of = [](const Quaternion<double>& q) -> Row {
+    return {static_cast<float>(q.v.x()), static_cast<float>(q.v.y()), static_cast<float>(q.v.z()),
+            static_cast<float>(q.w)};
+  };
+  const Row q = carom::product(row_of(turn), row_of(moving.q));
+  return {moving.shape,
+          {Vector3d(q[0], q[1], q[2]), q[3]},
+          rotate(rotation_of(turn), moving.arm),
           Vector3d::Zero()};
 }
 

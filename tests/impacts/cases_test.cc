@@ -304,6 +304,36 @@ TEST(ImpactCases, EdgesThatAreParallelButForRounding) {
   });
 }
 
+// One-sided triangles that turn together, so that one meets the other's back with its face:
+// rounding says whether it comes from behind. Whatever it says, the contact says the same: its
+// numbers are finite if there is an impact.
+TEST(ImpactCases, TrianglesFaceToBack) {
+  const Shape shape = Triangle{.corners = {{{0.5f, 0, 0}, {-1, -1, 0}, {-1, 0.5f, 0}}},
+                               .thickness = 0.1f,
+                               .one_sided = true};
+  oracle::Random random(3);
+  const auto step = [&](double most, double by) {
+    const auto steps = static_cast<uint64_t>(most / by);
+    return by * (static_cast<double>(random.below(2 * steps + 1)) - static_cast<double>(steps));
+  };
+  size_t impacts = 0;
+  const uint32_t count = rounds(8000);
+  for (uint32_t round = 0; round < count; ++round) {
+    const Eigen::Vector3d place(step(2, 0.25), step(2, 0.25), step(1, 0.25));
+    const Eigen::Vector3d way(step(3, 0.5), step(3, 0.5), step(3, 0.5));
+    MovedPair pair = moved({shape, {0, 0, 0}}, {0, 0, 0}, {shape, place}, way.cast<float>());
+    const Eigen::Vector3d turn(step(20, 5), step(20, 5), step(20, 5));
+    pair.sweep_a.rotation = pair.sweep_b.rotation = turn.cast<float>();
+    const ImpactRow row = impact_of(pair);
+    if (!row.is_impact()) continue;
+    ++impacts;
+    const ShownIfFailed shown([&] { return show(pair); });
+    EXPECT_TRUE(std::isfinite(row.separation));
+    EXPECT_TRUE(std::isfinite(row.normal[0]));
+  }
+  EXPECT_GT(impacts, count / 20);
+}
+
 // Two children of a compound touch at the same time: the result is of the lower one, whichever the
 // search finds first.
 TEST(ImpactCases, TheLowestOfChildrenThatMeetAtOnce) {
