@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/carom DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS carom carom_reference EXPORT carom_targets)
 if(TARGET carom_program)
-  install(TARGETS carom_program)
+  install(TARGETS carom_program OPTIONAL)  # where it has been built
 endif()
 
 if(CAROM_BUILD_HULLS)
