@@ -161,7 +161,7 @@ TEST(FindPoints, InBodiesThatTheFilterKeeps) {
     world.set_space(ids[i], static_cast<uint32_t>(i % 2));
   }
   world.step();
-  const std::vector<Point> points = make_points(world, ids, 7, rounds(300, 60));
+  const std::vector<Point> points = make_points(world, ids, 7, 300);
   const std::vector<PointHit> everything = plain_hits(world, ids, points);
   const auto drop_a_third = [](std::span<const Pair> pairs, std::span<uint8_t> keep) {
     for (size_t i = 0; i < pairs.size(); ++i) keep[i] = (pairs[i].a + pairs[i].b) % 3 != 0;
