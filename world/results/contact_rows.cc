@@ -8,7 +8,6 @@
 // After the loop over targets.
 #include <array>
 #include <cstddef>
-#include <cstring>
 
 #include "midphase/contact_of_row.h"
 #include "trees/box_rows-inl.h"
