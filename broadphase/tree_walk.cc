@@ -133,21 +133,39 @@ HWY_EXPORT(go_on_near);
 
 }  // namespace
 
-MovingBox::MovingBox(const TreeBox& at_start, const std::array<float, 3>& displacement)
-    : box(at_start), swept(at_start) {
+namespace {
+
+bool moves_along(float displacement) {
+  return std::abs(displacement) >= BoxPath::kLeastDisplacement;
+}
+
+// Makes [lower, upper] hold the way, too.
+void sweep(float& lower, float& upper, float d) {
+  // A unit in the last place may be longer than a way along which nothing moves.
+  const bool moves = moves_along(d);
+  if (d < 0) lower = moves ? next_down(lower + d) : sum_downwards(lower, d);
+  if (d > 0) upper = moves ? next_up(upper + d) : sum_upwards(upper, d);
+}
+
+}  // namespace
+
+void MovingBox::set(const TreeBox& at_start, const std::array<float, 3>& its_displacement) {
+  box = at_start;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const float d = displacement[axis];
-    const bool moves = std::abs(d) >= BoxPath::kLeastDisplacement;
-    const float end_lower = box.lower[axis] + d, end_upper = box.upper[axis] + d;
-    // A unit in the last place may be longer than such a way.
-    if (d < 0) swept.lower[axis] = moves ? next_down(end_lower) : sum_downwards(box.lower[axis], d);
-    if (d > 0) swept.upper[axis] = moves ? next_up(end_upper) : sum_upwards(box.upper[axis], d);
-    if (moves) {
-      path.set(axis, box.lower[axis], box.upper[axis], 1 / d);
-    } else {
-      path.set(axis, swept.lower[axis], swept.upper[axis], INFINITY);
-    }
+    const float d = its_displacement[axis];
+    displacement[axis] = d;
+    float lower = box.lower[axis], upper = box.upper[axis];
+    if (!moves_along(d)) sweep(lower, upper, d);
+    path.set(axis, lower, upper, moves_along(d) ? 1 / d : INFINITY);
   }
+}
+
+TreeBox MovingBox::swept() const {
+  TreeBox swept = box;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    sweep(swept.lower[axis], swept.upper[axis], displacement[axis]);
+  }
+  return swept;
 }
 
 void walk_met(const BoxTree& tree, const MovingBox& box, float limit, size_t most, TreeWalk& walk,

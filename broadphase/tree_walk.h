@@ -13,10 +13,12 @@ namespace carom {
 // infinite.
 struct MovingBox {
   TreeBox box;
-  TreeBox swept;
+  std::array<float, 3> displacement;
   BoxPath path;
 
-  MovingBox(const TreeBox& at_start, const std::array<float, 3>& displacement);
+  void set(const TreeBox& at_start, const std::array<float, 3>& its_displacement);
+  // The box that holds the path.
+  TreeBox swept() const;
 };
 
 // The children of nodes that a search has still to visit; it visits the last one next. The key is a

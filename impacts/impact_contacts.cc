@@ -178,13 +178,13 @@ class ImpactContacts {
       last_orientation_ = orientation;
       last_turn_ = rotation_of(orientation);
     }
-    const scalar::Separation found =
-        point_contact({.mesh = mesh_of(row),
-                       .place = plus(between, {way[0] * t, way[1] * t, way[2] * t}),
-                       .orientation = orientation,
-                       .turn = last_turn_,
-                       .one_sided = side_b_.one_sided},
-                      triangle_of(row));
+    scalar::Separation found;
+    find_point_contact({.mesh = mesh_of(row),
+                        .place = plus(between, {way[0] * t, way[1] * t, way[2] * t}),
+                        .orientation = orientation,
+                        .turn = last_turn_,
+                        .one_sided = side_b_.one_sided},
+                       triangle_of(row), found);
     write(row, found, {});
   }
 
@@ -265,18 +265,23 @@ class ImpactContacts {
   }
 
   // `arms`: from the bodies' positions at the time of impact to the origins of the found points.
-  void write(size_t row, const scalar::Separation& found, std::array<Double3, 2> arms) {
-    if (frame_ == WitnessFrame::world) {
-      arms[0] = plus(position_then(a_, pairs_[row].a, first_.time[row]), arms[0]);
-      arms[1] = plus(position_then(b_, pairs_[row].b, first_.time[row]), arms[1]);
-    }
+  void write(size_t row, const scalar::Separation& found, const std::array<Double3, 2>& arms) {
+    if (frame_ == WitnessFrame::body) return write_about(row, found, arms[0], arms[1]);
+    const auto then = [this, row](const MovingReader& side, size_t body, const Double3& arm) {
+      return plus(position_then(side, body, first_.time[row]), arm);
+    };
+    write_about(row, found, then(a_, pairs_[row].a, arms[0]), then(b_, pairs_[row].b, arms[1]));
+  }
+
+  void write_about(size_t row, const scalar::Separation& found, const Double3& arm_a,
+                   const Double3& arm_b) {
     if (out_.separation) out_.separation[row] = found.separation;
     for (size_t axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<int>(axis);
       const auto seen = [](float point, double arm) { return static_cast<float>(point + arm); };
       if (out_.normal[axis]) out_.normal[axis][row] = found.normal[i];
-      if (out_.point_a[axis]) out_.point_a[axis][row] = seen(found.arm_a[i], arms[0][axis]);
-      if (out_.point_b[axis]) out_.point_b[axis][row] = seen(found.arm_b[i], arms[1][axis]);
+      if (out_.point_a[axis]) out_.point_a[axis][row] = seen(found.arm_a[i], arm_a[axis]);
+      if (out_.point_b[axis]) out_.point_b[axis][row] = seen(found.arm_b[i], arm_b[axis]);
     }
   }
 

@@ -69,9 +69,9 @@ MeshPath::MeshPath(const PlacedPart& mesh, const BodySweep& mesh_sweep, const Pl
   if (!is_in_range_) return;
   const double margin = slack + kFloatSlack * on_path;
   const Double3 grown = {half[0] + margin, half[1] + margin, half[2] + margin};
-  box_.emplace(rounded_outwards(from, grown),
-               std::array<float, 3>{static_cast<float>(way[0]), static_cast<float>(way[1]),
-                                    static_cast<float>(way[2])});
+  box_.emplace().set(
+      rounded_outwards(from, grown),
+      {static_cast<float>(way[0]), static_cast<float>(way[1]), static_cast<float>(way[2])});
 }
 
 // A time on the cut path, rounded upwards.

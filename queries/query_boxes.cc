@@ -67,25 +67,32 @@ void QueryBoxes::find(size_t first, size_t count, Parallelism parallelism) {
   }
 }
 
-std::optional<MovingBox> QueryBoxes::box(size_t query) const {
+bool QueryBoxes::set_box(size_t query, MovingBox& box) const {
   const TreeBox& at_start = at_start_[query - first_];
-  if (is_empty(at_start)) return std::nullopt;
+  if (is_empty(at_start)) return false;
   const auto displacement =
       load_strided<Float3>(sweep_.displacement, sweep_.displacement_stride, query);
-  if (!is_finite(displacement)) return std::nullopt;
+  if (!is_finite(displacement)) return false;
   const BodyReader reader{queries_};
-  if (!sweep_.rotation || !turns(reader.kind(query))) return MovingBox(at_start, displacement);
+  if (!sweep_.rotation || !turns(reader.kind(query))) {
+    box.set(at_start, displacement);
+    return true;
+  }
 
   const auto rotation = load_strided<Float3>(sweep_.rotation, sweep_.rotation_stride, query);
-  if (!is_finite(rotation)) return std::nullopt;
+  if (!is_finite(rotation)) return false;
   const double angle = length(rotation[0], rotation[1], rotation[2]);
-  if (!(angle > 0)) return MovingBox(at_start, displacement);
+  if (!(angle > 0)) {
+    box.set(at_start, displacement);
+    return true;
+  }
   double arc = 0;
   const TreeBox turned = turned_box(reader, query, angle, arc);
   // No less than the length.
   const double travel = std::abs(double{displacement[0]}) + std::abs(double{displacement[1]}) +
                         std::abs(double{displacement[2]}) + arc;
-  return MovingBox(grown(turned, reader.position<double>(query), travel), displacement);
+  box.set(grown(turned, reader.position<double>(query), travel), displacement);
+  return true;
 }
 
 }  // namespace carom

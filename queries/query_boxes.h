@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "broadphase/tree_walk.h"
@@ -23,9 +22,9 @@ class QueryBoxes {
 
   // Finds where queries [first, first + count) start.
   void find(size_t first, size_t count, Parallelism parallelism);
-  // The box of one of these, grown by more than tests may err. None if the query or its sweep is
-  // invalid.
-  std::optional<MovingBox> box(size_t query) const;
+  // Sets `box` to that of one of these, grown by more than tests may err. False, and nothing is
+  // done, if the query or its sweep is invalid.
+  bool set_box(size_t query, MovingBox& box) const;
 
  private:
   const Collidables& queries_;

@@ -13,9 +13,9 @@ namespace {
 constexpr size_t kQueriesPerBlock = 64;
 
 bool may_reach(const MovingBox& moving, const WorldHalfspace& halfspace) {
+  const TreeBox box = moving.swept();
   std::array<double, 3> lowest;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const TreeBox& box = moving.swept;
     lowest[axis] = halfspace.normal[axis] >= 0 ? box.lower[axis] : box.upper[axis];
   }
   return may_hold(halfspace, lowest[0], lowest[1], lowest[2]);
@@ -52,13 +52,11 @@ class Rounds {
   void start() {
     queries_.find(first_, limit_.size(), parallelism_);
     for (size_t i = 0; i < limit_.size(); ++i) {
-      const std::optional<MovingBox> box = queries_.box(first_ + i);
-      if (!box) continue;
-      const auto query = static_cast<uint32_t>(first_ + i);
-      if (count_ == searches_.size()) searches_.push_back({query, *box, {}});
-      QuerySearch& search = searches_[count_++];
-      search.query = query;
-      search.box = *box;
+      if (count_ == searches_.size()) searches_.emplace_back();
+      QuerySearch& search = searches_[count_];
+      if (!queries_.set_box(first_ + i, search.box)) continue;
+      ++count_;
+      search.query = static_cast<uint32_t>(first_ + i);
       search.walk.start(bodies_.index.tree());
     }
   }

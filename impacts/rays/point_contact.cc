@@ -12,9 +12,9 @@ namespace {
 // of the sine of its angle, the general test decides which feature is the nearest.
 constexpr double kClearOfEdges = 0x1p-20;
 
-// The contact with the inside of a face, and none if the edges matter. C. Ericson, Real-Time
-// Collision Detection, 2005, section 5.1.5.
-std::optional<scalar::Separation> face_contact(const SeenMesh& seen, uint32_t triangle) {
+// The contact with the inside of a face. False if the edges matter. C. Ericson, Real-Time Collision
+// Detection, 2005, section 5.1.5.
+bool find_face_contact(const SeenMesh& seen, uint32_t triangle, scalar::Separation& contact) {
   const MeshGeometry& mesh = seen.mesh;
   const Double3 a = corner(mesh, triangle, 0);
   const Double3 u = minus(corner(mesh, triangle, 1), a), v = minus(corner(mesh, triangle, 2), a);
@@ -25,17 +25,16 @@ std::optional<scalar::Separation> face_contact(const SeenMesh& seen, uint32_t tr
   const double margin = kClearOfEdges * squared;
   const bool is_inside =
       along_u >= margin && along_v >= margin && along_u + along_v <= squared - margin;
-  if (!is_inside || !(squared > kClearOfEdges * (dot(u, u) * dot(v, v)))) return std::nullopt;
+  if (!is_inside || !(squared > kClearOfEdges * (dot(u, u) * dot(v, v)))) return false;
 
   const double per_length = 1 / std::sqrt(squared);
   const double height = dot(from, front) * per_length;
   // A one-sided triangle pushes what lies behind it to its front.
-  if (height <= 0 && seen.one_sided.value_or(mesh.rules().one_sided)) return std::nullopt;
+  if (height <= 0 && seen.one_sided.value_or(mesh.rules().one_sided)) return false;
   const double to_unit = height >= 0 ? -per_length : per_length;
   const Double3 normal =
       turned(seen.turn, {front[0] * to_unit, front[1] * to_unit, front[2] * to_unit});
   const double distance = std::fabs(height);
-  scalar::Separation contact;
   contact.separation = scalar::round_separation(distance);
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<size_t>(axis);
@@ -43,7 +42,9 @@ std::optional<scalar::Separation> face_contact(const SeenMesh& seen, uint32_t tr
     contact.arm_a[axis] = 0;
     contact.arm_b[axis] = static_cast<float>(normal[i] * distance - seen.place[i]);
   }
-  return contact;
+  contact.status = Status::ok;
+  contact.is_unsure = false;
+  return true;
 }
 
 scalar::Separation general_contact(const SeenMesh& seen, uint32_t triangle) {
@@ -60,11 +61,9 @@ scalar::Separation general_contact(const SeenMesh& seen, uint32_t triangle) {
 
 }  // namespace
 
-scalar::Separation point_contact(const SeenMesh& seen, uint32_t triangle) {
-  if (seen.mesh.rules().thickness == 0) {
-    if (const auto contact = face_contact(seen, triangle)) return *contact;
-  }
-  return general_contact(seen, triangle);
+void find_point_contact(const SeenMesh& seen, uint32_t triangle, scalar::Separation& contact) {
+  if (seen.mesh.rules().thickness == 0 && find_face_contact(seen, triangle, contact)) return;
+  contact = general_contact(seen, triangle);
 }
 
 }  // namespace carom

@@ -18,7 +18,7 @@ struct SeenMesh {
   std::optional<bool> one_sided;  // without it, as the mesh is made
 };
 
-// The contact with the point as A. The arm of B is from the mesh's position.
-scalar::Separation point_contact(const SeenMesh& seen, uint32_t triangle);
+// Writes the contact with the point as A. The arm of B is from the mesh's position.
+void find_point_contact(const SeenMesh& seen, uint32_t triangle, scalar::Separation& contact);
 
 }  // namespace carom

@@ -13,10 +13,11 @@ struct PointTimes::Scratch {
   size_t count;
   std::vector<LeftTriangle> left;
 
-  static constexpr size_t kMostRays = 64;
-  std::array<RaySearch, kMostRays> searches;
-  std::array<Point, kMostRays> points;
-  size_t ray_count;
+  RayColumns rays;
+  std::array<Point, RayColumns::kMost> points;
+  size_t ray_count, cut_count;  // the first cut_count have been cut
+  std::array<RaySearch, RayColumns::kMost> searches;
+  size_t search_count;
 };
 
 namespace {
@@ -39,12 +40,13 @@ PointTimes::Scratch& PointTimes::scratch_of_thread() {
 PointTimes::PointTimes(const MovingSide& a, const MovingSide& b, bool any,
                        std::span<FirstTime> times)
     : a_{a}, b_{b}, any_(any), times_(times), scratch_(scratch_of_thread()) {
-  scratch_.count = scratch_.ray_count = 0;
+  scratch_.count = scratch_.ray_count = scratch_.cut_count = scratch_.search_count = 0;
   scratch_.left.clear();
 }
 
 bool PointTimes::take_mesh(bool is_a, uint32_t body) {
   if (mesh_is_a_ == is_a && mesh_body_ == body) return mesh_serves_;
+  cut();
   const MovingReader& side = is_a ? a_ : b_;
   mesh_is_a_ = is_a;
   mesh_body_ = body;
@@ -68,37 +70,44 @@ bool PointTimes::add(size_t owner, Pair pair, double limit) {
   if (!take_mesh(mesh_is_a, mesh)) return false;
   const Double3 from = place_between(of_point, of_mesh, {point, mesh});
   const Double3 way = way_between(of_point, of_mesh, {point, mesh});
-  if (scratch_.ray_count == Scratch::kMostRays) search();
-  RaySearch& search = scratch_.searches[scratch_.ray_count];
-  search.limit = limit;
-  if (!search.ray.set(*target_, turned_back(turn_, minus({}, from)),
-                      turned_back(turn_, minus({}, way)), limit)) {
-    return false;
+  if (!is_in_range(*target_, from, way)) return false;
+  if (target_->mesh->tree().is_empty()) return true;
+  if (scratch_.ray_count == RayColumns::kMost) search();
+  const size_t row = scratch_.ray_count++;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    scratch_.rays.from[axis][row] = from[axis];
+    scratch_.rays.way[axis][row] = way[axis];
   }
-  if (search.ray.is_empty() || target_->mesh->tree().is_empty()) return true;
-  scratch_.points[scratch_.ray_count++] = {owner, pair, orientation_, from, way};
+  scratch_.rays.limit[row] = limit;
+  scratch_.points[row] = {owner, pair, orientation_};
   return true;
 }
 
-void PointTimes::search() {
-  const auto searches = std::span(scratch_.searches).first(scratch_.ray_count);
-  find_candidates(searches, any_);
-  for (size_t i = 0; i < searches.size(); ++i) {
-    const RaySearch& search = searches[i];
-    const Point& point = scratch_.points[i];
-    if (any_ && search.is_sure) {
-      times_[point.owner] = {search.limit, Status::ok};
-      continue;
-    }
-    for (const RayCandidate& candidate : search.candidates) {
-      add_row(point, *search.ray.mesh, candidate.triangle);
-    }
-  }
-  scratch_.ray_count = 0;
+void PointTimes::cut() {
+  if (scratch_.cut_count == scratch_.ray_count) return;
+  scratch_.search_count +=
+      cut_rays(*target_, turn_, scratch_.rays, scratch_.cut_count, scratch_.ray_count,
+               scratch_.searches.data() + scratch_.search_count);
+  scratch_.cut_count = scratch_.ray_count;
 }
 
-void PointTimes::add_row(const Point& point, const MeshGeometry& mesh, uint32_t triangle) {
+void PointTimes::search() {
+  cut();
+  const auto searches = std::span(scratch_.searches).first(scratch_.search_count);
+  find_candidates(searches, any_);
+  for (const RaySearch& search : searches) {
+    if (any_ && search.is_sure) {
+      times_[scratch_.points[search.row].owner] = {search.limit, Status::ok};
+      continue;
+    }
+    for (const RayCandidate& candidate : search.candidates) add_row(search, candidate.triangle);
+  }
+  scratch_.ray_count = scratch_.cut_count = scratch_.search_count = 0;
+}
+
+void PointTimes::add_row(const RaySearch& search, uint32_t triangle) {
   if (scratch_.count == LinearRows::kMost) test_rows();
+  const Point& point = scratch_.points[search.row];
   const size_t row = scratch_.count++;
   scratch_.candidates[row] = {point.owner, point.pair, triangle};
   double* next = scratch_.rows.column(0) + row;
@@ -106,11 +115,13 @@ void PointTimes::add_row(const Point& point, const MeshGeometry& mesh, uint32_t 
     *next = value;
     next += LinearRows::kStride;
   };
-  for (const double x : point.from) put(x + 0.0);  // so that no zero is negative
-  for (const double x : point.way) put(x);
+  const RayColumns& rays = scratch_.rays;
+  for (const auto& column : rays.from)
+    put(column[search.row] + 0.0);  // so that no zero is negative
+  for (const auto& column : rays.way) put(column[search.row]);
   put(0);  // the radius
   for (size_t i = 0; i < 3; ++i) {
-    for (const double x : corner(mesh, triangle, i)) put(x);
+    for (const double x : corner(*search.ray.mesh, triangle, i)) put(x);
   }
   for (const float x : point.orientation) put(x);
 }
@@ -134,12 +145,11 @@ void PointTimes::test_rows() {
     }
     FirstTime& first = times_[candidate.owner];
     const bool mesh_is_a = a_.body().kind(candidate.pair.a) == ShapeKind::mesh;
-    FirstTime found = {time};
-    found.parts[mesh_is_a ? 0 : 1] = candidate.triangle;
+    uint64_t& part = first.parts[mesh_is_a ? 0 : 1];
     // Among equal times the lowest triangle wins, whatever the order of the search.
-    if (std::tie(found.time, found.parts) < std::tie(first.time, first.parts) &&
-        !passes(row, time)) {
-      first = found;
+    if (std::tie(time, candidate.triangle) < std::tie(first.time, part) && !passes(row, time)) {
+      first.time = time;
+      part = candidate.triangle;
     }
   }
   scratch_.count = 0;

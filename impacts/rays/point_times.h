@@ -36,18 +36,19 @@ class PointTimes {
   struct Scratch;
   static Scratch& scratch_of_thread();
 
-  // What the rows of a ray need.
+  // What the rows of a ray need, beside its columns.
   struct Point {
     size_t owner;
     Pair pair;
-    Row orientation;    // of the mesh
-    Double3 from, way;  // of the mesh, from the point
+    Row orientation;  // of the mesh
   };
 
+  // Starts the searches of the rays at the last mesh.
+  void cut();
   void search();
   // Takes the mesh of a pair, mostly that of the last pair. False if it does not serve.
   bool take_mesh(bool is_a, uint32_t body);
-  void add_row(const Point& point, const MeshGeometry& mesh, uint32_t triangle);
+  void add_row(const RaySearch& search, uint32_t triangle);
   void test_rows();
   bool passes(size_t row, double time) const;
 

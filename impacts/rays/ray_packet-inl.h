@@ -13,6 +13,7 @@
 #include <cmath>
 #include <span>
 
+#include "geometries/mesh_memory.h"
 #include "impacts/rays/ray_hits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -123,11 +124,13 @@ class RayPacket {
       for (uint32_t met = meets_shaft(node, i, keys); met != 0; met &= met - 1) {
         const auto lane = static_cast<size_t>(std::countr_zero(met));
         const uint32_t child = node.child[i + lane];
+        if (child >= BoxTree::kItem) prefetch_indices(*mesh_, child - BoxTree::kItem);
         const uint32_t rays = meet_rays(node, i + lane);
         if (rays == 0) continue;
         if (child >= BoxTree::kItem) {
           test(child - BoxTree::kItem, rays);
         } else {
+          prefetch_node(nodes_[child]);
           end = RaySteps::insert({keys[lane], child}, begin, end);
         }
       }

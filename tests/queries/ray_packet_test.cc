@@ -24,19 +24,21 @@ struct RayLists {
   }
 };
 
-std::vector<CastHit> hits_of(const Rays& rays, const PlacedShape& body, CastHits which) {
-  const LaidOut laid_out(std::vector<PlacedShape>{body}, {});
+using Bodies = std::vector<PlacedShape>;
+
+std::vector<CastHit> hits_of(const Rays& rays, const Bodies& bodies, CastHits which) {
+  const LaidOut laid_out(bodies, {});
   std::vector<CastHit> hits;
   EXPECT_TRUE(bool(cast(rays.queries(), rays.sweep(), laid_out.view(), hits, {.hits = which})));
   return hits;
 }
 
 // A call for each ray.
-std::vector<CastHit> hits_one_by_one(const RayLists& list, size_t count, const PlacedShape& body,
+std::vector<CastHit> hits_one_by_one(const RayLists& list, size_t count, const Bodies& bodies,
                                      CastHits which) {
   std::vector<CastHit> all;
   for (uint32_t i = 0; i < count; ++i) {
-    for (CastHit hit : hits_of(list.rays(i, 1), body, which)) {
+    for (CastHit hit : hits_of(list.rays(i, 1), bodies, which)) {
       hit.query = i;
       all.push_back(hit);
     }
@@ -76,9 +78,9 @@ RayLists camera(const Vector3f& eye, const Vector3f& middle, float spread, doubl
   return list;
 }
 
-PlacedShape terrain(bool one_sided) {
+PlacedShape terrain(bool one_sided, int cells = 40) {
   PlacedShape body;
-  body.shape = grid_mesh(40, 0.25f,
+  body.shape = grid_mesh(cells, 0.25f,
                          [](float x, float y) { return 0.4f * std::sin(3 * x) * std::cos(2 * y); },
                          {.one_sided = one_sided});
   body.position = {0.25, -0.5, 0.125};
@@ -98,8 +100,8 @@ TEST(RayPackets, HitWhatEachRayHitsAlone) {
             camera(eye, {0.2f, 0.1f, 0}, spread, spread == 0.2f ? 0.2 : 0.02, random);
         const size_t all = list.origins.size();
         for (const CastHits which : {CastHits::closest, CastHits::any}) {
-          const std::vector<CastHit> alone = hits_one_by_one(list, all, body, which);
-          const std::vector<CastHit> together = hits_of(list.rays(0, all), body, which);
+          const std::vector<CastHit> alone = hits_one_by_one(list, all, {body}, which);
+          const std::vector<CastHit> together = hits_of(list.rays(0, all), {body}, which);
           EXPECT_EQ(bits_of(together), bits_of(alone)) << show(together, alone);
           hit_count += together.size();
           ray_count += all;
@@ -111,16 +113,37 @@ TEST(RayPackets, HitWhatEachRayHitsAlone) {
   EXPECT_LT(hit_count, ray_count);
 }
 
+// Neighbouring rays meet one mesh or the other.
+TEST(RayPackets, MeetSeveralMeshes) {
+  oracle::Random random(15);
+  Bodies bodies = {terrain(false), terrain(true, 12), terrain(false, 12)};
+  bodies[1].position = {1.5, -1.5, 1};
+  bodies[2].position = {-1.5, -1.5, 1};
+  const RayLists list = camera({0.5f, -9, 5}, {0, 0, 0}, 0.3f, 0.1, random);
+  const size_t all = list.origins.size();
+  for (const CastHits which : {CastHits::closest, CastHits::any, CastHits::all}) {
+    const std::vector<CastHit> alone = hits_one_by_one(list, all, bodies, which);
+    const std::vector<CastHit> together = hits_of(list.rays(0, all), bodies, which);
+    EXPECT_EQ(bits_of(together), bits_of(alone)) << show(together, alone);
+    std::array<size_t, 3> hits{};
+    for (const CastHit& hit : together) {
+      if (hit.body < 3) ++hits[hit.body];
+    }
+    if (which == CastHits::any) continue;
+    for (const size_t count : hits) EXPECT_GT(count, 20u);
+  }
+}
+
 TEST(RayPackets, HaveAnyNumberOfRays) {
   oracle::Random random(12);
   const PlacedShape body = terrain(false);
   const RayLists list = camera({0, -9, 5}, {0, 0, 0}, 0.05f, 0, random);
-  const std::vector<CastHit> alone = hits_one_by_one(list, 70, body, CastHits::closest);
+  const std::vector<CastHit> alone = hits_one_by_one(list, 70, {body}, CastHits::closest);
   EXPECT_GT(alone.size(), 60u);
   for (const size_t count : {1, 3, 4, 5, 15, 16, 17, 19, 20, 31, 32, 33, 63, 64, 65, 70}) {
     std::vector<CastHit> expected = alone;
     std::erase_if(expected, [&](const CastHit& hit) { return hit.query >= count; });
-    EXPECT_EQ(bits_of(hits_of(list.rays(0, count), body, CastHits::closest)), bits_of(expected))
+    EXPECT_EQ(bits_of(hits_of(list.rays(0, count), {body}, CastHits::closest)), bits_of(expected))
         << count;
   }
 }
@@ -132,7 +155,7 @@ TEST(RayPackets, AreTheSameOnEveryIsa) {
   std::vector<CastHit> expected;
   for_each_isa([&] {
     const std::vector<CastHit> hits =
-        hits_of(list.rays(0, list.origins.size()), body, CastHits::closest);
+        hits_of(list.rays(0, list.origins.size()), {body}, CastHits::closest);
     if (expected.empty()) expected = hits;
     EXPECT_EQ(bits_of(hits), bits_of(expected));
   });
@@ -168,8 +191,8 @@ TEST(RayContacts, AreThoseOfTheTriangleAlone) {
       return mesh.orientation.normalized() * v;
     };
     list.add(mesh.position.cast<float>() + turned(target - way), turned(way) * 2);
-    const auto of_mesh = hits_of(list.rays(0, 1), mesh, CastHits::closest);
-    const auto of_triangle = hits_of(list.rays(0, 1), alone, CastHits::closest);
+    const auto of_mesh = hits_of(list.rays(0, 1), {mesh}, CastHits::closest);
+    const auto of_triangle = hits_of(list.rays(0, 1), {alone}, CastHits::closest);
     ASSERT_EQ(of_mesh.size(), of_triangle.size());
     if (of_mesh.empty()) continue;
     ++hit_count;

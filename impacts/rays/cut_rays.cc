@@ -1,0 +1,175 @@
+// Puts rays into the frame of a mesh and cuts them to its bounds, in lanes of doubles: C. Ericson,
+// Real-Time Collision Detection, 2005, section 5.3.3.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "impacts/rays/cut_rays.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <bit>
+#include <cfloat>
+#include <cmath>
+
+#include "impacts/rays/ray_in_mesh.h"
+#include "impacts/slack.h"
+#include "simd/rotation-inl.h"
+#include "trees/box_path.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+using FloatsOfDoubles = hn::Rebind<float, DoubleTag>;
+using MaskOfDoubles = hn::Mask<DoubleTag>;
+
+// What a vector of rays is cut to, to be taken out a ray at a time.
+struct CutRays {
+  using Doubles = std::array<double, kDoubleLanes>;
+  using Floats = std::array<float, kDoubleLanes>;
+
+  alignas(64) std::array<Doubles, 3> start, way, inverse;
+  alignas(64) Doubles travel, lengths, first, last;
+  alignas(64) std::array<Floats, 3> lower, upper;
+
+  void take(size_t lane, RayInMesh& ray) const {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      ray.start[axis] = start[axis][lane];
+      ray.way[axis] = way[axis][lane];
+      ray.lower[axis] = lower[axis][lane];
+      ray.upper[axis] = upper[axis][lane];
+      ray.inverse[axis] = static_cast<float>(inverse[axis][lane]);
+    }
+    ray.travel = travel[lane];
+    ray.lengths = lengths[lane];
+    ray.first = first[lane];
+    ray.last = last[lane];
+  }
+};
+
+HWY_INLINE void put(D v, CutRays::Doubles& out) { hn::Store(v, DoubleTag(), out.data()); }
+// On the scalar target infinite numbers become the largest ones.
+HWY_INLINE void put(D v, CutRays::Floats& out) {
+  hn::Store(hn::DemoteTo(FloatsOfDoubles(), v), FloatsOfDoubles(), out.data());
+}
+
+class Cutter {
+ public:
+  Cutter(const RayTarget& target, const Turn& turn) : target_(target), turn_(turn) {}
+
+  // Cuts the rays from row `begin` on. Returns those that may touch the bounds, as bits.
+  HWY_INLINE uint32_t cut(const RayColumns& rays, size_t begin, CutRays& out) const {
+    const DoubleTag tag;
+    const D3 start = in_mesh(rays.from, begin), way = in_mesh(rays.way, begin);
+    const std::array<D, 3> starts = {start.x, start.y, start.z}, ways = {way.x, way.y, way.z};
+    const D travel = largest_component(way);
+    const D lengths =
+        hn::Add(hn::Add(largest_component(start), travel), splat_double(target_.greatest));
+    const D slack = hn::Add(hn::Mul(splat_double(kPathSlack), lengths), splat_double(FLT_TRUE_MIN));
+    const D zero = hn::Zero(tag);
+
+    D first = zero, last = hn::LoadU(tag, rays.limit.data() + begin);
+    std::array<D, 3> inverse;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const D to_lower = hn::Sub(hn::Sub(splat_double(target_.lower[axis]), slack), starts[axis]);
+      const D to_upper = hn::Sub(hn::Add(splat_double(target_.upper[axis]), slack), starts[axis]);
+      inverse[axis] = hn::Div(splat_double(1), ways[axis]);
+      const D at_lower = hn::Mul(to_lower, inverse[axis]);
+      const D at_upper = hn::Mul(to_upper, inverse[axis]);
+      // Where a point stands still it is between the ends all the time, or never.
+      const MaskOfDoubles stands = hn::Eq(ways[axis], zero);
+      const MaskOfDoubles is_outside = hn::Or(hn::Gt(to_lower, zero), hn::Lt(to_upper, zero));
+      const D still = hn::IfThenElse(is_outside, splat_double(-1), last);
+      first = hn::IfThenElse(stands, first, max(min(at_lower, at_upper), first));
+      last = hn::IfThenElse(stands, still, min(max(at_lower, at_upper), last));
+    }
+    const MaskOfDoubles is_left = hn::Le(first, last);
+
+    put(travel, out.travel);
+    put(lengths, out.lengths);
+    put(first, out.first);
+    put(last, out.last);
+    // Without a branch the numbers of rays that are not left would be of no use, either.
+    const D duration = hn::Sub(last, first);
+    const D3 at_first = start + way * first, on_path = way * duration;
+    const std::array<D, 3> places = {at_first.x, at_first.y, at_first.z};
+    const std::array<D, 3> paths = {on_path.x, on_path.y, on_path.z};
+    const D length = hn::Add(largest_component(at_first), largest_component(on_path));
+    // The slack of float32 holds the rounding of these numbers, too.
+    const D margin = hn::Add(slack, hn::Mul(splat_double(kFloatSlack), length));
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const MaskOfDoubles moves =
+          hn::Ge(hn::Abs(ways[axis]), splat_double(BoxPath::kLeastDisplacement));
+      const D along = hn::IfThenElse(moves, zero, paths[axis]);
+      put(starts[axis], out.start[axis]);
+      put(ways[axis], out.way[axis]);
+      put(hn::Sub(hn::Add(places[axis], min(along, zero)), margin), out.lower[axis]);
+      put(hn::Add(hn::Add(places[axis], max(along, zero)), margin), out.upper[axis]);
+      put(hn::IfThenElse(moves, inverse[axis], splat_double(HUGE_VAL)), out.inverse[axis]);
+    }
+    return bits_of(is_left);
+  }
+
+ private:
+  static HWY_INLINE uint32_t bits_of(MaskOfDoubles mask) {
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(DoubleTag(), mask, bits);
+    return bits[0] & ((1u << kDoubleLanes) - 1);
+  }
+
+  // Minus a vector from the point to the mesh, in the mesh's frame.
+  HWY_INLINE D3 in_mesh(const std::array<RayColumns::Column, 3>& columns, size_t row) const {
+    const auto load = [row](const RayColumns::Column& column) {
+      return hn::LoadU(DoubleTag(), column.data() + row);
+    };
+    const auto axis = [this](size_t i) -> D3 {
+      return {splat_double(turn_[i][0]), splat_double(turn_[i][1]), splat_double(turn_[i][2])};
+    };
+    const D3 v = {load(columns[0]), load(columns[1]), load(columns[2])};
+    return rotate({axis(0), axis(1), axis(2)}, -v);
+  }
+
+  const RayTarget& target_;
+  const Turn& turn_;
+};
+
+size_t cut_rays_at_mesh(const RayTarget& target, const Turn& turn, const RayColumns& rays,
+                        size_t begin, size_t end, RaySearch* searches) {
+  const Cutter cutter(target, turn);
+  size_t count = 0;
+  for (size_t i = begin; i < end; i += kDoubleLanes) {
+    CutRays cut;
+    const uint32_t is_there = end - i < kDoubleLanes ? (1u << (end - i)) - 1 : ~0u;
+    for (uint32_t bits = cutter.cut(rays, i, cut) & is_there; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(bits));
+      RaySearch& search = searches[count++];
+      search.row = i + lane;
+      search.limit = rays.limit[i + lane];
+      search.ray.mesh = target.mesh;
+      search.ray.one_sided = target.one_sided;
+      cut.take(lane, search.ray);
+    }
+  }
+  return count;
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(cut_rays_at_mesh);
+
+}  // namespace
+
+size_t cut_rays(const RayTarget& target, const Turn& turn, const RayColumns& rays, size_t begin,
+                size_t end, RaySearch* searches) {
+  return CAROM_DISPATCH(cut_rays_at_mesh)(target, turn, rays, begin, end, searches);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE
