@@ -1,9 +1,9 @@
 #include "bounds/extent.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/outward.h"
+#include "bounds/hull_reach.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/dop_polytope.h"
@@ -11,12 +11,6 @@
 
 namespace carom {
 namespace {
-
-struct Interval {
-  double lower, upper;
-};
-
-using Intervals = std::array<Interval, 3>;
 
 Intervals box_intervals(const std::array<Double3, 3>& turn, const Row& half) {
   Intervals result;
@@ -82,19 +76,7 @@ Extent dop_extent(const std::array<Double3, 3>& turn, const Dop& dop) {
 
 // The extent of the turned points.
 Extent hull_extent(const std::array<Double3, 3>& turn, const HullGeometry& hull) {
-  Intervals result;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    result[axis] = {std::numeric_limits<double>::infinity(),
-                    -std::numeric_limits<double>::infinity()};
-  }
-  for (const Eigen::Vector3f& point : hull.points()) {
-    const Double3 p = {point.x(), point.y(), point.z()};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double x = dot(turn[axis], p);
-      result[axis] = {std::min(result[axis].lower, x), std::max(result[axis].upper, x)};
-    }
-  }
-  return outward(result, 0, kTurnRounding * hull.size());
+  return outward(hull_reach(turn, hull), 0, kTurnRounding * hull.size());
 }
 
 // The extent of the turned box that holds all parts in the body's frame.

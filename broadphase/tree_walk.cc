@@ -72,7 +72,9 @@ HWY_INLINE void sort_steps(TreeWalk::Step* begin, TreeWalk::Step* end) {
 
 // Adds the children of a node that pass the test, the nearest last.
 template <class Test>
-HWY_INLINE void expand(const BoxTree::Node& node, const Test& test, float limit, TreeWalk& walk) {
+HWY_INLINE void expand(const BoxTree::Node* nodes, uint32_t index, const Test& test, float limit,
+                       TreeWalk& walk) {
+  const BoxTree::Node& node = nodes[index];
   TreeWalk::Step* const begin = walk.room(BoxTree::kChildren);
   TreeWalk::Step* end = begin;
   for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
@@ -82,11 +84,30 @@ HWY_INLINE void expand(const BoxTree::Node& node, const Test& test, float limit,
     hn::Store(key, ChildTag(), keys);
     for (; bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(bits));
-      *end++ = {keys[lane], node.child[i + lane]};
+      const uint32_t child = node.child[i + lane];
+      if (!is_item(child)) prefetch_node(nodes[child]);
+      *end++ = {keys[lane], child};
     }
   }
   sort_steps(begin, end);
   walk.add(static_cast<size_t>(end - begin));
+}
+
+// Goes on until an inner node has been expanded. Calls found(item), which returns whether more
+// items are wanted. False at the end of the search, or if no more are wanted.
+template <class Test, class Found>
+HWY_INLINE bool expand_next(const BoxTree::Node* nodes, const Test& test, float limit,
+                            TreeWalk& walk, const Found& found) {
+  while (!walk.is_done()) {
+    const TreeWalk::Step step = walk.take();
+    if (step.key > limit) continue;
+    if (!is_item(step.child)) {
+      expand(nodes, step.child, test, limit, walk);
+      return true;
+    }
+    if (!found(step.child - BoxTree::kItem)) return false;
+  }
+  return false;
 }
 
 template <class Test>
@@ -94,20 +115,41 @@ HWY_INLINE void go_on(const BoxTree& tree, const Test& test, float limit, size_t
                       TreeWalk& walk, std::vector<uint32_t>& items) {
   const BoxTree::Node* const nodes = tree.nodes().data();
   const size_t enough = items.size() + most;
-  while (!walk.is_done() && items.size() < enough) {
-    const TreeWalk::Step step = walk.take();
-    if (step.key > limit) continue;
-    if (is_item(step.child)) {
-      items.push_back(step.child - BoxTree::kItem);
-    } else {
-      expand(nodes[step.child], test, limit, walk);
-    }
+  const auto found = [&](uint32_t item) {
+    items.push_back(item);
+    return items.size() < enough;
+  };
+  while (expand_next(nodes, test, limit, walk, found)) {
   }
 }
 
 void go_on_meeting(const BoxTree& tree, const MovingBox& box, float limit, size_t most,
                    TreeWalk& walk, std::vector<uint32_t>& items) {
   go_on(tree, Meeting{box}, limit, most, walk, items);
+}
+
+void go_on_meeting_side_by_side(std::span<MetSearch> searches, size_t most) {
+  constexpr size_t kSideBySide = 16;
+  std::array<MetSearch*, kSideBySide> active;
+  size_t started = 0, count = 0;
+  const auto start = [&](size_t i) {
+    if (started == searches.size()) return false;
+    active[i] = &searches[started++];
+    return true;
+  };
+  while (count < kSideBySide && start(count)) ++count;
+  for (size_t i = 0; count > 0; i = i + 1 < count ? i + 1 : 0) {
+    MetSearch& search = *active[i];
+    const auto found = [&](uint32_t item) {
+      search.items[search.count++] = item;
+      return search.count < most;
+    };
+    if (expand_next(search.tree->nodes().data(), Meeting{*search.box}, search.limit, *search.walk,
+                    found)) {
+      continue;
+    }
+    if (!start(i)) active[i] = active[--count];
+  }
 }
 
 void go_on_near(const BoxTree& tree, const TreeBox& box, float limit, size_t most, TreeWalk& walk,
@@ -129,6 +171,7 @@ namespace carom {
 namespace {
 
 HWY_EXPORT(go_on_meeting);
+HWY_EXPORT(go_on_meeting_side_by_side);
 HWY_EXPORT(go_on_near);
 
 }  // namespace
@@ -171,6 +214,10 @@ TreeBox MovingBox::swept() const {
 void walk_met(const BoxTree& tree, const MovingBox& box, float limit, size_t most, TreeWalk& walk,
               std::vector<uint32_t>& items) {
   CAROM_DISPATCH(go_on_meeting)(tree, box, limit, most, walk, items);
+}
+
+void walk_met(std::span<MetSearch> searches, size_t most) {
+  CAROM_DISPATCH(go_on_meeting_side_by_side)(searches, most);
 }
 
 void walk_near(const BoxTree& tree, const TreeBox& box, float limit, size_t most, TreeWalk& walk,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trees/box_path.h"
@@ -61,7 +62,21 @@ class TreeWalk {
 void walk_met(const BoxTree& tree, const MovingBox& box, float limit, size_t most, TreeWalk& walk,
               std::vector<uint32_t>& items);
 
-// The same for items whose distance from the box is at most the limit.
+// A search for boxes that a moving box meets, as the arguments of walk_met().
+struct MetSearch {
+  const BoxTree* tree;
+  const MovingBox* box;
+  float limit;
+  TreeWalk* walk;
+  uint32_t* items;   // room for `most`
+  size_t count = 0;  // of items, which the search adds
+};
+
+// Goes on with many searches side by side, so that they wait for memory together. Each of them
+// finds what it finds alone.
+void walk_met(std::span<MetSearch> searches, size_t most);
+
+// As the first, for items whose distance from the box is at most the limit.
 void walk_near(const BoxTree& tree, const TreeBox& box, float limit, size_t most, TreeWalk& walk,
                std::vector<uint32_t>& items);
 

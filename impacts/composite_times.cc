@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "geometries/mesh_memory.h"
 #include "impacts/mesh_path.h"
 #include "impacts/moving_body.h"
 #include "impacts/part_sweep.h"
@@ -148,17 +149,40 @@ struct PathSearch {
   const PlacedPart& mesh() const { return mesh_is_a ? bodies.a : bodies.b; }
   const PlacedPart& shape() const { return mesh_is_a ? bodies.b : bodies.a; }
 
-  // Calls use(part of A, part of B) for some more triangles.
+  // Calls use(part of A, part of B).
   template <class Use>
-  void find(double latest, size_t most, const Use& use) {
-    static thread_local std::vector<uint32_t> triangles;
-    triangles.clear();
-    path->find(std::min(latest, limit), most, walk, triangles);
-    for (const uint32_t triangle : triangles) {
-      const PlacedPart part = mesh().item(triangle);
-      use(mesh_is_a ? part : shape(), mesh_is_a ? shape() : part);
+  void use(uint32_t triangle, const Use& use) const {
+    const PlacedPart part = mesh().item(triangle);
+    use(mesh_is_a ? part : shape(), mesh_is_a ? shape() : part);
+  }
+};
+
+// The triangles that the searches of a round find.
+class FoundTriangles {
+ public:
+  // At most `most` for each search, within its limit and up to its first time so far.
+  void find(std::span<PathSearch* const> active, std::span<const FirstTime> times, size_t most) {
+    triangles_.resize(active.size() * most);
+    searches_.clear();
+    for (PathSearch* search : active) {
+      const double latest = std::min(times[search->owner].time, search->limit);
+      searches_.push_back(
+          search->path->search(latest, search->walk, triangles_.data() + searches_.size() * most));
+    }
+    walk_met(searches_, most);
+  }
+
+  // Calls use(index of the search, triangle) for all.
+  template <class Use>
+  void for_each(const Use& use) const {
+    for (size_t i = 0; i < searches_.size(); ++i) {
+      for (size_t k = 0; k < searches_[i].count; ++k) use(i, searches_[i].items[k]);
     }
   }
+
+ private:
+  std::vector<uint32_t> triangles_;
+  std::vector<MetSearch> searches_;
 };
 
 }  // namespace
@@ -179,6 +203,7 @@ void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* 
   static thread_local const auto scratch = std::make_unique<Scratch>();
   static thread_local std::deque<PathSearch> searches;
   static thread_local std::vector<PathSearch*> active;
+  static thread_local FoundTriangles found;
   searches.clear();
   active.clear();
   const MovingReader reader_a{a}, reader_b{b};
@@ -215,12 +240,18 @@ void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* 
   }
   // Each round tests some more triangles of every pair. The times found limit the next round.
   for (size_t most = kFirstTriangles; !active.empty(); most = std::min(2 * most, kMostTriangles)) {
-    for (PathSearch* search : active) {
-      search->find(times[search->owner].time, most,
-                   [&](const PlacedPart& part_a, const PlacedPart& part_b) {
-                     run.add(search->owner, part_a, search->sweep_a, part_b, search->sweep_b);
-                   });
-    }
+    found.find(active, times, most);
+    // Triangles lie far apart in memory.
+    found.for_each(
+        [&](size_t i, uint32_t triangle) { prefetch_indices(active[i]->mesh().mesh(), triangle); });
+    found.for_each(
+        [&](size_t i, uint32_t triangle) { prefetch_corners(active[i]->mesh().mesh(), triangle); });
+    found.for_each([&](size_t i, uint32_t triangle) {
+      const PathSearch& search = *active[i];
+      search.use(triangle, [&](const PlacedPart& part_a, const PlacedPart& part_b) {
+        run.add(search.owner, part_a, search.sweep_a, part_b, search.sweep_b);
+      });
+    });
     run.run();
     std::erase_if(active, [](PathSearch* search) { return search->walk.is_done(); });
   }

@@ -81,9 +81,12 @@ float MeshPath::limit_on_path(double limit) const {
   return static_cast<float>((limit - first_) / length * (1 + kFloatSlack) + kFloatSlack);
 }
 
-void MeshPath::find(double limit, size_t most, TreeWalk& walk,
-                    std::vector<uint32_t>& triangles) const {
-  walk_met(mesh_.tree(), *box_, limit_on_path(limit), most, walk, triangles);
+MetSearch MeshPath::search(double limit, TreeWalk& walk, uint32_t* triangles) const {
+  return {.tree = &mesh_.tree(),
+          .box = &*box_,
+          .limit = limit_on_path(limit),
+          .walk = &walk,
+          .items = triangles};
 }
 
 }  // namespace carom

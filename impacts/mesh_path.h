@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "broadphase/tree_walk.h"
 #include "impacts/part_sweep.h"
@@ -25,10 +24,9 @@ class MeshPath {
   bool is_in_range() const { return is_in_range_; }
   bool is_empty() const { return !box_; }
 
-  // Appends triangles that the shape may touch, roughly in the order in which it gets there, until
-  // it has added `most` or none are left. Those that it may touch after `limit` alone may be left
-  // out.
-  void find(double limit, size_t most, TreeWalk& walk, std::vector<uint32_t>& triangles) const;
+  // A search for triangles that the shape may touch, roughly in the order in which it gets there.
+  // Those that it may touch after `limit` alone may be left out.
+  MetSearch search(double limit, TreeWalk& walk, uint32_t* triangles) const;
 
  private:
   float limit_on_path(double limit) const;

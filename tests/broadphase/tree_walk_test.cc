@@ -108,7 +108,8 @@ Items all_met(const BoxTree& tree, const Probe& probe, size_t most, float limit 
   TreeWalk walk;
   Items items;
   walk.start(tree);
-  const MovingBox moving(probe.box, probe.displacement);
+  MovingBox moving;
+  moving.set(probe.box, probe.displacement);
   while (!walk.is_done()) {
     const size_t before = items.size();
     walk_met(tree, moving, limit, most, walk, items);
@@ -190,6 +191,51 @@ TEST(TreeWalk, MeetsHardlyAnythingElse) {
   }
   EXPECT_GT(tally.surely, 2000u);
   EXPECT_LE(tally.found, tally.surely + 5);
+}
+
+// Searches in several trees, some of them empty, go on until each has found all of its items.
+TEST(TreeWalk, FindsTheSameSideBySide) {
+  std::vector<std::vector<TreeBox>> boxes;
+  for (const size_t count : {0, 1, 9, 300}) boxes.push_back(boxes_of(BoxFamily::random, count));
+  std::vector<BoxTree> trees;
+  for (const auto& list : boxes) trees.push_back(BoxTree::packed(list, Parallelism::none));
+  const std::vector<Probe> probes = make_probes(boxes.back(), 40, 5);
+  for_each_isa([&] {
+    for (const size_t count : {0, 1, 15, 16, 17, 40}) {
+      for (const size_t most : {1, 2, 5}) {
+        std::vector<MovingBox> moving(count);
+        std::vector<TreeWalk> walks(count);
+        std::vector<uint32_t> room(count * most);
+        std::vector<Items> items(count);
+        for (size_t i = 0; i < count; ++i) {
+          moving[i].set(probes[i].box, probes[i].displacement);
+          walks[i].start(trees[i % trees.size()]);
+        }
+        size_t found = 1;
+        while (found > 0) {
+          std::vector<MetSearch> searches;
+          for (size_t i = 0; i < count; ++i) {
+            searches.push_back({.tree = &trees[i % trees.size()],
+                                .box = &moving[i],
+                                .limit = 1,
+                                .walk = &walks[i],
+                                .items = &room[i * most]});
+          }
+          walk_met(searches, most);
+          found = 0;
+          for (size_t i = 0; i < count; ++i) {
+            EXPECT_TRUE(walks[i].is_done() || searches[i].count == most);
+            items[i].insert(items[i].end(), searches[i].items,
+                            searches[i].items + searches[i].count);
+            found += searches[i].count;
+          }
+        }
+        for (size_t i = 0; i < count; ++i) {
+          EXPECT_EQ(items[i], all_met(trees[i % trees.size()], probes[i], most));
+        }
+      }
+    }
+  });
 }
 
 // Infinite boxes, as for half-space queries and for coordinates beyond the range of float32.

@@ -1,0 +1,20 @@
+// How far the points of a hull reach along three axes.
+#pragma once
+
+#include <array>
+
+#include "carom/shapes/hull.h"
+#include "shapes/turn.h"
+
+namespace carom {
+
+struct Interval {
+  double lower, upper;
+};
+
+using Intervals = std::array<Interval, 3>;
+
+// The least and the greatest of axis . point for each axis, in lanes of doubles. Zero is positive.
+Intervals hull_reach(const std::array<Double3, 3>& axes, const HullGeometry& hull);
+
+}  // namespace carom
