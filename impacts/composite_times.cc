@@ -200,7 +200,7 @@ PlacedBodies::PlacedBodies(const MovingSide& side_a, const MovingSide& side_b, P
 void find_composite_times(const MovingSide& a, const MovingSide& b, const Pair* pairs,
                           std::span<const uint16_t> rows, const TimesWanted& wanted,
                           std::span<FirstTime> times) {
-  static thread_local const auto scratch = std::make_unique<Scratch>();
+  static thread_local const auto scratch = std::make_unique_for_overwrite<Scratch>();
   static thread_local std::deque<PathSearch> searches;
   static thread_local std::vector<PathSearch*> active;
   static thread_local FoundTriangles found;

@@ -31,7 +31,7 @@ void find_first_times(const MovingSide& a, const MovingSide& b, std::span<const 
   if (!may_have_parts(a.bodies) && !may_have_parts(b.bodies)) {
     return find_simple_times(a, b, pairs.data(), pairs.size(), {out.time, out.status});
   }
-  static thread_local const auto sorted = std::make_unique<SortedRows>();
+  static thread_local const auto sorted = std::make_unique_for_overwrite<SortedRows>();
   SortedRows& rows = *sorted;
   const BodyReader reader_a{a.bodies}, reader_b{b.bodies};
   size_t simple = 0, composite = 0;

@@ -308,7 +308,7 @@ class ImpactContacts {
 
 void find_impact_contacts(const MovingSide& a, const MovingSide& b, const Pair* pairs,
                           const FirstTimes& first, WitnessFrame frame, const ImpactColumns& out) {
-  static thread_local const auto scratch = std::make_unique<ContactScratch>();
+  static thread_local const auto scratch = std::make_unique_for_overwrite<ContactScratch>();
   ImpactContacts(a, b, pairs, first, frame, out, *scratch).run();
 }
 

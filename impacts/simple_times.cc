@@ -224,7 +224,7 @@ class SimpleTimes {
 
 void find_simple_times(const MovingSide& a, const MovingSide& b, const Pair* pairs, size_t count,
                        const TimeColumns& out, const GroupsOfRows* groups) {
-  static thread_local const auto scratch = std::make_unique<SimpleScratch>();
+  static thread_local const auto scratch = std::make_unique_for_overwrite<SimpleScratch>();
   for (size_t begin = 0; begin < count; begin += kRowsPerBlock) {
     const size_t rows = std::min(count - begin, kRowsPerBlock);
     const GroupsOfRows of_block =

@@ -89,7 +89,7 @@ Result<void> time_of_impact(const Collidables& a, const SweepView& sweep_a, cons
   if (Result<void> checked = check_pairs(a, b, pairs); !checked) return checked;
   const MovingSide side_a{a, sweep_a}, side_b{b, sweep_b};
   const auto run_block = [&](size_t, size_t begin, size_t end) {
-    static thread_local const auto scratch = std::make_unique<ImpactScratch>();
+    static thread_local const auto scratch = std::make_unique_for_overwrite<ImpactScratch>();
     const ImpactColumns block_out = from_row(out, begin);
     ImpactBlock(side_a, side_b, pairs.subspan(begin, end - begin), block_out, options.frame,
                 *scratch)

@@ -297,7 +297,7 @@ class CompositeRun {
 
 void run_composite_pairs(const PairBlock& block, std::span<const uint16_t> rows,
                          const ExtraRequest& extra) {
-  static thread_local const auto scratch = std::make_unique<CompositeScratch>();
+  static thread_local const auto scratch = std::make_unique_for_overwrite<CompositeScratch>();
   CompositeRun(block, rows, extra, *scratch).run();
 }
 

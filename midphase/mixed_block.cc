@@ -79,7 +79,7 @@ void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
 }  // namespace
 
 void run_mixed_block(const PairBlock& block, const ExtraRequest& extra) {
-  static thread_local const auto scratch = std::make_unique<MixedScratch>();
+  static thread_local const auto scratch = std::make_unique_for_overwrite<MixedScratch>();
   sort_out(block, *scratch);
   if (scratch->composite_count == 0) return run_pair_block(block);
   if (scratch->simple_count > 0) run_simple_pairs(block, *scratch);

@@ -24,7 +24,7 @@ struct RayScratch {
 };
 
 void find_ray_candidates(std::span<RaySearch> searches, bool any) {
-  static thread_local const auto scratch = std::make_unique<RayScratch>();
+  static thread_local const auto scratch = std::make_unique_for_overwrite<RayScratch>();
   scratch->single.clear();
   for (size_t i = 0; i < searches.size(); i += RayPacket::kMost) {
     const auto group = searches.subspan(i, std::min(RayPacket::kMost, searches.size() - i));

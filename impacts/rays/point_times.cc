@@ -33,7 +33,7 @@ bool is_valid_point(const MovingReader& side, size_t i) {
 }  // namespace
 
 PointTimes::Scratch& PointTimes::scratch_of_thread() {
-  static thread_local const auto scratch = std::make_unique<Scratch>();
+  static thread_local const auto scratch = std::make_unique_for_overwrite<Scratch>();
   return *scratch;
 }
 
