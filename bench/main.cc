@@ -20,7 +20,7 @@ Options take_options(std::vector<char*>& arguments) {
   Options options;
   for (auto argument = std::next(arguments.begin()); argument != arguments.end();) {
     if (std::strcmp(*argument, "--smoke") == 0) {
-      options = {.pairs = 20'000, .max_bodies = 10'000};
+      options = {.pairs = 2'000, .max_bodies = 10'000};
       *argument++ = min_time;
     } else if (std::strcmp(*argument, "--large") == 0) {
       options.max_bodies = 1'000'000;

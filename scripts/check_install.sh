@@ -47,7 +47,7 @@ run_through_pkg_config() {
   echo "== $1, built through pkg-config with $2"
   "$scratch/pkg_config"
 }
-run_through_pkg_config rigid_bodies carom-reference
+run_through_pkg_config first_program carom-reference
 [ -z "$has_hulls" ] || run_through_pkg_config hull_from_points carom-hulls
 
 if [ "$linkage" = shared ]; then

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# check_neon.sh: compiles every file of the library for AArch64, alone, with the flags of
-# cmake/CaromFlags.cmake that matter there, without linking. Files with code in lanes are compiled by
-# g++, which is strict about the instruction sets of functions; clang, which reads headers in half the
-# time, compiles the others, which g++ compiles for this machine in other builds.
+# check_neon.sh: compiles every file of the library for AArch64 with the flags of cmake/CaromFlags.cmake
+# that matter there, without linking. Files with code in lanes are compiled by g++, which is strict about
+# the instruction sets of functions, in the groups that CMake writes; clang, which reads headers in half
+# the time, compiles the others, each alone. g++ compiles those for this machine in other builds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 rooms=(simd base shapes trees bounds geometries broadphase narrowphase midphase impacts queries world)
@@ -14,9 +14,9 @@ ln -sfn /usr/include/eigen3/Eigen $out/include/Eigen
 ln -sfn /usr/include/tbb $out/include/tbb
 ln -sfn /usr/include/oneapi $out/include/oneapi
 
-# The list of pair kinds as headers, which CMake writes.
+# The list of pair kinds as headers, and files with code in lanes, both of which CMake writes.
 generated=build/release/generated
-[ -d $generated ] || cmake --preset release >/dev/null
+[ -d $generated/kernels ] || cmake --preset release >/dev/null
 
 flags=(-std=c++20 -O0 -march=armv8-a+crypto -I . -I include -I $generated -isystem $out/include
        -ffp-contract=off -fno-tree-slp-vectorize -Wall -Wextra)
@@ -39,13 +39,18 @@ while next=$(grep -rlF "$includes" include "${rooms[@]}" --include='*.h' | sort)
   includes=$'#include <Eigen/\n'$(sed 's#^include/##; s#.*#\#include "&"#' <<<"$headers")
 done
 
-# compile_alone COMPILER...: compiles the files of the standard input.
-compile_alone() { xargs -r -P "${JOBS:-$(nproc)}" -n 1 "$@" -c -o /dev/null; }
+# compile_each COMPILER...: compiles the files of the standard input.
+compile_each() { xargs -r -P "${JOBS:-$(nproc)}" -n 1 "$@" -c -o /dev/null; }
 
 sources=$(find "${rooms[@]}" -name '*.cc' | sort)
-plain=$(xargs grep -LF "$includes" <<<"$sources")
-eigen=$(comm -23 <(echo "$sources") <(echo "$plain"))
-compile_alone "${gcc[@]}" <<<"$plain"
-xargs grep -l foreach_target.h <<<"$eigen" | compile_alone "${gcc[@]}" -include $out/eigen.h
-xargs grep -L foreach_target.h <<<"$eigen" | compile_alone "${clang[@]}" -include-pch $out/eigen.h.pch
+groups=$(find $generated/kernels -name '*.cc' | sort)
+[ -n "$groups" ] || { echo "check_neon: no groups of files with code in lanes" >&2; exit 1; }
+in_groups=$(xargs sed -n 's/^#include "\(.*\.cc\)"$/\1/p' <<<"$groups" | sort)
+lanes=$(comm -23 <(xargs grep -l foreach_target.h <<<"$sources") <(echo "$in_groups"))
+compile_each "${gcc[@]}" -include $out/eigen.h <<<"$lanes"$'\n'"$groups"
+others=$(xargs grep -L foreach_target.h <<<"$sources")
+plain=$(xargs grep -LF "$includes" <<<"$others")
+eigen=$(comm -23 <(echo "$others") <(echo "$plain"))
+compile_each "${clang[@]}" <<<"$plain"
+compile_each "${clang[@]}" -include-pch $out/eigen.h.pch <<<"$eigen"
 echo "neon: the library compiles for AArch64"

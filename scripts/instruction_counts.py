@@ -11,11 +11,13 @@ judged.
 """
 
 import argparse
+import os
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 
 TABLE = pathlib.Path(__file__).parents[1] / "bench/instructions.txt"
 FRAMES = 6
@@ -48,13 +50,12 @@ def build_no_clock(folder):
     return library
 
 
-def count(program, scene, options, folder):
+def count(program, scene, options, no_clock):
     command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
                "--toggle-collect=carom::World::step()", program, "run", scene, *options.split(),
-               "--frames", str(FRAMES), "--threads", "1", "--isa", "avx2", "--json",
-               str(pathlib.Path(folder, "report.json"))]
+               "--frames", str(FRAMES), "--threads", "1", "--isa", "avx2"]
     run = subprocess.run(command, capture_output=True, text=True,
-                         env={"LD_PRELOAD": str(build_no_clock(folder)), "PATH": "/usr/bin:/bin"})
+                         env={"LD_PRELOAD": str(no_clock), "PATH": "/usr/bin:/bin"})
     collected = re.search(r"Collected : (\d+)", run.stderr)
     if run.returncode != 0 or not collected or int(collected[1]) == 0:
         sys.exit(f"instruction_counts: {' '.join(map(str, command))}\n{run.stderr}")
@@ -77,9 +78,10 @@ def main():
     parser.add_argument("program", help="carom-run of a release build")
     parser.add_argument("--write", action="store_true", help="write the table")
     options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        counts = {name: count(options.program, scene, flags, folder)
-                  for name, scene, flags in ROWS}
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
+        no_clock = build_no_clock(folder)
+        found = pool.map(lambda row: count(options.program, row[1], row[2], no_clock), ROWS)
+        counts = {name: number for (name, _, _), number in zip(ROWS, found)}
     if options.write:
         lines = [f"# {compiler()}"] + [f"{name:<22}{number:>12}" for name, number in counts.items()]
         TABLE.write_text("\n".join(lines) + "\n")
