@@ -136,6 +136,26 @@ HWY_INLINE size_t store_pairs(Tag tag, V one, V others, M mask, uint32_t* to) {
   return count;
 }
 
+// Writes high * 2^32 + low of each selected lane, and returns their number. May write a whole
+// vector of each.
+HWY_INLINE size_t store_keys(Indices high, Indices low, Mask mask, uint64_t* to) {
+  const IndexTag tag;
+#if CAROM_COMPRESS_BY_TABLE
+  const size_t bits = bits_of(mask);
+  high = permute(high, kForInterleaving, bits);
+  low = permute(low, kForInterleaving, bits);
+  const auto count = static_cast<size_t>(std::popcount(bits));
+#else
+  const auto selected = hn::RebindMask(tag, mask);
+  high = order_for_interleaving(tag, hn::Compress(high, selected));
+  low = order_for_interleaving(tag, hn::Compress(low, selected));
+  const size_t count = hn::CountTrue(FloatTag(), mask);
+#endif
+  static_assert(std::endian::native == std::endian::little);
+  store_interleaved(tag, low, high, reinterpret_cast<uint32_t*>(to));
+  return count;
+}
+
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -125,6 +125,9 @@ void ContactStage::find_results(const PairRange& range, const CarryPlan& plan,
   const size_t pairs = range.end - range.begin;
   const bool regions = settings.detail == Detail::regions;
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
+  if (plan.tests_all() && !regions && !results.has_near() && !bodies.knows_sensors()) {
+    return read_decisions(range, results, settings, now);
+  }
   std::atomic<size_t> overlaps{0}, undecided{0}, left_out{0};
   for_each_block(pairs, kPairsPerMergeBlock, settings.parallelism,
                  [&](size_t block, size_t begin, size_t end) {
@@ -165,6 +168,32 @@ void ContactStage::find_results(const PairRange& range, const CarryPlan& plan,
   overlaps_ += overlaps;
   undecided_ += undecided;
   left_out_ += left_out;
+}
+
+void ContactStage::read_decisions(const PairRange& range, const ResultBuffer& results,
+                                  const WorldSettings& settings, PairHistory& now) {
+  const uint32_t listed = has_contacts(settings.detail) ? 0xffffffffu : 0;
+  std::atomic<size_t> overlaps{0}, undecided{0};
+  for_each_block(range.end - range.begin, kPairsPerMergeBlock, settings.parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   const size_t first = range.begin + begin;
+                   const uint8_t* const decision = results.overlaps_from(first);
+                   uint32_t* const contact = now.contact.data() + first;
+                   uint32_t overlapping = 0, unknown = 0;
+                   for (size_t i = 0; i < end - begin; ++i) {
+                     const bool overlap = decision[i] == 1;
+                     // Zero, which is to be written, or none.
+                     contact[i] = ~((0u - overlap) & listed);
+                     overlapping += overlap;
+                     unknown += decision[i] == kUndecided;
+                   }
+                   std::copy_n(decision, end - begin, now.overlaps.data() + first);
+                   block_first_[block] = listed ? overlapping : 0;
+                   overlaps += overlapping;
+                   undecided += unknown;
+                 });
+  overlaps_ += overlaps;
+  undecided_ += undecided;
 }
 
 void ContactStage::write_contacts(const PairRange& range, const CarryPlan& plan,

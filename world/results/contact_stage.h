@@ -47,7 +47,10 @@ class ResultBuffer {
   void find_near(std::span<const Pair> pairs, const PresentBounds& grown, Parallelism parallelism);
 
   uint8_t overlap(size_t row) const { return columns().overlap[place(row)]; }
-  bool is_near(size_t row) const { return !near_.empty() && near_[place(row)]; }
+  // The same of rows that follow one another, of pairs that are all tested.
+  const uint8_t* overlaps_from(size_t row) const { return columns().overlap + place(row); }
+  bool is_near(size_t row) const { return has_near() && near_[place(row)]; }
+  bool has_near() const { return !near_.empty(); }
   // Of pairs that are all tested, whose rows begin with this one.
   PairRows rows_of(std::span<const Pair> pairs, size_t row, std::span<uint32_t> contact) const {
     return {columns(), place(row), pairs, contact};
@@ -99,6 +102,10 @@ class ContactStage {
                     const WorldSettings& settings, PairHistory& now);
   void write_contacts(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
                       const ResultBuffer& results, const WorldSettings& settings, PairHistory& now);
+
+  // What find_results() does where every pair is tested, and overlaps say all: in lanes.
+  void read_decisions(const PairRange& range, const ResultBuffer& results,
+                      const WorldSettings& settings, PairHistory& now);
 
   size_t overlaps_ = 0;
   size_t undecided_ = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "world/results/overlap_keys.h"
+
 namespace carom {
 namespace {
 
@@ -25,14 +27,11 @@ void tell_fates(std::span<Event> events, const EventStage::Input& input) {
 
 // Undecided pairs have no events.
 void EventStage::Overlaps::read(const PairHistory& history, size_t begin, size_t end) {
-  key.resize(end - begin + 1);
-  contact.resize(end - begin + 1);
-  count = 0;
-  for (size_t i = begin; i < end; ++i) {
-    key[count] = pair_key(history.pairs[i]);
-    contact[count] = history.contact[i];
-    count += history.overlaps[i] == 1;
-  }
+  key.resize(end - begin + kOverlapsBeyond);
+  contact.resize(end - begin + kOverlapsBeyond);
+  count = list_overlaps(std::span(history.pairs).subspan(begin, end - begin),
+                        history.overlaps.data() + begin, history.contact.data() + begin, key.data(),
+                        contact.data());
   key[count] = ~uint64_t{0};
   contact[count] = PairHistory::kNone;
 }

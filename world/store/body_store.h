@@ -59,6 +59,8 @@ class BodyStore {
   std::span<const uint32_t> spaces() const { return space_; }  // empty: all are in space 0
   void set_space(uint32_t index, uint32_t space);
   bool is_sensor(uint32_t index) const { return !sensor_.empty() && sensor_[index]; }
+  // Whether some body is, or was, a sensor.
+  bool knows_sensors() const { return !sensor_.empty(); }
   void set_sensor(uint32_t index, bool sensor);
   float contact_distance(uint32_t index) const {
     return contact_distance_.empty() ? 0 : contact_distance_[index];
