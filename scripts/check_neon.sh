@@ -23,8 +23,8 @@ flags=(-std=c++20 -O0 -march=armv8-a+crypto -I . -I include -I $generated -isyst
 gcc=(aarch64-linux-gnu-g++ "${flags[@]}")
 clang=(clang++ --target=aarch64-linux-gnu "${flags[@]}")
 
-# Eigen, half of what a file reads, is compiled once for the files that include it anyway, so that a
-# file that forgets a header is still found.
+# Eigen, half of what a file reads, is compiled once for files with lanes, and for the others that
+# include it anyway, so that one of these that forgets a header is still found.
 echo '#include <Eigen/Core>' >$out/eigen.h
 "${gcc[@]}" -x c++-header $out/eigen.h -o $out/eigen.h.gch &
 "${clang[@]}" -x c++-header $out/eigen.h -o $out/eigen.h.pch
