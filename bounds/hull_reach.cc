@@ -15,24 +15,25 @@ namespace {
 // Columns of hulls are padded to a multiple of this.
 static_assert(16 % kDoubleLanes == 0);
 
+HWY_INLINE D wide(const float* column) {
+  return hn::PromoteTo(DoubleTag(), hn::LoadU(hn::Rebind<float, DoubleTag>(), column));
+}
+
+// axis . point of the points from i on.
+HWY_INLINE D heights(const Double3& axis, const HullGeometry& hull, size_t i) {
+  const D x = hn::Mul(splat_double(axis[0]), wide(hull.column(0) + i));
+  const D y = hn::Mul(splat_double(axis[1]), wide(hull.column(1) + i));
+  const D z = hn::Mul(splat_double(axis[2]), wide(hull.column(2) + i));
+  return hn::Add(hn::Add(x, y), z);
+}
+
 Intervals hull_reach_in_lanes(const std::array<Double3, 3>& axes, const HullGeometry& hull) {
   const DoubleTag tag;
-  const hn::Rebind<float, DoubleTag> floats;
-  const float* const x = hull.column(0);
-  const float* const y = hull.column(1);
-  const float* const z = hull.column(2);
   Intervals result;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const D ax = splat_double(axes[axis][0]), ay = splat_double(axes[axis][1]),
-            az = splat_double(axes[axis][2]);
-    const auto along = [&](size_t i) HWY_ATTR {
-      const auto wide = [&](const float* column)
-                            HWY_ATTR { return hn::PromoteTo(tag, hn::LoadU(floats, column + i)); };
-      return hn::Add(hn::Add(hn::Mul(ax, wide(x)), hn::Mul(ay, wide(y))), hn::Mul(az, wide(z)));
-    };
-    D least = along(0), most = least;
+    D least = heights(axes[axis], hull, 0), most = least;
     for (size_t i = kDoubleLanes; i < hull.points().size(); i += kDoubleLanes) {
-      const D height = along(i);
+      const D height = heights(axes[axis], hull, i);
       least = min(least, height);
       most = max(most, height);
     }

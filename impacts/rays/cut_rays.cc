@@ -20,7 +20,6 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 using FloatsOfDoubles = hn::Rebind<float, DoubleTag>;
-using MaskOfDoubles = hn::Mask<DoubleTag>;
 
 // What a vector of rays is cut to, to be taken out a ray at a time.
 struct CutRays {
@@ -52,6 +51,14 @@ HWY_INLINE void put(D v, CutRays::Floats& out) {
   hn::Store(hn::DemoteTo(FloatsOfDoubles(), v), FloatsOfDoubles(), out.data());
 }
 
+HWY_INLINE D load(const RayColumns::Column& column, size_t row) {
+  return hn::LoadU(DoubleTag(), column.data() + row);
+}
+
+HWY_INLINE D3 splat3(const Double3& v) {
+  return {splat_double(v[0]), splat_double(v[1]), splat_double(v[2])};
+}
+
 class Cutter {
  public:
   Cutter(const RayTarget& target, const Turn& turn) : target_(target), turn_(turn) {}
@@ -60,72 +67,69 @@ class Cutter {
   HWY_INLINE uint32_t cut(const RayColumns& rays, size_t begin, CutRays& out) const {
     const DoubleTag tag;
     const D3 start = in_mesh(rays.from, begin), way = in_mesh(rays.way, begin);
-    const std::array<D, 3> starts = {start.x, start.y, start.z}, ways = {way.x, way.y, way.z};
     const D travel = largest_component(way);
     const D lengths =
         hn::Add(hn::Add(largest_component(start), travel), splat_double(target_.greatest));
     const D slack = hn::Add(hn::Mul(splat_double(kPathSlack), lengths), splat_double(FLT_TRUE_MIN));
-    const D zero = hn::Zero(tag);
-
-    D first = zero, last = hn::LoadU(tag, rays.limit.data() + begin);
-    std::array<D, 3> inverse;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const D to_lower = hn::Sub(hn::Sub(splat_double(target_.lower[axis]), slack), starts[axis]);
-      const D to_upper = hn::Sub(hn::Add(splat_double(target_.upper[axis]), slack), starts[axis]);
-      inverse[axis] = hn::Div(splat_double(1), ways[axis]);
-      const D at_lower = hn::Mul(to_lower, inverse[axis]);
-      const D at_upper = hn::Mul(to_upper, inverse[axis]);
-      // Where a point stands still it is between the ends all the time, or never.
-      const MaskOfDoubles stands = hn::Eq(ways[axis], zero);
-      const MaskOfDoubles is_outside = hn::Or(hn::Gt(to_lower, zero), hn::Lt(to_upper, zero));
-      const D still = hn::IfThenElse(is_outside, splat_double(-1), last);
-      first = hn::IfThenElse(stands, first, max(min(at_lower, at_upper), first));
-      last = hn::IfThenElse(stands, still, min(max(at_lower, at_upper), last));
-    }
-    const MaskOfDoubles is_left = hn::Le(first, last);
-
+    const D one = splat_double(1);
+    const D3 inverse = {hn::Div(one, way.x), hn::Div(one, way.y), hn::Div(one, way.z)};
+    D first = hn::Zero(tag), last = hn::LoadU(tag, rays.limit.data() + begin);
+    cut_axis(0, start.x, way.x, inverse.x, slack, first, last);
+    cut_axis(1, start.y, way.y, inverse.y, slack, first, last);
+    cut_axis(2, start.z, way.z, inverse.z, slack, first, last);
     put(travel, out.travel);
     put(lengths, out.lengths);
     put(first, out.first);
     put(last, out.last);
-    // Without a branch the numbers of rays that are not left would be of no use, either.
-    const D duration = hn::Sub(last, first);
-    const D3 at_first = start + way * first, on_path = way * duration;
-    const std::array<D, 3> places = {at_first.x, at_first.y, at_first.z};
-    const std::array<D, 3> paths = {on_path.x, on_path.y, on_path.z};
+
+    const D3 at_first = start + way * first, on_path = way * hn::Sub(last, first);
     const D length = hn::Add(largest_component(at_first), largest_component(on_path));
-    // The slack of float32 holds the rounding of these numbers, too.
+    // The slack of float32 holds the rounding of what is put, too.
     const D margin = hn::Add(slack, hn::Mul(splat_double(kFloatSlack), length));
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const MaskOfDoubles moves =
-          hn::Ge(hn::Abs(ways[axis]), splat_double(BoxPath::kLeastDisplacement));
-      const D along = hn::IfThenElse(moves, zero, paths[axis]);
-      put(starts[axis], out.start[axis]);
-      put(ways[axis], out.way[axis]);
-      put(hn::Sub(hn::Add(places[axis], min(along, zero)), margin), out.lower[axis]);
-      put(hn::Add(hn::Add(places[axis], max(along, zero)), margin), out.upper[axis]);
-      put(hn::IfThenElse(moves, inverse[axis], splat_double(HUGE_VAL)), out.inverse[axis]);
-    }
-    return bits_of(is_left);
+    put_axis(0, start.x, way.x, inverse.x, at_first.x, on_path.x, margin, out);
+    put_axis(1, start.y, way.y, inverse.y, at_first.y, on_path.y, margin, out);
+    put_axis(2, start.z, way.z, inverse.z, at_first.z, on_path.z, margin, out);
+    return bits_of(hn::Le(first, last));
   }
 
  private:
-  static HWY_INLINE uint32_t bits_of(MaskOfDoubles mask) {
+  static HWY_INLINE uint32_t bits_of(DoubleMask mask) {
     uint8_t bits[8] = {};
     hn::StoreMaskBits(DoubleTag(), mask, bits);
     return bits[0] & ((1u << kDoubleLanes) - 1);
   }
 
+  // Leaves the times at which points are between the ends of the bounds on an axis. One that stands
+  // still there is between them all the time, or never.
+  HWY_INLINE void cut_axis(size_t axis, D start, D way, D inverse, D slack, D& first,
+                           D& last) const {
+    const D zero = hn::Zero(DoubleTag());
+    const D to_lower = hn::Sub(hn::Sub(splat_double(target_.lower[axis]), slack), start);
+    const D to_upper = hn::Sub(hn::Add(splat_double(target_.upper[axis]), slack), start);
+    const D at_lower = hn::Mul(to_lower, inverse), at_upper = hn::Mul(to_upper, inverse);
+    const DoubleMask stands = hn::Eq(way, zero);
+    const DoubleMask is_outside = hn::Or(hn::Gt(to_lower, zero), hn::Lt(to_upper, zero));
+    const D still = hn::IfThenElse(is_outside, splat_double(-1), last);
+    first = hn::IfThenElse(stands, first, max(min(at_lower, at_upper), first));
+    last = hn::IfThenElse(stands, still, min(max(at_lower, at_upper), last));
+  }
+
+  static HWY_INLINE void put_axis(size_t axis, D start, D way, D inverse, D at_first, D on_path,
+                                  D margin, CutRays& out) {
+    const D zero = hn::Zero(DoubleTag());
+    const DoubleMask moves = hn::Ge(hn::Abs(way), splat_double(BoxPath::kLeastDisplacement));
+    const D along = hn::IfThenElse(moves, zero, on_path);
+    put(start, out.start[axis]);
+    put(way, out.way[axis]);
+    put(hn::Sub(hn::Add(at_first, min(along, zero)), margin), out.lower[axis]);
+    put(hn::Add(hn::Add(at_first, max(along, zero)), margin), out.upper[axis]);
+    put(hn::IfThenElse(moves, inverse, splat_double(HUGE_VAL)), out.inverse[axis]);
+  }
+
   // Minus a vector from the point to the mesh, in the mesh's frame.
   HWY_INLINE D3 in_mesh(const std::array<RayColumns::Column, 3>& columns, size_t row) const {
-    const auto load = [row](const RayColumns::Column& column) {
-      return hn::LoadU(DoubleTag(), column.data() + row);
-    };
-    const auto axis = [this](size_t i) -> D3 {
-      return {splat_double(turn_[i][0]), splat_double(turn_[i][1]), splat_double(turn_[i][2])};
-    };
-    const D3 v = {load(columns[0]), load(columns[1]), load(columns[2])};
-    return rotate({axis(0), axis(1), axis(2)}, -v);
+    const D3 v = {load(columns[0], row), load(columns[1], row), load(columns[2], row)};
+    return rotate({splat3(turn_[0]), splat3(turn_[1]), splat3(turn_[2])}, -v);
   }
 
   const RayTarget& target_;
