@@ -215,8 +215,20 @@ inline Vector3d middle_of(const MovingShape& moving, double scale) {
   return eigen_vector(core.middle);
 }
 
-// Whether B comes from behind the triangle A. Both are given at the time of impact, B at `from`.
-inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const Vector3d& from) {
+// How B moves past A at the time of impact.
+struct Passage {
+  Vector3d from;            // from the position of A to that of B, at that time
+  Vector3d way;             // of B seen from A, over the interval
+  Vector3d turn_a, turn_b;  // rotations over the interval
+  double slack;             // of places, at least
+  bool has_begun;           // whether the time is later than the start
+
+  Passage flipped() const { return {-from, -way, turn_b, turn_a, slack, has_begun}; }
+};
+
+// Whether B comes from behind the triangle A. Both are given at the time of impact. The middle of B
+// lies behind the plane then. If it lies in the plane, as that of a point does, its way decides.
+inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const Passage& passage) {
   if (!is_one_sided(a.shape)) return false;
   const auto triangle = shape_as<double>(std::get<Triangle>(a.shape));
   if (const auto* plane = std::get_if<Halfspace>(&b.shape)) {
@@ -226,7 +238,16 @@ inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const
   }
   const double scale = scale_of(max(triangle.size(), size_of_shape(b.shape))).down;
   const FrontRules rules = polytope_of(triangle.scaled(scale), a.q).rules;
-  return comes_from_behind(rules, middle_of(b, scale) + from * scale);
+  const Vector3d in_b = middle_of(b, scale), middle = in_b + passage.from * scale;
+  if (comes_from_behind(rules, middle)) return true;
+
+  const double height = dot(rules.front, Vector3d(middle - rules.corner)) + rules.thickness;
+  if (!passage.has_begun || height > kInPlane + passage.slack * scale) return false;
+  // Of the middle of B, seen from the triangle; both turn about their pivots.
+  const Vector3d arm_b = b.arm * scale + in_b, arm_a = a.arm * scale + middle;
+  const Vector3d velocity =
+      (passage.way * scale + cross(passage.turn_b, arm_b)) - cross(passage.turn_a, arm_a);
+  return dot(rules.front, velocity) > kInPlane * largest_component(velocity);
 }
 
 // The shape at time t, relative to its pivot, with its orientation rounded as that of its contact
@@ -249,8 +270,18 @@ inline bool passes_one_sided(const MovingShape& a, const MovingShape& b, const V
                              const Vector3d& way, double t) {
   if (!is_one_sided(a.shape) && !is_one_sided(b.shape)) return false;
   const MovingShape then_a = at_time(a, t), then_b = at_time(b, t);
-  const Vector3d moved = (from + way * t) + ((then_b.arm - b.arm) - (then_a.arm - a.arm));
-  return passes_from_behind(then_a, then_b, moved) || passes_from_behind(then_b, then_a, -moved);
+  const double lengths = (largest_component(from) + largest_component(way)) +
+                         (largest_component(a.arm) + largest_component(b.arm));
+  const Passage passage = {
+      (from + way * t) + ((then_b.arm - b.arm) - (then_a.arm - a.arm)),
+      way,
+      a.rotation,
+      b.rotation,
+      kSweepSlack * lengths,
+      t > 0,
+  };
+  return passes_from_behind(then_a, then_b, passage) ||
+         passes_from_behind(then_b, then_a, passage.flipped());
 }
 
 }  // namespace carom::scalar

@@ -2,6 +2,7 @@
 // first touch.
 #include <gtest/gtest.h>
 
+#include "oracle/random.h"
 #include "tests/support/impacts.h"
 
 namespace carom::test {
@@ -91,6 +92,47 @@ TEST(OneSidedTriangles, LetPassWhatComesFromBehind) {
   pair.bodies.b.position.z() = -0.75;
   pair.sweep_b.displacement = {0, 0, 8};
   EXPECT_EQ(impact_of(pair).toi, kNever);
+}
+
+// The middle of a point lies in the plane when it gets there, so its way decides, however long it
+// is beside the triangle; and where it turns, its way at that time.
+TEST(OneSidedTriangles, LetPassPointsFromBehind) {
+  oracle::Random random(71);
+  for (const double size : {1e-20, 1.0, 1e15}) {
+    for (int round = 0; round < 300; ++round) {
+      const auto s = static_cast<float>(size);
+      MovedPair pair{{triangle({0, 0, 0}, {Eigen::Vector3f(0, 0, 0), Eigen::Vector3f(s, 0, 0),
+                                           Eigen::Vector3f(0, s, 0)}),
+                      sphere(0, 0, 0, 0)},
+                     {},
+                     {}};
+      auto& sheet = std::get<Triangle>(pair.bodies.a.shape);
+      sheet.one_sided = true;
+      const Eigen::Vector3d aim(random.uniform(0.1, 0.4) * size, random.uniform(0.1, 0.4) * size,
+                                0);
+      const double length = size * random.log_uniform(0.1, 1e4);
+      Eigen::Vector3d way = random.direction() * length;
+      if (std::fabs(way.z()) < 0.1 * length) way.z() = length;
+      for (const float thickness : {0.0f, 0.25f * s}) {
+        sheet.thickness = thickness;
+        for (const bool from_behind : {false, true}) {
+          if ((way.z() > 0) != from_behind) way = -way;
+          // Through the plane that it meets first.
+          const Eigen::Vector3d middle = aim - Eigen::Vector3d(0, 0, from_behind ? thickness : 0);
+          pair.bodies.b.position = middle - 0.5 * way;
+          pair.sweep_b.displacement = way.cast<float>();
+          pair.sweep_b.rotation = {0, 0, 0};
+          pair.sweep_a.rotation = {0, 0, 0};
+          SCOPED_TRACE(show(pair));
+          EXPECT_EQ(impact_of(pair).is_impact(), !from_behind);
+          EXPECT_EQ(impact_of(swapped(pair)).is_impact(), !from_behind);
+          pair.sweep_a.rotation = {0, 0, 0.5f};  // about the normal, so that it keeps its plane
+          EXPECT_EQ(impact_of(pair).is_impact(), !from_behind);
+          if (HasFailure()) return;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -254,6 +254,40 @@ std::vector<CastHit> cast_at(const Collidables& queries, const SweepView& sweep,
   return hits;
 }
 
+// A ray is met from the front however long it is beside the triangles.
+TEST(MeshCast, RaysMeetOneSidedMeshesFromTheFrontAlone) {
+  oracle::Random random(4);
+  const Mesh flat = grid_mesh(4, 0.5f, [](float, float) { return 0.0f; }, {.one_sided = true});
+  const PlacedShape body = {flat, {0.1, 0.2, 0.3}, Eigen::Quaternionf(0.9f, 0.1f, 0.2f, -0.3f)};
+  const Eigen::Quaterniond turn = body.orientation.cast<double>().normalized();
+  const Eigen::Vector3d front = turn * Eigen::Vector3d::UnitZ();
+  std::vector<PlacedShape> queries;
+  Sweeps sweeps;
+  std::vector<bool> from_front;
+  for (int i = 0; i < 2000; ++i) {
+    const double length = random.log_uniform(0.1, 1e5);
+    Eigen::Vector3d way = random.direction() * length;
+    if (std::fabs(way.dot(front)) < 0.05 * length) way += length * front;
+    const Eigen::Vector3d aim =
+        turn * Eigen::Vector3d(random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), 0);
+    PlacedShape query = sphere(0, 0, 0, 0);
+    query.position = body.position + aim - random.uniform(0.1, 0.9) * way;
+    queries.push_back(query);
+    sweeps.displacement.push_back(way.cast<float>());
+    from_front.push_back(way.dot(front) < 0);
+  }
+  const LaidOut a(queries, {});
+  for (const CastHits which : {CastHits::closest, CastHits::any, CastHits::all}) {
+    for_each_isa([&] {
+      std::vector<bool> is_hit(queries.size());
+      for (const CastHit& hit : cast_at(a.view(), sweeps.view(), body, which, Backfaces::as_made)) {
+        is_hit[hit.query] = true;
+      }
+      EXPECT_EQ(is_hit, from_front);
+    });
+  }
+}
+
 TEST(MeshCast, BackfacesAreAsIfTheMeshWereMadeSo) {
   Composites composites(3);
   oracle::Random& random = composites.random();

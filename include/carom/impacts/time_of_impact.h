@@ -62,9 +62,10 @@ struct ImpactOptions {
 ///
 /// Meshes and compounds: only the parts that the swept bounds reach are tested. A one-sided
 /// triangle stops a body if the body's middle is in front of the triangle's back (the plane
-/// `thickness` behind its front) when the two first touch. A body that comes from behind passes
-/// through for the whole interval, and so does a body that overlaps the triangle from behind at the
-/// start. Inner edges do not change the time.
+/// `thickness` behind its front) when the two first touch. The middle of a point is in that plane
+/// then, and its way decides. A body that comes from behind passes through for the whole interval,
+/// and so does a body that overlaps the triangle from behind at the start. Inner edges do not
+/// change the time.
 ///
 /// Results have the same bits on every instruction set and for any number of threads, and do not
 /// depend on a pair's place in the list. Fails, and writes nothing, if no kernel exists for the

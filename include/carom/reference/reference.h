@@ -88,7 +88,9 @@ struct Impact {
 };
 
 /// The first time at which the two bodies touch while they move as their sweeps say. Tests every
-/// pair of parts.
+/// pair of parts. Kernels find the contact of a point with a face of a mesh from the face alone:
+/// its separation, and at the start of the interval its normal and points, may differ in the last
+/// bits.
 CAROM_EXPORT Impact time_of_impact(const Shape& shape_a, const Pose& pose_a, const Sweep& sweep_a,
                                    const Shape& shape_b, const Pose& pose_b, const Sweep& sweep_b,
                                    PositionType positions);
