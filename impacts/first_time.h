@@ -243,7 +243,7 @@ inline bool passes_from_behind(const MovingShape& a, const MovingShape& b, const
 
   const double height = dot(rules.front, Vector3d(middle - rules.corner)) + rules.thickness;
   if (!passage.has_begun || height > kInPlane + passage.slack * scale) return false;
-  // Of the middle of B, seen from the triangle; both turn about their pivots.
+  // The middle of B moves like this seen from the triangle; both turn about their pivots.
   const Vector3d arm_b = b.arm * scale + in_b, arm_a = a.arm * scale + middle;
   const Vector3d velocity =
       (passage.way * scale + cross(passage.turn_b, arm_b)) - cross(passage.turn_a, arm_a);

@@ -21,7 +21,7 @@ namespace {
 
 using FloatsOfDoubles = hn::Rebind<float, DoubleTag>;
 
-// What a vector of rays is cut to, to be taken out a ray at a time.
+// A vector of rays after the cut; take() copies one of them.
 struct CutRays {
   using Doubles = std::array<double, kDoubleLanes>;
   using Floats = std::array<float, kDoubleLanes>;

@@ -36,7 +36,7 @@ class PointTimes {
   struct Scratch;
   static Scratch& scratch_of_thread();
 
-  // What the rows of a ray need, beside its columns.
+  // The rows of a ray need this beside its columns.
   struct Point {
     size_t owner;
     Pair pair;

@@ -103,7 +103,7 @@ class ContactStage {
   void write_contacts(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
                       const ResultBuffer& results, const WorldSettings& settings, PairHistory& now);
 
-  // What find_results() does where every pair is tested, and overlaps say all: in lanes.
+  // Does the work of find_results() in lanes, where every pair is tested and overlaps say all.
   void read_decisions(const PairRange& range, const ResultBuffer& results,
                       const WorldSettings& settings, PairHistory& now);
 
