@@ -162,7 +162,7 @@ class FoundTriangles {
  public:
   // At most `most` for each search, within its limit and up to its first time so far.
   void find(std::span<PathSearch* const> active, std::span<const FirstTime> times, size_t most) {
-    triangles_.resize(active.size() * most);
+    if (triangles_.size() < active.size() * most) triangles_.resize(active.size() * most);
     searches_.clear();
     for (PathSearch* search : active) {
       const double latest = std::min(times[search->owner].time, search->limit);

@@ -11,8 +11,8 @@
 #include <cmath>
 
 #include "impacts/rays/ray_in_mesh.h"
+#include "impacts/rays/ray_lanes-inl.h"
 #include "impacts/slack.h"
-#include "simd/rotation-inl.h"
 #include "trees/box_path.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -53,10 +53,6 @@ HWY_INLINE void put(D v, CutRays::Floats& out) {
 
 HWY_INLINE D load(const RayColumns::Column& column, size_t row) {
   return hn::LoadU(DoubleTag(), column.data() + row);
-}
-
-HWY_INLINE D3 splat3(const Double3& v) {
-  return {splat_double(v[0]), splat_double(v[1]), splat_double(v[2])};
 }
 
 class Cutter {

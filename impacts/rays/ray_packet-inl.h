@@ -15,6 +15,7 @@
 
 #include "geometries/mesh_memory.h"
 #include "impacts/rays/ray_hits-inl.h"
+#include "impacts/rays/ray_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -205,9 +206,6 @@ class RayPacket {
   }
   static HWY_INLINE D3 vector(const std::array<Doubles, 3>& columns, size_t i) {
     return {load(columns[0], i), load(columns[1], i), load(columns[2], i)};
-  }
-  static HWY_INLINE D3 splat3(const Double3& v) {
-    return {splat_double(v[0]), splat_double(v[1]), splat_double(v[2])};
   }
 
   size_t count_;
