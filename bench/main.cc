@@ -40,6 +40,7 @@ void register_all(const Options& options) {
   register_narrowphase(options);
   register_impacts(options);
   register_world(options);
+  register_moving(options);
   register_spaces(options);
   register_casts(options);
 }

@@ -60,7 +60,8 @@ const StepReport& World::State::step() {
       if (still && !settings.persist_events) {
         events.clear();
       } else {
-        event_stage.run({still ? now : last, now, bodies, quarantined, settings.persist_events},
+        event_stage.run({still ? now : last, now, still ? nullptr : &plan, bodies, quarantined,
+                         settings.persist_events},
                         parallelism, events);
       }
       EventStage::add_impacts(impacts.impacts(), bodies, events);
@@ -239,11 +240,10 @@ void World::State::compare_pairs() {
     pair_changes.run(last.pairs, now.pairs, bodies, settings.parallelism);
   }
   if (!has_narrowphase()) return;
-  // If all bodies changed, nothing is carried, and only directions need to know the pairs of
-  // before.
+  // If all bodies changed, nothing is carried.
   const bool all_changed = !has_motion_tolerance() && changes.changed_count() == bodies.rows();
-  if (carries() && !(all_changed && !uses_directions())) {
-    plan.match(last, now.pairs, changed_for_tests(), settings.parallelism);
+  if (carries() && !all_changed) {
+    plan.match(last.pairs, now.pairs, changed_for_tests(), settings.parallelism);
   } else {
     plan.test_all(now.pairs.size());
   }
@@ -280,7 +280,7 @@ bool World::State::uses_directions() const {
 void World::State::find_results() {
   const bool remembers = uses_directions();
   uint32_t* const directions_of_tests =
-      remembers ? directions.prepare(plan, last, now, settings.parallelism) : nullptr;
+      remembers ? directions.prepare(plan, last, settings.parallelism, now) : nullptr;
   const bool carries_some = plan.tested() + plan.dropped() < now.pairs.size();
   contact_stage.start(carries_some || has_identities(), last, now);
   const size_t pairs = now.pairs.size();
@@ -294,7 +294,7 @@ void World::State::find_results() {
     });
     size_t first_contact;
     run(Stage::results, [&] {
-      first_contact = contact_stage.add(range, plan, last, results, bodies, settings, now);
+      first_contact = contact_stage.add(range, {plan, last, results, bodies, settings}, now);
     });
     if (!has_velocities()) continue;
     run(Stage::velocities, [&] {
@@ -303,7 +303,7 @@ void World::State::find_results() {
     });
   }
   if (remembers) {
-    run(Stage::narrowphase, [&] { directions.keep(plan, last, settings.parallelism, now); });
+    run(Stage::narrowphase, [&] { directions.keep(plan, settings.parallelism, now); });
   } else {
     now.direction.clear();
   }

@@ -20,6 +20,7 @@
 #include "world/motion/sweeps.h"
 #include "world/motion/swept_bounds.h"
 #include "world/motion/wide_bounds.h"
+#include "world/pairs/carry_plan.h"
 #include "world/pairs/direction_memory.h"
 #include "world/pairs/dop_stage.h"
 #include "world/pairs/halfspace_stage.h"

@@ -17,6 +17,7 @@ void register_find_pairs(const Options& options);
 void register_narrowphase(const Options& options);
 void register_impacts(const Options& options);
 void register_world(const Options& options);
+void register_moving(const Options& options);
 void register_spaces(const Options& options);
 void register_casts(const Options& options);
 

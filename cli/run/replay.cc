@@ -2,6 +2,8 @@
 
 #include <chrono>
 
+#include "cli/support/resource_usage.h"
+
 namespace carom::cli {
 namespace {
 
@@ -10,8 +12,9 @@ class Recorder {
   Recorder(const World& world, uint64_t bodies, bool looks_ahead)
       : world_(world), looks_ahead_(looks_ahead), was_quarantined_(bodies) {}
 
-  void note(const StepReport& report, double frame_ms) {
+  void note(const StepReport& report, double frame_ms, uint64_t page_faults) {
     record_.frame_ms.push_back(frame_ms);
+    record_.page_faults.push_back(page_faults);
     for (int stage = 0; stage < kStageCount; ++stage) {
       record_.stage_ms[stage].push_back(static_cast<double>(report.stage_ns[stage]) * 1e-6);
       record_.serial_ms[stage].push_back(static_cast<double>(report.serial_ns[stage]) * 1e-6);
@@ -88,15 +91,17 @@ Result<RunRecord> replay(io::SceneReader& scene, const Player& player, World& wo
     } else {
       player.move(frame, world);
     }
-    Clock::time_point begin = Clock::now();
+    const uint64_t faults_before = page_faults();
+    const Clock::time_point begin = Clock::now();
     const StepReport& report = world.step();
-    Clock::time_point end = Clock::now();
+    const Clock::time_point end = Clock::now();
+    const uint64_t faults = page_faults() - faults_before;
     if (!report.search.complete) {
       return Error{"frame " + std::to_string(i) + " has " + std::to_string(report.search.pairs) +
                    " pairs of overlapping bounds, more than the limit of " +
                    std::to_string(world.settings().most_pairs)};
     }
-    recorder.note(report, std::chrono::duration<double, std::milli>(end - begin).count());
+    recorder.note(report, std::chrono::duration<double, std::milli>(end - begin).count(), faults);
     if (track) track->note(world, i);
     if (!pairs_out) continue;
     if (Result<void> added = pairs_out->add_frame(world.pairs()); !added) return added.error();

@@ -18,7 +18,8 @@ namespace carom::cli {
 
 // Every list has one entry for each frame.
 struct RunRecord {
-  std::vector<double> frame_ms;  // World::step() alone, without reading and copying poses
+  std::vector<double> frame_ms;       // World::step() alone, without reading and copying poses
+  std::vector<uint64_t> page_faults;  // of the process, during the steps
   std::array<std::vector<double>, kStageCount> stage_ms;
   std::array<std::vector<double>, kStageCount> serial_ms;  // of these, on one thread alone
   std::vector<uint64_t> pairs;

@@ -11,6 +11,7 @@
 #include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
 #include "cli/support/options.h"
+#include "cli/support/resource_usage.h"
 
 namespace carom::cli {
 namespace {

@@ -1,7 +1,5 @@
 #include "cli/run/run_report.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -90,8 +88,10 @@ Json to_json(const RunReport& report, const WorldOptions& options) {
   json["pair_kinds"] = report.pair_kinds;
   json["frame_ms"] = {
       {"median", frame.median}, {"min", frame.min}, {"p99", frame.p99}, {"mean", frame.mean}};
+  json["first_frame_ms"] = record.frame_ms.empty() ? 0 : record.frame_ms.front();
   json["stage_ms"] = stages_json(record, record.stage_ms);
   json["serial_ms"] = stages_json(record, record.serial_ms);
+  json["page_faults_per_frame"] = record.page_faults;
   json["pairs_per_frame"] = record.pairs;
   json["contacts_per_frame"] = record.contacts;
   if (is_certified(report)) json["undecided_per_frame"] = record.undecided;
@@ -157,12 +157,6 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
 }
 
 }  // namespace
-
-uint64_t peak_rss_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-}
 
 Result<void> write_report(const RunReport& report, const WorldOptions& options, JsonOutput& json,
                           const Console& console) {

@@ -24,9 +24,6 @@ struct RunReport {
   RunRecord record;
 };
 
-// The peak memory of this process.
-uint64_t peak_rss_bytes();
-
 // As JSON if that is wanted, as text otherwise.
 Result<void> write_report(const RunReport& report, const WorldOptions& options, JsonOutput& json,
                           const Console& console);

@@ -4,25 +4,28 @@
 #include <cstdint>
 #include <vector>
 
-#include "world/pairs/pair_history.h"
+#include "world/pairs/carry_plan.h"
 
 namespace carom {
 
 class DirectionMemory {
  public:
-  // One direction for each pair to test, as collide_pairs() takes them. `plan` matches `now` with
-  // `last`.
-  uint32_t* prepare(const CarryPlan& plan, const PairHistory& last, const PairHistory& now,
-                    Parallelism parallelism);
+  // Gives the pairs of `now` the directions that they had in the last step. Returns those of the
+  // pairs to test, as collide_pairs() takes them.
+  uint32_t* prepare(const CarryPlan& plan, const PairHistory& last, Parallelism parallelism,
+                    PairHistory& now);
 
-  // Writes the directions of all pairs to `now`, after the tests.
-  void keep(const CarryPlan& plan, const PairHistory& last, Parallelism parallelism,
-            PairHistory& now) const;
+  // Writes the new directions of these pairs to `now`, after the tests.
+  void keep(const CarryPlan& plan, Parallelism parallelism, PairHistory& now) const;
 
   void give_back();
   size_t bytes() const;
 
  private:
+  template <class Use>
+  void for_each_tested(const CarryPlan& plan, size_t pairs, Parallelism parallelism,
+                       const Use& use) const;
+
   std::vector<uint32_t> tested_;
 };
 

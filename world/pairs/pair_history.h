@@ -1,4 +1,4 @@
-// The pairs of one step with their results, and how the next step's pairs relate to them.
+// The pairs of one step with their results, and what becomes of them in the next step.
 #pragma once
 
 #include <algorithm>
@@ -80,63 +80,5 @@ void merge_block(const std::vector<Pair>& last, const std::vector<Pair>& now, si
   }
   for (; before < range.end; ++before) gone(before);
 }
-
-// Which pairs are tested, and which results are carried over from the last step.
-class CarryPlan {
- public:
-  static constexpr uint32_t kCarried = 0xffffffffu;
-
-  // Tests all pairs.
-  void test_all(size_t pairs);
-
-  // Tests nothing: the step repeats the last one.
-  void carry_all() { tested_ = dropped_ = 0; }
-
-  // Carries the pairs that `last` has, too, if neither body changed. `changed`: one byte an index.
-  void match(const PairHistory& last, const std::vector<Pair>& now,
-             std::span<const uint8_t> changed, Parallelism parallelism);
-
-  // Drops the pairs to test whose byte is zero: they do not overlap.
-  void drop(const std::vector<uint8_t>& overlap, const std::vector<Pair>& now,
-            Parallelism parallelism);
-
-  bool tests_all() const { return tests_all_; }
-  size_t tested() const { return tested_; }
-  size_t dropped() const { return dropped_; }
-
-  // The pairs to test: all of `now`, or a separate list.
-  const std::vector<Pair>& pairs_to_test(const std::vector<Pair>& now) const {
-    return tests_all_ ? now : to_test_;
-  }
-
-  // The row of pair i among the pairs to test; kCarried for a carried pair; the row after the last
-  // one for a dropped pair.
-  uint32_t test_row(size_t i) const { return tests_all_ ? static_cast<uint32_t>(i) : row_[i]; }
-  bool tests(size_t i) const { return test_row(i) < tested_; }
-
-  // How many of the pairs before pair i are tested: the row of the first one from i on. `i` must be
-  // a multiple of kPairsPerMergeBlock, or the number of pairs.
-  size_t rows_before(size_t i) const {
-    if (tests_all_) return i;
-    const size_t block = i / kPairsPerMergeBlock;
-    return i % kPairsPerMergeBlock == 0 && block < block_first_.size() ? block_first_[block]
-                                                                       : tested_;
-  }
-
-  // The index of a carried pair in the last step.
-  uint32_t last_index(size_t i) const { return last_[i]; }
-
-  size_t bytes() const;
-
- private:
-  bool tests_all_ = true;
-  size_t tested_ = 0;
-  size_t dropped_ = 0;
-  std::vector<uint32_t> row_;
-  std::vector<uint32_t> last_;
-  std::vector<Pair> to_test_;
-  std::vector<Pair> left_;  // new list of pairs to test, during drop()
-  std::vector<size_t> block_first_;
-};
 
 }  // namespace carom

@@ -87,7 +87,7 @@ struct FourContacts {
 };
 #endif  // HWY_TARGET
 
-void write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
+size_t write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
   size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
   Contact unread;
@@ -110,6 +110,7 @@ void write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
     contacts[next] = contact_of_row(rows.columns, rows.first_row + i, rows.pairs[i]);
     rows.contact[i] = static_cast<uint32_t>(next++);
   }
+  return next;
 }
 
 }  // namespace
@@ -126,8 +127,8 @@ HWY_EXPORT(write);
 
 }  // namespace
 
-void write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts) {
-  CAROM_DISPATCH(write)(rows, next, contacts);
+size_t write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts) {
+  return CAROM_DISPATCH(write)(rows, next, contacts);
 }
 
 }  // namespace carom

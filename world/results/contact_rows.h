@@ -21,7 +21,8 @@ struct PairRows {
 };
 
 // Writes the first contact of each pair that has one, as contact_of_row() makes it, to
-// contacts[next] and behind, and notes its place in `contact`.
-void write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts);
+// contacts[next] and behind, and notes its place in `contact`. Returns the place after the last
+// one.
+size_t write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts);
 
 }  // namespace carom

@@ -14,6 +14,110 @@
 namespace carom {
 namespace {
 
+// What a block of pairs has.
+struct Counts {
+  size_t overlaps = 0, undecided = 0, contacts = 0, left_out = 0;
+};
+
+// Pairs [begin, end) that are not carried, and the number of the first one.
+struct OpenPairs {
+  size_t begin, end;
+  size_t number;
+
+  size_t size() const { return end - begin; }
+};
+
+// What `contact` says of a pair whose contact is still to be written: any index.
+constexpr uint32_t kToBeWritten = 0;
+
+// Whether the decisions on open pairs lie side by side in the results and say all.
+bool decisions_say_all(const ContactStage::Input& input) {
+  return input.plan.dropped() == 0 && input.settings.detail != Detail::regions &&
+         !input.results.has_near() && !input.bodies.knows_sensors();
+}
+
+void read_decisions(const OpenPairs& open, const ContactStage::Input& input, PairHistory& now,
+                    Counts& counts) {
+  const uint32_t listed = has_contacts(input.settings.detail) ? 0xffffffffu : 0;
+  const uint8_t* const decision = input.results.overlaps_from(open.number);
+  uint32_t* const contact = now.contact.data() + open.begin;
+  uint32_t overlapping = 0, unknown = 0;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const bool overlap = decision[i] == 1;
+    contact[i] = ~((0u - overlap) & listed);  // kToBeWritten or kNone
+    overlapping += overlap;
+    unknown += decision[i] == kUndecided;
+  }
+  std::copy_n(decision, open.size(), now.overlaps.data() + open.begin);
+  counts.overlaps += overlapping;
+  counts.undecided += unknown;
+  counts.contacts += listed ? overlapping : 0;
+}
+
+// The same where there are sensors, near pairs, pairs that were dropped, or several contacts a
+// pair.
+void read_results(const OpenPairs& open, const ContactStage::Input& input, PairHistory& now,
+                  Counts& counts) {
+  const auto& [plan, last, results, bodies, settings] = input;
+  // What `contact` says of a pair without a contact, with one, and of an overlap with a sensor.
+  const uint32_t kinds[] = {PairHistory::kNone,
+                            has_contacts(settings.detail) ? kToBeWritten : PairHistory::kNone,
+                            PairHistory::kSensor};
+  const bool regions = settings.detail == Detail::regions;
+  for (size_t i = open.begin, number = open.number; i < open.end; ++i, ++number) {
+    const size_t row = plan.row(number);
+    const uint8_t decision = results.overlap(row);
+    // Whether a pair overlaps cannot be predicted, so there is no branch on it.
+    const bool overlap = decision == 1;
+    const bool touches = overlap | results.is_near(row);
+    const Pair pair = now.pairs[i];
+    const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
+    const bool listed = touches & !sensor;
+    now.overlaps[i] = decision;
+    now.contact[i] = kinds[listed | (overlap & sensor) << 1];
+    counts.overlaps += overlap;
+    counts.undecided += decision == kUndecided;
+    counts.contacts += listed;
+    if (!regions || !listed) continue;
+    counts.contacts += results.extra(row).size();
+    counts.left_out += results.left_out(row);
+  }
+}
+
+// The contacts of neighbouring pairs, which follow one another.
+MergeRange contacts_of(const PairHistory& history, size_t begin, size_t end, bool regions) {
+  while (begin < end && !history.has_contact(begin)) ++begin;
+  while (begin < end && !history.has_contact(end - 1)) --end;
+  if (begin == end) return {0, 0};
+  const size_t last = history.contact[end - 1];
+  return {history.contact[begin],
+          last + (regions ? contact_run(history.contacts, last).size() : 1)};
+}
+
+// Copies what the last step said of carried pairs. Their contacts keep the places that they had,
+// until they are written.
+void repeat_results(const CarriedRun& run, const ContactStage::Input& input, PairHistory& now,
+                    Counts& counts) {
+  const size_t count = run.end - run.begin;
+  const uint8_t* const decision = input.last.overlaps.data() + run.before;
+  std::copy_n(decision, count, now.overlaps.data() + run.begin);
+  std::copy_n(input.last.contact.data() + run.before, count, now.contact.data() + run.begin);
+  uint32_t overlapping = 0, unknown = 0;
+  for (size_t i = 0; i < count; ++i) {
+    overlapping += decision[i] == 1;
+    unknown += decision[i] == kUndecided;
+  }
+  const bool regions = input.settings.detail == Detail::regions;
+  const MergeRange contacts = contacts_of(input.last, run.before, run.before + count, regions);
+  counts.overlaps += overlapping;
+  counts.undecided += unknown;
+  counts.contacts += contacts.end - contacts.begin;
+  if (!regions) return;
+  for (size_t c = contacts.begin; c < contacts.end; ++c) {
+    counts.left_out += input.last.contacts[c].left_out;
+  }
+}
+
 // Lists the pairs of [begin, end) that have contacts, without branches, and returns their number.
 size_t list_contacts(const PairHistory& now, size_t begin, size_t end,
                      std::array<uint32_t, kPairsPerMergeBlock>& listed) {
@@ -23,6 +127,64 @@ size_t list_contacts(const PairHistory& now, size_t begin, size_t end,
     count += now.has_contact(i);
   }
   return count;
+}
+
+// Writes the contacts of open pairs from `next` on, and returns the place after the last one.
+size_t write_new(const OpenPairs& open, const ContactStage::Input& input, size_t next,
+                 PairHistory& now) {
+  const auto& [plan, last, results, bodies, settings] = input;
+  const bool manifolds = has_manifolds(settings.detail);
+  const bool regions = settings.detail == Detail::regions;
+  // Where a row is a pair and a pair a contact, contacts are written in lanes; then what belongs to
+  // them.
+  const bool in_lanes = plan.dropped() == 0 && !regions;
+  if (in_lanes) {
+    const size_t end = write_contact_rows(
+        results.rows_of(std::span(now.pairs).subspan(open.begin, open.size()), open.number,
+                        std::span(now.contact).subspan(open.begin, open.size())),
+        next, now.contacts);
+    if (!manifolds && !settings.identities) return end;
+  }
+  std::array<uint32_t, kPairsPerMergeBlock> listed;
+  const size_t count = list_contacts(now, open.begin, open.end, listed);
+  for (size_t k = 0; k < count; ++k) {
+    const size_t i = listed[k];
+    const size_t row = plan.row(open.number + (i - open.begin));
+    if (!in_lanes) now.contacts[next] = results.contact(row, now.pairs[i]);
+    if (manifolds) now.manifolds[next] = results.manifold(row);
+    if (settings.identities) now.identities[next].names = results.names(row);
+    now.contact[i] = static_cast<uint32_t>(next++);
+    if (!regions) continue;
+    now.contacts[next - 1].left_out = results.left_out(row);
+    for (const ContactWithPoints& each : results.extra(row)) {
+      now.contacts[next] = each.contact;
+      if (settings.identities) now.identities[next].names = each.names;
+      now.manifolds[next++] = each.points;
+    }
+  }
+  return next;
+}
+
+// The same for carried pairs.
+size_t copy_old(const CarriedRun& run, const ContactStage::Input& input, size_t next,
+                PairHistory& now) {
+  const PairHistory& last = input.last;
+  const bool regions = input.settings.detail == Detail::regions;
+  const MergeRange from =
+      contacts_of(last, run.before, run.before + (run.end - run.begin), regions);
+  const size_t count = from.end - from.begin;
+  const auto copy = [&](const auto& old, auto& list) {
+    std::copy_n(old.begin() + from.begin, count, list.begin() + next);
+  };
+  copy(last.contacts, now.contacts);
+  if (has_manifolds(input.settings.detail)) copy(last.manifolds, now.manifolds);
+  if (input.settings.identities) copy(last.identities, now.identities);
+  const auto shift = static_cast<uint32_t>(next - from.begin);
+  for (size_t i = run.begin; i < run.end; ++i) {
+    const uint32_t contact = now.contact[i];
+    now.contact[i] = contact + (PairHistory::is_place(contact) ? shift : 0u);
+  }
+  return next + count;
 }
 
 }  // namespace
@@ -91,13 +253,11 @@ void ContactStage::start(bool reads_last, PairHistory& last, PairHistory& now) {
   take_memory(last.identities, now.identities);
 }
 
-size_t ContactStage::add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
-                         const ResultBuffer& results, const BodyStore& bodies,
-                         const WorldSettings& settings, PairHistory& now) {
+size_t ContactStage::add(const PairRange& range, const Input& input, PairHistory& now) {
   // First find the result of every pair, and how many contacts each block has ...
-  find_results(range, plan, last, results, bodies, settings, now);
+  find_results(range, input, now);
   const size_t first = now.contacts.size();
-  if (!has_contacts(settings.detail)) return first;
+  if (!has_contacts(input.settings.detail)) return first;
 
   // ... then write every contact to its place.
   size_t contacts = first;
@@ -107,149 +267,48 @@ size_t ContactStage::add(const PairRange& range, const CarryPlan& plan, const Pa
     list.resize(contacts);
   };
   resize(now.contacts);
-  if (has_manifolds(settings.detail)) resize(now.manifolds);
-  if (settings.identities) resize(now.identities);
-  write_contacts(range, plan, last, results, settings, now);
+  if (has_manifolds(input.settings.detail)) resize(now.manifolds);
+  if (input.settings.identities) resize(now.identities);
+  write_contacts(range, input, now);
   return first;
 }
 
-void ContactStage::find_results(const PairRange& range, const CarryPlan& plan,
-                                const PairHistory& last, const ResultBuffer& results,
-                                const BodyStore& bodies, const WorldSettings& settings,
-                                PairHistory& now) {
-  constexpr uint32_t kToBeWritten = 0;
-  // What `contact` says of a pair without a contact, with one, and of an overlap with a sensor.
-  const uint32_t kinds[] = {PairHistory::kNone,
-                            has_contacts(settings.detail) ? kToBeWritten : PairHistory::kNone,
-                            PairHistory::kSensor};
+void ContactStage::find_results(const PairRange& range, const Input& input, PairHistory& now) {
   const size_t pairs = range.end - range.begin;
-  const bool regions = settings.detail == Detail::regions;
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
-  if (plan.tests_all() && !regions && !results.has_near() && !bodies.knows_sensors()) {
-    return read_decisions(range, results, settings, now);
-  }
+  const bool simple = decisions_say_all(input);
   std::atomic<size_t> overlaps{0}, undecided{0}, left_out{0};
-  for_each_block(pairs, kPairsPerMergeBlock, settings.parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   size_t overlapping = 0, unknown = 0, contacts = 0, unlisted = 0;
-                   for (size_t i = range.begin + begin; i < range.begin + end; ++i) {
-                     const uint32_t row = plan.test_row(i);
-                     const bool carried = row == CarryPlan::kCarried;
-                     const size_t before = carried ? plan.last_index(i) : 0;
-                     const uint8_t decision =
-                         carried ? last.overlaps[before] : results.overlap(row);
-                     // Whether a pair overlaps cannot be predicted, so there is no branch on it.
-                     const bool overlap = decision == 1;
-                     const bool touches =
-                         overlap | (carried ? last.has_contact(before) : results.is_near(row));
-                     const Pair pair = now.pairs[i];
-                     const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
-                     const bool listed = touches & !sensor;
-                     now.overlaps[i] = decision;
-                     now.contact[i] = kinds[listed | (overlap & sensor) << 1];
-                     overlapping += overlap;
-                     unknown += decision == kUndecided;
-                     contacts += listed;
-                     if (!regions || !listed) continue;
-                     if (carried) {
-                       const auto run = contact_run(last.contacts, last.contact[before]);
-                       contacts += run.size() - 1;
-                       unlisted += run[0].left_out;
-                     } else {
-                       contacts += results.extra(row).size();
-                       unlisted += results.left_out(row);
-                     }
-                   }
-                   block_first_[block] = contacts;
-                   overlaps += overlapping;
-                   undecided += unknown;
-                   left_out += unlisted;
-                 });
+  for_each_block(
+      pairs, kPairsPerMergeBlock, input.settings.parallelism,
+      [&](size_t block, size_t begin, size_t end) {
+        Counts counts;
+        const auto open = [&](size_t first, size_t stop, size_t number) {
+          (simple ? read_decisions : read_results)({first, stop, number}, input, now, counts);
+        };
+        const auto carried = [&](const CarriedRun& run) {
+          repeat_results(run, input, now, counts);
+        };
+        input.plan.for_each_stretch(range.begin + begin, range.begin + end, open, carried);
+        block_first_[block] = counts.contacts;
+        overlaps += counts.overlaps;
+        undecided += counts.undecided;
+        left_out += counts.left_out;
+      });
   overlaps_ += overlaps;
   undecided_ += undecided;
   left_out_ += left_out;
 }
 
-void ContactStage::read_decisions(const PairRange& range, const ResultBuffer& results,
-                                  const WorldSettings& settings, PairHistory& now) {
-  const uint32_t listed = has_contacts(settings.detail) ? 0xffffffffu : 0;
-  std::atomic<size_t> overlaps{0}, undecided{0};
-  for_each_block(range.end - range.begin, kPairsPerMergeBlock, settings.parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   const size_t first = range.begin + begin;
-                   const uint8_t* const decision = results.overlaps_from(first);
-                   uint32_t* const contact = now.contact.data() + first;
-                   uint32_t overlapping = 0, unknown = 0;
-                   for (size_t i = 0; i < end - begin; ++i) {
-                     const bool overlap = decision[i] == 1;
-                     // Zero, which is to be written, or none.
-                     contact[i] = ~((0u - overlap) & listed);
-                     overlapping += overlap;
-                     unknown += decision[i] == kUndecided;
-                   }
-                   std::copy_n(decision, end - begin, now.overlaps.data() + first);
-                   block_first_[block] = listed ? overlapping : 0;
-                   overlaps += overlapping;
-                   undecided += unknown;
-                 });
-  overlaps_ += overlaps;
-  undecided_ += undecided;
-}
-
-void ContactStage::write_contacts(const PairRange& range, const CarryPlan& plan,
-                                  const PairHistory& last, const ResultBuffer& results,
-                                  const WorldSettings& settings, PairHistory& now) {
-  const bool manifolds = has_manifolds(settings.detail);
-  const bool regions = settings.detail == Detail::regions;
-  const bool named = settings.identities;
+void ContactStage::write_contacts(const PairRange& range, const Input& input, PairHistory& now) {
   for_each_block(
-      range.end - range.begin, kPairsPerMergeBlock, settings.parallelism,
+      range.end - range.begin, kPairsPerMergeBlock, input.settings.parallelism,
       [&](size_t block, size_t begin, size_t end) {
         size_t next = block_first_[block];
-        const size_t first_pair = range.begin + begin, pairs = end - begin;
-        // Where nothing is carried over, contacts are written in lanes; then what belongs to them.
-        const bool in_lanes = plan.tests_all() && !regions;
-        if (in_lanes) {
-          write_contact_rows(
-              results.rows_of(std::span(now.pairs).subspan(first_pair, pairs), first_pair,
-                              std::span(now.contact).subspan(first_pair, pairs)),
-              next, now.contacts);
-          if (!manifolds && !named) return;
-        }
-        std::array<uint32_t, kPairsPerMergeBlock> listed;
-        const size_t count = list_contacts(now, first_pair, first_pair + pairs, listed);
-        for (size_t k = 0; k < count; ++k) {
-          const size_t i = listed[k];
-          const uint32_t row = plan.test_row(i);
-          const bool carried = row == CarryPlan::kCarried;
-          const size_t old = carried ? last.contact[plan.last_index(i)] : 0;
-          if (!in_lanes) {
-            now.contacts[next] = carried ? last.contacts[old] : results.contact(row, now.pairs[i]);
-          }
-          if (manifolds) {
-            now.manifolds[next] = carried ? last.manifolds[old] : results.manifold(row);
-          }
-          if (named) {
-            now.identities[next].names = carried ? last.identities[old].names : results.names(row);
-          }
-          now.contact[i] = static_cast<uint32_t>(next++);
-          if (!regions) continue;
-          if (carried) {
-            const size_t more = contact_run(last.contacts, old).size() - 1;
-            for (size_t each = old + 1; each <= old + more; ++each) {
-              now.contacts[next] = last.contacts[each];
-              if (named) now.identities[next].names = last.identities[each].names;
-              now.manifolds[next++] = last.manifolds[each];
-            }
-          } else {
-            now.contacts[next - 1].left_out = results.left_out(row);
-            for (const ContactWithPoints& each : results.extra(row)) {
-              now.contacts[next] = each.contact;
-              if (named) now.identities[next].names = each.names;
-              now.manifolds[next++] = each.points;
-            }
-          }
-        }
+        const auto open = [&](size_t first, size_t stop, size_t number) {
+          next = write_new({first, stop, number}, input, next, now);
+        };
+        const auto carried = [&](const CarriedRun& run) { next = copy_old(run, input, next, now); };
+        input.plan.for_each_stretch(range.begin + begin, range.begin + end, open, carried);
       });
 }
 

@@ -11,6 +11,7 @@
 #include "carom/world/world.h"
 #include "midphase/contact_of_row.h"
 #include "world/motion/present_bounds.h"
+#include "world/pairs/carry_plan.h"
 #include "world/pairs/pair_history.h"
 #include "world/results/contact_rows.h"
 #include "world/store/body_store.h"
@@ -79,17 +80,23 @@ class ResultBuffer {
   ExtraContacts extra_;
 };
 
-// Fills overlaps, contact indices, contacts and manifolds of `now`.
+// Fills overlaps, contact indices, contacts and manifolds of a step.
 class ContactStage {
  public:
+  struct Input {
+    const CarryPlan& plan;
+    const PairHistory& last;
+    const ResultBuffer& results;
+    const BodyStore& bodies;
+    const WorldSettings& settings;
+  };
+
   // Begins the lists of a step. Unless something reads the contacts of the last one, those of this
   // step may take their memory.
   void start(bool reads_last, PairHistory& last, PairHistory& now);
   // Adds the results of a range of pairs. Ranges begin at multiples of kPairsPerMergeBlock, and
   // follow one another. Returns the place of the first contact that it has added.
-  size_t add(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
-             const ResultBuffer& results, const BodyStore& bodies, const WorldSettings& settings,
-             PairHistory& now);
+  size_t add(const PairRange& range, const Input& input, PairHistory& now);
 
   size_t overlaps() const { return overlaps_; }
   size_t undecided() const { return undecided_; }
@@ -97,15 +104,8 @@ class ContactStage {
   size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
 
  private:
-  void find_results(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
-                    const ResultBuffer& results, const BodyStore& bodies,
-                    const WorldSettings& settings, PairHistory& now);
-  void write_contacts(const PairRange& range, const CarryPlan& plan, const PairHistory& last,
-                      const ResultBuffer& results, const WorldSettings& settings, PairHistory& now);
-
-  // Does the work of find_results() in lanes, where every pair is tested and overlaps say all.
-  void read_decisions(const PairRange& range, const ResultBuffer& results,
-                      const WorldSettings& settings, PairHistory& now);
+  void find_results(const PairRange& range, const Input& input, PairHistory& now);
+  void write_contacts(const PairRange& range, const Input& input, PairHistory& now);
 
   size_t overlaps_ = 0;
   size_t undecided_ = 0;

@@ -25,13 +25,20 @@ void tell_fates(std::span<Event> events, const EventStage::Input& input) {
 
 }  // namespace
 
-// Undecided pairs have no events.
-void EventStage::Overlaps::read(const PairHistory& history, size_t begin, size_t end) {
-  key.resize(end - begin + kOverlapsBeyond);
-  contact.resize(end - begin + kOverlapsBeyond);
-  count = list_overlaps(std::span(history.pairs).subspan(begin, end - begin),
-                        history.overlaps.data() + begin, history.contact.data() + begin, key.data(),
-                        contact.data());
+void EventStage::Overlaps::start(size_t pairs) {
+  key.resize(pairs + kOverlapsBeyond);
+  contact.resize(pairs + kOverlapsBeyond);
+  count = 0;
+}
+
+// Adds those of pairs [begin, end). Undecided pairs have no events.
+void EventStage::Overlaps::add(const PairHistory& history, size_t begin, size_t end) {
+  count += list_overlaps(std::span(history.pairs).subspan(begin, end - begin),
+                         history.overlaps.data() + begin, history.contact.data() + begin,
+                         key.data() + count, contact.data() + count);
+}
+
+void EventStage::Overlaps::finish() {
   key[count] = ~uint64_t{0};
   contact[count] = PairHistory::kNone;
 }
@@ -60,11 +67,7 @@ void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Even
 // Adds the events of a block of this step's pairs and of the last step's that belong to it.
 void EventStage::add_block(const Input& input, size_t block, Scratch& scratch,
                            RawVector<Event>& events) const {
-  const size_t begin = block * kPairsPerMergeBlock;
-  const size_t end = std::min(begin + kPairsPerMergeBlock, input.now.pairs.size());
-  const MergeRange range = matching_range(input.last.pairs, input.now.pairs, begin, end);
-  scratch.last.read(input.last, range.begin, range.end);
-  scratch.now.read(input.now, begin, end);
+  read_block(input, block, scratch);
   const size_t first = events.size();
   // Until a body is removed every index keeps its body, of generation 0.
   const bool any_removed = input.bodies.any_removed();
@@ -83,7 +86,36 @@ void EventStage::add_block(const Input& input, size_t block, Scratch& scratch,
   }
 }
 
-// The same for some blocks side by side, each to a list of its own.
+// Reads the overlaps of a block in both steps. Pairs that are carried make no event unless those
+// that persist are wanted.
+void EventStage::read_block(const Input& input, size_t block, Scratch& scratch) {
+  const size_t begin = block * kPairsPerMergeBlock;
+  const size_t end = std::min(begin + kPairsPerMergeBlock, input.now.pairs.size());
+  const MergeRange range = matching_range(input.last.pairs, input.now.pairs, begin, end);
+  const auto& [last, now, plan, bodies, quarantined, wants_persist] = input;
+  scratch.last.start(range.end - range.begin);
+  scratch.now.start(end - begin);
+  // Many short runs take longer than all pairs.
+  const bool skips =
+      plan && !wants_persist && plan->runs_of(block).size() <= kPairsPerMergeBlock / 16;
+  if (skips) {
+    size_t before = range.begin;
+    const auto open = [&](size_t first, size_t stop, size_t) { scratch.now.add(now, first, stop); };
+    const auto carried = [&](const CarriedRun& run) {
+      if (before < run.before) scratch.last.add(last, before, run.before);
+      before = run.before + (run.end - run.begin);
+    };
+    plan->for_each_stretch(begin, end, open, carried);
+    scratch.last.add(last, before, range.end);
+  } else {
+    scratch.last.add(last, range.begin, range.end);
+    scratch.now.add(now, begin, end);
+  }
+  scratch.last.finish();
+  scratch.now.finish();
+}
+
+// Does so for some blocks side by side, each to a list of its own.
 void EventStage::add_blocks(const Input& input, size_t first, size_t end, Parallelism parallelism,
                             RawVector<Event>& events) {
   for_each_block(end - first, 1, parallelism, [&](size_t i, size_t, size_t) {

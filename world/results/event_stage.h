@@ -10,6 +10,7 @@
 #include "carom/base/parallelism.h"
 #include "carom/results/event.h"
 #include "carom/results/impact.h"
+#include "world/pairs/carry_plan.h"
 #include "world/pairs/pair_history.h"
 #include "world/store/body_store.h"
 #include "world/store/columns.h"
@@ -21,6 +22,7 @@ class EventStage {
   struct Input {
     const PairHistory& last;  // may be `now` itself if nothing changed: every overlap then persists
     const PairHistory& now;
+    const CarryPlan* plan;  // how `now` follows from `last`; nullptr if they are the same
     const BodyStore& bodies;
     std::span<const BodyId> quarantined;  // by index
     bool wants_persist;
@@ -48,7 +50,9 @@ class EventStage {
     RawVector<uint32_t> contact;
     size_t count = 0;
 
-    void read(const PairHistory& history, size_t begin, size_t end);
+    void start(size_t pairs);
+    void add(const PairHistory& history, size_t begin, size_t end);
+    void finish();
   };
   struct alignas(64) Scratch {
     Overlaps last, now;
@@ -61,6 +65,7 @@ class EventStage {
                   RawVector<Event>& events);
   void add_block(const Input& input, size_t block, Scratch& scratch,
                  RawVector<Event>& events) const;
+  static void read_block(const Input& input, size_t block, Scratch& scratch);
   // What becomes of overlaps of both steps: an event, none, or an end and a begin.
   enum class Persisting : uint8_t { wanted, dropped, apart };
 
