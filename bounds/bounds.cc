@@ -125,6 +125,7 @@ HWY_AFTER_NAMESPACE();
 #include "base/outward.h"
 #include "base/parallel.h"
 #include "bounds/extent.h"
+#include "bounds/some_bounds.h"
 #include "simd/dispatch.h"
 
 namespace carom {
@@ -161,16 +162,13 @@ bool has_halfspaces(const Collidables& bodies) {
          bodies.kind + bodies.count;
 }
 
-// Gives valid half-spaces all of space as their bounds.
-void open_halfspaces(const Collidables& bodies, const BoundsColumns& out) {
-  const BodyReader reader{bodies};
+// Gives body i all of space as its bounds if it is a valid half-space.
+void open_if_halfspace(const BodyReader& reader, size_t i, const BoundsColumns& out) {
   const float infinity = std::numeric_limits<float>::infinity();
-  for (size_t i = 0; i < bodies.count; ++i) {
-    if (reader.kind(i) != ShapeKind::halfspace || out.lower[0][i] > out.upper[0][i]) continue;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      out.lower[axis][i] = -infinity;
-      out.upper[axis][i] = infinity;
-    }
+  if (reader.kind(i) != ShapeKind::halfspace || out.lower[0][i] > out.upper[0][i]) return;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    out.lower[axis][i] = -infinity;
+    out.upper[axis][i] = infinity;
   }
 }
 
@@ -185,8 +183,18 @@ size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
     valid += CAROM_DISPATCH(lane_bounds)(bodies, out, begin, whole) +
              single_bounds(bodies, out, whole, end);
   });
-  if (has_halfspaces(bodies)) open_halfspaces(bodies, out);
+  if (has_halfspaces(bodies)) {
+    for (size_t i = 0; i < bodies.count; ++i) open_if_halfspace(BodyReader{bodies}, i, out);
+  }
   return bodies.count - valid;
+}
+
+void compute_some_bounds(const Collidables& bodies, std::span<const uint32_t> indices,
+                         const BoundsColumns& out) {
+  for (const uint32_t i : indices) {
+    single_bounds(bodies, out, i, i + 1);
+    open_if_halfspace(BodyReader{bodies}, i, out);
+  }
 }
 
 }  // namespace carom

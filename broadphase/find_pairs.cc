@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "base/float_environment.h"
 #include "broadphase/grid/cell_search.h"
@@ -88,7 +89,12 @@ struct PairFinder::State {
   // Used by the grid.
   BoxSample sample;
   RestingBoxes resting;
+  bool is_resting_current = false;  // whether `resting` knows the boxes of the last call
   CellRows cells;
+
+  PairSearch find(const BoundsView& bounds, const PairFilter& filter,
+                  const std::span<const uint32_t>* listed, std::vector<Pair>& out,
+                  BroadphaseMethod method, Parallelism parallelism);
 
   void find_by_rows(const BoundsView& bounds, const PairFilter& filter, bool sweep,
                     Parallelism parallelism, std::vector<Pair>& out, PairSearch& search) {
@@ -154,15 +160,16 @@ struct PairFinder::State {
   }
 
   // Keeps the boxes that rest in `resting` as soon as most boxes do.
-  void find_by_cells(const BoundsView& bounds, const PairFilter& filter, bool must,
-                     Parallelism parallelism, std::vector<Pair>& out, PairSearch& search) {
+  void find_by_cells(const BoundsView& bounds, const PairFilter& filter,
+                     const std::span<const uint32_t>* listed, bool must, Parallelism parallelism,
+                     std::vector<Pair>& out, PairSearch& search) {
     using Outcome = RestingBoxes::Outcome;
     constexpr double kRestless = 0.2;  // below the share of moving boxes that RestingBoxes bears
     const double most_crowded = must ? std::numeric_limits<double>::infinity() : kMostCrowded;
     const RestingBoxes::Workspace work = {cells, found, sorter, scratch, most_pairs, most_crowded};
     Outcome outcome = Outcome::restless;
     if (!resting.is_empty()) {
-      outcome = resting.update(bounds, filter, parallelism, work, out);
+      outcome = resting.update(bounds, filter, listed, parallelism, work, out);
       sample.forget();
     } else if (sample.changed_share(bounds) <= kRestless) {
       outcome = resting.settle(bounds, filter, parallelism, work, out);
@@ -185,6 +192,7 @@ struct PairFinder::State {
       if (!must) search.reason = "more than 350 boxes, most of them moving";
       return;
     }
+    is_resting_current = true;
     search.complete = outcome == Outcome::found;
     search.pairs = resting.pairs();
     search.changed = resting.changed();
@@ -208,26 +216,39 @@ PairFinder& PairFinder::operator=(PairFinder&&) noexcept = default;
 PairSearch PairFinder::find(const BoundsView& bounds, const PairFilter& filter,
                             std::vector<Pair>& out, BroadphaseMethod method,
                             Parallelism parallelism) {
+  return state_->find(bounds, filter, nullptr, out, method, parallelism);
+}
+
+PairSearch PairFinder::find_changed(const BoundsView& bounds, const PairFilter& filter,
+                                    std::span<const uint32_t> changed, std::vector<Pair>& out,
+                                    BroadphaseMethod method, Parallelism parallelism) {
+  return state_->find(bounds, filter, &changed, out, method, parallelism);
+}
+
+// `listed`: the boxes that may differ from those of the last call; nullptr: any.
+PairSearch PairFinder::State::find(const BoundsView& bounds, const PairFilter& filter,
+                                   const std::span<const uint32_t>* listed, std::vector<Pair>& out,
+                                   BroadphaseMethod method, Parallelism parallelism) {
   const FloatEnvironment environment;
+  if (!std::exchange(is_resting_current, false)) listed = nullptr;
   if (bounds.count <= kSerialLimit) parallelism = Parallelism::none;
   const Choice choice = choose(method, bounds.count);
   PairSearch search{.method = choice.method, .reason = choice.reason};
   const bool may_split =
       method == BroadphaseMethod::automatic && filter.space && bounds.count > kBruteForceLimit;
-  const bool is_found =
-      may_split && state_->find_in_spaces(bounds, filter, parallelism, out, search);
+  const bool is_found = may_split && find_in_spaces(bounds, filter, parallelism, out, search);
   if (!is_found && choice.method == BroadphaseMethod::grid) {
     const bool must = method == BroadphaseMethod::grid;
-    state_->find_by_cells(bounds, filter, must, parallelism, out, search);
+    find_by_cells(bounds, filter, listed, must, parallelism, out, search);
   } else if (!is_found) {
     const bool sweep = choice.method == BroadphaseMethod::sweep;
-    state_->find_by_rows(bounds, filter, sweep, parallelism, out, search);
+    find_by_rows(bounds, filter, sweep, parallelism, out, search);
   }
   if (!search.complete) {
     out.clear();
     return search;
   }
-  state_->selection.run(filter.excluded, nullptr, filter.predicate, parallelism, out);
+  selection.run(filter.excluded, nullptr, filter.predicate, parallelism, out);
   search.pairs = out.size();
   return search;
 }

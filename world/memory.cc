@@ -6,11 +6,10 @@ namespace carom {
 WorldMemory World::State::memory() const {
   WorldMemory memory;
   memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + proxies.bytes() +
-                  motion_tolerance.bytes() + sweeps.bytes() + bytes_of(quarantined);
-  memory.bounds = swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
+                  motion_tolerance.bytes() + sweeps.bytes() + bytes_of(bounds.quarantined());
+  memory.bounds = bounds.bytes() + swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
                   bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
                   wide_swept_bounds.bytes();
-  for (const LargeVector<float>& column : bounds) memory.bounds += bytes_of(column);
   memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              dops.pair_bytes() + directions.bytes() + results.bytes() +
@@ -28,8 +27,8 @@ void World::State::give_back_memory() {
   proxies.give_back();
   motion_tolerance.give_back();
   sweeps.give_back();
-  give_back(quarantined, events);
-  for (LargeVector<float>& column : bounds) give_back(column);
+  give_back(events);
+  bounds.give_back();
   swept_bounds.give_back();
   fat_bounds.give_back();
   wide_bounds.give_back();

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <utility>
 
 #include "base/few_of.h"
@@ -13,10 +12,10 @@
 namespace carom {
 namespace {
 
-// Pairs whose results are found together. Those of one thread stay in its cache; threads share
-// more, so that all have work. Both are multiples of kPairsPerMergeBlock.
-constexpr size_t kPairsOfOneThread = kPairsPerMergeBlock;
-constexpr size_t kPairsOfThreads = 16 * kPairsPerMergeBlock;
+// Merge blocks whose results are found together. Those of one thread stay in its cache; threads
+// share more, so that all have work.
+constexpr size_t kBlocksOfOneThread = 1;
+constexpr size_t kBlocksOfThreads = 16;
 
 }  // namespace
 
@@ -60,8 +59,8 @@ const StepReport& World::State::step() {
       if (still && !settings.persist_events) {
         events.clear();
       } else {
-        event_stage.run({still ? now : last, now, still ? nullptr : &plan, bodies, quarantined,
-                         settings.persist_events},
+        event_stage.run({still ? now : last, now, still ? nullptr : &plan, bodies,
+                         bounds.quarantined(), settings.persist_events},
                         parallelism, events);
       }
       EventStage::add_impacts(impacts.impacts(), bodies, events);
@@ -143,7 +142,7 @@ void World::State::watch_rest(bool still) {
 
 void World::State::fill_report() {
   report.bodies = bodies.size();
-  report.quarantined = quarantined.size();
+  report.quarantined = bounds.quarantined().size();
   report.pairs = now.pairs.size();
   report.tested = has_narrowphase() ? plan.tested() : 0;
   report.dropped = has_narrowphase() ? plan.dropped() : 0;
@@ -159,34 +158,11 @@ void World::State::fill_report() {
   report.search = search;
 }
 
-BoundsView World::State::bounds_view() const {
-  return {{bounds[0].data(), bounds[1].data(), bounds[2].data()},
-          {bounds[3].data(), bounds[4].data(), bounds[5].data()},
-          bounds[0].size()};
-}
-
 void World::State::find_bounds() {
-  for (LargeVector<float>& column : bounds) column.resize(bodies.rows());
-  const size_t invalid = compute_bounds(bodies.view(),
-                                        {{bounds[0].data(), bounds[1].data(), bounds[2].data()},
-                                         {bounds[3].data(), bounds[4].data(), bounds[5].data()}},
-                                        settings.parallelism);
-  // Rows without a body still hold old values.
-  for (const uint32_t index : bodies.free_indices()) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      bounds[axis][index] = std::numeric_limits<float>::infinity();
-      bounds[3 + axis][index] = -std::numeric_limits<float>::infinity();
-    }
-  }
-  quarantined.clear();
-  if (invalid > 0) find_quarantined();
-  halfspaces.set_aside(bodies, bounds);
-}
-
-void World::State::find_quarantined() {
-  for (uint32_t i = 0; i < bodies.rows(); ++i) {
-    const bool empty = bounds[0][i] > bounds[3][i];
-    if (empty && bodies.is_alive(i)) quarantined.push_back(bodies.id_of(i));
+  if (carries() && changes.are_few()) {
+    bounds.update(bodies, changes.few(), halfspaces);
+  } else {
+    bounds.update_all(bodies, settings.parallelism, halfspaces);
   }
 }
 
@@ -210,7 +186,14 @@ void World::State::find_pairs() {
   std::vector<Pair>& found = halfspaces.has_any() ? halfspaces.other_pairs() : now.pairs;
   PairFilter filter = bodies.filter();
   filter.rule = settings.filter_rule;
-  search = finder.find(searched, filter, found, settings.broadphase, settings.parallelism);
+  // Bounds that are swept or grown may differ where bodies do not.
+  const bool plain = !looks_ahead() && !has_distances() && !has_margin();
+  const bool knows_changes = std::exchange(searched_plain, plain) && plain && carries();
+  const BroadphaseMethod method = settings.broadphase;
+  const Parallelism parallelism = settings.parallelism;
+  search = knows_changes && changes.are_few()
+               ? finder.find_changed(searched, filter, changes.few(), found, method, parallelism)
+               : finder.find(searched, filter, found, method, parallelism);
   if (halfspaces.has_any()) {
     halfspaces.add_pairs(reach_view(), filter, settings.most_pairs, settings.parallelism, now.pairs,
                          search);
@@ -284,7 +267,11 @@ void World::State::find_results() {
   const bool carries_some = plan.tested() + plan.dropped() < now.pairs.size();
   contact_stage.start(carries_some || has_identities(), last, now);
   const size_t pairs = now.pairs.size();
-  const size_t at_once = uses_threads(settings.parallelism) ? kPairsOfThreads : kPairsOfOneThread;
+  // Where most pairs are carried, more of them have as many to test.
+  const size_t share = std::clamp<size_t>(pairs / std::max<size_t>(1, plan.tested()), 1, 64);
+  const size_t blocks =
+      share * (uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread);
+  const size_t at_once = blocks * kPairsPerMergeBlock;
   for (size_t begin = 0; begin == 0 || begin < pairs; begin += at_once) {
     const size_t end = std::min(begin + at_once, pairs);
     const size_t first_row = plan.rows_before(begin);

@@ -201,6 +201,7 @@ BodyArrays World::arrays() {
 }
 
 BoxArrays World::boxes() {
+  state_->bodies.share_boxes();
   LargeVector<BodyStore::BoxRecord>& boxes = state_->bodies.boxes();
   return {boxes.size(), boxes.empty() ? nullptr : boxes.front().lower.data()};
 }
@@ -211,6 +212,7 @@ uint32_t World::box_slot(BodyId id) const {
 }
 
 ShapeRowArrays World::shape_rows() {
+  state_->bodies.share_shape_rows();
   const std::span<BodyStore::Row> rows = state_->bodies.shape_rows();
   return {.count = rows.size(), .rows = rows.empty() ? nullptr : rows.front().data()};
 }
@@ -279,7 +281,7 @@ const Impact* World::first_impact(BodyId id) const {
   return is_new ? nullptr : state_->impacts.first_of(id.index);
 }
 
-std::span<const BodyId> World::quarantined() const { return state_->quarantined; }
+std::span<const BodyId> World::quarantined() const { return state_->bounds.quarantined(); }
 const StepReport& World::report() const { return state_->report; }
 
 std::span<const Pair> World::added_pairs() const { return state_->pair_changes.added; }

@@ -12,6 +12,7 @@
 #include "world/changes/change_tracker.h"
 #include "world/changes/motion_tolerance.h"
 #include "world/changes/rest_watch.h"
+#include "world/motion/body_bounds.h"
 #include "world/motion/bounding_radii.h"
 #include "world/motion/fat_bounds.h"
 #include "world/motion/look_ahead.h"
@@ -42,7 +43,7 @@ struct World::State {
   explicit State(const WorldSettings& chosen) : settings(chosen), bodies(chosen.positions) {}
 
   const StepReport& step();
-  BoundsView bounds_view() const;
+  BoundsView bounds_view() const { return bounds.view(); }
   WorldMemory memory() const;
   void give_back_memory();
   const BodyIndex& index_for_queries(Parallelism parallelism);
@@ -55,13 +56,13 @@ struct World::State {
   StepReport report;
 
   HalfspaceStage halfspaces;
+  BodyBounds bounds;
   QueryIndex query_index;
   PairHistory now;
   PairChanges pair_changes;
   ImpactStage impacts;
   SpeculativeStage speculative;
   RawVector<Event> events;
-  std::vector<BodyId> quarantined;
 
  private:
   bool has_narrowphase() const { return settings.detail != Detail::pairs; }
@@ -119,7 +120,6 @@ struct World::State {
   void watch_rest(bool still);
   void fill_report();
   void find_bounds();
-  void find_quarantined();
   void sweep_bounds();
   void widen_bounds();
   void find_pairs();
@@ -141,12 +141,12 @@ struct World::State {
   BoundingRadii bounding_radii;
   ProxySpheres proxies;
   MotionTolerance motion_tolerance;
-  std::array<LargeVector<float>, 6> bounds;
   Sweeps sweeps;
   SweptBounds swept_bounds;
   WideBounds wide_bounds, wide_swept_bounds;  // of bodies now, and over the interval ahead
   FatBounds fat_bounds;
   PairFinder finder;
+  bool searched_plain = false;  // whether its last search took the bounds as they are
   PairSearch search;
   PairSieve sieve;
   PairSelection selection;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/support/measure.h"
+#include "bench/support/stage_times.h"
 #include "bench/support/suites.h"
 #include "carom/base/thread_arena.h"
 #include "carom/reference/reference.h"
@@ -31,8 +32,8 @@ constexpr Crowd kCrowds[] = {
     {"20_boxes", 20, ShapeKind::box, Detail::manifold, 1.6},
     {"100_spheres", 100, ShapeKind::sphere, Detail::contact, 1.3},
     {"500_boxes", 500, ShapeKind::box, Detail::manifold, 1.8},
-    {"100k_cubes", 100'000, ShapeKind::aabb, Detail::contact, 1.6},
-    {"100k_spheres", 100'000, ShapeKind::sphere, Detail::contact, 1.3},
+    {"100k_cubes", 100'000, ShapeKind::aabb, Detail::contact, 1.41},
+    {"100k_spheres", 100'000, ShapeKind::sphere, Detail::contact, 1.71},
 };
 
 struct Who {
@@ -130,12 +131,15 @@ void measure_crowd(benchmark::State& state, const Crowd& crowd, const Who& who, 
       }
     }
     PassTimes times;
+    StageTimes stages;
     for (auto _ : state) {
       state.PauseTiming();
       moving.move();
       state.ResumeTiming();
       times.measure([&] { moving.step(); });
+      stages.add(moving.world().report());
     }
+    stages.report(state);
     report(state, "body", crowd.bodies, times);
     state.counters["us_a_step"] = 1e6 * times.median();
     state.counters["pairs"] = static_cast<double>(moving.world().report().pairs);

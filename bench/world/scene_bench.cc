@@ -11,6 +11,7 @@
 #include "bench/support/cached.h"
 #include "bench/support/frames.h"
 #include "bench/support/measure.h"
+#include "bench/support/stage_times.h"
 #include "bench/support/suites.h"
 #include "carom/base/thread_arena.h"
 #include "carom/reference/reference.h"
@@ -107,27 +108,6 @@ void place(const Frames& frames, size_t frame, World& world) {
     std::memcpy(record, &positions[i], 3 * sizeof(float));
   }
 }
-
-// Sums of stage times over frames.
-class StageTimes {
- public:
-  void add(const StepReport& step) {
-    for (int stage = 0; stage < kStageCount; ++stage) ns_[stage] += step.stage_ns[stage];
-    stages_run_ |= step.stages_run;
-  }
-
-  void report(benchmark::State& state) const {
-    for (int stage = 0; stage < kStageCount; ++stage) {
-      if (!(stages_run_ >> stage & 1)) continue;
-      state.counters[std::string("ms_") + name(static_cast<Stage>(stage))] =
-          static_cast<double>(ns_[stage]) * 1e-6 / static_cast<double>(state.iterations());
-    }
-  }
-
- private:
-  uint64_t ns_[kStageCount] = {};
-  uint32_t stages_run_ = 0;
-};
 
 void measure_frames(benchmark::State& state, const WorldScene& scene, World& world) {
   const Frames& frames = scene.frames;

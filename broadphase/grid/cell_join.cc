@@ -62,6 +62,13 @@ HWY_INLINE RunMask overlaps(const Columns& columns, const BoxLanes& box, size_t 
   return all;
 }
 
+HWY_INLINE void prefetch_boxes(const Columns& columns, size_t row) {
+  for (size_t column = 0; column < 6; ++column) {
+    __builtin_prefetch(columns.lower + row + column * columns.stride);
+  }
+  __builtin_prefetch(columns.body + row);
+}
+
 // Appends the pairs of the box and the rows of [begin, end) that overlap it. It tests at least one
 // vector even if there is no row: a loop that mostly runs once is predicted well.
 HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin, size_t end,
@@ -129,40 +136,69 @@ HWY_INLINE CellRange reachable_cells(const CellGrid& grid, size_t k, float lower
   return {first - std::min(first, grid.reach[k]), cell_along(grid, k, upper) + 1};
 }
 
+// The boxes of a grid, as another search looks for those that its own boxes overlap.
+struct Across {
+  const CellRows& queries;
+  const CellRows& rows;
+  const CellGrid& grid;
+  size_t axis[3];  // the place of axis k of `rows` among the axes of `queries`
+
+  Across(const CellRows& from, const CellRows& to, size_t g)
+      : queries(from), rows(to), grid(to.grids().grid[g]) {
+    const auto& axes = queries.grids().axis;
+    for (size_t k = 0; k < 3; ++k) {
+      axis[k] = static_cast<size_t>(std::find(axes.begin(), axes.end(), rows.grids().axis[k]) -
+                                    axes.begin());
+    }
+  }
+
+  HWY_INLINE float lower(size_t i, size_t k) const { return queries.lower(axis[k])[i]; }
+  HWY_INLINE float upper(size_t i, size_t k) const { return queries.upper(axis[k])[i]; }
+
+  // Calls use(row) for each row of cells that box i reaches, with the place in first_row() where
+  // the first of its cells begins and how many there are.
+  template <class Use>
+  HWY_INLINE void for_each_row(size_t i, const Use& use) const {
+    CellRange cells[3];
+    for (size_t k = 0; k < 3; ++k) cells[k] = reachable_cells(grid, k, lower(i, k), upper(i, k));
+    for (uint32_t z = cells[2].begin; z < cells[2].end; ++z) {
+      for (uint32_t y = cells[1].begin; y < cells[1].end; ++y) {
+        use(rows.first_row() + grid.cell_at(cells[0].begin, y, z), cells[0].end - cells[0].begin);
+      }
+    }
+  }
+};
+
 void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
                  const PairFilter& filter, PairList& out) {
+  // Boxes of a few bodies lie far apart among those of many: cells are asked for some boxes ahead,
+  // and then the boxes in them.
+  constexpr size_t kCellsAhead = 4, kBoxesAhead = 2;
   const Columns columns(rows);
-  const CellGrid& grid = rows.grids().grid[g];
-  // The place of axis k of `rows` among the axes of `queries`.
-  size_t axis[3];
-  for (size_t k = 0; k < 3; ++k) {
-    const auto& axes = queries.grids().axis;
-    axis[k] = static_cast<size_t>(std::find(axes.begin(), axes.end(), rows.grids().axis[k]) -
-                                  axes.begin());
-  }
+  const Across across(queries, rows, g);
   const bool filters = !lets_all_meet(filter);
   for (size_t i = begin; i < end; ++i) {
+    if (i + kCellsAhead < end) {
+      across.for_each_row(i + kCellsAhead,
+                          [&](const uint32_t* cell, size_t) { __builtin_prefetch(cell); });
+    }
+    if (i + kBoxesAhead < end) {
+      across.for_each_row(i + kBoxesAhead,
+                          [&](const uint32_t* cell, size_t) { prefetch_boxes(columns, *cell); });
+    }
     BoxLanes box;
     box.body = hn::Set(RunIndexTag(), queries.body[i]);
-    CellRange cells[3];
     for (size_t k = 0; k < 3; ++k) {
-      const float lower = queries.lower(axis[k])[i];
-      const float upper = queries.upper(axis[k])[i];
-      box.lower[k] = hn::Set(RunTag(), lower);
-      box.upper[k] = hn::Set(RunTag(), upper);
-      cells[k] = reachable_cells(grid, k, lower, upper);
+      box.lower[k] = hn::Set(RunTag(), across.lower(i, k));
+      box.upper[k] = hn::Set(RunTag(), across.upper(i, k));
     }
     size_t count = 0;
     Pair* room = out.reserve(0);
-    for (uint32_t z = cells[2].begin; z < cells[2].end; ++z) {
-      for (uint32_t y = cells[1].begin; y < cells[1].end; ++y) {
-        const uint32_t* row = rows.first_row() + grid.cell_at(0, y, z);
-        const size_t first = row[cells[0].begin];
-        const size_t last = row[cells[0].end];
-        room = out.reserve(count + (last - first) + kRunLanes);
-        count = static_cast<size_t>(scan(columns, box, first, last, room + count) - room);
-      }
-    }
+    across.for_each_row(i, [&](const uint32_t* cell, size_t cells) HWY_ATTR {
+      const size_t first = cell[0], last = cell[cells];
+      room = out.reserve(count + (last - first) + kRunLanes);
+      count = static_cast<size_t>(scan(columns, box, first, last, room + count) - room);
+    });
     if (filters) {
       out.commit(count, filter);
     } else {

@@ -56,6 +56,19 @@ void BoxMemory::update(const BoundsView& bounds, const PairFilter& filter, Paral
   lists_.concatenate(changed, parallelism);
 }
 
+void BoxMemory::update_listed(const BoundsView& bounds, const PairFilter& filter,
+                              std::span<const uint32_t> listed, std::vector<uint32_t>& changed) {
+  resize(bounds, filter);
+  const BoxSource source(bounds);
+  changed.clear();
+  for (const uint32_t body : listed) {
+    if (body < known_) update_block(source, filter, body, body + 1, changed);
+  }
+  for (size_t i = known_; i < count_; i += BoxBlock::kBoxes) {
+    update_block(source, filter, i, std::min(count_, i + BoxBlock::kBoxes), changed);
+  }
+}
+
 void BoxMemory::resize(const BoundsView& bounds, const PairFilter& filter) {
   known_ = std::min(count_, bounds.count);
   count_ = bounds.count;

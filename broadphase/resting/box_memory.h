@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/block_lists.h"
@@ -20,6 +21,10 @@ class BoxMemory {
   // not there then counts as different. Compares bits, so that NaN equals itself.
   void update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
               std::vector<uint32_t>& changed);
+
+  // The same where no bodies but these, ascending, and new ones differ.
+  void update_listed(const BoundsView& bounds, const PairFilter& filter,
+                     std::span<const uint32_t> listed, std::vector<uint32_t>& changed);
 
   // The next update finds everything different.
   void forget() { count_ = 0; }

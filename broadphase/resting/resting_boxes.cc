@@ -56,12 +56,17 @@ RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const 
 }
 
 RestingBoxes::Outcome RestingBoxes::update(const BoundsView& bounds, const PairFilter& filter,
+                                           const std::span<const uint32_t>* listed,
                                            Parallelism parallelism, Workspace work,
                                            std::vector<Pair>& out) {
   // Searching for a moving box costs about as much as searching for four boxes from scratch.
   constexpr size_t kCostOfMoving = 4;
   const size_t count_before = memory_.count();
-  memory_.update(bounds, filter, parallelism, changed_);
+  if (listed) {
+    memory_.update_listed(bounds, filter, *listed, changed_);
+  } else {
+    memory_.update(bounds, filter, parallelism, changed_);
+  }
   const size_t moving_before = moving_.size();
   wake(count_before);
   if (kCostOfMoving * moving_.size() > bounds.count) {

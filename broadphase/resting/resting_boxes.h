@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "broadphase/grid/cell_rows.h"
@@ -37,9 +38,11 @@ class RestingBoxes {
   Outcome settle(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
                  Workspace work, std::vector<Pair>& out);
 
-  // Finds the pairs after some boxes have moved, appeared or vanished.
-  Outcome update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
-                 Workspace work, std::vector<Pair>& out);
+  // Finds the pairs after some boxes have moved, appeared or vanished. `listed`: those that may
+  // have, ascending; nullptr: any.
+  Outcome update(const BoundsView& bounds, const PairFilter& filter,
+                 const std::span<const uint32_t>* listed, Parallelism parallelism, Workspace work,
+                 std::vector<Pair>& out);
 
   void forget();
 

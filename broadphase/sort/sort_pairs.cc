@@ -13,6 +13,7 @@ namespace {
 // Up to this many bodies, a counter for each fits the cache.
 constexpr size_t kBodiesAtOnce = 1 << 14;
 constexpr size_t kPairsPerBucket = 4096;
+constexpr size_t kSparsePerBucket = 8;
 constexpr size_t kMostBuckets = 512;
 
 // Visits all pairs, from four places of the list in turn. Neighbours in the list mostly share a
@@ -33,20 +34,23 @@ void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parall
   size_t total = 0;
   for (const PairList& list : found) total += list.pairs().size();
   resize_for_overwriting(out, total);
-  const bool at_once = body_count <= kBodiesAtOnce && !uses_threads(parallelism);
-  const size_t wanted = at_once ? 1 : std::clamp<size_t>(total / kPairsPerBucket, 1, kMostBuckets);
+  // So few that a counter for each body costs more than comparing them.
+  const bool sparse = 8 * total < body_count;
+  const bool at_once = !sparse && body_count <= kBodiesAtOnce && !uses_threads(parallelism);
+  const size_t per_bucket = sparse ? kSparsePerBucket : kPairsPerBucket;
+  const size_t wanted = at_once ? 1 : std::clamp<size_t>(total / per_bucket, 1, kMostBuckets);
   int shift = 0;
   while ((body_count >> shift) >= wanted) ++shift;
   const size_t buckets = (body_count >> shift) + 1;
   const size_t padding = buckets * PartnerLists::kPadding;
-  const size_t distributed = buckets == 1 ? 0 : total;
+  const size_t distributed = buckets == 1 && !sparse ? 0 : total;
   scratch.start(
       distributed * sizeof(Pair) + (body_count + 2 * buckets + total + padding) * sizeof(uint32_t),
       3);
   buckets_ = scratch.take<Pair>(distributed);
   first_ = scratch.take<uint32_t>(body_count + 2 * buckets);
   partners_ = scratch.take<uint32_t>(total + padding);
-  if (buckets == 1) {
+  if (buckets == 1 && !sparse) {
     const auto all_lists = [&](const auto& visit) {
       for (const PairList& list : found) visit(list.pairs());
     };
@@ -58,6 +62,11 @@ void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parall
     for (size_t i = first; i < last; ++i) {
       const size_t begin = bucket_begin_[i];
       const std::span<const Pair> pairs(buckets_.data() + begin, bucket_begin_[i + 1] - begin);
+      if (sparse) {
+        const auto place = out.begin() + static_cast<ptrdiff_t>(begin);
+        std::sort(place, std::copy(pairs.begin(), pairs.end(), place));
+        continue;
+      }
       const size_t first_body = i << shift;
       const size_t bodies = std::min(body_count - first_body, size_t{1} << shift);
       sort_bucket(

@@ -12,6 +12,7 @@
 
 #include "base/outward.h"
 #include "bounds/bounds_columns.h"
+#include "bounds/some_bounds.h"
 #include "carom/base/thread_arena.h"
 #include "tests/support/bounds_memory.h"
 #include "tests/support/families.h"
@@ -123,6 +124,15 @@ void expect_bounds(const Bodies& bodies, const Layout& layout, const FloatMode& 
         << hex3(expected.lower) << " .. " << hex3(expected.upper);
   }
   EXPECT_EQ(invalid, expected_invalid);
+
+  // A few of them alone.
+  std::vector<uint32_t> some;
+  for (size_t i = bodies.size() % 3; i < bodies.size(); i += 3) {
+    some.push_back(static_cast<uint32_t>(i));
+  }
+  BoundsMemory few(bodies.size());
+  compute_some_bounds(set.view(), some, few.out());
+  for (const uint32_t i : some) ASSERT_TRUE(same_bits(few.box(i), memory.box(i))) << "body " << i;
 }
 
 std::vector<Layout> sphere_layouts() {

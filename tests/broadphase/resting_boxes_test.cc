@@ -6,6 +6,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "carom/base/thread_arena.h"
 #include "tests/support/boxes.h"
@@ -32,6 +33,7 @@ struct Coverage {
   size_t restless = 0;       // kept pairs were given up
   size_t shrank = 0;         // boxes were removed while others rested
   size_t filtered = 0;       // a filter changed while most boxes rested
+  size_t told = 0;           // the finder was told which boxes changed, and searched for some
 };
 
 // A world in which most boxes rest, its finder, and counts of what the finder did.
@@ -109,15 +111,22 @@ class History {
   // The pairs that the finder finds; counts the path that it took.
   std::vector<Pair> find(Parallelism parallelism = Parallelism::none) {
     std::vector<Pair> pairs = {{9, 9}};
+    const std::vector<uint32_t> changed = list_changed();
+    const bool tells = random().chance(0.5);
+    const auto find_in = [&](const BoundsView& view) {
+      return tells ? finder_.find_changed(view, filter(), changed, pairs, method_, parallelism)
+                   : finder_.find(view, filter(), pairs, method_, parallelism);
+    };
     PairSearch search;
     if (record_ == 0 || record_ >= sizeof(TestBox)) {
       const LaidOutBoxes memory(boxes_, record_);
-      search = finder_.find(memory.view(), filter(), pairs, method_, parallelism);
+      search = find_in(memory.view());
     } else {  // too short for guarded memory
-      const BoundsView view = view_of_records();
-      search = finder_.find(view, filter(), pairs, method_, parallelism);
+      search = find_in(view_of_records());
     }
     count(search, pairs.size());
+    coverage_.told += tells && search.method == BroadphaseMethod::grid && search.searched > 0 &&
+                      search.searched < boxes_.size();
     method_ = BroadphaseMethod::grid;
     return pairs;
   }
@@ -136,6 +145,21 @@ class History {
             {&boxes->upper[0], &boxes->upper[1], &boxes->upper[2]},
             boxes_.size(),
             sizeof(TestBox)};
+  }
+
+  // The boxes that differ from the last call, by themselves or by their filters, and some others.
+  std::vector<uint32_t> list_changed() {
+    std::vector<uint32_t> changed;
+    for (uint32_t i = 0; i < boxes_.size(); ++i) {
+      const bool known = i < told_boxes_.size();
+      const bool differs =
+          known && (std::memcmp(&boxes_[i], &told_boxes_[i], sizeof(TestBox)) != 0 ||
+                    filters_.of(i) != told_filters_.of(i));
+      if (differs || random().chance(0.05)) changed.push_back(i);
+    }
+    told_boxes_ = boxes_;
+    told_filters_ = filters_;
+    return changed;
   }
 
   template <class Replace>
@@ -245,6 +269,8 @@ class History {
   BroadphaseMethod method_ = BroadphaseMethod::grid;
   size_t record_ = 4;
   PairFinder finder_;
+  Boxes told_boxes_;  // those of the last call
+  Filters told_filters_;
 
   PairSearch last_;
   bool kept_ = false, went_ = false, filters_changed_ = false;
@@ -262,6 +288,7 @@ Coverage operator+(Coverage a, const Coverage& b) {
   a.restless += b.restless;
   a.shrank += b.shrank;
   a.filtered += b.filtered;
+  a.told += b.told;
   return a;
 }
 
@@ -295,6 +322,7 @@ void expect_covered(const Coverage& coverage, size_t least) {
   EXPECT_GE(coverage.restless, least);
   EXPECT_GE(coverage.shrank, least);
   EXPECT_GE(coverage.filtered, least);
+  EXPECT_GE(coverage.told, least);
   for (const auto& [what, times] : std::initializer_list<std::pair<const char*, size_t>>{
            {"frames", coverage.frames},
            {"rested", coverage.rested},
@@ -304,7 +332,8 @@ void expect_covered(const Coverage& coverage, size_t least) {
            {"settled_again", coverage.settled_again},
            {"restless", coverage.restless},
            {"shrank", coverage.shrank},
-           {"filtered", coverage.filtered}}) {
+           {"filtered", coverage.filtered},
+           {"told", coverage.told}}) {
     testing::Test::RecordProperty(what, std::to_string(times));
   }
 }

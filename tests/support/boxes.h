@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "carom/broadphase/find_pairs.h"
@@ -104,6 +105,11 @@ struct Filters {
 
   // Excludes some of these pairs and as many that need not meet, of `count` boxes.
   void exclude_some(const std::vector<Pair>& pairs, size_t count, uint64_t seed);
+
+  // What the columns say of a box.
+  auto of(size_t i) const {
+    return std::tuple(layer[i], mask[i], owner[i], motion[i], group[i], space[i]);
+  }
 
   // The filters whose bits are set: bit 0 layers and masks, 1 owners, 2 motion, 3 groups, 4 spaces,
   // 5 FilterRule::either, 6 excluded pairs, 7 the predicate.

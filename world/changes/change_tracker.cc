@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 #include "base/parallel.h"
 #include "shapes/body_reader.h"
@@ -44,7 +45,7 @@ void ChangeTracker::SlotChanges::resize(size_t slots) {
 }
 
 bool ChangeTracker::SlotChanges::at(size_t slot) const {
-  return block_changed[slot / kRowsPerBlock] && changed[slot];
+  return knows_last && block_changed[slot / kRowsPerBlock] && changed[slot];
 }
 
 void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
@@ -75,6 +76,7 @@ void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   }
   knows_last_ = true;
   changed_count_ = std::accumulate(block_changes_.begin(), block_changes_.end(), size_t{0});
+  if (are_few()) list_few();
 }
 
 // Runs first, so it overwrites the flags of the last step.
@@ -124,21 +126,24 @@ bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism pa
 }
 
 bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism parallelism) {
+  if (!bodies.shares_boxes()) return false;
   const LargeVector<BodyStore::BoxRecord>& boxes = bodies.boxes();
   const size_t slots = boxes.size();
   last_boxes_.resize(slots);
   box_changes_.resize(slots);
+  // The caller has had the array for some time when they are compared for the first time.
+  const bool knows_last = std::exchange(box_changes_.knows_last, true);
   std::atomic<bool> any{false};
   for_each_block(slots, kRowsPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
     const BodyStore::BoxRecord* now = &boxes[begin];
     BodyStore::BoxRecord* last = &last_boxes_[begin];
     const size_t size = (end - begin) * sizeof(*last);
-    const bool differs = std::memcmp(now, last, size) != 0;
+    const bool differs = !knows_last || std::memcmp(now, last, size) != 0;
     box_changes_.block_changed[block] = differs;
     if (!differs) return;
     for (size_t i = begin; i < end; ++i) {
       box_changes_.changed[i] =
-          difference(boxes[i].lower.data(), last_boxes_[i].lower.data()) != 0 ||
+          !knows_last || difference(boxes[i].lower.data(), last_boxes_[i].lower.data()) != 0 ||
           difference(boxes[i].upper.data(), last_boxes_[i].upper.data()) != 0;
     }
     std::memcpy(last, now, size);
@@ -148,18 +153,21 @@ bool ChangeTracker::compare_boxes(const BodyStore& bodies, Parallelism paralleli
 }
 
 bool ChangeTracker::compare_rows(const BodyStore& bodies, Parallelism parallelism) {
+  if (!bodies.shares_shape_rows()) return false;
   const std::span<const BodyStore::Row> now = bodies.shape_rows();
   last_rows_.resize(now.size());
   row_changes_.resize(now.size());
+  const bool knows_last = std::exchange(row_changes_.knows_last, true);
   std::atomic<bool> any{false};
   for_each_block(now.size(), kRowsPerBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
                    const size_t count = end - begin;
                    BodyStore::Row* last = &last_rows_[begin];
-                   const bool differs = std::memcmp(&now[begin], last, count * sizeof(*last)) != 0;
+                   const bool differs =
+                       !knows_last || std::memcmp(&now[begin], last, count * sizeof(*last)) != 0;
                    row_changes_.block_changed[block] = differs;
                    if (!differs) return;
-                   std::memset(&row_changes_.changed[begin], 0, count);
+                   std::memset(&row_changes_.changed[begin], !knows_last, count);
                    compare_rows_of(&now[begin], last, count, &row_changes_.changed[begin]);
                    any = true;
                  });
@@ -193,6 +201,19 @@ void ChangeTracker::mark_touched(const BodyStore& bodies) {
   }
 }
 
+void ChangeTracker::list_few() {
+  few_.clear();
+  for (size_t block = 0; block < block_changes_.size(); ++block) {
+    if (block_changes_[block] == 0) continue;
+    const size_t first = block * kRowsPerBlock;
+    const auto end = changed_.begin() + std::min(first + kRowsPerBlock, changed_.size());
+    auto at = changed_.begin() + first;
+    while ((at = std::find(at, end, uint8_t{1})) != end) {
+      few_.push_back(static_cast<uint32_t>(at++ - changed_.begin()));
+    }
+  }
+}
+
 void ChangeTracker::mark_all() {
   std::fill(changed_.begin(), changed_.end(), uint8_t{1});
   for (size_t block = 0; block < block_changes_.size(); ++block) {
@@ -202,15 +223,16 @@ void ChangeTracker::mark_all() {
 }
 
 void ChangeTracker::give_back() {
-  carom::give_back(changed_, block_changes_, last_records32_, last_records64_, last_orientations_,
-                   last_boxes_, last_rows_);
+  carom::give_back(changed_, block_changes_, few_, last_records32_, last_records64_,
+                   last_orientations_, last_boxes_, last_rows_);
   for (SlotChanges* changes : {&box_changes_, &row_changes_}) changes->give_back();
 }
 
 size_t ChangeTracker::bytes() const {
-  size_t sum = bytes_of(changed_) + bytes_of(block_changes_) + bytes_of(last_records32_) +
-               bytes_of(last_records64_) + bytes_of(last_orientations_) + bytes_of(last_rows_) +
-               bytes_of(last_boxes_) + box_changes_.bytes() + row_changes_.bytes();
+  size_t sum = bytes_of(changed_) + bytes_of(block_changes_) + bytes_of(few_) +
+               bytes_of(last_records32_) + bytes_of(last_records64_) +
+               bytes_of(last_orientations_) + bytes_of(last_rows_) + bytes_of(last_boxes_) +
+               box_changes_.bytes() + row_changes_.bytes();
   return sum;
 }
 

@@ -1,5 +1,6 @@
 // Finds the bodies that changed since the last step. It compares their data with a copy, since
-// callers may write poses straight into the arrays.
+// callers may write poses straight into the arrays. Boxes and rows of shapes are compared from the
+// time on when a caller has asked for these arrays.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +36,9 @@ class ChangeTracker {
 
   // The number of indices that changed; removed bodies may be among them.
   size_t changed_count() const { return changed_count_; }
+  // Whether they are so few that stages do better to visit these alone: those of few(), ascending.
+  bool are_few() const { return kFewest * changed_count_ < changed_.size(); }
+  std::span<const uint32_t> few() const { return few_; }
 
   // True if there was a last step and nothing differs from it, not even by added or removed bodies.
   bool all_unchanged() const { return all_unchanged_; }
@@ -47,6 +51,8 @@ class ChangeTracker {
   struct SlotChanges {
     std::vector<uint8_t> changed;  // one a slot; valid where block_changed is set
     std::vector<uint8_t> block_changed;
+
+    bool knows_last = false;
 
     void resize(size_t slots);
     bool at(size_t slot) const;
@@ -62,11 +68,15 @@ class ChangeTracker {
   void mark_changed_shapes(const BodyStore& bodies, Parallelism parallelism);
   void mark_touched(const BodyStore& bodies);
   void mark_all();
+  void list_few();
+
+  static constexpr size_t kFewest = 16;  // fewer than one body in so many are few
 
   // One byte a row, and the number of set bytes in each block of rows. A block without any is all
   // zero and need not be written again.
   std::vector<uint8_t> changed_;
   std::vector<uint32_t> block_changes_;
+  std::vector<uint32_t> few_;
   size_t changed_count_ = 0;
   bool all_unchanged_ = false;
   bool any_reshaped_ = false;

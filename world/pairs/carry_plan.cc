@@ -14,23 +14,22 @@ size_t find_runs(const std::vector<Pair>& last, const std::vector<Pair>& now, si
                  size_t end, std::span<const uint8_t> changed, std::vector<CarriedRun>& runs) {
   const MergeRange range = matching_range(last, now, begin, end);
   size_t before = range.begin, open = 0;
-  const auto is_carried = [&](size_t i) {
-    return before < range.end && last[before] == now[i] && !(changed[now[i].a] | changed[now[i].b]);
+  const auto is_carried = [&](size_t i, size_t old) {
+    const Pair pair = now[i];
+    return (pair_key(last[old]) == pair_key(pair)) & !(changed[pair.a] | changed[pair.b]);
   };
   for (size_t i = begin; i < end;) {
-    while (before < range.end && last[before] < now[i]) ++before;
-    if (!is_carried(i)) {
-      ++open;
-      ++i;
-      continue;
+    while (before < range.end && pair_key(last[before]) < pair_key(now[i])) ++before;
+    const size_t most = std::min(end - i, range.end - before);
+    size_t length = 0;
+    while (length < most && is_carried(i + length, before + length)) ++length;
+    if (length > 0) {
+      runs.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(i + length),
+                      static_cast<uint32_t>(before)});
     }
-    CarriedRun run = {static_cast<uint32_t>(i), 0, static_cast<uint32_t>(before)};
-    do {
-      ++i;
-      ++before;
-    } while (i < end && is_carried(i));
-    run.end = static_cast<uint32_t>(i);
-    runs.push_back(run);
+    open += length == 0;
+    before += length;
+    i += std::max<size_t>(length, 1);
   }
   return open;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -173,8 +174,10 @@ size_t copy_old(const CarriedRun& run, const ContactStage::Input& input, size_t 
   const MergeRange from =
       contacts_of(last, run.before, run.before + (run.end - run.begin), regions);
   const size_t count = from.end - from.begin;
+  // As bytes, since vectors of Eigen would be copied number by number.
   const auto copy = [&](const auto& old, auto& list) {
-    std::copy_n(old.begin() + from.begin, count, list.begin() + next);
+    std::memcpy(static_cast<void*>(list.data() + next), old.data() + from.begin,
+                count * sizeof(old[0]));
   };
   copy(last.contacts, now.contacts);
   if (has_manifolds(input.settings.detail)) copy(last.manifolds, now.manifolds);

@@ -82,6 +82,11 @@ class BodyStore {
   const LargeVector<BoxRecord>& boxes() const { return boxes_; }
   LargeVector<Row>& orientations() { return orientation_; }
   const LargeVector<Row>& orientations() const { return orientation_; }
+  // Callers may write boxes, or rows of shapes, from now on and as long as they like.
+  void share_boxes() { shares_boxes_ = true; }
+  void share_shape_rows() { shares_shape_rows_ = true; }
+  bool shares_boxes() const { return shares_boxes_; }
+  bool shares_shape_rows() const { return shares_shape_rows_; }
   std::span<Row> shape_rows() { return {rows_.data(), row_pool_.end()}; }
   std::span<const Row> shape_rows() const { return {rows_.data(), row_pool_.end()}; }
   std::span<Eigen::Vector3f> linear_velocities();
@@ -162,11 +167,13 @@ class BodyStore {
   LargeVector<BoxRecord> boxes_;
   std::vector<uint32_t> box_slot_;  // empty until there is a box; 0 for other kinds
   size_t boxes_elsewhere_ = 0;      // aabb bodies whose slot is not their index
+  bool shares_boxes_ = false;
 
   // Parameters of all kinds but spheres and aabbs, in blocks of rows. After the last block follow
   // kMostRows - 1 rows of zero, so that kMostRows rows can be read from any row.
   RowPool row_pool_;
   LargeVector<Row> rows_;
+  bool shares_shape_rows_ = false;
   std::vector<uint32_t> first_row_;  // empty until there is such a body; 0 for other kinds
   LargeVector<Row> orientation_;     // likewise; the identity for other kinds
 

@@ -73,6 +73,14 @@ class CAROM_EXPORT PairFinder {
                   BroadphaseMethod method = BroadphaseMethod::automatic,
                   Parallelism parallelism = Parallelism::none);
 
+  /// The same for callers who know which boxes differ from those of the last call, or what the
+  /// columns of the filter say of them: `changed`, ascending. The finder need not compare the
+  /// others then. Boxes that were not there in the last call may be listed or not.
+  PairSearch find_changed(const BoundsView& bounds, const PairFilter& filter,
+                          std::span<const uint32_t> changed, std::vector<Pair>& out,
+                          BroadphaseMethod method = BroadphaseMethod::automatic,
+                          Parallelism parallelism = Parallelism::none);
+
   /// Forgets the boxes of the last call, but keeps the memory.
   void forget();
 

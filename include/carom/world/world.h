@@ -236,15 +236,17 @@ class CAROM_EXPORT World {
   /// Sets the number that user() returns.
   void set_user(BodyId id, uint64_t user);
 
-  // Properties, straight in the arrays. A step compares them with the last step to find changes.
+  // Properties, straight in the arrays. A step compares them with the last step to find changes:
+  // boxes and shape rows once the caller has asked for their arrays.
 
   /// Positions, radii and orientations.
   BodyArrays arrays();
-  /// Corners of aabb bodies.
+  /// Corners of aabb bodies. The step after the first call takes all of them as changed.
   BoxArrays boxes();
   /// The box slot of an aabb body.
   uint32_t box_slot(BodyId id) const;
-  /// Parameters of all other kinds but spheres.
+  /// Parameters of all other kinds but spheres. The step after the first call takes all of them as
+  /// changed.
   ShapeRowArrays shape_rows();
   /// The first shape row of a body that is no sphere and no aabb.
   uint32_t first_row(BodyId id) const;

@@ -92,6 +92,7 @@ TEST(Carry, OneMoverRetestsItsOwnPairsAlone) {
 TEST(Carry, AMovedBoxCornerRetestsItsPairs) {
   World world;
   const std::vector<BodyId> ids = add_crowd(world, {});
+  world.boxes();
   world.step();
   for (const BodyId id : ids) {
     if (!std::holds_alternative<Aabb>(world.shape(id))) continue;
@@ -101,9 +102,38 @@ TEST(Carry, AMovedBoxCornerRetestsItsPairs) {
   }
 }
 
+TEST(Carry, BoxesAndRowsMayHaveChangedWhenTheirArraysAreAskedForAtFirst) {
+  World world;
+  const std::vector<BodyId> ids = add_crowd(world, {.oriented = true});
+  const auto bodies_with = [&](auto has) {
+    return std::ranges::count_if(ids, [&](BodyId id) { return has(kind_of(world.shape(id))); });
+  };
+  const auto is_box = [](ShapeKind kind) { return kind == ShapeKind::aabb; };
+  const auto has_rows = [](ShapeKind kind) { return row_count(kind) > 0; };
+  ASSERT_GT(bodies_with(is_box), 10);
+  ASSERT_GT(bodies_with(has_rows), 10);
+  world.step();
+  world.step();
+  EXPECT_EQ(world.report().tested, 0u);
+  world.boxes();
+  world.step();
+  const size_t tested_of_boxes = world.report().tested;
+  EXPECT_GT(tested_of_boxes, 0u);
+  EXPECT_LT(tested_of_boxes, world.report().pairs);
+  world.boxes();
+  world.step();
+  EXPECT_EQ(world.report().tested, 0u);
+  world.shape_rows();
+  world.step();
+  EXPECT_GT(world.report().tested, 0u);
+  world.step();
+  EXPECT_EQ(world.report().tested, 0u);
+}
+
 TEST(Carry, ATurnedBodyRetestsItsPairs) {
   World world({.detail = Detail::manifold});
   const std::vector<BodyId> ids = add_crowd(world, {.oriented = true, .halfspaces = 2});
+  world.shape_rows();
   world.step();
   Random random(1);
   for (const BodyId id : ids) {

@@ -34,7 +34,10 @@ struct Snapshot {
 class Tracked {
  public:
   Tracked(PositionType positions, std::span<const ShapeKind> some_kinds)
-      : store(positions), kinds(some_kinds) {}
+      : store(positions), kinds(some_kinds) {
+    store.share_boxes();
+    store.share_shape_rows();
+  }
 
   void add() {
     BodyDesc body{.position = {random.uniform(-9, 9), 0, 1}};
