@@ -258,20 +258,29 @@ bool World::State::uses_directions() const {
   return false;
 }
 
+ContactStage::Last World::State::use_of_last_contacts(bool in_one_range) const {
+  if (has_identities()) return ContactStage::Last::copied;
+  const size_t open = plan.tested() + plan.dropped(), pairs = now.pairs.size();
+  if (open >= pairs) return ContactStage::Last::unused;
+  // Threads copy faster than one of them moves. Where few are carried, runs are short.
+  const bool moves = in_one_range && 4 * open < pairs && settings.detail != Detail::regions &&
+                     !uses_threads(settings.parallelism);
+  return moves ? ContactStage::Last::in_place : ContactStage::Last::copied;
+}
+
 // Tests pairs and lists their contacts, range by range, so that the results of a range are read
 // while they are in the cache.
 void World::State::find_results() {
   const bool remembers = uses_directions();
   uint32_t* const directions_of_tests =
       remembers ? directions.prepare(plan, last, settings.parallelism, now) : nullptr;
-  const bool carries_some = plan.tested() + plan.dropped() < now.pairs.size();
-  contact_stage.start(carries_some || has_identities(), last, now);
   const size_t pairs = now.pairs.size();
   // Where most pairs are carried, more of them have as many to test.
   const size_t share = std::clamp<size_t>(pairs / std::max<size_t>(1, plan.tested()), 1, 64);
   const size_t blocks =
       share * (uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread);
   const size_t at_once = blocks * kPairsPerMergeBlock;
+  contact_stage.start(use_of_last_contacts(at_once >= pairs), last, now);
   for (size_t begin = 0; begin == 0 || begin < pairs; begin += at_once) {
     const size_t end = std::min(begin + at_once, pairs);
     const size_t first_row = plan.rows_before(begin);

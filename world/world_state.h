@@ -127,6 +127,7 @@ struct World::State {
   std::span<const uint8_t> changed_for_tests();
   void compare_pairs();
   void drop_pairs();
+  ContactStage::Last use_of_last_contacts(bool in_one_range) const;
   void find_results();
   void test_pairs(const PairRange& range, uint32_t* direction);
   void find_impacts();

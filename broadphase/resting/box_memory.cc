@@ -59,14 +59,32 @@ void BoxMemory::update(const BoundsView& bounds, const PairFilter& filter, Paral
 void BoxMemory::update_listed(const BoundsView& bounds, const PairFilter& filter,
                               std::span<const uint32_t> listed, std::vector<uint32_t>& changed) {
   resize(bounds, filter);
-  const BoxSource source(bounds);
   changed.clear();
   for (const uint32_t body : listed) {
-    if (body < known_) update_block(source, filter, body, body + 1, changed);
+    if (body >= known_) break;
+    changed.push_back(body);
+    copy(bounds, filter, body);
   }
-  for (size_t i = known_; i < count_; i += BoxBlock::kBoxes) {
-    update_block(source, filter, i, std::min(count_, i + BoxBlock::kBoxes), changed);
+  for (size_t body = known_; body < count_; ++body) {
+    changed.push_back(static_cast<uint32_t>(body));
+    copy(bounds, filter, body);
   }
+}
+
+void BoxMemory::copy(const BoundsView& bounds, const PairFilter& filter, size_t body) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    columns_[axis][body] = value_at(bounds, bounds.lower[axis], body);
+    columns_[3 + axis][body] = value_at(bounds, bounds.upper[axis], body);
+  }
+  const auto copy_column = [body](const auto* now, auto& last) {
+    if (now) last[body] = now[body];
+  };
+  copy_column(filter.layer, filter_.layer);
+  copy_column(filter.mask, filter_.mask);
+  copy_column(filter.owner, filter_.owner);
+  copy_column(filter.motion, filter_.motion);
+  copy_column(filter.group, filter_.group);
+  copy_column(filter.space, filter_.space);
 }
 
 void BoxMemory::resize(const BoundsView& bounds, const PairFilter& filter) {

@@ -22,7 +22,8 @@ class BoxMemory {
   void update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
               std::vector<uint32_t>& changed);
 
-  // The same where no bodies but these, ascending, and new ones differ.
+  // The same where no bodies but these, ascending, and new ones may differ: takes all of them as
+  // different.
   void update_listed(const BoundsView& bounds, const PairFilter& filter,
                      std::span<const uint32_t> listed, std::vector<uint32_t>& changed);
 
@@ -44,6 +45,7 @@ class BoxMemory {
   };
 
   void resize(const BoundsView& bounds, const PairFilter& filter);
+  void copy(const BoundsView& bounds, const PairFilter& filter, size_t body);
   void update_block(const BoxSource& source, const PairFilter& filter, size_t begin, size_t end,
                     std::vector<uint32_t>& changed);
 

@@ -26,15 +26,39 @@ uint64_t difference(const T* a, const T* b) {
   return bits;
 }
 
-// Sets the flags of rows that differ, and copies `now` to `last`.
-void compare_rows_of(const BodyStore::Row* now, BodyStore::Row* last, size_t count,
-                     uint8_t* changed) {
-  for (size_t i = 0; i < count; ++i) changed[i] |= difference(now[i].data(), last[i].data()) != 0;
-  std::memcpy(last, now, count * sizeof(BodyStore::Row));
-}
-
 uint32_t count_set(const uint8_t* flags, size_t count) {
   return std::accumulate(flags, flags + count, uint32_t{0});
+}
+
+// Calls use(i) for each flag that is set.
+template <class Use>
+void for_each_set(const uint8_t* flags, size_t count, const Use& use) {
+  for (size_t i = 0; i < count; ++i) {
+    const void* const at = std::memchr(flags + i, 1, count - i);
+    if (!at) return;
+    i = static_cast<size_t>(static_cast<const uint8_t*>(at) - flags);
+    use(i);
+  }
+}
+
+// Copies the records of four numbers that changed, and no others if they are few.
+template <class T>
+void copy_changed(const T* now, const uint8_t* changed, size_t count, size_t changes, T* last) {
+  constexpr size_t kFewest = 8;  // fewer than one record in so many are few
+  if (kFewest * changes < count) {
+    for_each_set(changed, count, [&](size_t i) { std::copy_n(now + 4 * i, 4, last + 4 * i); });
+  } else {
+    std::memcpy(last, now, 4 * count * sizeof(T));
+  }
+}
+
+// Sets the flags of rows that differ, copies these, and returns how many flags are set.
+uint32_t compare_rows_of(const BodyStore::Row* now, BodyStore::Row* last, size_t count,
+                         uint8_t* changed) {
+  for (size_t i = 0; i < count; ++i) changed[i] |= difference(now[i].data(), last[i].data()) != 0;
+  const uint32_t changes = count_set(changed, count);
+  copy_changed(now->data(), changed, count, changes, last->data());
+  return changes;
 }
 
 }  // namespace
@@ -102,7 +126,7 @@ bool ChangeTracker::compare_records(const LargeVector<T>& now, LargeVector<T>& l
                      flags[i] = difference(records + 4 * i, copies + 4 * i) != 0;
                    }
                    changes = count_set(flags, count);
-                   std::memcpy(copies, records, size);
+                   copy_changed(records, flags, count, changes, copies);
                    any = true;
                  });
   return any;
@@ -113,15 +137,14 @@ bool ChangeTracker::compare_orientations(const BodyStore& bodies, Parallelism pa
   // A body that had no orientation had the identity.
   last_orientations_.resize(now.size(), BodyStore::kIdentity);
   std::atomic<bool> any{false};
-  for_each_block(now.size(), kRowsPerBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   const size_t count = end - begin;
-                   BodyStore::Row* last = &last_orientations_[begin];
-                   if (std::memcmp(&now[begin], last, count * sizeof(*last)) == 0) return;
-                   compare_rows_of(&now[begin], last, count, &changed_[begin]);
-                   block_changes_[block] = count_set(&changed_[begin], count);
-                   any = true;
-                 });
+  for_each_block(
+      now.size(), kRowsPerBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
+        const size_t count = end - begin;
+        BodyStore::Row* last = &last_orientations_[begin];
+        if (std::memcmp(&now[begin], last, count * sizeof(*last)) == 0) return;
+        block_changes_[block] = compare_rows_of(&now[begin], last, count, &changed_[begin]);
+        any = true;
+      });
   return any;
 }
 
@@ -206,11 +229,9 @@ void ChangeTracker::list_few() {
   for (size_t block = 0; block < block_changes_.size(); ++block) {
     if (block_changes_[block] == 0) continue;
     const size_t first = block * kRowsPerBlock;
-    const auto end = changed_.begin() + std::min(first + kRowsPerBlock, changed_.size());
-    auto at = changed_.begin() + first;
-    while ((at = std::find(at, end, uint8_t{1})) != end) {
-      few_.push_back(static_cast<uint32_t>(at++ - changed_.begin()));
-    }
+    const size_t count = std::min(kRowsPerBlock, changed_.size() - first);
+    for_each_set(changed_.data() + first, count,
+                 [&](size_t i) { few_.push_back(static_cast<uint32_t>(first + i)); });
   }
 }
 

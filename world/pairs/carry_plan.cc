@@ -1,6 +1,7 @@
 #include "world/pairs/carry_plan.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "base/parallel.h"
@@ -16,7 +17,8 @@ size_t find_runs(const std::vector<Pair>& last, const std::vector<Pair>& now, si
   size_t before = range.begin, open = 0;
   const auto is_carried = [&](size_t i, size_t old) {
     const Pair pair = now[i];
-    return (pair_key(last[old]) == pair_key(pair)) & !(changed[pair.a] | changed[pair.b]);
+    const bool same = std::bit_cast<uint64_t>(last[old]) == std::bit_cast<uint64_t>(pair);
+    return same & !(changed[pair.a] | changed[pair.b]);
   };
   for (size_t i = begin; i < end;) {
     while (before < range.end && pair_key(last[before]) < pair_key(now[i])) ++before;

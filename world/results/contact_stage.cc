@@ -95,6 +95,12 @@ MergeRange contacts_of(const PairHistory& history, size_t begin, size_t end, boo
           last + (regions ? contact_run(history.contacts, last).size() : 1)};
 }
 
+// The contacts of carried pairs, in the last step.
+MergeRange contacts_of(const CarriedRun& run, const ContactStage::Input& input) {
+  return contacts_of(input.last, run.before, run.before + (run.end - run.begin),
+                     input.settings.detail == Detail::regions);
+}
+
 // Copies what the last step said of carried pairs. Their contacts keep the places that they had,
 // until they are written.
 void repeat_results(const CarriedRun& run, const ContactStage::Input& input, PairHistory& now,
@@ -109,7 +115,7 @@ void repeat_results(const CarriedRun& run, const ContactStage::Input& input, Pai
     unknown += decision[i] == kUndecided;
   }
   const bool regions = input.settings.detail == Detail::regions;
-  const MergeRange contacts = contacts_of(input.last, run.before, run.before + count, regions);
+  const MergeRange contacts = contacts_of(run, input);
   counts.overlaps += overlapping;
   counts.undecided += unknown;
   counts.contacts += contacts.end - contacts.begin;
@@ -166,14 +172,12 @@ size_t write_new(const OpenPairs& open, const ContactStage::Input& input, size_t
   return next;
 }
 
-// The same for carried pairs.
-size_t copy_old(const CarriedRun& run, const ContactStage::Input& input, size_t next,
-                PairHistory& now) {
+// The same for carried pairs. `in_place`: their contacts are in place already.
+size_t write_old(const CarriedRun& run, const ContactStage::Input& input, bool in_place,
+                 size_t next, PairHistory& now) {
   const PairHistory& last = input.last;
-  const bool regions = input.settings.detail == Detail::regions;
-  const MergeRange from =
-      contacts_of(last, run.before, run.before + (run.end - run.begin), regions);
-  const size_t count = from.end - from.begin;
+  const MergeRange from = contacts_of(run, input);
+  const size_t count = in_place ? 0 : from.end - from.begin;
   // As bytes, since vectors of Eigen would be copied number by number.
   const auto copy = [&](const auto& old, auto& list) {
     std::memcpy(static_cast<void*>(list.data() + next), old.data() + from.begin,
@@ -187,7 +191,7 @@ size_t copy_old(const CarriedRun& run, const ContactStage::Input& input, size_t 
     const uint32_t contact = now.contact[i];
     now.contact[i] = contact + (PairHistory::is_place(contact) ? shift : 0u);
   }
-  return next + count;
+  return next + (from.end - from.begin);
 }
 
 }  // namespace
@@ -241,13 +245,18 @@ size_t ResultBuffer::bytes() const {
   return arrays_.bytes() + bytes_of(distances_) + bytes_of(near_) + extra_.bytes();
 }
 
-void ContactStage::start(bool reads_last, PairHistory& last, PairHistory& now) {
+void ContactStage::start(Last what, PairHistory& last, PairHistory& now) {
   overlaps_ = undecided_ = left_out_ = 0;
   now.overlaps.resize(now.pairs.size());
   now.contact.resize(now.pairs.size());
   now.clear_contacts();
-  const auto take_memory = [reads_last](auto& before, auto& list) {
-    if (reads_last || list.capacity() >= before.capacity()) return;
+  in_place_ = what == Last::in_place;
+  if (in_place_) {
+    now.contacts.swap(last.contacts);
+    now.manifolds.swap(last.manifolds);
+  }
+  const auto take_memory = [what](auto& before, auto& list) {
+    if (what != Last::unused || list.capacity() >= before.capacity()) return;
     before.clear();
     list.swap(before);
   };
@@ -259,19 +268,26 @@ void ContactStage::start(bool reads_last, PairHistory& last, PairHistory& now) {
 size_t ContactStage::add(const PairRange& range, const Input& input, PairHistory& now) {
   // First find the result of every pair, and how many contacts each block has ...
   find_results(range, input, now);
-  const size_t first = now.contacts.size();
+  const size_t first = in_place_ ? 0 : now.contacts.size();
   if (!has_contacts(input.settings.detail)) return first;
 
   // ... then write every contact to its place.
   size_t contacts = first;
   for (size_t& block : block_first_) contacts += std::exchange(block, contacts);
-  const auto resize = [&](auto& list) {
-    reserve_at_rate(list, contacts, range.begin, now.pairs.size());
-    list.resize(contacts);
+  const auto resize = [&](size_t count) {
+    const auto resize_list = [&](auto& list) {
+      reserve_at_rate(list, count, range.begin, now.pairs.size());
+      list.resize(count);
+    };
+    resize_list(now.contacts);
+    if (has_manifolds(input.settings.detail)) resize_list(now.manifolds);
+    if (input.settings.identities) resize_list(now.identities);
   };
-  resize(now.contacts);
-  if (has_manifolds(input.settings.detail)) resize(now.manifolds);
-  if (input.settings.identities) resize(now.identities);
+  if (in_place_) {
+    resize(std::max(contacts, now.contacts.size()));
+    move_carried(range, input, now);
+  }
+  resize(contacts);
   write_contacts(range, input, now);
   return first;
 }
@@ -302,17 +318,39 @@ void ContactStage::find_results(const PairRange& range, const Input& input, Pair
   left_out_ += left_out;
 }
 
+// Moves the contacts of carried pairs to their places within the list.
+void ContactStage::move_carried(const PairRange& range, const Input& input, PairHistory& now) {
+  moves_.clear();
+  size_t next = 0;
+  const auto open = [&](size_t first, size_t stop, size_t) {
+    for (size_t i = first; i < stop; ++i) next += now.has_contact(i);
+  };
+  const auto carried = [&](const CarriedRun& run) {
+    const MergeRange from = contacts_of(run, input);
+    const size_t count = from.end - from.begin;
+    if (count > 0) moves_.push_back({from.begin, next, count});
+    next += count;
+  };
+  for_each_merge_block(range.end, Parallelism::none, [&](size_t, size_t begin, size_t end) {
+    input.plan.for_each_stretch(begin, end, open, carried);
+  });
+  move_runs(moves_, now.contacts.data());
+  if (has_manifolds(input.settings.detail)) move_runs(moves_, now.manifolds.data());
+}
+
 void ContactStage::write_contacts(const PairRange& range, const Input& input, PairHistory& now) {
-  for_each_block(
-      range.end - range.begin, kPairsPerMergeBlock, input.settings.parallelism,
-      [&](size_t block, size_t begin, size_t end) {
-        size_t next = block_first_[block];
-        const auto open = [&](size_t first, size_t stop, size_t number) {
-          next = write_new({first, stop, number}, input, next, now);
-        };
-        const auto carried = [&](const CarriedRun& run) { next = copy_old(run, input, next, now); };
-        input.plan.for_each_stretch(range.begin + begin, range.begin + end, open, carried);
-      });
+  for_each_block(range.end - range.begin, kPairsPerMergeBlock, input.settings.parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   size_t next = block_first_[block];
+                   const auto open = [&](size_t first, size_t stop, size_t number) {
+                     next = write_new({first, stop, number}, input, next, now);
+                   };
+                   const auto carried = [&](const CarriedRun& run) {
+                     next = write_old(run, input, in_place_, next, now);
+                   };
+                   input.plan.for_each_stretch(range.begin + begin, range.begin + end, open,
+                                               carried);
+                 });
 }
 
 void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,

@@ -14,6 +14,7 @@
 #include "world/pairs/carry_plan.h"
 #include "world/pairs/pair_history.h"
 #include "world/results/contact_rows.h"
+#include "world/results/list_moves.h"
 #include "world/store/body_store.h"
 
 namespace carom {
@@ -91,9 +92,15 @@ class ContactStage {
     const WorldSettings& settings;
   };
 
-  // Begins the lists of a step. Unless something reads the contacts of the last one, those of this
-  // step may take their memory.
-  void start(bool reads_last, PairHistory& last, PairHistory& now);
+  // What a step does with the contacts of the last one.
+  enum class Last {
+    unused,    // those of this step may take their memory
+    copied,    // carried ones are copied
+    in_place,  // carried ones stay in their list, which becomes that of this step
+  };
+
+  // Begins the lists of a step.
+  void start(Last what, PairHistory& last, PairHistory& now);
   // Adds the results of a range of pairs. Ranges begin at multiples of kPairsPerMergeBlock, and
   // follow one another. Returns the place of the first contact that it has added.
   size_t add(const PairRange& range, const Input& input, PairHistory& now);
@@ -101,15 +108,20 @@ class ContactStage {
   size_t overlaps() const { return overlaps_; }
   size_t undecided() const { return undecided_; }
   size_t left_out() const { return left_out_; }  // contacts beyond RegionLimits::most
-  size_t bytes() const { return block_first_.capacity() * sizeof(size_t); }
+  size_t bytes() const {
+    return block_first_.capacity() * sizeof(size_t) + moves_.capacity() * sizeof(ListMove);
+  }
 
  private:
   void find_results(const PairRange& range, const Input& input, PairHistory& now);
+  void move_carried(const PairRange& range, const Input& input, PairHistory& now);
   void write_contacts(const PairRange& range, const Input& input, PairHistory& now);
 
   size_t overlaps_ = 0;
   size_t undecided_ = 0;
   size_t left_out_ = 0;
+  bool in_place_ = false;
+  std::vector<ListMove> moves_;
   // number of contacts of each block, later the place of its first one
   std::vector<size_t> block_first_;
 };
