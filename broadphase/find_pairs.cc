@@ -78,6 +78,8 @@ const char* name(BroadphaseMethod method) {
 
 struct PairFinder::State {
   size_t most_pairs = kMostPairs;
+  PairOrder wanted = PairOrder::sorted;
+  PairOrder order_of_pairs = PairOrder::sorted;  // of the present search
   FoundPairs found;
   PairSorter sorter;
   PairSelection selection;
@@ -156,7 +158,12 @@ struct PairFinder::State {
     search.pairs = found.count();
     search.searched = bounds.count;
     search.complete = search.pairs <= most_pairs;
-    if (search.complete) sorter.sort(found.lists(), bounds.count, parallelism, out, scratch);
+    if (!search.complete) return;
+    if (order_of_pairs == PairOrder::any) {
+      found.list(parallelism, out);
+    } else {
+      sorter.sort(found.lists(), bounds.count, parallelism, out, scratch);
+    }
   }
 
   // Keeps the boxes that rest in `resting` as soon as most boxes do.
@@ -166,7 +173,8 @@ struct PairFinder::State {
     using Outcome = RestingBoxes::Outcome;
     constexpr double kRestless = 0.2;  // below the share of moving boxes that RestingBoxes bears
     const double most_crowded = must ? std::numeric_limits<double>::infinity() : kMostCrowded;
-    const RestingBoxes::Workspace work = {cells, found, sorter, scratch, most_pairs, most_crowded};
+    const RestingBoxes::Workspace work = {cells,      found,        sorter,        scratch,
+                                          most_pairs, most_crowded, order_of_pairs};
     Outcome outcome = Outcome::restless;
     if (!resting.is_empty()) {
       outcome = resting.update(bounds, filter, listed, parallelism, work, out);
@@ -201,6 +209,11 @@ struct PairFinder::State {
     if (!must) search.reason = "more than 350 boxes, most of them at rest";
   }
 
+  void set_order_of_pairs(const PairFilter& filter) {
+    const PairOrder next = filter.excluded.empty() ? wanted : PairOrder::sorted;
+    if (std::exchange(order_of_pairs, next) != next) resting.forget();
+  }
+
   void forget() {
     order.forget();
     sample.forget();
@@ -230,6 +243,7 @@ PairSearch PairFinder::State::find(const BoundsView& bounds, const PairFilter& f
                                    const std::span<const uint32_t>* listed, std::vector<Pair>& out,
                                    BroadphaseMethod method, Parallelism parallelism) {
   const FloatEnvironment environment;
+  set_order_of_pairs(filter);
   if (!std::exchange(is_resting_current, false)) listed = nullptr;
   if (bounds.count <= kSerialLimit) parallelism = Parallelism::none;
   const Choice choice = choose(method, bounds.count);
@@ -254,6 +268,8 @@ PairSearch PairFinder::State::find(const BoundsView& bounds, const PairFilter& f
 }
 
 void PairFinder::forget() { state_->forget(); }
+
+void PairFinder::set_order(PairOrder order) { state_->wanted = order; }
 
 void PairFinder::set_most_pairs(size_t pairs) {
   constexpr size_t kMostOffsets = 0xffffffffu;  // the range of the sort's counters

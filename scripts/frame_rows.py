@@ -40,7 +40,7 @@ RUNS = [
 ]
 OF_TARGETS = [("100k cubes", "contact"), ("100k spheres", "contact"), ("100k boxes", "manifold")]
 LEAST_STAGE_MS = 0.2  # shorter stages are not compared between targets
-BENCH = "^bounds/(box|capsule|kdop)/f32/t1/|^world/(moving|spaces)/"
+BENCH = "^bounds/(box|capsule|dop)/f32/t1/|^world/(moving|spaces)/"
 
 
 def bodies(scene):
@@ -138,7 +138,7 @@ def rows(m):
             yield ratio(f"{scene}, contacts : pairs alone", scene, "contact", scene, "pairs", must, aim)
     yield ratio("100k boxes, manifolds : 100k cubes, pairs alone", "100k boxes", "manifold",
                 "100k cubes", "pairs", 2.5, 1.8)
-    for kind in ("box", "capsule", "kdop"):
+    for kind in ("box", "capsule"):
         yield (f"bounds of a {kind}, ns", m.ns(f"bounds/{kind}/"), 10, 5)
     if has("1M spheres"):
         yield ("1M spheres, contacts, one thread, ms", m.ms("1M spheres", "contact"), 150, 80)

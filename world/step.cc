@@ -182,6 +182,8 @@ void World::State::widen_bounds() {
 void World::State::find_pairs() {
   if (!settings.carry_results) finder.forget();
   finder.set_most_pairs(settings.most_pairs);
+  excluded.update();
+  finder.set_order(needs_sorted_pairs() ? PairOrder::sorted : settings.pair_order);
   const BoundsView searched = has_margin() ? fat_bounds.view() : reach_view();
   std::vector<Pair>& found = halfspaces.has_any() ? halfspaces.other_pairs() : now.pairs;
   PairFilter filter = bodies.filter();
@@ -205,7 +207,6 @@ void World::State::find_pairs() {
 
 // Drops the pairs that the caller does not want.
 void World::State::select_pairs() {
-  excluded.update();
   selection.run(excluded.pairs(), &excluded.digest(), predicate ? &predicate : nullptr,
                 settings.parallelism, now.pairs);
 }

@@ -106,6 +106,10 @@ struct World::State {
   Collidables tested_shapes() const { return has_proxies() ? proxies.view(bodies) : bodies.view(); }
   bool uses_directions() const;
   bool has_identities() const { return settings.identities && has_contacts(settings.detail); }
+  bool needs_sorted_pairs() const {
+    return has_narrowphase() || settings.pair_changes || halfspaces.has_any() ||
+           !excluded.pairs().empty();
+  }
   bool needs_last() const {
     return carries() || has_events() || settings.pair_changes || has_identities();
   }

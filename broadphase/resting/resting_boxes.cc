@@ -50,7 +50,7 @@ RestingBoxes::Outcome RestingBoxes::settle_rest(const BoundsView& bounds, const 
     forget();
     return Outcome::too_many;
   }
-  work.sorter.sort(work.found.lists(), bounds.count, parallelism, pairs_, work.scratch);
+  list_found(bounds.count, parallelism, work, pairs_);
   holds_any_ = true;
   return Outcome::found;
 }
@@ -140,10 +140,24 @@ RestingBoxes::Outcome RestingBoxes::find_pairs_of_moving(const BoundsView& bound
     return Outcome::too_many;
   }
   if (!moving_.empty()) {
-    work.sorter.sort(work.found.lists(), bounds.count, parallelism, moving_pairs_, work.scratch);
+    list_found(bounds.count, parallelism, work, moving_pairs_);
   }
-  merge_pairs(pairs_, moving_pairs_, parallelism, out);
+  if (work.order == PairOrder::sorted) {
+    merge_pairs(pairs_, moving_pairs_, parallelism, out);
+  } else {
+    merge_pairs(pairs_, {}, parallelism, out);
+    out.insert(out.end(), moving_pairs_.begin(), moving_pairs_.end());
+  }
   return Outcome::found;
+}
+
+void RestingBoxes::list_found(size_t bodies, Parallelism parallelism, Workspace work,
+                              std::vector<Pair>& out) {
+  if (work.order == PairOrder::any) {
+    work.found.list(parallelism, out);
+  } else {
+    work.sorter.sort(work.found.lists(), bodies, parallelism, out, work.scratch);
+  }
 }
 
 void RestingBoxes::forget() {

@@ -23,6 +23,7 @@ class RestingBoxes {
     Scratch& scratch;
     size_t most_pairs;
     double most_crowded;  // limit for CellRows::crowding()
+    PairOrder order;      // of all pairs; once it changes, the boxes must be forgotten
   };
 
   enum class Outcome {
@@ -57,6 +58,8 @@ class RestingBoxes {
 
   Outcome settle_rest(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
                       Workspace work);
+  static void list_found(size_t bodies, Parallelism parallelism, Workspace work,
+                         std::vector<Pair>& out);
   void wake(size_t count_before);
   void drop_pairs_of_moving();
   Outcome find_pairs_of_moving(const BoundsView& bounds, const PairFilter& filter,
@@ -68,7 +71,7 @@ class RestingBoxes {
   std::vector<uint32_t> row_of_;    // of each body; kNoRow: it moves, or takes no part
   std::vector<uint8_t> is_moving_;  // of each body
   std::vector<uint32_t> moving_;    // ascending
-  std::vector<Pair> pairs_;         // among resting boxes, sorted
+  std::vector<Pair> pairs_;         // among resting boxes, in the order that is wanted
   std::vector<Pair> moving_pairs_;  // all others
   std::vector<uint32_t> changed_, resting_, merged_;
   size_t pair_count_ = 0;

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "base/huge_pages.h"
+#include "base/parallel.h"
 #include "base/raw_vector.h"
 #include "carom/broadphase/find_pairs.h"
 
@@ -139,8 +141,23 @@ class FoundPairs {
     return sum;
   }
 
+  // Replaces `out` by all pairs, one list behind the other.
+  void list(Parallelism parallelism, std::vector<Pair>& out) {
+    size_t count = 0;
+    first_.clear();
+    for (const PairList& list : lists()) {
+      first_.push_back(count);
+      count += list.pairs().size();
+    }
+    resize_for_overwriting(out, count);
+    for_each_block(used_, 1, parallelism, [&](size_t i, size_t, size_t) {
+      const std::span<const Pair> pairs = lists_[i].pairs();
+      std::copy(pairs.begin(), pairs.end(), out.begin() + static_cast<ptrdiff_t>(first_[i]));
+    });
+  }
+
   size_t bytes() const {
-    size_t sum = lists_.capacity() * sizeof(PairList);
+    size_t sum = lists_.capacity() * sizeof(PairList) + first_.capacity() * sizeof(size_t);
     for (const PairList& list : lists_) sum += list.bytes();
     return sum;
   }
@@ -149,6 +166,7 @@ class FoundPairs {
   PairBudget budget_;
   std::vector<PairList> lists_;
   size_t used_ = 0;
+  std::vector<size_t> first_;  // where each list goes to, during list()
 };
 
 }  // namespace carom

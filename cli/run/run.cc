@@ -40,6 +40,9 @@ Result<RunSettings> read_settings(const RunOptions& options) {
   }
   Result<RunSettings> settings = options.world.read();
   if (!settings) return settings;
+  if (settings->world.pair_order == PairOrder::any && !options.pairs_out.empty()) {
+    return Error{"--pairs-out writes sorted pairs: it cannot be used with --pair-order any"};
+  }
   Result<void> page = check_page(options.page, settings->world.detail);
   return page ? settings : page.error();
 }

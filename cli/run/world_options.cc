@@ -187,6 +187,36 @@ class BroadphaseOption : public WorldOption {
   std::string name_ = "auto";
 };
 
+class PairOrderOption : public WorldOption {
+ public:
+  void add_to(Command& command) override {
+    command.add_option("--pair-order", name_, "sorted, or any, which saves sorting").show_default();
+  }
+
+  // After the detail.
+  Result<void> read(RunSettings& settings) const override {
+    const Result<size_t> index = find_name("pair order", name_, kNames);
+    if (!index) return index.error();
+    settings.world.pair_order = static_cast<PairOrder>(*index);
+    if (settings.world.pair_order == PairOrder::any && settings.world.detail != Detail::pairs) {
+      return Error{"--pair-order any needs --detail pairs"};
+    }
+    return {};
+  }
+
+  std::string text_of(const RunSettings& settings) const override {
+    return settings.world.pair_order == PairOrder::any ? " --pair-order any" : "";
+  }
+
+  void add_json(const RunReport& report, Json& json) const override {
+    json["pair_order"] = kNames[static_cast<size_t>(report.settings.world.pair_order)];
+  }
+
+ private:
+  static constexpr std::array kNames = {"sorted", "any"};
+  std::string name_ = "sorted";
+};
+
 class MarginOption : public WorldOption {
  public:
   void add_to(Command& command) override {
@@ -306,6 +336,7 @@ WorldOptions::WorldOptions() {
   list_.push_back(std::make_unique<DetailOption>());
   list_.push_back(std::make_unique<DetectionOption>());
   list_.push_back(std::make_unique<BroadphaseOption>());
+  list_.push_back(std::make_unique<PairOrderOption>());
   list_.push_back(std::make_unique<MarginOption>());
   list_.push_back(std::make_unique<ContactDistanceOption>());
   list_.push_back(std::make_unique<DopBoundsOption>());

@@ -87,9 +87,12 @@ class BlockRunner {
       }
     }
     sort_by_kind();
+    size_t begin = 0;
     for (uint8_t kind = 0; kind < kPairKinds.size(); ++kind) {
       for (const bool flipped : {false, true}) {
-        if (counts_[slot({kind, flipped})] > 0) run_part({kind, flipped});
+        const size_t end = ends_[slot({kind, flipped})];
+        if (begin < end) run_part({kind, flipped}, rows_.data() + begin, end - begin);
+        begin = end;
       }
     }
   }
@@ -137,6 +140,7 @@ class BlockRunner {
     run_passes(kPairKinds[kind.index], whole, block_.measured, block_.direction, block_.accuracy);
   }
 
+  // Sorts the rows by counting.
   void sort_by_kind() {
     const BodyReader a{block_.a};
     const BodyReader b{block_.b};
@@ -144,28 +148,32 @@ class BlockRunner {
       const Pair p = pair(row);
       const PairKindRef kind = find_pair_kind(a.kind(p.a), b.kind(p.b));
       slots_[row] = static_cast<uint8_t>(slot(kind));
-      ++counts_[slots_[row]];
+      ++ends_[slots_[row]];
+    }
+    // Here each kind begins. Its rows move that to where it ends.
+    uint16_t begin = 0;
+    for (uint16_t& end : ends_) begin += std::exchange(end, begin);
+    for (size_t row = 0; row < block_.count; ++row) {
+      rows_[ends_[slots_[row]]++] = static_cast<uint16_t>(row);
     }
   }
 
-  void run_part(PairKindRef kind) {
-    size_t count = 0;
-    for (size_t row = 0; row < block_.count; ++row) {
-      if (slots_[row] != slot(kind)) continue;
-      const Pair p = pair(row);
-      pairs_[count] = kind.flipped ? Pair{p.b, p.a} : p;
-      rows_[count++] = static_cast<uint16_t>(row);
+  // Runs the pairs of one kind, which are in these rows of the block.
+  void run_part(PairKindRef kind, const uint16_t* rows, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      const Pair p = pair(rows[i]);
+      pairs_[i] = kind.flipped ? Pair{p.b, p.a} : p;
     }
     Batch part = batch(kind);
     part.pairs = pairs_.data();
     part.count = count;
     part.out = as_asked(memory_.columns(), block_.out);
-    for (size_t i = 0; block_.reach && i < count; ++i) reach_[i] = block_.reach[rows_[i]];
+    for (size_t i = 0; block_.reach && i < count; ++i) reach_[i] = block_.reach[rows[i]];
     if (block_.reach) part.reach = reach_.data();
     uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
-    for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows_[i]];
+    for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows[i]];
     for (size_t i = 0; part.out.features && i < count; ++i) {
-      part.out.features[i] = block_.out.features[rows_[i]];
+      part.out.features[i] = block_.out.features[rows[i]];
     }
     if (layout_) {
       run_passes(kPairKinds[kind.index], part, block_.measured, direction, block_.accuracy);
@@ -174,8 +182,8 @@ class BlockRunner {
     } else {
       run_packed<float>(kind, part, PositionLayout::records32);
     }
-    scatter(kind, part.out, count);
-    for (size_t i = 0; direction && i < count; ++i) block_.direction[rows_[i]] = direction[i];
+    scatter(kind, part.out, rows, count);
+    for (size_t i = 0; direction && i < count; ++i) block_.direction[rows[i]] = direction[i];
   }
 
   template <class T>
@@ -195,17 +203,18 @@ class BlockRunner {
   }
 
   // Copies results to the rows of the block, and exchanges the sides of flipped pairs.
-  void scatter(PairKindRef kind, ResultColumns from, size_t count) {
+  void scatter(PairKindRef kind, ResultColumns from, const uint16_t* rows, size_t count) {
     if (has_contacts(block_.detail)) {
-      if (kind.flipped) flip(from, count);
-      move_points(from, count, [this](size_t i) { return pair(rows_[i]); });
+      if (kind.flipped) flip(from, rows, count);
+      move_points(from, count, [&](size_t i) { return pair(rows[i]); });
     }
-    copy_rows(from, block_.out, block_.detail, count, [this](size_t i) { return rows_[i]; });
+    copy_rows(from, block_.out, block_.detail, count, [&](size_t i) { return rows[i]; });
   }
 
-  void flip(ResultColumns& columns, size_t count) const {
+  void flip(ResultColumns& columns, const uint16_t* rows, size_t count) const {
     for (size_t i = 0; has_manifolds(block_.detail) && i < count; ++i) {
-      for (size_t k = 0; k < columns.manifold_count[i]; ++k) move_to_other_side(columns, i, k);
+      for (size_t k = 0; k < columns.manifold_count[i]; ++k)
+        move_to_other_side(columns, pair(rows[i]), i, k);
     }
     for (float* column : columns.normal) negate(column, count);
     std::swap(columns.point_a, columns.point_b);
@@ -213,9 +222,9 @@ class BlockRunner {
 
   // A kernel's manifold point is on its A and relative to it. The caller's A is the kernel's B, so
   // this moves the point along the normal to that side and makes it relative to that body.
-  void move_to_other_side(const ResultColumns& columns, size_t i, size_t k) const {
+  void move_to_other_side(const ResultColumns& columns, Pair bodies, size_t i, size_t k) const {
     const std::array<float, 3> d =
-        relative_position(pair(rows_[i]));  // of the kernel's A relative to its B
+        relative_position(bodies);  // of the kernel's A relative to its B
     std::array<float, 3>& point = columns.manifold[i].point[k];
     const float separation = columns.manifold[i].separation[k];
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -277,9 +286,9 @@ class BlockRunner {
 
   const PairBlock& block_;
   const std::optional<PositionLayout> layout_;
-  std::array<size_t, 2 * kPairKinds.size()> counts_{};
+  std::array<uint16_t, 2 * kPairKinds.size()> ends_{};  // of the rows of each kind
   std::array<uint8_t, kPairsPerBlock> slots_;
-  std::array<uint16_t, kPairsPerBlock> rows_;
+  std::array<uint16_t, kPairsPerBlock> rows_;  // by kind
   std::array<Pair, kPairsPerBlock> pairs_;
   std::array<uint32_t, kPairsPerBlock> directions_;
   std::array<float, kPairsPerBlock> reach_;

@@ -3,10 +3,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "broadphase/sweep/sweep_order.h"
 #include "carom/base/thread_arena.h"
 #include "tests/support/boxes.h"
+#include "tests/support/isas.h"
 
 namespace carom::test {
 namespace {
@@ -148,6 +150,52 @@ TEST(PairFinder, IsTheSameOnThreadsOverManyFrames) {
           found_pairs(four, crowd.boxes(), BroadphaseMethod::sweep, {}, Parallelism::arena));
     }
   });
+}
+
+// The pairs of a crowd that drifts, in any order, one frame behind the other.
+std::vector<Pair> pairs_in_any_order(size_t boxes, BroadphaseMethod method,
+                                     Parallelism parallelism) {
+  PairFinder finder;
+  finder.set_order(PairOrder::any);
+  Crowd crowd(boxes, 1);
+  std::vector<Pair> all;
+  for (int frame = 0; frame < 4; ++frame) {
+    std::vector<Pair> pairs = found_pairs(finder, crowd.boxes(), method, {}, parallelism);
+    all.insert(all.end(), pairs.begin(), pairs.end());
+    std::ranges::sort(pairs);
+    EXPECT_EQ(pairs, plain_pairs(crowd.boxes()));
+    crowd.drift(0.1);
+  }
+  return all;
+}
+
+TEST(PairFinder, GivesPairsInAnyOrderIfThatIsWanted) {
+  for (const size_t boxes : {0u, 1u, 2u, 60u, 300u, 3000u}) {
+    for (const BroadphaseMethod method : kAllMethods) {
+      const std::vector<Pair> pairs = pairs_in_any_order(boxes, method, Parallelism::none);
+      EXPECT_TRUE(std::ranges::all_of(pairs, [](Pair pair) { return pair.a < pair.b; }));
+      ThreadArena arena(4);
+      arena.run([&] { EXPECT_EQ(pairs_in_any_order(boxes, method, arena.parallelism()), pairs); });
+      for_each_isa([&] { EXPECT_EQ(pairs_in_any_order(boxes, method, Parallelism::none), pairs); });
+    }
+  }
+}
+
+TEST(PairFinder, SortsPairsOfWhichSomeAreExcluded) {
+  PairFinder finder;
+  finder.set_order(PairOrder::any);
+  const Crowd crowd(3000, 1);
+  const std::vector<Pair> all = plain_pairs(crowd.boxes());
+  const std::vector<Pair> excluded = {all[1], all[all.size() / 2]};
+  std::vector<Pair> expected;
+  std::ranges::set_difference(all, excluded, std::back_inserter(expected));
+  for (int frame = 0; frame < 3; ++frame) {
+    EXPECT_EQ(found_pairs(finder, crowd.boxes(), BroadphaseMethod::grid, {.excluded = excluded}),
+              expected);
+    std::vector<Pair> any = found_pairs(finder, crowd.boxes(), BroadphaseMethod::grid);
+    std::ranges::sort(any);
+    EXPECT_EQ(any, all);
+  }
 }
 
 TEST(PairFinder, SaysWhichMethodRanAndWhy) {

@@ -33,6 +33,7 @@ struct Coverage {
   size_t restless = 0;       // kept pairs were given up
   size_t shrank = 0;         // boxes were removed while others rested
   size_t filtered = 0;       // a filter changed while most boxes rested
+  size_t unsorted = 0;       // pairs came in another order
   size_t told = 0;           // the finder was told which boxes changed, and searched for some
 };
 
@@ -117,6 +118,7 @@ class History {
       return tells ? finder_.find_changed(view, filter(), changed, pairs, method_, parallelism)
                    : finder_.find(view, filter(), pairs, method_, parallelism);
     };
+    if (random().chance(0.05)) change_order();
     PairSearch search;
     if (record_ == 0 || record_ >= sizeof(TestBox)) {
       const LaidOutBoxes memory(boxes_, record_);
@@ -125,6 +127,10 @@ class History {
       search = find_in(view_of_records());
     }
     count(search, pairs.size());
+    if (order_ == PairOrder::any) {
+      coverage_.unsorted += !std::ranges::is_sorted(pairs);
+      std::ranges::sort(pairs);
+    }
     coverage_.told += tells && search.method == BroadphaseMethod::grid && search.searched > 0 &&
                       search.searched < boxes_.size();
     method_ = BroadphaseMethod::grid;
@@ -145,6 +151,11 @@ class History {
             {&boxes->upper[0], &boxes->upper[1], &boxes->upper[2]},
             boxes_.size(),
             sizeof(TestBox)};
+  }
+
+  void change_order() {
+    order_ = order_ == PairOrder::any ? PairOrder::sorted : PairOrder::any;
+    finder_.set_order(order_);
   }
 
   // The boxes that differ from the last call, by themselves or by their filters, and some others.
@@ -269,6 +280,7 @@ class History {
   BroadphaseMethod method_ = BroadphaseMethod::grid;
   size_t record_ = 4;
   PairFinder finder_;
+  PairOrder order_ = PairOrder::sorted;
   Boxes told_boxes_;  // those of the last call
   Filters told_filters_;
 
@@ -289,6 +301,7 @@ Coverage operator+(Coverage a, const Coverage& b) {
   a.shrank += b.shrank;
   a.filtered += b.filtered;
   a.told += b.told;
+  a.unsorted += b.unsorted;
   return a;
 }
 
@@ -323,6 +336,7 @@ void expect_covered(const Coverage& coverage, size_t least) {
   EXPECT_GE(coverage.shrank, least);
   EXPECT_GE(coverage.filtered, least);
   EXPECT_GE(coverage.told, least);
+  EXPECT_GE(coverage.unsorted, least);
   for (const auto& [what, times] : std::initializer_list<std::pair<const char*, size_t>>{
            {"frames", coverage.frames},
            {"rested", coverage.rested},
@@ -333,7 +347,8 @@ void expect_covered(const Coverage& coverage, size_t least) {
            {"restless", coverage.restless},
            {"shrank", coverage.shrank},
            {"filtered", coverage.filtered},
-           {"told", coverage.told}}) {
+           {"told", coverage.told},
+           {"unsorted", coverage.unsorted}}) {
     testing::Test::RecordProperty(what, std::to_string(times));
   }
 }

@@ -43,6 +43,12 @@ struct PairFilter {
   const PairPredicate* predicate = nullptr;  ///< asked about the pairs that all else allows
 };
 
+/// The order in which a search gives its pairs.
+enum class PairOrder : uint8_t {
+  sorted,  ///< by (a, b)
+  any      ///< as they were found, which saves sorting them; the same pairs, a < b in each
+};
+
 /// What a search did.
 struct PairSearch {
   BroadphaseMethod method = BroadphaseMethod::automatic;  ///< the method that ran
@@ -80,6 +86,11 @@ class CAROM_EXPORT PairFinder {
                           std::span<const uint32_t> changed, std::vector<Pair>& out,
                           BroadphaseMethod method = BroadphaseMethod::automatic,
                           Parallelism parallelism = Parallelism::none);
+
+  /// Sets the order of pairs, PairOrder::sorted at first. Any order depends on this call and the
+  /// earlier ones, not on threads or the instruction set. Where the filter excludes pairs, they are
+  /// sorted in any case. A change of the order forgets the boxes of the last call.
+  void set_order(PairOrder order);
 
   /// Forgets the boxes of the last call, but keeps the memory.
   void forget();

@@ -74,6 +74,10 @@ struct WorldSettings {
 
   FilterRule filter_rule = FilterRule::both;  ///< what layers and masks must say for a pair
 
+  /// The order of pairs(). Any order is for Detail::pairs without pair_changes, half-spaces and
+  /// excluded pairs; other worlds need their pairs sorted, and have them so.
+  PairOrder pair_order = PairOrder::sorted;
+
   bool identities = false;    ///< provide World::identities(), at details with contacts
   bool pair_changes = false;  ///< provide World::added_pairs() and removed_pairs()
 

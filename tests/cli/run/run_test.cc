@@ -260,6 +260,33 @@ TEST_F(RunTest, HashDoesNotDependOnHowTheSceneIsRun) {
   }
 }
 
+TEST_F(RunTest, PairsInAnyOrderAreTheSamePairs) {
+  const std::vector<std::string> run = {"brownian:n=3000,frames=3", "--detail", "pairs"};
+  const auto with_order = [&](const char* order) {
+    std::vector<std::string> arguments = run;
+    arguments.insert(arguments.end(), {"--pair-order", order});
+    return run_json(arguments);
+  };
+  const json sorted = run_json(run), any = with_order("any");
+  EXPECT_EQ(sorted["pair_order"], "sorted");
+  EXPECT_EQ(any["pair_order"], "any");
+  EXPECT_EQ(any["pairs_per_frame"], sorted["pairs_per_frame"]);
+  EXPECT_NE(any["state_hash"], sorted["state_hash"]);
+  EXPECT_EQ(with_order("sorted")["state_hash"], sorted["state_hash"]);
+  const auto error_of = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"run", "brownian:n=30"});
+    const CommandResult result = run_command(arguments);
+    EXPECT_NE(result.code, 0);
+    return result.err;
+  };
+  EXPECT_NE(error_of({"--pair-order", "any"}).find("needs --detail pairs"), std::string::npos);
+  EXPECT_NE(error_of({"--detail", "pairs", "--pair-order", "none"}).find("pair order"),
+            std::string::npos);
+  EXPECT_NE(error_of({"--detail", "pairs", "--pair-order", "any", "--pairs-out", path("p.npz")})
+                .find("writes sorted pairs"),
+            std::string::npos);
+}
+
 // With a margin there are more candidate pairs and fewer searched bodies; overlaps stay the same.
 TEST_F(RunTest, MarginsChangeTheCandidatesAlone) {
   const std::string scene = "brownian:n=1500,frames=30,density=0.2,shape=sphere,speed=0.3";

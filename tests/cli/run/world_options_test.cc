@@ -56,6 +56,7 @@ TEST(WorldOptions, TheirTextChoosesTheSettingsAgain) {
   for (const std::string& text :
        {std::string(), std::string(kUnusualText), std::string(" --tier certified"),
         std::string(" --tier exact --detail pairs"), std::string(" --tier fast"),
+        std::string(" --detail pairs --pair-order any"),
         std::string(" --detection swept --broadphase brute --dop-bounds 26")}) {
     const Result<RunSettings> settings = parse(text);
     ASSERT_TRUE(settings) << settings.error().message;
@@ -88,10 +89,23 @@ TEST(WorldOptions, TheJsonHasTheirKeys) {
   const auto report = nlohmann::ordered_json::parse(result.out);
   std::vector<std::string> keys;
   for (const auto& item : report.items()) keys.push_back(item.key());
-  const std::vector<std::string> expected = {
-      "scene",  "bodies",           "frames",     "threads",   "isa",        "tier",
-      "knobs",  "motion_tolerance", "detail",     "detection", "broadphase", "broadphase_reason",
-      "margin", "contact_distance", "dop_bounds", "pipeline"};
+  const std::vector<std::string> expected = {"scene",
+                                             "bodies",
+                                             "frames",
+                                             "threads",
+                                             "isa",
+                                             "tier",
+                                             "knobs",
+                                             "motion_tolerance",
+                                             "detail",
+                                             "detection",
+                                             "broadphase",
+                                             "broadphase_reason",
+                                             "pair_order",
+                                             "margin",
+                                             "contact_distance",
+                                             "dop_bounds",
+                                             "pipeline"};
   ASSERT_GE(keys.size(), expected.size());
   keys.resize(expected.size());
   EXPECT_EQ(keys, expected);
