@@ -27,12 +27,6 @@ inline size_t block_count(size_t count, size_t block_size) {
   return (count + block_size - 1) / block_size;
 }
 
-// Threads for a loop over at least `least` items, and none for shorter ones: waking a thread takes
-// ten to twenty microseconds.
-inline Parallelism threads_from(size_t least, size_t count, Parallelism parallelism) {
-  return count >= least ? parallelism : Parallelism::none;
-}
-
 // Runs body(block, begin, end) for every block of [0, count), each in Carom's floating-point mode.
 template <class Body>
 void for_each_block(size_t count, size_t block_size, Parallelism parallelism, const Body& body) {

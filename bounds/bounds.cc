@@ -177,10 +177,6 @@ void open_if_halfspace(const BodyReader& reader, size_t i, const BoundsColumns& 
 size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
                       Parallelism parallelism) {
   const size_t lanes = CAROM_DISPATCH(lane_count)();
-  constexpr size_t kFewestForThreads = 1 << 14;  // of bodies whose bounds take two nanoseconds
-  const bool turn = bodies.kind || (bodies.uniform_kind != ShapeKind::sphere &&
-                                    bodies.uniform_kind != ShapeKind::aabb);
-  if (!turn) parallelism = threads_from(kFewestForThreads, bodies.count, parallelism);
   std::atomic<size_t> valid{0};
   for_each_block(bodies.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     const size_t whole = end - (end - begin) % lanes;

@@ -36,7 +36,7 @@ void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parall
   resize_for_overwriting(out, total);
   // So few that a counter for each body costs more than comparing them.
   const bool sparse = 8 * total < body_count;
-  const bool at_once = !sparse && body_count <= kBodiesAtOnce;
+  const bool at_once = !sparse && body_count <= kBodiesAtOnce && !uses_threads(parallelism);
   const size_t per_bucket = sparse ? kSparsePerBucket : kPairsPerBucket;
   const size_t wanted = at_once ? 1 : std::clamp<size_t>(total / per_bucket, 1, kMostBuckets);
   int shift = 0;

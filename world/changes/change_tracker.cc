@@ -14,8 +14,6 @@
 namespace carom {
 namespace {
 
-constexpr size_t kFewestForThreads = 1 << 14;  // bodies
-
 // The bits that differ between two records of four numbers. Comparing bits makes NaN equal itself.
 template <class T>
 uint64_t difference(const T* a, const T* b) {
@@ -80,13 +78,11 @@ void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
 }
 
 void ChangeTracker::update_shapes(const BodyStore& bodies, Parallelism parallelism) {
-  parallelism = threads_from(kFewestForThreads, bodies.rows(), parallelism);
   any_reshaped_ = compare_boxes(bodies, parallelism);
   any_reshaped_ |= compare_rows(bodies, parallelism);
 }
 
 void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
-  parallelism = threads_from(kFewestForThreads, bodies.rows(), parallelism);
   const size_t rows = bodies.rows();
   all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
   changed_.resize(rows);

@@ -31,12 +31,6 @@ struct OpenPairs {
 // What `contact` says of a pair whose contact is still to be written: any index.
 constexpr uint32_t kToBeWritten = 0;
 
-constexpr size_t kFewestForThreads = 1 << 14;  // pairs, or contacts
-
-Parallelism threads_of(const ContactStage::Input& input, size_t pairs) {
-  return threads_from(kFewestForThreads, pairs, input.settings.parallelism);
-}
-
 // Whether the decisions on open pairs lie side by side in the results and say all.
 bool decisions_say_all(const ContactStage::Input& input) {
   return input.plan.dropped() == 0 && input.settings.detail != Detail::regions &&
@@ -304,7 +298,7 @@ void ContactStage::find_results(const PairRange& range, const Input& input, Pair
   const bool simple = decisions_say_all(input);
   std::atomic<size_t> overlaps{0}, undecided{0}, left_out{0};
   for_each_block(
-      pairs, kPairsPerMergeBlock, threads_of(input, pairs),
+      pairs, kPairsPerMergeBlock, input.settings.parallelism,
       [&](size_t block, size_t begin, size_t end) {
         Counts counts;
         const auto open = [&](size_t first, size_t stop, size_t number) {
@@ -345,8 +339,7 @@ void ContactStage::move_carried(const PairRange& range, const Input& input, Pair
 }
 
 void ContactStage::write_contacts(const PairRange& range, const Input& input, PairHistory& now) {
-  const size_t pairs = range.end - range.begin;
-  for_each_block(pairs, kPairsPerMergeBlock, threads_of(input, pairs),
+  for_each_block(range.end - range.begin, kPairsPerMergeBlock, input.settings.parallelism,
                  [&](size_t block, size_t begin, size_t end) {
                    size_t next = block_first_[block];
                    const auto open = [&](size_t first, size_t stop, size_t number) {
@@ -364,7 +357,6 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
                            std::span<Contact> contacts) {
   using Eigen::Vector3f;
   constexpr size_t kContactsAhead = 16;
-  parallelism = threads_from(kFewestForThreads, contacts.size(), parallelism);
   const std::span<const Vector3f> linear = bodies.linear_velocities();
   const std::span<const Vector3f> angular =
       bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();

@@ -50,10 +50,8 @@ size_t EventStage::Scratch::bytes() const {
 }
 
 void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Event>& events) {
-  constexpr size_t kFewestForThreads = 1 << 14;  // pairs
   events.clear();
   const size_t blocks = merge_block_count(input.now.pairs.size());
-  parallelism = threads_from(kFewestForThreads, input.now.pairs.size(), parallelism);
   if (uses_threads(parallelism)) {
     for (size_t first = 0; first < blocks; first += kBlocksAtOnce) {
       add_blocks(input, first, std::min(first + kBlocksAtOnce, blocks), parallelism, events);
