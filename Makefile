@@ -18,9 +18,10 @@ program: setup-build ## build the program with all its commands: build/release/c
 test: build-release ## run all tests
 	ctest --preset release -j $(JOBS)
 
-bench: setup-build ## run the benchmarks; JSON goes to build/bench
-	@scripts/build.sh release carom_bench
+bench: setup-build ## run the benchmarks; JSON goes to build/bench, rows of frames to docs/benchmarks.md
+	@scripts/build.sh release carom_bench carom_run_program
 	@scripts/bench.sh build/release/bench/carom_bench
+	@scripts/frame_rows.py build/release/cli/carom-run build/release/bench/carom_bench --write
 
 count: setup-dev ## count the instructions of ten scenes and compare with bench/instructions.txt
 	@scripts/build.sh release carom_run_program

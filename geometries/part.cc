@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/powers.h"
 #include "shapes/dop_polytope.h"
 
 namespace carom {
@@ -95,9 +96,9 @@ Row product(const Row& q, const Row& p) {
   double largest = 0;
   for (const double c : r) largest = std::max(largest, std::fabs(c));
   // The quaternion of a sphere or an aabb may be zero, since those do not turn.
-  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  const double scale = largest > 0 ? power_of_two(-exponent_of(largest)) : 1;
   Row result;
-  for (size_t i = 0; i < 4; ++i) result[i] = static_cast<float>(std::ldexp(r[i], -exponent));
+  for (size_t i = 0; i < 4; ++i) result[i] = static_cast<float>(r[i] * scale);
   return result;
 }
 

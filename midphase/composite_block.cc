@@ -42,6 +42,23 @@ Measured of_parts(Measured measured) {
   return measured == Measured::overlapping ? measured : Measured::all;
 }
 
+// Says whether bodies are valid. Pairs are sorted, so that it is mostly asked about the last one.
+class ValidBodies {
+ public:
+  explicit ValidBodies(const BodyReader& reader) : reader_(reader) {}
+
+  bool has(uint32_t body) {
+    if (body != last_) is_valid_ = reader_.is_valid(body);
+    last_ = body;
+    return is_valid_;
+  }
+
+ private:
+  const BodyReader& reader_;
+  uint32_t last_ = 0xffffffffu;
+  bool is_valid_ = false;
+};
+
 class CompositeRun {
  public:
   CompositeRun(const PairBlock& block, std::span<const uint16_t> rows, const ExtraRequest& extra,
@@ -66,8 +83,10 @@ class CompositeRun {
   }
 
   void run() {
+    ValidBodies valid_a(a_), valid_b(b_);
     for (current_ = 0; current_ < rows_.size(); ++current_) {
-      outcomes_[current_] = is_valid(pair(current_)) ? Outcome{} : no_answer();
+      const Pair p = pair(current_);
+      outcomes_[current_] = valid_a.has(p.a) && valid_b.has(p.b) ? Outcome{} : no_answer();
       if (!outcomes_[current_].is_invalid()) search(current_, reach(current_));
     }
     flush();
@@ -89,8 +108,6 @@ class CompositeRun {
   bool is_contact(size_t k, uint8_t overlap, float separation) const {
     return overlap == 1 || (tests_.reach && overlap == 0 && separation <= reach(k));
   }
-
-  bool is_valid(Pair p) const { return a_.is_valid(p.a) && b_.is_valid(p.b); }
 
   void search(size_t k, double reach) {
     const BodyPair bodies(a_, b_, pair(k));

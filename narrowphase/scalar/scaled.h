@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "base/powers.h"
 #include "narrowphase/scalar/separation.h"
 #include "narrowphase/scalar/shapes.h"
 
@@ -13,11 +14,12 @@ struct DoubleScale {
   double down;
 };
 
+// Zero, infinity and NaN have the scale of 0.5.
 inline DoubleScale scale_of(double magnitude) {
-  int exponent = 0;
-  (void)std::frexp(magnitude, &exponent);
-  exponent = std::min(std::max(exponent - 1, -1000), 1000);
-  return {std::ldexp(1.0, exponent), std::ldexp(1.0, -exponent)};
+  const bool has_exponent = magnitude > 0 && magnitude <= std::numeric_limits<double>::max();
+  const int exponent = has_exponent ? exponent_of(magnitude) : -1;
+  const int within = std::min(std::max(exponent, -1000), 1000);
+  return {power_of_two(within), power_of_two(-within)};
 }
 
 // Returns separate(a, b, pose), run in units in which the greatest coordinate lies between one and
