@@ -170,7 +170,7 @@ std::vector<Pair> pairs_in_any_order(size_t boxes, BroadphaseMethod method,
 }
 
 TEST(PairFinder, GivesPairsInAnyOrderIfThatIsWanted) {
-  for (const size_t boxes : {0u, 1u, 2u, 60u, 300u, 3000u}) {
+  for (const size_t boxes : {0u, 1u, 2u, 60u, 300u, 900u}) {
     for (const BroadphaseMethod method : kAllMethods) {
       const std::vector<Pair> pairs = pairs_in_any_order(boxes, method, Parallelism::none);
       EXPECT_TRUE(std::ranges::all_of(pairs, [](Pair pair) { return pair.a < pair.b; }));

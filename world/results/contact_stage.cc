@@ -15,6 +15,17 @@
 namespace carom {
 namespace {
 
+// Makes the list as long as the pairs, for writing all of it. New memory has room for an eighth
+// more: a list that grows by itself doubles.
+template <class List>
+void resize_list(List& list, size_t pairs) {
+  if (list.capacity() < pairs) {
+    list.clear();
+    list.reserve(pairs + pairs / 8);
+  }
+  list.resize(pairs);
+}
+
 // What a block of pairs has.
 struct Counts {
   size_t overlaps = 0, undecided = 0, contacts = 0, left_out = 0;
@@ -247,8 +258,8 @@ size_t ResultBuffer::bytes() const {
 
 void ContactStage::start(Last what, PairHistory& last, PairHistory& now) {
   overlaps_ = undecided_ = left_out_ = 0;
-  now.overlaps.resize(now.pairs.size());
-  now.contact.resize(now.pairs.size());
+  resize_list(now.overlaps, now.pairs.size());
+  resize_list(now.contact, now.pairs.size());
   now.clear_contacts();
   in_place_ = what == Last::in_place;
   if (in_place_) {
