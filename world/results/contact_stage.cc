@@ -191,6 +191,7 @@ size_t write_old(const CarriedRun& run, const ContactStage::Input& input, bool i
   const size_t count = in_place ? 0 : from.end - from.begin;
   // As bytes, since vectors of Eigen would be copied number by number.
   const auto copy = [&](const auto& old, auto& list) {
+    if (count == 0) return;
     std::memcpy(static_cast<void*>(list.data() + next), old.data() + from.begin,
                 count * sizeof(old[0]));
   };
@@ -285,9 +286,11 @@ size_t ContactStage::add(const PairRange& range, const Input& input, PairHistory
   // ... then write every contact to its place.
   size_t contacts = first;
   for (size_t& block : block_first_) contacts += std::exchange(block, contacts);
+  // In place, the lists hold the contacts of all pairs already.
+  const size_t done = in_place_ ? now.pairs.size() : range.begin;
   const auto resize = [&](size_t count) {
     const auto resize_list = [&](auto& list) {
-      reserve_at_rate(list, count, range.begin, now.pairs.size());
+      reserve_at_rate(list, count, done, now.pairs.size());
       list.resize(count);
     };
     resize_list(now.contacts);

@@ -200,9 +200,10 @@ void EventStage::add_named(const Input& input, std::span<const Event> unnamed,
       continue;
     }
     const Event end = before(unnamed[k]);
-    const bool is_last = k + 1 == unnamed.size();
-    Event next = is_last ? end : now(unnamed[k + 1]);
-    const bool persists = next.kind == EventKind::begin && next.a == end.a && next.b == end.b;
+    // Bodies of an end may have no generation any more.
+    const bool begins = k + 1 < unnamed.size() && unnamed[k + 1].kind == EventKind::begin;
+    Event next = begins ? now(unnamed[k + 1]) : end;
+    const bool persists = begins && next.a == end.a && next.b == end.b;
     if (!persists) {
       events.push_back(end);
       continue;

@@ -129,6 +129,30 @@ TEST_P(Events, RemovedBodiesEnd) {
   EXPECT_THAT(told(world), ElementsAre());
 }
 
+// Ends follow each other whose bodies have no row any more, in arrays that were cut to what is
+// left.
+TEST_P(Events, AllButTheFirstBodiesAreRemovedAndMemoryIsGivenBack) {
+  constexpr size_t kPairs = 500;
+  std::vector<BodyId> ids;
+  for (size_t i = 0; i < 2 * kPairs; ++i) {
+    const double x = static_cast<double>(i / 2) * 2, z = i % 2 ? 0.1 : 0;
+    ids.push_back(world.add({.shape = Sphere{0.3f}, .position = {x, 0, z}}));
+  }
+  EXPECT_EQ(told(world).size(), kPairs);
+  world.remove(std::span(ids).subspan(2));
+  world.give_back_memory();
+  world.step();
+  size_t ends = 0;
+  for (const Event& event : world.events()) {
+    if (event.kind != EventKind::end) continue;
+    EXPECT_EQ(event.gone, kRemovedA | kRemovedB);
+    EXPECT_EQ(event.a, ids[2 * (ends + 1)]);
+    EXPECT_EQ(event.b, ids[2 * (ends + 1) + 1]);
+    ++ends;
+  }
+  EXPECT_EQ(ends, kPairs - 1);
+}
+
 TEST_P(Events, AnotherBodyAtTheSameIndexIsAnotherBody) {
   const BodyId a = ball(0), b = ball(0.5), c = ball(0.75);
   EXPECT_THAT(told(world), ElementsAre(begin(a, b), begin(a, c), begin(b, c)));

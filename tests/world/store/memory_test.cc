@@ -21,6 +21,31 @@ TEST(Memory, IsTheSumOfItsParts) {
   EXPECT_GE(memory.pairs_and_results, world.pairs().size_bytes() + world.contacts().size_bytes());
 }
 
+// A chain of balls, to which one that touches comes in each step: contacts stay in their list,
+// which grows. It once asked for as many places as there are contacts for each pair.
+TEST(Memory, OfContactsThatStayGrowsWithThem) {
+  for (const Detail detail : {Detail::contact, Detail::manifold}) {
+    for (const bool gives_back : {false, true}) {
+      constexpr size_t kBalls = 500, kMore = 150;
+      World world({.detail = detail, .parallelism = Parallelism::none});
+      for (size_t i = 0; i < kBalls; ++i) {
+        world.add({.shape = Sphere{0.55f}, .position = {static_cast<double>(i), 0, 0}});
+      }
+      world.step();
+      world.step();
+      const size_t before = world.bytes();
+      if (gives_back) world.give_back_memory();
+      for (size_t i = 0; i < kMore; ++i) {
+        world.add({.shape = Sphere{0.1f}, .position = {static_cast<double>(i), 0.5, 0}});
+        world.step();
+        ASSERT_EQ(world.contacts().size(), kBalls + i);
+        ASSERT_EQ(world.report().tested, 1u);
+        ASSERT_LT(world.bytes(), 2 * before) << i;
+      }
+    }
+  }
+}
+
 const WorldSettings kSettings[] = {{},
                                    {.pair_changes = true},
                                    {.detail = Detail::pairs},
