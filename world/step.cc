@@ -273,8 +273,11 @@ ContactStage::Last World::State::use_of_last_contacts(bool in_one_range) const {
 // while they are in the cache.
 void World::State::find_results() {
   const bool remembers = uses_directions();
-  uint32_t* const directions_of_tests =
-      remembers ? directions.prepare(plan, last, settings.parallelism, now) : nullptr;
+  uint32_t* directions_of_tests = nullptr;
+  if (remembers) {
+    run(Stage::narrowphase,
+        [&] { directions_of_tests = directions.prepare(plan, last, settings.parallelism, now); });
+  }
   const size_t pairs = now.pairs.size();
   // Where most pairs are carried, more of them have as many to test.
   const size_t share = std::clamp<size_t>(pairs / std::max<size_t>(1, plan.tested()), 1, 64);

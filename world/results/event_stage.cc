@@ -92,12 +92,13 @@ void EventStage::read_block(const Input& input, size_t block, Scratch& scratch) 
   const size_t begin = block * kPairsPerMergeBlock;
   const size_t end = std::min(begin + kPairsPerMergeBlock, input.now.pairs.size());
   const MergeRange range = matching_range(input.last.pairs, input.now.pairs, begin, end);
-  const auto& [last, now, plan, bodies, quarantined, wants_persist] = input;
+  const PairHistory &last = input.last, &now = input.now;
+  const CarryPlan* const plan = input.plan;
   scratch.last.start(range.end - range.begin);
   scratch.now.start(end - begin);
   // Many short runs take longer than all pairs.
   const bool skips =
-      plan && !wants_persist && plan->runs_of(block).size() <= kPairsPerMergeBlock / 16;
+      plan && !input.wants_persist && plan->runs_of(block).size() <= kPairsPerMergeBlock / 16;
   if (skips) {
     size_t before = range.begin;
     const auto open = [&](size_t first, size_t stop, size_t) { scratch.now.add(now, first, stop); };

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstring>
-#include <ranges>
 #include <span>
 
 namespace carom {
@@ -24,8 +23,8 @@ void move_runs(std::span<const ListMove> moves, T* items) {
   for (const ListMove& run : moves) {
     if (run.to < run.from) move(run);
   }
-  for (const ListMove& run : std::views::reverse(moves)) {
-    if (run.to > run.from) move(run);
+  for (size_t i = moves.size(); i > 0; --i) {
+    if (moves[i - 1].to > moves[i - 1].from) move(moves[i - 1]);
   }
 }
 
