@@ -102,7 +102,7 @@ void expect_all_covered(const Coverage& coverage) {
 
 TEST(FewChanges, GiveTheResultsOfAWorldThatKeepsNothing) {
   Coverage coverage;
-  for (uint64_t seed = 0; seed < rounds(60); ++seed) {
+  for (uint64_t seed = 0; seed < rounds(60, 20); ++seed) {
     const size_t bodies = seed % 3 == 0 ? 700 : seed % 3 == 1 ? 150 : 60;
     ASSERT_NO_FATAL_FAILURE(run_few_changes(seed, bodies, Parallelism::none, coverage));
   }
