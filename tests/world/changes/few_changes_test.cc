@@ -28,6 +28,7 @@ WorldSettings few_changes_settings(uint64_t seed) {
   settings.pair_changes = seed % 5 == 2;
   if (seed % 7 == 3) settings.dop_bounds = DopKind::k14;
   if (seed % 7 == 5) settings.margin = 0.05f;
+  if (seed % 9 == 2) settings.contact_distance = 0.05f;
   return settings;
 }
 
