@@ -43,6 +43,17 @@ bool resize_column(const T* now, size_t count, size_t known, std::vector<T>& cop
 
 }  // namespace
 
+// Calls visit(column, its copy) for all columns of a filter.
+template <class Visit>
+void BoxMemory::for_each_column(const PairFilter& filter, FilterCopy& copy, const Visit& visit) {
+  visit(filter.layer, copy.layer);
+  visit(filter.mask, copy.mask);
+  visit(filter.owner, copy.owner);
+  visit(filter.motion, copy.motion);
+  visit(filter.group, copy.group);
+  visit(filter.space, copy.space);
+}
+
 void BoxMemory::update(const BoundsView& bounds, const PairFilter& filter, Parallelism parallelism,
                        std::vector<uint32_t>& changed) {
   resize(bounds, filter);
@@ -76,27 +87,19 @@ void BoxMemory::copy(const BoundsView& bounds, const PairFilter& filter, size_t 
     columns_[axis][body] = value_at(bounds, bounds.lower[axis], body);
     columns_[3 + axis][body] = value_at(bounds, bounds.upper[axis], body);
   }
-  const auto copy_column = [body](const auto* now, auto& last) {
+  for_each_column(filter, filter_, [body](const auto* now, auto& last) {
     if (now) last[body] = now[body];
-  };
-  copy_column(filter.layer, filter_.layer);
-  copy_column(filter.mask, filter_.mask);
-  copy_column(filter.owner, filter_.owner);
-  copy_column(filter.motion, filter_.motion);
-  copy_column(filter.group, filter_.group);
-  copy_column(filter.space, filter_.space);
+  });
 }
 
 void BoxMemory::resize(const BoundsView& bounds, const PairFilter& filter) {
   known_ = std::min(count_, bounds.count);
   count_ = bounds.count;
   for (std::vector<float>& column : columns_) column.resize(count_);
-  bool same_columns = resize_column(filter.layer, count_, known_, filter_.layer);
-  same_columns &= resize_column(filter.mask, count_, known_, filter_.mask);
-  same_columns &= resize_column(filter.owner, count_, known_, filter_.owner);
-  same_columns &= resize_column(filter.motion, count_, known_, filter_.motion);
-  same_columns &= resize_column(filter.group, count_, known_, filter_.group);
-  same_columns &= resize_column(filter.space, count_, known_, filter_.space);
+  bool same_columns = true;
+  for_each_column(filter, filter_, [&](const auto* now, auto& last) {
+    same_columns &= resize_column(now, count_, known_, last);
+  });
   const bool same_rule = std::exchange(filter_.rule, filter.rule) == filter.rule;
   if (!same_columns || !same_rule) known_ = 0;
 }
@@ -112,12 +115,9 @@ void BoxMemory::update_block(const BoxSource& source, const PairFilter& filter, 
     any |= compare_and_copy(block.upper[axis], columns_[3 + axis].data() + begin, block.count,
                             differs);
   }
-  any |= compare_column(filter.layer, filter_.layer, begin, block.count, differs);
-  any |= compare_column(filter.mask, filter_.mask, begin, block.count, differs);
-  any |= compare_column(filter.owner, filter_.owner, begin, block.count, differs);
-  any |= compare_column(filter.motion, filter_.motion, begin, block.count, differs);
-  any |= compare_column(filter.group, filter_.group, begin, block.count, differs);
-  any |= compare_column(filter.space, filter_.space, begin, block.count, differs);
+  for_each_column(filter, filter_, [&](const auto* now, auto& last) {
+    any |= compare_column(now, last, begin, block.count, differs);
+  });
   if (!any && end <= known_) return;
   for (size_t i = begin; i < end; ++i) {
     if (differs[i - begin] || i >= known_) changed.push_back(static_cast<uint32_t>(i));

@@ -44,6 +44,8 @@ class BoxMemory {
     FilterRule rule = FilterRule::both;
   };
 
+  template <class Visit>
+  static void for_each_column(const PairFilter& filter, FilterCopy& copy, const Visit& visit);
   void resize(const BoundsView& bounds, const PairFilter& filter);
   void copy(const BoundsView& bounds, const PairFilter& filter, size_t body);
   void update_block(const BoxSource& source, const PairFilter& filter, size_t begin, size_t end,
