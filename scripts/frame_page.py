@@ -15,8 +15,7 @@ import tempfile
 
 PAGE = pathlib.Path(__file__).parents[1] / "docs/frame.md"
 
-# What a body is made of: bytes of its pose, bytes of its shape beside that, and the number of arrays
-# in which these are.
+# A body consists of so many bytes of a pose, and so many of a shape beside that, in so many arrays.
 SPHERE, CUBE, BOX = (16, 0, 1), (16, 32, 2), (32, 16, 3)
 
 SCENES = [
@@ -47,8 +46,8 @@ FLOOR = {
     "events": lambda pose, shape, arrays, contact: (0, 2 * (8 + 1), 0, 0, 24),
 }
 
-# What it moves between the core and the caches or memory, counted in its code, of which much stays in
-# the caches. The second body of a pair lies anywhere: each of its arrays takes a line of 64 bytes.
+# A stage moves so many bytes between the core and the caches or memory, counted in its code; much of
+# it stays in the caches. The second body of a pair lies anywhere: each of its arrays takes a line of 64 bytes.
 MOVED = FLOOR | {
     # Bounds twice; keys, records and rows written and read; the rows of some neighbours. Pairs found,
     # counted, put into buckets, counted again, split into lists of partners, and sorted.

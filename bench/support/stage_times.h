@@ -1,4 +1,4 @@
-// What the stages of a step cost.
+// Measures the stages of steps.
 #pragma once
 
 #include <benchmark/benchmark.h>

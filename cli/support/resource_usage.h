@@ -1,4 +1,4 @@
-// What the system says of this process.
+// The system counts memory and page faults of this process.
 #pragma once
 
 #include <cstdint>

@@ -106,7 +106,7 @@ struct Filters {
   // Excludes some of these pairs and as many that need not meet, of `count` boxes.
   void exclude_some(const std::vector<Pair>& pairs, size_t count, uint64_t seed);
 
-  // What the columns say of a box.
+  // The entries of a box in all columns.
   auto of(size_t i) const {
     return std::tuple(layer[i], mask[i], owner[i], motion[i], group[i], space[i]);
   }

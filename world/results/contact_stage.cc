@@ -24,7 +24,7 @@ void resize_list(List& list, size_t pairs) {
   list.resize(pairs);
 }
 
-// What a block of pairs has.
+// Counts the results of a block of pairs.
 struct Counts {
   size_t overlaps = 0, undecided = 0, contacts = 0, left_out = 0;
 };
@@ -37,7 +37,7 @@ struct OpenPairs {
   size_t size() const { return end - begin; }
 };
 
-// What `contact` says of a pair whose contact is still to be written: any index.
+// Stands in `contact` for a contact that is still to be written. Any index would do.
 constexpr uint32_t kToBeWritten = 0;
 
 // Whether the decisions on open pairs lie side by side in the results and say all.
@@ -69,7 +69,8 @@ void read_decisions(const OpenPairs& open, const ContactStage::Input& input, Pai
 void read_results(const OpenPairs& open, const ContactStage::Input& input, PairHistory& now,
                   Counts& counts) {
   const auto& [plan, last, results, bodies, settings] = input;
-  // What `contact` says of a pair without a contact, with one, and of an overlap with a sensor.
+  // The entries of `contact` for a pair without a contact, with one, and for an overlap with a
+  // sensor.
   const uint32_t kinds[] = {PairHistory::kNone,
                             has_contacts(settings.detail) ? kToBeWritten : PairHistory::kNone,
                             PairHistory::kSensor};

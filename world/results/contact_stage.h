@@ -26,7 +26,7 @@ class ContactStage {
     const WorldSettings& settings;
   };
 
-  // What a step does with the contacts of the last one.
+  // A step may use the contacts of the last one in three ways.
   enum class Last {
     unused,    // those of this step may take their memory
     copied,    // carried ones are copied

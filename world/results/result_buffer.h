@@ -1,4 +1,4 @@
-// What the narrow phase finds of the pairs of a range, until it becomes contacts.
+// The results of the pairs of a range, from the narrow phase until they become contacts.
 #pragma once
 
 #include <algorithm>
@@ -49,7 +49,7 @@ class ResultBuffer {
   const uint8_t* overlaps_from(size_t row) const { return columns().overlap + place(row); }
   bool is_near(size_t row) const { return has_near() && near_[place(row)]; }
   bool has_near() const { return !near_.empty(); }
-  // Of pairs that are all tested, whose rows begin with this one.
+  // The rows of pairs that are all tested, from this one on.
   PairRows rows_of(std::span<const Pair> pairs, size_t row, std::span<uint32_t> contact) const {
     return {columns(), place(row), pairs, contact};
   }
