@@ -20,6 +20,7 @@
 #include <type_traits>
 
 #include "base/tolerances.h"
+#include "narrowphase/batch/fetch-inl.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/report-inl.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
@@ -103,6 +104,7 @@ struct BatchLoop {
       }
     }
     for (size_t row = 0; !is_done && row < whole; row += kLanes) {
+      fetch_ahead<A, B>(local, row);
       run_vector(local, batch, row, Listed{local.pairs + row});
     }
     if (whole < batch.count) run_tail(batch, whole, &run);

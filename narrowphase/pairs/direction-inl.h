@@ -70,6 +70,7 @@ HWY_INLINE Mask has_rules(const TriangleLanes& triangle) { return triangle.is_sp
 template <class A, class B>
 void run_direction(const Batch& batch) {
   for (size_t row = 0; row < batch.count; row += kLanes) {
+    fetch_ahead<A, B>(batch, row);
     const Listed bodies{batch.pairs + row};
     PositionLanes positions;
     PoseLanes pose;
