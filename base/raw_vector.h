@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/huge_pages.h"
+#include "base/fresh_pages.h"
 
 namespace carom {
 

@@ -6,6 +6,8 @@
 #define HWY_TARGET_INCLUDE "bounds/dop_bounds.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -162,13 +164,17 @@ HWY_INLINE Meets meet(const float* a, const float* b) {
                  hn::Le(hn::LoadU(tag, b), hn::LoadU(tag, a + 4)));
 }
 
-// Without a branch: which slab separates two bodies cannot be predicted.
+// Without a branch: which slab separates two bodies cannot be predicted. The second bodies of
+// sorted pairs lie anywhere in memory, and are asked for some pairs ahead.
 template <size_t kFours>
 size_t find_overlaps(const float* records, const Pair* pairs, size_t count, uint8_t* overlap) {
   const EndTag tag;
-  constexpr size_t kSize = 8 * kFours;
+  constexpr size_t kSize = 8 * kFours, kPairsAhead = 16;
   size_t sum = 0;
   for (size_t i = 0; i < count; ++i) {
+    const float* ahead = records + pairs[std::min(i + kPairsAhead, count - 1)].b * kSize;
+    hwy::Prefetch(ahead);
+    if constexpr (kFours > 1) hwy::Prefetch(ahead + kSize - 1);
     const float* a = records + pairs[i].a * kSize;
     const float* b = records + pairs[i].b * kSize;
     Meets all = meet(a, b);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
+#include "base/fresh_pages.h"
 
 namespace carom {
 namespace {
@@ -40,10 +41,10 @@ void CellRows::build(const BoxSource& source, Parallelism parallelism, Scratch& 
     grids_.choose(survey, source, cell_scale);
   } while (!find_cells_of(source, parallelism, cell_scale));
   stride_ = spread_stride(source.count + kPadding);
-  corners_.resize(6 * stride_);
-  body.resize(source.count + kPadding);
-  key.resize(source.count + kPadding);
-  first_.resize(grids_.cells + 2);
+  resize_for_overwriting(corners_, 6 * stride_);
+  resize_for_overwriting(body, source.count + kPadding);
+  resize_for_overwriting(key, source.count + kPadding);
+  resize_for_overwriting(first_, grids_.cells + 2);
   first_[0] = 0;
   fill_buckets(source, parallelism);
   for_each_block(buckets_, 1, parallelism,

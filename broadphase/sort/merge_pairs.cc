@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "base/huge_pages.h"
+#include "base/fresh_pages.h"
 
 namespace carom {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/huge_pages.h"
+#include "base/fresh_pages.h"
 #include "base/parallel.h"
 #include "base/raw_vector.h"
 #include "carom/broadphase/find_pairs.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
-#include "base/huge_pages.h"
+#include "base/fresh_pages.h"
 #include "broadphase/sort/partner_lists.h"
 
 namespace carom {

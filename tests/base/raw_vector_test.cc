@@ -40,17 +40,17 @@ TEST(ReserveAtRate, KeepsMemoryThatIsEnough) {
 }
 
 // Ranges begin and end anywhere; the memory beside them is left alone.
-TEST(HugePages, HoldWhatIsWritten) {
-  prefer_huge_pages(nullptr, 0);
+TEST(FreshPages, HoldWhatIsWritten) {
+  prepare_pages(nullptr, 0);
   for (const size_t count : {size_t{1}, size_t{1} << 21, (size_t{1} << 21) + 1, size_t{9} << 20}) {
     LargeVector<uint8_t> bytes(count, uint8_t{7});
-    prefer_huge_pages(bytes.data() + bytes.size() / 3, bytes.size() / 2);
+    prepare_pages(bytes.data() + bytes.size() / 3, bytes.size() / 2);
     EXPECT_EQ(std::accumulate(bytes.begin(), bytes.end(), size_t{0}), 7 * count);
   }
 }
 
 // The list has the count that is asked for, keeps memory that is enough, and new memory has room.
-TEST(HugePages, ListsOfCallersGrowWithRoom) {
+TEST(FreshPages, ListsOfCallersGrowWithRoom) {
   std::vector<uint32_t> list(10, 3u);
   const uint32_t* const memory = list.data();
   resize_for_overwriting(list, 4);

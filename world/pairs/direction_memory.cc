@@ -1,22 +1,42 @@
 #include "world/pairs/direction_memory.h"
 
+#include <algorithm>
+
 #include "narrowphase/batch/packed_direction.h"
 #include "world/store/columns.h"
 
 namespace carom {
+namespace {
+
+// Gives pairs [begin, end) of `now` their directions of the last step. Which pairs were there
+// cannot be predicted, so there is no branch on it.
+void match_directions(const PairHistory& last, PairHistory& now, size_t begin, size_t end) {
+  static_assert(kNoDirection == 0);
+  const MergeRange range = matching_range(last.pairs, now.pairs, begin, end);
+  size_t before = range.begin, i = begin;
+  while (before < range.end && i < end) {
+    const uint64_t key_before = pair_key(last.pairs[before]), key = pair_key(now.pairs[i]);
+    const uint32_t same = key_before == key ? 0xffffffffu : 0u;
+    now.direction[i] = last.direction[before] & same;
+    before += key_before <= key;
+    i += key <= key_before;
+  }
+  std::fill(now.direction.begin() + static_cast<ptrdiff_t>(i),
+            now.direction.begin() + static_cast<ptrdiff_t>(end), kNoDirection);
+}
+
+}  // namespace
 
 uint32_t* DirectionMemory::prepare(const CarryPlan& plan, const PairHistory& last,
                                    Parallelism parallelism, PairHistory& now) {
   now.direction.resize(now.pairs.size());
-  for_each_block(now.pairs.size(), kPairsPerMergeBlock, parallelism,
-                 [&](size_t, size_t begin, size_t end) {
-                   const auto there = [&](size_t i, size_t before) {
-                     const bool known = before < last.direction.size();
-                     now.direction[i] = known ? last.direction[before] : kNoDirection;
-                   };
-                   merge_block(
-                       last.pairs, now.pairs, begin, end, [](size_t) {}, there);
-                 });
+  if (last.direction.empty()) {
+    std::fill(now.direction.begin(), now.direction.end(), kNoDirection);
+  } else {
+    for_each_block(
+        now.pairs.size(), kPairsPerMergeBlock, parallelism,
+        [&](size_t, size_t begin, size_t end) { match_directions(last, now, begin, end); });
+  }
   tested_.resize(plan.tested());
   for_each_tested(plan, now.pairs.size(), parallelism,
                   [&](size_t i, size_t row) { tested_[row] = now.direction[i]; });

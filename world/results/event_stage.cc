@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "world/results/overlap_keys.h"
-
 namespace carom {
 namespace {
 
@@ -25,28 +23,8 @@ void tell_fates(std::span<Event> events, const EventStage::Input& input) {
 
 }  // namespace
 
-void EventStage::Overlaps::start(size_t pairs) {
-  key.resize(pairs + kOverlapsBeyond);
-  contact.resize(pairs + kOverlapsBeyond);
-  count = 0;
-}
-
-// Adds those of pairs [begin, end). Undecided pairs have no events.
-void EventStage::Overlaps::add(const PairHistory& history, size_t begin, size_t end) {
-  count += list_overlaps(std::span(history.pairs).subspan(begin, end - begin),
-                         history.overlaps.data() + begin, history.contact.data() + begin,
-                         key.data() + count, contact.data() + count);
-}
-
-void EventStage::Overlaps::finish() {
-  key[count] = ~uint64_t{0};
-  contact[count] = PairHistory::kNone;
-}
-
 size_t EventStage::Scratch::bytes() const {
-  size_t sum = bytes_of(unnamed) + bytes_of(events);
-  for (const Overlaps* each : {&last, &now}) sum += bytes_of(each->key) + bytes_of(each->contact);
-  return sum;
+  return bytes_of(unnamed) + bytes_of(events) + last.bytes() + now.bytes();
 }
 
 void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Event>& events) {
@@ -74,11 +52,11 @@ void EventStage::add_block(const Input& input, size_t block, Scratch& scratch,
   const bool same_bodies = !any_removed || !input.bodies.any_touched();
   if (same_bodies) {
     const Persisting persisting = input.wants_persist ? Persisting::wanted : Persisting::dropped;
-    merge(scratch.last, scratch.now, persisting, events);
+    merge_overlaps(scratch.last, scratch.now, persisting, events);
     if (any_removed) name(std::span(events).subspan(first), input.bodies.generations());
   } else {
     scratch.unnamed.clear();
-    merge(scratch.last, scratch.now, Persisting::apart, scratch.unnamed);
+    merge_overlaps(scratch.last, scratch.now, Persisting::apart, scratch.unnamed);
     add_named(input, scratch.unnamed, events);
   }
   if (!same_bodies || !input.quarantined.empty()) {
@@ -133,41 +111,6 @@ void EventStage::add_blocks(const Input& input, size_t first, size_t end, Parall
   for_each_block(end - first, 1, parallelism, [&](size_t i, size_t, size_t) {
     std::ranges::copy(scratch_[i].events, events.begin() + place[i]);
   });
-}
-
-// Merges two lists of overlaps and writes the events, without the generations of their bodies,
-// behind those of `events`. Which pairs have events cannot be predicted: overlaps come and go. So
-// there is no branch on it: an event is written for every pair, and counts or does not.
-void EventStage::merge(const Overlaps& last, const Overlaps& now, Persisting persisting,
-                       RawVector<Event>& events) {
-  static_assert(static_cast<int>(EventKind::begin) == 0);
-  static_assert(static_cast<int>(EventKind::persist) == 1);
-  static_assert(static_cast<int>(EventKind::end) == 2);
-  const bool joins = persisting != Persisting::apart, wanted = persisting == Persisting::wanted;
-  const size_t first = events.size(), most = last.count + now.count;
-  events.resize(first + most + 1);
-  Event* out = events.data() + first;
-  size_t before = 0, i = 0;
-  while (before + i < most) {
-    const uint64_t key_before = last.key[before], key = now.key[i];
-    const bool overlapped = key_before <= key;
-    const bool overlaps = (key < key_before) | (joins & (key == key_before));
-    const uint32_t choice = overlaps ? 0xffffffffu : 0u;  // a mask, since compilers make branches
-    const uint32_t contact = (now.contact[i] & choice) | (last.contact[before] & ~choice);
-    const bool sensor = contact == PairHistory::kSensor;
-    const bool persists = overlapped & overlaps;
-    const bool unlisted = sensor | !overlaps;
-    const uint64_t pair = std::min(key_before, key);
-    *out = {.a = {static_cast<uint32_t>(pair >> 32), 0},
-            .b = {static_cast<uint32_t>(pair), 0},
-            .contact = contact | (unlisted ? kNoContact : 0u),
-            .kind = static_cast<EventKind>(persists | !overlaps << 1),
-            .sensor = sensor};
-    out += !persists | wanted;
-    before += overlapped;
-    i += overlaps;
-  }
-  events.resize(static_cast<size_t>(out - events.data()));
 }
 
 // Sets the generations of the bodies of events.

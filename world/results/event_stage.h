@@ -12,6 +12,7 @@
 #include "carom/results/impact.h"
 #include "world/pairs/carry_plan.h"
 #include "world/pairs/pair_history.h"
+#include "world/results/overlap_merge.h"
 #include "world/store/body_store.h"
 #include "world/store/columns.h"
 
@@ -44,16 +45,6 @@ class EventStage {
   // Blocks whose events are found side by side.
   static constexpr size_t kBlocksAtOnce = 16;
 
-  // Some overlaps of a step, sorted by pair, and behind them one whose key is above all others.
-  struct Overlaps {
-    RawVector<uint64_t> key;
-    RawVector<uint32_t> contact;
-    size_t count = 0;
-
-    void start(size_t pairs);
-    void add(const PairHistory& history, size_t begin, size_t end);
-    void finish();
-  };
   struct alignas(64) Scratch {
     Overlaps last, now;
     RawVector<Event> unnamed, events;
@@ -66,11 +57,6 @@ class EventStage {
   void add_block(const Input& input, size_t block, Scratch& scratch,
                  RawVector<Event>& events) const;
   static void read_block(const Input& input, size_t block, Scratch& scratch);
-  // What becomes of overlaps of both steps: an event, none, or an end and a begin.
-  enum class Persisting : uint8_t { wanted, dropped, apart };
-
-  static void merge(const Overlaps& last, const Overlaps& now, Persisting persisting,
-                    RawVector<Event>& events);
   static void name(std::span<Event> events, std::span<const uint32_t> generations);
   void add_named(const Input& input, std::span<const Event> unnamed,
                  RawVector<Event>& events) const;
