@@ -24,7 +24,7 @@ void prepare_pages([[maybe_unused]] void* memory, [[maybe_unused]] size_t bytes)
   advise(memory, bytes, 2 << 20, MADV_HUGEPAGE);
 #endif
 #ifdef MADV_POPULATE_WRITE
-  constexpr size_t kMostAtOnce = 4 << 20;
+  constexpr size_t kMostAtOnce = 16 << 20;
   if (bytes <= kMostAtOnce) advise(memory, bytes, 4096, MADV_POPULATE_WRITE);
 #endif
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/fresh_pages.h"
 #include "narrowphase/batch/packed_direction.h"
 #include "world/store/columns.h"
 
@@ -29,7 +30,7 @@ void match_directions(const PairHistory& last, PairHistory& now, size_t begin, s
 
 uint32_t* DirectionMemory::prepare(const CarryPlan& plan, const PairHistory& last,
                                    Parallelism parallelism, PairHistory& now) {
-  now.direction.resize(now.pairs.size());
+  resize_for_overwriting(now.direction, now.pairs.size());
   if (last.direction.empty()) {
     std::fill(now.direction.begin(), now.direction.end(), kNoDirection);
   } else {
@@ -37,7 +38,7 @@ uint32_t* DirectionMemory::prepare(const CarryPlan& plan, const PairHistory& las
         now.pairs.size(), kPairsPerMergeBlock, parallelism,
         [&](size_t, size_t begin, size_t end) { match_directions(last, now, begin, end); });
   }
-  tested_.resize(plan.tested());
+  resize_for_overwriting(tested_, plan.tested());
   for_each_tested(plan, now.pairs.size(), parallelism,
                   [&](size_t i, size_t row) { tested_[row] = now.direction[i]; });
   return tested_.data();
