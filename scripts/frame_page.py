@@ -72,7 +72,7 @@ def ns_a_line(bench):
                         "--benchmark_out_format=json", "--benchmark_min_time=1"],
                        check=True, stdout=subprocess.DEVNULL)
         result = json.load(open(out.name))
-    return ({b["name"].split("/")[1]: b["ns_per_line"] for b in result["benchmarks"]},
+    return ({b["name"].removeprefix("memory/"): b["ns_per_line"] for b in result["benchmarks"]},
             result["context"])
 
 
@@ -122,7 +122,7 @@ def scene_rows(name, detail, kind, scene, two_threads, ns):
             continue
         least = bytes_of(FLOOR, stage, kind, scene)
         moved = bytes_of(MOVED, stage, kind, scene)
-        least_ms = least / 128 * ns["copy"] / 1e6  # a copied line is read and written
+        least_ms = least / 128 * ns["copy/t1"] / 1e6  # a copied line is read and written
         total += least_ms
         yield (f"| {stage} | {short(ms)} | {1e6 * ms / bodies:.1f} | {1e6 * ms / pairs:.1f} | "
                f"{short(moved / 1e6)} | {short(least / 1e6)} | {short(least_ms)} | {ms / least_ms:.1f} | {short(two_threads['stage_ms'][stage])} | "
@@ -137,8 +137,11 @@ def page(arguments):
     ns, context = ns_a_line(arguments.bench)
     yield ""
     yield (f"{context['num_cpus']} processors of {context['mhz_per_cpu'] / 1000:.1f} GHz. One thread reads "
-           f"{64 / ns['read']:.1f} GB/s, copies {64 / ns['copy']:.1f} GB/s, and fetches a line "
-           f"from a random place every {ns['gather']:.1f} ns "
+           f"{64 / ns['read/t1']:.1f} GB/s, copies {64 / ns['copy/t1']:.1f} GB/s, and fetches a line "
+           f"from a random place every {ns['gather/t1']:.1f} ns. Two threads together read "
+           f"{ns['read/t1'] / ns['read/t2']:.2f} times as fast, copy "
+           f"{ns['copy/t1'] / ns['copy/t2']:.2f} times, and fetch lines "
+           f"{ns['gather/t1'] / ns['gather/t2']:.2f} times "
            "(`carom_bench --benchmark_filter=memory/`).")
     yield ""
     yield "## Scenes"

@@ -143,7 +143,7 @@ def rows(m):
             yield ratio(f"{scene}, contacts : pairs alone", scene, "contact", scene, "pairs", must, aim)
     yield ratio("100k boxes, manifolds : 100k cubes, pairs alone", "100k boxes", "manifold",
                 "100k cubes", "pairs", 2.5, 1.8)
-    for kind in ("box", "capsule"):
+    for kind in ("box", "capsule", "dop"):
         yield (f"bounds of a {kind}, ns", m.ns(f"bounds/{kind}/f32/t1/{m.wider}"), 10, 5)
     if has("1M spheres"):
         yield ("1M spheres, contacts, one thread, ms", m.ms("1M spheres", "contact"), 150, 80)

@@ -113,7 +113,7 @@ void register_set(const SetSpec& spec) {
 
 void register_bounds() {
   for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
-                               ShapeKind::box, ShapeKind::triangle}) {
+                               ShapeKind::box, ShapeKind::triangle, ShapeKind::dop}) {
     for (const Storage storage : {Storage::f32, Storage::f64}) register_set({kind, storage});
   }
 }

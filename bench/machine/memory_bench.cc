@@ -1,10 +1,13 @@
-// What the memory of this machine gives one thread: memory/WAY, in nanoseconds a line of 64 bytes.
+// What the memory of this machine gives: memory/WAY/THREADS, in nanoseconds a line of 64 bytes.
 // docs/frame.md compares the stages of a frame with it.
 #include <cstring>
+#include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "bench/support/measure.h"
 #include "bench/support/suites.h"
+#include "carom/base/thread_arena.h"
 
 namespace carom::bench {
 namespace {
@@ -14,48 +17,61 @@ struct alignas(64) Line {
 };
 using Lines = std::vector<Line>;
 
-// Many times the last level of a cache.
-constexpr size_t kLines = size_t{1} << 22;
+// Many times the last level of a cache; a task of a thread takes an eighth.
+constexpr size_t kLines = size_t{1} << 22, kLinesPerTask = kLines / 8;
 
-void read(const Lines& lines, Lines&) {
+void read(const Lines& lines, Lines&, size_t begin, size_t end) {
   uint64_t sum[8] = {};
-  for (const Line& line : lines) {
-    for (size_t k = 0; k < 8; ++k) sum[k] += line.word[k];
+  for (size_t i = begin; i < end; ++i) {
+    for (size_t k = 0; k < 8; ++k) sum[k] += lines[i].word[k];
   }
   benchmark::DoNotOptimize(sum);
 }
 
-void copy(const Lines& from, Lines& to) {
-  std::memcpy(to.data(), from.data(), from.size() * sizeof(Line));
+void copy(const Lines& from, Lines& to, size_t begin, size_t end) {
+  std::memcpy(to.data() + begin, from.data() + begin, (end - begin) * sizeof(Line));
   benchmark::ClobberMemory();
 }
 
 // Every line once, each far from the last one; the next address does not wait for the line.
-void gather(const Lines& lines, Lines&) {
+void gather(const Lines& lines, Lines&, size_t begin, size_t end) {
   constexpr size_t kOdd = 2654435761;
   uint64_t sum = 0;
-  for (size_t i = 0; i < lines.size(); ++i) sum += lines[i * kOdd % kLines].word[0];
+  for (size_t i = begin; i < end; ++i) sum += lines[i * kOdd % kLines].word[0];
   benchmark::DoNotOptimize(sum);
 }
 
-void measure_memory(benchmark::State& state, void (*way)(const Lines&, Lines&)) {
+using Way = void (*)(const Lines& from, Lines& to, size_t begin, size_t end);
+
+void measure_memory(benchmark::State& state, Way way, int threads) {
   const Lines from(kLines, Line{{1, 2, 3, 4, 5, 6, 7, 8}});
   Lines to(kLines);
+  ThreadArena arena(threads);
   PassTimes times;
-  for (auto _ : state) times.measure([&] { way(from, to); });
+  arena.run([&] {
+    for (auto _ : state) {
+      times.measure([&] {
+        for_each_block(kLines, kLinesPerTask, arena.parallelism(),
+                       [&](size_t, size_t begin, size_t end) { way(from, to, begin, end); });
+      });
+    }
+  });
   report(state, "line", kLines, times);
 }
 
 }  // namespace
 
 void register_memory() {
-  const auto add = [](const char* name, auto way) {
-    const auto run = [way](benchmark::State& state) { measure_memory(state, way); };
-    benchmark::RegisterBenchmark(name, run)->Unit(benchmark::kMillisecond);
+  const auto add = [](const char* name, Way way) {
+    for (const int threads : {1, 2}) {
+      const auto run = [=](benchmark::State& state) { measure_memory(state, way, threads); };
+      const std::string full_name = std::string("memory/") + name + "/t" + std::to_string(threads);
+      benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMillisecond);
+    }
   };
-  add("memory/read", read);
-  add("memory/copy", copy);
-  add("memory/gather", gather);
+  add("read", read);
+  add("copy", copy);
+  add("gather", gather);
 }
 
 }  // namespace carom::bench
