@@ -11,9 +11,9 @@ echo "lint: clang-tidy"
 # The files of a folder are looked at together, because headers take most of the time. The analyzer of
 # clang-tidy looks into files that others include if their path has this name.
 tree=build/lint-UnifiedSource
-cmake --preset clang -B $tree -DCAROM_UNITY_BUILD=ON -DCAROM_BUILD_TESTS=OFF -DCAROM_BUILD_BENCH=OFF \
-  >/dev/null
-cmake --build $tree --target carom_build_info_header >/dev/null
+cmake --preset clang -B $tree -DCAROM_UNITY_BUILD=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
+  -DCAROM_BUILD_TESTS=OFF -DCAROM_BUILD_BENCH=OFF >/dev/null
+cmake --build $tree --target carom_build_info_header carom_precompiled carom_precompiled_program >/dev/null
 rooms='simd|base|shapes|trees|bounds|geometries|broadphase|narrowphase|midphase|impacts|queries|world|reference|hulls|io|cli'
 # The analyzer follows each function through at most so many states, and does not look into the
 # functions of the standard library, in which it would spend most of them and two fifths of the time.
