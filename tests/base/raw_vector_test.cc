@@ -50,11 +50,12 @@ TEST(FreshPages, HoldWhatIsWritten) {
 }
 
 // The list has the count that is asked for, keeps memory that is enough, and new memory has room.
-TEST(FreshPages, ListsOfCallersGrowWithRoom) {
-  std::vector<uint32_t> list(10, 3u);
-  const uint32_t* const memory = list.data();
+template <class List>
+void expect_growth() {
+  List list(10, 3u);
+  const auto* const memory = list.data();
   resize_for_overwriting(list, 4);
-  EXPECT_EQ(list, std::vector<uint32_t>(4, 3u));
+  EXPECT_EQ(list, List(4, 3u));
   EXPECT_EQ(list.data(), memory);
   for (const size_t count : {size_t{11}, size_t{3} << 20, size_t{0}, size_t{3} << 20}) {
     resize_for_overwriting(list, count);
@@ -62,6 +63,11 @@ TEST(FreshPages, ListsOfCallersGrowWithRoom) {
     EXPECT_GE(list.capacity(), count + count / 8);
     std::fill(list.begin(), list.end(), 7u);
   }
+}
+
+TEST(FreshPages, ListsGrowWithRoom) {
+  expect_growth<std::vector<uint32_t>>();
+  expect_growth<LargeVector<uint32_t>>();
 }
 
 }  // namespace

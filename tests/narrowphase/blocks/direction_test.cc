@@ -1,6 +1,8 @@
 // Directions remembered from test to test: they save work and change no result.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "midphase/collide_pairs.h"
 #include "tests/support/isas.h"
 #include "tests/support/kind_pairs.h"
@@ -127,6 +129,29 @@ TEST(Direction, IsKeptWhilePairsAreApart) {
     }
     EXPECT_EQ(known, separate);
     EXPECT_GT(kept, separate * 6 / 10);
+  }
+}
+
+// Where few pairs are settled by their directions all are tested, where many are the others alone.
+// Neither changes a result, nor the directions of pairs that are settled.
+TEST(Direction, ChangesNoResultHoweverManyKnowTheirs) {
+  const ConvexFamily family = convex_families()[0];
+  for (const KindPair& kinds : kinds_with_directions()) {
+    SCOPED_TRACE(name(kinds));
+    const PositionType positions = PositionType::float32;
+    const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, 200);
+    const LaidOut bodies = laid_out(pairs, positions);
+    std::vector<uint32_t> found(pairs.size(), kNoDirection);
+    const std::vector<Row> cold = run(bodies, Detail::manifold, nullptr);
+    run(bodies, Detail::manifold, found.data());
+    EXPECT_GT(pairs.size() - static_cast<size_t>(std::ranges::count(found, kNoDirection)), 60u);
+    for (const size_t known :
+         {size_t{0}, size_t{1}, pairs.size() / 4, pairs.size() / 2, pairs.size()}) {
+      std::vector<uint32_t> direction(pairs.size(), kNoDirection);
+      std::copy_n(found.begin(), known, direction.begin());
+      expect_same(cold, run(bodies, Detail::manifold, direction.data()));
+      EXPECT_EQ(direction, found);
+    }
   }
 }
 
