@@ -7,6 +7,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/dop_polytope.h"
+#include "shapes/dop_reach.h"
 #include "shapes/turn.h"
 
 namespace carom {
@@ -70,8 +71,18 @@ Extent outward(const Intervals& intervals, double radius, double slack) {
 // The slack covers the rounding of the polytope's points and of the rotation.
 Extent dop_extent(const std::array<Double3, 3>& turn, const Dop& dop) {
   const DopSlabs slabs(dop);
-  const double slack = kDopRounding * slabs.with_tight_axes().size();
-  return outward(point_intervals(turn, DopPolytope(slabs).points()), 0, slack);
+  const DopSlabs tight = slabs.with_tight_axes();
+  const double slack = kDopRounding * tight.size();
+  Intervals reach;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const Double3& d = turn[axis];
+    const auto lower = dop_reach(tight, {-d[0], -d[1], -d[2]}), upper = dop_reach(tight, d);
+    if (!lower || !upper) {
+      return outward(point_intervals(turn, DopPolytope(slabs).points()), 0, slack);
+    }
+    reach[axis] = {-*lower, *upper};
+  }
+  return outward(reach, 0, slack);
 }
 
 // The extent of the turned points.

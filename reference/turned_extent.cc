@@ -12,6 +12,7 @@
 #include "carom/shapes/mesh_geometry.h"
 #include "reference/vectors.h"
 #include "shapes/dop_polytope.h"
+#include "shapes/dop_reach.h"
 
 namespace carom::reference {
 namespace {
@@ -101,6 +102,19 @@ std::vector<Vector3d> corners_of(const Eigen::Vector3f& lower, const Eigen::Vect
   return corners;
 }
 
+// The extent of the corners of a k-DOP.
+Aabb extent_of_corners(const Turn& turn, const DopSlabs& slabs, double slack) {
+  const DopPolytope polytope(slabs);
+  std::vector<Vector3d> points;
+  for (const Double3& p : polytope.points()) points.emplace_back(p[0], p[1], p[2]);
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval of_points(turn.row(axis), points);
+    set_axis(extent, axis, of_points.lower, of_points.upper, slack);
+  }
+  return extent;
+}
+
 }  // namespace
 
 Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation) {
@@ -151,14 +165,15 @@ Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientati
 Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation) {
   const Turn turn(orientation);
   const DopSlabs slabs(dop);
-  const DopPolytope polytope(slabs);
-  std::vector<Vector3d> points;
-  for (const Double3& p : polytope.points()) points.emplace_back(p[0], p[1], p[2]);
+  const DopSlabs tight = slabs.with_tight_axes();
+  const double slack = kDopRounding * tight.size();
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
-    const Interval of_points(turn.row(axis), points);
-    set_axis(extent, axis, of_points.lower, of_points.upper,
-             kDopRounding * slabs.with_tight_axes().size());
+    const Vector3d& d = turn.row(axis);
+    const auto lower = dop_reach(tight, {-d.x(), -d.y(), -d.z()});
+    const auto upper = dop_reach(tight, {d.x(), d.y(), d.z()});
+    if (!lower || !upper) return extent_of_corners(turn, slabs, slack);
+    set_axis(extent, axis, -*lower, *upper, slack);
   }
   return extent;
 }
