@@ -67,11 +67,6 @@ if(CAROM_SANITIZE)
   add_compile_options(-fsanitize=${CAROM_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${CAROM_SANITIZE})
-  if(CAROM_FUZZ)
-    # A third of the time to compile. AddressSanitizer reports what they find when memory is touched;
-    # the preset `asan` has them as well.
-    add_compile_options(-fno-sanitize=null,object-size,vptr)
-  endif()
   # Without it each number of a vector costs calls, each with its checks.
   add_compile_definitions("EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
 endif()
