@@ -4,14 +4,15 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace carom {
 
 // Prepares memory that nothing has touched yet. Asks the system to back it with pages of 2 MB, so
-// far as it covers whole ones: touching it for the first time then takes a fraction of the time. Of
-// a short array all pages are touched now: a list that has room for more than it holds, and holds
-// most in a later frame, would otherwise wait for the system in that frame.
+// far as it covers whole ones: touching it for the first time then takes a fraction of the time.
+// All pages of an array of up to 16 MB are touched now: a list that has room for more than it
+// holds, and holds most in a later frame, would otherwise wait for the system in that frame.
 void prepare_pages(void* memory, size_t bytes);
 
 // The standard allocator with such memory.
@@ -36,7 +37,10 @@ void resize_for_overwriting(std::vector<T, Allocator>& list, size_t count) {
   if (list.capacity() < count) {
     list.clear();
     list.reserve(count + count / 8);
-    prepare_pages(list.data(), list.capacity() * sizeof(T));
+    // The other allocators have done so.
+    if constexpr (std::is_same_v<Allocator, std::allocator<T>>) {
+      prepare_pages(list.data(), list.capacity() * sizeof(T));
+    }
   }
   list.resize(count);
 }

@@ -81,7 +81,7 @@ class ReachSearch {
   }
 
   // Finds the vectors dual to the three normals, and the factors of d. The normals are small
-  // integers, so that only the division rounds.
+  // integers, so that their products are exact.
   void solve() {
     const Double3 &a = base_[0].normal, &b = base_[1].normal, &c = base_[2].normal;
     dual_ = {cross(b, c), cross(c, a), cross(a, b)};

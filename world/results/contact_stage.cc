@@ -6,23 +6,13 @@
 #include <cstring>
 #include <utility>
 
+#include "base/fresh_pages.h"
 #include "base/parallel.h"
 #include "carom/results/tier.h"
 #include "shapes/point_velocity.h"
 
 namespace carom {
 namespace {
-
-// Makes the list as long as the pairs, for writing all of it. New memory has room for an eighth
-// more: a list that grows by itself doubles.
-template <class List>
-void resize_list(List& list, size_t pairs) {
-  if (list.capacity() < pairs) {
-    list.clear();
-    list.reserve(pairs + pairs / 8);
-  }
-  list.resize(pairs);
-}
 
 // Counts the results of a block of pairs.
 struct Counts {
@@ -209,8 +199,8 @@ size_t write_old(const CarriedRun& run, const ContactStage::Input& input, bool i
 
 void ContactStage::start(Last what, PairHistory& last, PairHistory& now) {
   overlaps_ = undecided_ = left_out_ = 0;
-  resize_list(now.overlaps, now.pairs.size());
-  resize_list(now.contact, now.pairs.size());
+  resize_for_overwriting(now.overlaps, now.pairs.size());
+  resize_for_overwriting(now.contact, now.pairs.size());
   now.clear_contacts();
   in_place_ = what == Last::in_place;
   if (in_place_) {
@@ -335,7 +325,6 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
           // Bodies lie anywhere; the contacts themselves are in the cache.
           const Contact& ahead = contacts[std::min(i + kContactsAhead, end - 1)];
           __builtin_prefetch(&linear[ahead.b]);
-          if (!angular.empty()) __builtin_prefetch(&angular[ahead.b]);
           Contact& c = contacts[i];
           const Vector3f v = velocity(c.b, c.arm_b) - velocity(c.a, c.arm_a);
           c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();
