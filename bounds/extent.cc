@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "base/outward.h"
-#include "bounds/hull_reach.h"
+#include "bounds/point_reach.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
-#include "shapes/dop_polytope.h"
-#include "shapes/dop_reach.h"
+#include "shapes/dop_geometry.h"
 #include "shapes/turn.h"
 
 namespace carom {
@@ -69,25 +68,21 @@ Extent outward(const Intervals& intervals, double radius, double slack) {
 }
 
 // The slack covers the rounding of the polytope's points and of the rotation.
-Extent dop_extent(const std::array<Double3, 3>& turn, const Dop& dop) {
-  const DopSlabs slabs(dop);
-  const DopSlabs tight = slabs.with_tight_axes();
-  const double slack = kDopRounding * tight.size();
-  Intervals reach;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const Double3& d = turn[axis];
-    const auto lower = dop_reach(tight, {-d[0], -d[1], -d[2]}), upper = dop_reach(tight, d);
-    if (!lower || !upper) {
-      return outward(point_intervals(turn, DopPolytope(slabs).points()), 0, slack);
-    }
-    reach[axis] = {-*lower, *upper};
-  }
-  return outward(reach, 0, slack);
+Extent dop_extent(const std::array<Double3, 3>& turn, const DopGeometry& geometry) {
+  return outward(point_reach(turn, geometry.polytope()), 0, kDopRounding * geometry.size());
+}
+
+// `rows`: those of the k-DOP, body i.
+Extent dop_extent(const std::array<Double3, 3>& turn, const BodyReader& reader, size_t i,
+                  const Row* rows) {
+  const DopGeometry* known = reader.dop_geometry(i);
+  if (known && known->is_of(rows)) return dop_extent(turn, *known);
+  return dop_extent(turn, DopGeometry(std::get<Dop>(shape_from_rows(ShapeKind::dop, rows))));
 }
 
 // The extent of the turned points.
 Extent hull_extent(const std::array<Double3, 3>& turn, const HullGeometry& hull) {
-  return outward(hull_reach(turn, hull), 0, kTurnRounding * hull.size());
+  return outward(point_reach(turn, hull), 0, kTurnRounding * hull.size());
 }
 
 // The extent of the turned box that holds all parts in the body's frame.
@@ -127,7 +122,7 @@ Extent turned_extent(const BodyReader& reader, size_t i) {
     case ShapeKind::triangle:
       return outward(triangle_intervals(turn, rows.data()), 0, slack);
     case ShapeKind::dop:
-      return dop_extent(turn, std::get<Dop>(shape_from_rows(kind, rows.data())));
+      return dop_extent(turn, reader, i, rows.data());
     default:
       return {};
   }

@@ -27,6 +27,7 @@ class ChildView {
     view_.uniform_kind = kind_of(child.shape);
     if (const auto* sphere = std::get_if<Sphere>(&child.shape)) radius_ = sphere->radius;
     if (const auto* box = std::get_if<Aabb>(&child.shape)) box_ = *box;
+    if (const auto* dop = std::get_if<Dop>(&child.shape)) dop_ = dop->geometry.get();
     view_.position = {.data = position_.data(),
                       .stride = sizeof position_,
                       .radius_layout = RadiusLayout::column,
@@ -37,6 +38,7 @@ class ChildView {
     }
     view_.orientation.data = orientation_.data();
     view_.rows.data = rows_[0].data();
+    view_.dops = &dop_;
   }
   ChildView(const ChildView&) = delete;
   ChildView& operator=(const ChildView&) = delete;
@@ -50,6 +52,7 @@ class ChildView {
     part.kind = view_.uniform_kind;
     part.radius = radius_;
     part.rows = rows_;
+    part.dop = dop_;
     part.position = {position.x(), position.y(), position.z()};
     if (part.is_turned()) {
       std::copy_n(orientation_.data(), 4, part.orientation.begin());
@@ -68,6 +71,7 @@ class ChildView {
   std::array<float, 3> position_{};
   float radius_ = 0;
   Aabb box_;
+  const DopGeometry* dop_ = nullptr;
   std::array<std::array<float, 4>, kMostRows> rows_;
   Eigen::Vector4f orientation_;
   Collidables view_;
@@ -89,7 +93,8 @@ class CompoundMaker {
   Result<std::shared_ptr<const CompoundGeometry>> make() {
     std::vector<TreeBox> boxes;
     for (size_t i = 0; i < compound_->children_.size(); ++i) {
-      const CompoundChild& child = compound_->children_[i];
+      CompoundChild& child = compound_->children_[i];
+      if (auto* dop = std::get_if<Dop>(&child.shape)) dop->geometry = dop_geometry(*dop);
       const ShapeKind kind = kind_of(child.shape);
       if (kind == ShapeKind::compound) return bad_child(i, "is a compound itself");
       if (kind == ShapeKind::halfspace) return bad_child(i, "is a half-space, which has no bounds");

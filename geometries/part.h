@@ -42,6 +42,7 @@ struct Part {
   float radius = 0;                       // spheres only
   std::array<float, 3> lower{}, upper{};  // aabbs only
   std::array<Row, kMostRows> rows{};      // all other kinds
+  const DopGeometry* dop = nullptr;       // of a k-DOP, if it is known
   Row orientation = {0, 0, 0, 1};
   Double3 position{};
 

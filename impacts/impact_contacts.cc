@@ -56,6 +56,7 @@ class PlacedSide {
     first_row_[count_] =
         row_count(kind_[count_]) > 0 ? static_cast<uint32_t>(reader.first_row(body)) : 0;
     box_slot_[count_] = static_cast<uint32_t>(reader.box(body));
+    dops_[count_] = reader.dop_geometry(body);
     ++count_;
   }
 
@@ -70,6 +71,7 @@ class PlacedSide {
     view.box_slot = box_slot_.data();
     view.orientation.data = orientation_[0].data();
     view.rows = {bodies.rows.data, first_row_.data()};
+    view.dops = dops_.data();
     return view;
   }
 
@@ -78,6 +80,7 @@ class PlacedSide {
   alignas(64) std::array<std::array<double, 4>, kPairsPerBlock> record_;
   std::array<Row, kPairsPerBlock> orientation_;
   std::array<ShapeKind, kPairsPerBlock> kind_;
+  std::array<const DopGeometry*, kPairsPerBlock> dops_;
   std::array<uint32_t, kPairsPerBlock> first_row_, box_slot_;
 };
 

@@ -32,6 +32,7 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
     std::copy_n(part.part->rows.data(), row_count(kind_[body]), rows_.data() + rows_used_);
   }
   rows_used_ += row_count(kind_[body]);
+  dops_[body] = part.part->dop;
   for (size_t axis = 0; kind_[body] == ShapeKind::aabb && axis < 3; ++axis) {
     lower_[axis][body] = part.part->lower[axis];
     upper_[axis][body] = part.part->upper[axis];
@@ -58,6 +59,7 @@ Collidables PartColumns::view() const {
   }
   view.orientation.data = orientation_[0].data();
   view.rows = {rows_[0].data(), first_row_.data()};
+  view.dops = dops_.data();
   return view;
 }
 

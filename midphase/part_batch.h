@@ -63,6 +63,7 @@ class PartColumns {
   std::array<ShapeKind, kPairsPerBlock> kind_;
   std::array<uint32_t, kPairsPerBlock> first_row_;
   std::array<Row, kPairsPerBlock * kMostRows> rows_;
+  std::array<const DopGeometry*, kPairsPerBlock> dops_;
   std::array<uint32_t, kPairsPerBlock> frame_;
   std::array<uint32_t, kPairsPerBlock> triangle_;
   std::array<uint64_t, kPairsPerBlock> order_;

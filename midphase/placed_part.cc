@@ -38,6 +38,7 @@ Part body_part(const BodyReader& reader, size_t i) {
     }
   } else {
     for (uint32_t k = 0; k < row_count(part.kind); ++k) part.rows[k] = reader.row(i, k);
+    part.dop = reader.dop_geometry(i);
     part.orientation = reader.orientation(i);
   }
   return part;

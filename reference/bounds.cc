@@ -7,7 +7,7 @@
 #include "reference/exact_sum.h"
 #include "reference/turned_extent.h"
 #include "reference/vectors.h"
-#include "shapes/dop_polytope.h"
+#include "shapes/dop_geometry.h"
 
 namespace carom::reference {
 namespace {
@@ -62,7 +62,7 @@ bool is_valid_shape(const Dop& dop) {
     const bool is_finite = std::isfinite(dop.lower[i]) && std::isfinite(dop.upper[i]);
     if (!is_finite || dop.lower[i] > dop.upper[i]) return false;
   }
-  return has_points(dop);
+  return known_geometry(dop) || has_points(DopSlabs(dop));
 }
 
 bool is_valid_shape(const Hull& hull) { return hull.geometry != nullptr; }

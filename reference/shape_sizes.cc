@@ -7,7 +7,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "reference/vectors.h"
-#include "shapes/dop_polytope.h"
+#include "shapes/dop_geometry.h"
 #include "shapes/hull_features.h"
 
 namespace carom::reference {
@@ -31,13 +31,14 @@ double reach(const Triangle& t) {
 }
 double reach(const Halfspace&) { return kInfinity; }
 double reach(const Dop& dop) {
-  const DopSlabs slabs(dop);
-  const DopPolytope polytope(slabs);
-  double furthest = 0;
-  for (const Double3& p : polytope.points()) {
-    furthest = std::max(furthest, norm(Vector3d(p[0], p[1], p[2])));
-  }
-  return furthest + kDopRounding * slabs.with_tight_axes().size();
+  return with_geometry(dop, [](const DopGeometry& geometry) {
+    double furthest = 0;
+    for (size_t i = 0; i < geometry.polytope().point_count(); ++i) {
+      const Double3 p = geometry.polytope().point(i);
+      furthest = std::max(furthest, norm(Vector3d(p[0], p[1], p[2])));
+    }
+    return furthest + kDopRounding * geometry.size();
+  });
 }
 double reach(const Hull& hull) {
   double furthest = 0;

@@ -11,8 +11,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "reference/vectors.h"
-#include "shapes/dop_polytope.h"
-#include "shapes/dop_reach.h"
+#include "shapes/dop_geometry.h"
 
 namespace carom::reference {
 namespace {
@@ -103,14 +102,17 @@ std::vector<Vector3d> corners_of(const Eigen::Vector3f& lower, const Eigen::Vect
 }
 
 // The extent of the corners of a k-DOP.
-Aabb extent_of_corners(const Turn& turn, const DopSlabs& slabs, double slack) {
-  const DopPolytope polytope(slabs);
+Aabb extent_of(const DopGeometry& geometry, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
   std::vector<Vector3d> points;
-  for (const Double3& p : polytope.points()) points.emplace_back(p[0], p[1], p[2]);
+  for (size_t i = 0; i < geometry.polytope().point_count(); ++i) {
+    const Double3 p = geometry.polytope().point(i);
+    points.emplace_back(p[0], p[1], p[2]);
+  }
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval of_points(turn.row(axis), points);
-    set_axis(extent, axis, of_points.lower, of_points.upper, slack);
+    set_axis(extent, axis, of_points.lower, of_points.upper, kDopRounding * geometry.size());
   }
   return extent;
 }
@@ -163,19 +165,8 @@ Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientati
 }
 
 Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation) {
-  const Turn turn(orientation);
-  const DopSlabs slabs(dop);
-  const DopSlabs tight = slabs.with_tight_axes();
-  const double slack = kDopRounding * tight.size();
-  Aabb extent;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vector3d& d = turn.row(axis);
-    const auto lower = dop_reach(tight, {-d.x(), -d.y(), -d.z()});
-    const auto upper = dop_reach(tight, {d.x(), d.y(), d.z()});
-    if (!lower || !upper) return extent_of_corners(turn, slabs, slack);
-    set_axis(extent, axis, -*lower, *upper, slack);
-  }
-  return extent;
+  return with_geometry(
+      dop, [&](const DopGeometry& geometry) { return extent_of(geometry, orientation); });
 }
 
 Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation) {

@@ -52,12 +52,15 @@ inline bool is_rotation(const Row& q) {
 // True if the number of planes exists, and the slabs are finite, in order, and have a point in
 // common.
 bool is_valid_dop(const Dop& dop);
+// The same for rows of parameters. A geometry that was found from them proves it.
+bool are_valid_dop_rows(const Row* rows, const DopGeometry* geometry);
 
 // Whether the parameters are valid; for all kinds but spheres and aabbs. A geometry is valid if its
 // address is not null.
-inline bool are_valid_rows(ShapeKind kind, const Row* rows) {
+inline bool are_valid_rows(ShapeKind kind, const Row* rows,
+                           const DopGeometry* geometry_of_dop = nullptr) {
   if (has_geometry(kind)) return geometry_at<void>(rows[0]) != nullptr;
-  if (kind == ShapeKind::dop) return is_valid_dop(std::get<Dop>(shape_from_rows(kind, rows)));
+  if (kind == ShapeKind::dop) return are_valid_dop_rows(rows, geometry_of_dop);
   for (uint32_t i = 0; i < row_count(kind); ++i) {
     if (!is_finite(rows[i])) return false;
   }
@@ -152,8 +155,11 @@ struct BodyReader {
 
   // Checks orientation and rows, for a kind that has them.
   bool has_valid_parameters(size_t i) const {
-    return is_rotation(orientation(i)) && are_valid_rows(kind(i), rows(i).data());
+    return is_rotation(orientation(i)) && are_valid_rows(kind(i), rows(i).data(), dop_geometry(i));
   }
+
+  // What the view says about the k-DOP of body i; its slabs may have changed since.
+  const DopGeometry* dop_geometry(size_t i) const { return bodies.dops ? bodies.dops[i] : nullptr; }
 
  private:
   bool is_valid_box(size_t i) const {

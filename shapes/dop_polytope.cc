@@ -12,7 +12,13 @@ namespace carom {
 namespace {
 
 using Direction = std::array<int8_t, 3>;
-using Corners = FewOf<DopCorner, DopFace::kMostCorners>;
+
+// A corner of a face while planes clip it.
+struct ClippedCorner {
+  Double3 point;
+  uint8_t edge;  // the other plane of the edge from here to the next corner
+};
+using Corners = FewOf<ClippedCorner, DopFace::kMostCorners>;
 
 double along(const Double3& d, const Double3& x) {
   return (d[0] * x[0] + d[1] * x[1]) + d[2] * x[2];
@@ -72,13 +78,13 @@ class PlaneClipper {
         plane_(plane),
         tolerance_(kInDopPlane * slabs.size()) {
     start();
-    for (size_t slab = 0; slab < directions_.size() && !corners_.empty(); ++slab) {
+    for (size_t slab = 0; slab < directions_.size() && !corners_->empty(); ++slab) {
       if (slab != slab_of_plane(plane)) clip(slab);
     }
     drop_short_edges();
   }
 
-  const Corners& corners() const { return corners_; }
+  const Corners& corners() const { return *corners_; }
 
  private:
   // Starts with the rectangle within the slabs of two axes; the third coordinate follows from the
@@ -93,7 +99,7 @@ class PlaneClipper {
       x[u] = upper_u ? slabs_.upper[u] : slabs_.lower[u];
       x[v] = upper_v ? slabs_.upper[v] : slabs_.lower[v];
       x[axis] = d[axis] * (height_of(slabs_, plane_) - along(d, x));
-      corners_.push_back({x, static_cast<uint8_t>(edge)});
+      corners_->push_back({x, static_cast<uint8_t>(edge)});
     };
     add(true, false, 2 * u);
     add(true, true, 2 * v);
@@ -115,8 +121,8 @@ class PlaneClipper {
   };
   Range measure(size_t slab) {
     Range range;
-    for (size_t i = 0; i < corners_.size(); ++i) {
-      heights_[i] = along(directions_[slab], corners_[i].point);
+    for (size_t i = 0; i < corners_->size(); ++i) {
+      heights_[i] = along(directions_[slab], (*corners_)[i].point);
       range = {std::min(range.least, heights_[i]), std::max(range.most, heights_[i])};
     }
     return range;
@@ -125,24 +131,30 @@ class PlaneClipper {
   void clip(size_t plane, double limit) {
     const double sign = sign_of_plane(plane);
     const auto is_inside = [&](size_t i) { return (heights_[i] - limit) * sign <= tolerance_; };
-    Corners left;
-    const size_t count = corners_.size();
+    const Corners& all = *corners_;
+    Corners& left = cleared_spare();
+    const size_t count = all.size();
     bool inside = count > 0 && is_inside(0);
     for (size_t i = 0; i < count; ++i) {
       const size_t next = i + 1 < count ? i + 1 : 0;
       const bool was_inside = std::exchange(inside, is_inside(next));
-      if (was_inside) left.push_back(corners_[i]);
+      if (was_inside) left.push_back(all[i]);
       if (was_inside == inside) continue;
-      const uint8_t edge = was_inside ? static_cast<uint8_t>(plane) : corners_[i].edge;
+      const uint8_t edge = was_inside ? static_cast<uint8_t>(plane) : all[i].edge;
       left.push_back({crossing(i, next, limit), edge});
     }
-    corners_ = left;
+    std::swap(corners_, spare_);
+  }
+
+  Corners& cleared_spare() {
+    spare_->clear();
+    return *spare_;
   }
 
   Double3 crossing(size_t i, size_t next, double limit) const {
     const double share = (limit - heights_[i]) / (heights_[next] - heights_[i]);
     const double t = std::clamp(share, 0.0, 1.0);
-    const Double3 &from = corners_[i].point, &to = corners_[next].point;
+    const Double3 &from = (*corners_)[i].point, &to = (*corners_)[next].point;
     Double3 x;
     for (size_t axis = 0; axis < 3; ++axis) x[axis] = from[axis] + (to[axis] - from[axis]) * t;
     return x;
@@ -150,24 +162,62 @@ class PlaneClipper {
 
   // Drops the corners whose edge to the next corner has no length. One corner always stays.
   void drop_short_edges() {
-    Corners left;
-    for (size_t i = 0; i < corners_.size(); ++i) {
-      const bool is_last = i + 1 == corners_.size();
-      const Double3& next = !is_last       ? corners_[i + 1].point
-                            : left.empty() ? corners_[i].point
+    const Corners& all = *corners_;
+    Corners& left = cleared_spare();
+    for (size_t i = 0; i < all.size(); ++i) {
+      const bool is_last = i + 1 == all.size();
+      const Double3& next = !is_last       ? all[i + 1].point
+                            : left.empty() ? all[i].point
                                            : left[0].point;
-      const bool is_long = greatest(minus(next, corners_[i].point)) > tolerance_;
-      if (is_long || (is_last && left.empty())) left.push_back(corners_[i]);
+      const bool is_long = greatest(minus(next, all[i].point)) > tolerance_;
+      if (is_long || (is_last && left.empty())) left.push_back(all[i]);
     }
-    corners_ = left;
+    std::swap(corners_, spare_);
   }
 
   const DopSlabs& slabs_;
   const FewOf<Double3, kMostSlabs>& directions_;
   const size_t plane_;
   const double tolerance_;
-  Corners corners_;
+  std::array<Corners, 2> buffers_;
+  Corners *corners_ = &buffers_[0], *spare_ = &buffers_[1];
   std::array<double, DopFace::kMostCorners> heights_;
+};
+
+// Points in the order in which they are found. Those within a tolerance of each other are one.
+class PointList {
+ public:
+  explicit PointList(double tolerance) : tolerance_(tolerance) {}
+
+  uint8_t find_or_add(const Double3& point) {
+    for (size_t i = 0; i < points_.size(); ++i) {
+      if (is_near(points_[i], point)) return static_cast<uint8_t>(i);
+    }
+    if (points_.is_full()) return nearest(point);
+    points_.push_back(point);
+    return static_cast<uint8_t>(points_.size() - 1);
+  }
+
+  size_t size() const { return points_.size(); }
+  const Double3& operator[](size_t i) const { return points_[i]; }
+
+ private:
+  // Most points differ in x already.
+  bool is_near(const Double3& a, const Double3& b) const {
+    return std::fabs(a[0] - b[0]) <= tolerance_ && std::fabs(a[1] - b[1]) <= tolerance_ &&
+           std::fabs(a[2] - b[2]) <= tolerance_;
+  }
+
+  uint8_t nearest(const Double3& point) const {
+    const auto distance = [&](const Double3& x) { return greatest(minus(x, point)); };
+    const auto* least = std::min_element(
+        points_.begin(), points_.end(),
+        [&](const Double3& x, const Double3& y) { return distance(x) < distance(y); });
+    return static_cast<uint8_t>(least - points_.begin());
+  }
+
+  FewOf<Double3, DopPolytope::kMostPoints> points_;
+  const double tolerance_;
 };
 
 // Moves both ends of every slab outwards by half a unit in the last place of a float.
@@ -232,24 +282,25 @@ DopPolytope::DopPolytope(const DopSlabs& slabs) {
 
 void DopPolytope::build(const DopSlabs& slabs) {
   if (!are_ordered(slabs)) return;
+  PointList points(kInDopPlane * slabs.size());
   for (uint8_t plane = 0; plane < 2 * slab_count(slabs.kind); ++plane) {
     const PlaneClipper clipper(slabs, plane);
-    if (!clipper.corners().empty()) faces_.push_back({plane, clipper.corners()});
-  }
-  add_points(kInDopPlane * slabs.size());
-  add_edges();
-}
-
-// Collects the corners of all faces. Corners at the same place become one point.
-void DopPolytope::add_points(double tolerance) {
-  for (const DopFace& face : faces_) {
-    for (const DopCorner& corner : face.corners) {
-      const bool is_known = std::any_of(points_.begin(), points_.end(), [&](const Double3& point) {
-        return greatest(minus(point, corner.point)) <= tolerance;
-      });
-      if (!is_known && !points_.is_full()) points_.push_back(corner.point);
+    const Corners& corners = clipper.corners();
+    if (corners.empty()) continue;
+    faces_.push_back(
+        {plane, static_cast<uint16_t>(corners_.size()), static_cast<uint16_t>(corners.size())});
+    for (const ClippedCorner& corner : corners) {
+      corners_.push_back({points.find_or_add(corner.point), corner.edge});
     }
   }
+  count_ = points.size();
+  coordinates_.resize(3 * padded_count());
+  for (size_t axis = 0; axis < 3; ++axis) {
+    for (size_t i = 0; i < padded_count(); ++i) {
+      coordinates_[axis * padded_count() + i] = points[std::min(i, count_ - 1)][axis];
+    }
+  }
+  add_edges();
 }
 
 // Both faces of an edge list it, but rounding may drop it from one. So the face with the lower
@@ -257,33 +308,30 @@ void DopPolytope::add_points(double tolerance) {
 void DopPolytope::add_edges() {
   std::array<uint32_t, 2 * kMostSlabs> neighbours{};
   for (const DopFace& face : faces_) {
-    if (face.corners.size() < 2) continue;
-    for (const DopCorner& corner : face.corners) neighbours[face.plane] |= 1u << corner.edge;
+    if (face.count < 2) continue;
+    for (const DopCorner& corner : corners(face)) neighbours[face.plane] |= 1u << corner.edge;
   }
   for (const DopFace& face : faces_) {
-    if (face.corners.size() < 2) continue;
-    for (const DopCorner& corner : face.corners) {
+    if (face.count < 2) continue;
+    for (const DopCorner& corner : corners(face)) {
       const bool is_other = corner.edge < face.plane && (neighbours[corner.edge] >> face.plane & 1);
-      if (is_other || edges_.is_full()) continue;
+      if (is_other || edges_.size() == kMostEdges) continue;
       edges_.push_back({corner.point, {face.plane, corner.edge}});
     }
   }
 }
 
-bool is_valid_dop(const Dop& dop) {
-  if (!is_dop_kind(dop.kind)) return false;
-  for (size_t i = 0; i < slab_count(dop.kind); ++i) {
-    if (!is_valid_box_axis(dop.lower[i], dop.upper[i])) return false;
-  }
-  return has_points(dop);
+size_t DopPolytope::bytes() const {
+  return coordinates_.capacity() * sizeof(double) + faces_.capacity() * sizeof(DopFace) +
+         corners_.capacity() * sizeof(DopCorner) + edges_.capacity() * sizeof(DopEdge);
 }
 
-bool has_points(const Dop& dop) {
-  const DopSlabs slabs = DopSlabs(dop).with_tight_axes();
-  const Double3 middle = {(slabs.lower[0] + slabs.upper[0]) / 2,
-                          (slabs.lower[1] + slabs.upper[1]) / 2,
-                          (slabs.lower[2] + slabs.upper[2]) / 2};
-  return contains(slabs, middle) || !DopPolytope(DopSlabs(dop)).is_empty();
+bool has_points(const DopSlabs& slabs) {
+  const DopSlabs tight = slabs.with_tight_axes();
+  const Double3 middle = {(tight.lower[0] + tight.upper[0]) / 2,
+                          (tight.lower[1] + tight.upper[1]) / 2,
+                          (tight.lower[2] + tight.upper[2]) / 2};
+  return contains(tight, middle) || !DopPolytope(slabs).is_empty();
 }
 
 }  // namespace carom

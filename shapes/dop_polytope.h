@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "base/few_of.h"
 #include "base/tolerances.h"
@@ -32,22 +34,22 @@ constexpr size_t slab_of_plane(size_t plane) { return plane / 2; }
 constexpr int sign_of_plane(size_t plane) { return plane % 2 == 0 ? 1 : -1; }
 
 struct DopCorner {
-  Double3 point;
+  uint8_t point;
   uint8_t edge;  // the other plane of the edge from here to the next corner
 };
 
-// The part of a plane that belongs to the polytope, counter-clockwise seen from outside. A plane
-// that only touches the polytope has one corner or two.
+// The part of a plane that belongs to the polytope. A plane that only touches the polytope has one
+// corner or two.
 struct DopFace {
   // Four of a rectangle, and one more for every plane that cuts it.
   static constexpr size_t kMostCorners = 4 + 2 * kMostSlabs;
 
   uint8_t plane;
-  FewOf<DopCorner, kMostCorners> corners;
+  uint16_t first, count;  // of its corners
 };
 
 struct DopEdge {
-  Double3 start;
+  uint8_t start;  // a point
   std::array<uint8_t, 2> planes;
 };
 
@@ -63,19 +65,32 @@ class DopPolytope {
 
   explicit DopPolytope(const DopSlabs& slabs);
 
-  bool is_empty() const { return points_.empty(); }
-  const FewOf<Double3, kMostPoints>& points() const { return points_; }
-  const FewOf<DopEdge, kMostEdges>& edges() const { return edges_; }
-  const FewOf<DopFace, 2 * kMostSlabs>& faces() const { return faces_; }
+  bool is_empty() const { return count_ == 0; }
+  size_t point_count() const { return count_; }
+  Double3 point(size_t i) const { return {column(0)[i], column(1)[i], column(2)[i]}; }
+  // The x, y or z of all points. The last one is repeated up to a multiple of kPadding.
+  static constexpr size_t kPadding = 8;
+  const double* column(size_t axis) const { return coordinates_.data() + axis * padded_count(); }
+
+  std::span<const DopEdge> edges() const { return edges_; }
+  std::span<const DopFace> faces() const { return faces_; }
+  // Counter-clockwise seen from outside.
+  std::span<const DopCorner> corners(const DopFace& face) const {
+    return std::span(corners_).subspan(face.first, face.count);
+  }
+
+  size_t bytes() const;
 
  private:
   void build(const DopSlabs& slabs);
-  void add_points(double tolerance);
   void add_edges();
+  size_t padded_count() const { return (count_ + kPadding - 1) / kPadding * kPadding; }
 
-  FewOf<DopFace, 2 * kMostSlabs> faces_;
-  FewOf<Double3, kMostPoints> points_;
-  FewOf<DopEdge, kMostEdges> edges_;
+  size_t count_ = 0;
+  std::vector<double> coordinates_;  // three columns
+  std::vector<DopFace> faces_;
+  std::vector<DopCorner> corners_;
+  std::vector<DopEdge> edges_;
 };
 
 constexpr bool is_dop_kind(DopKind kind) {
@@ -84,6 +99,6 @@ constexpr bool is_dop_kind(DopKind kind) {
 }
 
 // Whether slabs that are finite and in order have a point in common. For most the middle decides.
-bool has_points(const Dop& dop);
+bool has_points(const DopSlabs& slabs);
 
 }  // namespace carom

@@ -21,6 +21,7 @@ inline Collidables run_of_bodies(const Collidables& bodies, size_t first, size_t
   run.position.radius = further(bodies.position.radius, first * bodies.position.radius_stride);
   run.orientation.data = further(bodies.orientation.data, first * bodies.orientation.stride);
   if (bodies.kind) run.kind += first;
+  if (bodies.dops) run.dops += first;
   if (bodies.box_slot) {
     run.box_slot += first;
   } else {

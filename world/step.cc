@@ -39,6 +39,7 @@ const StepReport& World::State::step() {
   const Parallelism parallelism = settings.parallelism;
   report = {.step = report.step + 1, .search = {}};
   last_stage_end = std::chrono::steady_clock::now();
+  bodies.find_geometries();
 
   const bool still = is_still();
   if (still) {

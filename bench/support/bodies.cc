@@ -165,6 +165,15 @@ void DenseBodies::store_rows(std::span<const PlacedShape> bodies) {
   }
   view_.orientation.data = orientations_.data();
   view_.rows.data = rows_.front().data();
+  if (view_.uniform_kind == ShapeKind::dop) store_geometries(bodies);
+}
+
+void DenseBodies::store_geometries(std::span<const PlacedShape> bodies) {
+  for (const PlacedShape& body : bodies) {
+    dop_geometries_.push_back(dop_geometry(std::get<Dop>(body.shape)));
+    dops_.push_back(dop_geometries_.back().get());
+  }
+  view_.dops = dops_.data();
 }
 
 }  // namespace carom::bench

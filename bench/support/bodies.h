@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -57,12 +58,15 @@ class DenseBodies {
   void store_records(std::span<const PlacedShape> bodies, std::vector<T>& records);
   void store_boxes(std::span<const PlacedShape> bodies);
   void store_rows(std::span<const PlacedShape> bodies);
+  void store_geometries(std::span<const PlacedShape> bodies);
 
   std::vector<float> records32_;
   std::vector<double> records64_;
   std::vector<float> boxes_;  // six columns
   std::vector<float> orientations_;
   std::vector<std::array<float, 4>> rows_;
+  std::vector<std::shared_ptr<const DopGeometry>> dop_geometries_;
+  std::vector<const DopGeometry*> dops_;
   Collidables view_;
 };
 

@@ -100,8 +100,9 @@ struct Viewer {
     Faces faces;
     for (const DopFace& face : polytope.faces()) {
       Json outline = Json::array();
-      for (const DopCorner& corner : face.corners) {
-        outline.push_back(faces.add_point(corner.point[0], corner.point[1], corner.point[2]));
+      for (const DopCorner& corner : polytope.corners(face)) {
+        const Double3 point = polytope.point(corner.point);
+        outline.push_back(faces.add_point(point[0], point[1], point[2]));
       }
       if (outline.size() > 2) faces.add_face(std::move(outline));
     }

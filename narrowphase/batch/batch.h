@@ -26,6 +26,7 @@ struct BatchSide {
   const uint32_t* box_slot = nullptr;  // nullptr: the body's own index
   OrientationView orientation;
   ShapeRows rows;
+  const DopGeometry* const* dops = nullptr;
 };
 
 // What one run of a batch does. Every pass takes all pairs of the batch.

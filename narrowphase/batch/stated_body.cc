@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "narrowphase/scalar/shapes.h"
+#include "shapes/dop_geometry.h"
 
 namespace carom {
 
@@ -17,6 +18,8 @@ Shape shape_of(const BodyReader& body, size_t index) {
     case ShapeKind::aabb:
       return Aabb{{body.lower(0, index), body.lower(1, index), body.lower(2, index)},
                   {body.upper(0, index), body.upper(1, index), body.upper(2, index)}};
+    case ShapeKind::dop:
+      return read_dop(body, index);
     default:
       return shape_from_rows(body.kind(index), body.rows(index).data());
   }

@@ -15,6 +15,7 @@ struct StatedBody {
 // An upper bound of the coordinates of a shape, in metres, within a factor of two.
 double size_of(const Shape& shape);
 
+// It does not own its geometry.
 Shape shape_of(const BodyReader& body, size_t index);
 StatedBody stated_body(const BodyReader& body, size_t index);
 

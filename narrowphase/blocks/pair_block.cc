@@ -32,7 +32,8 @@ OrientationView orientation_of(const Collidables& bodies) {
 
 BatchSide side_of(const Collidables& bodies) {
   return {bodies.position.data, bodies.position.stride, bodies.boxes,
-          bodies.box_slot,      orientation_of(bodies), bodies.rows};
+          bodies.box_slot,      orientation_of(bodies), bodies.rows,
+          bodies.dops};
 }
 
 // (0, 0), (1, 1), ...: the list of pairs for a batch whose row i is bodies i and i.
@@ -49,6 +50,7 @@ struct PackedSide {
   std::array<uint32_t, kPairsPerBlock> box_slot;
   std::array<Row, kPairsPerBlock> orientation;
   std::array<uint32_t, kPairsPerBlock> first_row;
+  std::array<const DopGeometry*, kPairsPerBlock> dop;
 
   void put(size_t row, const Collidables& bodies, uint32_t index) {
     const BodyReader reader{bodies};
@@ -59,6 +61,7 @@ struct PackedSide {
     if (row_count(kind) == 0) return;
     orientation[row] = reader.orientation(index);
     first_row[row] = static_cast<uint32_t>(reader.first_row(index));
+    dop[row] = reader.dop_geometry(index);
   }
 
   BatchSide side(const Collidables& bodies) const {
@@ -67,7 +70,8 @@ struct PackedSide {
             bodies.boxes,
             box_slot.data(),
             {orientation[0].data(), sizeof(Row)},
-            {bodies.rows.data, first_row.data()}};
+            {bodies.rows.data, first_row.data()},
+            dop.data()};
   }
 };
 

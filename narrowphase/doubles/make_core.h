@@ -81,11 +81,9 @@ inline void make_core(const TriangleShape<double>& triangle, const Quaternion<do
 inline void make_core(const DopShape<double>& dop, const Quaternion<double>& q,
                       const Vector3d& offset, Core& core) {
   const Rotation<double> turn = rotation_of(q);
-  const DopPolytope shape(dop.slabs);
+  const DopCorners corners(dop);
   FewOf<Vector3d, DopPolytope::kMostPoints> points;
-  for (const Double3& p : shape.points()) {
-    points.push_back(rotate(turn, Vector3d(p[0], p[1], p[2])));
-  }
+  for (size_t i = 0; i < corners.size(); ++i) points.push_back(rotate(turn, corners.point(i)));
   make_core_of_points(points, offset, core);
 }
 

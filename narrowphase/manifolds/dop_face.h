@@ -6,7 +6,7 @@
 
 #include "narrowphase/features/segment_scalar.h"
 #include "narrowphase/manifolds/polygon_scalar.h"
-#include "shapes/dop_polytope.h"
+#include "narrowphase/scalar/dop_corners.h"
 
 namespace carom::scalar {
 
@@ -22,7 +22,7 @@ class DopSideFinder {
  public:
   DopSideFinder(const DopShape<float>& dop, const Placed& placed)
       : slabs_(slab_directions(dop.slabs.kind)),
-        polytope_(dop.slabs),
+        corners_(dop),
         placed_(placed),
         same_point_(double{kSameCorner} * dop.greatest) {}
 
@@ -32,18 +32,20 @@ class DopSideFinder {
   FacingSide towards(const Vector3f& m, float depth) const {
     const Vector3f along = rotate_back(placed_.turn, m);
     double most = -HUGE_VAL;
-    for (const Double3& point : polytope_.points()) most = std::max(most, height(along, point));
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      most = std::max(most, height(along, corners_.point(i)));
+    }
     const double least = most - same_point_, touching = most - std::max(same_point_, double{depth});
     const auto count_above = [&](const Corners& corners, double limit) {
       return std::count_if(corners.begin(), corners.end(),
-                           [&](const Double3& x) { return height(along, x) >= limit; });
+                           [&](const Vector3d& x) { return height(along, x) >= limit; });
     };
     using Rank = std::pair<size_t, bool>;  // number of corners; two of them touch
     Corners best;
     Rank best_rank{};
     size_t plane = 0;
     float nearest = 0;
-    for (const DopFace& face : polytope_.faces()) {
+    for (const DopFace& face : corners_.polytope().faces()) {
       const Corners corners = distinct_corners(face);
       if (count_above(corners, least) == 0) continue;
       const Rank rank{std::min<size_t>(corners.size(), 3), count_above(corners, touching) >= 2};
@@ -58,20 +60,21 @@ class DopSideFinder {
   }
 
  private:
-  using Corners = FewOf<Double3, DopFace::kMostCorners>;
+  using Corners = FewOf<Vector3d, DopFace::kMostCorners>;
 
-  static double height(const Vector3f& way, const Double3& x) {
+  static double height(const Vector3f& way, const Vector3d& x) {
     return (way.x() * x[0] + way.y() * x[1]) + way.z() * x[2];
   }
 
   Corners distinct_corners(const DopFace& face) const {
     Corners distinct;
-    const auto is_far = [&](const Double3& a, const Double3& b) {
-      return greatest(minus(a, b)) > same_point_;
+    const auto is_far = [&](const Vector3d& a, const Vector3d& b) {
+      return largest_component<double>(a - b) > same_point_;
     };
-    for (const DopCorner& corner : face.corners) {
-      if (distinct.empty() || is_far(corner.point, distinct[distinct.size() - 1])) {
-        distinct.push_back(corner.point);
+    for (const DopCorner& corner : corners_.polytope().corners(face)) {
+      const Vector3d point = corners_.point(corner.point);
+      if (distinct.empty() || is_far(point, distinct[distinct.size() - 1])) {
+        distinct.push_back(point);
       }
     }
     const bool closes = distinct.size() > 1 && !is_far(distinct[0], distinct[distinct.size() - 1]);
@@ -89,16 +92,13 @@ class DopSideFinder {
     return normal * (1 / std::sqrt(dot(normal, normal)));
   }
 
-  Vector3f placed(const Double3& x) const {
-    return rotate(placed_.turn, rounded(x)) + placed_.origin;
-  }
-  static Vector3f rounded(const Double3& x) {
-    return {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
+  Vector3f placed(const Vector3d& x) const {
+    return rotate(placed_.turn, Vector3f(x.cast<float>())) + placed_.origin;
   }
 
   FacingSide side_of(size_t plane, const Corners& corners) const {
     FacingSide side;
-    for (const Double3& corner : corners) side.corners.push_back(placed(corner));
+    for (const Vector3d& corner : corners) side.corners.push_back(placed(corner));
     FaceFrame& frame = side.face.frame;
     frame = {side.corners[0], Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero(), 0};
     if (corners.size() < 3) return side;
@@ -106,15 +106,15 @@ class DopSideFinder {
     frame.n = rotate(placed_.turn, n);
     frame.u = rotate(placed_.turn, u);
     frame.v = rotate(placed_.turn, v);
-    for (const Double3& corner : corners) {
-      const Vector3f r = rounded(minus(corner, corners[0]));
+    for (const Vector3d& corner : corners) {
+      const Vector3f r = Vector3d(corner - corners[0]).cast<float>();
       side.face.points.push_back({dot(u, r), dot(v, r)});
     }
     return side;
   }
 
   const std::span<const std::array<int8_t, 3>> slabs_;
-  const DopPolytope polytope_;
+  const DopCorners corners_;
   const Placed& placed_;
   const double same_point_;
 };

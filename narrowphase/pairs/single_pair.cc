@@ -108,6 +108,7 @@ Collidables view_of(const BatchSide& side, PositionLayout layout, ShapeKind kind
   view.box_slot = side.box_slot;
   view.orientation = side.orientation;
   view.rows = side.rows;
+  view.dops = side.dops;
   return view;
 }
 

@@ -7,9 +7,9 @@
 
 #include "base/few_of.h"
 #include "base/tolerances.h"
+#include "narrowphase/scalar/dop_corners.h"
 #include "narrowphase/scalar/one_sided_rules.h"
 #include "narrowphase/scalar/shapes.h"
-#include "shapes/dop_polytope.h"
 
 namespace carom::scalar {
 
@@ -190,27 +190,28 @@ class DopAxes {
 
 inline Polytope polytope_of(const DopShape<double>& dop, const Quaternion<double>& q) {
   const Rotation<double> turn = rotation_of(q);
-  const auto placed = [&](const Double3& x) { return rotate(turn, Vector3d(x[0], x[1], x[2])); };
-  const DopPolytope shape(dop.slabs);
+  const DopCorners corners(dop);
+  const DopPolytope& shape = corners.polytope();
   DopAxes directions(dop.slabs.kind, turn);
   Polytope p;
   Vector3d sum = Vector3d::Zero();
-  for (const Double3& point : shape.points()) {
-    p.points.push_back(placed(point));
-    sum += p.points[p.points.size() - 1];
+  for (size_t i = 0; i < corners.size(); ++i) {
+    p.points.push_back(rotate(turn, corners.point(i)));
+    sum += p.points[i];
   }
   for (const DopEdge& edge : shape.edges()) {
-    p.edges.push_back({placed(edge.start), directions.edge(edge.planes, p)});
+    p.edges.push_back({p.points[edge.start], directions.edge(edge.planes, p)});
   }
   p.middle = sum / static_cast<double>(p.points.size());
   p.inner_radius = HUGE_VAL;
   unsigned known_slabs = 0;
   for (const DopFace& face : shape.faces()) {
     const Vector3d normal = directions.normal(face.plane);
-    const double depth = dot(normal, Vector3d(placed(face.corners[0].point) - p.middle));
+    const Vector3d& corner = p.points[shape.corners(face)[0].point];
+    const double depth = dot(normal, Vector3d(corner - p.middle));
     p.inner_radius = min(p.inner_radius, max(depth, 0.0));
     const unsigned slab = 1u << slab_of_plane(face.plane);
-    if (face.corners.size() < 3 || (known_slabs & slab)) continue;
+    if (face.count < 3 || (known_slabs & slab)) continue;
     p.normals.push_back(normal);
     known_slabs |= slab;
   }

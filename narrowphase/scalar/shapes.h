@@ -6,7 +6,7 @@
 
 #include "carom/shapes/shape.h"
 #include "narrowphase/scalar/vector.h"
-#include "shapes/dop_polytope.h"
+#include "shapes/dop_geometry.h"
 
 namespace carom::scalar {
 
@@ -50,7 +50,9 @@ struct BoxShape {
 template <class Real>
 struct DopShape {
   DopSlabs slabs;
-  double greatest;  // of all coordinates
+  double greatest;                        // of all coordinates
+  const DopGeometry* geometry = nullptr;  // if it is known, in its own unit
+  double scale = 1;                       // of the slabs : those of the geometry
 
   Real size() const { return static_cast<Real>(greatest); }
   DopShape scaled(Real s) const {
@@ -58,6 +60,7 @@ struct DopShape {
     for (double& end : result.slabs.lower) end *= s;
     for (double& end : result.slabs.upper) end *= s;
     result.greatest *= s;
+    result.scale *= s;
     return result;
   }
 };
@@ -133,7 +136,8 @@ BoxShape<Real> shape_as(const carom::Box& box) {
 template <class Real>
 DopShape<Real> shape_as(const Dop& dop) {
   const DopSlabs slabs(dop);
-  return {slabs, slabs.with_tight_axes().size()};
+  const DopGeometry* geometry = known_geometry(dop);
+  return {slabs, geometry ? geometry->size() : slabs.with_tight_axes().size(), geometry};
 }
 template <class Real>
 HullShape<Real> shape_as(const Hull& hull) {

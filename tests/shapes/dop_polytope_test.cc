@@ -32,8 +32,14 @@ Dop even_dop(DopKind kind, double scale) {
 
 size_t area_faces(const DopPolytope& polytope) {
   size_t count = 0;
-  for (const DopFace& face : polytope.faces()) count += face.corners.size() >= 3;
+  for (const DopFace& face : polytope.faces()) count += face.count >= 3;
   return count;
+}
+
+std::vector<Double3> points_of(const DopPolytope& polytope) {
+  std::vector<Double3> points;
+  for (size_t i = 0; i < polytope.point_count(); ++i) points.push_back(polytope.point(i));
+  return points;
 }
 
 // The counts fit Euler's formula, and are the greatest possible ones.
@@ -44,7 +50,7 @@ TEST(DopPolytope, OfEvenSlabs) {
     for (const double scale : {1e-30, 1.0, 1e18}) {
       const DopPolytope polytope{DopSlabs(even_dop(kKinds[i], scale))};
       SCOPED_TRACE(static_cast<int>(kKinds[i]));
-      EXPECT_EQ(polytope.points().size(), expected[i][0]);
+      EXPECT_EQ(polytope.point_count(), expected[i][0]);
       EXPECT_EQ(polytope.edges().size(), expected[i][1]);
       EXPECT_EQ(area_faces(polytope), expected[i][2]);
     }
@@ -60,12 +66,12 @@ void expect_tight(const Dop& dop) {
   const DopPolytope polytope{DopSlabs(dop)};
   ASSERT_FALSE(polytope.is_empty());
   double size = 0;
-  for (const Double3& x : polytope.points()) size = std::max(size, greatest(x));
+  for (const Double3& x : points_of(polytope)) size = std::max(size, greatest(x));
   // The only difference is the rounding of the slabs to floats.
   const double rounding = size * 0x1p-21;
   for (size_t i = 0; i < slab_count(dop.kind); ++i) {
     double lower = HUGE_VAL, upper = -HUGE_VAL;
-    for (const Double3& x : polytope.points()) {
+    for (const Double3& x : points_of(polytope)) {
       lower = std::min(lower, along(slab_directions(dop.kind)[i], x));
       upper = std::max(upper, along(slab_directions(dop.kind)[i], x));
     }
@@ -103,19 +109,21 @@ TEST(DopPolytope, EdgesAndFacesFitTogether) {
     };
     std::set<std::pair<int, int>> known;
     for (const DopEdge& edge : polytope.edges()) {
-      EXPECT_NEAR(height(edge.planes[0], edge.start), 0, 1e-13);
-      EXPECT_NEAR(height(edge.planes[1], edge.start), 0, 1e-13);
+      EXPECT_NEAR(height(edge.planes[0], polytope.point(edge.start)), 0, 1e-13);
+      EXPECT_NEAR(height(edge.planes[1], polytope.point(edge.start)), 0, 1e-13);
       EXPECT_TRUE(known.insert(std::minmax<int>(edge.planes[0], edge.planes[1])).second);
     }
     for (const DopFace& face : polytope.faces()) {
       const auto& d = slab_directions(kind)[slab_of_plane(face.plane)];
       const Eigen::Vector3d normal = Eigen::Vector3d(d[0], d[1], d[2]) * sign_of_plane(face.plane);
       Eigen::Vector3d area = Eigen::Vector3d::Zero();
-      for (size_t i = 0; i < face.corners.size(); ++i) {
-        const auto& next = face.corners[(i + 1) % face.corners.size()];
-        area += Eigen::Map<const Eigen::Vector3d>(face.corners[i].point.data())
-                    .cross(Eigen::Map<const Eigen::Vector3d>(next.point.data()));
-        EXPECT_NEAR(height(face.plane, face.corners[i].point), 0, 1e-13);
+      const auto corners = polytope.corners(face);
+      for (size_t i = 0; i < corners.size(); ++i) {
+        const Double3 corner = polytope.point(corners[i].point);
+        const Double3 next = polytope.point(corners[(i + 1) % corners.size()].point);
+        area += Eigen::Map<const Eigen::Vector3d>(corner.data())
+                    .cross(Eigen::Map<const Eigen::Vector3d>(next.data()));
+        EXPECT_NEAR(height(face.plane, corner), 0, 1e-13);
       }
       EXPECT_GE(area.dot(normal), -1e-12);
     }
@@ -126,7 +134,7 @@ TEST(DopPolytope, OfRedundantSlabs) {
   Dop dop = even_dop(DopKind::k26, 1);
   for (size_t i = 3; i < 13; ++i) dop.upper[i] = -(dop.lower[i] = -100);
   const DopPolytope cube{DopSlabs(dop)};
-  EXPECT_EQ(cube.points().size(), 8u);
+  EXPECT_EQ(cube.point_count(), 8u);
   EXPECT_EQ(cube.edges().size(), 12u);
   EXPECT_EQ(area_faces(cube), 6u);
 }
@@ -139,7 +147,7 @@ TEST(DopPolytope, OfFarOffSlabs) {
     const DopPolytope octahedron{DopSlabs(dop)};
     EXPECT_EQ(octahedron.edges().size(), 12u);
     EXPECT_EQ(area_faces(octahedron), 8u);
-    for (const Double3& x : octahedron.points()) EXPECT_NEAR(greatest(x), 3, 1e-12);
+    for (const Double3& x : points_of(octahedron)) EXPECT_NEAR(greatest(x), 3, 1e-12);
     EXPECT_EQ(DopSlabs(dop).with_tight_axes().size(), 3);
   }
 }
@@ -148,7 +156,7 @@ TEST(DopPolytope, OfFlatSlabs) {
   for (const DopKind kind : kKinds) {
     Points square = {{1, 1, 2}, {-1, 1, 2}, {-1, -1, 2}, {1, -1, 2}};
     const DopPolytope flat{DopSlabs(Dop::of_points(square, kind))};
-    for (const Double3& x : flat.points()) EXPECT_EQ(x[2], 2);
+    for (const Double3& x : points_of(flat)) EXPECT_EQ(x[2], 2);
     EXPECT_EQ(area_faces(flat), 2u);
     const Points segment = {{1, 1, 2}, {-1, 1, 2}};
     const DopPolytope line{DopSlabs(Dop::of_points(segment, kind))};
@@ -157,7 +165,7 @@ TEST(DopPolytope, OfFlatSlabs) {
     const Points point = {{1, 1, 2}};
     const DopPolytope nothing{DopSlabs(Dop::of_points(point, kind))};
     EXPECT_EQ(nothing.edges().size(), 0u);
-    for (const Double3& x : nothing.points()) EXPECT_EQ(x, (Double3{1, 1, 2}));
+    for (const Double3& x : points_of(nothing)) EXPECT_EQ(x, (Double3{1, 1, 2}));
   }
 }
 
@@ -185,7 +193,7 @@ TEST(DopPolytope, OfAnySinglePoint) {
       const Dop dop = Dop::of_points(point, kind);
       EXPECT_TRUE(is_valid_dop(dop));
       const DopPolytope polytope{DopSlabs(dop)};
-      for (const Double3& x : polytope.points()) {
+      for (const Double3& x : points_of(polytope)) {
         const double off = greatest(minus(x, {point[0].x(), point[0].y(), point[0].z()}));
         EXPECT_LE(off, 0x1p-21 * size);
       }

@@ -31,6 +31,7 @@ void expect_same_body(const Collidables& run, size_t i, const Collidables& all, 
     }
   } else {
     EXPECT_EQ(here.orientation(i), there.orientation(body));
+    EXPECT_EQ(here.dop_geometry(i), there.dop_geometry(body));
     for (size_t k = 0; k < row_count(kind); ++k) {
       EXPECT_EQ(bits_of(here.row(i, k)), bits_of(there.row(body, k)));
     }

@@ -138,11 +138,25 @@ LaidOutRows::LaidOutRows(std::span<const PlacedShape> bodies, RowOrder order, bo
       rows_.set(places_[i] + k, rows[k]);
     }
   }
+  if (order != RowOrder::dense) find_geometries(bodies);
+}
+
+void LaidOutRows::find_geometries(std::span<const PlacedShape> bodies) {
+  dops_.resize(bodies.size());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const Dop* dop = std::get_if<Dop>(&bodies[i].shape);
+    if (!dop) continue;
+    geometries_.push_back(dop_geometry(*dop));
+    const size_t count = geometries_.size();
+    if (count % 3 == 1) dops_[i] = geometries_.back().get();
+    if (count % 3 == 2) dops_[i] = geometries_[count - 2].get();
+  }
 }
 
 void LaidOutRows::add_to(Collidables& view) const {
   view.rows.data = rows_.as<float>();
   if (is_first_given_) view.rows.first = first_.as<uint32_t>();
+  if (!dops_.empty()) view.dops = dops_.data();
 }
 
 std::vector<uint32_t> LaidOutRows::places(std::span<const PlacedShape> bodies, RowOrder order) {

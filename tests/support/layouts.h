@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <string>
@@ -121,6 +122,8 @@ class LaidOutRows {
 
   static std::string bytes_of(const Shape& shape);
 
+  void find_geometries(std::span<const PlacedShape> bodies);
+
   static size_t rows_in(std::span<const PlacedShape> bodies, const std::vector<uint32_t>& places);
 
   bool is_first_given_;
@@ -128,6 +131,10 @@ class LaidOutRows {
   GuardedArray rows_;
   GuardedArray first_;
   std::vector<Shape> alive_;  // owns the geometries whose addresses are in the rows
+
+  // Unless rows are dense: of every third k-DOP, and of another k-DOP for every third.
+  std::vector<std::shared_ptr<const DopGeometry>> geometries_;
+  std::vector<const DopGeometry*> dops_;
 };
 
 class LaidOut {

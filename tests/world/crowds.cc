@@ -41,7 +41,9 @@ Shape random_shape(ShapeKind kind, Random& random) {
       constexpr DopKind kKinds[] = {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26};
       std::vector<Eigen::Vector3f> points(6);
       for (Eigen::Vector3f& p : points) p = random_corner(random);
-      return Dop::of_points(points, kKinds[random.below(4)]);
+      Dop dop = Dop::of_points(points, kKinds[random.below(4)]);
+      dop.geometry = dop_geometry(dop);  // the reference would find it anew for every pair
+      return dop;
     }
     case ShapeKind::halfspace:
       return Halfspace{random.direction().cast<float>() * size(), size() - 0.5f};

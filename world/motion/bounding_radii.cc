@@ -10,7 +10,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/body_reader.h"
-#include "shapes/dop_polytope.h"
+#include "shapes/dop_geometry.h"
 #include "shapes/turn.h"
 #include "world/store/row_blocks.h"
 
@@ -28,12 +28,13 @@ double aabb_reach(const BodyReader& reader, size_t i) {
   return length(furthest);
 }
 
-double dop_reach(const Dop& dop) {
-  const DopSlabs slabs(dop);
-  const DopPolytope polytope(slabs);
+double dop_reach(const DopGeometry& geometry) {
+  const DopPolytope& polytope = geometry.polytope();
   double reach = 0;
-  for (const Double3& point : polytope.points()) reach = std::max(reach, length(point));
-  return reach + kDopRounding * slabs.with_tight_axes().size();
+  for (size_t i = 0; i < polytope.point_count(); ++i) {
+    reach = std::max(reach, length(polytope.point(i)));
+  }
+  return reach + kDopRounding * geometry.size();
 }
 
 double hull_reach(const HullGeometry& hull) {
@@ -63,8 +64,6 @@ double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
       return corner(0);
     case ShapeKind::triangle:
       return std::max({corner(0), corner(1), corner(2)}) + rows[0][3];
-    case ShapeKind::dop:
-      return dop_reach(std::get<Dop>(shape_from_rows(kind, rows.data())));
     case ShapeKind::hull:
       return hull_reach(*geometry_at<HullGeometry>(rows[0]));
     case ShapeKind::mesh:
@@ -93,7 +92,9 @@ float bounding_radius(const BodyReader& reader, size_t i) {
     return std::isfinite(reach) ? round_upwards(reach) : 0;
   }
   const std::array<Row, kMostRows> rows = reader.rows(i);
-  return are_valid_rows(kind, rows.data()) ? round_upwards(rows_reach(kind, rows)) : 0;
+  if (!are_valid_rows(kind, rows.data(), reader.dop_geometry(i))) return 0;
+  return round_upwards(kind == ShapeKind::dop ? with_geometry(read_dop(reader, i), dop_reach)
+                                              : rows_reach(kind, rows));
 }
 
 void BoundingRadii::update(const BodyStore& bodies, const ChangeTracker* changes,

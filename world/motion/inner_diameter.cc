@@ -89,7 +89,8 @@ double inner_diameter(const BodyReader& reader, size_t i) {
                       {reader.upper(0, i), reader.upper(1, i), reader.upper(2, i)});
   }
   const std::array<Row, kMostRows> rows = reader.rows(i);
-  return are_valid_rows(kind, rows.data()) ? diameter(kind, rows.data()) : 0;
+  const bool is_valid = are_valid_rows(kind, rows.data(), reader.dop_geometry(i));
+  return is_valid ? diameter(kind, rows.data()) : 0;
 }
 
 }  // namespace carom

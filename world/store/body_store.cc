@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "shapes/dop_geometry.h"
+
 namespace carom {
 namespace {
 
@@ -69,6 +71,7 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   optional(self.contact_distance_, 0.0f);
   optional(self.user_, uint64_t{0});
   optional(self.geometry_, std::shared_ptr<const void>());
+  optional(self.dop_, static_cast<const DopGeometry*>(nullptr));
 }
 
 void BodyStore::add_row() {
@@ -120,6 +123,7 @@ void BodyStore::remove(BodyId id) {
   count_kind(index, -1);
   change_kind(index, ShapeKind::sphere);
   if (!geometry_.empty()) geometry_[index].reset();
+  if (!dop_.empty()) dop_[index] = nullptr;
   ++generation_[index];
   any_removed_ = true;
   alive_.release(index);
@@ -191,6 +195,7 @@ Shape BodyStore::shape(uint32_t index) const {
   const ShapeKind kind = kind_[index];
   if (kind == ShapeKind::sphere) return Sphere{radius(index)};
   if (has_geometry(kind)) return owning_shape(kind, geometry_[index]);
+  if (kind == ShapeKind::dop) return owning_dop(index);
   if (kind != ShapeKind::aabb) return shape_from_rows(kind, &rows_[first_row_[index]]);
   const BoxRecord& box = boxes_[box_slot_[index]];
   return Aabb{{box.lower[0], box.lower[1], box.lower[2]},
@@ -223,11 +228,39 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
 
 // Releases the geometry of the last shape.
 void BodyStore::store_geometry(uint32_t index, const Shape& shape) {
+  if (const Dop* dop = std::get_if<Dop>(&shape)) return set_dop_geometry(index, *dop);
+  if (!dop_.empty()) dop_[index] = nullptr;
   if (geometry_.empty()) {
     if (!has_geometry(kind_of(shape))) return;
     geometry_.resize(rows());
   }
   geometry_[index] = geometry_of(shape);
+}
+
+void BodyStore::set_dop_geometry(uint32_t index, const Dop& dop) {
+  const std::shared_ptr<const DopGeometry> geometry = dop_geometries_.find(dop);
+  if (geometry_.empty()) geometry_.resize(rows());
+  if (dop_.empty()) dop_.resize(rows());
+  geometry_[index] = geometry;
+  dop_[index] = geometry.get();
+}
+
+bool BodyStore::knows_geometry(uint32_t index) const {
+  return dop_[index] && dop_[index]->is_of(&rows_[first_row_[index]]);
+}
+
+void BodyStore::find_geometries() {
+  if (!shares_shape_rows_ || !has_kind(ShapeKind::dop)) return;
+  for (uint32_t i = 0; i < rows(); ++i) {
+    if (kind_[i] != ShapeKind::dop || knows_geometry(i)) continue;
+    set_dop_geometry(i, std::get<Dop>(shape_from_rows(kind_[i], &rows_[first_row_[i]])));
+  }
+}
+
+Dop BodyStore::owning_dop(uint32_t index) const {
+  Dop dop = std::get<Dop>(shape_from_rows(ShapeKind::dop, &rows_[first_row_[index]]));
+  if (knows_geometry(index)) dop.geometry = geometry_as<DopGeometry>(geometry_[index]);
+  return dop;
 }
 
 // Releases what the last kind needed, and takes what this one needs.
@@ -397,6 +430,7 @@ Collidables BodyStore::view() const {
   if (!orientation_.empty()) view.orientation.data = orientation_.front().data();
   if (!rows_.empty()) view.rows.data = rows_.front().data();
   view.rows.first = data_or_null(first_row_);
+  view.dops = data_or_null(dop_);
   return view;
 }
 
@@ -412,7 +446,7 @@ PairFilter BodyStore::filter() const {
 size_t BodyStore::bytes() const {
   size_t sum = alive_.bytes() + slots_.bytes() + row_pool_.bytes() + bytes_of(rows_) +
                bytes_of(boxes_) + bytes_of(halfspaces_) + bytes_of(touched_) +
-               bytes_of(touched_indices_);
+               bytes_of(touched_indices_) + dop_geometries_.bytes();
   for_each_column(*this, [&](const auto& column, auto...) { sum += bytes_of(column); });
   return sum;
 }

@@ -11,6 +11,7 @@
 #include "carom/broadphase/find_pairs.h"
 #include "carom/shapes/body.h"
 #include "carom/shapes/views.h"
+#include "world/store/dop_geometries.h"
 #include "world/store/index_pool.h"
 #include "world/store/row_pool.h"
 
@@ -89,6 +90,8 @@ class BodyStore {
   bool shares_shape_rows() const { return shares_shape_rows_; }
   std::span<Row> shape_rows() { return {rows_.data(), row_pool_.end()}; }
   std::span<const Row> shape_rows() const { return {rows_.data(), row_pool_.end()}; }
+  // Finds the geometry of k-DOPs whose rows a caller wrote.
+  void find_geometries();
   std::span<Eigen::Vector3f> linear_velocities();
   bool has_velocities() const { return has_velocities_; }
   std::span<Eigen::Vector3f> angular_velocities();
@@ -139,6 +142,9 @@ class BodyStore {
   void store_shape(uint32_t index, const Shape& shape);
   void store_box(uint32_t index, const Aabb& box);
   void store_geometry(uint32_t index, const Shape& shape);
+  void set_dop_geometry(uint32_t index, const Dop& dop);
+  bool knows_geometry(uint32_t index) const;
+  Dop owning_dop(uint32_t index) const;
   void take_box(uint32_t index);
   void release_box(uint32_t index);
   void add_halfspace(uint32_t index);
@@ -181,6 +187,9 @@ class BodyStore {
 
   // Keeps the geometries alive whose addresses are in the rows. Empty until there is one.
   std::vector<std::shared_ptr<const void>> geometry_;
+  // Those of k-DOPs. Empty until there is one; nullptr for other kinds.
+  std::vector<const DopGeometry*> dop_;
+  DopGeometries dop_geometries_;
 
   // These are empty while every body has the default.
   std::vector<Motion> motion_;

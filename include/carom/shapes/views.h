@@ -115,6 +115,10 @@ struct Collidables {
   const uint32_t* box_slot = nullptr;  ///< row of `boxes` of each aabb; nullptr: the body's index
   OrientationView orientation;         ///< of all kinds but spheres and aabbs
   ShapeRows rows;  ///< of all kinds but spheres and aabbs; bodies of several kinds need rows.first
+  /// The geometry of each k-DOP (dop_geometry()), one entry a body: nullptr for other kinds, and
+  /// allowed for any. Where it is missing, or found from other slabs than the body has, it is found
+  /// anew at every use.
+  const DopGeometry* const* dops = nullptr;
 };
 
 /// Spheres in records of x, y, z, radius (float32, world frame, metres), `stride` bytes apart.

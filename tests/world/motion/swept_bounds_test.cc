@@ -87,7 +87,10 @@ Skeleton skeleton_of(const Shape& shape) {
   if (const auto* s = std::get_if<Compound>(&shape)) return skeleton_of(*s);
   Skeleton skeleton;
   const DopPolytope polytope(DopSlabs(std::get<Dop>(shape)));
-  for (const Double3& p : polytope.points()) skeleton.points.emplace_back(p[0], p[1], p[2]);
+  for (size_t i = 0; i < polytope.point_count(); ++i) {
+    const Double3 p = polytope.point(i);
+    skeleton.points.emplace_back(p[0], p[1], p[2]);
+  }
   return skeleton;
 }
 

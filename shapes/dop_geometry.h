@@ -1,0 +1,46 @@
+// What a k-DOP's slabs imply, found once and kept with the shape.
+#pragma once
+
+#include "carom/shapes/dop.h"
+#include "shapes/body_reader.h"
+#include "shapes/dop_polytope.h"
+
+namespace carom {
+
+class DopGeometry {
+ public:
+  // The k-DOP is valid.
+  explicit DopGeometry(const Dop& dop);
+
+  // Whether it was found from these slabs, bit for bit.
+  bool is_of(const Dop& dop) const { return is_of(shape_rows(dop).data()); }
+  // The same for row_count(ShapeKind::dop) rows.
+  bool is_of(const Row* rows) const { return std::memcmp(rows, rows_.data(), sizeof rows_) == 0; }
+
+  // The greatest absolute coordinate in the first three slabs, once they are tight.
+  double size() const { return size_; }
+  const DopPolytope& polytope() const { return polytope_; }
+
+  size_t bytes() const { return sizeof(*this) + polytope_.bytes(); }
+
+ private:
+  std::array<Row, row_count(ShapeKind::dop)> rows_;
+  double size_;
+  DopPolytope polytope_;
+};
+
+// The geometry of the k-DOP if it was found from its slabs; else nullptr.
+const DopGeometry* known_geometry(const Dop& dop);
+
+// use(geometry): the one that is known, or one that is found for this call.
+template <class Use>
+auto with_geometry(const Dop& dop, const Use& use) {
+  const DopGeometry* known = known_geometry(dop);
+  return known ? use(*known) : use(DopGeometry(dop));
+}
+
+// The k-DOP of body i. It does not own its geometry, which is nullptr unless `reader` has one that
+// was found from the slabs of now.
+Dop read_dop(const BodyReader& reader, size_t i);
+
+}  // namespace carom
