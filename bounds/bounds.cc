@@ -10,6 +10,7 @@
 
 #include "bounds/bounds_columns.h"
 #include "bounds/bounds_load-inl.h"
+#include "bounds/point_extents-inl.h"
 #include "carom/bounds/bounds.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -93,6 +94,12 @@ size_t bounds_at(const Positions& positions, const BodyReader& reader, const Bou
   }
   if (bodies.uniform_kind == ShapeKind::capsule) {
     return bounds_of(positions, TurnedExtents<CapsuleReach>{reader}, out, begin, end);
+  }
+  if (bodies.uniform_kind == ShapeKind::hull) {
+    return bounds_of(positions, PointExtents<HullCorners>{reader}, out, begin, end);
+  }
+  if (bodies.uniform_kind == ShapeKind::dop) {
+    return bounds_of(positions, PointExtents<DopCorners>{reader}, out, begin, end);
   }
   return bounds_of(positions, MixedExtents(reader), out, begin, end);
 }

@@ -225,6 +225,17 @@ inline void load_singly(const BodyReader& reader, size_t first, F3& lower, F3& u
   upper = {load_scalars(corners[3]), load_scalars(corners[4]), load_scalars(corners[5])};
 }
 
+// The orientations of bodies i, i + 1, ...
+HWY_INLINE Quaternion load_orientations(const Collidables& bodies, size_t i) {
+  Quaternion q = {splat3(0), splat(1)};
+  if (bodies.orientation.data) {
+    const char* first = reinterpret_cast<const char*>(bodies.orientation.data);
+    const size_t stride = bodies.orientation.stride;
+    transpose_records(ConsecutiveRecords{first + i * stride, stride}, q.v, q.w);
+  }
+  return q;
+}
+
 // Boxes alone, or capsules alone.
 template <class Shape>
 struct TurnedExtents {
@@ -249,12 +260,7 @@ struct TurnedExtents {
   HWY_INLINE void load(size_t i, F, F3& lower, F3& upper) const {
     const Collidables& bodies = reader.bodies;
     const Shape shape([&](size_t k) HWY_ATTR { return Rows{bodies.rows, i, k}; });
-    Quaternion q = {splat3(0), splat(1)};
-    if (bodies.orientation.data) {
-      const char* first = reinterpret_cast<const char*>(bodies.orientation.data);
-      const size_t stride = bodies.orientation.stride;
-      transpose_records(ConsecutiveRecords{first + i * stride, stride}, q.v, q.w);
-    }
+    const Quaternion q = load_orientations(bodies, i);
     if (!turned_extents(shape, q, lower, upper)) load_singly(reader, i, lower, upper);
   }
 };

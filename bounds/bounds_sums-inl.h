@@ -23,6 +23,7 @@ struct Wide {
 };
 
 HWY_INLINE Wide load_wide(const double* from) { return {hn::LoadU(DoubleTag(), from)}; }
+HWY_INLINE void store_wide(const Wide& v, double* to) { hn::StoreU(v.all, DoubleTag(), to); }
 // A cast instead of Highway's DemoteTo, which saturates on this target only.
 HWY_INLINE Half demote(D v) { return splat(static_cast<float>(hn::GetLane(v))); }
 HWY_INLINE F demote(const Wide& v) { return demote(v.all); }
@@ -45,6 +46,10 @@ struct Wide {
 
 HWY_INLINE Wide load_wide(const double* from) {
   return {hn::LoadU(DoubleTag(), from), hn::LoadU(DoubleTag(), from + kLanes / 2)};
+}
+HWY_INLINE void store_wide(const Wide& v, double* to) {
+  hn::StoreU(v.low, DoubleTag(), to);
+  hn::StoreU(v.high, DoubleTag(), to + kLanes / 2);
 }
 // Rounds to the nearest float, and to infinity beyond their range.
 HWY_INLINE Half demote(D v) { return hn::DemoteTo(HalfTag(), v); }

@@ -119,13 +119,17 @@ HWY_INLINE F downwards(const Wide& v) {
   return neighbour<-1>(rounded, hn::Lt(error, splat(0)));
 }
 
+// Whether q is surely a rotation. The others are read one at a time.
+HWY_INLINE Mask is_plain(const Quaternion& q) {
+  const F norm = hn::Add(dot(q.v, q.v), hn::Mul(q.w, q.w));
+  return hn::And(hn::Gt(norm, splat(0)), hn::Le(norm, splat(FLT_MAX)));
+}
+
 // The extents of turned shapes. Returns false if a lane may not be valid; the extents are then not
 // written.
 template <class Shape>
 HWY_INLINE bool turned_extents(const Shape& shape, const Quaternion& q, F3& lower, F3& upper) {
-  const F norm = hn::Add(dot(q.v, q.v), hn::Mul(q.w, q.w));
-  const Mask plain =
-      hn::And(hn::And(hn::Gt(norm, splat(0)), hn::Le(norm, splat(FLT_MAX))), shape.is_valid());
+  const Mask plain = hn::And(is_plain(q), shape.is_valid());
   if (HWY_UNLIKELY(!hn::AllTrue(FloatTag(), plain))) return false;
   Wide low[3], high[3];  // the negative of the upper ends
   for_each_half([&](const auto& wide, const auto& half_of) HWY_ATTR {

@@ -15,7 +15,8 @@ class DopGeometry {
   // Whether it was found from these slabs, bit for bit.
   bool is_of(const Dop& dop) const { return is_of(shape_rows(dop).data()); }
   // The same for row_count(ShapeKind::dop) rows.
-  bool is_of(const Row* rows) const { return std::memcmp(rows, rows_.data(), sizeof rows_) == 0; }
+  bool is_of(const Row* rows) const { return is_of(rows->data()); }
+  bool is_of(const float* rows) const { return std::memcmp(rows, rows_.data(), sizeof rows_) == 0; }
 
   // The greatest absolute coordinate in the first three slabs, once they are tight.
   double size() const { return size_; }

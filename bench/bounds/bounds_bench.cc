@@ -25,9 +25,12 @@ struct SetSpec {
 
 std::vector<PlacedShape> draw_bodies(const SetSpec& spec) {
   oracle::Random random(1);
+  std::vector<Hull> hulls;
+  if (spec.kind == ShapeKind::hull) hulls = draw_hulls(kHulls, 16, random);
   std::vector<PlacedShape> bodies;
   for (size_t i = 0; i < kBodies; ++i) {
-    bodies.push_back(as_stored(draw_body(spec.kind, random), spec.storage));
+    bodies.push_back(as_stored(draw_body(spec.kind, random, hulls), spec.storage));
+    if (spec.kind == ShapeKind::dop) bodies[i].shape = bodies[i % kHulls].shape;
   }
   return bodies;
 }
@@ -112,8 +115,9 @@ void register_set(const SetSpec& spec) {
 }  // namespace
 
 void register_bounds() {
-  for (const ShapeKind kind : {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
-                               ShapeKind::box, ShapeKind::triangle, ShapeKind::dop}) {
+  for (const ShapeKind kind :
+       {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb, ShapeKind::box, ShapeKind::triangle,
+        ShapeKind::dop, ShapeKind::hull}) {
     for (const Storage storage : {Storage::f32, Storage::f64}) register_set({kind, storage});
   }
 }

@@ -40,7 +40,9 @@ Triangle draw_triangle(oracle::Random& random) {
 Dop draw_dop(oracle::Random& random) {
   std::vector<Eigen::Vector3f> points(24);
   for (Eigen::Vector3f& p : points) p = draw_size(random) * random.direction().cast<float>();
-  return Dop::of_points(points, DopKind::k26);
+  Dop dop = Dop::of_points(points, DopKind::k26);
+  dop.geometry = dop_geometry(dop);
+  return dop;
 }
 
 Hull draw_hull(size_t vertices, oracle::Random& random) {
@@ -170,7 +172,7 @@ void DenseBodies::store_rows(std::span<const PlacedShape> bodies) {
 
 void DenseBodies::store_geometries(std::span<const PlacedShape> bodies) {
   for (const PlacedShape& body : bodies) {
-    dop_geometries_.push_back(dop_geometry(std::get<Dop>(body.shape)));
+    dop_geometries_.push_back(std::get<Dop>(body.shape).geometry);
     dops_.push_back(dop_geometries_.back().get());
   }
   view_.dops = dops_.data();

@@ -1,5 +1,5 @@
-// World bounds of capsules, boxes, k-DOPs, triangles and half-spaces: they have the bits of the
-// reference on every ISA, alone and mixed with spheres and aabbs. tests/reference tests the
+// World bounds of capsules, boxes, k-DOPs, hulls, triangles and half-spaces: they have the bits of
+// the reference on every ISA, alone and mixed with spheres and aabbs. tests/reference tests the
 // reference itself.
 #include <gtest/gtest.h>
 
@@ -18,7 +18,8 @@ namespace {
 
 using Bodies = std::vector<PlacedShape>;
 
-constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule, ShapeKind::box, ShapeKind::dop,
+constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule,  ShapeKind::box,
+                                       ShapeKind::dop,      ShapeKind::hull,
                                        ShapeKind::triangle, ShapeKind::halfspace};
 
 // Half of the bodies come from the family, the others have random bits.
@@ -133,6 +134,28 @@ TEST(KindsBounds, OfAnyCount) {
         }
       });
     }
+  }
+}
+
+// Bodies of one kind whose corners are known are computed in lanes.
+TEST(KindsBounds, OfDopsWithTheirCorners) {
+  for (const PositionType positions : kPositionTypes) {
+    Bodies bodies;
+    for (const ConvexFamily& family : convex_families()) {
+      for (PlacedShape& body : make_kind(family, ShapeKind::dop, positions, 12)) {
+        Dop& dop = std::get<Dop>(body.shape);
+        dop.geometry = dop_geometry(dop);
+        if (dop.geometry) bodies.push_back(body);
+      }
+    }
+    ASSERT_GT(bodies.size(), 100u);
+    for_each_isa([&] {
+      for (const Layout& layout : layouts(positions)) expect_reference_bounds(bodies, layout);
+      for (size_t count = 0; count <= 35; ++count) {
+        expect_reference_bounds({bodies.begin(), bodies.begin() + static_cast<ptrdiff_t>(count)},
+                                {.positions = positions});
+      }
+    });
   }
 }
 

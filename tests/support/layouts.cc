@@ -138,14 +138,16 @@ LaidOutRows::LaidOutRows(std::span<const PlacedShape> bodies, RowOrder order, bo
       rows_.set(places_[i] + k, rows[k]);
     }
   }
-  if (order != RowOrder::dense) find_geometries(bodies);
+  find_geometries(bodies, order);
 }
 
-void LaidOutRows::find_geometries(std::span<const PlacedShape> bodies) {
+void LaidOutRows::find_geometries(std::span<const PlacedShape> bodies, RowOrder order) {
   dops_.resize(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
     const Dop* dop = std::get_if<Dop>(&bodies[i].shape);
-    if (!dop) continue;
+    if (dop && dop->geometry) alive_.emplace_back(*dop);
+    if (dop) dops_[i] = dop->geometry.get();
+    if (!dop || dop->geometry || order == RowOrder::dense) continue;
     geometries_.push_back(dop_geometry(*dop));
     const size_t count = geometries_.size();
     if (count % 3 == 1) dops_[i] = geometries_.back().get();

@@ -122,7 +122,7 @@ class LaidOutRows {
 
   static std::string bytes_of(const Shape& shape);
 
-  void find_geometries(std::span<const PlacedShape> bodies);
+  void find_geometries(std::span<const PlacedShape> bodies, RowOrder order);
 
   static size_t rows_in(std::span<const PlacedShape> bodies, const std::vector<uint32_t>& places);
 
@@ -132,7 +132,8 @@ class LaidOutRows {
   GuardedArray first_;
   std::vector<Shape> alive_;  // owns the geometries whose addresses are in the rows
 
-  // Unless rows are dense: of every third k-DOP, and of another k-DOP for every third.
+  // Those of the shapes; unless rows are dense, of k-DOPs without one every third has its own, and
+  // every third that of another k-DOP.
   std::vector<std::shared_ptr<const DopGeometry>> geometries_;
   std::vector<const DopGeometry*> dops_;
 };
