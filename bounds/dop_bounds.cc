@@ -169,12 +169,9 @@ HWY_INLINE Meets meet(const float* a, const float* b) {
 template <size_t kFours>
 size_t find_overlaps(const float* records, const Pair* pairs, size_t count, uint8_t* overlap) {
   const EndTag tag;
-  constexpr size_t kSize = 8 * kFours, kPairsAhead = 16;
+  constexpr size_t kSize = 8 * kFours;
   size_t sum = 0;
   for (size_t i = 0; i < count; ++i) {
-    const float* ahead = records + pairs[std::min(i + kPairsAhead, count - 1)].b * kSize;
-    hwy::Prefetch(ahead);
-    if constexpr (kFours > 1) hwy::Prefetch(ahead + kSize - 1);
     const float* a = records + pairs[i].a * kSize;
     const float* b = records + pairs[i].b * kSize;
     Meets all = meet(a, b);
