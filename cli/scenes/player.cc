@@ -25,13 +25,6 @@ void write(const std::vector<float>& rows, std::span<Eigen::Vector3f> vectors) {
   }
 }
 
-// Whether orientations matter: spheres and aabbs ignore them.
-bool reads_orientations(const io::SceneInfo& info, const std::vector<Shape>& shapes) {
-  return info.has_orientation &&
-         std::any_of(info.body_shape.begin(), info.body_shape.end(),
-                     [&](uint32_t shape) { return row_count(kind_of(shapes[shape])) > 0; });
-}
-
 std::vector<Pair> sorted_pairs(const std::vector<std::array<uint32_t, 2>>& rows) {
   std::vector<Pair> pairs;
   pairs.reserve(rows.size());
@@ -46,12 +39,25 @@ Player::Player(const io::SceneInfo& info, std::vector<Shape> shapes)
     : info_(&info),
       shapes_(std::move(shapes)),
       excluded_(sorted_pairs(info.excluded_pairs)),
-      oriented_(reads_orientations(*info_, shapes_)) {}
+      oriented_(reads_orientations()) {}
 
 Result<Player> Player::create(const io::SceneInfo& info, const std::string& source) {
+  const std::vector<uint8_t>& kinds = info.shapes.kind;
+  if (std::all_of(kinds.begin(), kinds.end(), is_its_parameters)) return Player(info, {});
   Result<std::vector<Shape>> shapes = convert_shapes(info.shapes, source);
   if (!shapes) return shapes.error();
   return Player(info, std::move(*shapes));
+}
+
+Shape Player::scene_shape(size_t index) const {
+  return shapes_.empty() ? *convert_simple_shape(info_->shapes, index) : shapes_[index];
+}
+
+// Whether orientations matter: spheres and aabbs ignore them.
+bool Player::reads_orientations() const {
+  return info_->has_orientation &&
+         std::any_of(info_->body_shape.begin(), info_->body_shape.end(),
+                     [&](uint32_t shape) { return row_count(kind_of(scene_shape(shape))) > 0; });
 }
 
 PositionType Player::positions() const {
@@ -61,7 +67,9 @@ PositionType Player::positions() const {
 BodiesOfKind Player::bodies_of_kind() const {
   BodiesOfKind bodies{};
   if (info_->bounds_recording) bodies[static_cast<size_t>(ShapeKind::aabb)] = info_->bodies;
-  for (uint32_t shape : info_->body_shape) ++bodies[static_cast<size_t>(kind_of(shapes_[shape]))];
+  for (const uint32_t shape : info_->body_shape) {
+    ++bodies[static_cast<size_t>(kind_of(scene_shape(shape)))];
+  }
   return bodies;
 }
 
@@ -72,7 +80,7 @@ io::SceneArrays Player::wanted(Detail detail, bool looks_ahead) const {
 }
 
 Shape Player::shape(const io::SceneFrame& frame, size_t index) const {
-  if (!info_->bounds_recording) return shapes_[info_->body_shape[index]];
+  if (!info_->bounds_recording) return scene_shape(info_->body_shape[index]);
   const float* box = &frame.boxes[io::kFloatsPerBox * index];
   return Aabb{{box[0], box[1], box[2]}, {box[4], box[5], box[6]}};
 }

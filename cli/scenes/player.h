@@ -39,13 +39,15 @@ class Player {
  private:
   Player(const io::SceneInfo& info, std::vector<Shape> shapes);
 
+  Shape scene_shape(size_t index) const;
+  bool reads_orientations() const;
   Shape shape(const io::SceneFrame& frame, size_t index) const;
   void write_boxes(const io::SceneFrame& frame, World& world) const;
   void write_orientations(const io::SceneFrame& frame, World& world) const;
   void write_velocities(const io::SceneFrame& frame, World& world) const;
 
   const io::SceneInfo* info_;
-  std::vector<Shape> shapes_;
+  std::vector<Shape> shapes_;  // empty if the parameters in `info` say all of every shape
   std::vector<Pair> excluded_;
   bool oriented_;  // the scene has orientations and some body's kind reads them
 };

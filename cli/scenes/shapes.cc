@@ -1,7 +1,9 @@
 #include "cli/scenes/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 #include "carom/hulls/build_hull.h"
@@ -98,6 +100,13 @@ Error shape_error(const std::string& source, size_t index, const Error& what) {
 }
 
 }  // namespace
+
+bool is_its_parameters(uint8_t kind) {
+  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
+                                  ShapeKind::box, ShapeKind::halfspace};
+  return std::find(std::begin(kKinds), std::end(kKinds), static_cast<ShapeKind>(kind)) !=
+         std::end(kKinds);
+}
 
 Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) {
   const std::array<float, 8>& params = shapes.params[index];

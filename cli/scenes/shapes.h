@@ -17,6 +17,10 @@ namespace carom::cli {
 // children), unknown dops, and compounds with half-spaces.
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes, const std::string& source);
 
+// Whether the parameters of a shape of this kind say all of it, so that converting it is cheap and
+// never fails.
+bool is_its_parameters(uint8_t kind);
+
 // Converts one shape of any kind except compound. The error names the cause: "a hull without
 // vertices".
 Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index);
