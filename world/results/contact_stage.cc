@@ -325,6 +325,7 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
           // Bodies lie anywhere; the contacts themselves are in the cache.
           const Contact& ahead = contacts[std::min(i + kContactsAhead, end - 1)];
           __builtin_prefetch(&linear[ahead.b]);
+          if (!angular.empty()) __builtin_prefetch(&angular[ahead.b]);
           Contact& c = contacts[i];
           const Vector3f v = velocity(c.b, c.arm_b) - velocity(c.a, c.arm_a);
           c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();

@@ -73,6 +73,31 @@ TEST(KindsBits, EqualReferenceForAnyInput) {
   }
 }
 
+void keep_corners(Shape& shape) {
+  if (Dop* dop = std::get_if<Dop>(&shape)) dop->geometry = dop_geometry(*dop);
+}
+
+// Corners that are kept are those that the reference finds in the unit of each test.
+TEST(KindsBits, DopsWithTheirCorners) {
+  size_t kept = 0;
+  for (const ConvexFamily& family : convex_families_to_the_limits()) {
+    for (const KindPair& kinds : supported_kind_pairs()) {
+      if (kinds.a != ShapeKind::dop && kinds.b != ShapeKind::dop) continue;
+      SCOPED_TRACE(std::string(family.name) + ", " + name(kinds));
+      std::vector<TestPair> pairs = make_kind_pairs(family, kinds, PositionType::float32, 6);
+      const auto results = reference_results(pairs, PositionType::float32);
+      for (TestPair& pair : pairs) {
+        keep_corners(pair.a.shape);
+        keep_corners(pair.b.shape);
+        const Dop* dop = std::get_if<Dop>(&pair.a.shape);
+        kept += dop && dop->geometry;
+      }
+      expect_reference_bits(pairs, results, call_with(PositionType::float32));
+    }
+  }
+  EXPECT_GT(kept, 500u);
+}
+
 // Found by kinds_fuzz: a quaternion of ordinary length with a tiny component was scaled, and lost
 // bits of it, because its neighbour in the vector needed scaling.
 TEST(KindsBits, OrientationsAreScaledEachByItself) {
