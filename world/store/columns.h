@@ -11,7 +11,7 @@ namespace carom {
 
 template <class T, class Allocator>
 size_t bytes_of(const std::vector<T, Allocator>& column) {
-  return column.capacity() * sizeof(T);
+  return column.capacity() * sizeof(T);  // NOLINT(bugprone-sizeof-expression): T may be a pointer
 }
 
 template <class T, class Allocator>
