@@ -9,6 +9,7 @@
 #include "carom/broadphase/find_pairs.h"
 #include "tests/support/boxes.h"
 #include "tests/support/isas.h"
+#include "tests/support/rounds.h"
 
 namespace carom::test {
 namespace {
@@ -170,7 +171,7 @@ TEST(ExcludedPairs, AnywhereInTheList) {
   expect_without({});
   expect_without(all);
   for (const size_t at : {0, 1, 4095, 4096, 4097, 8191, 8192, 11174}) expect_without({all[at]});
-  for (int round = 0; round < 200; ++round) {
+  for (uint32_t round = 0; round < rounds(200, 40); ++round) {
     const double share = random.uniform(0, 1);
     const size_t run = 1 + random.below(round % 2 ? 3000 : 3);
     std::vector<Pair> excluded;

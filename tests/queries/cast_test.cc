@@ -5,9 +5,11 @@
 
 #include <cfloat>
 #include <numeric>
+#include <span>
 
 #include "carom/base/thread_arena.h"
 #include "tests/support/cast_checks.h"
+#include "tests/support/rounds.h"
 
 namespace carom::test {
 namespace {
@@ -211,10 +213,12 @@ TEST(Cast, IsTheSameOnThreadsAndInAnyOrder) {
   std::vector<PlacedShape> queries = make_bodies(spec, 6);
   Sweeps sweeps = make_sweeps(queries.size(), 10, false, 7);
   const LaidOut a(queries, {}), b(bodies, {});
-  for (const CastHits which : {CastHits::all, CastHits::closest}) {
+  constexpr CastHits kWhich[] = {CastHits::all, CastHits::closest};
+  constexpr int kThreadCounts[] = {4, 2, 1};
+  for (const CastHits which : std::span(kWhich).first(rounds(2))) {
     const std::vector<CastHit> expected = cast_all(a.view(), sweeps.view(), b.view(), which);
     EXPECT_GT(expected.size(), 500u);
-    for (const int threads : {1, 2, 4}) {
+    for (const int threads : std::span(kThreadCounts).first(rounds(3))) {
       ThreadArena arena(threads);
       arena.run([&] {
         EXPECT_TRUE(bits_of(cast_all(a.view(), sweeps.view(), b.view(), which,

@@ -8,6 +8,7 @@
 #include "carom/results/result_arrays.h"
 #include "carom/results/result_row.h"
 #include "tests/support/cast_checks.h"
+#include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -111,6 +112,7 @@ std::vector<NamedFilter> filters_to_try() {
       }
     }
   }
+  filters.resize(rounds(static_cast<uint32_t>(filters.size()), 10));
   return filters;
 }
 

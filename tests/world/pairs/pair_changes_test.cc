@@ -69,7 +69,7 @@ void run_history(const WorldSettings& settings, const CrowdSpec& spec) {
 }
 
 TEST(PairChanges, MatchSetsOfPairs) {
-  for (uint64_t seed = 1; seed <= rounds(90, 15); ++seed) {
+  for (uint64_t seed = 1; seed <= rounds(90, 8); ++seed) {
     WorldSettings settings{.pair_changes = true};
     settings.detail = seed % 3 == 0 ? Detail::contact : Detail::pairs;
     settings.events = seed % 2 == 0;

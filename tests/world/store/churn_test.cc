@@ -7,6 +7,7 @@
 
 #include "tests/support/composites.h"
 #include "tests/support/pairs.h"
+#include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
 #include "world/store/index_pool.h"
 
@@ -77,7 +78,7 @@ TEST(Churn, AWorldGrowsAndShrinksInBatches) {
     std::vector<BodyId> living, dead;
     for (int round = 0; round < 2; ++round) {
       std::vector<BodyDesc> batch;
-      while (living.size() < 200000) {
+      while (living.size() < rounds(200000, 50000)) {
         batch.clear();
         for (size_t i = random.below(20000); i > 0; --i) batch.push_back(any_body(i));
         world.add(batch, living);
