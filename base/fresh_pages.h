@@ -37,7 +37,7 @@ void resize_for_overwriting(std::vector<T, Allocator>& list, size_t count) {
   if (list.capacity() < count) {
     list.clear();
     list.reserve(count + count / 8);
-    // The other allocators have done so.
+    // Allocators of our own have prepared the pages.
     if constexpr (std::is_same_v<Allocator, std::allocator<T>>) {
       prepare_pages(list.data(), list.capacity() * sizeof(T));
     }

@@ -21,9 +21,9 @@ namespace {
 constexpr size_t kRowsPerBlock = 256;
 constexpr size_t kSpacesPerBlock = 16;
 
-// Up to this many boxes, testing all pairs is as fast as sorting,
+// Up to this many boxes, testing all pairs is as fast as sorting.
 constexpr size_t kBruteForceLimit = 128;
-// and up to this many a sweep along one axis is as fast as cells.
+// Up to this many boxes, a sweep along one axis is as fast as cells.
 constexpr size_t kSweepLimit = 350;
 // One thread finishes this many before others have woken up.
 constexpr size_t kSerialLimit = 2048;
@@ -171,7 +171,8 @@ struct PairFinder::State {
                      const std::span<const uint32_t>* listed, bool must, Parallelism parallelism,
                      std::vector<Pair>& out, PairSearch& search) {
     using Outcome = RestingBoxes::Outcome;
-    constexpr double kRestless = 0.2;  // below the share of moving boxes that RestingBoxes bears
+    // RestingBoxes gives up where a quarter of the boxes move. This is less.
+    constexpr double kRestless = 0.2;
     const double most_crowded = must ? std::numeric_limits<double>::infinity() : kMostCrowded;
     const RestingBoxes::Workspace work = {cells,      found,        sorter,        scratch,
                                           most_pairs, most_crowded, order_of_pairs};

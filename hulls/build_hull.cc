@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/float_environment.h"
 #include "hulls/facets.h"
 #include "hulls/merge_facets.h"
 #include "hulls/outline.h"
@@ -148,6 +149,7 @@ const char* name(HullForm form) {
 }
 
 Result<BuiltHull> build_hull(std::span<const Eigen::Vector3f> points) {
+  const FloatEnvironment environment;
   if (points.empty()) return Error{"a hull without points"};
   for (size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;

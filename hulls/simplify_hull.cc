@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/float_environment.h"
 #include "carom/hulls/build_hull.h"
 #include "hulls/inside.h"
 #include "hulls/outside.h"
@@ -94,6 +95,7 @@ namespace carom {
 
 Result<SimplifiedHull> simplify_hull(std::span<const Eigen::Vector3f> points,
                                      const SimplifyOptions& options) {
+  const FloatEnvironment environment;
   if (options.most_points < 4) {
     return Error{"a simpler hull needs at least 4 points, not " +
                  std::to_string(options.most_points)};

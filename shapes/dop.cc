@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/float_environment.h"
+
 namespace carom {
 namespace {
 
@@ -38,6 +40,7 @@ std::span<const Direction> slab_directions(DopKind kind) {
 }
 
 Dop Dop::of_points(std::span<const Eigen::Vector3f> points, DopKind kind) {
+  const FloatEnvironment environment;
   Dop dop{.kind = kind};
   if (points.empty()) return dop;
   const std::span<const Direction> directions = slab_directions(kind);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/float_environment.h"
+
 namespace carom {
 
 DopGeometry::DopGeometry(const Dop& dop)
@@ -12,6 +14,7 @@ DopGeometry::DopGeometry(const Dop& dop)
 }
 
 std::shared_ptr<const DopGeometry> dop_geometry(const Dop& dop) {
+  const FloatEnvironment environment;
   if (known_geometry(dop)) return dop.geometry;
   return is_valid_dop(dop) ? std::make_shared<const DopGeometry>(dop) : nullptr;
 }

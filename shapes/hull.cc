@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/float_environment.h"
 #include "shapes/hull_features.h"
 
 namespace carom {
@@ -38,6 +39,7 @@ Eigen::Vector3d mean_of(std::span<const Eigen::Vector3f> points) {
 
 Result<std::shared_ptr<const HullGeometry>> make_hull(
     std::span<const Eigen::Vector3f> points, std::span<const std::vector<uint32_t>> faces) {
+  const FloatEnvironment environment;
   if (points.empty()) return Error{"a hull without points"};
   auto hull = std::make_shared<HullGeometry>();
   for (size_t i = 0; i < points.size(); ++i) {

@@ -11,14 +11,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-struct Mask3 {
-  Mask x, y, z;
+template <class V>
+struct Mask3Of {
+  MaskOf<V> x, y, z;
 };
+using Mask3 = Mask3Of<F>;
 
 // Exactly one of the three is set in every lane.
+template <class V>
+using AxisMasksOf = Mask3Of<V>;
 using AxisMasks = Mask3;
 
-HWY_INLINE F3 select(const Mask3& mask, const F3& yes, const F3& no) {
+template <class V>
+HWY_INLINE Lanes3<V> select(const Mask3Of<V>& mask, const Lanes3<V>& yes, const Lanes3<V>& no) {
   return {hn::IfThenElse(mask.x, yes.x, no.x), hn::IfThenElse(mask.y, yes.y, no.y),
           hn::IfThenElse(mask.z, yes.z, no.z)};
 }
@@ -38,7 +43,8 @@ HWY_INLINE AxisMasks greatest_axis(const F3& v) {
   return first_of(hn::And(hn::Ge(v.x, v.y), hn::Ge(v.x, v.z)), hn::Ge(v.y, v.z));
 }
 
-HWY_INLINE F pick(const AxisMasks& axis, const F3& v) {
+template <class V>
+HWY_INLINE V pick(const AxisMasksOf<V>& axis, const Lanes3<V>& v) {
   return hn::IfThenElse(axis.x, v.x, hn::IfThenElse(axis.y, v.y, v.z));
 }
 

@@ -38,6 +38,14 @@ inline constexpr size_t kDoubleLanes = HWY_LANES(double);
 
 HWY_INLINE D splat_double(double value) { return hn::Set(DoubleTag(), value); }
 
+// For code that runs in lanes of floats or of doubles.
+template <class V>
+using MaskOf = hn::Mask<hn::DFromV<V>>;
+template <class V>
+HWY_INLINE V splat_as(hn::TFromV<V> value) {
+  return hn::Set(hn::DFromV<V>(), value);
+}
+
 // a < b ? a : b and a > b ? a : b, to the bit: the second operand if the two are equal (+0 and -0).
 // Highway's own Min and Max do that on x86 only.
 template <class V>
@@ -69,6 +77,10 @@ struct Lanes3 {
 using F3 = Lanes3<F>;
 using D3 = Lanes3<D>;
 
+template <class V>
+HWY_INLINE Lanes3<V> splat3_as(hn::TFromV<V> value) {
+  return {splat_as<V>(value), splat_as<V>(value), splat_as<V>(value)};
+}
 HWY_INLINE F3 splat3(float value) { return {splat(value), splat(value), splat(value)}; }
 
 template <class V>

@@ -23,7 +23,10 @@ HWY_INLINE Lanes3<V> cross(const Lanes3<V>& a, const Lanes3<V>& b) {
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
-HWY_INLINE F3 negate_if(Mask mask, const F3& v) { return select(mask, -v, v); }
+template <class V>
+HWY_INLINE Lanes3<V> negate_if(MaskOf<V> mask, const Lanes3<V>& v) {
+  return select(mask, -v, v);
+}
 
 template <class V>
 HWY_INLINE V clamp(V v, V low, V high) {

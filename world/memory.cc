@@ -43,6 +43,7 @@ void World::State::give_back_memory() {
   impacts.give_back();
   speculative.give_back();
   event_stage.give_back();
+  contact_stage.give_back();
   give_back_scratch(last, plan, results, sieve, selection, finder);
 }
 

@@ -21,7 +21,7 @@ class QueryIndex {
     if (step_.load(std::memory_order_acquire) == step) return index_;
     const std::lock_guard lock(mutex_);
     if (step_.load(std::memory_order_relaxed) != step) {
-      index_.update(bodies, bounds, motion, halfspaces, parallelism);
+      update(bodies, bounds, motion, halfspaces, parallelism);
       step_.store(step, std::memory_order_release);
     }
     return index_;
@@ -41,6 +41,17 @@ class QueryIndex {
 
  private:
   static constexpr uint64_t kNever = ~uint64_t{0};
+
+  // An index that is half made is of no use: the next query begins anew.
+  void update(const Collidables& bodies, const BoundsView& bounds, const Motion* motion,
+              std::span<const WorldHalfspace> halfspaces, Parallelism parallelism) {
+    try {
+      index_.update(bodies, bounds, motion, halfspaces, parallelism);
+    } catch (...) {
+      index_ = {};
+      throw;
+    }
+  }
 
   mutable std::mutex mutex_;
   BodyIndex index_;

@@ -76,6 +76,17 @@ const StepReport& World::State::step() {
   return report;
 }
 
+std::unique_ptr<World::State> World::State::without_results(State& broken) {
+  broken.bodies.touch_all();
+  auto state = std::make_unique<State>(broken.settings);
+  state->bodies = std::move(broken.bodies);
+  state->excluded = std::move(broken.excluded);
+  state->predicate = std::move(broken.predicate);
+  state->predicate_changed = true;
+  state->report.step = broken.report.step;
+  return state;
+}
+
 // Whether the step repeats the last one.
 bool World::State::is_still() {
   const bool compares = compares_bodies();

@@ -97,6 +97,7 @@ Shape World::shape(BodyId id) const {
 }
 
 void World::set_shape(BodyId id, const Shape& shape) {
+  const FloatEnvironment environment;
   assert(contains(id));
   state_->bodies.set_shape(id.index, shape);
 }
@@ -261,7 +262,16 @@ void World::set_dt(double dt) {
   state_->settings.dt = dt;
 }
 
-const StepReport& World::step() { return state_->step(); }
+const StepReport& World::step() {
+  if (state_->is_broken) state_ = State::without_results(*state_);
+  try {
+    return state_->step();
+  } catch (...) {
+    state_->is_broken = true;
+    state_ = State::without_results(*state_);
+    throw;
+  }
+}
 
 std::span<const Pair> World::pairs() const { return state_->now.pairs; }
 std::span<const uint8_t> World::overlaps() const { return state_->now.overlaps; }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct World::State {
   explicit State(const WorldSettings& chosen) : settings(chosen), bodies(chosen.positions) {}
 
   const StepReport& step();
+  // The bodies, exclusions and predicate of a world whose step has thrown, as if the bodies had
+  // just been added. If this throws as well, `broken` is as it was.
+  static std::unique_ptr<State> without_results(State& broken);
   BoundsView bounds_view() const { return bounds.view(); }
   WorldMemory memory() const;
   void give_back_memory();
@@ -53,6 +57,7 @@ struct World::State {
   ExcludedPairs excluded;
   PairPredicate predicate;
   bool predicate_changed = false;  // since the last step
+  bool is_broken = false;          // a step has thrown
   StepReport report;
 
   HalfspaceStage halfspaces;

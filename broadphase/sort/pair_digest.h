@@ -44,8 +44,8 @@ class PairDigest {
   }
 
   std::vector<uint64_t> words_;
-  uint64_t words_per_body_ = 0;  // of all bodies up to the last that is first in a pair; in 2^-32
-  uint32_t words_of_body_ = 1;   // of them, those that one body may use
+  uint64_t words_per_body_ = 0;  // from the start of one body's words to the next; in 2^-32
+  uint32_t words_of_body_ = 1;   // the pairs of one body fall into so many
 };
 
 }  // namespace carom

@@ -240,8 +240,8 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   }
   Result<ForcedIsa> isa = ForcedIsa::create(options.engine.isa);
   if (!isa) return isa.error();
-  Result<void> apart =
-      check_apart(std::array<OutputFile, 2>{{{"--json", options.json}, {"-o", options.output}}});
+  Result<void> apart = check_apart(std::array<NamedFile, 3>{
+      {{"the file of pairs", options.input}, {"--json", options.json}, {"-o", options.output}}});
   if (!apart) return apart.error();
   Result<JsonOutput> json = JsonOutput::open(options.json);
   if (!json) return json.error();

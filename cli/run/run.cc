@@ -54,8 +54,10 @@ struct Outputs {
 };
 
 Result<Outputs> open_outputs(const RunOptions& options) {
-  Result<void> apart = check_apart(std::array<OutputFile, 3>{
-      {{"--json", options.json}, {"--pairs-out", options.pairs_out}, {"--page", options.page}}});
+  Result<void> apart = check_apart(std::array<NamedFile, 4>{{{"the scene", options.scene},
+                                                             {"--json", options.json},
+                                                             {"--pairs-out", options.pairs_out},
+                                                             {"--page", options.page}}});
   if (!apart) return apart.error();
   Outputs outputs;
   Result<JsonOutput> json = JsonOutput::open(options.json);

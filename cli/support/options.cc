@@ -27,8 +27,8 @@ std::filesystem::path canonical(const std::string& path) {
   return error ? absolute : resolved;
 }
 
-bool names_file(const OutputFile& output) {
-  return !output.name.empty() && !(output.option == "--json" && output.name == "-");
+bool names_file(const NamedFile& file) {
+  return !file.name.empty() && !(file.option == "--json" && file.name == "-");
 }
 
 Error unknown(const std::string& what, const std::string& text, const std::string& available) {
@@ -201,12 +201,12 @@ Result<ForcedIsa> ForcedIsa::create(const std::string& name) {
   return ForcedIsa(*isa && force_isa(**isa));
 }
 
-Result<void> check_apart(std::span<const OutputFile> outputs) {
-  for (size_t i = 0; i < outputs.size(); ++i) {
-    for (const OutputFile& other : outputs.subspan(i + 1)) {
-      if (!names_file(outputs[i]) || !names_file(other)) continue;
-      if (canonical(outputs[i].name) != canonical(other.name)) continue;
-      return Error{outputs[i].option + " and " + other.option + " name the same file"};
+Result<void> check_apart(std::span<const NamedFile> files) {
+  for (size_t i = 0; i < files.size(); ++i) {
+    for (const NamedFile& other : files.subspan(i + 1)) {
+      if (!names_file(files[i]) || !names_file(other)) continue;
+      if (canonical(files[i].name) != canonical(other.name)) continue;
+      return Error{files[i].option + " and " + other.option + " name the same file"};
     }
   }
   return {};

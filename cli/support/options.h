@@ -68,12 +68,13 @@ struct NamedDetail {
 // message.
 Result<Detail> parse_detail(const std::string& text, std::span<const NamedDetail> known);
 
-struct OutputFile {
+struct NamedFile {
   std::string option;
   std::string name;  // empty: not given
 };
-// Refuses outputs that name the same file, however they are spelled. "-" of --json is not a file.
-Result<void> check_apart(std::span<const OutputFile> outputs);
+// Refuses an input and outputs, or two outputs, that name the same file, however they are spelled.
+// "-" of --json is not a file.
+Result<void> check_apart(std::span<const NamedFile> files);
 
 // Fails if CAROM_ISA is unusable; the library ignores that silently.
 Result<void> check_isa_variable();

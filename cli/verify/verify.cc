@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/scenes/scene_source.h"
@@ -75,6 +78,9 @@ class Verification {
   // Prints the findings and returns the exit code.
   int finish() const {
     if (rows_ > 0) table_.print(console_.out);
+    for (const auto& [what, sources] : compared_) {
+      console_.out << "\nCompared (" << sources << "):\n  " << what << '\n';
+    }
     if (difference_) {
       console_.out << "\n" << difference_->where << '\n' << difference_->text;
       console_.error({"verify: " + difference_->where});
@@ -97,12 +103,12 @@ class Verification {
       console_.error(outcome.error());
       return false;
     }
+    note_compared(outcome->compared, outcome->source);
     for (const VerifyRow& row : outcome->rows) {
       ++rows_;
       table_.add({outcome->source, name(row.engine.isa), std::to_string(row.engine.threads),
-                  "standard", outcome->compared, std::to_string(row.frames),
-                  std::to_string(row.pairs), std::to_string(row.overlaps),
-                  row.differs ? "DIFFERS" : "same bits"});
+                  "standard", std::to_string(row.frames), std::to_string(row.pairs),
+                  std::to_string(row.overlaps), row.differs ? "DIFFERS" : "same bits"});
     }
     if (!outcome->difference) return true;
     difference_ = std::move(outcome->difference);
@@ -110,12 +116,23 @@ class Verification {
     return false;
   }
 
+  // Many sources have the same list.
+  void note_compared(const std::string& what, const std::string& source) {
+    for (auto& [known, sources] : compared_) {
+      if (known != what) continue;
+      sources += ", " + source;
+      return;
+    }
+    compared_.emplace_back(what, source);
+  }
+
   System& system_;
   const VerifyOptions& options_;
   const Console& console_;
   Engines engines_;
-  Table table_{
-      {"source", "ISA", "threads", "tier", "compared", "frames", "pairs", "overlaps", "verdict"}};
+  Table table_{{"source", "ISA", "threads", "tier", "frames", "pairs", "overlaps", "verdict"}};
+  // Each list of what was compared, and of which sources.
+  std::vector<std::pair<std::string, std::string>> compared_;
   size_t rows_ = 0;
   bool failed_ = false;  // a source could not be read
   std::optional<Difference> difference_;

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -74,7 +75,24 @@ void wait_for_creations() {
   for (int i = 0; i < 1000 && creations != 0; ++i) ::nanosleep(&millisecond, nullptr);
 }
 
+// Whether the path is a link into the folders of the system, such as /dev/stdout. Where standard
+// output is a file, such a link leads to a regular one.
+bool links_to_system(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path, error); ++i) {
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
+    path = target.is_absolute() ? target : path.parent_path() / target;
+    const std::string text = path.lexically_normal().string();
+    if (text.starts_with("/proc/") || text.starts_with("/dev/")) return true;
+  }
+  return false;
+}
+
 std::optional<Error> refuse_special_target(const std::string& path) {
+  if (links_to_system(path)) {
+    return file_error(path, "is a link to a device or a stream, so it cannot be replaced");
+  }
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return std::nullopt;  // it does not exist yet
   if (S_ISDIR(status.st_mode)) {

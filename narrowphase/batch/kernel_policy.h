@@ -9,11 +9,12 @@ enum class Units {
   scaled,  // a power of two: the greatest coordinate of the pair lies between one and two
 };
 
-// What the report computes again in double precision, one lane at a time, in unsure lanes.
+// What is computed again in double precision in unsure lanes: one at a time, but for `test`.
 enum class Unsure {
   nothing,     // the kernel is exact near touch
   separation,  // only the separation: the normal is good
   everything,
+  test,  // the decision, and everything of overlapping pairs: Kernel::test_exactly()
   left,  // nothing: the kernel defers its unsure rows to another test
 };
 

@@ -8,6 +8,7 @@
 #endif
 
 #include <limits>
+#include <span>
 
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
@@ -50,7 +51,7 @@ struct LaneReport {
     if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
     unsure = hn::And(unsure, valid);
     if (HWY_UNLIKELY(marks_unsure())) mark_unsure(unsure, answer.separation);
-    if constexpr (Kernel::kUnsure == Unsure::separation || Kernel::kUnsure == Unsure::everything) {
+    if constexpr (Kernel::kUnsure != Unsure::nothing && Kernel::kUnsure != Unsure::left) {
       refine(unsure, answer, overlap, degenerate);
     }
     I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
@@ -147,10 +148,18 @@ struct LaneReport {
         &answer.arm_a.y,    &answer.arm_a.z,  &answer.arm_b.x,  &answer.arm_b.y,  &answer.arm_b.z};
     for (size_t c = 0; c + 1 < kNumbers; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
     hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kNumbers - 1]);
-    for_each_lane(unsure, [&](size_t i) {
-      const std::array<float, kNumbers> exact = exact_answer(source, A::kKind, B::kKind, row + i);
+    const auto put = [&](size_t i, const std::array<float, kNumbers>& exact) {
       for (size_t c = 0; c < kNumbers; ++c) values[c][i] = exact[c];
-    });
+    };
+    if constexpr (Kernel::kUnsure == Unsure::test) {
+      size_t lanes[kLanes];
+      size_t count = 0;
+      for_each_lane(unsure, [&](size_t i) { lanes[count++] = i; });
+      Kernel::test_exactly(source, row, {lanes, count}, put);
+    } else {
+      for_each_lane(unsure,
+                    [&](size_t i) { put(i, exact_answer(source, A::kKind, B::kKind, row + i)); });
+    }
     for (size_t c = 0; c + 1 < kNumbers; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
     degenerate = hn::Ne(hn::Load(FloatTag(), values[kNumbers - 1]), splat(0));
   }

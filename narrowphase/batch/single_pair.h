@@ -33,6 +33,11 @@ float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind
 std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
                                    size_t row);
 
+// As much of that as the test pass needs, of two boxes (B is turned): of separate ones the gap
+// along the best axis and its normal, of overlapping ones the points as well if the batch has
+// contacts.
+std::array<float, 11> exact_box_test(const Batch& batch, ShapeKind kind_a, size_t row);
+
 // Writes the manifold points of row `row`, relative to A, and returns their number. `batch.tested`
 // has the contact. Both bodies are valid.
 uint8_t manifold_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,

@@ -87,7 +87,8 @@ class BlockRunner {
       const PairKindRef kind = find_pair_kind(block_.a.uniform_kind, block_.b.uniform_kind);
       if (layout_ && !kind.flipped && is_complete(block_.out, block_.detail)) {
         run_in_place(kind);
-        return move_points(block_.out, block_.count, [this](size_t row) { return pair(row); });
+        return move_points(kind, block_.out, block_.count,
+                           [this](size_t row) { return pair(row); });
       }
     }
     sort_by_kind();
@@ -103,9 +104,10 @@ class BlockRunner {
 
  private:
   // Kernels find manifolds relative to the bodies, so points in world coordinates are moved
-  // afterwards.
-  bool moves_points() const {
-    return has_manifolds(block_.detail) && block_.frame == WitnessFrame::world;
+  // afterwards. A manifold that is the witness point needs that only where the sides are exchanged.
+  bool moves_points(PairKindRef kind) const {
+    return has_manifolds(block_.detail) && block_.frame == WitnessFrame::world &&
+           (kind.flipped || kPairKinds[kind.index].has_manifold_pass());
   }
 
   static size_t slot(PairKindRef kind) { return size_t{kind.index} * 2 + kind.flipped; }
@@ -124,7 +126,7 @@ class BlockRunner {
     batch.b = side_of(b);
     if (layout_) batch.layout = *layout_;
     batch.detail = block_.detail;
-    batch.frame = moves_points() ? WitnessFrame::body : block_.frame;
+    batch.frame = moves_points(kind) ? WitnessFrame::body : block_.frame;
     return batch;
   }
 
@@ -210,7 +212,7 @@ class BlockRunner {
   void scatter(PairKindRef kind, ResultColumns from, const uint16_t* rows, size_t count) {
     if (has_contacts(block_.detail)) {
       if (kind.flipped) flip(from, rows, count);
-      move_points(from, count, [&](size_t i) { return pair(rows[i]); });
+      move_points(kind, from, count, [&](size_t i) { return pair(rows[i]); });
     }
     copy_rows(from, block_.out, block_.detail, count, [&](size_t i) { return rows[i]; });
   }
@@ -254,8 +256,9 @@ class BlockRunner {
   // Moves points from relative to the bodies to world coordinates, if the caller wants that and the
   // kernels have not done it.
   template <class PairAt>
-  void move_points(const ResultColumns& columns, size_t count, const PairAt& pair_at) const {
-    if (!moves_points()) return;
+  void move_points(PairKindRef kind, const ResultColumns& columns, size_t count,
+                   const PairAt& pair_at) const {
+    if (!moves_points(kind)) return;
     const bool is_float64 = BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64();
     for (size_t i = 0; i < count; ++i) {
       is_float64 ? move_points_of<double>(pair_at(i), columns, i)

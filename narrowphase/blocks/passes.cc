@@ -143,16 +143,17 @@ void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
 // The manifold of a pair that touches is its witness point. Without branches, since half of the
 // pairs may overlap.
 void copy_witnesses(const Batch& batch) {
-  const ResultColumns& out = batch.out;
-  for (size_t row = 0; row < batch.count; ++row) {
-    const bool touch = touches(batch, row);
+  const Batch local = batch;  // see BatchLoop
+  const ResultColumns& out = local.out;
+  for (size_t row = 0; row < local.count; ++row) {
+    const bool touch = touches(local, row);
     const auto if_touch = [=](float x) { return touch ? x : 0; };
-    ManifoldPoints points{};
+    ManifoldPoints& points = out.manifold[row];
+    points = {};
     for (size_t axis = 0; axis < 3; ++axis) {
       points.point[0][axis] = if_touch(out.point_a[axis][row]);
     }
     points.separation[0] = if_touch(out.separation[row]);
-    out.manifold[row] = points;
     out.manifold_count[row] = touch;
   }
 }

@@ -14,38 +14,51 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-HWY_INLINE F3 clamp_to_box(const F3& x, const F3& half) {
+template <class V>
+HWY_INLINE Lanes3<V> clamp_to_box(const Lanes3<V>& x, const Lanes3<V>& half) {
   return {clamp(x.x, hn::Neg(half.x), half.x), clamp(x.y, hn::Neg(half.y), half.y),
           clamp(x.z, hn::Neg(half.z), half.z)};
 }
 
-HWY_INLINE F3 to_b(const BoxPairLanes& p, const F3& x) { return rotate_back(p.turn, x - p.centre); }
-HWY_INLINE F3 from_b(const BoxPairLanes& p, const F3& q) { return rotate(p.turn, q) + p.centre; }
+template <class V>
+HWY_INLINE Lanes3<V> to_b(const BoxPairOf<V>& p, const Lanes3<V>& x) {
+  return rotate_back(p.turn, x - p.centre);
+}
+template <class V>
+HWY_INLINE Lanes3<V> from_b(const BoxPairOf<V>& p, const Lanes3<V>& q) {
+  return rotate(p.turn, q) + p.centre;
+}
 
-HWY_INLINE Mask3 are_across(const F3& direction) {
-  return {hn::Le(hn::Abs(direction.x), splat(kAcross<float>)),
-          hn::Le(hn::Abs(direction.y), splat(kAcross<float>)),
-          hn::Le(hn::Abs(direction.z), splat(kAcross<float>))};
+template <class V>
+HWY_INLINE Mask3Of<V> are_across(const Lanes3<V>& direction) {
+  return {hn::Le(hn::Abs(direction.x), splat_as<V>(kAcross<hn::TFromV<V>>)),
+          hn::Le(hn::Abs(direction.y), splat_as<V>(kAcross<hn::TFromV<V>>)),
+          hn::Le(hn::Abs(direction.z), splat_as<V>(kAcross<hn::TFromV<V>>))};
 }
 
 // The corner of a box along a direction; the minus side in axes in which the direction is zero.
-HWY_INLINE F3 corner_towards(const F3& half, const F3& direction) {
-  const F zero = splat(0);
+template <class V>
+HWY_INLINE Lanes3<V> corner_towards(const Lanes3<V>& half, const Lanes3<V>& direction) {
+  const V zero = splat_as<V>(0);
   return {hn::IfThenElse(hn::Gt(direction.x, zero), half.x, hn::Neg(half.x)),
           hn::IfThenElse(hn::Gt(direction.y, zero), half.y, hn::Neg(half.y)),
           hn::IfThenElse(hn::Gt(direction.z, zero), half.z, hn::Neg(half.z))};
 }
 
-HWY_INLINE F3 on_feature(const F3& half, const F3& corner, const Mask3& across, const F3& target) {
+template <class V>
+HWY_INLINE Lanes3<V> on_feature(const Lanes3<V>& half, const Lanes3<V>& corner,
+                                const Mask3Of<V>& across, const Lanes3<V>& target) {
   return select(across, clamp_to_box(target, half), corner);
 }
 
-HWY_INLINE void facing_features(const BoxPairLanes& p, const F3& normal, F3& on_a, F3& on_b) {
-  const F3 out_of_b = -rotate_back(p.turn, normal);
-  const Mask3 across_a = are_across(normal);
-  const Mask3 across_b = are_across(out_of_b);
-  const F3 corner_a = corner_towards(p.half_a, normal);
-  const F3 corner_b = corner_towards(p.half_b, out_of_b);
+template <class V>
+HWY_INLINE void facing_features(const BoxPairOf<V>& p, const Lanes3<V>& normal, Lanes3<V>& on_a,
+                                Lanes3<V>& on_b) {
+  const Lanes3<V> out_of_b = -rotate_back(p.turn, normal);
+  const Mask3Of<V> across_a = are_across(normal);
+  const Mask3Of<V> across_b = are_across(out_of_b);
+  const Lanes3<V> corner_a = corner_towards(p.half_a, normal);
+  const Lanes3<V> corner_b = corner_towards(p.half_b, out_of_b);
   on_a = on_feature(p.half_a, corner_a, across_a, p.centre);
   for (int i = 0; i < 2; ++i) {
     on_b = from_b(p, on_feature(p.half_b, corner_b, across_b, to_b(p, on_a)));
@@ -53,27 +66,31 @@ HWY_INLINE void facing_features(const BoxPairLanes& p, const F3& normal, F3& on_
   }
 }
 
-HWY_INLINE F3 zero_if(const Mask3& mask, const F3& v) {
+template <class V>
+HWY_INLINE Lanes3<V> zero_if(const Mask3Of<V>& mask, const Lanes3<V>& v) {
   return {hn::IfThenZeroElse(mask.x, v.x), hn::IfThenZeroElse(mask.y, v.y),
           hn::IfThenZeroElse(mask.z, v.z)};
 }
 
-HWY_INLINE F3 replace(const AxisMasks& axis, const F3& v, F value) {
+template <class V>
+HWY_INLINE Lanes3<V> replace(const AxisMasksOf<V>& axis, const Lanes3<V>& v, V value) {
   return select(axis, {value, value, value}, v);
 }
 
 // The nearest points of edge_a of A and edge_b of B, of the edges that face each other along
 // `normal`.
-HWY_INLINE void facing_edges(const BoxPairLanes& p, const F3& normal, const AxisMasks& edge_a,
-                             const AxisMasks& edge_b, F3& on_a, F3& on_b) {
-  const F3 v = select_axis(edge_b, p.turn);
-  const F3 out_of_b = -rotate_back(p.turn, normal);
-  const F3 a = zero_if(edge_a, corner_towards(p.half_a, normal));
-  const F3 b = from_b(p, zero_if(edge_b, corner_towards(p.half_b, out_of_b)));
-  const F half_a = pick(edge_a, p.half_a);
-  const F half_b = pick(edge_b, p.half_b);
-  const F3 n = axis_cross(edge_a, v);
-  const F s = hn::Div(dot(cross(b - a, v), n), dot(n, n));
+template <class V>
+HWY_INLINE void facing_edges(const BoxPairOf<V>& p, const Lanes3<V>& normal,
+                             const AxisMasksOf<V>& edge_a, const AxisMasksOf<V>& edge_b,
+                             Lanes3<V>& on_a, Lanes3<V>& on_b) {
+  const Lanes3<V> v = select_axis(edge_b, p.turn);
+  const Lanes3<V> out_of_b = -rotate_back(p.turn, normal);
+  const Lanes3<V> a = zero_if(edge_a, corner_towards(p.half_a, normal));
+  const Lanes3<V> b = from_b(p, zero_if(edge_b, corner_towards(p.half_b, out_of_b)));
+  const V half_a = pick(edge_a, p.half_a);
+  const V half_b = pick(edge_b, p.half_b);
+  const Lanes3<V> n = axis_cross(edge_a, v);
+  const V s = hn::Div(dot(cross(b - a, v), n), dot(n, n));
   on_a = replace(edge_a, a, clamp(s, hn::Neg(half_a), half_a));
   on_b = b + v * clamp(dot(v, on_a - b), hn::Neg(half_b), half_b);
   on_a = replace(edge_a, on_a, clamp(pick(edge_a, on_b), hn::Neg(half_a), half_a));
@@ -81,10 +98,11 @@ HWY_INLINE void facing_edges(const BoxPairLanes& p, const F3& normal, const Axis
 
 // Whether the support features along an edge axis are really edges, not the faces that they belong
 // to.
-HWY_INLINE Mask is_edge_contact(const BoxPairLanes& p, const SeparatingAxisLanes& axis) {
-  const Mask3 across_a = are_across(axis.normal);
-  const Mask3 across_b = are_across(rotate_back(p.turn, axis.normal));
-  const auto other = [](const AxisMasks& edge, const Mask3& across) HWY_ATTR {
+template <class V>
+HWY_INLINE MaskOf<V> is_edge_contact(const BoxPairOf<V>& p, const SeparatingAxisOf<V>& axis) {
+  const Mask3Of<V> across_a = are_across(axis.normal);
+  const Mask3Of<V> across_b = are_across(rotate_back(p.turn, axis.normal));
+  const auto other = [](const AxisMasksOf<V>& edge, const Mask3Of<V>& across) HWY_ATTR {
     return hn::Or(hn::Or(hn::AndNot(edge.x, across.x), hn::AndNot(edge.y, across.y)),
                   hn::AndNot(edge.z, across.z));
   };
@@ -92,17 +110,29 @@ HWY_INLINE Mask is_edge_contact(const BoxPairLanes& p, const SeparatingAxisLanes
                     axis.is_edge);
 }
 
+// Nearest points along an axis: of the edges that face each other, and of the support features.
+template <class V>
+struct FacingPoints {
+  MaskOf<V> are_edges;  // where the edges count
+  Lanes3<V> edge_on_a, edge_on_b, feature_on_a, feature_on_b;
+
+  HWY_INLINE FacingPoints(const BoxPairOf<V>& p, const SeparatingAxisOf<V>& axis)
+      : are_edges(is_edge_contact(p, axis)) {
+    facing_edges(p, axis.normal, axis.edge_a, axis.edge_b, edge_on_a, edge_on_b);
+    facing_features(p, axis.normal, feature_on_a, feature_on_b);
+  }
+  HWY_INLINE Lanes3<V> on_a() const { return select(are_edges, edge_on_a, feature_on_a); }
+  HWY_INLINE Lanes3<V> on_b() const { return select(are_edges, edge_on_b, feature_on_b); }
+};
+
 // The nearest points of the boxes if the normal is the axis. `unsure`: several axes have equal
 // gaps, and float32 cannot tell along which of them the boxes meet.
 HWY_INLINE void witness_along(const BoxPairLanes& p, const SeparatingAxisLanes& axis, F3& on_a,
                               F3& on_b, Mask& unsure) {
-  F3 edge_on_a, edge_on_b, feature_on_a, feature_on_b;
-  facing_edges(p, axis.normal, axis.edge_a, axis.edge_b, edge_on_a, edge_on_b);
-  facing_features(p, axis.normal, feature_on_a, feature_on_b);
-  const Mask edges = is_edge_contact(p, axis);
-  on_a = select(edges, edge_on_a, feature_on_a);
+  const FacingPoints<F> facing(p, axis);
+  on_a = facing.on_a();
   on_b = on_a + axis.normal * axis.gap;
-  const F3 off_axis = select(edges, edge_on_b, feature_on_b) - on_b;
+  const F3 off_axis = facing.on_b() - on_b;
   unsure = hn::Gt(dot(off_axis, off_axis), splat(kOffAxisSquared));
 }
 
@@ -237,7 +267,7 @@ template <class Report>
 HWY_INLINE void test_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
                            Report& report) {
   const bool faces_only = report.batch.faces_only;
-  BestEdges edges = no_edges();
+  BestEdges edges = no_edges<F>();
   if (HWY_LIKELY(!faces_only)) edges = best_edges(p);
   const SeparatingAxisLanes axis = best_axis(p, edges);
   F3 on_a = p.centre, on_b = p.centre;

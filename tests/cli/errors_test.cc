@@ -115,6 +115,9 @@ TEST_F(ErrorsTest, OptionsOfRun) {
                {"--json and --page name the same file"});
   expect_error({"run", scene, "--pairs-out", path("x"), "--page", path("./x")},
                {"--pairs-out and --page name the same file"});
+  expect_error({"run", scene, "--pairs-out", scene},
+               {"the scene and --pairs-out", "the same file"});
+  expect_error({"run", scene, "--json", scene}, {"the scene and --json name the same file"});
   for (const char* detail : {"pairs", "overlap"}) {
     expect_error({"run", scene, "--detail", detail, "--page", path("x")},
                  {"--page", "--detail contact, manifold or regions", detail});

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
+
+#include "tests/support/float_modes.h"
 
 namespace carom::hulls {
 namespace {
@@ -50,6 +53,24 @@ TEST(BuildHull, PointsInsideAndOnFacesAndEdgesAreLeftOut) {
   EXPECT_EQ(hull.inside, 125u - 8u);
   expect_subset(points, hull);
   expect_closed(hull);
+}
+
+TEST(BuildHull, IsTheSameInAnyFloatMode) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> coordinate;
+  for (int round = 0; round < 10; ++round) {
+    Points points(30);
+    for (auto& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
+    const BuiltHull expected = built(points);
+    for (const test::FloatMode& mode : test::float_modes()) {
+      SCOPED_TRACE(mode.name);
+      const test::ScopedFloatMode scoped(mode);
+      const BuiltHull hull = built(points);
+      const auto records = hull.geometry->records(), others = expected.geometry->records();
+      EXPECT_TRUE(std::equal(records.begin(), records.end(), others.begin(), others.end()));
+      EXPECT_EQ(hull.geometry->middle(), expected.geometry->middle());
+    }
+  }
 }
 
 TEST(BuildHull, PointsBecomeWhatTheyAre) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "oracle/random.h"
+#include "tests/support/float_modes.h"
 
 namespace carom::test {
 namespace {
@@ -31,6 +32,38 @@ TEST(DopGeometry, HasThePolytopeOfTheSlabs) {
     EXPECT_EQ(geometry->size(), DopSlabs(dop).with_tight_axes().size());
     EXPECT_LT(geometry->bytes(), 4096u);
   }
+}
+
+// The rounding mode of the caller changes neither the slabs nor the corners.
+TEST(DopGeometry, IsTheSameInAnyFloatMode) {
+  oracle::Random random(73);
+  size_t different_points = 0;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Eigen::Vector3f> points(12);
+    for (auto& p : points) p = random.direction().cast<float>();
+    const Dop dop = Dop::of_points(points, DopKind::k26);
+    const auto geometry = dop_geometry(dop);
+    for (const FloatMode& mode : float_modes()) {
+      SCOPED_TRACE(mode.name);
+      const ScopedFloatMode scoped(mode);
+      const Dop again = Dop::of_points(points, DopKind::k26);
+      EXPECT_EQ(again.lower, dop.lower);
+      EXPECT_EQ(again.upper, dop.upper);
+      const auto other = dop_geometry(dop);
+      ASSERT_EQ(other->polytope().point_count(), geometry->polytope().point_count());
+      for (size_t i = 0; i < geometry->polytope().point_count(); ++i) {
+        EXPECT_EQ(other->polytope().point(i), geometry->polytope().point(i));
+      }
+      // What it is without a mode of our own, so that the modes are known to matter.
+      const DopPolytope unguarded{DopSlabs(dop)};
+      for (size_t i = 0; i < unguarded.point_count(); ++i) {
+        different_points += unguarded.point(i) != geometry->polytope().point(i);
+      }
+    }
+  }
+#if defined(__SSE2__)
+  EXPECT_GT(different_points, 100u);
+#endif
 }
 
 TEST(DopGeometry, OfInvalidSlabsIsNone) {

@@ -1,5 +1,5 @@
-// A step like the last one allocates nothing. The test replaces malloc and counts all calls, which
-// covers everything built on it.
+// A step like the last one allocates nothing, and one that runs out of memory leaves a world that
+// works. The test replaces malloc and counts all calls, which covers everything built on it.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -26,6 +26,12 @@ namespace {
 
 // Volatile, since compilers assume that malloc touches no variable of the program.
 thread_local volatile size_t allocations = 0;
+thread_local volatile size_t failing = 0;  // the number of the allocation that fails; 0: none does
+
+bool is_given() {
+  allocations = allocations + 1;
+  return allocations != failing;
+}
 
 }  // namespace
 
@@ -40,20 +46,16 @@ void* __libc_realloc(void* old, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 
 CAROM_TEST_SEEN void* malloc(size_t size) noexcept {
-  allocations = allocations + 1;
-  return __libc_malloc(size);
+  return is_given() ? __libc_malloc(size) : nullptr;
 }
 CAROM_TEST_SEEN void* calloc(size_t count, size_t size) noexcept {
-  allocations = allocations + 1;
-  return __libc_calloc(count, size);
+  return is_given() ? __libc_calloc(count, size) : nullptr;
 }
 CAROM_TEST_SEEN void* realloc(void* old, size_t size) noexcept {
-  allocations = allocations + 1;
-  return __libc_realloc(old, size);
+  return is_given() ? __libc_realloc(old, size) : nullptr;
 }
 CAROM_TEST_SEEN void* aligned_alloc(size_t alignment, size_t size) noexcept {
-  allocations = allocations + 1;
-  return __libc_memalign(alignment, size);
+  return is_given() ? __libc_memalign(alignment, size) : nullptr;
 }
 }
 
@@ -211,6 +213,114 @@ TEST(Allocations, NoneWhenLookingAhead) {
   }
   const CrowdSpec oriented{.oriented = true, .velocities = true, .looks_ahead = true};
   for (const size_t movers : {0, 40}) expect_no_allocations({}, oriented, movers, true);
+}
+
+// --- Without memory ---
+
+struct Trouble {
+  bool came;    // there were as many allocations
+  bool failed;  // and `work` failed; sorting, for one, does without
+};
+
+// Runs `work` with the n-th of its allocations failing.
+template <class Work>
+Trouble make_trouble(size_t n, const Work& work) {
+  failing = allocations + n;
+  Trouble trouble{};
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    trouble.failed = true;
+  }
+  trouble.came = allocations >= failing;
+  failing = 0;
+  return trouble;
+}
+
+constexpr CrowdSpec kTroubled{
+    .count = 200, .side = 5, .oriented = true, .halfspaces = 2, .velocities = true};
+
+struct Troubled {
+  explicit Troubled(const WorldSettings& settings)
+      : world(settings), ids(add_crowd(world, kTroubled)) {
+    for (size_t i = 10; i + 1 < ids.size(); i += 9) world.exclude(ids[i], ids[i + 1]);
+  }
+  void move() {
+    move_some(world, ids, 0.7, random);
+    turn_some(world, ids, 0.3, random);
+  }
+
+  World world;
+  std::vector<BodyId> ids;
+  Random random{7};
+};
+
+// Lets the n-th allocation of a step fail. False if it has fewer.
+bool fails_and_begins_anew(const WorldSettings& settings, bool is_first_step, size_t n) {
+  SCOPED_TRACE(std::to_string(n));
+  Troubled troubled(settings), fresh(settings);
+  if (!is_first_step) troubled.world.step();
+  troubled.move();
+  fresh.move();
+  const Trouble trouble = make_trouble(n, [&] { troubled.world.step(); });
+  if (!trouble.came || !trouble.failed) return trouble.came;
+  EXPECT_TRUE(troubled.world.pairs().empty());
+  EXPECT_TRUE(troubled.world.contacts().empty());
+  for (int step = 0; step < 2; ++step) {
+    troubled.world.step();
+    fresh.world.step();
+    EXPECT_TRUE(results(troubled.world) == results(fresh.world));
+    troubled.move();
+    fresh.move();
+  }
+  return true;
+}
+
+TEST(OutOfMemory, TheNextStepIsThatOfANewWorld) {
+  const WorldSettings all[] = {
+      {},
+      {.detail = Detail::pairs, .pair_changes = true},
+      {.detail = Detail::manifold,
+       .margin = 0.1f,
+       .dop_bounds = DopKind::k14,
+       .pair_changes = true},
+      {.detail = Detail::regions, .contact_distance = 0.1f, .identities = true}};
+  for (const WorldSettings& settings : all) {
+    for (const bool is_first_step : {true, false}) {
+      size_t n = 1;
+      while (fails_and_begins_anew(settings, is_first_step, n)) ++n;
+      EXPECT_GT(n, is_first_step ? 30u : 5u);
+    }
+  }
+}
+
+// One large ball.
+std::vector<OverlapHit> hits_of_a_ball(const World& world) {
+  constexpr std::array<float, 4> kBall = {0, 0, 0, 4};
+  Collidables ball;
+  ball.count = 1;
+  ball.uniform_kind = ShapeKind::sphere;
+  ball.position.data = kBall.data();
+  ball.position.stride = sizeof(kBall);
+  ball.position.radius_layout = RadiusLayout::fourth;
+  std::vector<OverlapHit> hits;
+  world.find_overlaps(ball, hits, QueryOptions{});
+  return hits;
+}
+
+TEST(OutOfMemory, TheNextQueryHasAllHits) {
+  size_t n = 1;
+  for (;; ++n) {
+    SCOPED_TRACE(std::to_string(n));
+    Troubled troubled({}), fresh({});
+    troubled.world.step();
+    fresh.world.step();
+    if (!make_trouble(n, [&] { troubled.world.prepare_queries(); }).came) break;
+    const std::vector<OverlapHit> expected = hits_of_a_ball(fresh.world);
+    EXPECT_GT(expected.size(), 50u);
+    ASSERT_TRUE(hits_of_a_ball(troubled.world) == expected);
+  }
+  EXPECT_GT(n, 5u);
 }
 
 // --- Contacts: composites, regions, distances, identities ---

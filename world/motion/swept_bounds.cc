@@ -23,11 +23,11 @@ struct Corners {
 // The smallest float32 >= x, for 0 <= x <= FLT_MAX.
 float upwards(double x) { return -round_downwards(-x); }
 
-// Grows the box of a body that turns. A point at r from the body's position stays on the ball of
-// radius
-// r| about it, and moves along an arc no longer than angle x |r|, so its chord is at most
-// min(angle, 2) |r|. With R >= |r| the bounding radius, the turning body stays in the box of that
-// ball, and in the present box grown by min(angle, 2) R on all sides: so in their intersection.
+// Grows the box of a body that turns. A point at r from the body's position stays on the ball
+// of radius |r| about it, and moves along an arc no longer than angle x |r|, so its chord is at
+// most min(angle, 2) |r|. With R >= |r| the bounding radius, the turning body stays in the box of
+// that ball, and in the present box grown by min(angle, 2) R on all sides: so in their
+// intersection.
 void turn(Corners& box, const BodyReader& reader, size_t i, const Eigen::Vector3f& rotation) {
   const float radius = bounding_radius(reader, i);
   if (!(radius <= FLT_MAX / 2)) {

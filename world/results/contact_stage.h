@@ -12,6 +12,7 @@
 #include "world/results/list_moves.h"
 #include "world/results/result_buffer.h"
 #include "world/store/body_store.h"
+#include "world/store/columns.h"
 
 namespace carom {
 
@@ -45,6 +46,7 @@ class ContactStage {
   size_t bytes() const {
     return block_first_.capacity() * sizeof(size_t) + moves_.capacity() * sizeof(ListMove);
   }
+  void give_back() { give_back_scratch(moves_, block_first_); }
 
  private:
   void find_results(const PairRange& range, const Input& input, PairHistory& now);

@@ -135,6 +135,11 @@ void BodyStore::touch(uint32_t index, uint8_t how) {
   touched_[index] |= how;
 }
 
+void BodyStore::touch_all() {
+  touched_indices_.reserve(touched_indices_.size() + rows());
+  for (uint32_t index = 0; index < rows(); ++index) touch(index, kReplaced);
+}
+
 void BodyStore::clear_touched() {
   for (const uint32_t index : touched_indices_) touched_[index] = 0;
   touched_indices_.clear();
@@ -226,7 +231,7 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
   store_geometry(index, shape);
 }
 
-// Releases the geometry of the last shape.
+// Keeps the geometry of the shape, if it has one, and releases that of the shape before it.
 void BodyStore::store_geometry(uint32_t index, const Shape& shape) {
   if (const Dop* dop = std::get_if<Dop>(&shape)) return set_dop_geometry(index, *dop);
   if (!dop_.empty()) dop_[index] = nullptr;

@@ -126,6 +126,7 @@ class BodyStore {
   // them.
   const std::vector<uint32_t>& touched_indices() const { return touched_indices_; }
   void clear_touched();
+  void touch_all();  // as if all bodies had been added since the last step
 
   void give_back();
   size_t bytes() const;

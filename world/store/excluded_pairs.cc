@@ -47,11 +47,11 @@ void ExcludedPairs::update() {
   std::stable_sort(changes_.begin(), changes_.end(),
                    [](const Change& x, const Change& y) { return x.pair < y.pair; });
   merge();
-  changes_.clear();
   if (pairs_.empty()) {
     *this = {};
   } else {
     digest_.build(pairs_);
+    changes_.clear();  // not before: if memory runs out, they are made again
   }
 }
 

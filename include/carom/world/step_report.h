@@ -13,14 +13,14 @@ namespace carom {
 enum class Stage : uint8_t {
   changes,     ///< which bodies changed since the last step
   bounds,      ///< world bounds of every body
-  sweeps,      ///< bounds over the interval ahead, if a body is looked after (Detection)
+  sweeps,      ///< bounds over the interval ahead, if a body looks ahead (Detection)
   margins,     ///< bounds grown by contact distances; new fat bounds for bodies that left theirs
   broadphase,  ///< pairs of overlapping bounds
   pairs,       ///< merge with the last step's pairs: which results are kept, which pairs are tested
   dops,        ///< k-DOPs of bodies, and which pairs of them are separate
   narrowphase,  ///< tests, batch by batch
   results,      ///< overlaps and contacts in order, kept ones included
-  impacts,      ///< impacts and speculative contacts of bodies that are looked after
+  impacts,      ///< impacts and speculative contacts of bodies that look ahead
   velocities,   ///< relative velocity along the normals
   events,       ///< begin, persist, end
 };
@@ -44,7 +44,7 @@ struct StepReport {
   size_t contacts = 0;     ///< World::contacts()
   size_t left_out = 0;     ///< contacts beyond RegionLimits::most, at Detail::regions
   size_t undecided = 0;    ///< pairs that Tier::certified could not decide
-  size_t swept = 0;        ///< bodies looked after in this step, swept or continuous
+  size_t swept = 0;        ///< bodies that look ahead in this step, swept or continuous
   size_t unswept = 0;      ///< bodies whose motion is not finite, in steps that may look ahead
   size_t impacts = 0;      ///< World::impacts()
   size_t speculative = 0;  ///< World::speculative_contacts()

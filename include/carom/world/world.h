@@ -287,7 +287,10 @@ class CAROM_EXPORT World {
   void set_dt(double dt);
 
   /// Finds pairs, contacts and events for the bodies as they are now. Memory grows as needed and is
-  /// kept: a step like the last one allocates nothing. Results do not depend on threads.
+  /// kept: a step like the last one allocates nothing. Results do not depend on threads. If memory
+  /// runs out (std::bad_alloc), or what the caller supplies throws, the exception passes on; the
+  /// world then has its bodies, exclusions and predicate and no results, and the next step begins
+  /// as that of a new world.
   const StepReport& step();
 
   // Results of the last step, valid until the next one.

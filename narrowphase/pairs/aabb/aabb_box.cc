@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
-#include "narrowphase/features/boxes_contact-inl.h"
+#include "narrowphase/features/boxes_exact-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
 #include "narrowphase/pairs/direction-inl.h"
 
@@ -18,7 +18,6 @@ struct AabbBoxBase {
   using A = AabbLanes;
   using B = BoxLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
 
   // Subtracts both corners before it takes the mean, so that a box far from its position loses no
   // digits.
@@ -36,13 +35,22 @@ struct AabbBoxBase {
 };
 
 struct AabbBox : AabbBoxBase {
+  static constexpr Unsure kUnsure = Unsure::test;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
     test_boxes(boxes(pose, a, b), world(), centre(a), report);
   }
+
+  template <class Put>
+  static void test_exactly(const Batch& batch, size_t row, std::span<const size_t> lanes,
+                           const Put& put) {
+    ExactBoxLanes(batch, A::kKind).test(row, lanes, put);
+  }
 };
 
 struct AabbBoxDistance : AabbBoxBase {
+  static constexpr Unsure kUnsure = Unsure::everything;
   static constexpr Columns kColumns = Columns::contact;
 
   template <class Report>

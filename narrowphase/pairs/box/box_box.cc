@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
-#include "narrowphase/features/boxes_contact-inl.h"
+#include "narrowphase/features/boxes_exact-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
 #include "narrowphase/pairs/direction-inl.h"
 
@@ -18,7 +18,6 @@ struct BoxBoxBase {
   using A = BoxLanes;
   using B = BoxLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
 
   static HWY_INLINE BoxPairLanes boxes(const PoseLanes& pose, const Rotation& turn_a, const A& a,
                                        const B& b) {
@@ -28,14 +27,23 @@ struct BoxBoxBase {
 };
 
 struct BoxBox : BoxBoxBase {
+  static constexpr Unsure kUnsure = Unsure::test;
+
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
     const Rotation turn_a = rotation_of(pose.a);
     test_boxes(boxes(pose, turn_a, a, b), turn_a, splat3(0), report);
   }
+
+  template <class Put>
+  static void test_exactly(const Batch& batch, size_t row, std::span<const size_t> lanes,
+                           const Put& put) {
+    ExactBoxLanes(batch, A::kKind).test(row, lanes, put);
+  }
 };
 
 struct BoxBoxDistance : BoxBoxBase {
+  static constexpr Unsure kUnsure = Unsure::everything;
   static constexpr Columns kColumns = Columns::contact;
 
   template <class Report>

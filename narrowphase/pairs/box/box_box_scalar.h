@@ -7,12 +7,19 @@
 namespace carom::scalar {
 
 template <class Real>
+PlacedBoxes<Real> placed_boxes(const BoxShape<Real>& a, const BoxShape<Real>& b,
+                               const PairPose<Real>& pose) {
+  const Rotation<Real> turn_a = rotation_of(pose.a);
+  return {
+      {rotate_back(turn_a, pose.d), rotation_of(relative_rotation(pose.a, pose.b)), a.half, b.half},
+      turn_a,
+      Vector3<Real>::Zero()};
+}
+
+template <class Real>
 SeparationAs<Real> separation(const BoxShape<Real>& a, const BoxShape<Real>& b,
                               const PairPose<Real>& pose) {
-  const Rotation<Real> turn_a = rotation_of(pose.a);
-  const BoxPair<Real> boxes{rotate_back(turn_a, pose.d),
-                            rotation_of(relative_rotation(pose.a, pose.b)), a.half, b.half};
-  return separation_of_boxes<Real>(boxes, turn_a, Vector3<Real>::Zero());
+  return separation_of_boxes(placed_boxes(a, b, pose));
 }
 
 }  // namespace carom::scalar
