@@ -1,5 +1,6 @@
 // Every mistake gives one clear line, a non-zero exit code and no output file.
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "io/pairs_file.h"
@@ -118,6 +119,11 @@ TEST_F(ErrorsTest, OptionsOfRun) {
   expect_error({"run", scene, "--pairs-out", scene},
                {"the scene and --pairs-out", "the same file"});
   expect_error({"run", scene, "--json", scene}, {"the scene and --json name the same file"});
+  // Where standard output is a file, this leads to a regular one.
+  std::filesystem::create_symlink("/proc/self/fd/1", path("link"));
+  expect_error({"run", scene, "--json", path("link")}, {"is a link to a device or a stream"});
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  std::filesystem::remove(path("link"));
   for (const char* detail : {"pairs", "overlap"}) {
     expect_error({"run", scene, "--detail", detail, "--page", path("x")},
                  {"--page", "--detail contact, manifold or regions", detail});
