@@ -9,7 +9,8 @@ enum class Units {
   scaled,  // a power of two: the greatest coordinate of the pair lies between one and two
 };
 
-// What is computed again in double precision in unsure lanes: one at a time, but for `test`.
+// Unsure lanes are computed again in double precision, one at a time, but for `test`. This says how
+// much of their results is.
 enum class Unsure {
   nothing,     // the kernel is exact near touch
   separation,  // only the separation: the normal is good

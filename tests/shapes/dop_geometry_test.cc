@@ -54,7 +54,7 @@ TEST(DopGeometry, IsTheSameInAnyFloatMode) {
       for (size_t i = 0; i < geometry->polytope().point_count(); ++i) {
         EXPECT_EQ(other->polytope().point(i), geometry->polytope().point(i));
       }
-      // What it is without a mode of our own, so that the modes are known to matter.
+      // The polytope alone sets no mode, which shows that the modes matter.
       const DopPolytope unguarded{DopSlabs(dop)};
       for (size_t i = 0; i < unguarded.point_count(); ++i) {
         different_points += unguarded.point(i) != geometry->polytope().point(i);

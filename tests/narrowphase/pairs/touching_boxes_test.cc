@@ -16,7 +16,7 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// What touches what, B above A.
+// The features that meet. B is above A.
 enum class Touch { faces, edges, corner_and_face, crossed_strips, tilted_faces };
 constexpr Touch kTouches[] = {Touch::faces, Touch::edges, Touch::corner_and_face,
                               Touch::crossed_strips, Touch::tilted_faces};
@@ -83,7 +83,7 @@ std::vector<TestPair> touching_boxes(size_t count, bool is_upright, uint64_t see
   return pairs;
 }
 
-// Of separate pairs the test finds the decision alone.
+// The test finds everything of overlapping pairs, and the decision alone of separate ones.
 bool are_as_expected(const std::vector<Row>& expected, const std::vector<Row>& found,
                      const std::vector<TestPair>& pairs) {
   for (size_t i = 0; i < expected.size(); ++i) {
