@@ -77,10 +77,6 @@ struct Lanes3 {
 using F3 = Lanes3<F>;
 using D3 = Lanes3<D>;
 
-template <class V>
-HWY_INLINE Lanes3<V> splat3_as(hn::TFromV<V> value) {
-  return {splat_as<V>(value), splat_as<V>(value), splat_as<V>(value)};
-}
 HWY_INLINE F3 splat3(float value) { return {splat(value), splat(value), splat(value)}; }
 
 template <class V>
