@@ -155,8 +155,8 @@ struct Across {
   HWY_INLINE float lower(size_t i, size_t k) const { return queries.lower(axis[k])[i]; }
   HWY_INLINE float upper(size_t i, size_t k) const { return queries.upper(axis[k])[i]; }
 
-  // Calls use(row) for each row of cells that box i reaches, with the place in first_row() where
-  // the first of its cells begins and how many there are.
+  // Calls use(cell, cells) for each row of cells that box i reaches, with the place in first_row()
+  // where the first of its cells begins and how many there are.
   template <class Use>
   HWY_INLINE void for_each_row(size_t i, const Use& use) const {
     CellRange cells[3];
@@ -169,42 +169,110 @@ struct Across {
   }
 };
 
+// Tests many boxes in three passes: the rows of cells that they reach, the boxes in these rows, the
+// tests. Each pass asks for the memory that the next one reads, since the boxes of a few bodies lie
+// far apart among those of many.
+class AcrossSearch {
+ public:
+  AcrossSearch(const Across& across, const PairFilter& filter, PairList& out)
+      : across_(across), columns_(across.rows), filter_(filter), out_(out) {}
+
+  HWY_INLINE void add(size_t i) {
+    Box& box = boxes_[box_count_++];
+    for (size_t k = 0; k < 3; ++k) {
+      box.lower[k] = across_.lower(i, k);
+      box.upper[k] = across_.upper(i, k);
+    }
+    box.body = across_.queries.body[i];
+    across_.for_each_row(i, [&](const uint32_t* cell, uint32_t cells) HWY_ATTR {
+      if (HWY_UNLIKELY(row_count_ == kRows)) test_all();
+      __builtin_prefetch(cell);
+      rows_[row_count_++] = {cell, cells, static_cast<uint32_t>(box_count_ - 1)};
+    });
+  }
+
+  // Tests the boxes that were added. The last one may have more rows to come.
+  void test_all() {
+    const size_t candidates = find_runs();
+    Pair* const room = out_.reserve(candidates + kRunLanes);
+    Pair* hits = room;
+    for (size_t r = 0; r < run_count_; ++r) {
+      const Run& run = runs_[r];
+      hits = scan(columns_, lanes_of(boxes_[run.box]), run.begin, run.end, hits);
+    }
+    const auto count = static_cast<size_t>(hits - room);
+    if (lets_all_meet(filter_)) {
+      out_.commit(count);
+    } else {
+      out_.commit(count, filter_);
+    }
+    row_count_ = 0;
+    boxes_[0] = boxes_[box_count_ - 1];
+    box_count_ = 1;
+  }
+
+ private:
+  struct Box {
+    float lower[3], upper[3];
+    uint32_t body;
+  };
+  // A row of cells: where the first cell begins, in first_row(), and how many there are.
+  struct ReachedRow {
+    const uint32_t* cell;
+    uint32_t cells;
+    uint32_t box;
+  };
+  // The rows of the boxes in a row of cells.
+  struct Run {
+    uint32_t begin, end;
+    uint32_t box;
+  };
+
+  // Leaves out rows of cells without boxes. Returns the number of boxes in all of them.
+  HWY_INLINE size_t find_runs() {
+    size_t candidates = 0;
+    run_count_ = 0;
+    for (size_t r = 0; r < row_count_; ++r) {
+      const ReachedRow& row = rows_[r];
+      const Run run = {row.cell[0], row.cell[row.cells], row.box};
+      prefetch_boxes(columns_, run.begin);
+      candidates += run.end - run.begin;
+      runs_[run_count_] = run;
+      run_count_ += run.begin < run.end;
+    }
+    return candidates;
+  }
+
+  static HWY_INLINE BoxLanes lanes_of(const Box& box) {
+    BoxLanes lanes;
+    lanes.body = hn::Set(RunIndexTag(), box.body);
+    for (size_t k = 0; k < 3; ++k) {
+      lanes.lower[k] = hn::Set(RunTag(), box.lower[k]);
+      lanes.upper[k] = hn::Set(RunTag(), box.upper[k]);
+    }
+    return lanes;
+  }
+
+  static constexpr size_t kRows = 128;
+
+  const Across& across_;
+  const Columns columns_;
+  const PairFilter& filter_;
+  PairList& out_;
+  // A box reaches at least one row, and one box may be left of the last test.
+  Box boxes_[kRows + 2];
+  ReachedRow rows_[kRows];
+  Run runs_[kRows];
+  size_t box_count_ = 0, row_count_ = 0, run_count_ = 0;
+};
+
 void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
                  const PairFilter& filter, PairList& out) {
-  // Boxes of a few bodies lie far apart among those of many: cells are asked for some boxes ahead,
-  // and then the boxes in them.
-  constexpr size_t kCellsAhead = 4, kBoxesAhead = 2;
-  const Columns columns(rows);
+  if (begin == end) return;
   const Across across(queries, rows, g);
-  const bool filters = !lets_all_meet(filter);
-  for (size_t i = begin; i < end; ++i) {
-    if (i + kCellsAhead < end) {
-      across.for_each_row(i + kCellsAhead,
-                          [&](const uint32_t* cell, size_t) { __builtin_prefetch(cell); });
-    }
-    if (i + kBoxesAhead < end) {
-      across.for_each_row(i + kBoxesAhead,
-                          [&](const uint32_t* cell, size_t) { prefetch_boxes(columns, *cell); });
-    }
-    BoxLanes box;
-    box.body = hn::Set(RunIndexTag(), queries.body[i]);
-    for (size_t k = 0; k < 3; ++k) {
-      box.lower[k] = hn::Set(RunTag(), across.lower(i, k));
-      box.upper[k] = hn::Set(RunTag(), across.upper(i, k));
-    }
-    size_t count = 0;
-    Pair* room = out.reserve(0);
-    across.for_each_row(i, [&](const uint32_t* cell, size_t cells) HWY_ATTR {
-      const size_t first = cell[0], last = cell[cells];
-      room = out.reserve(count + (last - first) + kRunLanes);
-      count = static_cast<size_t>(scan(columns, box, first, last, room + count) - room);
-    });
-    if (filters) {
-      out.commit(count, filter);
-    } else {
-      out.commit(count);
-    }
-  }
+  AcrossSearch search(across, filter, out);
+  for (size_t i = begin; i < end; ++i) search.add(i);
+  search.test_all();
 }
 
 }  // namespace

@@ -4,33 +4,21 @@
 #include <cstring>
 #include <utility>
 
+#include "broadphase/resting/compare_boxes.h"
+
 namespace carom {
 namespace {
 
 constexpr size_t kBoxesPerTask = 8192;
 
-using Flags = std::array<uint8_t, BoxBlock::kBoxes>;
-
-// Marks where `now` and `last` differ, and copies `now` to `last`. Returns whether they differed.
+// Marks where a column of the filter and its copy differ. Returns whether they did.
 template <class T>
-bool compare_and_copy(const T* now, T* last, size_t count, Flags& differs) {
-  static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float>);
-  if (std::memcmp(now, last, count * sizeof(T)) == 0) return false;
-  if constexpr (std::is_same_v<T, float>) {
-    for (size_t i = 0; i < count; ++i) {
-      differs[i] |= std::bit_cast<uint32_t>(now[i]) != std::bit_cast<uint32_t>(last[i]);
-    }
-  } else {
-    for (size_t i = 0; i < count; ++i) differs[i] |= now[i] != last[i];
-  }
-  std::copy_n(now, count, last);
+bool compare_column(const T* now, const std::vector<T>& last, size_t begin, size_t count,
+                    BoxFlags& differs) {
+  static_assert(std::has_unique_object_representations_v<T>);
+  if (!now || std::memcmp(now + begin, last.data() + begin, count * sizeof(T)) == 0) return false;
+  for (size_t i = 0; i < count; ++i) differs[i] |= now[begin + i] != last[begin + i];
   return true;
-}
-
-template <class T>
-bool compare_column(const T* now, std::vector<T>& last, size_t begin, size_t count,
-                    Flags& differs) {
-  return now && compare_and_copy(now + begin, last.data() + begin, count, differs);
 }
 
 // An absent column has an empty copy. Returns false if the column has appeared or vanished.
@@ -95,7 +83,7 @@ void BoxMemory::copy(const BoundsView& bounds, const PairFilter& filter, size_t 
 void BoxMemory::resize(const BoundsView& bounds, const PairFilter& filter) {
   known_ = std::min(count_, bounds.count);
   count_ = bounds.count;
-  for (std::vector<float>& column : columns_) column.resize(count_);
+  for (std::vector<float>& column : columns_) column.resize(count_ + BoxBlock::kPadding);
   bool same_columns = true;
   for_each_column(filter, filter_, [&](const auto* now, auto& last) {
     same_columns &= resize_column(now, count_, known_, last);
@@ -108,20 +96,29 @@ void BoxMemory::update_block(const BoxSource& source, const PairFilter& filter, 
                              size_t end, std::vector<uint32_t>& changed) {
   BlockBuffer buffer;
   const BoxBlock block = buffer.load(source, begin, end);
-  Flags differs{};
-  bool any = false;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    any |= compare_and_copy(block.lower[axis], columns_[axis].data() + begin, block.count, differs);
-    any |= compare_and_copy(block.upper[axis], columns_[3 + axis].data() + begin, block.count,
-                            differs);
-  }
-  for_each_column(filter, filter_, [&](const auto* now, auto& last) {
-    any |= compare_column(now, last, begin, block.count, differs);
+  std::array<const float*, 6> last;
+  for (size_t column = 0; column < 6; ++column) last[column] = columns_[column].data() + begin;
+  BoxFlags differs;
+  bool any = compare_boxes(block, last, differs);
+  for_each_column(filter, filter_, [&](const auto* now, const auto& copy) {
+    any |= compare_column(now, copy, begin, block.count, differs);
   });
-  if (!any && end <= known_) return;
-  for (size_t i = begin; i < end; ++i) {
-    if (differs[i - begin] || i >= known_) changed.push_back(static_cast<uint32_t>(i));
+  const size_t known = std::clamp(known_, begin, end) - begin;
+  if (!any && known == block.count) return;
+  std::array<uint32_t, BoxBlock::kBoxes> list;
+  size_t listed = 0;
+  for (size_t i = 0; i < block.count; ++i) {
+    list[listed] = static_cast<uint32_t>(begin + i);
+    listed += differs[i] != 0 || i >= known;
   }
+  changed.insert(changed.end(), list.begin(), list.begin() + listed);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    std::copy_n(block.lower[axis], block.count, columns_[axis].data() + begin);
+    std::copy_n(block.upper[axis], block.count, columns_[3 + axis].data() + begin);
+  }
+  for_each_column(filter, filter_, [&](const auto* now, auto& copy) {
+    if (now) std::copy_n(now + begin, block.count, copy.data() + begin);
+  });
 }
 
 size_t BoxMemory::bytes() const {

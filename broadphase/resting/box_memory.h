@@ -53,7 +53,7 @@ class BoxMemory {
 
   size_t count_ = 0;
   size_t known_ = 0;  // bodies in both of the last two updates; 0 if the filter has other columns
-  std::array<std::vector<float>, 6> columns_;
+  std::array<std::vector<float>, 6> columns_;  // BoxBlock::kPadding more entries than boxes
   FilterCopy filter_;
   BlockLists<uint32_t> lists_;
 };

@@ -149,6 +149,34 @@ TEST(RestingBoxes, ThatLeftMeetNothingWhereTheyWere) {
   }
 }
 
+// Boxes that reach hundreds of rows of cells, among others that reach a few, with and without a
+// filter.
+TEST(RestingBoxes, MeetLargeBoxesThatMove) {
+  const auto run = [](const PairFilter& filter) {
+    Lattice world(12);
+    for (int frame = 0; frame < 3; ++frame) world.find(filter);
+    for (size_t frame = 0; frame < 5; ++frame) {
+      for (size_t i = 0; i < 60; ++i) {
+        const bool is_large = i % 7 == frame;
+        TestBox& box = world.boxes[i * 25 + 3];
+        for (size_t axis = 0; axis < 3; ++axis) {
+          box.lower[axis] = is_large ? -1 : static_cast<float>((i * (axis + 3) + frame) % 22);
+          box.upper[axis] = is_large ? static_cast<float>(axis + 20) : box.lower[axis] + 1.5f;
+        }
+      }
+      const std::vector<Pair> found = world.find(filter);
+      EXPECT_TRUE(found == plain_pairs(world.boxes, filter));
+      EXPECT_GT(found.size(), 1000u);
+      EXPECT_EQ(world.search.searched, 60u) << "the others rest";
+    }
+  };
+  const Filters filters(12 * 12 * 12, 3);
+  for_each_isa([&] {
+    run({});
+    run(filters.view(2));
+  });
+}
+
 TEST(RestingBoxes, AreAllSearchedForUntilTheyRest) {
   const Boxes boxes = make_boxes(BoxFamily::random, 700);
   const LaidOutBoxes memory(boxes);

@@ -177,8 +177,8 @@ TEST(MergePairs, OfListsOfAnyLength) {
   ThreadArena arena(4);
   arena.run([&] {
     Random random(5);
-    for (const size_t total : {0, 1, 2, 100, 32767, 32768, 32769, 200000}) {
-      for (const double share : {0.0, 0.001, 0.5, 1.0}) {
+    for (const size_t total : {0, 1, 2, 15, 16, 17, 31, 33, 100, 32767, 32768, 32769, 200000}) {
+      for (const double share : {0.0, 0.001, 0.1, 0.5, 0.85, 0.99, 1.0}) {
         for (const bool in_runs : {false, true}) {
           Pairs all, a, b;
           bool to_a = true;
@@ -196,6 +196,23 @@ TEST(MergePairs, OfListsOfAnyLength) {
       }
     }
   });
+}
+
+// Bodies compare as unsigned numbers, and by a before b.
+TEST(MergePairs, OfTheLargestBodies) {
+  Pairs all, a, b;
+  for (const uint32_t first : {0u, 1u, 0x7fffffffu, 0x80000000u, 0xfffffffdu}) {
+    for (const uint32_t second : {2u, 5u, 0x7ffffffeu, 0x80000001u, 0xfffffffeu, 0xffffffffu}) {
+      if (first < second) all.push_back({first, second});
+    }
+  }
+  for (size_t i = 0; i < all.size(); ++i) (i % 3 == 1 ? a : b).push_back(all[i]);
+  for (int swapped = 0; swapped < 2; ++swapped) {
+    Pairs merged;
+    merge_pairs(a, b, Parallelism::none, merged);
+    EXPECT_TRUE(merged == all);
+    a.swap(b);
+  }
 }
 
 }  // namespace
