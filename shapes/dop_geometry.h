@@ -2,6 +2,7 @@
 #pragma once
 
 #include "carom/shapes/dop.h"
+#include "carom/shapes/hull.h"
 #include "shapes/body_reader.h"
 #include "shapes/dop_polytope.h"
 
@@ -21,13 +22,16 @@ class DopGeometry {
   // The greatest absolute coordinate in the first three slabs, once they are tight.
   double size() const { return size_; }
   const DopPolytope& polytope() const { return polytope_; }
+  // The polytope with its corners rounded to float32. The narrow phase tests it in its place.
+  const Hull& hull() const { return hull_; }
 
-  size_t bytes() const { return sizeof(*this) + polytope_.bytes(); }
+  size_t bytes() const;
 
  private:
   std::array<Row, row_count(ShapeKind::dop)> rows_;
   double size_;
   DopPolytope polytope_;
+  Hull hull_;
 };
 
 // The geometry of the k-DOP if it was found from its slabs; else nullptr.
@@ -39,6 +43,9 @@ auto with_geometry(const Dop& dop, const Use& use) {
   const DopGeometry* known = known_geometry(dop);
   return known ? use(*known) : use(DopGeometry(dop));
 }
+
+// The hull of the k-DOP's corners, as DopGeometry::hull(). The k-DOP is valid.
+Hull hull_of(const Dop& dop);
 
 // The k-DOP of body i. It does not own its geometry, which is nullptr unless `reader` has one that
 // was found from the slabs of now.

@@ -89,4 +89,16 @@ bool HullFeatures::add_edges(const HullGeometry& hull) {
   return true;
 }
 
+size_t HullFeatures::bytes() const {
+  return sizeof(*this) + edges_.capacity() * sizeof(Edge) + sides_.capacity() * sizeof(sides_[0]) +
+         planes_.capacity() * sizeof(planes_[0]) + columns_.capacity() * sizeof(float);
+}
+
+size_t bytes_of(const HullGeometry& hull) {
+  const size_t padded = (hull.points().size() + 15) / 16 * 16;
+  return sizeof(hull) + hull.points().size_bytes() + hull.faces().size_bytes() +
+         hull.corners().size_bytes() + 3 * padded * sizeof(float) + hull.records().size_bytes() +
+         (hull.features() ? hull.features()->bytes() : 0);
+}
+
 }  // namespace carom

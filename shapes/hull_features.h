@@ -42,6 +42,8 @@ class HullFeatures {
   // The left and the right face of each edge.
   std::span<const std::array<uint16_t, 2>> sides() const { return sides_; }
 
+  size_t bytes() const;
+
  private:
   bool add_faces(const HullGeometry& hull);
   bool add_edges(const HullGeometry& hull);
@@ -52,5 +54,8 @@ class HullFeatures {
   std::vector<float> columns_;
   float inner_radius_ = 0;
 };
+
+// The memory of a hull and its features.
+size_t bytes_of(const HullGeometry& hull);
 
 }  // namespace carom

@@ -76,6 +76,8 @@ struct Batch {
   uint8_t* unsure = nullptr;
   bool single_precision = false;        // FastKnobs
   bool faces_only = false;              // FastKnobs
+  // The points of hulls are rounded, so that double precision does not prove a decision.
+  bool has_rounded_points = false;
   const uint32_t* direction = nullptr;  // Pass::direction only: packed_direction.h
   uint64_t* features = nullptr;         // Pass::recall reads it, distance and clearance write it
   OpenSearches* open = nullptr;         // of the second stage: hulls/core_stages-inl.h

@@ -4,11 +4,19 @@
 #include <algorithm>
 #include <vector>
 
-#include "narrowphase/manifolds/dop_face.h"
+#include "narrowphase/manifolds/polygon_scalar.h"
 #include "narrowphase/scalar/polytope.h"
 #include "shapes/hull_features.h"
 
 namespace carom::scalar {
+
+using FaceCorners = FewOf<Vector3f, 30>;
+
+// The facing side of a hull. A hull without faces gives an edge, or a point.
+struct FacingSide {
+  PolygonFace face;
+  FaceCorners corners;  // relative to the position of A
+};
 
 class HullSideFinder {
  public:

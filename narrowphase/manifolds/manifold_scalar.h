@@ -89,23 +89,15 @@ inline ContactPoints manifold(const TriangleShape<float>& a, const TriangleShape
   return touch_faces(face_a, corners_a, face_b, corners_b, contact);
 }
 
-// Shapes whose faces may have any outline.
-template <class Shape>
-concept AnyFaced =
-    std::is_same_v<Shape, DopShape<float>> || std::is_same_v<Shape, HullShape<float>>;
-
-template <AnyFaced A, AnyFaced B>
-requires(std::is_same_v<A, DopShape<float>> || std::is_same_v<A, B>)  // as in pair_list.inc
-    ContactPoints
-    manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
+inline ContactPoints manifold(const HullShape<float>& a, const HullShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
   const FacingSide side_a = side_towards(contact.normal, -contact.separation, a, placed.a);
   const FacingSide side_b = side_towards(-contact.normal, -contact.separation, b, placed.b);
   return touch_faces(side_a.face, side_a.corners, side_b.face, side_b.corners, contact);
 }
 
-template <AnyFaced A>
-ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPair& placed,
-                       const ScaledContact& contact) {
+inline ContactPoints manifold(const HullShape<float>& a, const TriangleShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
   const std::array<Vector3f, 3> corners_b = corners_of(b, placed.b);
   const TriangleFace face_b = triangle_face(corners_b);
   if (!shows_face(b, face_b.frame.n, -contact.normal)) return witness_only(contact);
@@ -113,8 +105,8 @@ ContactPoints manifold(const A& a, const TriangleShape<float>& b, const PlacedPa
   return touch_faces(side_a.face, side_a.corners, face_b, corners_b, contact);
 }
 
-template <AnyBox A, AnyFaced B>
-ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
+template <AnyBox A>
+ContactPoints manifold(const A& a, const HullShape<float>& b, const PlacedPair& placed,
                        const ScaledContact& contact) {
   const Rectangle face = face_towards(contact.normal, a, placed.a);
   const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
@@ -123,9 +115,8 @@ ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed,
   return or_witness(on_frame(face.frame, points), contact);
 }
 
-template <AnyFaced B>
-ContactPoints manifold(const CapsuleShape<float>& a, const B& b, const PlacedPair& placed,
-                       const ScaledContact& contact) {
+inline ContactPoints manifold(const CapsuleShape<float>& a, const HullShape<float>& b,
+                              const PlacedPair& placed, const ScaledContact& contact) {
   const FacingSide side = side_towards(-contact.normal, -contact.separation, b, placed.b);
   return touch_face(line_towards(contact.normal, a, placed.a), side.face, contact);
 }
@@ -208,9 +199,8 @@ inline ContactPoints manifold(const HalfspaceShape<float>&, const TriangleShape<
 }
 
 // The corners of a face over a plane, as for boxes. The contact is at the lowest corner.
-template <AnyFaced A>
-ContactPoints manifold(const A& a, const HalfspaceShape<float>&, const PlacedPair& placed,
-                       const ScaledContact& contact) {
+inline ContactPoints manifold(const HullShape<float>& a, const HalfspaceShape<float>&,
+                              const PlacedPair& placed, const ScaledContact& contact) {
   const Vector3f& m = contact.normal;
   const FacingSide side = side_towards(m, -contact.separation, a, placed.a);
   const FaceFrame frame = plane_frame(contact.arm_a, m);
@@ -291,19 +281,6 @@ inline Manifold flipped(Manifold manifold, const Vector3f& d, const Separation& 
     }
   }
   return manifold;
-}
-
-template <class A, class B>
-Manifold manifold_of_kinds(const A& a, const B& b, const PairPose<float>& pose,
-                           const Separation& contact, float reach) {
-  if constexpr (HasManifold<A, B>) {
-    return manifold_in_order(a, b, pose, contact, reach);
-  } else if constexpr (HasManifold<B, A>) {
-    const Separation other = flipped(contact);
-    return flipped(manifold_in_order(b, a, flipped(pose), other, reach), pose.d, other);
-  } else {
-    return {};  // no such pair
-  }
 }
 
 }  // namespace carom::scalar

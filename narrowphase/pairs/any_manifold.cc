@@ -5,11 +5,28 @@
 
 namespace carom::scalar {
 
+// As separation_of(): for one order of the kinds alone.
 Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<float>& pose,
                      const Separation& contact, float reach) {
+  if (kind_of(shape_a) > kind_of(shape_b)) {
+    const Separation other = flipped(contact);
+    return flipped(manifold_of(shape_b, shape_a, flipped(pose), other, reach), pose.d, other);
+  }
+  if (const auto* dop = std::get_if<Dop>(&shape_b)) {
+    return manifold_of(shape_a, hull_of(*dop), pose, contact, reach);
+  }
+  if (const auto* dop = std::get_if<Dop>(&shape_a)) {
+    return manifold_of(hull_of(*dop), shape_b, pose, contact, reach);
+  }
   return std::visit(
-      [&](const auto& a, const auto& b) {
-        return manifold_of_kinds(shape_as<float>(a), shape_as<float>(b), pose, contact, reach);
+      [&](const auto& x, const auto& y) -> Manifold {
+        const auto a = shape_as<float>(x);
+        const auto b = shape_as<float>(y);
+        if constexpr (HasManifold<decltype(a), decltype(b)>) {
+          return manifold_in_order(a, b, pose, contact, reach);
+        } else {
+          return {};  // no such pair
+        }
       },
       shape_a, shape_b);
 }

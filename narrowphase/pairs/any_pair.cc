@@ -20,6 +20,8 @@ concept HasSeparation = requires(A a, B b, PairPose<Real> pose) {
 template <class Real>
 SeparationAs<Real> separation_of(const Shape& a, const Shape& b, const PairPose<Real>& pose) {
   if (kind_of(a) > kind_of(b)) return flipped(separation_of<Real>(b, a, flipped(pose)));
+  if (const auto* dop = std::get_if<Dop>(&b)) return separation_of<Real>(a, hull_of(*dop), pose);
+  if (const auto* dop = std::get_if<Dop>(&a)) return separation_of<Real>(hull_of(*dop), b, pose);
   const auto separate = [](const auto& x, const auto& y, const PairPose<Real>& p) {
     return separation(x, y, p);
   };

@@ -34,11 +34,10 @@ std::array<float, 10> numbers_of(const scalar::Separation& s) {
           s.arm_a.y(),  s.arm_a.z(),  s.arm_b.x(),  s.arm_b.y(),  s.arm_b.z()};
 }
 
-// The error bounds of the double test hold for points that only a rotation has rounded: not for the
-// computed corners of k-DOPs, and not for special triangles.
+// The error bounds of the double test hold for points that only a rotation has rounded: not for
+// special triangles.
 template <class T>
 bool has_exact_points(const T& shape) {
-  if constexpr (std::is_same_v<T, scalar::DopShape<double>>) return false;
   if constexpr (std::is_same_v<T, scalar::TriangleShape<double>>) return !shape.is_special();
   return true;
 }
@@ -100,7 +99,8 @@ class RowTester {
         });
     const bool is_decided_alone = decides_separate_ && s.separation > 0;
     store_.put(row, is_decided_alone ? Status::ok : s.status, numbers_of(scalar::rounded(s)));
-    const bool is_proven = !s.is_unsure && has_exact_points(shape_a) && has_exact_points(shape_b);
+    const bool is_proven = !s.is_unsure && !batch_.has_rounded_points &&
+                           has_exact_points(shape_a) && has_exact_points(shape_b);
     if (batch_.unsure && !is_proven) batch_.unsure[row] = 1;
   }
 
@@ -159,17 +159,10 @@ void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   for (size_t i = 0; i < count; ++i) rows.run(list[i], left[list[i]] == kDeep);
 }
 
-template void run_core_batch<Sphere, Dop>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Capsule, Dop>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Aabb, Dop>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Box, Dop>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Dop, Dop>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Dop, Triangle>(const Batch&, void (*)(const Batch&));
 template void run_core_batch<Sphere, Hull>(const Batch&, void (*)(const Batch&));
 template void run_core_batch<Capsule, Hull>(const Batch&, void (*)(const Batch&));
 template void run_core_batch<Aabb, Hull>(const Batch&, void (*)(const Batch&));
 template void run_core_batch<Box, Hull>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Dop, Hull>(const Batch&, void (*)(const Batch&));
 template void run_core_batch<Hull, Hull>(const Batch&, void (*)(const Batch&));
 template void run_core_batch<Hull, Triangle>(const Batch&, void (*)(const Batch&));
 

@@ -1,0 +1,86 @@
+#include "narrowphase/pairs/dop/hull_side.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "narrowphase/batch/column_memory.h"
+#include "narrowphase/batch/single_pair.h"
+#include "shapes/dop_geometry.h"
+#include "shapes/geometry_row.h"
+
+namespace carom {
+namespace {
+
+// The k-DOPs of one side, in the order of the rows of the batch, as hulls.
+class HullSide {
+ public:
+  explicit HullSide(PositionLayout layout)
+      : record_size_(layout == PositionLayout::records64 ? 4 * sizeof(double) : sizeof(Row)) {}
+
+  // Row `row` is body `body` of the side that `reader` reads.
+  void put(size_t row, const BatchSide& side, const BodyReader& reader, uint32_t body) {
+    if (side.records) {
+      const char* record = static_cast<const char*>(side.records) + body * side.record_stride;
+      std::memcpy(records_.data() + row * record_size_, record, record_size_);
+    }
+    orientation_[row] = reader.orientation(body);
+    hull_[row] = geometry_row(hull_at(reader, body));
+  }
+
+  BatchSide side(const BatchSide& dops) const {
+    BatchSide hulls;
+    hulls.records = dops.records ? records_.data() : nullptr;
+    hulls.record_stride = record_size_;
+    hulls.orientation = {orientation_[0].data(), sizeof(Row)};
+    hulls.rows = {hull_[0].data(), nullptr};
+    return hulls;
+  }
+
+ private:
+  // nullptr if the k-DOP is not valid.
+  const HullGeometry* hull_at(const BodyReader& reader, uint32_t body) {
+    const DopGeometry* known = reader.dop_geometry(body);
+    const float* rows = reader.bodies.rows.data + 4 * reader.first_row(body);
+    if (known && known->is_of(rows)) return known->hull().geometry.get();
+    const auto found = dop_geometry(read_dop(reader, body));
+    if (!found) return nullptr;
+    found_.push_back(found);
+    return found->hull().geometry.get();
+  }
+
+  const size_t record_size_;
+  alignas(double) std::array<char, 4 * sizeof(double) * kPairsPerBlock> records_;
+  std::array<Row, kPairsPerBlock> orientation_;
+  std::array<Row, kPairsPerBlock> hull_;
+  std::vector<std::shared_ptr<const DopGeometry>> found_;
+};
+
+}  // namespace
+
+void run_with_hulls(const Batch& batch, DopSides dops, void (*run)(const Batch&)) {
+  const Collidables view_a = view_of(batch.a, batch.layout, ShapeKind::dop);
+  const Collidables view_b = view_of(batch.b, batch.layout, ShapeKind::dop);
+  const BodyReader a{view_a}, b{view_b};
+  HullSide hulls_a(batch.layout), hulls_b(batch.layout);
+  std::array<Pair, kPairsPerBlock> pairs;
+  for (uint32_t row = 0; row < batch.count; ++row) {
+    const Pair pair = batch.pairs[row];
+    if (dops.a) hulls_a.put(row, batch.a, a, pair.a);
+    if (dops.b) hulls_b.put(row, batch.b, b, pair.b);
+    pairs[row] = {dops.a ? row : pair.a, dops.b ? row : pair.b};
+  }
+  // Kernels may read pairs up to the next whole vector.
+  const size_t padded = (batch.count + kMostLanes - 1) / kMostLanes * kMostLanes;
+  std::fill(pairs.begin() + batch.count, pairs.begin() + padded, pairs[batch.count - 1]);
+  Batch hulls = batch;
+  if (dops.a) hulls.a = hulls_a.side(batch.a);
+  if (dops.b) hulls.b = hulls_b.side(batch.b);
+  hulls.pairs = pairs.data();
+  hulls.pairs_are_rows = false;
+  hulls.has_rounded_points = true;
+  run(hulls);
+}
+
+}  // namespace carom
