@@ -74,8 +74,8 @@ struct Batch {
   // settled it later. At Pass::manifold: 1 where the kernel defers the points. nullptr: the caller
   // does not need it.
   uint8_t* unsure = nullptr;
-  bool single_precision = false;        // FastKnobs
-  bool faces_only = false;              // FastKnobs
+  bool single_precision = false;  // FastKnobs
+  bool faces_only = false;        // FastKnobs
   // The points of hulls are rounded, so that double precision does not prove a decision.
   bool has_rounded_points = false;
   const uint32_t* direction = nullptr;  // Pass::direction only: packed_direction.h

@@ -108,13 +108,18 @@ struct HullSteps {
 scalar::Separation solid_depth(const Solid& a, const Solid& b, const scalar::PairPose<float>& pose,
                                const HullSteps& steps);
 
-// The same for shapes: hulls, boxes and triangles.
+// The same for shapes whose cores overlap.
 template <class A, class B>
 scalar::Separation shape_depth(const A& a, const B& b, const scalar::PairPose<float>& pose,
                                const HullSteps& steps) {
   const auto solid_a = solid_of(a);
   const auto solid_b = solid_of(b);
-  return solid_depth(solid_a.view(), solid_b.view(), pose, steps);
+  scalar::Separation s = solid_depth(solid_a.view(), solid_b.view(), pose, steps);
+  if constexpr (requires { a.radius; }) {
+    s.separation -= a.radius;
+    s.arm_a += s.normal * a.radius;
+  }
+  return s;
 }
 
 }  // namespace carom

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "narrowphase/features/segment_scalar.h"
+
 namespace carom {
 
 SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
@@ -19,6 +21,18 @@ SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
   view_.middle = {middle[0], middle[1], middle[2]};
   view_.inner_radius = features->inner_radius();
   view_.scale = static_cast<float>(hull.scale);
+}
+
+SmallSolid::SmallSolid(const scalar::SphereShape<float>&) {
+  put_point(Vector3f::Zero());
+  view_.middle = Vector3f::Zero();
+  view_.inner_radius = 0;
+  view_.is_turned = false;
+  close();
+}
+
+SmallSolid::SmallSolid(const scalar::CapsuleShape<float>& capsule) {
+  put_segment(capsule.a, capsule.b);
 }
 
 SmallSolid::SmallSolid(const scalar::BoxShape<float>& box) { put_box(-box.half, box.half); }
@@ -88,6 +102,26 @@ void SmallSolid::put_triangle(const std::array<Vector3f, 3>& corners, const Vect
     put_edge(-direction, to, 1, side);
   }
   view_.middle = (corners[0] + corners[1] + corners[2]) * (1.0f / 3);
+  view_.inner_radius = 0;
+  close();
+}
+
+void SmallSolid::put_segment(const Vector3f& from, const Vector3f& to) {
+  put_point(from);
+  const Vector3f along = to - from;
+  const float squared = scalar::dot(along, along);
+  if (squared > 0) {
+    put_point(to);
+    const Vector3f direction = along * (1 / std::sqrt(squared));
+    const Vector3f u = scalar::any_perpendicular(direction), v = scalar::cross(direction, u);
+    for (const Vector3f& normal : {u, v, Vector3f(-u), Vector3f(-v)}) {
+      put_face(normal, std::max(scalar::dot(normal, from), scalar::dot(normal, to)));
+    }
+    for (uint16_t side = 0; side < 4; ++side) {
+      put_edge(direction, 0, side, static_cast<uint16_t>((side + 1) % 4));
+    }
+  }
+  view_.middle = (from + to) * 0.5f;
   view_.inner_radius = 0;
   close();
 }

@@ -43,10 +43,13 @@ struct Solid {
   float height(size_t face) const { return plane[3][face] * scale; }
 };
 
-// Features of a box or triangle, made for one pair. A triangle counts as a solid without height: it
-// has two faces, and one more face along each edge.
+// Features of a shape with few, made for one pair. A triangle counts as a solid without height: it
+// has two faces, and one more face along each edge. The segment of a capsule has four faces along
+// it, and the centre of a sphere none.
 class SmallSolid {
  public:
+  explicit SmallSolid(const scalar::SphereShape<float>& sphere);
+  explicit SmallSolid(const scalar::CapsuleShape<float>& capsule);
   explicit SmallSolid(const scalar::BoxShape<float>& box);
   explicit SmallSolid(const scalar::AabbShape<float>& box);
   // Unknown for special triangles and triangles without area.
@@ -62,6 +65,7 @@ class SmallSolid {
 
   void put_box(const Vector3f& lower, const Vector3f& upper);
   void put_triangle(const std::array<Vector3f, 3>& corners, const Vector3f& normal);
+  void put_segment(const Vector3f& from, const Vector3f& to);
   void put_point(const Vector3f& point);
   void put_face(const Vector3f& normal, float height);
   void put_edge(const Vector3f& direction, uint32_t from, uint16_t left, uint16_t right);
@@ -84,8 +88,13 @@ class SolidHull {
   Solid view_;
 };
 
+// Whether the core of a shape is a solid; its depth is then found in float32.
 template <class S>
 inline constexpr bool kIsSolid = false;
+template <>
+inline constexpr bool kIsSolid<scalar::SphereShape<float>> = true;
+template <>
+inline constexpr bool kIsSolid<scalar::CapsuleShape<float>> = true;
 template <>
 inline constexpr bool kIsSolid<scalar::HullShape<float>> = true;
 template <>
