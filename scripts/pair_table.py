@@ -13,8 +13,7 @@ HEAD = """# Pair kinds
 Every pair of kinds that has a kernel; meshes and compounds are tested part by part. Written by `scripts/pair_table.py` from
 `narrowphase/pairs/pair_list.inc` and the files that it names; a test says if it is out of date.
 
-- **in lanes**: a vector of pairs at a time; `points`: one pair at a time in double precision, whose
-  furthest points are found in lanes; otherwise one pair at a time.
+- **in lanes**: a vector of pairs at a time; otherwise one pair at a time.
 - **direction**: of pairs that are apart the direction is kept and tried first in the next frame.
 - **manifold**: up to four points where faces or edges meet; otherwise there is one, the contact's.
 
@@ -33,17 +32,22 @@ def first_sentence(path):
     return re.split(r"\.(?: |$)", " ".join(lines))[0].rstrip(".")
 
 
+def tested_as(name):
+    """k-DOPs are tested as hulls (narrowphase/pairs/dop/dop_pairs.cc)."""
+    return "hull_hull" if name in ("dop_dop", "dop_hull") else name.replace("dop", "hull")
+
+
 def row(name, a, b, passes):
-    files = ROOT / "narrowphase" / "pairs" / name.split("_")[0]
-    kernel = (files / f"{name}.cc").read_text()
-    has_no_kernel = re.search(r"run_core_batch<.*>\(batch, nullptr\)", kernel)
-    lanes = "points" if has_no_kernel else "" if "run_scalar_batch" in kernel else "yes"
+    tested = tested_as(name)
+    files = ROOT / "narrowphase" / "pairs" / tested.split("_")[0]
+    kernel = (files / f"{tested}.cc").read_text()
+    lanes = "" if "run_scalar_batch" in kernel else "yes"
     marks = [
         passes not in ("none", "manifold"),
         passes != "none",
     ]
     cells = [a, b, lanes] + ["yes" if mark else "" for mark in marks]
-    cells.append(first_sentence(files / f"{name}_scalar.h"))
+    cells.append(f"As {tested}" if tested != name else first_sentence(files / f"{name}_scalar.h"))
     return "| " + " | ".join(cells) + " |\n"
 
 

@@ -22,7 +22,8 @@ class DopGeometry {
   // The greatest absolute coordinate in the first three slabs, once they are tight.
   double size() const { return size_; }
   const DopPolytope& polytope() const { return polytope_; }
-  // The polytope with its corners rounded to float32. The narrow phase tests it in its place.
+  // The polytope with its corners rounded to float32. The narrow phase tests it in its place. In
+  // the unit of a test (scale_of()) the rounding is at most 2^-24, also of the smallest k-DOPs.
   const Hull& hull() const { return hull_; }
 
   size_t bytes() const;

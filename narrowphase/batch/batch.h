@@ -76,7 +76,8 @@ struct Batch {
   uint8_t* unsure = nullptr;
   bool single_precision = false;  // FastKnobs
   bool faces_only = false;        // FastKnobs
-  // The points of hulls are rounded, so that double precision does not prove a decision.
+  // The points of hulls are rounded by up to 2^-24 of the size. Kernels in float32 allow for it;
+  // double precision proves no decision then.
   bool has_rounded_points = false;
   const uint32_t* direction = nullptr;  // Pass::direction only: packed_direction.h
   uint64_t* features = nullptr;         // Pass::recall reads it, distance and clearance write it

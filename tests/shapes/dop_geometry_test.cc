@@ -30,8 +30,39 @@ TEST(DopGeometry, HasThePolytopeOfTheSlabs) {
       EXPECT_EQ(geometry->polytope().point(i), polytope.point(i));
     }
     EXPECT_EQ(geometry->size(), DopSlabs(dop).with_tight_axes().size());
-    EXPECT_LT(geometry->bytes(), 4096u);
+    EXPECT_LT(geometry->bytes(), 10'240u);
   }
+}
+
+// The hull has the corners of the polytope, rounded, and all faces with an area; the rounding
+// leaves a closed solid.
+TEST(DopGeometry, HasTheHullOfTheCorners) {
+  oracle::Random random(74);
+  for (const DopKind kind : {DopKind::k6, DopKind::k14, DopKind::k18, DopKind::k26}) {
+    for (int round = 0; round < 50; ++round) {
+      const auto geometry = dop_geometry(random_dop(random, kind));
+      const DopPolytope& polytope = geometry->polytope();
+      const HullGeometry& hull = *geometry->hull().geometry;
+      ASSERT_EQ(hull.points().size(), polytope.point_count());
+      for (size_t i = 0; i < polytope.point_count(); ++i) {
+        for (size_t axis = 0; axis < 3; ++axis) {
+          EXPECT_EQ(hull.points()[i][static_cast<int>(axis)],
+                    static_cast<float>(polytope.point(i)[axis]));
+        }
+      }
+      EXPECT_LE(hull.faces().size(), polytope.faces().size());
+      EXPECT_TRUE(hull.features());
+    }
+  }
+}
+
+TEST(DopGeometry, OfAFlatDopHasAHullWithoutFeatures) {
+  Dop flat{.kind = DopKind::k6};
+  for (size_t i = 0; i < 3; ++i) flat.upper[i] = i == 2 ? 0.0f : 1.0f;
+  const Hull hull = hull_of(flat);
+  EXPECT_EQ(hull.geometry->points().size(), 4u);
+  EXPECT_EQ(hull.geometry->size(), 1.0f);
+  EXPECT_FALSE(hull.geometry->features());
 }
 
 // The rounding mode of the caller changes neither the slabs nor the corners.

@@ -284,5 +284,35 @@ TEST(FastTier, FacesOnlyLeavesOtherKindsAlone) {
   EXPECT_TRUE(same_rows(standard, run_rows(pairs, call), pairs));
 }
 
+// x + y <= 7 and x <= y cut this k-DOP at (3.5, 3.5), in units of the least float: its corners
+// round to (4, 4), which the sphere overlaps. Floats are too coarse for such k-DOPs, and must not
+// prove anything.
+TEST(Tiers, CornersOfTheSmallestDops) {
+  constexpr float kUnit = std::numeric_limits<float>::denorm_min();
+  Dop dop{.kind = DopKind::k18};
+  const auto directions = slab_directions(dop.kind);
+  for (size_t i = 0; i < directions.size(); ++i) {
+    dop.upper[i] = (i < 3 ? 8 : 16) * kUnit;
+    dop.lower[i] = -dop.upper[i];
+    if (directions[i] == std::array<int8_t, 3>{1, 1, 0}) dop.upper[i] = 7 * kUnit;
+    if (directions[i] == std::array<int8_t, 3>{1, -1, 0}) dop.upper[i] = 0;
+  }
+  std::vector<TestPair> pairs;
+  for (const double at : {4.75, 5.0, 7.0}) {
+    pairs.push_back({{Sphere{2 * kUnit}, {at * kUnit, at * kUnit, 0}}, {dop, {0, 0, 0}}});
+  }
+  const std::vector<bool> overlaps = all_exact(pairs, PositionType::float64);
+  EXPECT_EQ(overlaps, (std::vector<bool>{true, false, false}));
+  for_each_isa([&] {
+    for (const Tier tier : {Tier::exact, Tier::certified}) {
+      const auto rows = run_rows(pairs, call_of(tier, PositionType::float64, Detail::contact));
+      for (size_t i = 0; i < rows.size(); ++i) {
+        const bool may_be = tier == Tier::certified && rows[i].overlap == kUndecided;
+        EXPECT_TRUE(may_be || rows[i].overlap == overlaps[i]) << i;
+      }
+    }
+  });
+}
+
 }  // namespace
 }  // namespace carom::test
