@@ -43,6 +43,19 @@ HWY_INLINE Mask contact_points(const HullLanes& a, const HullLanes& b, const Pla
   return hn::And(faces_a.is_known(), faces_b.is_known());
 }
 
+HWY_INLINE Mask contact_points(const CapsuleLanes& a, const HullLanes& b, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  const FacingFaces faces = faces_towards(-contact.normal, b, placed.b, contact);
+  SurfaceLine line;
+  line_towards(contact.normal, a, placed.a, line);
+  with_corners(faces.most(), [&](auto most) HWY_ATTR {
+    FaceSide<PolygonFace<most()>> side;
+    hull_side(b, placed.b, faces, side);
+    touch_face(line, side.face, contact, out);
+  });
+  return faces.is_known();
+}
+
 template <AnyBox A>
 HWY_INLINE Mask contact_points(const A& a, const HullLanes& b, const PlacedPair& placed,
                                const ContactLanes& contact, PointLanes& out) {

@@ -55,11 +55,6 @@ class RowTester {
         decides_separate_(has_contacts(batch.detail) && batch.pass == Pass::test &&
                           kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {}
 
-  bool is_valid(size_t row) const {
-    return a_.is_valid(batch_.pairs[row].a) && b_.is_valid(batch_.pairs[row].b);
-  }
-  void put_invalid(size_t row) const { store_.put_invalid(row); }
-
   // Both bodies are valid.
   void run(size_t row, bool is_deep) const {
     if (is_deep && put_depth(row)) return;
@@ -115,14 +110,9 @@ class RowTester {
   const bool decides_separate_;
 };
 
-// Hulls against shapes with faces.
-template <class A, class B>
-inline constexpr bool kHasPointsInLanes = !std::is_same_v<A, Sphere> && !std::is_same_v<A, Capsule>;
-
 template <class A, class B>
 void run_manifold_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
-  if (!kHasPointsInLanes<A, B>) return run_scalar_manifolds(batch, kind_a, kind_b);
   std::array<uint8_t, kPairsPerBlock> left{};
   Batch lanes = batch;
   lanes.unsure = left.data();
@@ -139,16 +129,9 @@ void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
   const RowTester<A, B> rows(batch, kind_a, kind_b);
   std::array<uint8_t, kPairsPerBlock> left{};
-  if (in_lanes) {
-    Batch lanes = batch;
-    lanes.unsure = left.data();
-    in_lanes(lanes);
-  } else {
-    for (size_t row = 0; row < batch.count; ++row) {
-      left[row] = rows.is_valid(row) ? 1 : 0;
-      if (left[row] == 0) rows.put_invalid(row);
-    }
-  }
+  Batch lanes = batch;
+  lanes.unsure = left.data();
+  in_lanes(lanes);
   // Lists the deferred rows first, without branches: they are as random as overlaps, and would be
   // predicted badly.
   std::array<uint16_t, kPairsPerBlock + 1> list;

@@ -8,7 +8,7 @@
 namespace carom {
 
 // A and B: types of shapes, as in Shape. `in_lanes` tests the rows that float32 can decide and
-// marks the others as unsure; nullptr: it can decide none. Deferred rows have the bits of the
+// marks the others as unsure. Deferred rows have the bits of the
 // reference on every ISA, because their support points have.
 template <class A, class B>
 void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&));

@@ -8,13 +8,16 @@
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/hulls/core_kernel-inl.h"
+#include "narrowphase/manifolds/hull_points-inl.h"
+#include "narrowphase/manifolds/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
 void capsule_hull(const Batch& batch) {
-  // Contacts are measured in every pass: these kinds have no other.
+  if (batch.pass == Pass::manifold) return run_manifold<CapsuleLanes, HullLanes>(batch);
+  // The test measures contacts: these kinds have no other pass that does.
   if (has_contacts(batch.detail))
     return run_batch<CoreKernel<CapsuleLanes, HullLanes, false>>(batch);
   run_batch<CoreKernel<CapsuleLanes, HullLanes, true>>(batch);
