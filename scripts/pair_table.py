@@ -10,15 +10,14 @@ DOCUMENT = ROOT / "docs" / "pair_kinds.md"
 
 HEAD = """# Pair kinds
 
-Every pair of kinds that has a kernel; meshes and compounds are tested part by part. Written by `scripts/pair_table.py` from
+Every pair of kinds that has a kernel in lanes; meshes and compounds are tested part by part. Written by `scripts/pair_table.py` from
 `narrowphase/pairs/pair_list.inc` and the files that it names; a test says if it is out of date.
 
-- **in lanes**: a vector of pairs at a time; otherwise one pair at a time.
 - **direction**: of pairs that are apart the direction is kept and tried first in the next frame.
 - **manifold**: up to four points where faces or edges meet; otherwise there is one, the contact's.
 
-| A | B | in lanes | direction | manifold | method |
-|---|---|---|---|---|---|
+| A | B | direction | manifold | method |
+|---|---|---|---|---|
 """
 
 
@@ -39,15 +38,13 @@ def tested_as(name):
 
 def row(name, a, b, passes):
     tested = tested_as(name)
-    files = ROOT / "narrowphase" / "pairs" / tested.split("_")[0]
-    kernel = (files / f"{tested}.cc").read_text()
-    lanes = "" if "run_scalar_batch" in kernel else "yes"
     marks = [
         passes not in ("none", "manifold"),
         passes != "none",
     ]
-    cells = [a, b, lanes] + ["yes" if mark else "" for mark in marks]
-    cells.append(f"As {tested}" if tested != name else first_sentence(files / f"{name}_scalar.h"))
+    cells = [a, b] + ["yes" if mark else "" for mark in marks]
+    form = ROOT / "narrowphase" / "pairs" / name.split("_")[0] / f"{name}_scalar.h"
+    cells.append(f"As {tested}" if tested != name else first_sentence(form))
     return "| " + " | ".join(cells) + " |\n"
 
 

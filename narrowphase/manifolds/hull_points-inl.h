@@ -86,6 +86,33 @@ HWY_INLINE Mask contact_points(const HullLanes& a, const TriangleLanes& b, const
   return faces.is_known();
 }
 
+// The corners of the facing face over a plane. The contact is at the lowest.
+HWY_INLINE Mask contact_points(const HullLanes& a, const HalfspaceLanes&, const PlacedPair& placed,
+                               const ContactLanes& contact, PointLanes& out) {
+  const F3& m = contact.normal;
+  const FacingFaces faces = faces_towards(m, a, placed.a, contact);
+  FaceFrame plane;
+  plane_frame(contact.arm_a, m, plane);
+  const F size = a.extent();
+  const F touching = contact.touching(size);
+  with_corners(faces.most(), [&](auto most) HWY_ATTR {
+    FaceSide<PolygonFace<most()>> side;
+    hull_side(a, placed.a, faces, side);
+    ClipPoints<most()> all;
+    for (size_t k = 0; k < most(); ++k) {
+      const F3 r = side.corners[k] - plane.origin;
+      const F s = hn::Sub(contact.separation, dot(m, r));
+      all.put(k, side.face.where(k, hn::Not(no_lanes())), dot(plane.u, r), dot(plane.v, r), s,
+              touching);
+    }
+    put_on_frame(plane, all, same_point_limit(size), out);
+  });
+  for (size_t k = 0; k < 4; ++k) {
+    out.point[k] = out.point[k] - m * hn::Sub(out.s[k], contact.separation);
+  }
+  return faces.is_known();
+}
+
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

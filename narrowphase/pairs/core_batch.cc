@@ -10,8 +10,8 @@
 #include "narrowphase/doubles/furthest.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/pairs/all_pairs.h"
+#include "narrowphase/pairs/manifold_batch.h"
 #include "narrowphase/pairs/pair_kinds.h"
-#include "narrowphase/pairs/scalar_batch.h"
 #include "narrowphase/scalar/scaled.h"
 
 namespace carom {
@@ -110,22 +110,12 @@ class RowTester {
   const bool decides_separate_;
 };
 
-template <class A, class B>
-void run_manifold_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
-  const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
-  std::array<uint8_t, kPairsPerBlock> left{};
-  Batch lanes = batch;
-  lanes.unsure = left.data();
-  in_lanes(lanes);
-  run_scalar_manifolds(batch, kind_a, kind_b, left.data());
-}
-
 }  // namespace
 
 template <class A, class B>
 void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
-  if (batch.pass == Pass::manifold) return run_manifold_batch<A, B>(batch, in_lanes);
+  if (batch.pass == Pass::manifold) return run_manifolds(batch, kind_a, kind_b, in_lanes);
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
   const RowTester<A, B> rows(batch, kind_a, kind_b);
   std::array<uint8_t, kPairsPerBlock> left{};

@@ -1,0 +1,13 @@
+// The manifold pass of kinds whose kernel may defer rows.
+#pragma once
+
+#include "narrowphase/batch/batch.h"
+
+namespace carom {
+
+// `in_lanes` writes the points that it knows and marks the other rows as unsure. Those follow one
+// at a time, with the bits of the reference.
+void run_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
+                   void (*in_lanes)(const Batch&));
+
+}  // namespace carom
