@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "base/tolerances.h"
@@ -26,6 +25,12 @@ Vector3d area_vector(const HullGeometry& hull, std::span<const uint32_t> corners
   }
   return sum;
 }
+
+// The face whose outline runs from one point to another.
+struct Way {
+  std::pair<uint32_t, uint32_t> ends;
+  uint32_t face;
+};
 
 }  // namespace
 
@@ -66,20 +71,24 @@ bool HullFeatures::add_faces(const HullGeometry& hull) {
 }
 
 bool HullFeatures::add_edges(const HullGeometry& hull) {
-  // (from, to) -> the face whose outline runs from one point to the other.
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> face_of_way;
+  std::vector<Way> ways;
+  ways.reserve(hull.corners().size());
   for (uint32_t f = 0; f < hull.faces().size(); ++f) {
     const auto corners = hull.corners(hull.faces()[f]);
     for (size_t i = 0; i < corners.size(); ++i) {
-      const std::pair way(corners[i], corners[(i + 1) % corners.size()]);
-      if (!face_of_way.emplace(way, f).second) return false;
+      ways.push_back({{corners[i], corners[(i + 1) % corners.size()]}, f});
     }
   }
-  for (const auto& [there, left] : face_of_way) {
-    const auto back = face_of_way.find({there.second, there.first});
-    if (back == face_of_way.end()) return false;
+  const auto is_before = [](const Way& a, const Way& b) { return a.ends < b.ends; };
+  std::sort(ways.begin(), ways.end(), is_before);
+  const auto is_same = [](const Way& a, const Way& b) { return a.ends == b.ends; };
+  if (std::adjacent_find(ways.begin(), ways.end(), is_same) != ways.end()) return false;
+  for (const auto& [there, left] : ways) {
+    const Way opposite{{there.second, there.first}, 0};
+    const auto back = std::lower_bound(ways.begin(), ways.end(), opposite, is_before);
+    if (back == ways.end() || !is_same(*back, opposite)) return false;
     if (there.first > there.second) continue;
-    const uint32_t right = back->second;
+    const uint32_t right = back->face;
     const Vector3d along = point(hull, there.second) - point(hull, there.first);
     const double length = along.stableNorm();
     if (!(length > 0)) return false;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
 #include "narrowphase/batch/batch.h"
 #include "narrowphase/batch/single_pair.h"
@@ -18,26 +17,10 @@ class RowStore {
         a_(view_of(batch.a, batch.layout, kind_a)),
         b_(view_of(batch.b, batch.layout, kind_b)) {}
 
-  // The first ten numbers of `answer`: separation, normal, arm_a, arm_b.
-  template <size_t kCount>
-  void put(size_t row, Status status, const std::array<float, kCount>& answer) const {
-    static_assert(kCount >= 10);
-    put(row, answer[0] <= 0, status, answer);
-  }
-
-  void put_invalid(size_t row) const {
-    std::array<float, 10> nothing;
-    nothing.fill(std::numeric_limits<float>::quiet_NaN());
-    put(row, false, Status::invalid, nothing);
-  }
-
- private:
-  using Vector = std::array<float, 3>;
-
-  template <size_t kCount>
-  void put(size_t row, bool overlap, Status status, const std::array<float, kCount>& answer) const {
+  // `answer`: separation, normal, arm_a, arm_b.
+  void put(size_t row, Status status, const std::array<float, 10>& answer) const {
     const ResultColumns& out = batch_.out;
-    out.overlap[row] = overlap;
+    out.overlap[row] = answer[0] <= 0;
     out.status[row] = static_cast<uint8_t>(status);
     if (!has_contacts(batch_.detail)) return;
     const Pair pair = batch_.pairs[row];
@@ -49,6 +32,9 @@ class RowStore {
     store(witness(a_, pair.a, vector(4)), out.point_a, row);
     store(witness(b_, pair.b, vector(7)), out.point_b, row);
   }
+
+ private:
+  using Vector = std::array<float, 3>;
 
   static void store(const Vector& v, const std::array<float*, 3>& columns, size_t row) {
     for (size_t axis = 0; axis < 3; ++axis) columns[axis][row] = v[axis];

@@ -2,8 +2,6 @@
 // search.
 #pragma once
 
-#include <type_traits>
-
 #include "narrowphase/doubles/convex.h"
 #include "narrowphase/doubles/furthest_scalar.h"
 #include "narrowphase/doubles/make_core.h"
@@ -153,16 +151,6 @@ SeparationAs<double> core_separation(const A& a, const B& b, const PairPose<doub
   make_core(b, pose.b, pose.d, cores.b);
   const CoreGap gap = find_gap(cores.a, cores.b, test);
   return core_separation(cores.a, cores.b, gap, pose.d, test);
-}
-
-// In float this test only reports that it is unsure.
-template <class Real, class A, class B>
-SeparationAs<Real> separation_of_cores(const A& a, const B& b, const PairPose<Real>& pose) {
-  if constexpr (std::is_same_v<Real, float>) {
-    return not_in_float<float>();
-  } else {
-    return core_separation(a, b, pose, CoreTest());
-  }
 }
 
 }  // namespace carom::scalar

@@ -48,19 +48,39 @@ float sphere_box_separation(const BodyReader& box, size_t box_index, const Posit
   return static_cast<float>(0 - (way_out + radius));
 }
 
-// The separation of a sphere (A) and a sphere or aabb (B), in double precision.
-float sphere_separation(const Batch& batch, ShapeKind kind_b, size_t row) {
+// A sphere in a record of its position and radius.
+struct RecordedSphere {
+  Position<double> centre;
+  float radius;
+};
+
+template <class T>
+RecordedSphere sphere_in_record(const BatchSide& side, uint32_t body) {
+  const auto record = load_strided<std::array<T, 4>>(side.records, side.record_stride, body);
+  return {{record[0], record[1], record[2]}, static_cast<float>(record[3])};
+}
+
+RecordedSphere sphere_of(const BatchSide& side, PositionLayout layout, uint32_t body) {
+  return layout == PositionLayout::records64 ? sphere_in_record<double>(side, body)
+                                             : sphere_in_record<float>(side, body);
+}
+
+// The separation of two spheres, in double precision. Many pairs of a pile are near touch, so this
+// reads no more than it needs.
+float sphere_separation(const Batch& batch, size_t row) {
   const Pair pair = batch.pairs[row];
-  const Collidables view_a = view_of(batch.a, batch.layout, ShapeKind::sphere);
-  const Collidables view_b = view_of(batch.b, batch.layout, kind_b);
-  const BodyReader a{view_a};
+  const RecordedSphere a = sphere_of(batch.a, batch.layout, pair.a);
+  const RecordedSphere b = sphere_of(batch.b, batch.layout, pair.b);
+  return gap(square(difference(a.centre, b.centre)), double{a.radius} + double{b.radius});
+}
+
+float sphere_box_separation(const Batch& batch, size_t row) {
+  const Pair pair = batch.pairs[row];
+  const Collidables view_b = view_of(batch.b, batch.layout, ShapeKind::aabb);
   const BodyReader b{view_b};
-  const Position<double> centre =
-      difference(a.position<double>(pair.a), b.position<double>(pair.b));
-  if (kind_b == ShapeKind::aabb) {
-    return sphere_box_separation(b, pair.b, centre, a.radius(pair.a));
-  }
-  return gap(square(centre), double{a.radius(pair.a)} + double{b.radius(pair.b)});
+  const RecordedSphere a = sphere_of(batch.a, batch.layout, pair.a);
+  return sphere_box_separation(b, pair.b, difference(a.centre, b.position<double>(pair.b)),
+                               a.radius);
 }
 
 scalar::SeparationAs<double> exact_separation(const Batch& batch, ShapeKind kind_a,
@@ -159,9 +179,12 @@ bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_
 }
 
 float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
-  const bool of_sphere =
-      kind_a == ShapeKind::sphere && (kind_b == ShapeKind::sphere || kind_b == ShapeKind::aabb);
-  if (of_sphere) return sphere_separation(batch, kind_b, row);
+  if (kind_a == ShapeKind::sphere && kind_b == ShapeKind::sphere) {
+    return sphere_separation(batch, row);
+  }
+  if (kind_a == ShapeKind::sphere && kind_b == ShapeKind::aabb) {
+    return sphere_box_separation(batch, row);
+  }
   return scalar::round_separation(exact_separation(batch, kind_a, kind_b, row).separation);
 }
 

@@ -37,7 +37,8 @@ class DopGeometry;
 
 /// All x of the body's frame with lower[i] <= direction[i] . x <= upper[i] for every slab.
 /// lower <= upper, and the slabs have a point in common; a slab may be redundant. Entries behind
-/// the last slab are unused.
+/// the last slab are unused. Contacts are those of the hull of its corners, rounded to float32: by
+/// at most 2^-24 of its size. Decisions of the exact and certified tiers are those of the slabs.
 struct Dop {
   DopKind kind = DopKind::k6;             ///< which slabs
   std::array<float, kMostSlabs> lower{};  ///< lower ends, metres x length of the direction
