@@ -54,7 +54,7 @@ struct Dop {
 };
 
 /// The geometry of a k-DOP (the one that it has, if that is still right); nullptr if its slabs are
-/// not valid. It takes up to 20 microseconds to find and 4 KB to keep. Threads may share it.
+/// not valid. It takes up to 50 microseconds to find and 10 KB to keep. Threads may share it.
 CAROM_EXPORT std::shared_ptr<const DopGeometry> dop_geometry(const Dop& dop);
 
 }  // namespace carom
