@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "narrowphase/features/segment_scalar.h"
 #include "narrowphase/manifolds/polygon_scalar.h"
 #include "narrowphase/scalar/polytope.h"
 #include "shapes/hull_features.h"
