@@ -7,6 +7,10 @@
 
 namespace carom {
 
+// The square of a shorter segment may be subnormal, and its direction is rounding. The segment is a
+// point then, 2^-40 off at most where a unit is the size of the pair.
+constexpr float kShortestSegment = 0x1p-40f;
+
 SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
   const HullGeometry& geometry = *hull.geometry;
   const HullFeatures* const features = geometry.features();
@@ -110,7 +114,7 @@ void SmallSolid::put_segment(const Vector3f& from, const Vector3f& to) {
   put_point(from);
   const Vector3f along = to - from;
   const float squared = scalar::dot(along, along);
-  if (squared > 0) {
+  if (squared > kShortestSegment * kShortestSegment) {
     put_point(to);
     const Vector3f direction = along * (1 / std::sqrt(squared));
     const Vector3f u = scalar::any_perpendicular(direction), v = scalar::cross(direction, u);

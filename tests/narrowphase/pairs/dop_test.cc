@@ -179,5 +179,23 @@ TEST(Dops, AroundBoxesAreBoxes) {
   }
 }
 
+// A capsule whose ends are so close that the square of its length is a subnormal float: its
+// direction is mostly rounding, and must not count.
+TEST(Dops, AroundACapsuleWithoutLength) {
+  const Dop cube = dop_of_box({-1, -1, -1}, {1, 1, 1}, DopKind::k6);
+  Random random(7);
+  for (const float length : {0.0f, 2.7e-23f, 3e-23f, 1e-22f, 1e-20f, 1e-12f, 1e-8f}) {
+    for (int round = 0; round < 40; ++round) {
+      const Vector3f way = random.direction().cast<float>();
+      const Eigen::AngleAxisd turn(random.uniform(0, 3), random.direction());
+      const PlacedShape inside{Capsule{{0, 0, 0}, way * length, 0.25f},
+                               random.uniform(0, 0.9) * random.direction()};
+      const auto result = checked_everywhere(
+          {inside, placed(cube, {0, 0, 0}, Eigen::Quaterniond(turn).cast<float>())});
+      EXPECT_LT(result.separation, -0.25f);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom::test
