@@ -7,10 +7,6 @@
 
 namespace carom {
 
-// The square of a shorter segment may be subnormal, and its direction is rounding. The segment is a
-// point then, 2^-40 off at most where a unit is the size of the pair.
-constexpr float kShortestSegment = 0x1p-40f;
-
 SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
   const HullGeometry& geometry = *hull.geometry;
   const HullFeatures* const features = geometry.features();
