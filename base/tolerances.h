@@ -229,7 +229,7 @@ inline constexpr float kSmallCrossing = 0x1p-6f;
 // Squared sine at a corner of a triangle that is too flat for the search over separating axes.
 inline constexpr double kFlatTriangle = 0x1p-30;
 
-// A shorter segment of a capsule is a point for it: its square may be subnormal, and its
+// A shorter segment of a capsule is a point for the same search: its square may be subnormal, and its
 // direction rounding.
 inline constexpr float kShortestSegment = 0x1p-40f;
 
