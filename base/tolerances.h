@@ -229,8 +229,8 @@ inline constexpr float kSmallCrossing = 0x1p-6f;
 // Squared sine at a corner of a triangle that is too flat for the search over separating axes.
 inline constexpr double kFlatTriangle = 0x1p-30;
 
-// A shorter segment of a capsule is a point for the same search: its square may be subnormal, and its
-// direction rounding.
+// A shorter segment of a capsule is a point for the same search: its square may be subnormal, and
+// its direction rounding.
 inline constexpr float kShortestSegment = 0x1p-40f;
 
 // How far a corner of a hull's face may lie behind the face's plane, as a share of the hull's size.
