@@ -11,12 +11,13 @@ namespace carom {
 
 class Scratch {
  public:
-  // Frees what the last stage took, and makes room for `bytes` bytes in `arrays` arrays.
+  // Frees what the last stage took, and makes room for `bytes` bytes in `arrays` arrays. New memory
+  // has room for an eighth more: what a stage needs changes a little from one time to the next.
   void start(size_t bytes, size_t arrays) {
     const size_t lines = bytes / sizeof(Line) + arrays;
     if (lines_.size() < lines) {
       lines_.clear();  // the contents need not be copied
-      lines_.resize(lines);
+      lines_.resize(lines + lines / 8);
     }
     used_ = 0;
   }

@@ -75,6 +75,7 @@ HWY_AFTER_NAMESPACE();
 #include <cfloat>
 #include <numeric>
 
+#include "base/fresh_pages.h"
 #include "base/parallel.h"
 #include "broadphase/sort/merge_pairs.h"
 #include "broadphase/sort/pair_list.h"
@@ -195,8 +196,8 @@ size_t HalfspaceSearch::find(std::span<const WorldHalfspace> halfspaces, const B
   const size_t count = with_box_first + with_halfspace_first;
   if (count > most_pairs) return count;
 
-  box_pairs_.resize(with_box_first);
-  halfspace_pairs_.resize(with_halfspace_first);
+  resize_for_overwriting(box_pairs_, with_box_first);
+  resize_for_overwriting(halfspace_pairs_, with_halfspace_first);
   for_each_task([&](const Task& task) { list_hits(task); });
   merge_pairs(box_pairs_, halfspace_pairs_, parallelism, out);
   return count;

@@ -1,20 +1,26 @@
 #include "broadphase/grid/cell_search.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "broadphase/grid/cell_join.h"
 
 namespace carom {
 namespace {
 
-// Tasks are few, so that tables with an entry a task stay small.
-size_t rows_per_task(size_t rows) { return std::clamp<size_t>(rows / 64, 256, 8192); }
+// Tasks are few, so that tables with an entry a task stay small. All have as many rows, and their
+// number seldom changes from one search to the next: else lists would grow again and again.
+size_t rows_per_task(size_t rows) {
+  const size_t most = std::clamp<size_t>(rows / 64, 256, 8192);
+  return block_count(rows, std::bit_ceil(block_count(rows, most)));
+}
 
 // Calls body(list, begin, end) for tasks of the rows of a grid.
 template <class Body>
 void for_each_task(CellRows::Range rows, Parallelism parallelism, FoundPairs& found,
                    const Body& body) {
   const size_t count = rows.end - rows.begin;
+  if (count == 0) return;
   const size_t per_task = rows_per_task(count);
   const size_t first_list = found.add(block_count(count, per_task));
   for_each_block(count, per_task, parallelism, [&](size_t task, size_t begin, size_t end) {

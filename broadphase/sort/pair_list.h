@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/fresh_pages.h"
@@ -54,12 +55,19 @@ class PairBudget {
 // never share one.
 class alignas(64) PairList {
  public:
-  // Empties the list, which draws on this budget from now on.
+  // Empties the list, which draws on this budget from now on. A list that grew in the last search
+  // gets room to spare: from one search to the next a few pairs come and go.
   void start(PairBudget& budget) {
     budget_ = &budget;
-    used_ = 0;
+    const size_t last = std::exchange(used_, 0);
     accounted_ = 0;
     dropped_ = 0;
+    if (!std::exchange(has_grown_, false)) return;
+    const size_t usual = last + last / 4 + 2 * most_at_once_;
+    if (pairs_.size() < usual) {
+      pairs_.clear();  // the contents need not be copied
+      pairs_.resize(usual);
+    }
   }
 
   // Makes room for `pairs` pairs after the last one. The caller writes them there and then calls
@@ -103,6 +111,8 @@ class alignas(64) PairList {
     }
     const size_t larger = is_counting_only() ? 0 : pairs_.size() / 2;
     pairs_.resize(std::max(pairs_.size(), used_ + pairs + larger));
+    has_grown_ = true;
+    most_at_once_ = std::max(most_at_once_, pairs);
   }
 
   static constexpr size_t kSpent = ~size_t{0};
@@ -112,6 +122,8 @@ class alignas(64) PairList {
   size_t used_ = 0;
   size_t accounted_ = 0;  // pairs of this list that the budget has counted
   size_t dropped_ = 0;
+  size_t most_at_once_ = 0;  // of the calls of reserve() for which it grew
+  bool has_grown_ = false;   // in this search
 };
 
 // The lists of a search, one a task. They keep their memory between searches.

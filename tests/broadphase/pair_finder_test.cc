@@ -220,7 +220,10 @@ TEST(PairFinder, KeepsItsMemory) {
   PairFinder finder;
   const size_t none = finder.bytes();
   const Boxes boxes = make_boxes(BoxFamily::random, 1000);
-  found_pairs(finder, boxes, BroadphaseMethod::sweep);
+  // The second search makes room for pairs that come and go.
+  for (int search = 0; search < 2; ++search) {
+    found_pairs(finder, boxes, BroadphaseMethod::sweep);
+  }
   const size_t used = finder.bytes();
   EXPECT_GT(used, none + 1000 * sizeof(TestBox));
   for (int repeat = 0; repeat < 3; ++repeat) {
@@ -230,6 +233,24 @@ TEST(PairFinder, KeepsItsMemory) {
   finder.forget();
   EXPECT_EQ(finder.bytes(), used);
   expect_as_if_new(finder, boxes, BroadphaseMethod::sweep);
+}
+
+// Lists that grow now and then wait for the system in a frame that takes no longer than others
+// else.
+TEST(PairFinder, NeedsNoMoreMemoryWhereAFewPairsComeAndGo) {
+  for (const BroadphaseMethod method : {BroadphaseMethod::grid, BroadphaseMethod::sweep}) {
+    PairFinder finder;
+    Crowd crowd(5000, 8);
+    size_t used = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      crowd.drift(0.01);
+      ASSERT_GT(found_pairs(finder, crowd.boxes(), method).size(), 1000u);
+      if (frame >= 5) {
+        ASSERT_EQ(finder.bytes(), used) << "frame " << frame;
+      }
+      used = finder.bytes();
+    }
+  }
 }
 
 // --- The axis and the order ---

@@ -27,6 +27,14 @@ size_t EventStage::Scratch::bytes() const {
   return bytes_of(unnamed) + bytes_of(events) + last.bytes() + now.bytes();
 }
 
+// Room for a block and the pairs of the last step that belong to it, which are seldom many more.
+void EventStage::Scratch::make_room() {
+  constexpr size_t kUsual = kPairsPerMergeBlock + kPairsPerMergeBlock / 8;
+  last.reserve(kUsual);
+  now.reserve(kUsual);
+  events.reserve(2 * kUsual);
+}
+
 void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Event>& events) {
   events.clear();
   const size_t blocks = merge_block_count(input.now.pairs.size());
@@ -98,8 +106,10 @@ void EventStage::read_block(const Input& input, size_t block, Scratch& scratch) 
 void EventStage::add_blocks(const Input& input, size_t first, size_t end, Parallelism parallelism,
                             RawVector<Event>& events) {
   for_each_block(end - first, 1, parallelism, [&](size_t i, size_t, size_t) {
-    scratch_[i].events.clear();
-    add_block(input, first + i, scratch_[i], scratch_[i].events);
+    Scratch& scratch = scratch_[i];
+    scratch.make_room();
+    scratch.events.clear();
+    add_block(input, first + i, scratch, scratch.events);
   });
   std::array<size_t, kBlocksAtOnce> place;
   size_t next = events.size();

@@ -49,6 +49,7 @@ class EventStage {
     Overlaps last, now;
     RawVector<Event> unnamed, events;
 
+    void make_room();
     size_t bytes() const;
   };
 

@@ -7,9 +7,14 @@
 
 namespace carom {
 
+void Overlaps::reserve(size_t pairs) {
+  key.reserve(pairs + kOverlapsBeyond);
+  contact.reserve(pairs + kOverlapsBeyond);
+}
+
 void Overlaps::start(size_t pairs) {
-  key.resize(pairs + kOverlapsBeyond);
-  contact.resize(pairs + kOverlapsBeyond);
+  resize_for_overwriting(key, pairs + kOverlapsBeyond);
+  resize_for_overwriting(contact, pairs + kOverlapsBeyond);
   count = 0;
 }
 

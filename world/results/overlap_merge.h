@@ -15,6 +15,7 @@ struct Overlaps {
   RawVector<uint32_t> contact;
   size_t count = 0;
 
+  void reserve(size_t pairs);
   void start(size_t pairs);
   // Adds those of pairs [begin, end). Undecided pairs have no events.
   void add(const PairHistory& history, size_t begin, size_t end);

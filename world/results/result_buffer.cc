@@ -12,7 +12,8 @@ const ResultColumns& ResultBuffer::prepare(const PairRange& range, Detail detail
                                            std::span<const ColumnRole> wanted) {
   first_row_ = range.first_row;
   rows_ = range.rows;
-  arrays_.resize(rows_ + 1, detail, wanted);
+  if (room_ <= rows_) room_ = rows_ + rows_ / 8 + 1;
+  arrays_.resize(room_, detail, wanted);
   columns().overlap[rows_] = 0;
   near_.clear();
   extra_.clear();

@@ -71,6 +71,7 @@ class ResultBuffer {
 
   size_t first_row_ = 0;
   size_t rows_ = 0;
+  size_t room_ = 0;  // rows of the columns: more than the most so far, as a few pairs come and go
   ResultArrays arrays_;
   std::vector<float> distances_;
   std::vector<uint8_t> near_;  // one a row; empty without contact distances

@@ -1,6 +1,9 @@
 // Memory of a world: it is accounted by part, and given back when the caller asks.
 #include <gtest/gtest.h>
 
+#include <utility>
+
+#include "carom/base/thread_arena.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -120,6 +123,38 @@ TEST(Memory, WhereAllBodiesMoveContactsAreHeldOnce) {
   const size_t some_move = step(0.1);
   ASSERT_GT(world.report().kept, 10000u);
   EXPECT_GT(some_move, all_move + contacts * (sizeof(Contact) + sizeof(ManifoldPoints)) * 9 / 10);
+}
+
+// Bodies that shake in their places: pairs come and go, and are as many in all. A list that grew
+// now and then would make its step wait for the system.
+void expect_steady(const WorldSettings& settings) {
+  World world(settings);
+  const std::vector<BodyId> ids = add_crowd(world, kDense);
+  std::vector<Eigen::Vector3d> home;
+  for (const BodyId id : ids) home.push_back(world.position(id));
+  Random random(7);
+  size_t used = 0, events = 0, growing_steps = 0;
+  for (int step = 0; step < 40; ++step) {
+    for (size_t i = 0; i < ids.size(); ++i) {
+      world.set_position(ids[i], home[i] + random_position(random, 0.1));
+    }
+    world.step();
+    const size_t before = std::exchange(used, world.bytes());
+    if (step >= 10) growing_steps += used > before;
+    events += world.events().size();
+  }
+  EXPECT_LE(growing_steps, 2u);
+  if (settings.detail != Detail::pairs) {
+    EXPECT_GT(events, 10000u);
+  }
+}
+
+TEST(Memory, OfABusyWorldStaysAsItIs) {
+  ThreadArena arena(2);
+  for (const Detail detail : {Detail::pairs, Detail::contact, Detail::manifold}) {
+    expect_steady({.detail = detail, .parallelism = Parallelism::none});
+    arena.run([&] { expect_steady({.detail = detail, .parallelism = arena.parallelism()}); });
+  }
 }
 
 // A world that gives memory back now and then, and one that never does.
