@@ -66,6 +66,8 @@ endif()
 if(CAROM_SANITIZE)
   add_compile_options(-fsanitize=${CAROM_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
+  # With the folder of the build in what a debugger reads, no other clone could use the object file.
+  add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
   add_link_options(-fsanitize=${CAROM_SANITIZE})
   # Without it each number of a vector costs calls, each with its checks.
   add_compile_definitions("EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")

@@ -8,7 +8,7 @@ tools/check_includes
 echo "lint: clang-format"
 scripts/format.sh --dry-run -Werror
 echo "lint: clang-tidy"
-# The files of a folder are looked at together, because headers take most of the time. The analyzer of
+# Files that passed before are not looked at again (tidy.py). The files of a folder are looked at together, because headers take most of the time. The analyzer of
 # clang-tidy looks into files that others include if their path has this name.
 tree=build/lint-UnifiedSource
 cmake --preset clang -B $tree -DCAROM_UNITY_BUILD=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
@@ -25,4 +25,4 @@ options=$(printf -- '--extra-arg=-Xclang\n--extra-arg=-analyzer-config\n--extra-
 grep -o '"file": "[^"]*"' $tree/compile_commands.json | cut -d '"' -f 4 | sed "s#^$PWD/##" |
   grep -E "^($tree/)?($rooms)/" | sort -u | xargs grep -L 'foreach_target.h' |
   sed 's/.*carom_scalar_pairs/0 &/; t; s/^/1 /' | sort -s -k 1,1 | cut -d ' ' -f 2 |
-  xargs -P "${JOBS:-$(nproc)}" -n 1 clang-tidy --quiet -p $tree $options 2> >(grep -v "warnings generated" >&2)
+  xargs -P "${JOBS:-$(nproc)}" -I '{}' scripts/tidy.py $tree '{}' $options 2> >(grep -v "warnings generated" >&2)
