@@ -11,7 +11,6 @@
 namespace carom {
 namespace {
 
-constexpr size_t kBoxesPerTask = 16384;
 constexpr size_t kBoxesPerBucket = 8192;  // their records fit the second-level cache
 constexpr size_t kMostBuckets = 512;
 
@@ -21,6 +20,12 @@ size_t spread_stride(size_t count) {
   constexpr size_t kLine = 16, kSetPeriod = 1024, kOffset = 9 * kLine;
   const size_t lines = (count + kLine - 1) / kLine * kLine;
   return lines < kSetPeriod ? lines : lines + (kOffset - lines) % kSetPeriod;
+}
+
+// Threads share out the buckets: of few boxes each gets several.
+size_t boxes_per_bucket(size_t boxes, Parallelism parallelism) {
+  if (!uses_threads(parallelism)) return kBoxesPerBucket;
+  return std::clamp<size_t>(boxes / kTasksOfFewBoxes, kFewestBoxesPerTask, kBoxesPerBucket);
 }
 
 }  // namespace
@@ -55,32 +60,33 @@ void CellRows::build(const BoxSource& source, Parallelism parallelism, Scratch& 
 // `cell_scale` and returns false.
 bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
                              std::array<float, 3>& cell_scale) {
-  const size_t tasks = block_count(source.count, kBoxesPerTask);
-  const size_t wanted = std::clamp<size_t>(source.count / kBoxesPerBucket, 1, kMostBuckets);
+  const size_t per_task = boxes_per_task(source.count);
+  const size_t tasks = block_count(source.count, per_task);
+  const size_t per_bucket = boxes_per_bucket(source.count, parallelism);
+  const size_t wanted = std::clamp<size_t>(source.count / per_bucket, 1, kMostBuckets);
   bucket_shift_ = 0;
   while ((grids_.cells >> bucket_shift_) >= wanted) ++bucket_shift_;
   buckets_ = (grids_.cells >> bucket_shift_) + 1;
   if (reach_.size() < tasks) reach_.resize(tasks);
   offsets_.assign(tasks * buckets_, 0);
-  for_each_block(source.count, kBoxesPerTask, parallelism,
-                 [&](size_t task, size_t begin, size_t end) {
-                   BlockBuffer buffer;
-                   CellKey keys[BoxBlock::kBoxes + BoxBlock::kPadding];
-                   uint32_t* counts = offsets_.data() + task * buckets_;
-                   reach_[task] = {};
-                   for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
-                     const size_t last = std::min(end, i + BoxBlock::kBoxes);
-                     find_cells(buffer.load(source, i, last), grids_, keys, reach_[task]);
-                     std::copy_n(keys, last - i, keys_.data() + i);
-                     if (buckets_ == 1) {
-                       counts[0] += static_cast<uint32_t>(last - i);
-                       continue;
-                     }
-                     for (size_t k = 0; k < last - i; ++k) {
-                       ++counts[keys[k].cell() >> bucket_shift_];
-                     }
-                   }
-                 });
+  for_each_block(source.count, per_task, parallelism, [&](size_t task, size_t begin, size_t end) {
+    BlockBuffer buffer;
+    CellKey keys[BoxBlock::kBoxes + BoxBlock::kPadding];
+    uint32_t* counts = offsets_.data() + task * buckets_;
+    reach_[task] = {};
+    for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
+      const size_t last = std::min(end, i + BoxBlock::kBoxes);
+      find_cells(buffer.load(source, i, last), grids_, keys, reach_[task]);
+      std::copy_n(keys, last - i, keys_.data() + i);
+      if (buckets_ == 1) {
+        counts[0] += static_cast<uint32_t>(last - i);
+        continue;
+      }
+      for (size_t k = 0; k < last - i; ++k) {
+        ++counts[keys[k].cell() >> bucket_shift_];
+      }
+    }
+  });
   CellReach reach;
   for (size_t task = 0; task < tasks; ++task) reach.add(reach_[task]);
   bool is_short = true;
@@ -97,24 +103,24 @@ bool CellRows::find_cells_of(const BoxSource& source, Parallelism parallelism,
 }
 
 void CellRows::fill_buckets(const BoxSource& source, Parallelism parallelism) {
-  counts_to_offsets(block_count(source.count, kBoxesPerTask), buckets_, offsets_, bucket_begin_);
+  const size_t per_task = boxes_per_task(source.count);
+  counts_to_offsets(block_count(source.count, per_task), buckets_, offsets_, bucket_begin_);
   const std::array<uint8_t, 3>& axis = grids_.axis;
-  for_each_block(
-      source.count, kBoxesPerTask, parallelism, [&](size_t task, size_t begin, size_t end) {
-        BlockBuffer buffer;
-        uint32_t* offsets = offsets_.data() + task * buckets_;
-        for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
-          const BoxBlock block = buffer.load(source, i, std::min(end, i + BoxBlock::kBoxes));
-          for (size_t k = 0; k < block.count; ++k) {
-            const CellKey box_key = keys_[i + k];
-            records_[offsets[box_key.cell() >> bucket_shift_]++] = {
-                {block.lower[axis[0]][k], block.lower[axis[1]][k], block.lower[axis[2]][k]},
-                {block.upper[axis[0]][k], block.upper[axis[1]][k], block.upper[axis[2]][k]},
-                source.body(i + k),
-                box_key};
-          }
-        }
-      });
+  for_each_block(source.count, per_task, parallelism, [&](size_t task, size_t begin, size_t end) {
+    BlockBuffer buffer;
+    uint32_t* offsets = offsets_.data() + task * buckets_;
+    for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
+      const BoxBlock block = buffer.load(source, i, std::min(end, i + BoxBlock::kBoxes));
+      for (size_t k = 0; k < block.count; ++k) {
+        const CellKey box_key = keys_[i + k];
+        records_[offsets[box_key.cell() >> bucket_shift_]++] = {
+            {block.lower[axis[0]][k], block.lower[axis[1]][k], block.lower[axis[2]][k]},
+            {block.upper[axis[0]][k], block.upper[axis[1]][k], block.upper[axis[2]][k]},
+            source.body(i + k),
+            box_key};
+      }
+    }
+  });
 }
 
 void CellRows::sort_bucket(size_t bucket) {

@@ -81,8 +81,6 @@ namespace {
 
 HWY_EXPORT(survey_block);
 
-constexpr size_t kBoxesPerTask = 16384;
-
 }  // namespace
 
 void Survey::clear() {
@@ -105,16 +103,16 @@ void Survey::add(const Survey& other) {
 
 const Survey& Surveyor::run(const BoxSource& source, Parallelism parallelism) {
   const auto survey = CAROM_DISPATCH(survey_block);
-  const size_t tasks = block_count(source.count, kBoxesPerTask);
+  const size_t per_task = boxes_per_task(source.count);
+  const size_t tasks = block_count(source.count, per_task);
   if (blocks_.size() < tasks) blocks_.resize(tasks);
-  for_each_block(
-      source.count, kBoxesPerTask, parallelism, [&](size_t task, size_t begin, size_t end) {
-        BlockBuffer buffer;
-        blocks_[task].clear();
-        for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
-          survey(buffer.load(source, i, std::min(end, i + BoxBlock::kBoxes)), blocks_[task]);
-        }
-      });
+  for_each_block(source.count, per_task, parallelism, [&](size_t task, size_t begin, size_t end) {
+    BlockBuffer buffer;
+    blocks_[task].clear();
+    for (size_t i = begin; i < end; i += BoxBlock::kBoxes) {
+      survey(buffer.load(source, i, std::min(end, i + BoxBlock::kBoxes)), blocks_[task]);
+    }
+  });
   total_.clear();
   for (size_t task = 0; task < tasks; ++task) total_.add(blocks_[task]);
   return total_;

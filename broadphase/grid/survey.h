@@ -13,6 +13,17 @@
 
 namespace carom {
 
+// Tasks that look at all boxes: sixteen, or as many as keep each between these sizes.
+inline constexpr size_t kTasksOfFewBoxes = 16;
+inline constexpr size_t kFewestBoxesPerTask = 1024, kMostBoxesPerTask = 16384;
+
+// A multiple of a block, so that blocks are full.
+inline size_t boxes_per_task(size_t boxes) {
+  const size_t per_task =
+      std::clamp(boxes / kTasksOfFewBoxes, kFewestBoxesPerTask, kMostBoxesPerTask);
+  return block_count(per_task, BoxBlock::kBoxes) * BoxBlock::kBoxes;
+}
+
 // Size classes of the longest edge, two an octave, by the upper bits of the float.
 inline constexpr int kSizeClassShift = 22;
 inline constexpr size_t kSizeClasses = 512;

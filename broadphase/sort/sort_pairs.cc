@@ -15,6 +15,7 @@ constexpr size_t kBodiesAtOnce = 1 << 14;
 constexpr size_t kPairsPerBucket = 4096;
 constexpr size_t kSparsePerBucket = 8;
 constexpr size_t kMostBuckets = 512;
+constexpr size_t kTasksOfFewBuckets = 16;
 
 // Visits all pairs, from four places of the list in turn. Neighbours in the list mostly share a
 // body, whose counter would not be ready again so soon.
@@ -58,7 +59,8 @@ void PairSorter::sort(std::span<const PairList> found, size_t body_count, Parall
     return;
   }
   fill_buckets(found, body_count, shift, parallelism);
-  for_each_block(buckets, 4, parallelism, [&](size_t, size_t first, size_t last) {
+  const size_t at_a_time = std::clamp<size_t>(buckets / kTasksOfFewBuckets, 1, 4);
+  for_each_block(buckets, at_a_time, parallelism, [&](size_t, size_t first, size_t last) {
     for (size_t i = first; i < last; ++i) {
       const size_t begin = bucket_begin_[i];
       const std::span<const Pair> pairs(buckets_.data() + begin, bucket_begin_[i + 1] - begin);

@@ -60,6 +60,15 @@ TEST(ForEachBlock, HasTheSameBlocksOnAnyNumberOfThreads) {
   }
 }
 
+TEST(UnlessShort, LeavesShortLoopsToOneThread) {
+  for (const size_t each : {1, 3, 30, 50'000}) {
+    const size_t least = 30'000 / each + (30'000 % each > 0);
+    EXPECT_EQ(unless_short(Parallelism::arena, least, each), Parallelism::arena);
+    EXPECT_EQ(unless_short(Parallelism::arena, least - 1, each), Parallelism::none);
+    EXPECT_EQ(unless_short(Parallelism::none, least, each), Parallelism::none);
+  }
+}
+
 TEST(ForEachBlock, WithoutThreadsRunsOnTheCallerInOrder) {
   ThreadArena arena(4);
   arena.run([] {

@@ -1,8 +1,11 @@
 // A world runs and stores only what its bodies and settings need.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <initializer_list>
 
+#include "carom/base/jobs.h"
+#include "tests/support/own_jobs.h"
 #include "tests/world/crowds.h"
 
 namespace carom::test {
@@ -27,6 +30,31 @@ std::string first_step(const WorldSettings& settings, const CrowdSpec& spec) {
     }
   }
   return stages_run(report);
+}
+
+// How often three steps, in which all bodies move, ask for other threads.
+size_t times_shared(const CrowdSpec& spec) {
+  BackwardJobs jobs;
+  const JobsScope scope(jobs);
+  World world({.parallelism = Parallelism::arena});
+  const std::vector<BodyId> ids = add_crowd(world, spec);
+  Random random(2);
+  for (int step = 0; step < 3; ++step) {
+    move_some(world, ids, 1, random);
+    world.step();
+  }
+  EXPECT_GT(world.contacts().size(), spec.count / 10);
+  return jobs.runs();
+}
+
+// Waking a thread takes as long as a step of a small world.
+TEST(PayForUse, SmallWorldsRunOnOneThread) {
+  for (const size_t count : {10, 300, 1000, 3000}) {
+    const double side = 1.7 * std::cbrt(static_cast<double>(count));
+    EXPECT_EQ(times_shared({.count = count, .side = side, .boxes = false, .velocities = true}), 0u)
+        << count;
+  }
+  EXPECT_GT(times_shared({.count = 20000, .side = 46, .boxes = false, .velocities = true}), 10u);
 }
 
 TEST(PayForUse, StagesThatRun) {

@@ -110,10 +110,33 @@ TEST(SameBits, OnAnyNumberOfThreads) {
   }
 }
 
+// So many that loops of a nanosecond a body are shared, too.
+TEST(SameBits, OfManySpheresOnAnyNumberOfThreads) {
+  const CrowdSpec many{.count = 40000, .side = 30, .boxes = false, .velocities = true};
+  const auto three_steps = [&](Parallelism parallelism) {
+    World world({.parallelism = parallelism});
+    const std::vector<BodyId> ids = add_crowd(world, many);
+    Random random(5);
+    std::vector<Results> steps;
+    for (const double share : {1.0, 0.3, 0.01}) {
+      world.step();
+      steps.push_back(results(world));
+      move_some(world, ids, share, random);
+    }
+    return steps;
+  };
+  const std::vector<Results> expected = three_steps(Parallelism::none);
+  EXPECT_GT(expected[0].contacts.size(), 30000 * sizeof(Contact));
+  for (const int threads : {2, 4}) {
+    ThreadArena arena(threads);
+    arena.run([&] { expect_equal(three_steps(arena.parallelism()), expected); });
+  }
+}
+
 TEST(SameBits, WithAnySchedulerOfTheCaller) {
   CrowdSpec many = kOriented;
-  many.count = 4000;
-  many.side = 20;
+  many.count = 6000;
+  many.side = 23;
   many.looks_ahead = true;
   const WorldSettings settings{.detail = Detail::manifold, .margin = 0.05f};
   WorldSettings alone = settings;

@@ -78,12 +78,13 @@ void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
 }
 
 void ChangeTracker::update_shapes(const BodyStore& bodies, Parallelism parallelism) {
-  any_reshaped_ = compare_boxes(bodies, parallelism);
-  any_reshaped_ |= compare_rows(bodies, parallelism);
+  any_reshaped_ = compare_boxes(bodies, unless_short(parallelism, bodies.boxes().size(), 1));
+  any_reshaped_ |= compare_rows(bodies, unless_short(parallelism, bodies.shape_rows().size(), 1));
 }
 
 void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
+  parallelism = unless_short(parallelism, rows, 1);
   all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
   changed_.resize(rows);
   block_changes_.resize(block_count(rows, kRowsPerBlock));
