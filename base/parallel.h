@@ -23,11 +23,12 @@ void run_tasks(size_t count, FunctionRef<void(size_t)> task);
 // of another: the time that it shared with other threads.
 uint64_t shared_nanoseconds();
 
-// The threads for a loop over `items` items that take so many nanoseconds each: none if the loop is
-// short, because waking a thread takes 10 to 20 microseconds.
-inline Parallelism unless_short(Parallelism parallelism, size_t items, size_t nanoseconds_each) {
-  constexpr size_t kShort = 30'000;
-  return items * nanoseconds_each < kShort ? Parallelism::none : parallelism;
+// The threads for a loop over items that take a few nanoseconds each: none for few of them, because
+// waking a thread takes 10 to 20 microseconds. In larger worlds threads stay awake from loop to
+// loop.
+inline constexpr size_t kFewItems = 8192;
+inline Parallelism unless_few(Parallelism parallelism, size_t items) {
+  return items < kFewItems ? Parallelism::none : parallelism;
 }
 
 inline size_t block_count(size_t count, size_t block_size) {

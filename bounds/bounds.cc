@@ -133,6 +133,7 @@ HWY_AFTER_NAMESPACE();
 #include "base/parallel.h"
 #include "bounds/extent.h"
 #include "bounds/some_bounds.h"
+#include "shapes/quick_kinds.h"
 #include "simd/dispatch.h"
 
 namespace carom {
@@ -179,26 +180,11 @@ void open_if_halfspace(const BodyReader& reader, size_t i, const BoundsColumns& 
   }
 }
 
-// What the bounds of a body take, roughly.
-size_t nanoseconds_each(const Collidables& bodies) {
-  if (bodies.kind) return 40;
-  switch (bodies.uniform_kind) {
-    case ShapeKind::sphere:
-    case ShapeKind::aabb:
-      return 2;
-    case ShapeKind::box:
-    case ShapeKind::capsule:
-      return 10;
-    default:
-      return 40;
-  }
-}
-
 }  // namespace
 
 size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
                       Parallelism parallelism) {
-  parallelism = unless_short(parallelism, bodies.count, nanoseconds_each(bodies));
+  if (have_quick_kind(bodies)) parallelism = unless_few(parallelism, bodies.count);
   const size_t lanes = CAROM_DISPATCH(lane_count)();
   std::atomic<size_t> valid{0};
   for_each_block(bodies.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {

@@ -17,6 +17,7 @@
 #include "narrowphase/blocks/pair_block.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "shapes/body_reader.h"
+#include "shapes/quick_kinds.h"
 
 namespace carom {
 namespace {
@@ -121,15 +122,6 @@ struct CollideCall {
   }
 };
 
-// What a pair takes at least, roughly.
-size_t nanoseconds_each(const CollideCall& call) {
-  const auto are_simple = [](const Collidables& bodies) {
-    return !bodies.kind &&
-           (bodies.uniform_kind == ShapeKind::sphere || bodies.uniform_kind == ShapeKind::aabb);
-  };
-  return are_simple(call.a) && are_simple(call.b) ? 5 : 30;
-}
-
 void run_blocks(const CollideCall& call) {
   if (call.detail == Detail::pairs || call.count == 0) return;
   const CollideOptions& options = call.options;
@@ -138,29 +130,28 @@ void run_blocks(const CollideCall& call) {
   const bool has_distance = has_contacts(call.detail) && options.contact_distance > 0;
   const auto one_distance = filled(has_distance ? options.contact_distance : 0);
   const float* const distances = has_contacts(call.detail) ? options.contact_distances : nullptr;
-  for_each_block(call.count, kPairsPerBlock,
-                 unless_short(options.parallelism, call.count, nanoseconds_each(call)),
-                 [&](size_t, size_t begin, size_t end) {
-                   if (has_contacts(call.detail)) fill_sub_shapes(call.out, begin, end);
-                   const PairBlock block = {
-                       .a = call.a,
-                       .b = call.b,
-                       .pairs = call.pairs ? call.pairs + begin : nullptr,
-                       .first = begin,
-                       .count = end - begin,
-                       .detail = call.detail,
-                       .frame = options.frame,
-                       .measured = options.measured,
-                       .reach = distances      ? distances + begin
-                                : has_distance ? one_distance.data()
-                                               : nullptr,
-                       .direction = call.direction ? call.direction + begin : nullptr,
-                       .accuracy = options.accuracy,
-                       .out = from_row(call.out, begin)};
-                   call.composites ? run_mixed_block(block, extra) : run_pair_block(block);
-                   if (block.out.point_names && has_contacts(call.detail))
-                     name_simple_points(block);
-                 });
+  const bool is_quick = have_quick_kind(call.a) && have_quick_kind(call.b);
+  const Parallelism parallelism =
+      is_quick ? unless_few(options.parallelism, call.count) : options.parallelism;
+  for_each_block(call.count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+    if (has_contacts(call.detail)) fill_sub_shapes(call.out, begin, end);
+    const PairBlock block = {.a = call.a,
+                             .b = call.b,
+                             .pairs = call.pairs ? call.pairs + begin : nullptr,
+                             .first = begin,
+                             .count = end - begin,
+                             .detail = call.detail,
+                             .frame = options.frame,
+                             .measured = options.measured,
+                             .reach = distances      ? distances + begin
+                                      : has_distance ? one_distance.data()
+                                                     : nullptr,
+                             .direction = call.direction ? call.direction + begin : nullptr,
+                             .accuracy = options.accuracy,
+                             .out = from_row(call.out, begin)};
+    call.composites ? run_mixed_block(block, extra) : run_pair_block(block);
+    if (block.out.point_names && has_contacts(call.detail)) name_simple_points(block);
+  });
 }
 
 void move_to_world(const ResultColumns& columns, size_t row, const CollideCall& call) {

@@ -78,13 +78,13 @@ void ChangeTracker::update(BodyStore& bodies, Parallelism parallelism) {
 }
 
 void ChangeTracker::update_shapes(const BodyStore& bodies, Parallelism parallelism) {
-  any_reshaped_ = compare_boxes(bodies, unless_short(parallelism, bodies.boxes().size(), 1));
-  any_reshaped_ |= compare_rows(bodies, unless_short(parallelism, bodies.shape_rows().size(), 1));
+  any_reshaped_ = compare_boxes(bodies, unless_few(parallelism, bodies.boxes().size()));
+  any_reshaped_ |= compare_rows(bodies, unless_few(parallelism, bodies.shape_rows().size()));
 }
 
 void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
-  parallelism = unless_short(parallelism, rows, 1);
+  parallelism = unless_few(parallelism, rows);
   all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
   changed_.resize(rows);
   block_changes_.resize(block_count(rows, kRowsPerBlock));

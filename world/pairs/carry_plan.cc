@@ -55,7 +55,7 @@ void CarryPlan::test_all(size_t pairs) {
 void CarryPlan::match(const std::vector<Pair>& last, const std::vector<Pair>& now,
                       std::span<const uint8_t> changed, Parallelism parallelism) {
   const size_t blocks = block_count(now.size(), kPairsPerMergeBlock);
-  parallelism = unless_short(parallelism, now.size(), 3);
+  parallelism = unless_few(parallelism, now.size());
   runs_.reset(blocks);
   open_first_.resize(blocks);
   for_each_block(now.size(), kPairsPerMergeBlock, parallelism,

@@ -13,7 +13,7 @@ void PairChanges::run(const std::vector<Pair>& last, const std::vector<Pair>& no
   for (BlockLists<Pair>* lists : {&added_lists_, &removed_lists_}) {
     lists->reset(merge_block_count(now.size()));
   }
-  parallelism = unless_short(parallelism, now.size(), 3);
+  parallelism = unless_few(parallelism, now.size());
   for_each_merge_block(now.size(), parallelism, [&](size_t block, size_t begin, size_t end) {
     std::vector<Pair>& added_here = added_lists_[block];
     std::vector<Pair>& removed_here = removed_lists_[block];

@@ -252,7 +252,7 @@ void ContactStage::find_results(const PairRange& range, const Input& input, Pair
   const bool simple = decisions_say_all(input);
   std::atomic<size_t> overlaps{0}, undecided{0}, left_out{0};
   for_each_block(
-      pairs, kPairsPerMergeBlock, unless_short(input.settings.parallelism, pairs, 3),
+      pairs, kPairsPerMergeBlock, unless_few(input.settings.parallelism, pairs),
       [&](size_t block, size_t begin, size_t end) {
         Counts counts;
         const auto open = [&](size_t first, size_t stop, size_t number) {
@@ -294,7 +294,7 @@ void ContactStage::move_carried(const PairRange& range, const Input& input, Pair
 
 void ContactStage::write_contacts(const PairRange& range, const Input& input, PairHistory& now) {
   const size_t pairs = range.end - range.begin;
-  for_each_block(pairs, kPairsPerMergeBlock, unless_short(input.settings.parallelism, pairs, 3),
+  for_each_block(pairs, kPairsPerMergeBlock, unless_few(input.settings.parallelism, pairs),
                  [&](size_t block, size_t begin, size_t end) {
                    size_t next = block_first_[block];
                    const auto open = [&](size_t first, size_t stop, size_t number) {
@@ -320,19 +320,19 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
     if (!turns) return linear[body];
     return point_velocity(linear[body], angular[body], arm);
   };
-  for_each_block(
-      contacts.size(), kPairsPerMergeBlock, unless_short(parallelism, contacts.size(), 4),
-      [&](size_t, size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-          // Bodies lie anywhere; the contacts themselves are in the cache.
-          const Contact& ahead = contacts[std::min(i + kContactsAhead, end - 1)];
-          __builtin_prefetch(&linear[ahead.b]);
-          if (!angular.empty()) __builtin_prefetch(&angular[ahead.b]);
-          Contact& c = contacts[i];
-          const Vector3f v = velocity(c.b, c.arm_b) - velocity(c.a, c.arm_a);
-          c.normal_velocity = (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();
-        }
-      });
+  for_each_block(contacts.size(), kPairsPerMergeBlock, unless_few(parallelism, contacts.size()),
+                 [&](size_t, size_t begin, size_t end) {
+                   for (size_t i = begin; i < end; ++i) {
+                     // Bodies lie anywhere; the contacts themselves are in the cache.
+                     const Contact& ahead = contacts[std::min(i + kContactsAhead, end - 1)];
+                     __builtin_prefetch(&linear[ahead.b]);
+                     if (!angular.empty()) __builtin_prefetch(&angular[ahead.b]);
+                     Contact& c = contacts[i];
+                     const Vector3f v = velocity(c.b, c.arm_b) - velocity(c.a, c.arm_a);
+                     c.normal_velocity =
+                         (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();
+                   }
+                 });
 }
 
 }  // namespace carom

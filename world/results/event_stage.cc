@@ -38,7 +38,7 @@ void EventStage::Scratch::make_room() {
 void EventStage::run(const Input& input, Parallelism parallelism, RawVector<Event>& events) {
   events.clear();
   const size_t blocks = merge_block_count(input.now.pairs.size());
-  if (uses_threads(unless_short(parallelism, input.now.pairs.size(), 4))) {
+  if (uses_threads(unless_few(parallelism, input.now.pairs.size()))) {
     for (size_t first = 0; first < blocks; first += kBlocksAtOnce) {
       add_blocks(input, first, std::min(first + kBlocksAtOnce, blocks), parallelism, events);
     }
