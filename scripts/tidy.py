@@ -3,14 +3,15 @@
 
   tidy.py BUILD_DIR FILE [OPTION of clang-tidy]...
 
-The input is the text of the file and of all that it includes, the command that compiles it, the
-checks and the version of clang-tidy, whatever folder the project is in. What passed is remembered
+The input is the text and the names of the file and of all that it includes, the command that
+compiles it, the checks and the version of clang-tidy, whatever folder the project is in. What passed is remembered
 in ${XDG_CACHE_HOME:-~/.cache}/carom/tidy, an empty file each.
 """
 import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -38,8 +39,8 @@ def included_files(arguments, folder):
     output = arguments.index("-o")
     command = [*arguments[:output], *arguments[output + 2:], "-M"]
     rule = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
-    names = rule.partition(":")[2].replace("\\\n", " ").split()
-    return [os.path.join(folder, name) for name in names]
+    names = re.split(r"(?<!\\)\s+", rule.partition(": ")[2].replace("\\\n", " ").strip())
+    return [os.path.join(folder, name.replace("\\ ", " ")) for name in names]
 
 
 def input_digest(build, file, options):
@@ -51,8 +52,9 @@ def input_digest(build, file, options):
     arguments, folder = compile_command(build, file)
     add(" ".join([*arguments, *options]).encode())
     add(subprocess.run(["clang-tidy", "--version"], check=True, capture_output=True).stdout)
-    add(pathlib.Path(ROOT, ".clang-tidy").read_bytes())
+    add(subprocess.run(["clang-tidy", "--dump-config", file], check=True, capture_output=True).stdout)
     for name in included_files(arguments, folder):
+        add(name.encode())
         add(pathlib.Path(name).read_bytes())
     return digest.hexdigest()
 
@@ -60,12 +62,15 @@ def input_digest(build, file, options):
 def main():
     build, file, options = pathlib.Path(sys.argv[1]).resolve(), os.path.abspath(sys.argv[2]), sys.argv[3:]
     cache = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "carom" / "tidy"
-    passed = cache / input_digest(build, file, options)
+    digest = input_digest(build, file, options)
+    passed = cache / digest
     if passed.exists():
         passed.touch()  # so that old ones can be told
         return
     if subprocess.run(["clang-tidy", "--quiet", "-p", str(build), *options, file]).returncode != 0:
         sys.exit(1)
+    if input_digest(build, file, options) != digest:
+        return  # somebody has changed a file in the meantime
     cache.mkdir(parents=True, exist_ok=True)
     passed.touch()
 

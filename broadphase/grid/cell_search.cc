@@ -11,7 +11,7 @@ namespace {
 // Tasks are few, so that tables with an entry a task stay small. All have as many rows, and their
 // number seldom changes from one search to the next: else lists would grow again and again.
 size_t rows_per_task(size_t rows) {
-  const size_t most = std::clamp<size_t>(rows / 64, 256, 8192);
+  const size_t most = std::clamp<size_t>(block_count(rows, 64), 256, 8192);
   return block_count(rows, std::bit_ceil(block_count(rows, most)));
 }
 

@@ -45,6 +45,7 @@ class PairBudget {
   }
   void add(size_t pairs) { kept_ += pairs; }
   bool is_spent() const { return kept_ > most_; }
+  size_t most() const { return most_; }
 
  private:
   size_t most_ = 0;
@@ -129,7 +130,10 @@ class alignas(64) PairList {
 // The lists of a search, one a task. They keep their memory between searches.
 class FoundPairs {
  public:
+  // After a search that found too many they give it back: lists that begin with room ask the budget
+  // late, and each such search would keep more than the last one.
   void start(size_t most_pairs) {
+    if (count() > budget_.most()) lists_ = {};
     budget_.start(most_pairs);
     used_ = 0;
   }

@@ -253,6 +253,38 @@ TEST(PairFinder, NeedsNoMoreMemoryWhereAFewPairsComeAndGo) {
   }
 }
 
+TEST(PairFinder, HoldsNoMoreAfterManySearchesThatFindTooMuch) {
+  const Boxes boxes(3000, TestBox{{0, 0, 0}, {1, 1, 1}});
+  for (const BroadphaseMethod method : {BroadphaseMethod::grid, BroadphaseMethod::sweep}) {
+    PairFinder finder;
+    finder.set_most_pairs(1000);
+    std::vector<Pair> pairs;
+    const auto search = [&] {
+      const LaidOutBoxes memory(boxes);
+      EXPECT_FALSE(finder.find(memory.view(), {}, pairs, method, Parallelism::none).complete);
+      return finder.bytes();
+    };
+    size_t used = 0;
+    for (int i = 0; i < 3; ++i)
+      used = search();  // boxes that rest are remembered from the second on
+    for (int i = 0; i < 20; ++i) ASSERT_LE(search(), used) << i;
+  }
+}
+
+// A box more or less does not change the number of tasks, whose lists would all grow.
+TEST(PairFinder, ABoxMoreOrLessTakesNoOtherLists) {
+  PairFinder finder;
+  Crowd crowd(20033, 9);
+  for (int frame = 0; frame < 3; ++frame)
+    found_pairs(finder, crowd.boxes(), BroadphaseMethod::grid);
+  const size_t used = finder.bytes();
+  for (int box = 0; box < 3; ++box) {
+    crowd.shrink(1);
+    found_pairs(finder, crowd.boxes(), BroadphaseMethod::grid);
+    EXPECT_EQ(finder.bytes(), used);
+  }
+}
+
 // --- The axis and the order ---
 
 TEST(SweepOrder, IsByLowerCornerThenIndex) {
