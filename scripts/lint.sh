@@ -8,8 +8,9 @@ tools/check_includes
 echo "lint: clang-format"
 scripts/format.sh --dry-run -Werror
 echo "lint: clang-tidy"
-# Files that passed before are not looked at again (tidy.py). The files of a folder are looked at together, because headers take most of the time. The analyzer of
-# clang-tidy looks into files that others include if their path has this name.
+# Files that passed before are not looked at again (tidy.py). The files of a folder are looked at
+# together, because headers take most of the time. The analyzer of clang-tidy looks into files that
+# others include if their path has this name.
 tree=build/lint-UnifiedSource
 cmake --preset clang -B $tree -DCAROM_UNITY_BUILD=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
   -DCAROM_BUILD_TESTS=OFF -DCAROM_BUILD_BENCH=OFF >/dev/null
