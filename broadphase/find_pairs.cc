@@ -25,7 +25,7 @@ constexpr size_t kSpacesPerBlock = 16;
 constexpr size_t kBruteForceLimit = 128;
 // Up to this many boxes, a sweep along one axis is as fast as cells.
 constexpr size_t kSweepLimit = 350;
-// One thread finishes this many before others have woken up.
+// Up to this many, two threads are no faster than one.
 constexpr size_t kSerialLimit = 4096;
 // With more boxes than this in the cell of a box, a sweep may be faster again.
 constexpr double kMostCrowded = 512;

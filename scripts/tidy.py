@@ -4,8 +4,8 @@
   tidy.py BUILD_DIR FILE [OPTION of clang-tidy]...
 
 The input is the text and the names of the file and of all that it includes, the command that
-compiles it, the checks and the version of clang-tidy, whatever folder the project is in. What passed is remembered
-in ${XDG_CACHE_HOME:-~/.cache}/carom/tidy, an empty file each.
+compiles it, the checks and the version of clang-tidy, whatever folder the project is in. What passed
+is remembered in ${XDG_CACHE_HOME:-~/.cache}/carom/tidy, an empty file each.
 """
 import hashlib
 import json
@@ -65,7 +65,6 @@ def main():
     digest = input_digest(build, file, options)
     passed = cache / digest
     if passed.exists():
-        passed.touch()  # so that old ones can be told
         return
     if subprocess.run(["clang-tidy", "--quiet", "-p", str(build), *options, file]).returncode != 0:
         sys.exit(1)
