@@ -191,6 +191,7 @@ void World::set_user(BodyId id, uint64_t user) {
 
 BodyArrays World::arrays() {
   BodyStore& bodies = state_->bodies;
+  bodies.share_poses();
   BodyArrays arrays{.count = bodies.rows()};
   if (settings().positions == PositionType::float64) {
     arrays.record64 = bodies.records64().data();

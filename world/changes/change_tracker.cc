@@ -85,26 +85,75 @@ void ChangeTracker::update_shapes(const BodyStore& bodies, Parallelism paralleli
 void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
   parallelism = unless_few(parallelism, rows);
-  all_unchanged_ = knows_last_ && !bodies.any_touched() && changed_.size() == rows;
+  const bool same_rows = changed_.size() == rows;
   changed_.resize(rows);
   block_changes_.resize(block_count(rows, kRowsPerBlock));
-  // New rows are marked as touched, so the contents of their copies do not matter.
-  bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
-  moved |= compare_records(bodies.records64(), last_records64_, parallelism);
-  moved |= compare_orientations(bodies, parallelism);
+  const size_t listed = bodies.moved_indices().size() + bodies.touched_indices().size();
+  const bool compares_all = bodies.shares_poses() || !knows_last_ || 4 * listed > rows;
+  const bool moved =
+      compares_all ? compare_poses(bodies, parallelism) : compare_listed_poses(bodies);
   if (any_reshaped_) mark_changed_shapes(bodies, parallelism);
-  if (moved || any_reshaped_) all_unchanged_ = false;
   if (knows_last_) {
-    mark_touched(bodies);
+    for (const uint32_t index : bodies.touched_indices()) {
+      if (index < changed_.size()) mark(index);
+    }
   } else {
     mark_all();
   }
+  all_unchanged_ = knows_last_ && same_rows && !moved && !any_reshaped_ && !bodies.any_touched();
   knows_last_ = true;
   changed_count_ = std::accumulate(block_changes_.begin(), block_changes_.end(), size_t{0});
   if (are_few()) list_few();
 }
 
-// Runs first, so it overwrites the flags of the last step.
+// Each of the two sets the flags of bodies whose poses differ and clears all others, copies what
+// differs, and says whether anything does. New rows are listed as touched, so the contents of their
+// copies do not matter.
+bool ChangeTracker::compare_poses(const BodyStore& bodies, Parallelism parallelism) {
+  bool moved = compare_records(bodies.records32(), last_records32_, parallelism);
+  moved |= compare_records(bodies.records64(), last_records64_, parallelism);
+  moved |= compare_orientations(bodies, parallelism);
+  return moved;
+}
+
+bool ChangeTracker::compare_listed_poses(const BodyStore& bodies) {
+  clear_flags();
+  last_records32_.resize(bodies.records32().size());
+  last_records64_.resize(bodies.records64().size());
+  last_orientations_.resize(bodies.orientations().size(), BodyStore::kIdentity);
+  bool moved = false;
+  const auto differs = [](const auto& now, auto& last, size_t index) {
+    if (now.empty() || difference(&now[4 * index], &last[4 * index]) == 0) return false;
+    std::copy_n(&now[4 * index], 4, &last[4 * index]);
+    return true;
+  };
+  for (const auto* list : {&bodies.moved_indices(), &bodies.touched_indices()}) {
+    for (const uint32_t index : *list) {
+      if (index >= changed_.size()) continue;
+      bool is_other = differs(bodies.records32(), last_records32_, index);
+      is_other |= differs(bodies.records64(), last_records64_, index);
+      if (!last_orientations_.empty()) {
+        const BodyStore::Row& now = bodies.orientations()[index];
+        is_other |= difference(now.data(), last_orientations_[index].data()) != 0;
+        last_orientations_[index] = now;
+      }
+      if (is_other) mark(index);
+      moved |= is_other;
+    }
+  }
+  return moved;
+}
+
+// Clears the flags of the last step.
+void ChangeTracker::clear_flags() {
+  for (size_t block = 0; block < block_changes_.size(); ++block) {
+    if (std::exchange(block_changes_[block], 0) == 0) continue;
+    const size_t first = block * kRowsPerBlock;
+    std::memset(&changed_[first], 0, std::min(kRowsPerBlock, changed_.size() - first));
+  }
+}
+
+// Overwrites the flags of the last step.
 template <class T>
 bool ChangeTracker::compare_records(const LargeVector<T>& now, LargeVector<T>& last,
                                     Parallelism parallelism) {
@@ -217,12 +266,9 @@ void ChangeTracker::mark_changed_shapes(const BodyStore& bodies, Parallelism par
                  });
 }
 
-void ChangeTracker::mark_touched(const BodyStore& bodies) {
-  for (const uint32_t index : bodies.touched_indices()) {
-    if (index >= changed_.size() || changed_[index]) continue;
-    changed_[index] = 1;
-    ++block_changes_[index / kRowsPerBlock];
-  }
+void ChangeTracker::mark(size_t index) {
+  block_changes_[index / kRowsPerBlock] += !changed_[index];
+  changed_[index] = 1;
 }
 
 void ChangeTracker::list_few() {

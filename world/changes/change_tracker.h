@@ -1,6 +1,6 @@
-// Finds the bodies that changed since the last step. It compares their data with a copy, since
-// callers may write poses straight into the arrays. Boxes and rows of shapes are compared from the
-// time on when a caller has asked for these arrays.
+// Finds the bodies that changed since the last step, by comparing them with a copy: those that the
+// store lists, or all once a caller has asked for the arrays of poses and may write to them. Boxes
+// and rows of shapes are compared from the time on when a caller has asked for these.
 #pragma once
 
 #include <cstdint>
@@ -60,13 +60,16 @@ class ChangeTracker {
     size_t bytes() const { return bytes_of(changed) + bytes_of(block_changed); }
   };
 
+  bool compare_poses(const BodyStore& bodies, Parallelism parallelism);
+  bool compare_listed_poses(const BodyStore& bodies);
+  void clear_flags();
   template <class T>
   bool compare_records(const LargeVector<T>& now, LargeVector<T>& last, Parallelism parallelism);
   bool compare_orientations(const BodyStore& bodies, Parallelism parallelism);
   bool compare_boxes(const BodyStore& bodies, Parallelism parallelism);
   bool compare_rows(const BodyStore& bodies, Parallelism parallelism);
   void mark_changed_shapes(const BodyStore& bodies, Parallelism parallelism);
-  void mark_touched(const BodyStore& bodies);
+  void mark(size_t index);
   void mark_all();
   void list_few();
 

@@ -1,6 +1,7 @@
 #include "world/store/body_store.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "shapes/dop_geometry.h"
@@ -18,6 +19,15 @@ void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T def
     column.resize(rows, default_value);
   }
   column[index] = value;
+}
+
+// Replaces the numbers at `at` by `value`. Whether any bit differs: NaN equals itself.
+template <class Value, class T>
+bool replace_bits(const Value& value, T* at) {
+  const size_t size = value.size() * sizeof(T);
+  if (std::memcmp(at, value.data(), size) == 0) return false;
+  std::memcpy(at, value.data(), size);
+  return true;
 }
 
 std::shared_ptr<const void> geometry_of(const Shape& shape) {
@@ -95,6 +105,7 @@ void BodyStore::drop_rows() {
 BodyId BodyStore::add(const BodyDesc& body) {
   const uint32_t index = alive_.take();
   if (rows() > generation_.size()) add_row();
+  touch(index, kReplaced);
   set_position(index, body.position);
   store_shape(index, body.shape);
   set_orientation(index, body.orientation);
@@ -112,7 +123,6 @@ BodyId BodyStore::add(const BodyDesc& body) {
     set_angular_velocity(index, body.angular_velocity);
   }
   store_detection(index, body.detection);
-  touch(index, kReplaced);
   return id_of(index);
 }
 
@@ -131,8 +141,14 @@ void BodyStore::remove(BodyId id) {
 }
 
 void BodyStore::touch(uint32_t index, uint8_t how) {
-  if (!touched_[index]) touched_indices_.push_back(index);
+  if (!touched(index)) touched_indices_.push_back(index);
   touched_[index] |= how;
+}
+
+void BodyStore::note_move(uint32_t index) {
+  if (shares_poses_ || touched_[index]) return;  // then it counts as changed anyway
+  moved_indices_.push_back(index);
+  touched_[index] |= kMoved;
 }
 
 void BodyStore::touch_all() {
@@ -141,8 +157,10 @@ void BodyStore::touch_all() {
 }
 
 void BodyStore::clear_touched() {
-  for (const uint32_t index : touched_indices_) touched_[index] = 0;
-  touched_indices_.clear();
+  for (std::vector<uint32_t>* list : {&touched_indices_, &moved_indices_}) {
+    for (const uint32_t index : *list) touched_[index] = 0;
+    list->clear();
+  }
   touched_.resize(rows());
 }
 
@@ -150,7 +168,7 @@ void BodyStore::give_back() {
   for_each_column(*this, [](auto& column, bool, int, const auto&) { carom::give_back(column); });
   for (IndexPool* pool : {&alive_, &slots_}) pool->give_back();
   row_pool_.give_back();
-  carom::give_back(touched_, touched_indices_, boxes_, rows_, halfspaces_);
+  carom::give_back(touched_, touched_indices_, moved_indices_, boxes_, rows_, halfspaces_);
 }
 
 Eigen::Vector3d BodyStore::position(uint32_t index) const {
@@ -163,13 +181,10 @@ Eigen::Vector3d BodyStore::position(uint32_t index) const {
 
 void BodyStore::set_position(uint32_t index, const Eigen::Vector3d& position) {
   const size_t row = size_t{index} * 4;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (positions_ == PositionType::float64) {
-      records64_[row + axis] = position[axis];
-    } else {
-      records32_[row + axis] = static_cast<float>(position[axis]);
-    }
-  }
+  const Eigen::Vector3f rounded = position.cast<float>();
+  const bool moves = positions_ == PositionType::float64 ? replace_bits(position, &records64_[row])
+                                                         : replace_bits(rounded, &records32_[row]);
+  if (moves) note_move(index);
 }
 
 Orientation BodyStore::orientation(uint32_t index) const {
@@ -178,7 +193,8 @@ Orientation BodyStore::orientation(uint32_t index) const {
 }
 
 void BodyStore::set_orientation(uint32_t index, const Orientation& q) {
-  if (row_count(kind_[index]) > 0) orientation_[index] = {q.x(), q.y(), q.z(), q.w()};
+  if (row_count(kind_[index]) == 0) return;
+  if (replace_bits(Row{q.x(), q.y(), q.z(), q.w()}, orientation_[index].data())) note_move(index);
 }
 
 float BodyStore::radius(uint32_t index) const {
@@ -451,7 +467,7 @@ PairFilter BodyStore::filter() const {
 size_t BodyStore::bytes() const {
   size_t sum = alive_.bytes() + slots_.bytes() + row_pool_.bytes() + bytes_of(rows_) +
                bytes_of(boxes_) + bytes_of(halfspaces_) + bytes_of(touched_) +
-               bytes_of(touched_indices_) + dop_geometries_.bytes();
+               bytes_of(touched_indices_) + bytes_of(moved_indices_) + dop_geometries_.bytes();
   for_each_column(*this, [&](const auto& column, auto...) { sum += bytes_of(column); });
   return sum;
 }

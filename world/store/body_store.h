@@ -78,14 +78,18 @@ class BodyStore {
 
   // The arrays themselves.
   LargeVector<float>& records32() { return records32_; }
+  const LargeVector<float>& records32() const { return records32_; }
   LargeVector<double>& records64() { return records64_; }
+  const LargeVector<double>& records64() const { return records64_; }
   LargeVector<BoxRecord>& boxes() { return boxes_; }
   const LargeVector<BoxRecord>& boxes() const { return boxes_; }
   LargeVector<Row>& orientations() { return orientation_; }
   const LargeVector<Row>& orientations() const { return orientation_; }
-  // Callers may write boxes, or rows of shapes, from now on and as long as they like.
+  // Callers may write poses, boxes, or rows of shapes, from now on and as long as they like.
+  void share_poses() { shares_poses_ = true; }
   void share_boxes() { shares_boxes_ = true; }
   void share_shape_rows() { shares_shape_rows_ = true; }
+  bool shares_poses() const { return shares_poses_; }
   bool shares_boxes() const { return shares_boxes_; }
   bool shares_shape_rows() const { return shares_shape_rows_; }
   std::span<Row> shape_rows() { return {rows_.data(), row_pool_.end()}; }
@@ -120,11 +124,14 @@ class BodyStore {
   // into the arrays.
   static constexpr uint8_t kShapeTouched = 1;  // shape, or another input of results beside the pose
   static constexpr uint8_t kReplaced = 2;      // the body was added or removed since the last step
-  uint8_t touched(uint32_t index) const { return touched_[index]; }
+  uint8_t touched(uint32_t index) const { return touched_[index] & (kShapeTouched | kReplaced); }
   bool any_touched() const { return !touched_indices_.empty(); }
   // The rows with a byte that is not zero. Rows of removed bodies at rows() and beyond may be among
   // them.
   const std::vector<uint32_t>& touched_indices() const { return touched_indices_; }
+  // Other rows whose pose was set to another one, unless poses are shared. They have no byte. Rows
+  // at rows() and beyond may be among them, and rows that were touched later.
+  const std::vector<uint32_t>& moved_indices() const { return moved_indices_; }
   void clear_touched();
   void touch_all();  // as if all bodies had been added since the last step
 
@@ -136,7 +143,9 @@ class BodyStore {
   static void for_each_column(Self& self, const Visit& visit);
   void add_row();
   void drop_rows();
+  static constexpr uint8_t kMoved = 4;  // in moved_indices_
   void touch(uint32_t index, uint8_t how);
+  void note_move(uint32_t index);
   void count_kind(uint32_t index, int change);
   void change_kind(uint32_t index, ShapeKind kind);
   void change_rows(uint32_t index, uint32_t last_count, uint32_t count);
@@ -164,7 +173,8 @@ class BodyStore {
   std::vector<ShapeKind> kind_;  // sphere for a row without a body
   std::array<size_t, kShapeKindCount> bodies_of_kind_{};
   std::vector<uint8_t> touched_;  // includes rows that were dropped since clear_touched()
-  std::vector<uint32_t> touched_indices_;
+  std::vector<uint32_t> touched_indices_, moved_indices_;
+  bool shares_poses_ = false;
 
   LargeVector<float> records32_;  // x, y, z, w a row; one of the two columns is empty
   LargeVector<double> records64_;

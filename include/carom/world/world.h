@@ -240,8 +240,9 @@ class CAROM_EXPORT World {
   /// Sets the number that user() returns.
   void set_user(BodyId id, uint64_t user);
 
-  // Properties, straight in the arrays. A step compares them with the last step to find changes:
-  // boxes and shape rows once the caller has asked for their arrays.
+  // Properties, straight in the arrays. From the time on when the caller has asked for an array, a
+  // step compares it with the last step to find changes. The functions above are enough for worlds
+  // in which few bodies move; their steps compare nothing.
 
   /// Positions, radii and orientations.
   BodyArrays arrays();

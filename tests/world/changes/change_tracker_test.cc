@@ -33,8 +33,9 @@ struct Snapshot {
 
 class Tracked {
  public:
-  Tracked(PositionType positions, std::span<const ShapeKind> some_kinds)
+  Tracked(PositionType positions, std::span<const ShapeKind> some_kinds, bool shares_poses)
       : store(positions), kinds(some_kinds) {
+    if (shares_poses) store.share_poses();
     store.share_boxes();
     store.share_shape_rows();
   }
@@ -58,7 +59,14 @@ class Tracked {
 
   void turn() {
     const uint32_t index = pick();
-    if (has_rows(index)) store.orientations()[index][random.below(4)] += 0.25f;
+    if (!has_rows(index)) return;
+    BodyStore::Row q = store.orientations()[index];
+    q[random.below(4)] += 0.25f;
+    if (store.shares_poses()) {
+      store.orientations()[index] = q;
+    } else {
+      store.set_orientation(index, {q[3], q[0], q[1], q[2]});
+    }
   }
 
   void reshape() {
@@ -133,8 +141,9 @@ class Tracked {
   }
 };
 
-void run(PositionType positions, Parallelism parallelism, std::span<const ShapeKind> kinds) {
-  Tracked tracked(positions, kinds);
+void run(PositionType positions, Parallelism parallelism, std::span<const ShapeKind> kinds,
+         bool shares_poses) {
+  Tracked tracked(positions, kinds, shares_poses);
   const auto repeat = [](size_t count, const auto& what) {
     for (size_t i = 0; i < count; ++i) what();
   };
@@ -158,19 +167,23 @@ void run(PositionType positions, Parallelism parallelism, std::span<const ShapeK
 
 TEST(ChangeTracker, SaysWhatChanged) {
   for (const PositionType positions : kPositionTypes) {
-    run(positions, Parallelism::none, kSimpleKinds);
-    run(positions, Parallelism::none, kAllKinds);
-    run(positions, Parallelism::none, kOrientedKinds);
+    for (const bool shares_poses : {false, true}) {
+      run(positions, Parallelism::none, kSimpleKinds, shares_poses);
+      run(positions, Parallelism::none, kAllKinds, shares_poses);
+      run(positions, Parallelism::none, kOrientedKinds, shares_poses);
+    }
   }
 }
 
 TEST(ChangeTracker, SaysTheSameOnThreads) {
   ThreadArena arena(4);
-  arena.run([&] { run(PositionType::float32, arena.parallelism(), kAllKinds); });
+  arena.run([&] { run(PositionType::float32, arena.parallelism(), kAllKinds, true); });
 }
 
-TEST(ChangeTracker, CountsExactlyWhatMoved) {
-  Tracked tracked(PositionType::float32, kSimpleKinds);
+class ChangesOfPoses : public ::testing::TestWithParam<bool> {};
+
+TEST_P(ChangesOfPoses, CountsExactlyWhatMoved) {
+  Tracked tracked(PositionType::float32, kSimpleKinds, GetParam());
   for (size_t i = 0; i < kBodies; ++i) tracked.add();
   const auto update = [&] {
     tracked.tracker.update(tracked.store, Parallelism::none);
@@ -189,8 +202,8 @@ TEST(ChangeTracker, CountsExactlyWhatMoved) {
 
 // Columns of orientations and rows appear and disappear with the bodies that need them; this
 // changes no body.
-TEST(ChangeTracker, ColumnsThatAppearChangeNobody) {
-  Tracked tracked(PositionType::float32, kSimpleKinds);
+TEST_P(ChangesOfPoses, ColumnsThatAppearChangeNobody) {
+  Tracked tracked(PositionType::float32, kSimpleKinds, GetParam());
   for (size_t i = 0; i < kBodies; ++i) tracked.add();
   const auto update = [&] {
     tracked.tracker.update(tracked.store, Parallelism::none);
@@ -216,8 +229,8 @@ TEST(ChangeTracker, ColumnsThatAppearChangeNobody) {
   }
 }
 
-TEST(ChangeTracker, FindsEverythingChangedAfterItForgot) {
-  Tracked tracked(PositionType::float32, kSimpleKinds);
+TEST_P(ChangesOfPoses, FindsEverythingChangedAfterItForgot) {
+  Tracked tracked(PositionType::float32, kSimpleKinds, GetParam());
   tracked.store.add({.shape = Sphere{0}});  // all zero, like memory that was never written
   for (size_t i = 1; i < kBodies; ++i) tracked.add();
   const auto update = [&] {
@@ -235,6 +248,48 @@ TEST(ChangeTracker, FindsEverythingChangedAfterItForgot) {
   EXPECT_EQ(update(), 0u);
   EXPECT_TRUE(tracked.tracker.all_unchanged());
   EXPECT_FALSE(tracked.tracker.changed(kBodies - 1));
+}
+
+TEST_P(ChangesOfPoses, ThatAreSetToWhatTheyWereAreNone) {
+  Tracked tracked(PositionType::float64, kAllKinds, GetParam());
+  for (size_t i = 0; i < kBodies; ++i) tracked.add();
+  const auto set_all_again = [&] {
+    for (const BodyId id : tracked.ids) {
+      tracked.store.set_position(id.index, tracked.store.position(id.index));
+      tracked.store.set_orientation(id.index, tracked.store.orientation(id.index));
+    }
+  };
+  tracked.update_and_check(Parallelism::none);
+  set_all_again();
+  EXPECT_TRUE(tracked.store.moved_indices().empty());
+  tracked.update_and_check(Parallelism::none);
+  EXPECT_TRUE(tracked.tracker.all_unchanged());
+}
+
+// `true`: the caller has asked for the arrays of poses.
+INSTANTIATE_TEST_SUITE_P(OfStoreOrArrays, ChangesOfPoses, ::testing::Bool());
+
+TEST(ChangeTracker, ComparesPosesOnceTheyAreShared) {
+  Tracked tracked(PositionType::float32, kAllKinds, false);
+  for (size_t i = 0; i < kBodies; ++i) tracked.add();
+  const auto update = [&] {
+    tracked.tracker.update(tracked.store, Parallelism::none);
+    tracked.store.clear_touched();
+    return tracked.tracker.changed_count();
+  };
+  update();
+  tracked.store.set_position(7, {50, 0, 0});
+  tracked.store.share_poses();
+  tracked.store.records32()[4 * 8] += 1;
+  EXPECT_EQ(update(), 2u);
+  EXPECT_TRUE(tracked.tracker.changed(7) && tracked.tracker.changed(8));
+  EXPECT_FALSE(tracked.tracker.all_unchanged());
+  EXPECT_EQ(update(), 0u);
+  EXPECT_TRUE(tracked.tracker.all_unchanged());
+  tracked.store.records32()[4 * 8] += 1;
+  tracked.store.set_position(9, {50, 0, 0});
+  EXPECT_EQ(update(), 2u);
+  EXPECT_TRUE(tracked.tracker.changed(8) && tracked.tracker.changed(9));
 }
 
 }  // namespace
