@@ -284,7 +284,7 @@ ContactStage::Last World::State::use_of_last_contacts(bool in_one_range) const {
 // Tests pairs and lists their contacts, range by range, so that the results of a range are read
 // while they are in the cache.
 void World::State::find_results() {
-  const bool remembers = uses_directions();
+  const bool remembers = uses_directions() && directions.starts_step();
   uint32_t* directions_of_tests = nullptr;
   if (remembers) {
     run(Stage::narrowphase,

@@ -39,14 +39,13 @@ enum class Pass : uint8_t {
   manifold,   // manifold points of pairs whose contacts are in `tested`
 };
 
-// The passes of a kind beside the test. A direction pass pays if the test tries many axes. For GJK
-// kinds the overlap test is the first part of the distance search, so the distance pass or the
-// clearance pass replaces the test.
+// The passes of a kind beside the test. For GJK kinds the overlap test is the first part of the
+// distance search, so the distance pass or the clearance pass replaces the test. A direction pass
+// pays for these alone: other tests take no longer than looking for the direction.
 enum class MorePasses : uint8_t {
   none,
   manifold,
-  direction_and_manifold,
-  distance,             // direction, distance and manifold
+  distance,             // distance and manifold
   clearance,            // GJK kinds: direction, distance, clearance and manifold
   recall_and_clearance  // GJK kinds: recall, and those of `clearance`
 };

@@ -15,12 +15,11 @@ struct PairKind {
   void (*run)(const Batch& batch);
   MorePasses more;
 
-  bool has_direction_pass() const {
-    return more == MorePasses::direction_and_manifold || has_distance_pass();
-  }
   bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
   // Whether the distance pass replaces the test: it fills every row (GJK kinds).
   bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
+  // A direction of the last step is worth keeping where the test iterates.
+  bool has_direction_pass() const { return measures_at_once(); }
   bool has_distance_pass() const { return more == MorePasses::distance || measures_at_once(); }
   bool has_manifold_pass() const { return more != MorePasses::none; }
 };

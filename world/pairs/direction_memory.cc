@@ -1,6 +1,7 @@
 #include "world/pairs/direction_memory.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "base/fresh_pages.h"
 #include "narrowphase/batch/packed_direction.h"
@@ -9,24 +10,43 @@
 namespace carom {
 namespace {
 
-// Gives pairs [begin, end) of `now` their directions of the last step. Which pairs were there
-// cannot be predicted, so there is no branch on it.
-void match_directions(const PairHistory& last, PairHistory& now, size_t begin, size_t end) {
+// Gives pairs [begin, end) of `now` their directions of the last step, and returns how many have
+// one. Which pairs were there cannot be predicted, so there is no branch on it.
+size_t match_directions(const PairHistory& last, PairHistory& now, size_t begin, size_t end) {
   static_assert(kNoDirection == 0);
   const MergeRange range = matching_range(last.pairs, now.pairs, begin, end);
-  size_t before = range.begin, i = begin;
+  size_t before = range.begin, i = begin, known = 0;
   while (before < range.end && i < end) {
     const uint64_t key_before = pair_key(last.pairs[before]), key = pair_key(now.pairs[i]);
     const uint32_t same = key_before == key ? 0xffffffffu : 0u;
-    now.direction[i] = last.direction[before] & same;
+    const uint32_t direction = last.direction[before] & same;
+    now.direction[i] = direction;
+    known += direction != kNoDirection;
     before += key_before <= key;
     i += key <= key_before;
   }
   std::fill(now.direction.begin() + static_cast<ptrdiff_t>(i),
             now.direction.begin() + static_cast<ptrdiff_t>(end), kNoDirection);
+  return known;
 }
 
 }  // namespace
+
+bool DirectionMemory::starts_step() {
+  if (pause_ == 0) return true;
+  --pause_;
+  return false;
+}
+
+void DirectionMemory::judge(size_t known, size_t tested) {
+  constexpr size_t kFewest = 4;  // fewer than one in so many are few
+  if (kFewest * known >= tested) {
+    patience_ = kLeastPatience;
+    return;
+  }
+  pause_ = patience_;
+  patience_ = std::min(2 * patience_, kMostPatience);
+}
 
 uint32_t* DirectionMemory::prepare(const CarryPlan& plan, const PairHistory& last,
                                    Parallelism parallelism, PairHistory& now) {
@@ -34,9 +54,12 @@ uint32_t* DirectionMemory::prepare(const CarryPlan& plan, const PairHistory& las
   if (last.direction.empty()) {
     std::fill(now.direction.begin(), now.direction.end(), kNoDirection);
   } else {
-    for_each_block(
-        now.pairs.size(), kPairsPerMergeBlock, parallelism,
-        [&](size_t, size_t begin, size_t end) { match_directions(last, now, begin, end); });
+    std::atomic<size_t> known{0};
+    for_each_block(now.pairs.size(), kPairsPerMergeBlock, parallelism,
+                   [&](size_t, size_t begin, size_t end) {
+                     known += match_directions(last, now, begin, end);
+                   });
+    judge(known, plan.tested());
   }
   resize_for_overwriting(tested_, plan.tested());
   for_each_tested(plan, now.pairs.size(), parallelism,

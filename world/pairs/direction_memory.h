@@ -1,4 +1,6 @@
-// Keeps the separating direction of each separate pair, which the next step tests first.
+// Keeps the separating direction of each separate pair, which the next step tests first. Where few
+// pairs to test were there and separate in the last step, looking for theirs takes longer than it
+// saves: then it keeps none for a while.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +12,9 @@ namespace carom {
 
 class DirectionMemory {
  public:
+  // Call it once a step. Whether the step is to use directions.
+  bool starts_step();
+
   // Gives the pairs of `now` the directions that they had in the last step. Returns those of the
   // pairs to test, as collide_pairs() takes them.
   uint32_t* prepare(const CarryPlan& plan, const PairHistory& last, Parallelism parallelism,
@@ -26,7 +31,14 @@ class DirectionMemory {
   void for_each_tested(const CarryPlan& plan, size_t pairs, Parallelism parallelism,
                        const Use& use) const;
 
+  // Begins a pause if few of the tested pairs have a known direction.
+  void judge(size_t known, size_t tested);
+
+  static constexpr uint32_t kLeastPatience = 4, kMostPatience = 64;
+
   std::vector<uint32_t> tested_;
+  uint32_t pause_ = 0;                  // steps to come without directions
+  uint32_t patience_ = kLeastPatience;  // steps of the next pause
 };
 
 }  // namespace carom

@@ -8,7 +8,6 @@
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/boxes_exact-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
-#include "narrowphase/pairs/direction-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -61,16 +60,15 @@ struct AabbBoxDistance : AabbBoxBase {
 
 void aabb_box(const Batch& batch) {
   switch (batch.pass) {
-    case Pass::direction:
-      return run_direction<AabbLanes, BoxLanes>(batch);
     case Pass::test:
       return run_batch<AabbBox>(batch);
     case Pass::distance:
       return run_batch<AabbBoxDistance>(batch);
     case Pass::manifold:
       return run_manifold<AabbLanes, BoxLanes>(batch);
-    case Pass::clearance:  // only for GJK kinds
+    case Pass::clearance:  // these are only for GJK kinds
     case Pass::recall:
+    case Pass::direction:
       return;
   }
 }

@@ -8,7 +8,6 @@
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/box_triangle_core-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
-#include "narrowphase/pairs/direction-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -60,7 +59,6 @@ struct AabbTriangleDecision : AabbTriangleBase {
 };
 
 void aabb_triangle(const Batch& batch) {
-  if (batch.pass == Pass::direction) return run_direction<AabbLanes, TriangleLanes>(batch);
   if (batch.pass == Pass::manifold) return run_manifold<AabbLanes, TriangleLanes>(batch);
   if (batch.detail == Detail::overlap) return run_batch<AabbTriangleDecision>(batch);
   run_batch<AabbTriangle>(batch);

@@ -8,7 +8,6 @@
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/boxes_exact-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
-#include "narrowphase/pairs/direction-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -55,16 +54,15 @@ struct BoxBoxDistance : BoxBoxBase {
 
 void box_box(const Batch& batch) {
   switch (batch.pass) {
-    case Pass::direction:
-      return run_direction<BoxLanes, BoxLanes>(batch);
     case Pass::test:
       return run_batch<BoxBox>(batch);
     case Pass::distance:
       return run_batch<BoxBoxDistance>(batch);
     case Pass::manifold:
       return run_manifold<BoxLanes, BoxLanes>(batch);
-    case Pass::clearance:  // only for GJK kinds
+    case Pass::clearance:  // these are only for GJK kinds
     case Pass::recall:
+    case Pass::direction:
       return;
   }
 }

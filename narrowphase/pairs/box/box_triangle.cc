@@ -8,7 +8,6 @@
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/box_triangle_core-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
-#include "narrowphase/pairs/direction-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -57,7 +56,6 @@ struct BoxTriangleDecision : BoxTriangleBase {
 };
 
 void box_triangle(const Batch& batch) {
-  if (batch.pass == Pass::direction) return run_direction<BoxLanes, TriangleLanes>(batch);
   if (batch.pass == Pass::manifold) return run_manifold<BoxLanes, TriangleLanes>(batch);
   if (batch.detail == Detail::overlap) return run_batch<BoxTriangleDecision>(batch);
   run_batch<BoxTriangle>(batch);

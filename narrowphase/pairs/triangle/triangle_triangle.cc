@@ -11,7 +11,6 @@
 #include "narrowphase/features/rounded-inl.h"
 #include "narrowphase/features/triangle-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
-#include "narrowphase/pairs/direction-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -216,7 +215,6 @@ struct TriangleTriangle {
 };
 
 void triangle_triangle(const Batch& batch) {
-  if (batch.pass == Pass::direction) return run_direction<TriangleLanes, TriangleLanes>(batch);
   if (batch.pass == Pass::manifold) return run_manifold<TriangleLanes, TriangleLanes>(batch);
   run_batch<TriangleTriangle>(batch);
 }
