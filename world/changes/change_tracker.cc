@@ -86,24 +86,39 @@ void ChangeTracker::update_bodies(BodyStore& bodies, Parallelism parallelism) {
   const size_t rows = bodies.rows();
   parallelism = unless_few(parallelism, rows);
   const bool same_rows = changed_.size() == rows;
+  if (all_keep_moving(bodies)) {
+    has_old_poses_ = true;
+    all_unchanged_ = false;
+    return;  // all flags are set
+  }
   changed_.resize(rows);
   block_changes_.resize(block_count(rows, kRowsPerBlock));
+  const bool knows_poses = knows_last_ && !std::exchange(has_old_poses_, false);
   const size_t listed = bodies.moved_indices().size() + bodies.touched_indices().size();
-  const bool compares_all = bodies.shares_poses() || !knows_last_ || 4 * listed > rows;
+  const bool compares_all = bodies.shares_poses() || !knows_poses || 4 * listed > rows;
   const bool moved =
       compares_all ? compare_poses(bodies, parallelism) : compare_listed_poses(bodies);
   if (any_reshaped_) mark_changed_shapes(bodies, parallelism);
-  if (knows_last_) {
+  if (knows_poses) {
     for (const uint32_t index : bodies.touched_indices()) {
       if (index < changed_.size()) mark(index);
     }
   } else {
     mark_all();
   }
-  all_unchanged_ = knows_last_ && same_rows && !moved && !any_reshaped_ && !bodies.any_touched();
+  all_unchanged_ = knows_poses && same_rows && !moved && !any_reshaped_ && !bodies.any_touched();
   knows_last_ = true;
   changed_count_ = std::accumulate(block_changes_.begin(), block_changes_.end(), size_t{0});
   if (are_few()) list_few();
+}
+
+// Whether all bodies have changed in the last update, and nearly all have moved since.
+bool ChangeTracker::all_keep_moving(const BodyStore& bodies) {
+  const size_t rows = bodies.rows();
+  const bool all_changed = knows_last_ && changed_count_ == rows && changed_.size() == rows;
+  if (all_changed && rows >= kFewItems && bodies.shares_poses()) return sample_.all_moved(bodies);
+  sample_.forget();
+  return false;
 }
 
 // Each of the two sets the flags of bodies whose poses differ and clears all others, copies what

@@ -1,6 +1,8 @@
 // Finds the bodies that changed since the last step, by comparing them with a copy: those that the
 // store lists, or all once a caller has asked for the arrays of poses and may write to them. Boxes
-// and rows of shapes are compared from the time on when a caller has asked for these.
+// and rows of shapes are compared from the time on when a caller has asked for these. Where a
+// caller writes poses into the arrays and everything in a large world moves, it takes all as
+// changed and makes no copy.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +11,7 @@
 
 #include "base/raw_vector.h"
 #include "carom/base/parallelism.h"
+#include "world/changes/pose_sample.h"
 #include "world/store/body_store.h"
 #include "world/store/columns.h"
 
@@ -16,9 +19,10 @@ namespace carom {
 
 class ChangeTracker {
  public:
-  // Compares the bodies with the last call, and remembers them as they are now. The two halves are
-  // for callers that in between write values to the records that depend on shapes: the first
-  // compares boxes and rows of shapes, the second all the rest.
+  // Compares the bodies with the last call, and remembers them as they are now. While everything
+  // moves, a few bodies that rest may count as changed, and all do in the first call after. The
+  // two halves are for callers that in between write values to the records that depend on shapes:
+  // the first compares boxes and rows of shapes, the second all the rest.
   void update(BodyStore& bodies, Parallelism parallelism);
   void update_shapes(const BodyStore& bodies, Parallelism parallelism);
   void update_bodies(BodyStore& bodies, Parallelism parallelism);
@@ -60,6 +64,7 @@ class ChangeTracker {
     size_t bytes() const { return bytes_of(changed) + bytes_of(block_changed); }
   };
 
+  bool all_keep_moving(const BodyStore& bodies);
   bool compare_poses(const BodyStore& bodies, Parallelism parallelism);
   bool compare_listed_poses(const BodyStore& bodies);
   void clear_flags();
@@ -84,6 +89,8 @@ class ChangeTracker {
   bool all_unchanged_ = false;
   bool any_reshaped_ = false;
   bool knows_last_ = false;
+  bool has_old_poses_ = false;  // whether the copies are not those of the last update
+  PoseSample sample_;
   LargeVector<float> last_records32_;
   LargeVector<double> last_records64_;
   LargeVector<BodyStore::Row> last_orientations_;

@@ -163,6 +163,51 @@ TEST(Carry, AReplacedBodyIsTestedAgain) {
   EXPECT_EQ(world.step().kept, 1u);
 }
 
+// Writes the poses of a large crowd straight into the arrays: all of them in most steps, then few,
+// then none.
+class WrittenPoses {
+ public:
+  static constexpr size_t kBodies = 9000;
+
+  explicit WrittenPoses(bool carries) : world_({.carry_results = carries}) {
+    add_crowd(world_, {.count = kBodies, .side = 21, .oriented = true, .velocities = true});
+  }
+
+  // The report of a step in which one body of so many moves; 0: none.
+  const StepReport& step(size_t every) {
+    const BodyArrays arrays = world_.arrays();
+    for (size_t i = 0; every > 0 && i < arrays.count; i += every) {
+      for (int axis = 0; axis < 3; ++axis) {
+        arrays.record32[4 * i + axis] += static_cast<float>(random_.uniform(-0.02, 0.02));
+      }
+    }
+    return world_.step();
+  }
+  const World& world() const { return world_; }
+
+ private:
+  World world_;
+  Random random_{8};
+};
+
+TEST(Carry, WherePosesAreWrittenAndAllMove) {
+  WrittenPoses carrying(true), testing(false);
+  for (const size_t every : {1, 1, 1, 1, 1, 0, 0, 0, 1, 1, 1, 20, 0, 20, 1, 1, 1, 2, 2}) {
+    carrying.step(every);
+    testing.step(every);
+    ASSERT_TRUE(results(carrying.world()) == results(testing.world()));
+    ASSERT_GT(carrying.world().contacts().size(), 1000u);
+  }
+}
+
+TEST(Carry, OneStepAfterAllHaveMovedNothingIsKept) {
+  WrittenPoses written(true);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(written.step(1).kept, 0u);
+  EXPECT_EQ(written.step(20).kept, 0u) << "nobody knows where the others were";
+  EXPECT_GT(written.step(20).kept, written.world().pairs().size() / 2);
+  EXPECT_EQ(written.step(0).tested, 0u);
+}
+
 // A change is a change of bits: writing the same pose again, or restoring it before the step, is
 // none; changing the sign of zero is one.
 TEST(Carry, ChangesAreChangesOfBits) {

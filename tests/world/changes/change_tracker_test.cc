@@ -292,5 +292,33 @@ TEST(ChangeTracker, ComparesPosesOnceTheyAreShared) {
   EXPECT_TRUE(tracked.tracker.changed(8) && tracked.tracker.changed(9));
 }
 
+// Poses that a caller writes while everything moves are not compared.
+TEST(ChangeTracker, TakesAllAsChangedWhileAllMove) {
+  constexpr size_t kMany = 9000;
+  Tracked tracked(PositionType::float32, kSimpleKinds, true);
+  for (size_t i = 0; i < kMany; ++i) tracked.add();
+  const auto update = [&](size_t moving) {
+    for (size_t i = 0; i < moving; ++i) tracked.store.records32()[4 * i] += 1;
+    tracked.tracker.update(tracked.store, Parallelism::none);
+    tracked.store.clear_touched();
+    return tracked.tracker.changed_count();
+  };
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(update(kMany), kMany);
+  EXPECT_EQ(update(kMany / 2), kMany) << "the copies are old";
+  EXPECT_EQ(update(kMany / 2), kMany / 2);
+  EXPECT_FALSE(tracked.tracker.changed(kMany / 2));
+  EXPECT_EQ(update(0), 0u);
+  EXPECT_TRUE(tracked.tracker.all_unchanged());
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(update(kMany), kMany);
+  EXPECT_EQ(update(0), kMany);
+  EXPECT_FALSE(tracked.tracker.all_unchanged());
+  EXPECT_EQ(update(0), 0u);
+  EXPECT_TRUE(tracked.tracker.all_unchanged());
+  for (int i = 0; i < 4; ++i) update(kMany);
+  tracked.add();
+  EXPECT_EQ(update(0), kMany + 1) << "another number of rows";
+  EXPECT_EQ(update(0), 0u);
+}
+
 }  // namespace
 }  // namespace carom::test
