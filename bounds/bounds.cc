@@ -186,15 +186,14 @@ size_t compute_bounds(const Collidables& bodies, const BoundsColumns& out,
                       Parallelism parallelism) {
   if (have_quick_kind(bodies)) parallelism = unless_few(parallelism, bodies.count);
   const size_t lanes = CAROM_DISPATCH(lane_count)();
+  const bool are_open = has_halfspaces(bodies);
   std::atomic<size_t> valid{0};
   for_each_block(bodies.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     const size_t whole = end - (end - begin) % lanes;
     valid += CAROM_DISPATCH(lane_bounds)(bodies, out, begin, whole) +
              single_bounds(bodies, out, whole, end);
+    for (size_t i = begin; are_open && i < end; ++i) open_if_halfspace(BodyReader{bodies}, i, out);
   });
-  if (has_halfspaces(bodies)) {
-    for (size_t i = 0; i < bodies.count; ++i) open_if_halfspace(BodyReader{bodies}, i, out);
-  }
   return bodies.count - valid;
 }
 
