@@ -49,6 +49,17 @@ Eigen::Vector3d draw_way(const StreamSpec& spec, const PlacedShape& a, const Pla
   return draw_way(a, b, random);
 }
 
+// A way out of A for a body that overlaps it: far, in any direction that a half-space does not
+// fill.
+Eigen::Vector3d draw_exit(const StreamSpec& spec, const PlacedShape& a, oracle::Random& random) {
+  constexpr double kFar = 20;
+  const Eigen::Vector3d way = kFar * random.direction();
+  if (spec.kind_a != ShapeKind::halfspace) return way;
+  const Eigen::Vector3d normal =
+      (a.orientation * std::get<Halfspace>(a.shape).normal).cast<double>();
+  return way.dot(normal) < 0 ? -way : way;
+}
+
 // A pair with B near A that overlaps or not, as `overlap` says.
 test::TestPair draw_pair(const StreamSpec& spec, std::span<const Hull> hulls, bool overlap,
                          oracle::Random& random) {
@@ -61,6 +72,29 @@ test::TestPair draw_pair(const StreamSpec& spec, std::span<const Hull> hulls, bo
     if (reference_result(stored_a, stored_b, spec.storage).overlap == overlap) {
       return {stored_a, stored_b};
     }
+  }
+}
+
+// A pair whose bodies touch to within the rounding of their positions: B lies between the last
+// place where they overlap and the first where they do not, on a random way out of A.
+test::TestPair draw_touching_pair(const StreamSpec& spec, std::span<const Hull> hulls,
+                                  oracle::Random& random) {
+  for (;;) {
+    const test::TestPair inside = draw_pair(spec, hulls, true, random);
+    const test::TestPair outside = {inside.a, [&] {
+                                      PlacedShape b = inside.b;
+                                      b.position += draw_exit(spec, inside.a, random);
+                                      return as_stored(b, spec.storage);
+                                    }()};
+    if (reference_result(outside.a, outside.b, spec.storage).overlap) continue;
+    PlacedShape low = inside.b, high = outside.b;
+    for (int round = 0; round < 40; ++round) {
+      PlacedShape middle = low;
+      middle.position = 0.5 * (low.position + high.position);
+      const PlacedShape stored = as_stored(middle, spec.storage);
+      (reference_result(inside.a, stored, spec.storage).overlap ? low : high) = middle;
+    }
+    return {inside.a, as_stored(random.chance(0.5) ? low : high, spec.storage)};
   }
 }
 
@@ -145,7 +179,8 @@ void PairStream::draw() {
   const size_t hits = spec_.count * static_cast<size_t>(spec_.hit_percent) / 100;
   const std::vector<uint32_t> ranks = shuffled(spec_.count, random);
   for (uint32_t row = 0; row < spec_.count; ++row) {
-    const test::TestPair pair = draw_pair(spec_, hulls, ranks[row] < hits, random);
+    const test::TestPair pair = spec_.touching ? draw_touching_pair(spec_, hulls, random)
+                                               : draw_pair(spec_, hulls, ranks[row] < hits, random);
     bodies_a_.push_back(pair.a);
     bodies_b_[places[row]] = pair.b;
     pairs_.push_back({row, places[row]});
