@@ -28,19 +28,22 @@ HWY_INLINE Lanes3<V> select(const Mask3Of<V>& mask, const Lanes3<V>& yes, const 
           hn::IfThenElse(mask.z, yes.z, no.z)};
 }
 
-HWY_INLINE AxisMasks first_of(Mask x, Mask y_not_z) {
-  const Mask y = hn::AndNot(x, y_not_z);
+template <class V>
+HWY_INLINE AxisMasksOf<V> first_of(MaskOf<V> x, MaskOf<V> y_not_z) {
+  const MaskOf<V> y = hn::AndNot(x, y_not_z);
   return {x, y, hn::Not(hn::Or(x, y))};
 }
 
 // The axis of the least component; ties go to the first axis.
-HWY_INLINE AxisMasks least_axis(const F3& v) {
-  return first_of(hn::And(hn::Le(v.x, v.y), hn::Le(v.x, v.z)), hn::Le(v.y, v.z));
+template <class V>
+HWY_INLINE AxisMasksOf<V> least_axis(const Lanes3<V>& v) {
+  return first_of<V>(hn::And(hn::Le(v.x, v.y), hn::Le(v.x, v.z)), hn::Le(v.y, v.z));
 }
 
 // The axis of the greatest component; ties go to the first axis.
-HWY_INLINE AxisMasks greatest_axis(const F3& v) {
-  return first_of(hn::And(hn::Ge(v.x, v.y), hn::Ge(v.x, v.z)), hn::Ge(v.y, v.z));
+template <class V>
+HWY_INLINE AxisMasksOf<V> greatest_axis(const Lanes3<V>& v) {
+  return first_of<V>(hn::And(hn::Ge(v.x, v.y), hn::Ge(v.x, v.z)), hn::Ge(v.y, v.z));
 }
 
 template <class V>
@@ -49,8 +52,11 @@ HWY_INLINE V pick(const AxisMasksOf<V>& axis, const Lanes3<V>& v) {
 }
 
 // The unit vector along the axis, reversed where `negative`. The other components are +0.
-HWY_INLINE F3 signed_axis(const AxisMasks& axis, const Mask3& negative) {
-  const F3 unit = select(negative, splat3(-1), splat3(1));
+template <class V>
+HWY_INLINE Lanes3<V> signed_axis(const AxisMasksOf<V>& axis, const Mask3Of<V>& negative) {
+  const V plus = splat_as<V>(1), minus = splat_as<V>(-1);
+  const Lanes3<V> unit =
+      select(negative, Lanes3<V>{minus, minus, minus}, Lanes3<V>{plus, plus, plus});
   return {hn::IfThenElseZero(axis.x, unit.x), hn::IfThenElseZero(axis.y, unit.y),
           hn::IfThenElseZero(axis.z, unit.z)};
 }

@@ -45,6 +45,10 @@ template <class V>
 HWY_INLINE V splat_as(hn::TFromV<V> value) {
   return hn::Set(hn::DFromV<V>(), value);
 }
+template <class V>
+HWY_INLINE MaskOf<V> no_lanes_of() {
+  return hn::MaskFromVec(hn::Zero(hn::DFromV<V>()));
+}
 
 // a < b ? a : b and a > b ? a : b, to the bit: the second operand if the two are equal (+0 and -0).
 // Highway's own Min and Max do that on x86 only.
@@ -131,6 +135,16 @@ HWY_INLINE void power_of_two(F magnitude, F& up, F& down) {
   exponent = hn::Min(hn::Max(exponent, hn::Set(bits, 0x00800000)), hn::Set(bits, 0x7e800000));
   up = hn::BitCast(tag, exponent);
   down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 0x7f000000), exponent));
+}
+
+// The same in doubles. The powers lie between 2^-1000 and 2^1000.
+HWY_INLINE void power_of_two(D magnitude, D& up, D& down) {
+  const DoubleTag tag;
+  const hn::RebindToSigned<DoubleTag> bits;
+  constexpr int64_t kOne = int64_t{1} << 52;  // of the exponent
+  const auto exponent = hn::And(hn::BitCast(bits, magnitude), hn::Set(bits, 0x7ff * kOne));
+  up = min(max(hn::BitCast(tag, exponent), splat_double(0x1p-1000)), splat_double(0x1p1000));
+  down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 2 * 0x3ff * kOne), hn::BitCast(bits, up)));
 }
 
 // The length of a vector and its unit direction. `is_zero`: the vector is exactly zero, and the

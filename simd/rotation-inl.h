@@ -91,10 +91,12 @@ HWY_INLINE Lanes3<V> rotate_back(const RotationOf<V>& r, const Lanes3<V>& v) {
 }
 
 // The position of B relative to A in world axes (d), and both orientations.
-struct PoseLanes {
-  F3 d;
-  Quaternion a, b;
+template <class V>
+struct PoseOf {
+  Lanes3<V> d;
+  QuaternionOf<V> a, b;
 };
+using PoseLanes = PoseOf<F>;
 
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

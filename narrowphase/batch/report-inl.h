@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "narrowphase/batch/exact_lanes-inl.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/single_pair.h"
@@ -151,11 +152,15 @@ struct LaneReport {
     const auto put = [&](size_t i, const std::array<float, kNumbers>& exact) {
       for (size_t c = 0; c < kNumbers; ++c) values[c][i] = exact[c];
     };
-    if constexpr (Kernel::kUnsure == Unsure::test) {
+    if constexpr (Kernel::kUnsure == Unsure::test || Kernel::kUnsure == Unsure::in_lanes) {
       size_t lanes[kLanes];
       size_t count = 0;
       for_each_lane(unsure, [&](size_t i) { lanes[count++] = i; });
-      Kernel::test_exactly(source, row, {lanes, count}, put);
+      if constexpr (Kernel::kUnsure == Unsure::test) {
+        Kernel::test_exactly(source, row, {lanes, count}, put);
+      } else {
+        ExactLanes<Kernel>(source).test(row, {lanes, count}, put);
+      }
     } else {
       for_each_lane(unsure,
                     [&](size_t i) { put(i, exact_answer(source, A::kKind, B::kKind, row + i)); });

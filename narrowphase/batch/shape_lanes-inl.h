@@ -17,20 +17,40 @@ HWY_INLINE F sum_of_sizes(const F3& v) {
   return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
+// The numbers of shapes, in lanes of floats or of doubles.
+template <class V>
+struct SphereOf {
+  V radius;
+};
+template <class V>
+struct AabbOf {
+  Lanes3<V> lower, upper;
+};
+template <class V>
+struct CapsuleOf {
+  Lanes3<V> a, b;
+  V radius;
+};
+template <class V>
+struct BoxOf {
+  Lanes3<V> half;
+};
+
 // Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite. A lane
 // whose size overflows may still be valid. Kernels that work in scaled units use
 //   extent()    the greatest coordinate
 //   scale(F s)  makes the shape s times as large
-struct SphereLanes {
+struct SphereLanes : SphereOf<F> {
+  template <class V>
+  using Of = SphereOf<V>;
   static constexpr ShapeKind kKind = ShapeKind::sphere;
   static constexpr bool kIsOriented = false;
-  F radius;
 
   static bool is_dense(const BatchSide&) { return true; }
 
   template <Role kRole, class Bodies>
   static HWY_INLINE SphereLanes load(const BatchSide&, const Bodies&, const PositionLanes& p) {
-    return {kRole == Role::a ? p.radius_a : p.radius_b};
+    return {{kRole == Role::a ? p.radius_a : p.radius_b}};
   }
   HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
   HWY_INLINE F size() const { return radius; }
@@ -56,10 +76,11 @@ struct CornerSource {
   HWY_INLINE float component(size_t i, size_t c) const { return numbers(i)[c]; }
 };
 
-struct AabbLanes {
+struct AabbLanes : AabbOf<F> {
+  template <class V>
+  using Of = AabbOf<V>;
   static constexpr ShapeKind kKind = ShapeKind::aabb;
   static constexpr bool kIsOriented = false;
-  F3 lower, upper;
 
   static bool is_dense(const BatchSide& side) {
     return !side.box_slot && side.boxes.stride == sizeof(float);
@@ -86,8 +107,8 @@ struct AabbLanes {
       });
     };
     const AabbColumns& boxes = side.boxes;
-    return {{column(boxes.lower[0]), column(boxes.lower[1]), column(boxes.lower[2])},
-            {column(boxes.upper[0]), column(boxes.upper[1]), column(boxes.upper[2])}};
+    return {{{column(boxes.lower[0]), column(boxes.lower[1]), column(boxes.lower[2])},
+             {column(boxes.upper[0]), column(boxes.upper[1]), column(boxes.upper[2])}}};
   }
 
   template <Role>
@@ -96,10 +117,10 @@ struct AabbLanes {
     const FloatTag tag;
     const AabbColumns& boxes = side.boxes;
     const size_t row = rows.row;
-    return {{hn::LoadU(tag, boxes.lower[0] + row), hn::LoadU(tag, boxes.lower[1] + row),
-             hn::LoadU(tag, boxes.lower[2] + row)},
-            {hn::LoadU(tag, boxes.upper[0] + row), hn::LoadU(tag, boxes.upper[1] + row),
-             hn::LoadU(tag, boxes.upper[2] + row)}};
+    return {{{hn::LoadU(tag, boxes.lower[0] + row), hn::LoadU(tag, boxes.lower[1] + row),
+              hn::LoadU(tag, boxes.lower[2] + row)},
+             {hn::LoadU(tag, boxes.upper[0] + row), hn::LoadU(tag, boxes.upper[1] + row),
+              hn::LoadU(tag, boxes.upper[2] + row)}}};
   }
 
   HWY_INLINE Mask is_ordered() const {
@@ -121,11 +142,11 @@ struct AabbLanes {
   }
 };
 
-struct CapsuleLanes {
+struct CapsuleLanes : CapsuleOf<F> {
+  template <class V>
+  using Of = CapsuleOf<V>;
   static constexpr ShapeKind kKind = ShapeKind::capsule;
   static constexpr bool kIsOriented = true;
-  F3 a, b;
-  F radius;
 
   static bool is_dense(const BatchSide&) { return true; }
 
@@ -155,10 +176,11 @@ struct CapsuleLanes {
   }
 };
 
-struct BoxLanes {
+struct BoxLanes : BoxOf<F> {
+  template <class V>
+  using Of = BoxOf<V>;
   static constexpr ShapeKind kKind = ShapeKind::box;
   static constexpr bool kIsOriented = true;
-  F3 half;
 
   static bool is_dense(const BatchSide&) { return true; }
 

@@ -12,19 +12,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Whether the separation, in scaled units, is within what rounding may have done to it.
+// Whether the separation, in scaled units, is within what float32 may have done to it.
 HWY_INLINE Mask is_near_touch(F separation) {
   return hn::Le(hn::Abs(separation), splat(kNearTouchScaled));
 }
+HWY_INLINE DoubleMask is_near_touch(D) { return no_lanes_of<D>(); }
 
 // Reports two grown cores. `core_a` and `core_b` are the nearest points of the cores, relative to
 // A, and `distance` apart. `unsure` and `degenerate` add to what follows from the separation.
-template <class Report>
-HWY_INLINE void report_grown(const F3& core_a, const F3& core_b, const F3& normal, F distance,
-                             F radius_a, F radius_b, const PoseLanes& pose, Mask unsure,
-                             Mask degenerate, Report& report) {
-  const F separation = hn::Sub(hn::Sub(distance, max(radius_a, radius_b)), min(radius_a, radius_b));
-  report(hn::Le(separation, splat(0)), hn::Or(unsure, is_near_touch(separation)), degenerate,
+template <class V, class Report>
+HWY_INLINE void report_grown(const Lanes3<V>& core_a, const Lanes3<V>& core_b,
+                             const Lanes3<V>& normal, V distance, V radius_a, V radius_b,
+                             const PoseOf<V>& pose, MaskOf<V> unsure, MaskOf<V> degenerate,
+                             Report& report) {
+  const V separation = hn::Sub(hn::Sub(distance, max(radius_a, radius_b)), min(radius_a, radius_b));
+  report(hn::Le(separation, splat_as<V>(0)), hn::Or(unsure, is_near_touch(separation)), degenerate,
          separation, normal, core_a + normal * radius_a, (core_b - pose.d) - normal * radius_b);
 }
 

@@ -14,23 +14,29 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
 // a / b clamped to [0, 1]; 0 unless b > 0.
-HWY_INLINE F clamped_ratio(F a, F b) {
-  return hn::IfThenElseZero(hn::Gt(b, splat(0)), clamp(hn::Div(a, b), splat(0), splat(1)));
+template <class V>
+HWY_INLINE V clamped_ratio(V a, V b) {
+  return hn::IfThenElseZero(hn::Gt(b, splat_as<V>(0)),
+                            clamp(hn::Div(a, b), splat_as<V>(0), splat_as<V>(1)));
 }
 
 // Whether the parameter t of a segment is at neither end.
-HWY_INLINE Mask is_inside(F t) { return hn::And(hn::Gt(t, splat(0)), hn::Lt(t, splat(1))); }
+template <class V>
+HWY_INLINE MaskOf<V> is_inside(V t) {
+  return hn::And(hn::Gt(t, splat_as<V>(0)), hn::Lt(t, splat_as<V>(1)));
+}
 
 // The point of the segment from a to b that is nearest to p, and the vector to it. If the point is
 // not an end (`is_across`), the vector is made perpendicular to the segment: what rounding leaves
 // along the segment would tilt the normal.
-HWY_INLINE void nearest_on_segment(const F3& p, const F3& a, const F3& b, F3& point, F3& delta,
-                                   Mask& is_across) {
-  const F3 d = b - a;
-  const F squared = dot(d, d);
-  const F t = clamped_ratio(dot(p - a, d), squared);
+template <class V>
+HWY_INLINE void nearest_on_segment(const Lanes3<V>& p, const Lanes3<V>& a, const Lanes3<V>& b,
+                                   Lanes3<V>& point, Lanes3<V>& delta, MaskOf<V>& is_across) {
+  const Lanes3<V> d = b - a;
+  const V squared = dot(d, d);
+  const V t = clamped_ratio(dot(p - a, d), squared);
   point = a + d * t;
-  const F3 way = point - p;
+  const Lanes3<V> way = point - p;
   is_across = is_inside(t);
   delta = select(is_across, way - d * hn::Div(dot(way, d), squared), way);
 }
@@ -38,10 +44,11 @@ HWY_INLINE void nearest_on_segment(const F3& p, const F3& a, const F3& b, F3& po
 // The parameters s and t at which p + d s and q + e t are nearest (r = q - p), and the vector
 // between the two points. The form of the first s keeps the error of the distance at that of the
 // coordinates, however nearly parallel the segments are.
-HWY_INLINE void nearest_of_segments(const F3& r, const F3& d, F dd, const F3& e, F ee, F& s, F& t,
-                                    F3& delta) {
-  const F3 n = cross(d, e);
-  const F along_lines = clamped_ratio(dot(cross(r, e), n), dot(n, n));
+template <class V>
+HWY_INLINE void nearest_of_segments(const Lanes3<V>& r, const Lanes3<V>& d, V dd,
+                                    const Lanes3<V>& e, V ee, V& s, V& t, Lanes3<V>& delta) {
+  const Lanes3<V> n = cross(d, e);
+  const V along_lines = clamped_ratio(dot(cross(r, e), n), dot(n, n));
   t = clamped_ratio(dot(e, d * along_lines - r), ee);
   s = clamped_ratio(dot(d, r + e * t), dd);
   delta = (r + e * t) - d * s;
@@ -50,27 +57,28 @@ HWY_INLINE void nearest_of_segments(const F3& r, const F3& d, F dd, const F3& e,
 // Recomputes the direction of `delta`, not a unit vector, from the nearest features: perpendicular
 // to both segments if both points are inside them (its sign is arbitrary), perpendicular to one if
 // only that point is. Returns the lanes in which it is perpendicular to both.
-HWY_INLINE Mask way_between(const F3& d, F dd, const F3& e, F ee, F s, F t, const F3& delta,
-                            F3& way) {
-  using Tolerance = CoreTolerance<float>;
-  const F3 n = cross(d, e);
-  const F least =
-      max(hn::Mul(splat(Tolerance::kParallel), hn::Mul(dd, ee)), splat(Tolerance::kVanishing));
-  const Mask in_d = is_inside(s);
-  const Mask in_e = is_inside(t);
-  const Mask across = hn::And(hn::And(in_d, in_e), hn::Gt(dot(n, n), least));
+template <class V>
+HWY_INLINE MaskOf<V> way_between(const Lanes3<V>& d, V dd, const Lanes3<V>& e, V ee, V s, V t,
+                                 const Lanes3<V>& delta, Lanes3<V>& way) {
+  using Tolerance = CoreTolerance<hn::TFromV<V>>;
+  const Lanes3<V> n = cross(d, e);
+  const V least = max(hn::Mul(splat_as<V>(Tolerance::kParallel), hn::Mul(dd, ee)),
+                      splat_as<V>(Tolerance::kVanishing));
+  const MaskOf<V> in_d = is_inside(s);
+  const MaskOf<V> in_e = is_inside(t);
+  const MaskOf<V> across = hn::And(hn::And(in_d, in_e), hn::Gt(dot(n, n), least));
   way = select(across, n, delta);
   // Removes what rounding left along the segment. Once perpendicular to d, n is perpendicular to e
   // up to rounding.
-  const F3 edge = select(in_d, d, e);
-  const F share = hn::Div(dot(way, edge), hn::IfThenElse(in_d, dd, ee));
+  const Lanes3<V> edge = select(in_d, d, e);
+  const V share = hn::Div(dot(way, edge), hn::IfThenElse(in_d, dd, ee));
   way = select(hn::Or(in_d, in_e), way - edge * share, way);
   return across;
 }
 
 // Some unit vector perpendicular to d; +x if d is zero.
 HWY_INLINE F3 any_perpendicular(const F3& d) {
-  const AxisMasks axis = least_axis({hn::Abs(d.x), hn::Abs(d.y), hn::Abs(d.z)});
+  const AxisMasks axis = least_axis(F3{hn::Abs(d.x), hn::Abs(d.y), hn::Abs(d.z)});
   const F zero = splat(0);
   const F3 around_x = {zero, hn::Neg(d.z), d.y};
   const F3 around_y = {d.z, zero, hn::Neg(d.x)};

@@ -103,7 +103,7 @@ template <AnyBox Box>
 HWY_INLINE void face_towards(const F3& m, const Box& box, const Placed& placed, Rectangle& face) {
   const Rotation& turn = placed.turn;
   const F3 along = rotate_back(turn, m);
-  const AxisMasks n = greatest_axis({hn::Abs(along.x), hn::Abs(along.y), hn::Abs(along.z)});
+  const AxisMasks n = greatest_axis(F3{hn::Abs(along.x), hn::Abs(along.y), hn::Abs(along.z)});
   const AxisMasks u = next(n);
   const AxisMasks v = next(u);
   face.frame.origin = placed.origin;

@@ -19,21 +19,21 @@ struct CapsuleAabb {
   using A = CapsuleLanes;
   using B = AabbLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& capsule, const B& box,
-                              Report& report) {
-    const Rotation turn = rotation_of(pose.a);
-    const F3 centre = ((pose.d + box.lower) + (pose.d + box.upper)) * splat(0.5f);
-    const F3 half = (box.upper - box.lower) * splat(0.5f);
-    const F3 start = rotate(turn, capsule.a) - centre;
-    BoxContact contact;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const CapsuleOf<V>& capsule,
+                              const AabbOf<V>& box, Report& report) {
+    const RotationOf<V> turn = rotation_of(pose.a);
+    const Lanes3<V> centre = ((pose.d + box.lower) + (pose.d + box.upper)) * splat_as<V>(0.5f);
+    const Lanes3<V> half = (box.upper - box.lower) * splat_as<V>(0.5f);
+    const Lanes3<V> start = rotate(turn, capsule.a) - centre;
+    BoxContactOf<V> contact;
     segment_box(start, rotate(turn, capsule.b - capsule.a), half, contact);
 
     report_grown(contact.on_other + centre, contact.on_box + centre, -contact.normal,
-                 contact.separation, capsule.radius, splat(0), pose, contact.unsure, no_lanes(),
-                 report);
+                 contact.separation, capsule.radius, splat_as<V>(0), pose, contact.unsure,
+                 no_lanes_of<V>(), report);
   }
 };
 

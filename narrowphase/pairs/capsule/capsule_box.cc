@@ -18,21 +18,21 @@ struct CapsuleBox {
   using A = CapsuleLanes;
   using B = BoxLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& capsule, const B& box,
-                              Report& report) {
-    const Rotation turn = rotation_of(relative_rotation(pose.b, pose.a));
-    const Rotation turn_box = rotation_of(pose.b);
-    const F3 start = rotate(turn, capsule.a) + rotate_back(turn_box, -pose.d);
-    BoxContact contact;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const CapsuleOf<V>& capsule,
+                              const BoxOf<V>& box, Report& report) {
+    const RotationOf<V> turn = rotation_of(relative_rotation(pose.b, pose.a));
+    const RotationOf<V> turn_box = rotation_of(pose.b);
+    const Lanes3<V> start = rotate(turn, capsule.a) + rotate_back(turn_box, -pose.d);
+    BoxContactOf<V> contact;
     segment_box(start, rotate(turn, capsule.b - capsule.a), box.half, contact);
 
-    const F3 core_a = rotate(turn_box, contact.on_other) + pose.d;
-    const F3 core_b = rotate(turn_box, contact.on_box) + pose.d;
+    const Lanes3<V> core_a = rotate(turn_box, contact.on_other) + pose.d;
+    const Lanes3<V> core_b = rotate(turn_box, contact.on_box) + pose.d;
     report_grown(core_a, core_b, -rotate(turn_box, contact.normal), contact.separation,
-                 capsule.radius, splat(0), pose, contact.unsure, no_lanes(), report);
+                 capsule.radius, splat_as<V>(0), pose, contact.unsure, no_lanes_of<V>(), report);
   }
 };
 

@@ -18,43 +18,46 @@ struct CapsuleCapsule {
   using A = CapsuleLanes;
   using B = CapsuleLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    const Rotation turn_a = rotation_of(pose.a);
-    const Rotation turn_b = rotation_of(pose.b);
-    const F3 p = rotate(turn_a, a.a);
-    const F3 q = rotate(turn_b, b.a) + pose.d;
-    const F3 d = rotate(turn_a, a.b - a.a);
-    const F3 e = rotate(turn_b, b.b - b.a);
-    const F3 r = q - p;
-    const F dd = dot(d, d), ee = dot(e, e);
-    F s, t;
-    F3 delta;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const CapsuleOf<V>& a, const CapsuleOf<V>& b,
+                              Report& report) {
+    const RotationOf<V> turn_a = rotation_of(pose.a);
+    const RotationOf<V> turn_b = rotation_of(pose.b);
+    const Lanes3<V> p = rotate(turn_a, a.a);
+    const Lanes3<V> q = rotate(turn_b, b.a) + pose.d;
+    const Lanes3<V> d = rotate(turn_a, a.b - a.a);
+    const Lanes3<V> e = rotate(turn_b, b.b - b.a);
+    const Lanes3<V> r = q - p;
+    const V dd = dot(d, d), ee = dot(e, e);
+    V s, t;
+    Lanes3<V> delta;
     nearest_of_segments(r, d, dd, e, ee, s, t, delta);
 
-    F3 way;
-    const Mask is_across = way_between(d, dd, e, ee, s, t, delta, way);
-    const F height = dot(delta, way);
-    way = negate_if(hn::And(is_across, hn::Lt(height, splat(0))), way);
-    const F length = hn::Sqrt(dot(way, way));
-    const F to_unit = hn::Div(splat(1), length);
-    const F distance = hn::IfThenElse(is_across, hn::Mul(hn::Abs(height), to_unit), length);
+    Lanes3<V> way;
+    const MaskOf<V> is_across = way_between(d, dd, e, ee, s, t, delta, way);
+    const V height = dot(delta, way);
+    way = negate_if(hn::And(is_across, hn::Lt(height, splat_as<V>(0))), way);
+    const V length = hn::Sqrt(dot(way, way));
+    const V to_unit = hn::Div(splat_as<V>(1), length);
+    const V distance = hn::IfThenElse(is_across, hn::Mul(hn::Abs(height), to_unit), length);
     // If the cores intersect, the capsules may separate in any direction across both: double
     // precision decides.
-    const Mask coincide = hn::AndNot(is_across, hn::Le(distance, splat(kCoincident)));
-    const F3 normal = way * to_unit;
+    const MaskOf<V> coincide = hn::AndNot(is_across, hn::Le(distance, splat_as<V>(kCoincident)));
+    const Lanes3<V> normal = way * to_unit;
     report_grown(p + d * s, q + e * t, normal, distance, a.radius, b.radius, pose,
-                 hn::Or(coincide, is_tilted(normal, r, d, e, distance)), no_lanes(), report);
+                 hn::Or(coincide, is_tilted(normal, r, d, e, distance)), no_lanes_of<V>(), report);
   }
 
  private:
   // Whether the gap between the projections on the normal is less than the distance.
-  static HWY_INLINE Mask is_tilted(const F3& n, const F3& r, const F3& d, const F3& e, F distance) {
-    const F zero = splat(0);
-    const F gap = hn::Sub(hn::Add(dot(n, r), min(dot(n, e), zero)), max(dot(n, d), zero));
-    return hn::Lt(gap, hn::Sub(distance, splat(CoreTolerance<float>::kTilt)));
+  template <class V>
+  static HWY_INLINE MaskOf<V> is_tilted(const Lanes3<V>& n, const Lanes3<V>& r, const Lanes3<V>& d,
+                                        const Lanes3<V>& e, V distance) {
+    const V zero = splat_as<V>(0);
+    const V gap = hn::Sub(hn::Add(dot(n, r), min(dot(n, e), zero)), max(dot(n, d), zero));
+    return hn::Lt(gap, hn::Sub(distance, splat_as<V>(CoreTolerance<hn::TFromV<V>>::kTilt)));
   }
 };
 

@@ -17,32 +17,34 @@ struct SphereBox {
   using A = SphereLanes;
   using B = BoxLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& sphere, const B& box,
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const SphereOf<V>& sphere, const BoxOf<V>& box,
                               Report& report) {
-    const Rotation turn = rotation_of(pose.b);
-    const F3 centre = rotate_back(turn, -pose.d);
-    const F3 way = beyond(centre, box.half);
-    const F distance = hn::Sqrt(dot(way, way));
-    const Mask inside = hn::Eq(largest_component(way), splat(0));
+    const RotationOf<V> turn = rotation_of(pose.b);
+    const Lanes3<V> centre = rotate_back(turn, -pose.d);
+    const Lanes3<V> way = beyond(centre, box.half);
+    const V distance = hn::Sqrt(dot(way, way));
+    const MaskOf<V> inside = hn::Eq(largest_component(way), splat_as<V>(0));
 
     // A centre inside the box leaves through the nearest face; normals lead out of the box.
-    const F zero = splat(0);
-    const F3 size = {hn::Abs(centre.x), hn::Abs(centre.y), hn::Abs(centre.z)};
-    const F3 depth = box.half - size;
-    const AxisMasks face = least_axis(depth);
-    const Mask3 is_lower = {hn::Le(centre.x, zero), hn::Le(centre.y, zero), hn::Le(centre.z, zero)};
-    const F gap = hn::IfThenElse(inside, hn::Neg(pick(face, depth)), distance);
-    const F3 out = select(inside, signed_axis(face, is_lower), way * hn::Div(splat(1), distance));
-    const F3 on_box = select(inside, centre - out * gap, centre - way);
+    const V zero = splat_as<V>(0);
+    const Lanes3<V> size = {hn::Abs(centre.x), hn::Abs(centre.y), hn::Abs(centre.z)};
+    const Lanes3<V> depth = box.half - size;
+    const AxisMasksOf<V> face = least_axis(depth);
+    const Mask3Of<V> is_lower = {hn::Le(centre.x, zero), hn::Le(centre.y, zero),
+                                 hn::Le(centre.z, zero)};
+    const V gap = hn::IfThenElse(inside, hn::Neg(pick(face, depth)), distance);
+    const Lanes3<V> out =
+        select(inside, signed_axis(face, is_lower), way * hn::Div(splat_as<V>(1), distance));
+    const Lanes3<V> on_box = select(inside, centre - out * gap, centre - way);
 
-    const F separation = hn::Sub(gap, sphere.radius);
-    const F3 normal = -rotate(turn, out);
+    const V separation = hn::Sub(gap, sphere.radius);
+    const Lanes3<V> normal = -rotate(turn, out);
     // The squares of so short a vector vanish.
-    const Mask vanishing = hn::AndNot(inside, hn::Le(distance, splat(kCoincident)));
-    report(hn::Le(separation, zero), hn::Or(is_near_touch(separation), vanishing), no_lanes(),
+    const MaskOf<V> vanishing = hn::AndNot(inside, hn::Le(distance, splat_as<V>(kCoincident)));
+    report(hn::Le(separation, zero), hn::Or(is_near_touch(separation), vanishing), no_lanes_of<V>(),
            separation, normal, normal * sphere.radius, rotate(turn, on_box));
   }
 };

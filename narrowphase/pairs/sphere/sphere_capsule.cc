@@ -17,26 +17,27 @@ struct SphereCapsule {
   using A = SphereLanes;
   using B = CapsuleLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& sphere, const B& capsule,
-                              Report& report) {
-    const Rotation turn = rotation_of(pose.b);
-    const F3 a = rotate(turn, capsule.a) + pose.d;
-    const F3 b = rotate(turn, capsule.b) + pose.d;
-    const F3 centre = splat3(0);
-    F3 nearest, delta;
-    Mask is_across;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const SphereOf<V>& sphere,
+                              const CapsuleOf<V>& capsule, Report& report) {
+    const RotationOf<V> turn = rotation_of(pose.b);
+    const Lanes3<V> a = rotate(turn, capsule.a) + pose.d;
+    const Lanes3<V> b = rotate(turn, capsule.b) + pose.d;
+    const Lanes3<V> centre = {splat_as<V>(0), splat_as<V>(0), splat_as<V>(0)};
+    Lanes3<V> nearest, delta;
+    MaskOf<V> is_across;
     nearest_on_segment(centre, a, b, nearest, delta, is_across);
-    const F distance = hn::Sqrt(dot(delta, delta));
+    const V distance = hn::Sqrt(dot(delta, delta));
 
     // A centre on the segment may leave in any direction perpendicular to it: double precision
     // decides.
-    const F least = hn::IfThenElse(is_across, splat(kNearSegment<float>), splat(kCoincident));
-    const Mask coincide = hn::Le(distance, least);
-    report_grown(centre, nearest, delta * hn::Div(splat(1), distance), distance, sphere.radius,
-                 capsule.radius, pose, coincide, no_lanes(), report);
+    const V least = hn::IfThenElse(is_across, splat_as<V>(kNearSegment<hn::TFromV<V>>),
+                                   splat_as<V>(kCoincident));
+    const MaskOf<V> coincide = hn::Le(distance, least);
+    report_grown(centre, nearest, delta * hn::Div(splat_as<V>(1), distance), distance,
+                 sphere.radius, capsule.radius, pose, coincide, no_lanes_of<V>(), report);
   }
 };
 

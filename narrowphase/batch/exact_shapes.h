@@ -1,0 +1,81 @@
+// Reads the shapes and poses of a row for tests in lanes of doubles.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "narrowphase/batch/single_pair.h"
+#include "narrowphase/scalar/scaled.h"
+
+namespace carom {
+
+template <ShapeKind kKind>
+auto exact_shape(const BodyReader& body, size_t i) {
+  using scalar::Vector3;
+  const auto vector = [&](size_t row) -> Vector3<double> {
+    const Row numbers = body.row(i, row);
+    return {numbers[0], numbers[1], numbers[2]};
+  };
+  if constexpr (kKind == ShapeKind::sphere) {
+    return scalar::SphereShape<double>{body.radius(i)};
+  } else if constexpr (kKind == ShapeKind::capsule) {
+    return scalar::CapsuleShape<double>{vector(0), vector(1), body.row(i, 0)[3]};
+  } else if constexpr (kKind == ShapeKind::box) {
+    return scalar::BoxShape<double>{vector(0)};
+  } else {
+    static_assert(kKind == ShapeKind::aabb);
+    return scalar::AabbShape<double>{{body.lower(0, i), body.lower(1, i), body.lower(2, i)},
+                                     {body.upper(0, i), body.upper(1, i), body.upper(2, i)}};
+  }
+}
+
+template <ShapeKind kKind>
+inline constexpr size_t kExactNumbers = sizeof(exact_shape<kKind>(std::declval<BodyReader>(), 0)) /
+                                        sizeof(double);
+
+// The numbers of a row, in scaled units: d, the orientations of A and B (x, y, z, w), the shapes.
+inline constexpr size_t kExactPoseNumbers = 11;
+
+template <ShapeKind kKindA, ShapeKind kKindB>
+class ExactPairReader {
+ public:
+  static constexpr size_t kNumbers =
+      kExactPoseNumbers + kExactNumbers<kKindA> + kExactNumbers<kKindB>;
+
+  explicit ExactPairReader(const Batch& batch)
+      : pairs_(batch.pairs),
+        view_a_(view_of(batch.a, batch.layout, kKindA)),
+        view_b_(view_of(batch.b, batch.layout, kKindB)) {}
+
+  // Returns the metres in a unit.
+  double read(size_t row, std::array<double, kNumbers>& numbers) const {
+    const auto [a, b] = pairs_[row];
+    const Position<double> at_a = a_.position<double>(a), at_b = b_.position<double>(b);
+    const scalar::Vector3<double> d(at_b.x - at_a.x, at_b.y - at_a.y, at_b.z - at_a.z);
+    const auto shape_a = exact_shape<kKindA>(a_, a);
+    const auto shape_b = exact_shape<kKindB>(b_, b);
+    const scalar::DoubleScale scale = scalar::scale_of(
+        scalar::max(scalar::largest_component(d), scalar::max(shape_a.size(), shape_b.size())));
+    double* next = numbers.data();
+    const auto add = [&next](const auto& part) {
+      std::memcpy(next, &part, sizeof(part));
+      next += sizeof(part) / sizeof(double);
+    };
+    add(scalar::Vector3<double>(d * scale.down));
+    for (const scalar::Quaternion<double>& q : {orientation_of(a_, a), orientation_of(b_, b)}) {
+      add(q.v);
+      add(q.w);
+    }
+    add(shape_a.scaled(scale.down));
+    add(shape_b.scaled(scale.down));
+    return scale.up;
+  }
+
+ private:
+  const Pair* pairs_;
+  Collidables view_a_, view_b_;
+  BodyReader a_{view_a_}, b_{view_b_};
+};
+
+}  // namespace carom
