@@ -48,7 +48,9 @@ class ExactLanes {
   void test(size_t row, std::span<const size_t> lanes, const Put& put) {
     for (size_t begin = 0; begin < lanes.size(); begin += kDoubleLanes) {
       const auto group = lanes.subspan(begin, std::min(kDoubleLanes, lanes.size() - begin));
-      for (size_t k = 0; k < group.size(); ++k) read(row + group[k], k);
+      for (size_t k = 0; k < group.size(); ++k) {
+        up_[k] = reader_.read(row + group[k], kDoubleLanes, &in_[0][k]);
+      }
       for (size_t c = 0; c < Reader::kNumbers; ++c) {
         std::fill(in_[c] + group.size(), in_[c] + kDoubleLanes, in_[c][0]);
       }
@@ -74,19 +76,13 @@ class ExactLanes {
  private:
   static constexpr size_t kNumbers = 10;
 
-  void read(size_t row, size_t k) {
-    std::array<double, Reader::kNumbers> numbers;
-    up_[k] = reader_.read(row, numbers);
-    for (size_t c = 0; c < Reader::kNumbers; ++c) in_[c][k] = numbers[c];
-  }
-
   HWY_NOINLINE void run() {
     const ExactColumns columns{in_};
     const PoseOf<D> pose = {columns.vector(0), columns.quaternion(3), columns.quaternion(7)};
     typename A::template Of<D> a;
     typename B::template Of<D> b;
-    columns.read(kExactPoseNumbers, a);
-    columns.read(kExactPoseNumbers + kExactNumbers<A::kKind>, b);
+    columns.read(Reader::kOfA, a);
+    columns.read(Reader::kOfB, b);
     Kernel::test(pose, a, b, *this);
   }
 

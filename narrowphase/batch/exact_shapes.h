@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/scalar/scaled.h"
@@ -34,22 +35,22 @@ template <ShapeKind kKind>
 inline constexpr size_t kExactNumbers = sizeof(exact_shape<kKind>(std::declval<BodyReader>(), 0)) /
                                         sizeof(double);
 
-// The numbers of a row, in scaled units: d, the orientations of A and B (x, y, z, w), the shapes.
-inline constexpr size_t kExactPoseNumbers = 11;
-
+// The numbers of a row, in scaled units: d, the orientations of A and B (x, y, z, w; the identity
+// of a shape that has none), the shapes.
 template <ShapeKind kKindA, ShapeKind kKindB>
 class ExactPairReader {
  public:
-  static constexpr size_t kNumbers =
-      kExactPoseNumbers + kExactNumbers<kKindA> + kExactNumbers<kKindB>;
+  static constexpr size_t kOfA = 11;  // where the numbers of shape A begin
+  static constexpr size_t kOfB = kOfA + kExactNumbers<kKindA>;
+  static constexpr size_t kNumbers = kOfB + kExactNumbers<kKindB>;
 
   explicit ExactPairReader(const Batch& batch)
       : pairs_(batch.pairs),
         view_a_(view_of(batch.a, batch.layout, kKindA)),
         view_b_(view_of(batch.b, batch.layout, kKindB)) {}
 
-  // Returns the metres in a unit.
-  double read(size_t row, std::array<double, kNumbers>& numbers) const {
+  // Writes the numbers to every `stride`-th place, and returns the metres in a unit.
+  [[gnu::always_inline]] double read(size_t row, size_t stride, double* numbers) const {
     const auto [a, b] = pairs_[row];
     const Position<double> at_a = a_.position<double>(a), at_b = b_.position<double>(b);
     const scalar::Vector3<double> d(at_b.x - at_a.x, at_b.y - at_a.y, at_b.z - at_a.z);
@@ -57,22 +58,27 @@ class ExactPairReader {
     const auto shape_b = exact_shape<kKindB>(b_, b);
     const scalar::DoubleScale scale = scalar::scale_of(
         scalar::max(scalar::largest_component(d), scalar::max(shape_a.size(), shape_b.size())));
-    double* next = numbers.data();
-    const auto add = [&next](const auto& part) {
-      std::memcpy(next, &part, sizeof(part));
-      next += sizeof(part) / sizeof(double);
+    const auto add = [&](const auto& part) {
+      std::array<double, sizeof(part) / sizeof(double)> those;
+      std::memcpy(those.data(), &part, sizeof(part));
+      for (const double number : those) *std::exchange(numbers, numbers + stride) = number;
     };
     add(scalar::Vector3<double>(d * scale.down));
-    for (const scalar::Quaternion<double>& q : {orientation_of(a_, a), orientation_of(b_, b)}) {
-      add(q.v);
-      add(q.w);
-    }
+    add(turn<kKindA>(a_, a));
+    add(turn<kKindB>(b_, b));
     add(shape_a.scaled(scale.down));
     add(shape_b.scaled(scale.down));
     return scale.up;
   }
 
  private:
+  template <ShapeKind kKind>
+  static std::array<double, 4> turn(const BodyReader& body, size_t i) {
+    if constexpr (kKind == ShapeKind::sphere || kKind == ShapeKind::aabb) return {0, 0, 0, 1};
+    const scalar::Quaternion<double> q = orientation_of(body, i);
+    return {q.v.x(), q.v.y(), q.v.z(), q.w};
+  }
+
   const Pair* pairs_;
   Collidables view_a_, view_b_;
   BodyReader a_{view_a_}, b_{view_b_};
