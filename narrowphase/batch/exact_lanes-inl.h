@@ -30,6 +30,9 @@ struct ExactColumns {
     capsule = {vector(c), vector(c + 3), number(c + 6)};
   }
   HWY_INLINE void read(size_t c, BoxOf<D>& box) const { box.half = vector(c); }
+  HWY_INLINE void read(size_t c, TriangleOf<D>& triangle) const {
+    triangle = {vector(c), vector(c + 3), vector(c + 6), hn::Ne(number(c + 9), splat_double(0))};
+  }
   HWY_INLINE void read(size_t c, AabbOf<D>& box) const { box = {vector(c), vector(c + 3)}; }
 };
 

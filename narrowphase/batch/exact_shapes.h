@@ -11,6 +11,20 @@
 
 namespace carom {
 
+// A triangle as kernels test it.
+struct ExactTriangle {
+  std::array<scalar::Vector3<double>, 3> corners;
+  double is_special;  // 1 or 0
+
+  double size() const {
+    const auto largest = [this](size_t i) { return scalar::largest_component(corners[i]); };
+    return scalar::max(scalar::max(largest(0), largest(1)), largest(2));
+  }
+  ExactTriangle scaled(double s) const {
+    return {{corners[0] * s, corners[1] * s, corners[2] * s}, is_special};
+  }
+};
+
 template <ShapeKind kKind>
 auto exact_shape(const BodyReader& body, size_t i) {
   using scalar::Vector3;
@@ -24,6 +38,10 @@ auto exact_shape(const BodyReader& body, size_t i) {
     return scalar::CapsuleShape<double>{vector(0), vector(1), body.row(i, 0)[3]};
   } else if constexpr (kKind == ShapeKind::box) {
     return scalar::BoxShape<double>{vector(0)};
+  } else if constexpr (kKind == ShapeKind::triangle) {
+    const bool is_special =
+        body.row(i, 0)[3] != 0 || body.row(i, 1)[3] != 0 || body.row(i, 2)[3] != 0;
+    return ExactTriangle{{vector(0), vector(1), vector(2)}, is_special ? 1.0 : 0.0};
   } else {
     static_assert(kKind == ShapeKind::aabb);
     return scalar::AabbShape<double>{{body.lower(0, i), body.lower(1, i), body.lower(2, i)},

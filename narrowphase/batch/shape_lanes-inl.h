@@ -35,6 +35,11 @@ template <class V>
 struct BoxOf {
   Lanes3<V> half;
 };
+template <class V>
+struct TriangleOf {
+  Lanes3<V> a, b, c;
+  MaskOf<V> is_special;  // thick, one-sided or with inner edges: no kernel tests it
+};
 
 // Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite. A lane
 // whose size overflows may still be valid. Kernels that work in scaled units use
@@ -199,12 +204,12 @@ struct BoxLanes : BoxOf<F> {
   HWY_INLINE void scale(F s) { half = half * s; }
 };
 
-struct TriangleLanes {
+struct TriangleLanes : TriangleOf<F> {
+  template <class V>
+  using Of = TriangleOf<V>;
   static constexpr ShapeKind kKind = ShapeKind::triangle;
   static constexpr bool kIsOriented = true;
-  F3 a, b, c;
   F thickness;
-  Mask is_special;  // thick, one-sided or with inner edges: tested in double precision
   Mask has_valid_flags;
 
   static bool is_dense(const BatchSide&) { return true; }

@@ -15,25 +15,27 @@ namespace carom::HWY_NAMESPACE {
 // Corners in the order of the triangle, starting with its longest edge; edge i leads from corner i
 // to the next. A triangle without a face (no area) is its longest edge: its third corner is set to
 // the first.
-struct TriangleCore {
-  F3 corner[3];
-  F3 edge[3];
-  F squared[3];  // of the edges
-  F3 normal;     // not a unit vector
-  Mask has_face;
+template <class V>
+struct TriangleCoreOf {
+  Lanes3<V> corner[3];
+  Lanes3<V> edge[3];
+  V squared[3];      // of the edges
+  Lanes3<V> normal;  // not a unit vector
+  MaskOf<V> has_face;
 
-  HWY_INLINE TriangleCore(const F3& a, const F3& b, const F3& c) : corner{a, b, c} {
+  HWY_INLINE TriangleCoreOf(const Lanes3<V>& a, const Lanes3<V>& b, const Lanes3<V>& c)
+      : corner{a, b, c} {
     start_with_longest();
     normal = cross(edge[1], edge[2]);
     // Rounding of a sliver's third corner may turn the normal about the longest edge; but the
     // normal must be perpendicular to that edge.
-    const F share =
-        hn::IfThenElseZero(hn::Gt(squared[0], splat(0)), hn::Div(dot(normal, edge[0]), squared[0]));
+    const V share = hn::IfThenElseZero(hn::Gt(squared[0], splat_as<V>(0)),
+                                       hn::Div(dot(normal, edge[0]), squared[0]));
     normal = normal - edge[0] * share;
-    using Tolerance = CoreTolerance<float>;
+    using Tolerance = CoreTolerance<hn::TFromV<V>>;
     has_face = hn::Gt(dot(normal, normal),
-                      max(hn::Mul(splat(Tolerance::kFlat), hn::Mul(squared[0], squared[0])),
-                          splat(Tolerance::kVanishing)));
+                      max(hn::Mul(splat_as<V>(Tolerance::kFlat), hn::Mul(squared[0], squared[0])),
+                          splat_as<V>(Tolerance::kVanishing)));
     corner[2] = select(has_face, corner[2], corner[0]);
     measure_edge(1);
     measure_edge(2);
@@ -42,9 +44,10 @@ struct TriangleCore {
  private:
   HWY_INLINE void start_with_longest() {
     for (size_t i = 0; i < 3; ++i) measure_edge(i);
-    const Mask second = hn::And(hn::Gt(squared[1], squared[0]), hn::Ge(squared[1], squared[2]));
-    const Mask third = hn::AndNot(second, hn::Gt(squared[2], squared[0]));
-    const F3 a = corner[0], b = corner[1], c = corner[2];
+    const MaskOf<V> second =
+        hn::And(hn::Gt(squared[1], squared[0]), hn::Ge(squared[1], squared[2]));
+    const MaskOf<V> third = hn::AndNot(second, hn::Gt(squared[2], squared[0]));
+    const Lanes3<V> a = corner[0], b = corner[1], c = corner[2];
     corner[0] = select(second, b, select(third, c, a));
     corner[1] = select(second, c, select(third, a, b));
     corner[2] = select(second, a, select(third, b, c));
@@ -57,19 +60,23 @@ struct TriangleCore {
   }
 };
 
+using TriangleCore = TriangleCoreOf<F>;
+
 // One edge as a point sees it.
-struct EdgeView {
-  F3 way;           // to the nearest point of the edge's line
-  Mask is_before;   // projects before the first end, or on it
-  Mask is_past;     // projects past the second end, or on it
-  Mask is_outside;  // the triangle lies on the far side of the edge
+template <class V>
+struct EdgeViewOf {
+  Lanes3<V> way;         // to the nearest point of the edge's line
+  MaskOf<V> is_before;   // projects before the first end, or on it
+  MaskOf<V> is_past;     // projects past the second end, or on it
+  MaskOf<V> is_outside;  // the triangle lies on the far side of the edge
 
   // `from` and `past`: from the two ends to the point.
-  HWY_INLINE EdgeView(const F3& from, const F3& past, const TriangleCore& triangle, size_t i) {
-    const F zero = splat(0);
-    const F3& edge = triangle.edge[i];
-    const F squared = triangle.squared[i];
-    const F along = dot(from, edge);
+  HWY_INLINE EdgeViewOf(const Lanes3<V>& from, const Lanes3<V>& past,
+                        const TriangleCoreOf<V>& triangle, size_t i) {
+    const V zero = splat_as<V>(0);
+    const Lanes3<V>& edge = triangle.edge[i];
+    const V squared = triangle.squared[i];
+    const V along = dot(from, edge);
     is_before = hn::Le(along, zero);
     is_past = hn::Ge(dot(past, edge), zero);
     way = edge * hn::IfThenElseZero(hn::Gt(squared, zero), hn::Div(along, squared)) - from;
@@ -77,34 +84,38 @@ struct EdgeView {
         hn::Or(hn::Not(triangle.has_face), hn::Gt(dot(way, cross(triangle.normal, edge)), zero));
   }
 
-  HWY_INLINE Mask is_nearest() const { return hn::AndNot(hn::Or(is_before, is_past), is_outside); }
+  HWY_INLINE MaskOf<V> is_nearest() const {
+    return hn::AndNot(hn::Or(is_before, is_past), is_outside);
+  }
 };
 
 // From a point to the nearest point of a triangle: the direction, not a unit vector, and the
 // distance. Returns the lanes in which the nearest feature is the face: those whose point is in the
 // region of no edge and no corner.
-HWY_INLINE Mask nearest_on_triangle(const F3& p, const TriangleCore& triangle, F3& way,
-                                    F& distance) {
-  const F3 from[3] = {p - triangle.corner[0], p - triangle.corner[1], p - triangle.corner[2]};
-  const EdgeView views[3] = {{from[0], from[1], triangle, 0},
-                             {from[1], from[2], triangle, 1},
-                             {from[2], from[0], triangle, 2}};
-  const Mask is_outside =
+template <class V>
+HWY_INLINE MaskOf<V> nearest_on_triangle(const Lanes3<V>& p, const TriangleCoreOf<V>& triangle,
+                                         Lanes3<V>& way, V& distance) {
+  const Lanes3<V> from[3] = {p - triangle.corner[0], p - triangle.corner[1],
+                             p - triangle.corner[2]};
+  const EdgeViewOf<V> views[3] = {{from[0], from[1], triangle, 0},
+                                  {from[1], from[2], triangle, 1},
+                                  {from[2], from[0], triangle, 2}};
+  const MaskOf<V> is_outside =
       hn::Or(views[0].is_outside, hn::Or(views[1].is_outside, views[2].is_outside));
-  const F height = dot(from[0], triangle.normal);
-  way = negate_if(hn::Ge(height, splat(0)), triangle.normal);
-  Mask is_face = hn::Not(no_lanes());
+  const V height = dot(from[0], triangle.normal);
+  way = negate_if(hn::Ge(height, splat_as<V>(0)), triangle.normal);
+  MaskOf<V> is_face = hn::Not(no_lanes_of<V>());
   for (size_t i = 3; i-- > 0;) {
-    const Mask at_corner =
+    const MaskOf<V> at_corner =
         hn::And(is_outside, hn::And(views[i].is_before, views[(i + 2) % 3].is_past));
     way = select(at_corner, -from[i], way);
     is_face = hn::AndNot(at_corner, is_face);
   }
-  F3 edge = triangle.edge[0];
-  F squared = triangle.squared[0];
-  Mask is_edge = no_lanes();
+  Lanes3<V> edge = triangle.edge[0];
+  V squared = triangle.squared[0];
+  MaskOf<V> is_edge = no_lanes_of<V>();
   for (size_t i = 3; i-- > 0;) {
-    const Mask nearest = views[i].is_nearest();
+    const MaskOf<V> nearest = views[i].is_nearest();
     way = select(nearest, views[i].way, way);
     edge = select(nearest, triangle.edge[i], edge);
     squared = hn::IfThenElse(nearest, triangle.squared[i], squared);
@@ -112,7 +123,7 @@ HWY_INLINE Mask nearest_on_triangle(const F3& p, const TriangleCore& triangle, F
   }
   way = select(is_edge, way - edge * hn::Div(dot(way, edge), squared), way);
   is_face = hn::AndNot(is_edge, is_face);
-  const F length = hn::Sqrt(dot(way, way));
+  const V length = hn::Sqrt(dot(way, way));
   distance = hn::IfThenElse(is_face, hn::Div(hn::Abs(height), length), length);
   return is_face;
 }

@@ -17,30 +17,34 @@ struct AabbTriangleBase {
   using A = AabbLanes;
   using B = TriangleLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  static HWY_INLINE F3 half_of(const A& box) { return (box.upper - box.lower) * splat(0.5f); }
+  template <class V>
+  static HWY_INLINE Lanes3<V> half_of(const AabbOf<V>& box) {
+    return (box.upper - box.lower) * splat_as<V>(0.5);
+  }
 
   // The position of the triangle's body relative to the centre of the box.
-  static HWY_INLINE F3 position_of(const PoseLanes& pose, const A& box) {
-    return ((pose.d - box.lower) + (pose.d - box.upper)) * splat(0.5f);
+  template <class V>
+  static HWY_INLINE Lanes3<V> position_of(const PoseOf<V>& pose, const AabbOf<V>& box) {
+    return ((pose.d - box.lower) + (pose.d - box.upper)) * splat_as<V>(0.5);
   }
 };
 
 struct AabbTriangle : AabbTriangleBase {
   static constexpr Columns kColumns = Columns::contact;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
-                              Report& report) {
-    const F3 centre = (box.lower + box.upper) * splat(0.5f);
-    const F3 position = position_of(pose, box);
-    PlacedTriangle placed = place_triangle(triangle, rotation_of(pose.b), position);
-    BoxContact contact;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& box,
+                              const TriangleOf<V>& triangle, Report& report) {
+    const Lanes3<V> centre = (box.lower + box.upper) * splat_as<V>(0.5);
+    const Lanes3<V> position = position_of(pose, box);
+    PlacedTriangleOf<V> placed = place_triangle(triangle, rotation_of(pose.b), position);
+    BoxContactOf<V> contact;
     box_triangle_contact(placed, half_of(box), contact);
 
-    report(hn::Le(contact.separation, splat(0)), hn::Or(contact.unsure, triangle.is_special),
-           no_lanes(), contact.separation, contact.normal, contact.on_box + centre,
+    report(hn::Le(contact.separation, splat_as<V>(0)), hn::Or(contact.unsure, triangle.is_special),
+           no_lanes_of<V>(), contact.separation, contact.normal, contact.on_box + centre,
            contact.on_other - position);
   }
 };
@@ -49,10 +53,10 @@ struct AabbTriangle : AabbTriangleBase {
 struct AabbTriangleDecision : AabbTriangleBase {
   static constexpr Columns kColumns = Columns::decision;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
-                              Report& report) {
-    const PlacedTriangle placed =
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& box,
+                              const TriangleOf<V>& triangle, Report& report) {
+    const PlacedTriangleOf<V> placed =
         place_triangle(triangle, rotation_of(pose.b), position_of(pose, box));
     report_decision(gap_of(placed, half_of(box)), triangle.is_special, report);
   }

@@ -17,11 +17,12 @@ struct BoxTriangleBase {
   using A = BoxLanes;
   using B = TriangleLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  static HWY_INLINE PlacedTriangle place(const PoseLanes& pose, const Rotation& turn_box,
-                                         const B& triangle) {
-    const Rotation turn = rotation_of(relative_rotation(pose.a, pose.b));
+  template <class V>
+  static HWY_INLINE PlacedTriangleOf<V> place(const PoseOf<V>& pose, const RotationOf<V>& turn_box,
+                                              const TriangleOf<V>& triangle) {
+    const RotationOf<V> turn = rotation_of(relative_rotation(pose.a, pose.b));
     return place_triangle(triangle, turn, rotate_back(turn_box, pose.d));
   }
 };
@@ -29,16 +30,16 @@ struct BoxTriangleBase {
 struct BoxTriangle : BoxTriangleBase {
   static constexpr Columns kColumns = Columns::contact;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
-                              Report& report) {
-    const Rotation turn_box = rotation_of(pose.a);
-    PlacedTriangle placed = place(pose, turn_box, triangle);
-    BoxContact contact;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& box,
+                              const TriangleOf<V>& triangle, Report& report) {
+    const RotationOf<V> turn_box = rotation_of(pose.a);
+    PlacedTriangleOf<V> placed = place(pose, turn_box, triangle);
+    BoxContactOf<V> contact;
     box_triangle_contact(placed, box.half, contact);
 
-    report(hn::Le(contact.separation, splat(0)), hn::Or(contact.unsure, triangle.is_special),
-           no_lanes(), contact.separation, rotate(turn_box, contact.normal),
+    report(hn::Le(contact.separation, splat_as<V>(0)), hn::Or(contact.unsure, triangle.is_special),
+           no_lanes_of<V>(), contact.separation, rotate(turn_box, contact.normal),
            rotate(turn_box, contact.on_box), rotate(turn_box, contact.on_other) - pose.d);
   }
 };
@@ -47,10 +48,10 @@ struct BoxTriangle : BoxTriangleBase {
 struct BoxTriangleDecision : BoxTriangleBase {
   static constexpr Columns kColumns = Columns::decision;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& triangle,
-                              Report& report) {
-    const PlacedTriangle placed = place(pose, rotation_of(pose.a), triangle);
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& box,
+                              const TriangleOf<V>& triangle, Report& report) {
+    const PlacedTriangleOf<V> placed = place(pose, rotation_of(pose.a), triangle);
     report_decision(gap_of(placed, box.half), triangle.is_special, report);
   }
 };

@@ -18,12 +18,14 @@ namespace {
 
 // The edge of a triangle that is nearest to the segment d, and the edge that ends where that one
 // starts (`last`).
-struct NearestEdge {
-  F squared, s, ee;
-  F t;
-  F3 delta, edge, last;
+template <class V>
+struct NearestEdgeOf {
+  V squared, s, ee;
+  V t;
+  Lanes3<V> delta, edge, last;
 
-  HWY_INLINE void find(const F3& r, const F3& d, F dd, const TriangleCore& triangle, size_t i) {
+  HWY_INLINE void find(const Lanes3<V>& r, const Lanes3<V>& d, V dd,
+                       const TriangleCoreOf<V>& triangle, size_t i) {
     edge = triangle.edge[i];
     ee = triangle.squared[i];
     last = triangle.edge[(i + 2) % 3];
@@ -31,8 +33,8 @@ struct NearestEdge {
     squared = dot(delta, delta);
   }
 
-  HWY_INLINE void replace_if_closer(const NearestEdge& other) {
-    const Mask closer = hn::Lt(other.squared, squared);
+  HWY_INLINE void replace_if_closer(const NearestEdgeOf& other) {
+    const MaskOf<V> closer = hn::Lt(other.squared, squared);
     squared = hn::IfThenElse(closer, other.squared, squared);
     s = hn::IfThenElse(closer, other.s, s);
     t = hn::IfThenElse(closer, other.t, t);
@@ -46,106 +48,112 @@ struct NearestEdge {
 struct CapsuleTriangle {
   using A = CapsuleLanes;
   using B = TriangleLanes;
-  using Tolerance = CoreTolerance<float>;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& capsule, const B& triangle,
-                              Report& report) {
-    const F zero = splat(0);
-    const Rotation turn_a = rotation_of(pose.a);
-    const Rotation turn_b = rotation_of(pose.b);
-    const TriangleCore core(rotate(turn_b, triangle.a) + pose.d,
-                            rotate(turn_b, triangle.b) + pose.d,
-                            rotate(turn_b, triangle.c) + pose.d);
-    const F3 p = rotate(turn_a, capsule.a);
-    const F3 d = rotate(turn_a, capsule.b - capsule.a);
-    const F dd = dot(d, d);
-    const F3 r[3] = {core.corner[0] - p, core.corner[1] - p, core.corner[2] - p};
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const CapsuleOf<V>& capsule,
+                              const TriangleOf<V>& triangle, Report& report) {
+    const V zero = splat_as<V>(0);
+    const RotationOf<V> turn_a = rotation_of(pose.a);
+    const RotationOf<V> turn_b = rotation_of(pose.b);
+    const TriangleCoreOf<V> core(rotate(turn_b, triangle.a) + pose.d,
+                                 rotate(turn_b, triangle.b) + pose.d,
+                                 rotate(turn_b, triangle.c) + pose.d);
+    const Lanes3<V> p = rotate(turn_a, capsule.a);
+    const Lanes3<V> d = rotate(turn_a, capsule.b - capsule.a);
+    const V dd = dot(d, d);
+    const Lanes3<V> r[3] = {core.corner[0] - p, core.corner[1] - p, core.corner[2] - p};
 
-    NearestEdge nearest, other;
+    NearestEdgeOf<V> nearest, other;
     nearest.find(r[0], d, dd, core, 0);
     other.find(r[1], d, dd, core, 1);
     nearest.replace_if_closer(other);
     other.find(r[2], d, dd, core, 2);
     nearest.replace_if_closer(other);
 
-    const F scale = hn::Div(splat(1), hn::Sqrt(dot(core.normal, core.normal)));
-    const F3 unit_normal = core.normal * hn::IfThenElseZero(core.has_face, scale);
-    const F height_p = hn::Neg(dot(r[0], unit_normal));
-    const F height_q = hn::Add(height_p, dot(d, unit_normal));
-    const Mask through = passes_through(r, d, core, height_p, height_q);
+    const V scale = hn::Div(splat_as<V>(1), hn::Sqrt(dot(core.normal, core.normal)));
+    const Lanes3<V> unit_normal = core.normal * hn::IfThenElseZero(core.has_face, scale);
+    const V height_p = hn::Neg(dot(r[0], unit_normal));
+    const V height_q = hn::Add(height_p, dot(d, unit_normal));
+    const MaskOf<V> through = passes_through(r, d, core, height_p, height_q);
 
     // Takes the face if the end that is nearer to the plane is over it, and no edge is nearer.
-    const Mask starts_nearer = hn::Le(hn::Abs(height_p), hn::Abs(height_q));
-    const F height = hn::IfThenElse(starts_nearer, height_p, height_q);
-    const F far_height = hn::IfThenElse(starts_nearer, height_q, height_p);
-    const F bound = hn::Mul(nearest.squared, splat(Tolerance::kTie));
-    const Mask is_face = hn::And(hn::Le(hn::Mul(height, height), bound),
-                                 is_over(r, zero_unless(hn::Not(starts_nearer), d), core));
+    const MaskOf<V> starts_nearer = hn::Le(hn::Abs(height_p), hn::Abs(height_q));
+    const V height = hn::IfThenElse(starts_nearer, height_p, height_q);
+    const V far_height = hn::IfThenElse(starts_nearer, height_q, height_p);
+    const V bound = hn::Mul(nearest.squared, splat_as<V>(CoreTolerance<hn::TFromV<V>>::kTie));
+    const MaskOf<V> is_face = hn::And(hn::Le(hn::Mul(height, height), bound),
+                                      is_over(r, zero_unless(hn::Not(starts_nearer), d), core));
 
-    F3 way;
-    const Mask is_across =
+    Lanes3<V> way;
+    const MaskOf<V> is_across =
         way_between(d, dd, nearest.edge, nearest.ee, nearest.s, nearest.t, nearest.delta, way);
     // If `way` is perpendicular to the edge and the segment, its sign is that for which the third
     // corner of the triangle lies ahead.
-    const F3 ahead = negate_if(through, nearest.delta);
-    const F3 far = ahead - zero_unless(is_across, nearest.last);
+    const Lanes3<V> ahead = negate_if(through, nearest.delta);
+    const Lanes3<V> far = ahead - zero_unless(is_across, nearest.last);
     way = negate_if(hn::Lt(dot(way, far), zero), way);
-    const F length = hn::Sqrt(dot(way, way));
-    const F to_unit = hn::Div(splat(1), length);
-    const F gap =
+    const V length = hn::Sqrt(dot(way, way));
+    const V to_unit = hn::Div(splat_as<V>(1), length);
+    const V gap =
         hn::IfThenElse(is_across, hn::Mul(hn::Abs(dot(nearest.delta, way)), to_unit), length);
 
-    const F distance = hn::IfThenElse(is_face, hn::Abs(height), gap);
-    const F core_separation = hn::IfThenElse(through, hn::Neg(distance), distance);
-    const F3 normal =
+    const V distance = hn::IfThenElse(is_face, hn::Abs(height), gap);
+    const V core_separation = hn::IfThenElse(through, hn::Neg(distance), distance);
+    const Lanes3<V> normal =
         select(is_face, negate_if(hn::Ge(far_height, zero), unit_normal), way * to_unit);
-    const F end = hn::IfThenElse(starts_nearer, zero, splat(1));
-    const F3 point = p + d * hn::IfThenElse(is_face, end, nearest.s);
+    const V end = hn::IfThenElse(starts_nearer, zero, splat_as<V>(1));
+    const Lanes3<V> point = p + d * hn::IfThenElse(is_face, end, nearest.s);
     // So near to an edge, float32 cannot tell on which side of it the segment is.
-    const Mask near_edge = hn::AndNot(is_face, hn::Le(distance, splat(Tolerance::kNearEdges)));
-    const Mask unsure =
+    const MaskOf<V> near_edge = hn::AndNot(
+        is_face, hn::Le(distance, splat_as<V>(CoreTolerance<hn::TFromV<V>>::kNearEdges)));
+    const MaskOf<V> unsure =
         hn::Or(hn::Or(near_edge, is_tilted(normal, r, d, core_separation)), triangle.is_special);
     report_grown(point, point + normal * core_separation, normal, core_separation, capsule.radius,
-                 zero, pose, unsure, no_lanes(), report);
+                 zero, pose, unsure, no_lanes_of<V>(), report);
   }
 
  private:
   // Whether the ends are on both sides of the plane, and the line on the same side of all edges. A
   // segment that lies in the plane, up to rounding, does not pass through it.
-  static HWY_INLINE Mask passes_through(const F3* r, const F3& d, const TriangleCore& core,
-                                        F height_p, F height_q) {
-    const F zero = splat(0);
-    const F rise = hn::Abs(hn::Sub(height_q, height_p));
-    const Mask crosses = hn::And(
-        hn::Gt(rise, splat(Tolerance::kShallow)),
+  template <class V>
+  static HWY_INLINE MaskOf<V> passes_through(const Lanes3<V>* r, const Lanes3<V>& d,
+                                             const TriangleCoreOf<V>& core, V height_p,
+                                             V height_q) {
+    const V zero = splat_as<V>(0);
+    const V rise = hn::Abs(hn::Sub(height_q, height_p));
+    const MaskOf<V> crosses = hn::And(
+        hn::Gt(rise, splat_as<V>(CoreTolerance<hn::TFromV<V>>::kShallow)),
         hn::And(hn::Le(min(height_p, height_q), zero), hn::Ge(max(height_p, height_q), zero)));
-    const F side0 = dot(r[0], cross(d, core.edge[0]));
-    const F side1 = dot(r[1], cross(d, core.edge[1]));
-    const F side2 = dot(r[2], cross(d, core.edge[2]));
-    const Mask inside = hn::Or(hn::Ge(min(min(side0, side1), side2), zero),
-                               hn::Le(max(max(side0, side1), side2), zero));
+    const V side0 = dot(r[0], cross(d, core.edge[0]));
+    const V side1 = dot(r[1], cross(d, core.edge[1]));
+    const V side2 = dot(r[2], cross(d, core.edge[2]));
+    const MaskOf<V> inside = hn::Or(hn::Ge(min(min(side0, side1), side2), zero),
+                                    hn::Le(max(max(side0, side1), side2), zero));
     return hn::And(hn::And(core.has_face, crosses), inside);
   }
 
   // Whether the end of the segment is over the face; r: from the start of the segment to the
   // corners.
-  static HWY_INLINE Mask is_over(const F3* r, const F3& end, const TriangleCore& core) {
-    Mask outside = hn::Not(core.has_face);
+  template <class V>
+  static HWY_INLINE MaskOf<V> is_over(const Lanes3<V>* r, const Lanes3<V>& end,
+                                      const TriangleCoreOf<V>& core) {
+    MaskOf<V> outside = hn::Not(core.has_face);
     for (size_t i = 0; i < 3; ++i) {
-      const F3 inwards = cross(core.normal, core.edge[i]);
-      outside = hn::Or(outside, hn::Gt(dot(r[i] - end, inwards), splat(0)));
+      const Lanes3<V> inwards = cross(core.normal, core.edge[i]);
+      outside = hn::Or(outside, hn::Gt(dot(r[i] - end, inwards), splat_as<V>(0)));
     }
     return hn::Not(outside);
   }
 
   // Whether the gap between the projections on the normal is less than the separation.
-  static HWY_INLINE Mask is_tilted(const F3& n, const F3* r, const F3& d, F separation) {
-    const F low = min(min(dot(n, r[0]), dot(n, r[1])), dot(n, r[2]));
-    const F gap = hn::Sub(low, max(dot(n, d), splat(0)));
-    return hn::Lt(gap, hn::Sub(separation, splat(Tolerance::kTilt)));
+  template <class V>
+  static HWY_INLINE MaskOf<V> is_tilted(const Lanes3<V>& n, const Lanes3<V>* r, const Lanes3<V>& d,
+                                        V separation) {
+    const V low = min(min(dot(n, r[0]), dot(n, r[1])), dot(n, r[2]));
+    const V gap = hn::Sub(low, max(dot(n, d), splat_as<V>(0)));
+    return hn::Lt(gap, hn::Sub(separation, splat_as<V>(CoreTolerance<hn::TFromV<V>>::kTilt)));
   }
 };
 

@@ -17,24 +17,26 @@ struct SphereTriangle {
   using A = SphereLanes;
   using B = TriangleLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& sphere, const B& triangle,
-                              Report& report) {
-    const Rotation turn = rotation_of(pose.b);
-    const TriangleCore core(triangle.a, triangle.b, triangle.c);
-    F3 local;
-    F distance;
-    const Mask is_face = nearest_on_triangle(rotate_back(turn, -pose.d), core, local, distance);
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const SphereOf<V>& sphere,
+                              const TriangleOf<V>& triangle, Report& report) {
+    const RotationOf<V> turn = rotation_of(pose.b);
+    const TriangleCoreOf<V> core(triangle.a, triangle.b, triangle.c);
+    Lanes3<V> local;
+    V distance;
+    const MaskOf<V> is_face =
+        nearest_on_triangle(rotate_back(turn, -pose.d), core, local, distance);
 
     // So near to an edge, the vector to it is mostly rounding: double precision decides.
-    const Mask is_near_edge =
-        hn::AndNot(is_face, hn::Le(distance, splat(CoreTolerance<float>::kNearEdges)));
-    const F3 way = rotate(turn, local);
-    const F3 normal = way * hn::Div(splat(1), hn::Sqrt(dot(way, way)));
-    report_grown(splat3(0), normal * distance, normal, distance, sphere.radius, splat(0), pose,
-                 hn::Or(is_near_edge, triangle.is_special), no_lanes(), report);
+    const MaskOf<V> is_near_edge = hn::AndNot(
+        is_face, hn::Le(distance, splat_as<V>(CoreTolerance<hn::TFromV<V>>::kNearEdges)));
+    const Lanes3<V> way = rotate(turn, local);
+    const Lanes3<V> normal = way * hn::Div(splat_as<V>(1), hn::Sqrt(dot(way, way)));
+    report_grown(Lanes3<V>{splat_as<V>(0), splat_as<V>(0), splat_as<V>(0)}, normal * distance,
+                 normal, distance, sphere.radius, splat_as<V>(0), pose,
+                 hn::Or(is_near_edge, triangle.is_special), no_lanes_of<V>(), report);
   }
 };
 
