@@ -51,9 +51,7 @@ class ExactLanes {
   void test(size_t row, std::span<const size_t> lanes, const Put& put) {
     for (size_t begin = 0; begin < lanes.size(); begin += kDoubleLanes) {
       const auto group = lanes.subspan(begin, std::min(kDoubleLanes, lanes.size() - begin));
-      for (size_t k = 0; k < group.size(); ++k) {
-        up_[k] = reader_.read(row + group[k], kDoubleLanes, &in_[0][k]);
-      }
+      reader_.read(row, group, kDoubleLanes, in_[0], up_.data());
       for (size_t c = 0; c < Reader::kNumbers; ++c) {
         std::fill(in_[c] + group.size(), in_[c] + kDoubleLanes, in_[c][0]);
       }

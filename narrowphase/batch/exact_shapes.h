@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "narrowphase/batch/single_pair.h"
@@ -67,7 +68,15 @@ class ExactPairReader {
         view_a_(view_of(batch.a, batch.layout, kKindA)),
         view_b_(view_of(batch.b, batch.layout, kKindB)) {}
 
-  // Writes the numbers to every `stride`-th place, and returns the metres in a unit.
+  // Reads row + lane for each of the lanes: number c of the k-th to numbers[c * stride + k], and
+  // the metres in its unit to up[k]. Not inlined: a kernel with wide vectors waits at every change
+  // to code that has none.
+  [[gnu::noinline]] void read(size_t row, std::span<const size_t> lanes, size_t stride,
+                              double* numbers, double* up) const {
+    for (size_t k = 0; k < lanes.size(); ++k) up[k] = read(row + lanes[k], stride, numbers + k);
+  }
+
+ private:
   [[gnu::always_inline]] double read(size_t row, size_t stride, double* numbers) const {
     const auto [a, b] = pairs_[row];
     const Position<double> at_a = a_.position<double>(a), at_b = b_.position<double>(b);
@@ -89,7 +98,6 @@ class ExactPairReader {
     return scale.up;
   }
 
- private:
   template <ShapeKind kKind>
   static std::array<double, 4> turn(const BodyReader& body, size_t i) {
     if constexpr (kKind == ShapeKind::sphere || kKind == ShapeKind::aabb) return {0, 0, 0, 1};

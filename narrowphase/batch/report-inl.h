@@ -135,9 +135,9 @@ struct LaneReport {
   HWY_NOINLINE F refined(Mask unsure, F separation) const {
     HWY_ALIGN float values[kLanes];
     hn::Store(separation, FloatTag(), values);
-    for_each_lane(unsure, [&](size_t i) {
-      values[i] = near_touch_separation(source, A::kKind, B::kKind, row + i);
-    });
+    size_t lanes[kLanes];
+    near_touch_separations(source, A::kKind, B::kKind, row, {lanes, list_lanes(unsure, lanes)},
+                           values);
     return hn::Load(FloatTag(), values);
   }
 
@@ -154,8 +154,7 @@ struct LaneReport {
     };
     if constexpr (Kernel::kUnsure == Unsure::test || Kernel::kUnsure == Unsure::in_lanes) {
       size_t lanes[kLanes];
-      size_t count = 0;
-      for_each_lane(unsure, [&](size_t i) { lanes[count++] = i; });
+      const size_t count = list_lanes(unsure, lanes);
       if constexpr (Kernel::kUnsure == Unsure::test) {
         Kernel::test_exactly(source, row, {lanes, count}, put);
       } else {
@@ -167,6 +166,13 @@ struct LaneReport {
     }
     for (size_t c = 0; c + 1 < kNumbers; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
     degenerate = hn::Ne(hn::Load(FloatTag(), values[kNumbers - 1]), splat(0));
+  }
+
+  // Returns how many there are.
+  static HWY_INLINE size_t list_lanes(Mask mask, size_t (&lanes)[kLanes]) {
+    size_t count = 0;
+    for_each_lane(mask, [&](size_t i) { lanes[count++] = i; });
+    return count;
   }
 
   template <class Body>

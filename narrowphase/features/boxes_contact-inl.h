@@ -7,6 +7,8 @@
 #define CAROM_NARROWPHASE_FEATURES_BOXES_CONTACT_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "base/tolerances.h"
 #include "narrowphase/features/boxes_sat-inl.h"
 #include "narrowphase/features/rounded-inl.h"
@@ -125,46 +127,64 @@ struct FacingPoints {
   HWY_INLINE Lanes3<V> on_b() const { return select(are_edges, edge_on_b, feature_on_b); }
 };
 
+// Whether the features lie opposite each other.
+HWY_INLINE DoubleMask do_face(const FacingPoints<D>& facing, const D3& normal) {
+  const D3 way = facing.feature_on_b - facing.feature_on_a;
+  const D3 across = way - normal * dot(way, normal);
+  return hn::Le(dot(across, across), splat_double(kTouchingSquared));
+}
+
 // The nearest points of the boxes if the normal is the axis. `unsure`: several axes have equal
 // gaps, and float32 cannot tell along which of them the boxes meet.
-HWY_INLINE void witness_along(const BoxPairLanes& p, const SeparatingAxisLanes& axis, F3& on_a,
-                              F3& on_b, Mask& unsure) {
-  const FacingPoints<F> facing(p, axis);
+template <class V>
+HWY_INLINE void witness_along(const BoxPairOf<V>& p, const SeparatingAxisOf<V>& axis,
+                              Lanes3<V>& on_a, Lanes3<V>& on_b, MaskOf<V>& unsure) {
+  const FacingPoints<V> facing(p, axis);
   on_a = facing.on_a();
   on_b = on_a + axis.normal * axis.gap;
-  const F3 off_axis = facing.on_b() - on_b;
-  unsure = hn::Gt(dot(off_axis, off_axis), splat(kOffAxisSquared));
+  if constexpr (std::is_same_v<V, D>) {
+    // Where features do not face each other, the scalar form takes their middle.
+    unsure = hn::Not(hn::Or(facing.are_edges, do_face(facing, axis.normal)));
+  } else {
+    const Lanes3<V> off_axis = facing.on_b() - on_b;
+    unsure = hn::Gt(dot(off_axis, off_axis), splat_as<V>(kOffAxisSquared));
+  }
 }
 
 // --- Separate boxes ---
 
-struct NearestCornerLanes {
-  F squared;
-  F3 corner;
+template <class V>
+struct NearestCornerOf {
+  V squared;
+  Lanes3<V> corner;
 };
 
 // The corner of a box, with its centre at `centre` and half axes hx, hy, hz, that is nearest to a
 // box about the origin.
-HWY_INLINE NearestCornerLanes nearest_corner(const F3& half, const F3& centre, const F3& hx,
-                                             const F3& hy, const F3& hz) {
-  NearestCornerLanes nearest;
-  const auto offer = [&](const F3& corner, bool is_first) HWY_ATTR {
-    const F3 outside = max(abs(corner) - half, splat3(0));
-    const F squared = dot(outside, outside);
+template <class V>
+HWY_INLINE NearestCornerOf<V> nearest_corner(const Lanes3<V>& half, const Lanes3<V>& centre,
+                                             const Lanes3<V>& hx, const Lanes3<V>& hy,
+                                             const Lanes3<V>& hz) {
+  NearestCornerOf<V> nearest;
+  const V zero = splat_as<V>(0);
+  const Lanes3<V> zeros = {zero, zero, zero};
+  const auto offer = [&](const Lanes3<V>& corner, bool is_first) HWY_ATTR {
+    const Lanes3<V> outside = max(abs(corner) - half, zeros);
+    const V squared = dot(outside, outside);
     if (is_first) {
       nearest = {squared, corner};
       return;
     }
-    const Mask nearer = hn::Lt(squared, nearest.squared);
+    const MaskOf<V> nearer = hn::Lt(squared, nearest.squared);
     nearest.squared = hn::IfThenElse(nearer, squared, nearest.squared);
     nearest.corner = select(nearer, corner, nearest.corner);
   };
-  const F3 x0 = centre - hx;
-  const F3 x1 = centre + hx;
-  const F3 x0y0 = x0 - hy;
-  const F3 x1y0 = x1 - hy;
-  const F3 x0y1 = x0 + hy;
-  const F3 x1y1 = x1 + hy;
+  const Lanes3<V> x0 = centre - hx;
+  const Lanes3<V> x1 = centre + hx;
+  const Lanes3<V> x0y0 = x0 - hy;
+  const Lanes3<V> x1y0 = x1 - hy;
+  const Lanes3<V> x0y1 = x0 + hy;
+  const Lanes3<V> x1y1 = x1 + hy;
   offer(x0y0 - hz, true);
   offer(x1y0 - hz, false);
   offer(x0y1 - hz, false);
@@ -176,72 +196,80 @@ HWY_INLINE NearestCornerLanes nearest_corner(const F3& half, const F3& centre, c
   return nearest;
 }
 
-HWY_INLINE NearestCornerLanes nearest_corner_of_b(const BoxPairLanes& p) {
+template <class V>
+HWY_INLINE NearestCornerOf<V> nearest_corner_of_b(const BoxPairOf<V>& p) {
   return nearest_corner(p.half_a, p.centre, p.turn.x * p.half_b.x, p.turn.y * p.half_b.y,
                         p.turn.z * p.half_b.z);
 }
 
 // In the frame of B.
-HWY_INLINE NearestCornerLanes nearest_corner_of_a(const BoxPairLanes& p) {
-  const Rotation rows = transposed(p.turn);
+template <class V>
+HWY_INLINE NearestCornerOf<V> nearest_corner_of_a(const BoxPairOf<V>& p) {
+  const RotationOf<V> rows = transposed(p.turn);
   return nearest_corner(p.half_b, -rotate_back(p.turn, p.centre), rows.x * p.half_a.x,
                         rows.y * p.half_a.y, rows.z * p.half_a.z);
 }
 
 // A point of A near the nearest one, to start the projections from.
-HWY_INLINE F3 start_on_a(const BoxPairLanes& p, const BestEdges& edges) {
-  const NearestCornerLanes of_b = nearest_corner_of_b(p);
-  const NearestCornerLanes of_a = nearest_corner_of_a(p);
-  const Mask is_of_a = hn::Lt(of_a.squared, of_b.squared);
-  const F least = hn::IfThenElse(is_of_a, of_a.squared, of_b.squared);
-  const F3 x = select(is_of_a, from_b(p, of_a.corner), clamp_to_box(of_b.corner, p.half_a));
+template <class V>
+HWY_INLINE Lanes3<V> start_on_a(const BoxPairOf<V>& p, const BestEdgesOf<V>& edges) {
+  const NearestCornerOf<V> of_b = nearest_corner_of_b(p);
+  const NearestCornerOf<V> of_a = nearest_corner_of_a(p);
+  const MaskOf<V> is_of_a = hn::Lt(of_a.squared, of_b.squared);
+  const V least = hn::IfThenElse(is_of_a, of_a.squared, of_b.squared);
+  const Lanes3<V> x = select(is_of_a, from_b(p, of_a.corner), clamp_to_box(of_b.corner, p.half_a));
 
-  AxisMasks edge_a, edge_b;
+  AxisMasksOf<V> edge_a, edge_b;
   choose_edges(edges.number, edge_a, edge_b);
-  F3 on_a, on_b;
+  Lanes3<V> on_a, on_b;
   facing_edges(p, from_a_to_b(p, edge_normal(p, edges, edge_a, edge_b)), edge_a, edge_b, on_a,
                on_b);
-  const F3 way = on_b - on_a;
+  const Lanes3<V> way = on_b - on_a;
   return select(hn::Lt(dot(way, way), least), on_a, x);
 }
 
 // Coordinates strictly inside the box: 0 corner, 1 edge, 2 face, 3 interior.
-HWY_INLINE F free_axes(const F3& x, const F3& half) {
-  const auto is_free = [](F coordinate, F limit) HWY_ATTR {
-    return hn::IfThenElseZero(hn::Lt(hn::Abs(coordinate), limit), splat(1));
+template <class V>
+HWY_INLINE V free_axes(const Lanes3<V>& x, const Lanes3<V>& half) {
+  const auto is_free = [](V coordinate, V limit) HWY_ATTR {
+    return hn::IfThenElseZero(hn::Lt(hn::Abs(coordinate), limit), splat_as<V>(1));
   };
   return hn::Add(hn::Add(is_free(x.x, half.x), is_free(x.y, half.y)), is_free(x.z, half.z));
 }
 
 // The gap along a unit vector from A to B.
-HWY_INLINE F gap_along(const BoxPairLanes& p, const F3& n) {
-  const F reach_a = dot(abs(n), p.half_a);
-  const F reach_b = dot(abs(rotate_back(p.turn, n)), p.half_b);
+template <class V>
+HWY_INLINE V gap_along(const BoxPairOf<V>& p, const Lanes3<V>& n) {
+  const V reach_a = dot(abs(n), p.half_a);
+  const V reach_b = dot(abs(rotate_back(p.turn, n)), p.half_b);
   return hn::Sub(dot(n, p.centre), hn::Add(reach_a, reach_b));
 }
 
 // The distance of separate boxes, their normal and nearest points.
-HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
-                            const SeparatingAxisLanes& axis, F& distance, F3& normal, F3& on_a,
-                            F3& on_b, Mask& unsure) {
-  F3 x = start_on_a(p, edges);
+template <class V>
+HWY_INLINE void distance_of(const BoxPairOf<V>& p, const BestEdgesOf<V>& edges,
+                            const SeparatingAxisOf<V>& axis, V& distance, Lanes3<V>& normal,
+                            Lanes3<V>& on_a, Lanes3<V>& on_b, MaskOf<V>& unsure) {
+  Lanes3<V> x = start_on_a(p, edges);
   for (int round = 0; round < 2; ++round) {
     x = clamp_to_box(from_b(p, clamp_to_box(to_b(p, x), p.half_b)), p.half_a);
   }
-  const F3 q = to_b(p, x);
-  const F3 q_on_b = clamp_to_box(q, p.half_b);
-  const F3 y = from_b(p, q_on_b);
-  const Mask in_frame_b = hn::Gt(free_axes(q, p.half_b), free_axes(y, p.half_a));
-  const F3 way = select(in_frame_b, rotate(p.turn, q_on_b - q), y - clamp_to_box(y, p.half_a));
-  const F length = hn::Sqrt(dot(way, way));
-  const F3 direction = way * hn::Div(splat(1), length);
+  const Lanes3<V> q = to_b(p, x);
+  const Lanes3<V> q_on_b = clamp_to_box(q, p.half_b);
+  const Lanes3<V> y = from_b(p, q_on_b);
+  const MaskOf<V> in_frame_b = hn::Gt(free_axes(q, p.half_b), free_axes(y, p.half_a));
+  const Lanes3<V> way =
+      select(in_frame_b, rotate(p.turn, q_on_b - q), y - clamp_to_box(y, p.half_a));
+  const V length = hn::Sqrt(dot(way, way));
+  const Lanes3<V> direction = way * hn::Div(splat_as<V>(1), length);
 
   // The better normal is the one with the greater gap. Rounding tilts short vectors.
-  const F gap = gap_along(p, direction);
-  const Mask by_points = hn::Gt(gap, axis.gap);
-  const Mask tilted = hn::Lt(gap, hn::Sub(length, splat(CoreTolerance<float>::kTilt)));
-  F3 axis_on_a, axis_on_b;
-  Mask axis_unsure;
+  const V gap = gap_along(p, direction);
+  const MaskOf<V> by_points = hn::Gt(gap, axis.gap);
+  const MaskOf<V> tilted =
+      hn::Lt(gap, hn::Sub(length, splat_as<V>(CoreTolerance<hn::TFromV<V>>::kTilt)));
+  Lanes3<V> axis_on_a, axis_on_b;
+  MaskOf<V> axis_unsure;
   witness_along(p, axis, axis_on_a, axis_on_b, axis_unsure);
   distance = hn::IfThenElse(by_points, length, axis.gap);
   normal = select(by_points, direction, axis.normal);
@@ -253,44 +281,46 @@ HWY_INLINE void distance_of(const BoxPairLanes& p, const BestEdges& edges,
 // --- Reports ---
 
 // Reports results in the frame of A, turned to world axes. `centre_a`: relative to A's position.
-template <class Report>
-HWY_INLINE void report_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
-                             F axis_gap, F separation, const F3& normal, const F3& on_a,
-                             const F3& on_b, Mask unsure, Report& report) {
-  report(hn::Le(separation, splat(0)), hn::Or(is_near_touch(axis_gap), unsure), no_lanes(),
-         separation, rotate(turn_a, normal), rotate(turn_a, on_a) + centre_a,
+template <class V, class Report>
+HWY_INLINE void report_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
+                             const Lanes3<V>& centre_a, V axis_gap, V separation,
+                             const Lanes3<V>& normal, const Lanes3<V>& on_a, const Lanes3<V>& on_b,
+                             MaskOf<V> unsure, Report& report) {
+  report(hn::Le(separation, splat_as<V>(0)), hn::Or(is_near_touch(axis_gap), unsure),
+         no_lanes_of<V>(), separation, rotate(turn_a, normal), rotate(turn_a, on_a) + centre_a,
          rotate(turn_a, on_b - p.centre));
 }
 
 // Decision and, of overlapping boxes, all.
-template <class Report>
-HWY_INLINE void test_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
-                           Report& report) {
+template <class V, class Report>
+HWY_INLINE void test_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
+                           const Lanes3<V>& centre_a, Report& report) {
   const bool faces_only = report.batch.faces_only;
-  BestEdges edges = no_edges<F>();
+  BestEdgesOf<V> edges = no_edges<V>();
   if (HWY_LIKELY(!faces_only)) edges = best_edges(p);
-  const SeparatingAxisLanes axis = best_axis(p, edges);
-  F3 on_a = p.centre, on_b = p.centre;
-  Mask unsure = no_lanes();
+  const SeparatingAxisOf<V> axis = best_axis(p, edges);
+  Lanes3<V> on_a = p.centre, on_b = p.centre;
+  MaskOf<V> unsure = no_lanes_of<V>();
   if constexpr (Report::kHasContact) witness_along(p, axis, on_a, on_b, unsure);
   // With faces only, pairs that only an edge axis separates give a meaningless witness; they are
   // not marked unsure.
-  if (HWY_UNLIKELY(faces_only)) unsure = no_lanes();
-  const Mask overlap = hn::Le(axis.gap, splat(0));
+  if (HWY_UNLIKELY(faces_only)) unsure = no_lanes_of<V>();
+  const MaskOf<V> overlap = hn::Le(axis.gap, splat_as<V>(0));
   report_boxes(p, turn_a, centre_a, axis.gap, axis.gap, axis.normal, on_a, on_b,
                hn::And(unsure, overlap), report);
 }
 
-// The distance pass: all results of separate boxes.
-template <class Report>
-HWY_INLINE void measure_boxes(const BoxPairLanes& p, const Rotation& turn_a, const F3& centre_a,
-                              Report& report) {
-  const BestEdges edges = best_edges(p);
-  const SeparatingAxisLanes axis = best_axis(p, edges);
-  F distance;
-  F3 normal, on_a, on_b;
-  Mask unsure;
+// The distance pass: all results of separate boxes. In doubles others are unsure.
+template <class V, class Report>
+HWY_INLINE void measure_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
+                              const Lanes3<V>& centre_a, Report& report) {
+  const BestEdgesOf<V> edges = best_edges(p);
+  const SeparatingAxisOf<V> axis = best_axis(p, edges);
+  V distance;
+  Lanes3<V> normal, on_a, on_b;
+  MaskOf<V> unsure;
   distance_of(p, edges, axis, distance, normal, on_a, on_b, unsure);
+  if constexpr (std::is_same_v<V, D>) unsure = hn::Or(unsure, hn::Le(axis.gap, splat_double(0)));
   report_boxes(p, turn_a, centre_a, axis.gap, distance, normal, on_a, on_b, unsure, report);
 }
 

@@ -94,12 +94,6 @@ class ExactBoxLanes {
     store(rotate(turn_a, on_b - p.centre), 7);
   }
 
-  static HWY_INLINE DoubleMask do_face(const FacingPoints<D>& facing, const D3& normal) {
-    const D3 way = facing.feature_on_b - facing.feature_on_a;
-    const D3 across = way - normal * dot(way, normal);
-    return hn::Le(dot(across, across), splat_double(kTouchingSquared));
-  }
-
   HWY_INLINE void store(const D3& v, size_t c) {
     const DoubleTag tag;
     hn::Store(v.x, tag, out_[c]);

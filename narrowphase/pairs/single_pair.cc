@@ -74,10 +74,8 @@ float sphere_separation(const Batch& batch, size_t row) {
   return gap(square(difference(a.centre, b.centre)), double{a.radius} + double{b.radius});
 }
 
-float sphere_box_separation(const Batch& batch, size_t row) {
+float sphere_box_separation(const Batch& batch, const BodyReader& b, size_t row) {
   const Pair pair = batch.pairs[row];
-  const Collidables view_b = view_of(batch.b, batch.layout, ShapeKind::aabb);
-  const BodyReader b{view_b};
   const RecordedSphere a = sphere_of(batch.a, batch.layout, pair.a);
   return sphere_box_separation(b, pair.b, difference(a.centre, b.position<double>(pair.b)),
                                a.radius);
@@ -178,14 +176,21 @@ bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_
   return BodyReader{a}.is_valid(pair.a) && BodyReader{b}.is_valid(pair.b);
 }
 
-float near_touch_separation(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row) {
+void near_touch_separations(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
+                            std::span<const size_t> lanes, float* values) {
+  const auto fill = [&](const auto& separation_of) {
+    for (const size_t lane : lanes) values[lane] = separation_of(row + lane);
+  };
   if (kind_a == ShapeKind::sphere && kind_b == ShapeKind::sphere) {
-    return sphere_separation(batch, row);
+    return fill([&](size_t i) { return sphere_separation(batch, i); });
   }
   if (kind_a == ShapeKind::sphere && kind_b == ShapeKind::aabb) {
-    return sphere_box_separation(batch, row);
+    const Collidables view_b = view_of(batch.b, batch.layout, ShapeKind::aabb);
+    return fill([&](size_t i) { return sphere_box_separation(batch, BodyReader{view_b}, i); });
   }
-  return scalar::round_separation(exact_separation(batch, kind_a, kind_b, row).separation);
+  fill([&](size_t i) {
+    return scalar::round_separation(exact_separation(batch, kind_a, kind_b, i).separation);
+  });
 }
 
 std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,

@@ -20,15 +20,21 @@ struct AabbBoxBase {
 
   // Subtracts both corners before it takes the mean, so that a box far from its position loses no
   // digits.
-  static HWY_INLINE BoxPairLanes boxes(const PoseLanes& pose, const A& a, const B& b) {
-    const F half = splat(0.5f);
+  template <class V>
+  static HWY_INLINE BoxPairOf<V> boxes(const PoseOf<V>& pose, const AabbOf<V>& a,
+                                       const BoxOf<V>& b) {
+    const V half = splat_as<V>(0.5);
     return {((pose.d - a.lower) + (pose.d - a.upper)) * half, rotation_of(pose.b),
             (a.upper - a.lower) * half, b.half};
   }
-  static HWY_INLINE F3 centre(const A& a) { return (a.lower + a.upper) * splat(0.5f); }
-  static HWY_INLINE Rotation world() {
-    const F zero = splat(0);
-    const F one = splat(1);
+  template <class V>
+  static HWY_INLINE Lanes3<V> centre(const AabbOf<V>& a) {
+    return (a.lower + a.upper) * splat_as<V>(0.5);
+  }
+  template <class V>
+  static HWY_INLINE RotationOf<V> world() {
+    const V zero = splat_as<V>(0);
+    const V one = splat_as<V>(1);
     return {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
   }
 };
@@ -38,7 +44,7 @@ struct AabbBox : AabbBoxBase {
 
   template <class Report>
   static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    test_boxes(boxes(pose, a, b), world(), centre(a), report);
+    test_boxes(boxes(pose, a, b), world<F>(), centre(a), report);
   }
 
   template <class Put>
@@ -49,12 +55,13 @@ struct AabbBox : AabbBoxBase {
 };
 
 struct AabbBoxDistance : AabbBoxBase {
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
   static constexpr Columns kColumns = Columns::contact;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    measure_boxes(boxes(pose, a, b), world(), centre(a), report);
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& a, const BoxOf<V>& b,
+                              Report& report) {
+    measure_boxes(boxes(pose, a, b), world<V>(), centre(a), report);
   }
 };
 

@@ -18,8 +18,9 @@ struct BoxBoxBase {
   using B = BoxLanes;
   static constexpr Units kUnits = Units::scaled;
 
-  static HWY_INLINE BoxPairLanes boxes(const PoseLanes& pose, const Rotation& turn_a, const A& a,
-                                       const B& b) {
+  template <class V>
+  static HWY_INLINE BoxPairOf<V> boxes(const PoseOf<V>& pose, const RotationOf<V>& turn_a,
+                                       const BoxOf<V>& a, const BoxOf<V>& b) {
     return {rotate_back(turn_a, pose.d), rotation_of(relative_rotation(pose.a, pose.b)), a.half,
             b.half};
   }
@@ -42,13 +43,15 @@ struct BoxBox : BoxBoxBase {
 };
 
 struct BoxBoxDistance : BoxBoxBase {
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
   static constexpr Columns kColumns = Columns::contact;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    const Rotation turn_a = rotation_of(pose.a);
-    measure_boxes(boxes(pose, turn_a, a, b), turn_a, splat3(0), report);
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& a, const BoxOf<V>& b,
+                              Report& report) {
+    const RotationOf<V> turn_a = rotation_of(pose.a);
+    const V zero = splat_as<V>(0);
+    measure_boxes(boxes(pose, turn_a, a, b), turn_a, {zero, zero, zero}, report);
   }
 };
 
