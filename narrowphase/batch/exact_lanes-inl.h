@@ -1,5 +1,5 @@
 // A kernel's formula in lanes of doubles, for the rows that float32 cannot decide. exact_answer()
-// is the scalar form.
+// is the scalar form, exact_box_test() that of the test pass of boxes.
 #if defined(CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_
@@ -12,6 +12,7 @@
 #include <span>
 
 #include "narrowphase/batch/exact_shapes.h"
+#include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -36,9 +37,11 @@ struct ExactColumns {
   HWY_INLINE void read(size_t c, AabbOf<D>& box) const { box = {vector(c), vector(c + 3)}; }
 };
 
-// Kernel::test() of rows that are unsure in float32.
-template <class Kernel>
+// Kernel::test() of rows that are unsure in float32. `kContacts`: whether more than the decision is
+// wanted.
+template <class Kernel, bool kContacts>
 class ExactLanes {
+  static constexpr bool kIsTest = Kernel::kUnsure == Unsure::test;
   using A = typename Kernel::A;
   using B = typename Kernel::B;
   using Reader = ExactPairReader<A::kKind, B::kKind>;
@@ -46,7 +49,11 @@ class ExactLanes {
  public:
   explicit ExactLanes(const Batch& batch) : batch_(batch), reader_(batch) {}
 
-  // Calls put(lane, exact_answer() of row + lane) for each of the lanes.
+  // For test_boxes().
+  static constexpr bool kHasContact = kContacts;
+  static constexpr bool faces_only() { return false; }
+
+  // Calls put(lane, scalar form of row + lane) for each of the lanes.
   template <class Put>
   void test(size_t row, std::span<const size_t> lanes, const Put& put) {
     for (size_t begin = 0; begin < lanes.size(); begin += kDoubleLanes) {
@@ -58,8 +65,7 @@ class ExactLanes {
       run();
       for (size_t k = 0; k < group.size(); ++k) {
         const size_t lane = group[k];
-        put(lane, is_unsure_[k] != 0 ? exact_answer(batch_, A::kKind, B::kKind, row + lane)
-                                     : numbers_of(k));
+        put(lane, is_answered(k) ? numbers_of(k) : scalar_form(row + lane));
       }
     }
   }
@@ -76,6 +82,7 @@ class ExactLanes {
 
  private:
   static constexpr size_t kNumbers = 10;
+  using Numbers = std::array<float, kNumbers + 1>;  // as those of exact_answer()
 
   HWY_NOINLINE void run() {
     const ExactColumns columns{in_};
@@ -87,8 +94,18 @@ class ExactLanes {
     Kernel::test(pose, a, b, *this);
   }
 
-  std::array<float, kNumbers + 1> numbers_of(size_t k) const {
-    std::array<float, kNumbers + 1> numbers{};
+  // Of boxes whose gap vanishes in metres the scalar form knows more than the test.
+  bool is_answered(size_t k) const {
+    return is_unsure_[k] == 0 && !(kIsTest && out_[0][k] > 0 && !(out_[0][k] * up_[k] > 0));
+  }
+
+  Numbers scalar_form(size_t row) const {
+    if constexpr (kIsTest) return exact_box_test(batch_, A::kKind, row);
+    return exact_answer(batch_, A::kKind, B::kKind, row);
+  }
+
+  Numbers numbers_of(size_t k) const {
+    Numbers numbers{};
     numbers[0] = scalar::round_separation(scalar::finite(out_[0][k] * up_[k]));
     for (size_t c = 1; c < 4; ++c) numbers[c] = static_cast<float>(out_[c][k]);
     for (size_t c = 4; c < kNumbers; ++c) numbers[c] = static_cast<float>(out_[c][k] * up_[k]);

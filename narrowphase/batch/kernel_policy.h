@@ -9,15 +9,15 @@ enum class Units {
   scaled,  // a power of two: the greatest coordinate of the pair lies between one and two
 };
 
-// Unsure lanes are computed again in double precision, one at a time unless it says otherwise. This
-// says how much of their results is.
+// Unsure lanes are computed again in double precision: side by side, by the Kernel::test() of lanes
+// of doubles, or one at a time. This says how much of their results is.
 enum class Unsure {
   nothing,     // the kernel is exact near touch
   separation,  // only the separation: the normal is good
   everything,
-  in_lanes,  // everything, side by side: Kernel::test() takes lanes of doubles as well
-  test,  // side by side: the decision, and everything of overlapping pairs: Kernel::test_exactly()
-  left,  // nothing: the kernel defers its unsure rows to another test
+  in_lanes,  // everything, side by side
+  test,      // side by side: the decision, and everything of overlapping pairs (of boxes)
+  left,      // nothing: the kernel defers its unsure rows to another test
 };
 
 // Which columns a kernel is compiled to write. `Kernel::kColumns`; per_detail where it says

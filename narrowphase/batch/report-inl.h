@@ -42,6 +42,7 @@ struct LaneReport {
   Mask valid;
   bool is_odd;  // not all lanes are plain
 
+  HWY_INLINE bool faces_only() const { return batch.faces_only; }
   // Whether the caller wants to know the unsure lanes. Kernels that refine need them in any case.
   HWY_INLINE bool marks_unsure() const { return batch.unsure != nullptr; }
 
@@ -154,12 +155,7 @@ struct LaneReport {
     };
     if constexpr (Kernel::kUnsure == Unsure::test || Kernel::kUnsure == Unsure::in_lanes) {
       size_t lanes[kLanes];
-      const size_t count = list_lanes(unsure, lanes);
-      if constexpr (Kernel::kUnsure == Unsure::test) {
-        Kernel::test_exactly(source, row, {lanes, count}, put);
-      } else {
-        ExactLanes<Kernel>(source).test(row, {lanes, count}, put);
-      }
+      ExactLanes<Kernel, kHasContact>(source).test(row, {lanes, list_lanes(unsure, lanes)}, put);
     } else {
       for_each_lane(unsure,
                     [&](size_t i) { put(i, exact_answer(source, A::kKind, B::kKind, row + i)); });

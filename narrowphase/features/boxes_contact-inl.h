@@ -291,11 +291,11 @@ HWY_INLINE void report_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
          rotate(turn_a, on_b - p.centre));
 }
 
-// Decision and, of overlapping boxes, all.
+// Decision and, of overlapping boxes, all. In doubles faces are never enough.
 template <class V, class Report>
 HWY_INLINE void test_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
                            const Lanes3<V>& centre_a, Report& report) {
-  const bool faces_only = report.batch.faces_only;
+  const bool faces_only = std::is_same_v<V, F> && report.faces_only();
   BestEdgesOf<V> edges = no_edges<V>();
   if (HWY_LIKELY(!faces_only)) edges = best_edges(p);
   const SeparatingAxisOf<V> axis = best_axis(p, edges);

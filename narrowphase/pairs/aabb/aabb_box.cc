@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
-#include "narrowphase/features/boxes_exact-inl.h"
+#include "narrowphase/features/boxes_contact-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -42,15 +42,10 @@ struct AabbBoxBase {
 struct AabbBox : AabbBoxBase {
   static constexpr Unsure kUnsure = Unsure::test;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    test_boxes(boxes(pose, a, b), world<F>(), centre(a), report);
-  }
-
-  template <class Put>
-  static void test_exactly(const Batch& batch, size_t row, std::span<const size_t> lanes,
-                           const Put& put) {
-    ExactBoxLanes(batch, A::kKind).test(row, lanes, put);
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& a, const BoxOf<V>& b,
+                              Report& report) {
+    test_boxes(boxes(pose, a, b), world<V>(), centre(a), report);
   }
 };
 

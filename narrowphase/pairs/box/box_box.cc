@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
-#include "narrowphase/features/boxes_exact-inl.h"
+#include "narrowphase/features/boxes_contact-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,16 +29,12 @@ struct BoxBoxBase {
 struct BoxBox : BoxBoxBase {
   static constexpr Unsure kUnsure = Unsure::test;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& a, const B& b, Report& report) {
-    const Rotation turn_a = rotation_of(pose.a);
-    test_boxes(boxes(pose, turn_a, a, b), turn_a, splat3(0), report);
-  }
-
-  template <class Put>
-  static void test_exactly(const Batch& batch, size_t row, std::span<const size_t> lanes,
-                           const Put& put) {
-    ExactBoxLanes(batch, A::kKind).test(row, lanes, put);
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& a, const BoxOf<V>& b,
+                              Report& report) {
+    const RotationOf<V> turn_a = rotation_of(pose.a);
+    const V zero = splat_as<V>(0);
+    test_boxes(boxes(pose, turn_a, a, b), turn_a, {zero, zero, zero}, report);
   }
 };
 
