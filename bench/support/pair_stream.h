@@ -28,7 +28,7 @@ struct StreamSpec {
   ShapeKind kind_b;
   Storage storage = Storage::f32;
   int hit_percent = 50;
-  bool touching = false;  // to within rounding: about as many overlap as may; no hit_percent
+  bool touching = false;  // to within rounding; about half overlap, whatever hit_percent says
   Access access = Access::rows;
   size_t count = 0;
   size_t vertices = 16;  // of hulls; few hulls, shared by the bodies

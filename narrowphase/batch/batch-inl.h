@@ -8,8 +8,8 @@
 // test() calls
 //   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
 // once; names, frames and signs as in Contact. test() is branch-free and the same at every detail:
-// the compiler drops everything that a detail does not store. `unsure`: the lanes that float32
-// cannot decide.
+// the compiler drops what a detail does not store. `unsure`: the lanes that float32 cannot decide.
+// Where kUnsure says so, test() is a template of lanes of floats or doubles.
 #if defined(CAROM_NARROWPHASE_BATCH_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_

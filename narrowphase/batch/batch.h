@@ -40,8 +40,8 @@ enum class Pass : uint8_t {
 };
 
 // The passes of a kind beside the test. For GJK kinds the overlap test is the first part of the
-// distance search, so the distance pass or the clearance pass replaces the test. A direction pass
-// pays for these alone: other tests take no longer than looking for the direction.
+// distance search, so the distance pass or the clearance pass replaces the test. They have a
+// direction pass as well: other tests take no longer than looking for the direction.
 enum class MorePasses : uint8_t {
   none,
   manifold,

@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The columns of numbers from `c` on, as parts of a pair.
+// Columns of numbers; read(c, shape) takes a shape from columns c, c + 1, ...
 struct ExactColumns {
   const double (*column)[kDoubleLanes];
 
@@ -53,7 +53,7 @@ class ExactLanes {
   static constexpr bool kHasContact = kContacts;
   static constexpr bool faces_only() { return false; }
 
-  // Calls put(lane, scalar form of row + lane) for each of the lanes.
+  // Calls put(lane, numbers) for each of the lanes, with what the scalar form gives for row + lane.
   template <class Put>
   void test(size_t row, std::span<const size_t> lanes, const Put& put) {
     for (size_t begin = 0; begin < lanes.size(); begin += kDoubleLanes) {
@@ -94,7 +94,7 @@ class ExactLanes {
     Kernel::test(pose, a, b, *this);
   }
 
-  // Of boxes whose gap vanishes in metres the scalar form knows more than the test.
+  // A gap of boxes that is zero in metres needs the scalar form.
   bool is_answered(size_t k) const {
     return is_unsure_[k] == 0 && !(kIsTest && out_[0][k] > 0 && !(out_[0][k] * up_[k] > 0));
   }

@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// A triangle as kernels test it.
+// The corners of a triangle, and whether it is special.
 struct ExactTriangle {
   std::array<scalar::Vector3<double>, 3> corners;
   double is_special;  // 1 or 0

@@ -9,8 +9,8 @@ enum class Units {
   scaled,  // a power of two: the greatest coordinate of the pair lies between one and two
 };
 
-// Unsure lanes are computed again in double precision: side by side, by the Kernel::test() of lanes
-// of doubles, or one at a time. This says how much of their results is.
+// Unsure lanes are computed again in double precision. This says how much of their results is, and
+// where not one at a time: side by side, by the Kernel::test() of lanes of doubles.
 enum class Unsure {
   nothing,     // the kernel is exact near touch
   separation,  // only the separation: the normal is good

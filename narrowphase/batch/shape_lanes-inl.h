@@ -38,7 +38,7 @@ struct BoxOf {
 template <class V>
 struct TriangleOf {
   Lanes3<V> a, b, c;
-  MaskOf<V> is_special;  // thick, one-sided or with inner edges: no kernel tests it
+  MaskOf<V> is_special;  // thick, one-sided or with inner edges: for the scalar form
 };
 
 // Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite. A lane

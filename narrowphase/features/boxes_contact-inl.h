@@ -291,7 +291,7 @@ HWY_INLINE void report_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
          rotate(turn_a, on_b - p.centre));
 }
 
-// Decision and, of overlapping boxes, all. In doubles faces are never enough.
+// Decision and, of overlapping boxes, all. Doubles ignore faces_only.
 template <class V, class Report>
 HWY_INLINE void test_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
                            const Lanes3<V>& centre_a, Report& report) {
@@ -310,7 +310,7 @@ HWY_INLINE void test_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
                hn::And(unsure, overlap), report);
 }
 
-// The distance pass: all results of separate boxes. In doubles others are unsure.
+// The distance pass: all results of separate boxes. In doubles, boxes that overlap are unsure.
 template <class V, class Report>
 HWY_INLINE void measure_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
                               const Lanes3<V>& centre_a, Report& report) {

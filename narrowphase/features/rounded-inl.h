@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Whether the separation, in scaled units, is within what float32 may have done to it.
+// Whether rounding in float32 may have changed the sign of a separation in scaled units.
 HWY_INLINE Mask is_near_touch(F separation) {
   return hn::Le(hn::Abs(separation), splat(kNearTouchScaled));
 }

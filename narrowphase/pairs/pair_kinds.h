@@ -18,7 +18,7 @@ struct PairKind {
   bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
   // Whether the distance pass replaces the test: it fills every row (GJK kinds).
   bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
-  // A direction of the last step is worth keeping where the test iterates.
+  // Where the test takes longer than looking for the direction of the last step.
   bool has_direction_pass() const { return measures_at_once(); }
   bool has_distance_pass() const { return more == MorePasses::distance || measures_at_once(); }
   bool has_manifold_pass() const { return more != MorePasses::none; }

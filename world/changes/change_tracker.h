@@ -1,5 +1,5 @@
 // Finds the bodies that changed since the last step, by comparing them with a copy: those that the
-// store lists, or all once a caller has asked for the arrays of poses and may write to them. Boxes
+// store lists (all, if they are many), or all once a caller has asked for the arrays of poses. Boxes
 // and rows of shapes are compared from the time on when a caller has asked for these. Where a
 // caller writes poses into the arrays and everything in a large world moves, it takes all as
 // changed and makes no copy.
@@ -89,7 +89,7 @@ class ChangeTracker {
   bool all_unchanged_ = false;
   bool any_reshaped_ = false;
   bool knows_last_ = false;
-  bool has_old_poses_ = false;  // whether the copies are not those of the last update
+  bool has_old_poses_ = false;  // whether the copies are older than the last update
   PoseSample sample_;
   LargeVector<float> last_records32_;
   LargeVector<double> last_records64_;

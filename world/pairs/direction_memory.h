@@ -1,6 +1,6 @@
-// Keeps the separating direction of each separate pair, which the next step tests first. Where few
-// pairs to test were there and separate in the last step, looking for theirs takes longer than it
-// saves: then it keeps none for a while.
+// Keeps the separating directions of separate pairs of kinds that have a direction pass, which the
+// next step tests first. Where the pairs with a direction are few beside those to test, looking for
+// them takes longer than it saves: then it keeps none for a while.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class DirectionMemory {
   void for_each_tested(const CarryPlan& plan, size_t pairs, Parallelism parallelism,
                        const Use& use) const;
 
-  // Begins a pause if few of the tested pairs have a known direction.
+  // Begins a pause if the pairs with a known direction are few beside those to test.
   void judge(size_t known, size_t tested);
 
   static constexpr uint32_t kLeastPatience = 4, kMostPatience = 64;

@@ -129,8 +129,8 @@ class BodyStore {
   // The rows with a byte that is not zero. Rows of removed bodies at rows() and beyond may be among
   // them.
   const std::vector<uint32_t>& touched_indices() const { return touched_indices_; }
-  // Other rows whose pose was set to another one, unless poses are shared. They have no byte. Rows
-  // at rows() and beyond may be among them, and rows that were touched later.
+  // Other rows whose pose was set to another one, unless poses are shared. touched() is 0 for them
+  // unless they were touched later. Rows at rows() and beyond may be among them.
   const std::vector<uint32_t>& moved_indices() const { return moved_indices_; }
   void clear_touched();
   void touch_all();  // as if all bodies had been added since the last step

@@ -240,11 +240,11 @@ class CAROM_EXPORT World {
   /// Sets the number that user() returns.
   void set_user(BodyId id, uint64_t user);
 
-  // Properties, straight in the arrays. From the time on when the caller has asked for an array, a
-  // step compares it with the last step to find changes. The functions above are enough for worlds
-  // in which few bodies move; their steps compare nothing.
+  // Properties, straight in the arrays. Until the caller asks for an array of poses, boxes or shape
+  // rows, a step compares the bodies that were set or added alone; from then on all of that array.
 
-  /// Positions, radii and orientations.
+  /// Positions, radii and orientations. From the first call on, steps look at the poses of all
+  /// bodies.
   BodyArrays arrays();
   /// Corners of aabb bodies. The step after the first call takes all of them as changed.
   BoxArrays boxes();
