@@ -1,6 +1,6 @@
 // Finds the bodies that changed since the last step, by comparing them with a copy: those that the
-// store lists (all, if they are many), or all once a caller has asked for the arrays of poses. Boxes
-// and rows of shapes are compared from the time on when a caller has asked for these. Where a
+// store lists (all, if they are many), or all once a caller has asked for the arrays of poses.
+// Boxes and rows of shapes are compared from the time on when a caller has asked for these. Where a
 // caller writes poses into the arrays and everything in a large world moves, it takes all as
 // changed and makes no copy.
 #pragma once
