@@ -137,7 +137,8 @@ HWY_INLINE void power_of_two(F magnitude, F& up, F& down) {
   down = hn::BitCast(tag, hn::Sub(hn::Set(bits, 0x7f000000), exponent));
 }
 
-// The same in doubles. The powers lie between 2^-1000 and 2^1000.
+// The same in doubles, as scalar::scale_of(), but for zero. The powers lie between 2^-1000 and
+// 2^1000.
 HWY_INLINE void power_of_two(D magnitude, D& up, D& down) {
   const DoubleTag tag;
   const hn::RebindToSigned<DoubleTag> bits;

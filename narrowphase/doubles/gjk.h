@@ -114,7 +114,7 @@ class NearestPoint {
 
   CoreVector last_;
   double squared_ = HUGE_VAL;
-  CoreVector point_;
+  CoreVector point_{};
   unsigned kept_ = 0;
   Corners corners_;
 };

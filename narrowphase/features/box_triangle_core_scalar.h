@@ -8,6 +8,7 @@
 
 #include "narrowphase/features/rounded_scalar.h"
 #include "narrowphase/features/segment_box_scalar.h"
+#include "narrowphase/scalar/scaled.h"
 #include "narrowphase/scalar/shapes.h"
 
 namespace carom::scalar {
@@ -59,7 +60,7 @@ BoxAxis<Real> separating_axis(const PlacedTriangle<Real>& triangle,
                               const std::array<DirectedSegment<Real>, 3>& edges,
                               const Vector3<Real>& normal, const Vector3<Real>& half) {
   const auto& [a, b, c] = triangle.corners;
-  AxisSearch<Real> search(half, a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c));
+  AxisSearch<Real> search(half, min(min(a, b), c), max(max(a, b), c));
   search.try_axis(normal, triangle.extent(normal));
   search.try_crosses(edges[0].direction, a, c);
   search.try_crosses(edges[1].direction, b, a);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "narrowphase/features/axis_search_scalar.h"
+#include "narrowphase/scalar/scaled.h"
 
 namespace carom::scalar {
 
@@ -120,7 +121,7 @@ BoxContact<Real> segment_box(const Vector3<Real>& start, const Vector3<Real>& d,
                              const Vector3<Real>& half) {
   DirectedSegment<Real> segment(start, d);
   const Vector3<Real> end = segment.at(segment.length);
-  AxisSearch<Real> search(half, start.cwiseMin(end), start.cwiseMax(end));
+  AxisSearch<Real> search(half, min(start, end), max(start, end));
   search.try_crosses(segment.direction, start, start);
   const BoxAxis<Real> axis = search.best();
 

@@ -34,6 +34,16 @@ Vector3<Real> cross(const Vector3<Real>& a, const Vector3<Real>& b) {
           a.x() * b.y() - a.y() * b.x()};
 }
 
+// The least and the greatest of each coordinate; of two zeros the second, as in lanes.
+template <class Real>
+Vector3<Real> min(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {min(a.x(), b.x()), min(a.y(), b.y()), min(a.z(), b.z())};
+}
+template <class Real>
+Vector3<Real> max(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {max(a.x(), b.x()), max(a.y(), b.y()), max(a.z(), b.z())};
+}
+
 template <class Real>
 Real largest_component(const Vector3<Real>& v) {
   return max(max(std::fabs(v.x()), std::fabs(v.y())), std::fabs(v.z()));

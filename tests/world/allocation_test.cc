@@ -481,6 +481,26 @@ TEST(Allocations, NoneWhenBodiesAreReplacedOrSpoilt) {
   EXPECT_EQ(allocations - before, 0u);
 }
 
+// A pose that was written and not listed would never be seen again.
+TEST(Allocations, APoseThatCannotBeListedStays) {
+  World world;
+  world.add({.shape = Sphere{1}});
+  const BodyId ball = world.add({.shape = Sphere{1}, .position = {1.5, 0, 0}});
+  const BodyId box = world.add({.shape = Box{{1, 1, 1}}, .position = {9, 0, 0}});
+  world.step();
+  EXPECT_TRUE(make_trouble(1, [&] { world.set_position(ball, {10, 0, 0}); }).failed);
+  EXPECT_EQ(world.position(ball).x(), 1.5);
+  EXPECT_TRUE(make_trouble(1, [&] { world.set_orientation(box, {0, 1, 0, 0}); }).failed);
+  EXPECT_EQ(world.orientation(box).w(), 1);
+  world.step();
+  EXPECT_EQ(world.contacts().size(), 1u);
+  world.set_position(ball, {10, 0, 0});
+  world.step();
+  ASSERT_EQ(world.contacts().size(), 1u);
+  EXPECT_EQ(world.contacts()[0].a, ball.index);
+  EXPECT_EQ(world.contacts()[0].b, box.index);
+}
+
 }  // namespace
 }  // namespace carom::test
 

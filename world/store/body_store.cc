@@ -21,13 +21,14 @@ void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T def
   column[index] = value;
 }
 
-// Replaces the numbers at `at` by `value`. Whether any bit differs: NaN equals itself.
-template <class Value, class T>
-bool replace_bits(const Value& value, T* at) {
+// Replaces the numbers at `at` by `value`, after note() if any bit differs: NaN equals itself. If
+// note() throws, they stay.
+template <class Value, class T, class Note>
+void replace_bits(const Value& value, T* at, const Note& note) {
   const size_t size = value.size() * sizeof(T);
-  if (std::memcmp(at, value.data(), size) == 0) return false;
+  if (std::memcmp(at, value.data(), size) == 0) return;
+  note();
   std::memcpy(at, value.data(), size);
-  return true;
 }
 
 std::shared_ptr<const void> geometry_of(const Shape& shape) {
@@ -181,10 +182,12 @@ Eigen::Vector3d BodyStore::position(uint32_t index) const {
 
 void BodyStore::set_position(uint32_t index, const Eigen::Vector3d& position) {
   const size_t row = size_t{index} * 4;
-  const Eigen::Vector3f rounded = position.cast<float>();
-  const bool moves = positions_ == PositionType::float64 ? replace_bits(position, &records64_[row])
-                                                         : replace_bits(rounded, &records32_[row]);
-  if (moves) note_move(index);
+  const auto note = [&] { note_move(index); };
+  if (positions_ == PositionType::float64) {
+    replace_bits(position, &records64_[row], note);
+  } else {
+    replace_bits(position.cast<float>().eval(), &records32_[row], note);
+  }
 }
 
 Orientation BodyStore::orientation(uint32_t index) const {
@@ -194,7 +197,8 @@ Orientation BodyStore::orientation(uint32_t index) const {
 
 void BodyStore::set_orientation(uint32_t index, const Orientation& q) {
   if (row_count(kind_[index]) == 0) return;
-  if (replace_bits(Row{q.x(), q.y(), q.z(), q.w()}, orientation_[index].data())) note_move(index);
+  replace_bits(Row{q.x(), q.y(), q.z(), q.w()}, orientation_[index].data(),
+               [&] { note_move(index); });
 }
 
 float BodyStore::radius(uint32_t index) const {

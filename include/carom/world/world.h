@@ -241,7 +241,7 @@ class CAROM_EXPORT World {
   void set_user(BodyId id, uint64_t user);
 
   // Properties, straight in the arrays. Until the caller asks for an array of poses, boxes or shape
-  // rows, a step compares the bodies that were set or added alone; from then on all of that array.
+  // rows, a step compares few but those that were set or added; from then on all of that array.
 
   /// Positions, radii and orientations. From the first call on, steps look at the poses of all
   /// bodies.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <string>
 
 #include "tests/support/isas.h"
@@ -71,6 +72,48 @@ TEST(UnsureLanes, OfAnyNumberAreThoseOfTheReference) {
       }
     }
   }
+}
+
+void expect_the_reference(const TestPair& pair, PositionType positions) {
+  const std::vector<TestPair> pairs(kWidest + 1, pair);
+  const Call call = call_with(positions);
+  const std::vector<Row> expected = expected_rows(pairs, positions, call.detail, call.frame);
+  for_each_isa([&] { EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs)); });
+}
+
+// The scalar form once scaled segments in float32, beyond whose range this one is in the unit of
+// the test.
+TEST(UnsureLanesCases, WithASegmentFarShorterThanTheBox) {
+  constexpr float kShort = 0x1p-25f;
+  TestPair pair;
+  pair.a.shape = Capsule{{kShort, -kShort, 0}, {-kShort, kShort, 0}, 0};
+  pair.a.position = {kShort / 2, kShort / 2, 0};
+  pair.b.shape = Box{{0, 0, 0x1p127f}};
+  expect_the_reference(pair, PositionType::float32);
+  const Row row = expected_rows({&pair, 1}, PositionType::float32)[0];
+  EXPECT_EQ(row.overlap, 0);
+  EXPECT_NEAR(row.normal[0], -std::numbers::sqrt2_v<float> / 2, 1e-6f);
+}
+
+// Of a zero and a negative one, the scalar form once took the other one.
+TEST(UnsureLanesCases, WithZerosOfBothSigns) {
+  TestPair pair;
+  pair.a.shape = Capsule{{-0.0f, -0.0f, -0.0f}, {-0.0f, -0.0f, -0.0f}, 0};
+  pair.b.shape = Box{{1, 1, 0}};
+  expect_the_reference(pair, PositionType::float32);
+}
+
+// The difference of the positions is beyond doubles.
+TEST(UnsureLanesCases, WithAnInfiniteDistance) {
+  Triangle triangle;
+  triangle.corners = {Eigen::Vector3f(0, 0, 0), {1, 0, 0}, {0, 1, 0}};
+  triangle.thickness = 1;
+  TestPair pair;
+  pair.a.shape = Sphere{1};
+  pair.a.position = {0, 0x1.fdcf158adbb99p+1023, 0};
+  pair.b.shape = triangle;
+  pair.b.position = {0, -0x1.fdcf158adbb99p+1023, 0};
+  expect_the_reference(pair, PositionType::float64);
 }
 
 }  // namespace
