@@ -85,6 +85,13 @@ class Tracked {
     store.set_shape(pick(), random_shape(kinds[random.below(kinds.size())], random));
   }
 
+  // How many have changed since the last call.
+  size_t update() {
+    tracker.update(store, Parallelism::none);
+    store.clear_touched();
+    return tracker.changed_count();
+  }
+
   void update_and_check(Parallelism parallelism) {
     tracker.update(store, parallelism);
     store.clear_touched();
@@ -185,11 +192,7 @@ class ChangesOfPoses : public ::testing::TestWithParam<bool> {};
 TEST_P(ChangesOfPoses, CountsExactlyWhatMoved) {
   Tracked tracked(PositionType::float32, kSimpleKinds, GetParam());
   for (size_t i = 0; i < kBodies; ++i) tracked.add();
-  const auto update = [&] {
-    tracked.tracker.update(tracked.store, Parallelism::none);
-    tracked.store.clear_touched();
-    return tracked.tracker.changed_count();
-  };
+  const auto update = [&] { return tracked.update(); };
   EXPECT_EQ(update(), kBodies);
   EXPECT_EQ(update(), 0u);
   tracked.store.set_position(7, {50, 0, 0});
@@ -205,11 +208,7 @@ TEST_P(ChangesOfPoses, CountsExactlyWhatMoved) {
 TEST_P(ChangesOfPoses, ColumnsThatAppearChangeNobody) {
   Tracked tracked(PositionType::float32, kSimpleKinds, GetParam());
   for (size_t i = 0; i < kBodies; ++i) tracked.add();
-  const auto update = [&] {
-    tracked.tracker.update(tracked.store, Parallelism::none);
-    tracked.store.clear_touched();
-    return tracked.tracker.changed_count();
-  };
+  const auto update = [&] { return tracked.update(); };
   update();
   for (int i = 0; i < 3; ++i) {
     const BodyId id = tracked.store.add({.shape = Box{{1, 1, 1}}});
@@ -233,11 +232,7 @@ TEST_P(ChangesOfPoses, FindsEverythingChangedAfterItForgot) {
   Tracked tracked(PositionType::float32, kSimpleKinds, GetParam());
   tracked.store.add({.shape = Sphere{0}});  // all zero, like memory that was never written
   for (size_t i = 1; i < kBodies; ++i) tracked.add();
-  const auto update = [&] {
-    tracked.tracker.update(tracked.store, Parallelism::none);
-    tracked.store.clear_touched();
-    return tracked.tracker.changed_count();
-  };
+  const auto update = [&] { return tracked.update(); };
   update();
   update();
   tracked.tracker.forget();
@@ -272,11 +267,7 @@ INSTANTIATE_TEST_SUITE_P(OfStoreOrArrays, ChangesOfPoses, ::testing::Bool());
 TEST(ChangeTracker, ComparesPosesOnceTheyAreShared) {
   Tracked tracked(PositionType::float32, kAllKinds, false);
   for (size_t i = 0; i < kBodies; ++i) tracked.add();
-  const auto update = [&] {
-    tracked.tracker.update(tracked.store, Parallelism::none);
-    tracked.store.clear_touched();
-    return tracked.tracker.changed_count();
-  };
+  const auto update = [&] { return tracked.update(); };
   update();
   tracked.store.set_position(7, {50, 0, 0});
   tracked.store.share_poses();
@@ -299,9 +290,7 @@ TEST(ChangeTracker, TakesAllAsChangedWhileAllMove) {
   for (size_t i = 0; i < kMany; ++i) tracked.add();
   const auto update = [&](size_t moving) {
     for (size_t i = 0; i < moving; ++i) tracked.store.records32()[4 * i] += 1;
-    tracked.tracker.update(tracked.store, Parallelism::none);
-    tracked.store.clear_touched();
-    return tracked.tracker.changed_count();
+    return tracked.update();
   };
   for (int i = 0; i < 4; ++i) EXPECT_EQ(update(kMany), kMany);
   EXPECT_EQ(update(kMany / 2), kMany) << "the copies are old";
