@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/write_ahead.h"
 #include "midphase/contact_of_row.h"
 #include "trees/box_rows-inl.h"
 #include "world/pairs/pair_history.h"
@@ -87,6 +88,9 @@ struct FourContacts {
 };
 #endif  // HWY_TARGET
 
+// Contacts are asked for in the cache so long before they are written: a page.
+constexpr size_t kContactsAhead = 64;
+
 size_t write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
   size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
@@ -94,6 +98,9 @@ size_t write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
   for (; i + 4 <= rows.pairs.size(); i += 4) {
     FourContacts four;
     four.load(rows, i);
+    for (size_t k = 0; k < 4; ++k) {
+      fetch_to_write(contacts.data() + next, kContactsAhead + k);
+    }
     for (size_t k = 0; k < 4; ++k) {
       uint32_t& contact = rows.contact[i + k];
       const bool has_one = PairHistory::is_place(contact);

@@ -311,7 +311,7 @@ void ContactStage::write_contacts(const PairRange& range, const Input& input, Pa
 void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
                            std::span<Contact> contacts) {
   using Eigen::Vector3f;
-  constexpr size_t kContactsAhead = 16;
+  constexpr size_t kContactsAhead = 48;
   const std::span<const Vector3f> linear = bodies.linear_velocities();
   const std::span<const Vector3f> angular =
       bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();

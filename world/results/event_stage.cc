@@ -87,16 +87,18 @@ void EventStage::read_block(const Input& input, size_t block, Scratch& scratch) 
       plan && !input.wants_persist && plan->runs_of(block).size() <= kPairsPerMergeBlock / 16;
   if (skips) {
     size_t before = range.begin;
-    const auto open = [&](size_t first, size_t stop, size_t) { scratch.now.add(now, first, stop); };
+    const auto open = [&](size_t first, size_t stop, size_t) {
+      scratch.now.add(now, first, stop, EventKind::begin);
+    };
     const auto carried = [&](const CarriedRun& run) {
-      if (before < run.before) scratch.last.add(last, before, run.before);
+      if (before < run.before) scratch.last.add(last, before, run.before, EventKind::end);
       before = run.before + (run.end - run.begin);
     };
     plan->for_each_stretch(begin, end, open, carried);
-    scratch.last.add(last, before, range.end);
+    scratch.last.add(last, before, range.end, EventKind::end);
   } else {
-    scratch.last.add(last, range.begin, range.end);
-    scratch.now.add(now, begin, end);
+    scratch.last.add(last, range.begin, range.end, EventKind::end);
+    scratch.now.add(now, begin, end, EventKind::begin);
   }
   scratch.last.finish();
   scratch.now.finish();

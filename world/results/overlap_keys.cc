@@ -13,22 +13,30 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 size_t list_in_lanes(std::span<const Pair> pairs, const uint8_t* overlap, const uint32_t* contact,
-                     uint64_t* keys, uint32_t* contacts) {
+                     EventKind kind, uint64_t* keys, uint64_t* tails) {
   static_assert(kLanes <= kOverlapsBeyond);
   const IndexTag tag;
   const hn::Rebind<uint8_t, IndexTag> bytes;
+  // See event_tail().
+  const Indices sensor = hn::Set(tag, PairHistory::kSensor), none = hn::Set(tag, kNoContact);
+  const Indices kind_of_all = hn::Set(tag, static_cast<uint32_t>(kind));
+  const Indices unlisted = kind == EventKind::end ? none : hn::Zero(tag);
   size_t count = 0, i = 0;
   for (; i + kLanes <= pairs.size(); i += kLanes) {
     Indices a, b;
     hn::LoadInterleaved2(tag, &pairs[i].a, a, b);
     const Indices decision = hn::PromoteTo(tag, hn::LoadU(bytes, overlap + i));
     const Mask overlaps = hn::RebindMask(FloatTag(), hn::Eq(decision, hn::Set(tag, 1)));
-    compress_store(hn::LoadU(tag, contact + i), overlaps, contacts + count);
+    const Indices place = hn::LoadU(tag, contact + i);
+    const auto is_sensor = hn::Eq(place, sensor);
+    const Indices listed = hn::Or(hn::IfThenElse(is_sensor, none, place), unlisted);
+    const Indices marks = hn::Or(kind_of_all, hn::IfThenElseZero(is_sensor, hn::Set(tag, 1 << 8)));
+    store_keys(marks, listed, overlaps, tails + count);
     count += store_keys(a, b, overlaps, keys + count);
   }
   for (; i < pairs.size(); ++i) {
     keys[count] = pair_key(pairs[i]);
-    contacts[count] = contact[i];
+    tails[count] = event_tail(contact[i], kind);
     count += overlap[i] == 1;
   }
   return count;
@@ -49,8 +57,8 @@ HWY_EXPORT(list_in_lanes);
 }  // namespace
 
 size_t list_overlaps(std::span<const Pair> pairs, const uint8_t* overlap, const uint32_t* contact,
-                     uint64_t* keys, uint32_t* contacts) {
-  return CAROM_DISPATCH(list_in_lanes)(pairs, overlap, contact, keys, contacts);
+                     EventKind kind, uint64_t* keys, uint64_t* tails) {
+  return CAROM_DISPATCH(list_in_lanes)(pairs, overlap, contact, kind, keys, tails);
 }
 
 }  // namespace carom

@@ -4,16 +4,27 @@
 #include <cstdint>
 #include <span>
 
+#include "carom/results/event.h"
 #include "carom/results/pair.h"
+#include "world/pairs/pair_history.h"
 
 namespace carom {
 
 // Lists write a whole vector behind their last number.
 inline constexpr size_t kOverlapsBeyond = 16;
 
-// Writes pair_key() and `contact` of each pair whose overlap is 1, in their order, and returns how
-// many there are. There must be room for all pairs and kOverlapsBeyond more.
+// The event of an overlap behind its two bodies, as a number: contact, kind and sensor. `contact`
+// is that of PairHistory.
+constexpr uint64_t event_tail(uint32_t contact, EventKind kind) {
+  const bool sensor = contact == PairHistory::kSensor;
+  const bool listed = !sensor && kind != EventKind::end;
+  return (listed ? contact : kNoContact) | static_cast<uint64_t>(kind) << 32 |
+         static_cast<uint64_t>(sensor) << 40;
+}
+
+// Writes pair_key() and event_tail() of each pair whose overlap is 1, in their order, and returns
+// how many there are. There must be room for all pairs and kOverlapsBeyond more.
 size_t list_overlaps(std::span<const Pair> pairs, const uint8_t* overlap, const uint32_t* contact,
-                     uint64_t* keys, uint32_t* contacts);
+                     EventKind kind, uint64_t* keys, uint64_t* tails);
 
 }  // namespace carom

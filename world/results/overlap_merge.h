@@ -12,13 +12,14 @@ namespace carom {
 // Some overlaps of a step, sorted by pair, and behind them one whose key is above all others.
 struct Overlaps {
   RawVector<uint64_t> key;
-  RawVector<uint32_t> contact;
+  RawVector<uint64_t> tail;  // event_tail()
   size_t count = 0;
 
   void reserve(size_t pairs);
   void start(size_t pairs);
-  // Adds those of pairs [begin, end). Undecided pairs have no events.
-  void add(const PairHistory& history, size_t begin, size_t end);
+  // Adds those of pairs [begin, end). Undecided pairs have no events. `kind`: begin for this step,
+  // end for the last one.
+  void add(const PairHistory& history, size_t begin, size_t end, EventKind kind);
   void finish();
   size_t bytes() const;
 };

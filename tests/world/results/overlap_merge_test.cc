@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "oracle/random.h"
+#include "world/results/overlap_keys.h"
 
 namespace carom::test {
 namespace {
@@ -17,12 +18,12 @@ constexpr uint32_t kSensor = PairHistory::kSensor;
 // The contact (or kSensor) of each overlap, by pair_key().
 using Contacts = std::map<uint64_t, uint32_t>;
 
-Overlaps list_of(const Contacts& contacts) {
+Overlaps list_of(const Contacts& contacts, EventKind kind) {
   Overlaps overlaps;
   overlaps.start(contacts.size());
   for (const auto& [key, contact] : contacts) {
     overlaps.key[overlaps.count] = key;
-    overlaps.contact[overlaps.count++] = contact;
+    overlaps.tail[overlaps.count++] = event_tail(contact, kind);
   }
   overlaps.finish();
   return overlaps;
@@ -71,7 +72,8 @@ Contacts random_contacts(oracle::Random& random, size_t count, uint32_t bodies) 
 void expect_merged(const Contacts& last, const Contacts& now) {
   for (const auto persisting : {Persisting::wanted, Persisting::dropped, Persisting::apart}) {
     RawVector<Event> events(3);  // what is there stays
-    merge_overlaps(list_of(last), list_of(now), persisting, events);
+    merge_overlaps(list_of(last, EventKind::end), list_of(now, EventKind::begin), persisting,
+                   events);
     const std::vector<Event> all = expected(last, now, persisting);
     ASSERT_EQ(events.size(), 3 + all.size()) << static_cast<int>(persisting);
     for (size_t i = 0; i < all.size(); ++i) {
