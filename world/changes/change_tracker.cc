@@ -265,9 +265,10 @@ bool ChangeTracker::compare_rows(const BodyStore& bodies, Parallelism parallelis
 bool ChangeTracker::reshaped(const Collidables& view, size_t index) const {
   if (!any_reshaped_) return false;
   const ShapeKind kind = view.kind ? view.kind[index] : view.uniform_kind;
-  if (kind == ShapeKind::aabb) return box_changes_.at(BodyReader{view}.box(index));
+  const BodyReader reader{view};
+  if (kind == ShapeKind::aabb) return box_changes_.at(reader.box(index));
   for (uint32_t k = 0; k < row_count(kind); ++k) {
-    if (row_changes_.at(view.rows.first[index] + k)) return true;
+    if (row_changes_.at(reader.first_row(index) + k)) return true;
   }
   return false;
 }

@@ -315,8 +315,10 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
   const std::span<const Vector3f> linear = bodies.linear_velocities();
   const std::span<const Vector3f> angular =
       bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();
+  const bool all_turn = !bodies.has_kind(ShapeKind::sphere) && !bodies.has_kind(ShapeKind::aabb);
   const auto velocity = [&](uint32_t body, const Vector3f& arm) -> Vector3f {
-    const bool turns = !angular.empty() && bodies.turns(body) && !angular[body].isZero(0);
+    const bool turns =
+        !angular.empty() && (all_turn || bodies.turns(body)) && !angular[body].isZero(0);
     if (!turns) return linear[body];
     return point_velocity(linear[body], angular[body], arm);
   };

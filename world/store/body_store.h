@@ -192,6 +192,7 @@ class BodyStore {
   LargeVector<Row> rows_;
   bool shares_shape_rows_ = false;
   std::vector<uint32_t> first_row_;  // empty until there is such a body; 0 for other kinds
+  size_t rows_elsewhere_ = 0;        // bodies whose rows do not begin at their index x row_count()
   LargeVector<Row> orientation_;     // likewise; the identity for other kinds
 
   std::vector<uint32_t> halfspaces_;
