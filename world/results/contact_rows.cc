@@ -88,9 +88,6 @@ struct FourContacts {
 };
 #endif  // HWY_TARGET
 
-// Contacts are asked for in the cache so long before they are written: a page.
-constexpr size_t kContactsAhead = 64;
-
 size_t write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
   size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR

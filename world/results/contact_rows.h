@@ -11,6 +11,9 @@
 
 namespace carom {
 
+// Contacts and manifolds are asked for in the cache so long before they are written: a page each.
+inline constexpr size_t kContactsAhead = 64;
+
 // Pairs that follow one another, with their results in as many rows of the columns, and what each
 // has: PairHistory::contact.
 struct PairRows {

@@ -8,6 +8,7 @@
 
 #include "base/fresh_pages.h"
 #include "base/parallel.h"
+#include "base/write_ahead.h"
 #include "carom/results/tier.h"
 #include "shapes/point_velocity.h"
 
@@ -158,7 +159,10 @@ size_t write_new(const OpenPairs& open, const ContactStage::Input& input, size_t
     const size_t i = listed[k];
     const size_t row = plan.row(open.number + (i - open.begin));
     if (!in_lanes) now.contacts[next] = results.contact(row, now.pairs[i]);
-    if (manifolds) now.manifolds[next] = results.manifold(row);
+    if (manifolds) {
+      fetch_to_write(now.manifolds.data() + next, kContactsAhead);
+      now.manifolds[next] = results.manifold(row);
+    }
     if (settings.identities) now.identities[next].names = results.names(row);
     now.contact[i] = static_cast<uint32_t>(next++);
     if (!regions) continue;
@@ -311,7 +315,7 @@ void ContactStage::write_contacts(const PairRange& range, const Input& input, Pa
 void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
                            std::span<Contact> contacts) {
   using Eigen::Vector3f;
-  constexpr size_t kContactsAhead = 48;
+  constexpr size_t kBodiesAhead = 48;  // contacts before those whose bodies are asked for
   const std::span<const Vector3f> linear = bodies.linear_velocities();
   const std::span<const Vector3f> angular =
       bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();
@@ -326,7 +330,7 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
                  [&](size_t, size_t begin, size_t end) {
                    for (size_t i = begin; i < end; ++i) {
                      // Bodies lie anywhere; the contacts themselves are in the cache.
-                     const Contact& ahead = contacts[std::min(i + kContactsAhead, end - 1)];
+                     const Contact& ahead = contacts[std::min(i + kBodiesAhead, end - 1)];
                      __builtin_prefetch(&linear[ahead.b]);
                      if (!angular.empty()) __builtin_prefetch(&angular[ahead.b]);
                      Contact& c = contacts[i];
