@@ -1,12 +1,15 @@
 // Selects rows of a batch as a batch of their own, which kernels may read in whole vectors.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "narrowphase/batch/batch.h"
 #include "narrowphase/batch/column_memory.h"
+#include "narrowphase/batch/pack_rows.h"
 
 namespace carom {
 
@@ -23,6 +26,17 @@ class RowSelection {
       count_ += wanted(row);
     }
     pad();
+  }
+
+  // Selects the rows whose byte in `wanted` is 1, and packs these columns of theirs, also in whole
+  // vectors. Columns have room for kPairsPerBlock rows and a vector more.
+  void pack(const uint8_t* wanted, std::span<const PackedColumn> columns) {
+    count_ = pack_rows(wanted, batch_.count, {batch_.pairs, pairs_.data(), rows_.data()}, columns);
+    if (count_ == 0) return;
+    pad();
+    for (const PackedColumn& column : columns) {
+      std::fill(column.to + count_, column.to + padded_count(), column.to[count_ - 1]);
+    }
   }
 
   // Selects the rows of a list.
@@ -76,8 +90,8 @@ class RowSelection {
 
   const Batch& batch_;
   size_t count_ = 0;
-  std::array<uint16_t, kPairsPerBlock + 1> rows_;
-  std::array<Pair, kPairsPerBlock + 1> pairs_;
+  std::array<uint16_t, kPairsPerBlock + kMostLanes> rows_;
+  std::array<Pair, kPairsPerBlock + kMostLanes> pairs_;
 };
 static_assert(kPairsPerBlock % kMostLanes == 0);
 

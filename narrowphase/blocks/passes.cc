@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/few_of.h"
 #include "narrowphase/batch/packed_direction.h"
 #include "narrowphase/batch/row_selection.h"
 #include "narrowphase/blocks/pass_plan.h"
@@ -161,23 +162,25 @@ void copy_witnesses(const Batch& batch) {
 void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pairs) {
   std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
   if (of_separate_pairs) std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
-  RowSelection touching(batch);
-  touching.select([&](size_t row) { return touches(batch, row); });
-  if (touching.count() == 0) return;
   TestColumns contacts;
-  std::array<float, kPairsPerBlock> reach;
-  Batch manifolds = touching.batch(Pass::manifold);
-  manifolds.tested = contacts.columns();
-  manifolds.manifold_row = touching.rows();
-  if (batch.reach) {
-    touching.gather(batch.reach, reach.data());
-    manifolds.reach = reach.data();
-  }
-  touching.gather(batch.out.separation, manifolds.tested.separation);
+  const ResultColumns &from = batch.out, to = contacts.columns();
+  std::array<float, kPairsPerBlock + kMostLanes> reach;
+  FewOf<PackedColumn, 8> columns;
+  columns.push_back({from.separation, to.separation});
   for (size_t axis = 0; axis < 3; ++axis) {
-    touching.gather(batch.out.normal[axis], manifolds.tested.normal[axis]);
-    touching.gather(batch.out.point_a[axis], manifolds.tested.point_a[axis]);
+    columns.push_back({from.normal[axis], to.normal[axis]});
+    columns.push_back({from.point_a[axis], to.point_a[axis]});
   }
+  if (batch.reach) columns.push_back({batch.reach, reach.data()});
+  RowFlags near;
+  for (size_t row = 0; batch.reach && row < batch.count; ++row) near[row] = touches(batch, row);
+  RowSelection touching(batch);
+  touching.pack(batch.reach ? near.data() : from.overlap, {columns.begin(), columns.size()});
+  if (touching.count() == 0) return;
+  Batch manifolds = touching.batch(Pass::manifold);
+  manifolds.tested = to;
+  manifolds.manifold_row = touching.rows();
+  if (batch.reach) manifolds.reach = reach.data();
   kind.run(manifolds);
 }
 

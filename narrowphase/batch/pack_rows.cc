@@ -1,0 +1,71 @@
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/batch/pack_rows.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include "narrowphase/batch/pack_rows.h"
+#include "simd/compress-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+static_assert(sizeof(Pair) == sizeof(uint64_t) && alignof(uint64_t) >= alignof(Pair));
+
+HWY_INLINE Indices load_bits(const float* numbers) {
+  return hn::BitCast(IndexTag(), hn::LoadU(FloatTag(), numbers));
+}
+
+size_t pack(const uint8_t* wanted, size_t count, const PackedRows& rows,
+            std::span<const PackedColumn> columns) {
+  const IndexTag tag;
+  const hn::Rebind<uint8_t, IndexTag> bytes;
+  const hn::Rebind<uint16_t, IndexTag> shorts;
+  size_t packed = 0, row = 0;
+  for (; row + kLanes <= count; row += kLanes) {
+    const Indices decision = hn::PromoteTo(tag, hn::LoadU(bytes, wanted + row));
+    const Mask is_wanted = hn::RebindMask(FloatTag(), hn::Eq(decision, hn::Set(tag, 1)));
+    for (const PackedColumn& column : columns) {
+      compress_store(load_bits(column.from + row), is_wanted,
+                     reinterpret_cast<uint32_t*>(column.to + packed));
+    }
+    HWY_ALIGN uint32_t numbers[kLanes];
+    compress_store(hn::Iota(tag, static_cast<uint32_t>(row)), is_wanted, numbers);
+    const hn::RebindToSigned<IndexTag> signed_tag;
+    hn::StoreU(hn::DemoteTo(shorts, hn::BitCast(signed_tag, hn::Load(tag, numbers))), shorts,
+               rows.rows + packed);
+    Indices a, b;
+    hn::LoadInterleaved2(tag, &rows.pairs[row].a, a, b);
+    packed += store_keys(b, a, is_wanted, reinterpret_cast<uint64_t*>(rows.to + packed));
+  }
+  for (; row < count; ++row) {
+    for (const PackedColumn& column : columns) column.to[packed] = column.from[row];
+    rows.to[packed] = rows.pairs[row];
+    rows.rows[packed] = static_cast<uint16_t>(row);
+    packed += wanted[row] == 1;
+  }
+  return packed;
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(pack);
+
+}  // namespace
+
+size_t pack_rows(const uint8_t* wanted, size_t count, const PackedRows& rows,
+                 std::span<const PackedColumn> columns) {
+  return CAROM_DISPATCH(pack)(wanted, count, rows, columns);
+}
+
+}  // namespace carom
+#endif  // HWY_ONCE
