@@ -5,6 +5,7 @@
 //   static void test(const PoseLanes& pose, const A&, const B&, Report& report)
 //   static constexpr Units kUnits
 //   static constexpr Unsure kUnsure
+//   static constexpr bool kFetchesAhead   optional: test() calls report.fetch<0>() to fetch<3>()
 // test() calls
 //   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
 // once; names, frames and signs as in Contact. test() is branch-free and the same at every detail:
@@ -104,7 +105,6 @@ struct BatchLoop {
       }
     }
     for (size_t row = 0; !is_done && row < whole; row += kLanes) {
-      fetch_ahead<A, B>(local, row);
       run_vector(local, batch, row, Listed{local.pairs + row});
     }
     if (whole < batch.count) run_tail(batch, whole, &run);
@@ -126,7 +126,10 @@ struct BatchLoop {
     PoseLanes pose;
     A a;
     B b;
+    constexpr bool kFetches = std::is_same_v<Bodies, Listed> && !fetches_ahead<Kernel>();
+    if constexpr (kFetches) fetch_part<A, B, 0>(batch, row);
     load_pairs<Records>(batch, bodies, positions, pose, a, b);
+    if constexpr (kFetches) fetch_part<A, B, 1>(batch, row);
     const Mask plain = is_plainly_valid(pose, a, b);
     Mask valid = plain;
     // Some lane is invalid, or so large that a sum overflowed. The results of the other lanes do
@@ -138,7 +141,9 @@ struct BatchLoop {
     }
     const F up = to_units<Kernel::kUnits>(pose, a, b);
     Report report{batch, source, row, positions, up, plain, valid, is_odd};
+    if constexpr (kFetches) fetch_part<A, B, 2>(batch, row);
     Kernel::test(pose, a, b, report);
+    if constexpr (kFetches) fetch_part<A, B, 3>(batch, row);
   }
 
   static HWY_INLINE void clear_unless(Mask valid, PositionLanes& positions, PoseLanes& pose, A& a,

@@ -52,6 +52,8 @@ class ExactLanes {
   // For test_boxes().
   static constexpr bool kHasContact = kContacts;
   static constexpr bool faces_only() { return false; }
+  template <size_t kPart>
+  static HWY_INLINE void fetch() {}
 
   // Calls put(lane, numbers) for each of the lanes, with what the scalar form gives for row + lane.
   template <class Put>

@@ -19,7 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-constexpr size_t kPairsAhead = 16;
+// Two vectors of the widest target: what the last part asks for has the time of one to come.
+constexpr size_t kPairsAhead = 2 * kMostLanes;
 
 // For each body, where its shape lies; nullptr if that follows from the index of the body.
 template <class Shape>
@@ -53,24 +54,56 @@ HWY_INLINE void fetch_body(const BatchSide& side, size_t body) {
   }
 }
 
+// Some of the lanes of a vector.
+struct LaneRange {
+  size_t begin, end;
+};
+
 // Asks for one side of the pairs at `near`, and for the places of their shapes at `far`.
 template <Role kRole, class Shape>
-HWY_INLINE void fetch_side(const BatchSide& side, const Listed& near, const Listed& far) {
+HWY_INLINE void fetch_side(const BatchSide& side, const Listed& near, const Listed& far,
+                           LaneRange lanes) {
   if (const uint32_t* const places = places_of_shapes<Shape>(side)) {
-    for (size_t i = 0; i < kLanes; ++i) hwy::Prefetch(places + far.template body<kRole>(i));
+    for (size_t i = lanes.begin; i < lanes.end; ++i) {
+      hwy::Prefetch(places + far.template body<kRole>(i));
+    }
   }
-  for (size_t i = 0; i < kLanes; ++i) fetch_body<Shape>(side, near.template body<kRole>(i));
+  for (size_t i = lanes.begin; i < lanes.end; ++i) {
+    fetch_body<Shape>(side, near.template body<kRole>(i));
+  }
+}
+
+template <class A, class B>
+HWY_INLINE void fetch_lanes(const Batch& batch, size_t row, LaneRange lanes) {
+  if (row + kPairsAhead + kLanes > batch.count) return;
+  const size_t last = batch.count - kLanes;
+  const Listed near{batch.pairs + row + kPairsAhead};
+  const Listed far{batch.pairs + std::min(row + 2 * kPairsAhead, last)};
+  fetch_side<Role::a, A>(batch.a, near, far, lanes);
+  fetch_side<Role::b, B>(batch.b, near, far, lanes);
 }
 
 // To be called before the vector of pairs at `row` is loaded.
 template <class A, class B>
 HWY_INLINE void fetch_ahead(const Batch& batch, size_t row) {
-  if (row + kPairsAhead + kLanes > batch.count) return;
-  const size_t last = batch.count - kLanes;
-  const Listed near{batch.pairs + row + kPairsAhead};
-  const Listed far{batch.pairs + std::min(row + 2 * kPairsAhead, last)};
-  fetch_side<Role::a, A>(batch.a, near, far);
-  fetch_side<Role::b, B>(batch.b, near, far);
+  fetch_lanes<A, B>(batch, row, {0, kLanes});
+}
+
+// The same in parts, to be called between pieces of the work on that vector: a processor waits for
+// some ten lines at a time, and for the rest of a vector's before it goes on.
+constexpr size_t kFetchParts = 4;
+template <class A, class B, size_t kPart>
+HWY_INLINE void fetch_part(const Batch& batch, size_t row) {
+  constexpr size_t kBegin = kPart * kLanes / kFetchParts;
+  constexpr size_t kEnd = (kPart + 1) * kLanes / kFetchParts;
+  if constexpr (kBegin < kEnd) fetch_lanes<A, B>(batch, row, {kBegin, kEnd});
+}
+
+// Whether Kernel::test() calls the parts.
+template <class Kernel>
+constexpr bool fetches_ahead() {
+  if constexpr (requires { Kernel::kFetchesAhead; }) return Kernel::kFetchesAhead;
+  return false;
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "narrowphase/batch/exact_lanes-inl.h"
+#include "narrowphase/batch/fetch-inl.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/single_pair.h"
@@ -43,6 +44,11 @@ struct LaneReport {
   bool is_odd;  // not all lanes are plain
 
   HWY_INLINE bool faces_only() const { return batch.faces_only; }
+  // Long kernels call the parts of fetch_part() between pieces of their work.
+  template <size_t kPart>
+  HWY_INLINE void fetch() const {
+    fetch_part<A, B, kPart>(batch, row);
+  }
   // Whether the caller wants to know the unsure lanes. Kernels that refine need them in any case.
   HWY_INLINE bool marks_unsure() const { return batch.unsure != nullptr; }
 
