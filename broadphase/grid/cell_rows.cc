@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
+#include "base/fetch_ahead.h"
 #include "base/fresh_pages.h"
 
 namespace carom {
@@ -13,6 +14,8 @@ namespace {
 
 constexpr size_t kBoxesPerBucket = 8192;  // their records fit the second-level cache
 constexpr size_t kMostBuckets = 512;
+constexpr size_t kRecordsAhead =
+    6;  // in a bucket, before they are written: some lines of the cache
 
 // The stride of a column of at least `count` floats. Caches repeat their sets every 4 KiB; the
 // stride keeps the same row of different columns out of one set.
@@ -113,11 +116,12 @@ void CellRows::fill_buckets(const BoxSource& source, Parallelism parallelism) {
       const BoxBlock block = buffer.load(source, i, std::min(end, i + BoxBlock::kBoxes));
       for (size_t k = 0; k < block.count; ++k) {
         const CellKey box_key = keys_[i + k];
-        records_[offsets[box_key.cell() >> bucket_shift_]++] = {
-            {block.lower[axis[0]][k], block.lower[axis[1]][k], block.lower[axis[2]][k]},
-            {block.upper[axis[0]][k], block.upper[axis[1]][k], block.upper[axis[2]][k]},
-            source.body(i + k),
-            box_key};
+        BoxRecord* const place = &records_[offsets[box_key.cell() >> bucket_shift_]++];
+        fetch_to_write(place, kRecordsAhead);
+        *place = {{block.lower[axis[0]][k], block.lower[axis[1]][k], block.lower[axis[2]][k]},
+                  {block.upper[axis[0]][k], block.upper[axis[1]][k], block.upper[axis[2]][k]},
+                  source.body(i + k),
+                  box_key};
       }
     }
   });

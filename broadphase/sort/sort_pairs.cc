@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
+#include "base/fetch_ahead.h"
 #include "base/fresh_pages.h"
 #include "broadphase/sort/partner_lists.h"
 
@@ -15,6 +16,7 @@ constexpr size_t kBodiesAtOnce = 1 << 14;
 constexpr size_t kPairsPerBucket = 4096;
 constexpr size_t kSparsePerBucket = 8;
 constexpr size_t kMostBuckets = 512;
+constexpr size_t kPairsAhead = 16;  // in a bucket, before they are written: two lines of the cache
 constexpr size_t kTasksOfFewBuckets = 16;
 
 // Visits all pairs, from four places of the list in turn. Neighbours in the list mostly share a
@@ -90,8 +92,11 @@ void PairSorter::fill_buckets(std::span<const PairList> found, size_t body_count
   counts_to_offsets(lists, buckets, offsets_, bucket_begin_);
   for_each_block(lists, 1, parallelism, [&](size_t list, size_t, size_t) {
     uint32_t* offsets = offsets_.data() + list * buckets;
-    for_each_spread(found[list].pairs(),
-                    [&](Pair pair) { buckets_[offsets[pair.a >> shift]++] = pair; });
+    for_each_spread(found[list].pairs(), [&](Pair pair) {
+      Pair* const place = &buckets_[offsets[pair.a >> shift]++];
+      fetch_to_write(place, kPairsAhead);
+      *place = pair;
+    });
   });
 }
 

@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-#include "base/write_ahead.h"
+#include "base/fetch_ahead.h"
 #include "midphase/contact_of_row.h"
 #include "trees/box_rows-inl.h"
 #include "world/pairs/pair_history.h"

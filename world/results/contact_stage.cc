@@ -6,9 +6,9 @@
 #include <cstring>
 #include <utility>
 
+#include "base/fetch_ahead.h"
 #include "base/fresh_pages.h"
 #include "base/parallel.h"
-#include "base/write_ahead.h"
 #include "carom/results/tier.h"
 #include "shapes/point_velocity.h"
 

@@ -1,5 +1,5 @@
-// Memory that is about to be written in order. Where it lies in no cache near the processor, stores
-// would wait for each line in turn.
+// Memory that is about to be written in order, in one array or in many at a time. Where it lies in
+// no cache near the processor, stores would wait for each line in turn.
 #pragma once
 
 #include <cstddef>
