@@ -55,8 +55,8 @@ MOVED = FLOOR | {
     "narrowphase": lambda pose, shape, arrays, contact: (
         pose + shape, 0, 8 + 41 + 64 * arrays, contact - 64, 0),
     "velocities": lambda pose, shape, arrays, contact: (12, 0, 0, 8 + 2 * contact + 64, 0),
-    # Of both steps: pairs, overlaps and places of contacts in, keys and places out and in again.
-    "events": lambda pose, shape, arrays, contact: (0, 2 * (13 + 24), 0, 0, 24),
+    # Of both steps: pairs, overlaps and places of contacts in, two numbers each out and in again.
+    "events": lambda pose, shape, arrays, contact: (0, 2 * (13 + 32), 0, 0, 24),
 }
 
 

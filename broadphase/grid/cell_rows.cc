@@ -14,8 +14,7 @@ namespace {
 
 constexpr size_t kBoxesPerBucket = 8192;  // their records fit the second-level cache
 constexpr size_t kMostBuckets = 512;
-constexpr size_t kRecordsAhead =
-    6;  // in a bucket, before they are written: some lines of the cache
+constexpr size_t kRecordsAhead = 6;  // asked for in a bucket before they are written
 
 // The stride of a column of at least `count` floats. Caches repeat their sets every 4 KiB; the
 // stride keeps the same row of different columns out of one set.

@@ -16,7 +16,7 @@ constexpr size_t kBodiesAtOnce = 1 << 14;
 constexpr size_t kPairsPerBucket = 4096;
 constexpr size_t kSparsePerBucket = 8;
 constexpr size_t kMostBuckets = 512;
-constexpr size_t kPairsAhead = 16;  // in a bucket, before they are written: two lines of the cache
+constexpr size_t kPairsAhead = 16;  // asked for in a bucket before they are written
 constexpr size_t kTasksOfFewBuckets = 16;
 
 // Visits all pairs, from four places of the list in turn. Neighbours in the list mostly share a

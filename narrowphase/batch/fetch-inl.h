@@ -73,6 +73,7 @@ HWY_INLINE void fetch_side(const BatchSide& side, const Listed& near, const List
   }
 }
 
+// The same of both sides.
 template <class A, class B>
 HWY_INLINE void fetch_lanes(const Batch& batch, size_t row, LaneRange lanes) {
   if (row + kPairsAhead + kLanes > batch.count) return;

@@ -11,7 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-static_assert(sizeof(Pair) == sizeof(uint64_t) && alignof(uint64_t) >= alignof(Pair));
+static_assert(sizeof(Pair) == sizeof(uint64_t));
 
 HWY_INLINE Indices load_bits(const float* numbers) {
   return hn::BitCast(IndexTag(), hn::LoadU(FloatTag(), numbers));
