@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
-#include "base/fetch_ahead.h"
+#include "base/fetch_to_write.h"
 #include "base/fresh_pages.h"
 
 namespace carom {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kBoxesPerBucket = 8192;  // their records fit the second-level cache
 constexpr size_t kMostBuckets = 512;
-constexpr size_t kRecordsAhead = 6;  // asked for in a bucket before they are written
+constexpr size_t kRecordsAhead = 6;  // from where a bucket is written to where it is asked for
 
 // The stride of a column of at least `count` floats. Caches repeat their sets every 4 KiB; the
 // stride keeps the same row of different columns out of one set.

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
-#include "base/fetch_ahead.h"
+#include "base/fetch_to_write.h"
 #include "base/fresh_pages.h"
 #include "broadphase/sort/partner_lists.h"
 
@@ -16,7 +16,7 @@ constexpr size_t kBodiesAtOnce = 1 << 14;
 constexpr size_t kPairsPerBucket = 4096;
 constexpr size_t kSparsePerBucket = 8;
 constexpr size_t kMostBuckets = 512;
-constexpr size_t kPairsAhead = 16;  // asked for in a bucket before they are written
+constexpr size_t kPairsAhead = 16;  // from where a bucket is written to where it is asked for
 constexpr size_t kTasksOfFewBuckets = 16;
 
 // Visits all pairs, from four places of the list in turn. Neighbours in the list mostly share a

@@ -5,7 +5,9 @@
 //   static void test(const PoseLanes& pose, const A&, const B&, Report& report)
 //   static constexpr Units kUnits
 //   static constexpr Unsure kUnsure
-//   static constexpr bool kFetchesAhead   optional: test() calls report.fetch<0>() to fetch<3>()
+//   static constexpr bool kTestFetches   optional: test() calls report.fetch<0>() to fetch<3>(),
+//   and
+//                                        the loop does not ask for the bodies of pairs to come
 // test() calls
 //   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
 // once; names, frames and signs as in Contact. test() is branch-free and the same at every detail:
@@ -126,10 +128,10 @@ struct BatchLoop {
     PoseLanes pose;
     A a;
     B b;
-    constexpr bool kFetches = std::is_same_v<Bodies, Listed> && !fetches_ahead<Kernel>();
-    if constexpr (kFetches) fetch_part<A, B, 0>(batch, row);
+    constexpr bool kLoopFetches = std::is_same_v<Bodies, Listed> && !test_fetches<Kernel>();
+    if constexpr (kLoopFetches) fetch_part<A, B, 0>(batch, row);
     load_pairs<Records>(batch, bodies, positions, pose, a, b);
-    if constexpr (kFetches) fetch_part<A, B, 1>(batch, row);
+    if constexpr (kLoopFetches) fetch_part<A, B, 1>(batch, row);
     const Mask plain = is_plainly_valid(pose, a, b);
     Mask valid = plain;
     // Some lane is invalid, or so large that a sum overflowed. The results of the other lanes do
@@ -141,9 +143,9 @@ struct BatchLoop {
     }
     const F up = to_units<Kernel::kUnits>(pose, a, b);
     Report report{batch, source, row, positions, up, plain, valid, is_odd};
-    if constexpr (kFetches) fetch_part<A, B, 2>(batch, row);
+    if constexpr (kLoopFetches) fetch_part<A, B, 2>(batch, row);
     Kernel::test(pose, a, b, report);
-    if constexpr (kFetches) fetch_part<A, B, 3>(batch, row);
+    if constexpr (kLoopFetches) fetch_part<A, B, 3>(batch, row);
   }
 
   static HWY_INLINE void clear_unless(Mask valid, PositionLanes& positions, PoseLanes& pose, A& a,

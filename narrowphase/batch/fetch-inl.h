@@ -19,7 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Two vectors of the widest target: what the last part asks for has the time of one to come.
+// Two vectors of the widest target, so that what the last part asks for has the time of a whole
+// vector to come.
 constexpr size_t kPairsAhead = 2 * kMostLanes;
 
 // For each body, where its shape lies; nullptr if that follows from the index of the body.
@@ -90,8 +91,8 @@ HWY_INLINE void fetch_ahead(const Batch& batch, size_t row) {
   fetch_lanes<A, B>(batch, row, {0, kLanes});
 }
 
-// The same in parts, to be called between pieces of the work on that vector: a processor waits for
-// some ten lines at a time, and for the rest of a vector's before it goes on.
+// The same in parts, each to be called once, between pieces of the work on that vector. A processor
+// fetches some ten lines at a time; asked for more at once, it waits until there is room.
 constexpr size_t kFetchParts = 4;
 template <class A, class B, size_t kPart>
 HWY_INLINE void fetch_part(const Batch& batch, size_t row) {
@@ -100,10 +101,10 @@ HWY_INLINE void fetch_part(const Batch& batch, size_t row) {
   if constexpr (kBegin < kEnd) fetch_lanes<A, B>(batch, row, {kBegin, kEnd});
 }
 
-// Whether Kernel::test() calls the parts.
+// Whether Kernel::test() calls the parts, and not the loop.
 template <class Kernel>
-constexpr bool fetches_ahead() {
-  if constexpr (requires { Kernel::kFetchesAhead; }) return Kernel::kFetchesAhead;
+constexpr bool test_fetches() {
+  if constexpr (requires { Kernel::kTestFetches; }) return Kernel::kTestFetches;
   return false;
 }
 

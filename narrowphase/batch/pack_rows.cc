@@ -17,7 +17,7 @@ HWY_INLINE Indices load_bits(const float* numbers) {
   return hn::BitCast(IndexTag(), hn::LoadU(FloatTag(), numbers));
 }
 
-size_t pack(const uint8_t* wanted, size_t count, const PackedRows& rows,
+size_t pack(const uint8_t* wanted, size_t count, const PackedPairs& pairs,
             std::span<const PackedColumn> columns) {
   const IndexTag tag;
   const hn::Rebind<uint8_t, IndexTag> bytes;
@@ -34,15 +34,16 @@ size_t pack(const uint8_t* wanted, size_t count, const PackedRows& rows,
     compress_store(hn::Iota(tag, static_cast<uint32_t>(row)), is_wanted, numbers);
     const hn::RebindToSigned<IndexTag> signed_tag;
     hn::StoreU(hn::DemoteTo(shorts, hn::BitCast(signed_tag, hn::Load(tag, numbers))), shorts,
-               rows.rows + packed);
+               pairs.row_numbers + packed);
     Indices a, b;
-    hn::LoadInterleaved2(tag, &rows.pairs[row].a, a, b);
-    packed += store_keys(b, a, is_wanted, reinterpret_cast<uint64_t*>(rows.to + packed));
+    hn::LoadInterleaved2(tag, &pairs.from[row].a, a, b);
+    // In memory a pair is the number b * 2^32 + a.
+    packed += store_keys(b, a, is_wanted, reinterpret_cast<uint64_t*>(pairs.to + packed));
   }
   for (; row < count; ++row) {
     for (const PackedColumn& column : columns) column.to[packed] = column.from[row];
-    rows.to[packed] = rows.pairs[row];
-    rows.rows[packed] = static_cast<uint16_t>(row);
+    pairs.to[packed] = pairs.from[row];
+    pairs.row_numbers[packed] = static_cast<uint16_t>(row);
     packed += wanted[row] == 1;
   }
   return packed;
@@ -62,9 +63,9 @@ HWY_EXPORT(pack);
 
 }  // namespace
 
-size_t pack_rows(const uint8_t* wanted, size_t count, const PackedRows& rows,
+size_t pack_rows(const uint8_t* wanted, size_t count, const PackedPairs& pairs,
                  std::span<const PackedColumn> columns) {
-  return CAROM_DISPATCH(pack)(wanted, count, rows, columns);
+  return CAROM_DISPATCH(pack)(wanted, count, pairs, columns);
 }
 
 }  // namespace carom

@@ -44,7 +44,8 @@ struct LaneReport {
   bool is_odd;  // not all lanes are plain
 
   HWY_INLINE bool faces_only() const { return batch.faces_only; }
-  // Long kernels call the parts of fetch_part() between pieces of their work.
+  // Asks for a part of the bodies of pairs to come. Only for kernels with kTestFetches, each part
+  // once.
   template <size_t kPart>
   HWY_INLINE void fetch() const {
     fetch_part<A, B, kPart>(batch, row);

@@ -28,8 +28,8 @@ class RowSelection {
     pad();
   }
 
-  // Selects the rows whose byte in `wanted` is 1, and packs these columns of theirs, also in whole
-  // vectors. Columns have room for kPairsPerBlock rows and a vector more.
+  // Selects the rows whose byte in `wanted` is 1, packs these columns of theirs, and repeats the
+  // last row to fill whole vectors. Columns have room for kPairsPerBlock rows.
   void pack(const uint8_t* wanted, std::span<const PackedColumn> columns) {
     count_ = pack_rows(wanted, batch_.count, {batch_.pairs, pairs_.data(), rows_.data()}, columns);
     if (count_ == 0) return;
@@ -90,8 +90,8 @@ class RowSelection {
 
   const Batch& batch_;
   size_t count_ = 0;
-  std::array<uint16_t, kPairsPerBlock + kMostLanes> rows_;
-  std::array<Pair, kPairsPerBlock + kMostLanes> pairs_;
+  std::array<uint16_t, kPairsPerBlock + 1> rows_;
+  std::array<Pair, kPairsPerBlock + 1> pairs_;
 };
 static_assert(kPairsPerBlock % kMostLanes == 0);
 

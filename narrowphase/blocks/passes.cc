@@ -163,19 +163,25 @@ void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pa
   std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
   if (of_separate_pairs) std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
   TestColumns contacts;
-  const ResultColumns &from = batch.out, to = contacts.columns();
-  std::array<float, kPairsPerBlock + kMostLanes> reach;
+  const ResultColumns& from = batch.out;
+  const ResultColumns to = contacts.columns();
   FewOf<PackedColumn, 8> columns;
   columns.push_back({from.separation, to.separation});
   for (size_t axis = 0; axis < 3; ++axis) {
     columns.push_back({from.normal[axis], to.normal[axis]});
     columns.push_back({from.point_a[axis], to.point_a[axis]});
   }
-  if (batch.reach) columns.push_back({batch.reach, reach.data()});
-  RowFlags near;
-  for (size_t row = 0; batch.reach && row < batch.count; ++row) near[row] = touches(batch, row);
+  // Without contact distances the rows that touch are those that overlap.
+  const uint8_t* touch = from.overlap;
+  std::array<float, kPairsPerBlock> reach;
+  RowFlags within_reach;
+  if (batch.reach) {
+    columns.push_back({batch.reach, reach.data()});
+    for (size_t row = 0; row < batch.count; ++row) within_reach[row] = touches(batch, row);
+    touch = within_reach.data();
+  }
   RowSelection touching(batch);
-  touching.pack(batch.reach ? near.data() : from.overlap, {columns.begin(), columns.size()});
+  touching.pack(touch, {columns.begin(), columns.size()});
   if (touching.count() == 0) return;
   Batch manifolds = touching.batch(Pass::manifold);
   manifolds.tested = to;

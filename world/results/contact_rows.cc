@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-#include "base/fetch_ahead.h"
+#include "base/fetch_to_write.h"
 #include "midphase/contact_of_row.h"
 #include "trees/box_rows-inl.h"
 #include "world/pairs/pair_history.h"
@@ -95,6 +95,7 @@ size_t write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
   for (; i + 4 <= rows.pairs.size(); i += 4) {
     FourContacts four;
     four.load(rows, i);
+    // The places of up to four contacts.
     for (size_t k = 0; k < 4; ++k) {
       fetch_to_write(contacts.data() + next, kContactsAhead + k);
     }

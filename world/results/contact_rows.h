@@ -11,7 +11,8 @@
 
 namespace carom {
 
-// Contacts and manifolds are asked for in the cache so long before they are written: a page each.
+// Contacts and manifolds are asked for in the cache so long before they are written: 4 KiB of
+// either.
 inline constexpr size_t kContactsAhead = 64;
 
 // Pairs that follow one another, with their results in as many rows of the columns, and what each

@@ -6,11 +6,12 @@
 #include <cstring>
 #include <utility>
 
-#include "base/fetch_ahead.h"
+#include "base/fetch_to_write.h"
 #include "base/fresh_pages.h"
 #include "base/parallel.h"
 #include "carom/results/tier.h"
 #include "shapes/point_velocity.h"
+#include "world/results/contact_rows.h"
 
 namespace carom {
 namespace {
@@ -315,10 +316,11 @@ void ContactStage::write_contacts(const PairRange& range, const Input& input, Pa
 void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
                            std::span<Contact> contacts) {
   using Eigen::Vector3f;
-  constexpr size_t kBodiesAhead = 48;  // contacts before those whose bodies are asked for
+  constexpr size_t kContactsBefore = 48;  // so many before a contact, its bodies are asked for
   const std::span<const Vector3f> linear = bodies.linear_velocities();
   const std::span<const Vector3f> angular =
       bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();
+  // Then there is no need to look at the kind of each body, which lies anywhere.
   const bool all_turn = !bodies.has_kind(ShapeKind::sphere) && !bodies.has_kind(ShapeKind::aabb);
   const auto velocity = [&](uint32_t body, const Vector3f& arm) -> Vector3f {
     const bool turns =
@@ -329,8 +331,9 @@ void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
   for_each_block(contacts.size(), kPairsPerMergeBlock, unless_few(parallelism, contacts.size()),
                  [&](size_t, size_t begin, size_t end) {
                    for (size_t i = begin; i < end; ++i) {
-                     // Bodies lie anywhere; the contacts themselves are in the cache.
-                     const Contact& ahead = contacts[std::min(i + kBodiesAhead, end - 1)];
+                     // Second bodies lie anywhere, first ones in order; the contacts themselves
+                     // are in the cache.
+                     const Contact& ahead = contacts[std::min(i + kContactsBefore, end - 1)];
                      __builtin_prefetch(&linear[ahead.b]);
                      if (!angular.empty()) __builtin_prefetch(&angular[ahead.b]);
                      Contact& c = contacts[i];

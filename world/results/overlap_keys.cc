@@ -20,7 +20,8 @@ size_t list_in_lanes(std::span<const Pair> pairs, const uint8_t* overlap, const 
   // See event_tail().
   const Indices sensor = hn::Set(tag, PairHistory::kSensor), none = hn::Set(tag, kNoContact);
   const Indices kind_of_all = hn::Set(tag, static_cast<uint32_t>(kind));
-  const Indices unlisted = kind == EventKind::end ? none : hn::Zero(tag);
+  const Indices none_of_ends = kind == EventKind::end ? none : hn::Zero(tag);
+  const Indices mark = hn::Set(tag, static_cast<uint32_t>(kSensorInTail >> 32));
   size_t count = 0, i = 0;
   for (; i + kLanes <= pairs.size(); i += kLanes) {
     Indices a, b;
@@ -29,8 +30,8 @@ size_t list_in_lanes(std::span<const Pair> pairs, const uint8_t* overlap, const 
     const Mask overlaps = hn::RebindMask(FloatTag(), hn::Eq(decision, hn::Set(tag, 1)));
     const Indices place = hn::LoadU(tag, contact + i);
     const auto is_sensor = hn::Eq(place, sensor);
-    const Indices listed = hn::Or(hn::IfThenElse(is_sensor, none, place), unlisted);
-    const Indices marks = hn::Or(kind_of_all, hn::IfThenElseZero(is_sensor, hn::Set(tag, 1 << 8)));
+    const Indices listed = hn::Or(hn::IfThenElse(is_sensor, none, place), none_of_ends);
+    const Indices marks = hn::Or(kind_of_all, hn::IfThenElseZero(is_sensor, mark));
     store_keys(marks, listed, overlaps, tails + count);
     count += store_keys(a, b, overlaps, keys + count);
   }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "base/fetch_ahead.h"
+#include "base/fetch_to_write.h"
 #include "world/results/overlap_keys.h"
 #include "world/store/columns.h"
 
@@ -45,7 +45,7 @@ void put(uint64_t number, Event* event, size_t offset) {
 
 // Which pairs have events cannot be predicted: overlaps come and go. So there is no branch on it:
 // an event is written for every pair, and counts or does not. It is written as three numbers, since
-// a store for each field takes longer than the rest.
+// a store for each field takes longer than the rest of the merge.
 template <Persisting kPersisting>
 Event* merge(const Overlaps& last, const Overlaps& now, Event* out) {
   static_assert(offsetof(Event, b) == 8 && offsetof(Event, contact) == 16 &&

@@ -304,8 +304,8 @@ void BodyStore::change_rows(uint32_t index, uint32_t last_count, uint32_t count)
     first_row_.resize(rows(), 0);
     orientation_.resize(rows(), kIdentity);
   }
-  const auto is_elsewhere = [&](uint32_t rows) {
-    return rows > 0 && first_row_[index] != index * size_t{rows};
+  const auto is_elsewhere = [&](uint32_t count_of_rows) {
+    return count_of_rows > 0 && first_row_[index] != index * size_t{count_of_rows};
   };
   rows_elsewhere_ -= is_elsewhere(last_count);
   if (last_count > 0) row_pool_.release(first_row_[index], last_count);
@@ -454,11 +454,13 @@ Collidables BodyStore::view() const {
   }
   // Rows without a body have nothing that could be read as the address of a geometry.
   if (has_geometry(view.uniform_kind) && rows() != size()) view.kind = kind_.data();
-  // Without the detour through slots where each box, or each shape, lies in the place of its body.
+  // Without the detour through slots, or through the first rows below, where each shape lies at the
+  // index of its body.
   if (boxes_elsewhere_ > 0) view.box_slot = box_slot_.data();
   if (!boxes_.empty()) view.boxes = box_records(boxes_.front().lower.data());
   if (!orientation_.empty()) view.orientation.data = orientation_.front().data();
   if (!rows_.empty()) view.rows.data = rows_.front().data();
+  // Bodies of several kinds need it (Collidables::rows).
   if (view.kind || rows_elsewhere_ > 0) view.rows.first = data_or_null(first_row_);
   view.dops = data_or_null(dop_);
   return view;

@@ -40,7 +40,7 @@ struct AabbBoxBase {
 };
 
 struct AabbBox : AabbBoxBase {
-  static constexpr bool kFetchesAhead = true;
+  static constexpr bool kTestFetches = true;
   static constexpr Unsure kUnsure = Unsure::test;
 
   template <class V, class Report>

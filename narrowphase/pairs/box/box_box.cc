@@ -27,7 +27,7 @@ struct BoxBoxBase {
 };
 
 struct BoxBox : BoxBoxBase {
-  static constexpr bool kFetchesAhead = true;
+  static constexpr bool kTestFetches = true;
   static constexpr Unsure kUnsure = Unsure::test;
 
   template <class V, class Report>

@@ -6,7 +6,6 @@
 #include <bit>
 #include <vector>
 
-#include "narrowphase/batch/batch.h"
 #include "oracle/random.h"
 #include "tests/support/isas.h"
 
@@ -55,7 +54,7 @@ struct Rows {
   }
 
   Packed in_lanes() const {
-    const size_t room = wanted.size() + kMostLanes;
+    const size_t room = wanted.size() + 1;
     std::vector<Pair> to_pairs(room);
     std::vector<uint16_t> rows(room);
     std::vector<std::vector<float>> to(columns.size(), std::vector<float>(room));

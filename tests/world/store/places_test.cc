@@ -2,6 +2,7 @@
 // shapes lie.
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 #include "carom/world/world.h"
@@ -68,7 +69,7 @@ TEST(PlacesOfShapes, NeedOneWhileSomeShapeLiesElsewhere) {
   expect_boxes(store);
 }
 
-TEST(PlacesOfShapes, MayBeThoseOfBodiesThatWereRemoved) {
+TEST(PlacesOfShapes, NeedNoIndexWhereBodiesWereRemoved) {
   BodyStore store = boxes();
   for (const uint32_t i : {1, 2, 11, 38, 39}) store.remove(store.id_of(i));
   EXPECT_EQ(store.view().rows.first, nullptr);
@@ -78,6 +79,19 @@ TEST(PlacesOfShapes, MayBeThoseOfBodiesThatWereRemoved) {
   expect_boxes(store);
 }
 
+// All results of a step, as bytes.
+std::string results_of(const World& world) {
+  std::string bytes;
+  const auto append = [&](const auto& list) {
+    bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0]));
+  };
+  append(world.pairs());
+  append(world.overlaps());
+  append(world.contacts());
+  append(world.manifolds());
+  return bytes;
+}
+
 // Two worlds of the same boxes, of which one has changed the places of its shapes.
 TEST(PlacesOfShapes, ChangeNoResult) {
   for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
@@ -85,22 +99,19 @@ TEST(PlacesOfShapes, ChangeNoResult) {
     std::vector<BodyId> ids;
     for (uint32_t i = 0; i < kBodies; ++i) {
       plain.add(body_of(i, box_of(i)));
-      ids.push_back(other.add(body_of(i, i % 2 ? Shape(capsule_of(i)) : Shape(Sphere{1}))));
+      ids.push_back(other.add(i % 2 ? body_of(i, capsule_of(i)) : body_of(i, Sphere{1})));
     }
     for (uint32_t i = 0; i < kBodies; ++i) {
       const uint32_t k = i * 7 % kBodies;
       other.set_shape(ids[k], box_of(k));
     }
+    size_t elsewhere = 0;
+    for (const BodyId id : ids) elsewhere += other.first_row(id) != id.index;
+    EXPECT_GT(elsewhere, kBodies / 2);
     plain.step();
     other.step();
     EXPECT_GT(plain.report().overlaps, kBodies / 2);
-    EXPECT_EQ(plain.pairs().size(), other.pairs().size());
-    EXPECT_EQ(plain.report().overlaps, other.report().overlaps);
-    ASSERT_EQ(plain.contacts().size(), other.contacts().size());
-    for (size_t c = 0; c < plain.contacts().size(); ++c) {
-      EXPECT_EQ(plain.contacts()[c].b, other.contacts()[c].b);
-      EXPECT_EQ(plain.contacts()[c].separation, other.contacts()[c].separation);
-    }
+    EXPECT_EQ(results_of(plain), results_of(other));
   }
 }
 
