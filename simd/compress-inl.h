@@ -104,6 +104,14 @@ HWY_INLINE size_t bits_of(Mask mask) {
 
 #endif
 
+// The lanes whose byte is 1.
+HWY_INLINE Mask lanes_with_one(const uint8_t* bytes) {
+  const IndexTag tag;
+  const hn::Rebind<uint8_t, IndexTag> byte_tag;
+  const Indices numbers = hn::PromoteTo(tag, hn::LoadU(byte_tag, bytes));
+  return hn::RebindMask(FloatTag(), hn::Eq(numbers, hn::Set(tag, 1)));
+}
+
 // Writes the selected lanes to `to` and returns their number. May write a whole vector. (Some
 // processors take a hundred cycles to compress to memory.)
 HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {

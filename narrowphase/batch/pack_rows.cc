@@ -20,12 +20,10 @@ HWY_INLINE Indices load_bits(const float* numbers) {
 size_t pack(const uint8_t* wanted, size_t count, const PackedPairs& pairs,
             std::span<const PackedColumn> columns) {
   const IndexTag tag;
-  const hn::Rebind<uint8_t, IndexTag> bytes;
   const hn::Rebind<uint16_t, IndexTag> shorts;
   size_t packed = 0, row = 0;
   for (; row + kLanes <= count; row += kLanes) {
-    const Indices decision = hn::PromoteTo(tag, hn::LoadU(bytes, wanted + row));
-    const Mask is_wanted = hn::RebindMask(FloatTag(), hn::Eq(decision, hn::Set(tag, 1)));
+    const Mask is_wanted = lanes_with_one(wanted + row);
     for (const PackedColumn& column : columns) {
       compress_store(load_bits(column.from + row), is_wanted,
                      reinterpret_cast<uint32_t*>(column.to + packed));

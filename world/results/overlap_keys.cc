@@ -16,7 +16,6 @@ size_t list_in_lanes(std::span<const Pair> pairs, const uint8_t* overlap, const 
                      EventKind kind, uint64_t* keys, uint64_t* tails) {
   static_assert(kLanes <= kOverlapsBeyond);
   const IndexTag tag;
-  const hn::Rebind<uint8_t, IndexTag> bytes;
   // See event_tail().
   const Indices sensor = hn::Set(tag, PairHistory::kSensor), none = hn::Set(tag, kNoContact);
   const Indices kind_of_all = hn::Set(tag, static_cast<uint32_t>(kind));
@@ -26,8 +25,7 @@ size_t list_in_lanes(std::span<const Pair> pairs, const uint8_t* overlap, const 
   for (; i + kLanes <= pairs.size(); i += kLanes) {
     Indices a, b;
     hn::LoadInterleaved2(tag, &pairs[i].a, a, b);
-    const Indices decision = hn::PromoteTo(tag, hn::LoadU(bytes, overlap + i));
-    const Mask overlaps = hn::RebindMask(FloatTag(), hn::Eq(decision, hn::Set(tag, 1)));
+    const Mask overlaps = lanes_with_one(overlap + i);
     const Indices place = hn::LoadU(tag, contact + i);
     const auto is_sensor = hn::Eq(place, sensor);
     const Indices listed = hn::Or(hn::IfThenElse(is_sensor, none, place), none_of_ends);
