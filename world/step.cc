@@ -22,16 +22,25 @@ constexpr size_t kBlocksOfThreads = 16;
 // The time between two stages, which is short, counts to the second: in a small world a look at the
 // clock takes as long.
 template <class Work>
-void World::State::run(Stage stage, const Work& work) {
+World::State::Time World::State::time_of(const Work& work) {
   const uint64_t shared_before = shared_nanoseconds();
   work();
   const auto end = std::chrono::steady_clock::now();
   const auto duration = end - std::exchange(last_stage_end, end);
-  const auto index = static_cast<size_t>(stage);
   const auto ns = static_cast<uint64_t>(std::chrono::nanoseconds(duration).count());
+  return {ns, ns - std::min(shared_nanoseconds() - shared_before, ns)};
+}
+
+void World::State::count(Stage stage, const Time& time) {
+  const auto index = static_cast<size_t>(stage);
   report.stages_run |= 1u << index;
-  report.stage_ns[index] += ns;
-  report.serial_ns[index] += ns - std::min(shared_nanoseconds() - shared_before, ns);
+  report.stage_ns[index] += time.ns;
+  report.serial_ns[index] += time.serial_ns;
+}
+
+template <class Work>
+void World::State::run(Stage stage, const Work& work) {
+  count(stage, time_of(work));
 }
 
 const StepReport& World::State::step() {
@@ -52,7 +61,7 @@ const StepReport& World::State::step() {
     find_all();
   }
   if (still && has_velocities()) {
-    run(Stage::velocities, [&] { set_normal_velocities(bodies, parallelism, now.contacts); });
+    run(Stage::velocities, [&] { NormalVelocities(bodies).set_all(now.contacts, parallelism); });
   }
   // After two still steps no event is a begin or an end; keep them.
   if (has_events() && !(still && was_still)) {
@@ -304,15 +313,9 @@ void World::State::find_results() {
     run(Stage::narrowphase, [&] {
       test_pairs(range, directions_of_tests ? directions_of_tests + first_row : nullptr);
     });
-    size_t first_contact;
-    run(Stage::results, [&] {
-      first_contact = contact_stage.add(range, {plan, last, results, bodies, settings}, now);
-    });
-    if (!has_velocities()) continue;
-    run(Stage::velocities, [&] {
-      set_normal_velocities(bodies, settings.parallelism,
-                            std::span(now.contacts).subspan(first_contact));
-    });
+    const ContactStage::Input found = {plan, last, results, bodies, settings};
+    run(Stage::results, [&] { contact_stage.add_results(range, found, now); });
+    if (has_contacts(settings.detail)) add_contacts(range, found);
   }
   if (remembers) {
     run(Stage::narrowphase, [&] { directions.keep(plan, settings.parallelism, now); });
@@ -322,6 +325,21 @@ void World::State::find_results() {
   if (has_identities()) {
     run(Stage::results, [&] { find_previous(last, bodies, settings.parallelism, now); });
   }
+}
+
+// Contacts get their velocities while they are in the cache.
+void World::State::add_contacts(const PairRange& range, const ContactStage::Input& found) {
+  if (!has_velocities()) {
+    run(Stage::results, [&] { contact_stage.add_contacts(range, found, nullptr, now); });
+    return;
+  }
+  double part = 0;  // of the velocities
+  const Time time = time_of([&] {
+    const NormalVelocities velocities(bodies);
+    part = contact_stage.add_contacts(range, found, &velocities, now);
+  });
+  count(Stage::results, time.part(1 - part));
+  count(Stage::velocities, time.part(part));
 }
 
 void World::State::test_pairs(const PairRange& range, uint32_t* direction) {

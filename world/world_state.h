@@ -119,6 +119,21 @@ struct World::State {
     return carries() || has_events() || settings.pair_changes || has_identities();
   }
 
+  // How long something took, and of that, how long one thread worked alone.
+  struct Time {
+    uint64_t ns, serial_ns;
+
+    Time part(double share) const {
+      const auto of = [share](uint64_t time) {
+        return static_cast<uint64_t>(share * static_cast<double>(time));
+      };
+      return {of(ns), of(serial_ns)};
+    }
+  };
+
+  template <class Work>
+  Time time_of(const Work& work);
+  void count(Stage stage, const Time& time);
   template <class Work>
   void run(Stage stage, const Work& work);
   bool is_still();
@@ -138,6 +153,7 @@ struct World::State {
   void drop_pairs();
   ContactStage::Last use_of_last_contacts(bool in_one_range) const;
   void find_results();
+  void add_contacts(const PairRange& range, const ContactStage::Input& found);
   void test_pairs(const PairRange& range, uint32_t* direction);
   void find_impacts();
   void forget_ahead();

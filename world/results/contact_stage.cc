@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstring>
 #include <utility>
 
@@ -10,7 +11,6 @@
 #include "base/fresh_pages.h"
 #include "base/parallel.h"
 #include "carom/results/tier.h"
-#include "shapes/point_velocity.h"
 #include "world/results/contact_rows.h"
 
 namespace carom {
@@ -177,17 +177,26 @@ size_t write_new(const OpenPairs& open, const ContactStage::Input& input, size_t
   return next;
 }
 
+// Copies neighbours of a list to another one. Runs are short, and follow one another closely in
+// both lists: so those to come are asked for in the cache.
+template <class T>
+void copy_run(const T* from, size_t count, T* to) {
+  // As bytes, since vectors of Eigen would be copied number by number.
+  for (size_t i = 0; i < count; ++i) {
+    fetch_to_write(to + i, kContactsAhead);
+    __builtin_prefetch(from + i + kContactsAhead);
+    std::memcpy(static_cast<void*>(to + i), from + i, sizeof(T));
+  }
+}
+
 // The same for carried pairs. `in_place`: their contacts are in place already.
 size_t write_old(const CarriedRun& run, const ContactStage::Input& input, bool in_place,
                  size_t next, PairHistory& now) {
   const PairHistory& last = input.last;
   const MergeRange from = contacts_of(run, input);
   const size_t count = in_place ? 0 : from.end - from.begin;
-  // As bytes, since vectors of Eigen would be copied number by number.
   const auto copy = [&](const auto& old, auto& list) {
-    if (count == 0) return;
-    std::memcpy(static_cast<void*>(list.data() + next), old.data() + from.begin,
-                count * sizeof(old[0]));
+    copy_run(old.data() + from.begin, count, list.data() + next);
   };
   copy(last.contacts, now.contacts);
   if (has_manifolds(input.settings.detail)) copy(last.manifolds, now.manifolds);
@@ -222,36 +231,7 @@ void ContactStage::start(Last what, PairHistory& last, PairHistory& now) {
   take_memory(last.identities, now.identities);
 }
 
-size_t ContactStage::add(const PairRange& range, const Input& input, PairHistory& now) {
-  // First find the result of every pair, and how many contacts each block has ...
-  find_results(range, input, now);
-  const size_t first = in_place_ ? 0 : now.contacts.size();
-  if (!has_contacts(input.settings.detail)) return first;
-
-  // ... then write every contact to its place.
-  size_t contacts = first;
-  for (size_t& block : block_first_) contacts += std::exchange(block, contacts);
-  // In place, the lists hold the contacts of all pairs already.
-  const size_t done = in_place_ ? now.pairs.size() : range.begin;
-  const auto resize = [&](size_t count) {
-    const auto resize_list = [&](auto& list) {
-      reserve_at_rate(list, count, done, now.pairs.size());
-      list.resize(count);
-    };
-    resize_list(now.contacts);
-    if (has_manifolds(input.settings.detail)) resize_list(now.manifolds);
-    if (input.settings.identities) resize_list(now.identities);
-  };
-  if (in_place_) {
-    resize(std::max(contacts, now.contacts.size()));
-    move_carried(range, input, now);
-  }
-  resize(contacts);
-  write_contacts(range, input, now);
-  return first;
-}
-
-void ContactStage::find_results(const PairRange& range, const Input& input, PairHistory& now) {
+void ContactStage::add_results(const PairRange& range, const Input& input, PairHistory& now) {
   const size_t pairs = range.end - range.begin;
   block_first_.assign(block_count(pairs, kPairsPerMergeBlock), 0);
   const bool simple = decisions_say_all(input);
@@ -277,6 +257,29 @@ void ContactStage::find_results(const PairRange& range, const Input& input, Pair
   left_out_ += left_out;
 }
 
+double ContactStage::add_contacts(const PairRange& range, const Input& input,
+                                  const NormalVelocities* velocities, PairHistory& now) {
+  size_t contacts = in_place_ ? 0 : now.contacts.size();
+  for (size_t& block : block_first_) contacts += std::exchange(block, contacts);
+  // In place, the lists hold the contacts of all pairs already.
+  const size_t done = in_place_ ? now.pairs.size() : range.begin;
+  const auto resize = [&](size_t count) {
+    const auto resize_list = [&](auto& list) {
+      reserve_at_rate(list, count, done, now.pairs.size());
+      list.resize(count);
+    };
+    resize_list(now.contacts);
+    if (has_manifolds(input.settings.detail)) resize_list(now.manifolds);
+    if (input.settings.identities) resize_list(now.identities);
+  };
+  if (in_place_) {
+    resize(std::max(contacts, now.contacts.size()));
+    move_carried(range, input, now);
+  }
+  resize(contacts);
+  return write_contacts(range, input, velocities, now);
+}
+
 // Moves the contacts of carried pairs to their places within the list.
 void ContactStage::move_carried(const PairRange& range, const Input& input, PairHistory& now) {
   moves_.clear();
@@ -297,51 +300,41 @@ void ContactStage::move_carried(const PairRange& range, const Input& input, Pair
   if (has_manifolds(input.settings.detail)) move_runs(moves_, now.manifolds.data());
 }
 
-void ContactStage::write_contacts(const PairRange& range, const Input& input, PairHistory& now) {
+// Returns what add_contacts() does.
+double ContactStage::write_contacts(const PairRange& range, const Input& input,
+                                    const NormalVelocities* velocities, PairHistory& now) {
+  using Clock = std::chrono::steady_clock;
+  std::atomic<Clock::rep> of_contacts{0}, of_velocities{0};
   const size_t pairs = range.end - range.begin;
   for_each_block(pairs, kPairsPerMergeBlock, unless_few(input.settings.parallelism, pairs),
                  [&](size_t block, size_t begin, size_t end) {
-                   size_t next = block_first_[block];
-                   const auto open = [&](size_t first, size_t stop, size_t number) {
-                     next = write_new({first, stop, number}, input, next, now);
-                   };
-                   const auto carried = [&](const CarriedRun& run) {
-                     next = write_old(run, input, in_place_, next, now);
-                   };
-                   input.plan.for_each_stretch(range.begin + begin, range.begin + end, open,
-                                               carried);
+                   const size_t first = block_first_[block];
+                   if (!velocities) {
+                     write_block(range, {begin, end}, input, first, now);
+                     return;
+                   }
+                   const Clock::time_point start = Clock::now();
+                   const size_t next = write_block(range, {begin, end}, input, first, now);
+                   const Clock::time_point written = Clock::now();
+                   velocities->set(std::span(now.contacts).subspan(first, next - first));
+                   of_contacts += (written - start).count();
+                   of_velocities += (Clock::now() - written).count();
                  });
+  const auto all = static_cast<double>(of_contacts + of_velocities);
+  return all > 0 ? static_cast<double>(of_velocities) / all : 0;
 }
 
-void set_normal_velocities(BodyStore& bodies, Parallelism parallelism,
-                           std::span<Contact> contacts) {
-  using Eigen::Vector3f;
-  constexpr size_t kContactsBefore = 48;  // so many before a contact, its bodies are asked for
-  const std::span<const Vector3f> linear = bodies.linear_velocities();
-  const std::span<const Vector3f> angular =
-      bodies.has_angular_velocities() ? bodies.angular_velocities() : std::span<Vector3f>();
-  // Then there is no need to look at the kind of each body, which lies anywhere.
-  const bool all_turn = !bodies.has_kind(ShapeKind::sphere) && !bodies.has_kind(ShapeKind::aabb);
-  const auto velocity = [&](uint32_t body, const Vector3f& arm) -> Vector3f {
-    const bool turns =
-        !angular.empty() && (all_turn || bodies.turns(body)) && !angular[body].isZero(0);
-    if (!turns) return linear[body];
-    return point_velocity(linear[body], angular[body], arm);
+// Writes the contacts of a block from `next` on, and returns the place after the last one.
+size_t ContactStage::write_block(const PairRange& range, const MergeRange& block,
+                                 const Input& input, size_t next, PairHistory& now) const {
+  const auto open = [&](size_t first, size_t stop, size_t number) {
+    next = write_new({first, stop, number}, input, next, now);
   };
-  for_each_block(contacts.size(), kPairsPerMergeBlock, unless_few(parallelism, contacts.size()),
-                 [&](size_t, size_t begin, size_t end) {
-                   for (size_t i = begin; i < end; ++i) {
-                     // Second bodies lie anywhere, first ones in order; the contacts themselves
-                     // are in the cache.
-                     const Contact& ahead = contacts[std::min(i + kContactsBefore, end - 1)];
-                     __builtin_prefetch(&linear[ahead.b]);
-                     if (!angular.empty()) __builtin_prefetch(&angular[ahead.b]);
-                     Contact& c = contacts[i];
-                     const Vector3f v = velocity(c.b, c.arm_b) - velocity(c.a, c.arm_a);
-                     c.normal_velocity =
-                         (v.x() * c.normal.x() + v.y() * c.normal.y()) + v.z() * c.normal.z();
-                   }
-                 });
+  const auto carried = [&](const CarriedRun& run) {
+    next = write_old(run, input, in_place_, next, now);
+  };
+  input.plan.for_each_stretch(range.begin + block.begin, range.begin + block.end, open, carried);
+  return next;
 }
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include "world/pairs/carry_plan.h"
 #include "world/pairs/pair_history.h"
 #include "world/results/list_moves.h"
+#include "world/results/normal_velocities.h"
 #include "world/results/result_buffer.h"
 #include "world/store/body_store.h"
 #include "world/store/columns.h"
@@ -36,9 +37,13 @@ class ContactStage {
 
   // Begins the lists of a step.
   void start(Last what, PairHistory& last, PairHistory& now);
-  // Adds the results of a range of pairs. Ranges begin at multiples of kPairsPerMergeBlock, and
-  // follow one another. Returns the place of the first contact that it has added.
-  size_t add(const PairRange& range, const Input& input, PairHistory& now);
+  // Adds the results of a range of pairs, but for their contacts. Ranges begin at multiples of
+  // kPairsPerMergeBlock, and follow one another.
+  void add_results(const PairRange& range, const Input& input, PairHistory& now);
+  // Adds the contacts of the range whose results were added last, with their normal velocities
+  // unless `velocities` is nullptr. Returns which part of the time that it took was for these.
+  double add_contacts(const PairRange& range, const Input& input,
+                      const NormalVelocities* velocities, PairHistory& now);
 
   size_t overlaps() const { return overlaps_; }
   size_t undecided() const { return undecided_; }
@@ -49,9 +54,11 @@ class ContactStage {
   void give_back() { give_back_scratch(moves_, block_first_); }
 
  private:
-  void find_results(const PairRange& range, const Input& input, PairHistory& now);
   void move_carried(const PairRange& range, const Input& input, PairHistory& now);
-  void write_contacts(const PairRange& range, const Input& input, PairHistory& now);
+  double write_contacts(const PairRange& range, const Input& input,
+                        const NormalVelocities* velocities, PairHistory& now);
+  size_t write_block(const PairRange& range, const MergeRange& block, const Input& input,
+                     size_t next, PairHistory& now) const;
 
   size_t overlaps_ = 0;
   size_t undecided_ = 0;
@@ -61,8 +68,5 @@ class ContactStage {
   // number of contacts of each block, later the place of its first one
   std::vector<size_t> block_first_;
 };
-
-// Sets the normal velocity of every contact.
-void set_normal_velocities(BodyStore& bodies, Parallelism parallelism, std::span<Contact> contacts);
 
 }  // namespace carom

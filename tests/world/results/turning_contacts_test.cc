@@ -2,6 +2,7 @@
 // in double precision.
 #include <gtest/gtest.h>
 
+#include "carom/base/thread_arena.h"
 #include "tests/support/composites.h"
 #include "tests/world/crowds.h"
 
@@ -94,6 +95,36 @@ TEST(TurningContacts, HaveTheVelocitiesOfTheirPoints) {
       EXPECT_GT(counts.compounds, 200u);
       EXPECT_GT(counts.apart, 200u);
     }
+  }
+}
+
+// Contacts of several blocks of pairs: written, copied from the last step, and left in their
+// places.
+TEST(TurningContacts, OfManyBodiesOfWhichSomeMove) {
+  for (const int threads : {1, 3}) {
+    ThreadArena arena(threads);
+    arena.run([&] {
+      World world({.parallelism = arena.parallelism()});
+      const std::vector<BodyId> ids = add_crowd(
+          world, {.count = 12000, .side = 21, .boxes = true, .oriented = true, .velocities = true});
+      Random random(43);
+      TurningCounts counts;
+      for (const double share : {1.0, 0.3, 0.3, 0.01, 0.01, 0.0, 0.01}) {
+        move_some(world, ids, share, random);
+        // Velocities of bodies that rest change as well.
+        for (const BodyId id : ids) {
+          world.linear_velocities()[id.index] = (random.direction() * 3).cast<float>();
+          world.angular_velocities()[id.index] = (random.direction() * 5).cast<float>();
+        }
+        const StepReport& report = world.step();
+        EXPECT_GT(report.pairs, size_t{3 * 4096});
+        EXPECT_TRUE(report.ran(Stage::velocities));
+        expect_velocities(world, world.contacts(), counts);
+        ASSERT_FALSE(HasFatalFailure());
+      }
+      EXPECT_GT(counts.simple, 20000u);
+      EXPECT_GT(world.report().kept, world.report().pairs / 2);
+    });
   }
 }
 
