@@ -1,5 +1,6 @@
 // Columns become rows by transposing four of each. Whether a pair has a contact cannot be
-// predicted: all pairs are written, those without one to a place that nobody reads.
+// predicted: all pairs up to the last contact are written, and the next contact overwrites a pair
+// that has none.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -11,6 +12,7 @@
 
 #include "base/fetch_to_write.h"
 #include "midphase/contact_of_row.h"
+#include "simd/compress-inl.h"
 #include "trees/box_rows-inl.h"
 #include "world/pairs/pair_history.h"
 #include "world/results/contact_rows.h"
@@ -86,34 +88,43 @@ struct FourContacts {
     transpose(out);
   }
 };
+
+size_t count_places(std::span<const uint32_t> contact) {
+  const IndexTag tag;
+  const Indices first_mark = hn::Set(tag, PairHistory::kSensor);
+  size_t count = 0, i = 0;
+  for (; i + kLanes <= contact.size(); i += kLanes) {
+    count += hn::CountTrue(tag, hn::Lt(hn::LoadU(tag, contact.data() + i), first_mark));
+  }
+  for (; i < contact.size(); ++i) count += PairHistory::is_place(contact[i]);
+  return count;
+}
 #endif  // HWY_TARGET
 
 size_t write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
+  const std::span<uint32_t> contact = rows.contact;
   size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
-  Contact unread;
-  for (; i + 4 <= rows.pairs.size(); i += 4) {
+  const size_t end = next + count_places(contact);
+  for (; i + 4 <= contact.size() && next + 4 <= end; i += 4) {
     FourContacts four;
     four.load(rows, i);
     // The places of up to four contacts.
+    for (size_t k = 0; k < 4; ++k) fetch_to_write(contacts.data() + next, kContactsAhead + k);
     for (size_t k = 0; k < 4; ++k) {
-      fetch_to_write(contacts.data() + next, kContactsAhead + k);
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      uint32_t& contact = rows.contact[i + k];
-      const bool has_one = PairHistory::is_place(contact);
-      Contact* const places[] = {&unread, contacts.data() + next};
-      const uint32_t marks[] = {contact, static_cast<uint32_t>(next)};
-      four.store(k, *places[has_one]);
-      contact = marks[has_one];
+      uint32_t& place = contact[i + k];
+      const bool has_one = PairHistory::is_place(place);
+      four.store(k, contacts[next]);
+      const uint32_t choice = 0u - has_one;  // a mask, since compilers make branches
+      place = (static_cast<uint32_t>(next) & choice) | (place & ~choice);
       next += has_one;
     }
   }
 #endif  // HWY_TARGET
-  for (; i < rows.pairs.size(); ++i) {
-    if (!PairHistory::is_place(rows.contact[i])) continue;
+  for (; i < contact.size(); ++i) {
+    if (!PairHistory::is_place(contact[i])) continue;
     contacts[next] = contact_of_row(rows.columns, rows.first_row + i, rows.pairs[i]);
-    rows.contact[i] = static_cast<uint32_t>(next++);
+    contact[i] = static_cast<uint32_t>(next++);
   }
   return next;
 }
