@@ -80,19 +80,31 @@ struct PointExtents {
     if (HWY_UNLIKELY(!all_known || !hn::AllTrue(FloatTag(), is_plain(q)))) {
       return load_singly(reader, first, lower, upper);
     }
-    double low[3][kLanes], high[3][kLanes];  // `high`: the negative of the upper ends
     const TurnColumns turns(q);
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      const Intervals ends = reach(turns.of(lane), Corners::points(*shapes[lane]));
-      const double slack = Corners::slack(*shapes[lane]);
-      for (size_t axis = 0; axis < 3; ++axis) {
-        low[axis][lane] = ends[axis].lower - slack;
-        high[axis][lane] = -(ends[axis].upper + slack);
+    Wide low[3], high[3];  // `high`: the negative of the upper ends
+    size_t lane = 0;
+    for_each_half([&](const auto&, const auto& half_of) HWY_ATTR {
+      D least[3][kDoubleLanes], most[3][kDoubleLanes];  // a row a body
+      double slacks[kDoubleLanes];
+      for (size_t row = 0; row < kDoubleLanes; ++row, ++lane) {
+        const std::array<Double3, 3> turn = turns.of(lane);
+        const ReachOfLanes reach(turn, Corners::points(*shapes[lane]));
+        slacks[row] = Corners::slack(*shapes[lane]);
+        for (size_t axis = 0; axis < 3; ++axis) {
+          least[axis][row] = reach.least[axis];
+          most[axis][row] = reach.most[axis];
+        }
       }
-    }
-    const auto down = [](const double* ends) HWY_ATTR { return downwards(load_wide(ends)); };
-    lower = {down(low[0]), down(low[1]), down(low[2])};
-    upper = {hn::Neg(down(high[0])), hn::Neg(down(high[1])), hn::Neg(down(high[2]))};
+      const D slack = hn::LoadU(DoubleTag(), slacks), zero = splat_double(0);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const D least_of_all = fold_rows(least[axis], [](D a, D b) HWY_ATTR { return min(a, b); });
+        const D most_of_all = fold_rows(most[axis], [](D a, D b) HWY_ATTR { return max(a, b); });
+        half_of(low[axis]) = hn::Sub(hn::Add(least_of_all, zero), slack);
+        half_of(high[axis]) = hn::Neg(hn::Add(hn::Add(most_of_all, zero), slack));
+      }
+    });
+    lower = {downwards(low[0]), downwards(low[1]), downwards(low[2])};
+    upper = {hn::Neg(downwards(high[0])), hn::Neg(downwards(high[1])), hn::Neg(downwards(high[2]))};
   }
 };
 

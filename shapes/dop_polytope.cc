@@ -294,10 +294,11 @@ void DopPolytope::build(const DopSlabs& slabs) {
     }
   }
   count_ = points.size();
-  coordinates_.resize(3 * padded_count());
-  for (size_t axis = 0; axis < 3; ++axis) {
-    for (size_t i = 0; i < padded_count(); ++i) {
-      coordinates_[axis * padded_count() + i] = points[std::min(i, count_ - 1)][axis];
+  lines_.resize(3 * lines_of_column());
+  for (size_t k = 0; k < lines_.size(); ++k) {
+    const size_t axis = k / lines_of_column(), first = k % lines_of_column() * kPadding;
+    for (size_t i = 0; i < kPadding; ++i) {
+      lines_[k][i] = points[std::min(first + i, count_ - 1)][axis];
     }
   }
   add_edges();
@@ -322,7 +323,7 @@ void DopPolytope::add_edges() {
 }
 
 size_t DopPolytope::bytes() const {
-  return coordinates_.capacity() * sizeof(double) + faces_.capacity() * sizeof(DopFace) +
+  return lines_.capacity() * sizeof(Line) + faces_.capacity() * sizeof(DopFace) +
          corners_.capacity() * sizeof(DopCorner) + edges_.capacity() * sizeof(DopEdge);
 }
 

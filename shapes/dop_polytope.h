@@ -70,7 +70,7 @@ class DopPolytope {
   Double3 point(size_t i) const { return {column(0)[i], column(1)[i], column(2)[i]}; }
   // The x, y or z of all points. The last one is repeated up to a multiple of kPadding.
   static constexpr size_t kPadding = 8;
-  const double* column(size_t axis) const { return coordinates_.data() + axis * padded_count(); }
+  const double* column(size_t axis) const { return lines_[axis * lines_of_column()].data(); }
 
   std::span<const DopEdge> edges() const { return edges_; }
   std::span<const DopFace> faces() const { return faces_; }
@@ -84,10 +84,13 @@ class DopPolytope {
  private:
   void build(const DopSlabs& slabs);
   void add_edges();
-  size_t padded_count() const { return (count_ + kPadding - 1) / kPadding * kPadding; }
+  // A line of the cache, so that no vector lies in two.
+  struct alignas(64) Line : std::array<double, kPadding> {};
+  static_assert(sizeof(Line) == 64);
+  size_t lines_of_column() const { return (count_ + kPadding - 1) / kPadding; }
 
   size_t count_ = 0;
-  std::vector<double> coordinates_;  // three columns
+  std::vector<Line> lines_;  // three columns
   std::vector<DopFace> faces_;
   std::vector<DopCorner> corners_;
   std::vector<DopEdge> edges_;
