@@ -7,6 +7,7 @@
 #include "narrowphase/batch/row_selection.h"
 #include "narrowphase/blocks/pass_plan.h"
 #include "narrowphase/hulls/features.h"
+#include "narrowphase/manifolds/witness_points.h"
 #include "narrowphase/proof/decide_unsure.h"
 #include "narrowphase/proof/separation_bound.h"
 
@@ -139,24 +140,6 @@ void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
   }
   if (settled > 0) settle(batch, open);
   remember_directions(batch, open, direction);
-}
-
-// The manifold of a pair that touches is its witness point. Without branches, since half of the
-// pairs may overlap.
-void copy_witnesses(const Batch& batch) {
-  const Batch local = batch;  // see BatchLoop
-  const ResultColumns& out = local.out;
-  for (size_t row = 0; row < local.count; ++row) {
-    const bool touch = touches(local, row);
-    const auto if_touch = [=](float x) { return touch ? x : 0; };
-    ManifoldPoints& points = out.manifold[row];
-    points = {};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      points.point[0][axis] = if_touch(out.point_a[axis][row]);
-    }
-    points.separation[0] = if_touch(out.separation[row]);
-    out.manifold_count[row] = touch;
-  }
 }
 
 void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pairs) {

@@ -1,0 +1,103 @@
+// Four rows at a time, without branches, since half of the pairs may touch.
+#include "simd/targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "narrowphase/manifolds/witness_points.cc"
+#include <hwy/foreach_target.h>
+// After the loop over targets.
+#include <cstddef>
+
+#include "base/fetch_to_write.h"
+#include "narrowphase/manifolds/witness_points.h"
+#include "trees/box_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace carom::HWY_NAMESPACE {
+namespace {
+
+// Manifolds are asked for in the cache so long before they are written.
+constexpr size_t kManifoldsAhead = 64;
+
+void copy_row(const Batch& batch, size_t row) {
+  const ResultColumns& out = batch.out;
+  const bool touches = out.overlap[row] == 1 || (batch.reach && out.overlap[row] == 0 &&
+                                                 out.separation[row] <= batch.reach[row]);
+  ManifoldPoints points{};
+  if (touches) {
+    points.point[0] = {out.point_a[0][row], out.point_a[1][row], out.point_a[2][row]};
+    points.separation[0] = out.separation[row];
+  }
+  out.manifold[row] = points;
+  out.manifold_count[row] = touches;
+}
+
+#if HWY_TARGET != HWY_SCALAR
+using QuadOfInts = hn::FixedTag<uint32_t, 4>;
+
+static_assert(offsetof(ManifoldPoints, separation) == 12 * sizeof(float));
+
+HWY_INLINE void copy_four(const Batch& batch, size_t row) {
+  const ResultColumns& out = batch.out;
+  const Quad tag;
+  const QuadOfInts ints;
+  const hn::FixedTag<uint8_t, 4> bytes;
+  const RowOfFour separation = hn::LoadU(tag, out.separation + row);
+  const auto overlap = hn::PromoteTo(ints, hn::LoadU(bytes, out.overlap + row));
+  auto touches = hn::Eq(overlap, hn::Set(ints, 1));
+  if (batch.reach) {
+    const auto near = hn::Le(separation, hn::LoadU(tag, batch.reach + row));
+    const auto apart = hn::Eq(overlap, hn::Zero(ints));
+    touches = hn::Or(touches, hn::And(apart, hn::RebindMask(ints, near)));
+  }
+  const auto if_touches = [&](RowOfFour v) HWY_ATTR {
+    return hn::IfThenElseZero(hn::RebindMask(tag, touches), v);
+  };
+  RowOfFour point[4];  // first columns, then x, y, z, 0 of each row
+  for (size_t axis = 0; axis < 3; ++axis) {
+    point[axis] = if_touches(hn::LoadU(tag, out.point_a[axis] + row));
+  }
+  point[3] = hn::Zero(tag);
+  transpose(point);
+  RowOfFour depth[4] = {if_touches(separation), hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
+  transpose(depth);
+  for (size_t k = 0; k < 4; ++k) {
+    auto* const numbers = reinterpret_cast<float*>(out.manifold + row + k);
+    fetch_to_write(out.manifold + row + k, kManifoldsAhead);
+    hn::StoreU(point[k], tag, numbers);
+    hn::StoreU(hn::Zero(tag), tag, numbers + 4);
+    hn::StoreU(hn::Zero(tag), tag, numbers + 8);
+    hn::StoreU(depth[k], tag, numbers + 12);
+  }
+  const auto counts = hn::And(hn::VecFromMask(ints, touches), hn::Set(ints, 1));
+  hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::FixedTag<int32_t, 4>(), counts)), bytes,
+             out.manifold_count + row);
+}
+#endif  // HWY_TARGET
+
+void copy_rows(const Batch& batch) {
+  const Batch local = batch;  // see BatchLoop
+  size_t row = 0;
+#if HWY_TARGET != HWY_SCALAR
+  for (; row + 4 <= local.count; row += 4) copy_four(local, row);
+#endif  // HWY_TARGET
+  for (; row < local.count; ++row) copy_row(local, row);
+}
+
+}  // namespace
+}  // namespace carom::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "simd/dispatch.h"
+
+namespace carom {
+namespace {
+
+HWY_EXPORT(copy_rows);
+
+}  // namespace
+
+void copy_witnesses(const Batch& batch) { CAROM_DISPATCH(copy_rows)(batch); }
+
+}  // namespace carom
+#endif  // HWY_ONCE
