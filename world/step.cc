@@ -315,7 +315,7 @@ void World::State::find_results() {
     });
     const ContactStage::Input found = {plan, last, results, bodies, settings};
     run(Stage::results, [&] { contact_stage.add_results(range, found, now); });
-    if (has_contacts(settings.detail)) add_contacts(range, found);
+    if (has_contacts(settings.detail)) write_contacts(range, found);
   }
   if (remembers) {
     run(Stage::narrowphase, [&] { directions.keep(plan, settings.parallelism, now); });
@@ -328,15 +328,15 @@ void World::State::find_results() {
 }
 
 // Contacts get their velocities while they are in the cache.
-void World::State::add_contacts(const PairRange& range, const ContactStage::Input& found) {
+void World::State::write_contacts(const PairRange& range, const ContactStage::Input& found) {
   if (!has_velocities()) {
-    run(Stage::results, [&] { contact_stage.add_contacts(range, found, nullptr, now); });
+    run(Stage::results, [&] { contact_stage.write_contacts(range, found, nullptr, now); });
     return;
   }
   double part = 0;  // of the velocities
   const Time time = time_of([&] {
     const NormalVelocities velocities(bodies);
-    part = contact_stage.add_contacts(range, found, &velocities, now);
+    part = contact_stage.write_contacts(range, found, &velocities, now);
   });
   count(Stage::results, time.part(1 - part));
   count(Stage::velocities, time.part(part));

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
-#include "base/fetch_to_write.h"
+#include "base/fetch_ahead.h"
 #include "base/fresh_pages.h"
 
 namespace carom {

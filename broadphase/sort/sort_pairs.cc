@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/bucket_offsets.h"
-#include "base/fetch_to_write.h"
+#include "base/fetch_ahead.h"
 #include "base/fresh_pages.h"
 #include "broadphase/sort/partner_lists.h"
 

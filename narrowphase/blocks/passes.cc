@@ -14,14 +14,6 @@
 namespace carom {
 namespace {
 
-bool overlaps(const Batch& batch, size_t row) { return batch.out.overlap[row] == 1; }
-
-// Whether a row has manifold points: it overlaps, or is separate by no more than its reach.
-bool touches(const Batch& batch, size_t row) {
-  return overlaps(batch, row) || (batch.reach && batch.out.overlap[row] == 0 &&
-                                  batch.out.separation[row] <= batch.reach[row]);
-}
-
 bool is_invalid(const Batch& batch, size_t row) {
   return batch.out.status[row] == static_cast<uint8_t>(Status::invalid);
 }

@@ -7,7 +7,7 @@
 // After the loop over targets.
 #include <cstddef>
 
-#include "base/fetch_to_write.h"
+#include "base/fetch_ahead.h"
 #include "narrowphase/manifolds/witness_points.h"
 #include "trees/box_rows-inl.h"
 
@@ -15,24 +15,23 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// Manifolds are asked for in the cache so long before they are written.
-constexpr size_t kManifoldsAhead = 64;
-
 void copy_row(const Batch& batch, size_t row) {
   const ResultColumns& out = batch.out;
-  const bool touches = out.overlap[row] == 1 || (batch.reach && out.overlap[row] == 0 &&
-                                                 out.separation[row] <= batch.reach[row]);
+  const bool has_point = touches(batch, row);
   ManifoldPoints points{};
-  if (touches) {
+  if (has_point) {
     points.point[0] = {out.point_a[0][row], out.point_a[1][row], out.point_a[2][row]};
     points.separation[0] = out.separation[row];
   }
   out.manifold[row] = points;
-  out.manifold_count[row] = touches;
+  out.manifold_count[row] = has_point;
 }
 
 #if HWY_TARGET != HWY_SCALAR
 using QuadOfInts = hn::FixedTag<uint32_t, 4>;
+
+// Manifolds are asked for in the cache so long before they are written.
+constexpr size_t kManifoldsAhead = 64;
 
 static_assert(offsetof(ManifoldPoints, separation) == 12 * sizeof(float));
 
@@ -43,22 +42,22 @@ HWY_INLINE void copy_four(const Batch& batch, size_t row) {
   const hn::FixedTag<uint8_t, 4> bytes;
   const RowOfFour separation = hn::LoadU(tag, out.separation + row);
   const auto overlap = hn::PromoteTo(ints, hn::LoadU(bytes, out.overlap + row));
-  auto touches = hn::Eq(overlap, hn::Set(ints, 1));
+  auto has_point = hn::Eq(overlap, hn::Set(ints, 1));
   if (batch.reach) {
     const auto near = hn::Le(separation, hn::LoadU(tag, batch.reach + row));
     const auto apart = hn::Eq(overlap, hn::Zero(ints));
-    touches = hn::Or(touches, hn::And(apart, hn::RebindMask(ints, near)));
+    has_point = hn::Or(has_point, hn::And(apart, hn::RebindMask(ints, near)));
   }
-  const auto if_touches = [&](RowOfFour v) HWY_ATTR {
-    return hn::IfThenElseZero(hn::RebindMask(tag, touches), v);
+  const auto if_has_point = [&](RowOfFour v) HWY_ATTR {
+    return hn::IfThenElseZero(hn::RebindMask(tag, has_point), v);
   };
   RowOfFour point[4];  // first columns, then x, y, z, 0 of each row
   for (size_t axis = 0; axis < 3; ++axis) {
-    point[axis] = if_touches(hn::LoadU(tag, out.point_a[axis] + row));
+    point[axis] = if_has_point(hn::LoadU(tag, out.point_a[axis] + row));
   }
   point[3] = hn::Zero(tag);
   transpose(point);
-  RowOfFour depth[4] = {if_touches(separation), hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
+  RowOfFour depth[4] = {if_has_point(separation), hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
   transpose(depth);
   for (size_t k = 0; k < 4; ++k) {
     auto* const numbers = reinterpret_cast<float*>(out.manifold + row + k);
@@ -68,7 +67,7 @@ HWY_INLINE void copy_four(const Batch& batch, size_t row) {
     hn::StoreU(hn::Zero(tag), tag, numbers + 8);
     hn::StoreU(depth[k], tag, numbers + 12);
   }
-  const auto counts = hn::And(hn::VecFromMask(ints, touches), hn::Set(ints, 1));
+  const auto counts = hn::And(hn::VecFromMask(ints, has_point), hn::Set(ints, 1));
   hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::FixedTag<int32_t, 4>(), counts)), bytes,
              out.manifold_count + row);
 }

@@ -57,6 +57,21 @@ TEST(DopPolytope, OfEvenSlabs) {
   }
 }
 
+// Vectors of numbers are read from columns without looking at the count.
+TEST(DopPolytope, ColumnsBeginAtLinesAndRepeatTheLastPoint) {
+  for (const DopKind kind : kKinds) {
+    const DopPolytope polytope{DopSlabs(even_dop(kind, 1.0))};
+    const size_t count = polytope.point_count();
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double* const column = polytope.column(axis);
+      EXPECT_EQ(reinterpret_cast<uintptr_t>(column) % 64, 0u);
+      for (size_t i = count; i % DopPolytope::kPadding != 0; ++i) {
+        EXPECT_EQ(column[i], column[count - 1]);
+      }
+    }
+  }
+}
+
 double along(const std::array<int8_t, 3>& d, const Double3& x) {
   return d[0] * x[0] + d[1] * x[1] + d[2] * x[2];
 }

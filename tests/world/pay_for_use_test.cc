@@ -1,6 +1,7 @@
 // A world runs and stores only what its bodies and settings need.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <initializer_list>
 
@@ -82,14 +83,18 @@ TEST(PayForUse, StagesSayWhatIsSerial) {
     ThreadArena arena(threads);
     arena.run([&] {
       World world({.detail = Detail::manifold, .parallelism = arena.parallelism()});
-      add_crowd(world, {.count = 8000, .side = 30});
+      add_crowd(world, {.count = 8000, .side = 30, .velocities = true});
+      const auto start = std::chrono::steady_clock::now();
       const StepReport& report = world.step();
+      const auto time = std::chrono::steady_clock::now() - start;
+      EXPECT_GT(report.stage_ns[static_cast<int>(Stage::velocities)], 0u);
       uint64_t all = 0, serial = 0;
       for (int i = 0; i < kStageCount; ++i) {
         EXPECT_LE(report.serial_ns[i], report.stage_ns[i]);
         all += report.stage_ns[i];
         serial += report.serial_ns[i];
       }
+      EXPECT_LE(all, static_cast<uint64_t>(std::chrono::nanoseconds(time).count()));
       EXPECT_GT(serial, 0u);
       if (threads == 1) {
         EXPECT_EQ(serial, all);

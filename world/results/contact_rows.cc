@@ -10,7 +10,7 @@
 #include <array>
 #include <cstddef>
 
-#include "base/fetch_to_write.h"
+#include "base/fetch_ahead.h"
 #include "midphase/contact_of_row.h"
 #include "simd/compress-inl.h"
 #include "trees/box_rows-inl.h"

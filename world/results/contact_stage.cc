@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "base/fetch_to_write.h"
+#include "base/fetch_ahead.h"
 #include "base/fresh_pages.h"
 #include "base/parallel.h"
 #include "carom/results/tier.h"
@@ -184,18 +184,19 @@ void copy_run(const T* from, size_t count, T* to) {
   // As bytes, since vectors of Eigen would be copied number by number.
   for (size_t i = 0; i < count; ++i) {
     fetch_to_write(to + i, kContactsAhead);
-    __builtin_prefetch(from + i + kContactsAhead);
+    fetch_to_read(from + i, kContactsAhead);
     std::memcpy(static_cast<void*>(to + i), from + i, sizeof(T));
   }
 }
 
-// The same for carried pairs. `in_place`: their contacts are in place already.
+// As write_new(), for carried pairs. `in_place`: their contacts are in place already.
 size_t write_old(const CarriedRun& run, const ContactStage::Input& input, bool in_place,
                  size_t next, PairHistory& now) {
   const PairHistory& last = input.last;
   const MergeRange from = contacts_of(run, input);
   const size_t count = in_place ? 0 : from.end - from.begin;
   const auto copy = [&](const auto& old, auto& list) {
+    if (count == 0) return;  // in place, `old` may have no memory
     copy_run(old.data() + from.begin, count, list.data() + next);
   };
   copy(last.contacts, now.contacts);
@@ -255,10 +256,12 @@ void ContactStage::add_results(const PairRange& range, const Input& input, PairH
   overlaps_ += overlaps;
   undecided_ += undecided;
   left_out_ += left_out;
+  if (has_contacts(input.settings.detail)) make_room(range, input, now);
 }
 
-double ContactStage::add_contacts(const PairRange& range, const Input& input,
-                                  const NormalVelocities* velocities, PairHistory& now) {
+// Makes room for the contacts of the range. Carried ones that stay in their list go to their
+// places.
+void ContactStage::make_room(const PairRange& range, const Input& input, PairHistory& now) {
   size_t contacts = in_place_ ? 0 : now.contacts.size();
   for (size_t& block : block_first_) contacts += std::exchange(block, contacts);
   // In place, the lists hold the contacts of all pairs already.
@@ -277,7 +280,6 @@ double ContactStage::add_contacts(const PairRange& range, const Input& input,
     move_carried(range, input, now);
   }
   resize(contacts);
-  return write_contacts(range, input, velocities, now);
 }
 
 // Moves the contacts of carried pairs to their places within the list.
@@ -300,7 +302,6 @@ void ContactStage::move_carried(const PairRange& range, const Input& input, Pair
   if (has_manifolds(input.settings.detail)) move_runs(moves_, now.manifolds.data());
 }
 
-// Returns what add_contacts() does.
 double ContactStage::write_contacts(const PairRange& range, const Input& input,
                                     const NormalVelocities* velocities, PairHistory& now) {
   using Clock = std::chrono::steady_clock;

@@ -37,13 +37,13 @@ class ContactStage {
 
   // Begins the lists of a step.
   void start(Last what, PairHistory& last, PairHistory& now);
-  // Adds the results of a range of pairs, but for their contacts. Ranges begin at multiples of
+  // Adds the results of a range of pairs, and room for their contacts. Ranges begin at multiples of
   // kPairsPerMergeBlock, and follow one another.
   void add_results(const PairRange& range, const Input& input, PairHistory& now);
-  // Adds the contacts of the range whose results were added last, with their normal velocities
-  // unless `velocities` is nullptr. Returns which part of the time that it took was for these.
-  double add_contacts(const PairRange& range, const Input& input,
-                      const NormalVelocities* velocities, PairHistory& now);
+  // Writes the contacts of the range whose results were added last, with their normal velocities
+  // unless `velocities` is nullptr. Returns which part of its time was for these.
+  double write_contacts(const PairRange& range, const Input& input,
+                        const NormalVelocities* velocities, PairHistory& now);
 
   size_t overlaps() const { return overlaps_; }
   size_t undecided() const { return undecided_; }
@@ -54,9 +54,8 @@ class ContactStage {
   void give_back() { give_back_scratch(moves_, block_first_); }
 
  private:
+  void make_room(const PairRange& range, const Input& input, PairHistory& now);
   void move_carried(const PairRange& range, const Input& input, PairHistory& now);
-  double write_contacts(const PairRange& range, const Input& input,
-                        const NormalVelocities* velocities, PairHistory& now);
   size_t write_block(const PairRange& range, const MergeRange& block, const Input& input,
                      size_t next, PairHistory& now) const;
 

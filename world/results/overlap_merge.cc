@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "base/fetch_to_write.h"
+#include "base/fetch_ahead.h"
 #include "world/results/overlap_keys.h"
 #include "world/store/columns.h"
 

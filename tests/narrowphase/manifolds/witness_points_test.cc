@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <vector>
 
 #include "carom/results/result_arrays.h"
@@ -22,13 +23,16 @@ ManifoldPoints expected_points(const ResultColumns& rows, size_t row, bool touch
   return points;
 }
 
+float pick(oracle::Random& random, std::initializer_list<float> special) {
+  return random.chance(0.7) ? static_cast<float>(random.uniform(-1, 1))
+                            : special.begin()[random.below(special.size())];
+}
+
 void fill_rows(oracle::Random& random, const ResultColumns& rows, size_t count) {
   for (size_t row = 0; row < count; ++row) {
     rows.overlap[row] = static_cast<uint8_t>(random.below(3));  // 2: undecided
-    rows.separation[row] = static_cast<float>(random.uniform(-1, 1));
-    if (random.chance(0.1)) rows.separation[row] = NAN;
-    for (float* axis : rows.point_a) axis[row] = static_cast<float>(random.uniform(-1, 1));
-    if (random.chance(0.1)) rows.point_a[0][row] = -0.0f;
+    rows.separation[row] = pick(random, {0, -0.0f, 0.5f, INFINITY, -INFINITY, NAN});
+    for (float* axis : rows.point_a) axis[row] = pick(random, {0, -0.0f, INFINITY, NAN});
   }
 }
 
@@ -41,7 +45,7 @@ TEST(WitnessPoints, AreTheManifoldsOfRowsThatTouch) {
       const ResultColumns& rows = arrays.columns();
       fill_rows(random, rows, count);
       std::vector<float> reach(count);
-      for (float& r : reach) r = static_cast<float>(random.uniform(0, 1));
+      for (float& r : reach) r = pick(random, {0, -0.0f, 0.5f, INFINITY, NAN});
       Batch batch;
       batch.count = count;
       batch.out = rows;
@@ -64,7 +68,11 @@ TEST(WitnessPoints, AreTheManifoldsOfRowsThatTouch) {
           overlapping += rows.overlap[row] == 1;
           apart += !touches;
         }
-        EXPECT_EQ(rows.manifold_count[count], kUntouched) << "the row behind the last one";
+        // The row behind the last one.
+        EXPECT_EQ(rows.manifold_count[count], kUntouched);
+        for (size_t byte = 0; byte < sizeof(ManifoldPoints); ++byte) {
+          EXPECT_EQ(reinterpret_cast<const uint8_t*>(&rows.manifold[count])[byte], kUntouched);
+        }
       });
       ASSERT_FALSE(HasFatalFailure());
     }
