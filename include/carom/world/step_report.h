@@ -54,7 +54,7 @@ struct StepReport {
   uint64_t stage_ns[kStageCount] = {};  ///< nanoseconds of each stage, 0 where it did not run
   /// Of these, how long one thread worked alone: all of them in a world without threads. What n
   /// threads can gain is bound by their sum (Amdahl's law). Contacts get their velocities as they
-  /// are written; that time is divided by what either took on all threads.
+  /// are written; that time is divided in proportion to what either took on all threads.
   uint64_t serial_ns[kStageCount] = {};
 
   /// Whether this stage ran.
