@@ -40,7 +40,7 @@ TEST(WitnessPoints, AreTheManifoldsOfRowsThatTouch) {
   oracle::Random random(63);
   size_t near = 0, overlapping = 0, apart = 0;
   for (const bool has_reach : {false, true}) {
-    for (const size_t count : {0, 1, 2, 3, 4, 5, 7, 8, 9, 31, 500}) {
+    for (const size_t count : {0, 1, 2, 3, 4, 5, 7, 8, 9, 31, 4000}) {
       ResultArrays arrays(count + 1, Detail::manifold);
       const ResultColumns& rows = arrays.columns();
       fill_rows(random, rows, count);
