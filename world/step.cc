@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "base/few_of.h"
@@ -306,6 +307,8 @@ void World::State::find_results() {
       share * (uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread);
   const size_t at_once = blocks * kPairsPerMergeBlock;
   contact_stage.start(use_of_last_contacts(at_once >= pairs), last, now);
+  std::optional<NormalVelocities> velocities;
+  if (has_velocities()) velocities.emplace(bodies);
   for (size_t begin = 0; begin == 0 || begin < pairs; begin += at_once) {
     const size_t end = std::min(begin + at_once, pairs);
     const size_t first_row = plan.rows_before(begin);
@@ -315,7 +318,9 @@ void World::State::find_results() {
     });
     const ContactStage::Input found = {plan, last, results, bodies, settings};
     run(Stage::results, [&] { contact_stage.add_results(range, found, now); });
-    if (has_contacts(settings.detail)) write_contacts(range, found);
+    if (has_contacts(settings.detail)) {
+      write_contacts(range, found, velocities ? &*velocities : nullptr);
+    }
   }
   if (remembers) {
     run(Stage::narrowphase, [&] { directions.keep(plan, settings.parallelism, now); });
@@ -328,18 +333,13 @@ void World::State::find_results() {
 }
 
 // Contacts get their velocities while they are in the cache.
-void World::State::write_contacts(const PairRange& range, const ContactStage::Input& found) {
-  if (!has_velocities()) {
-    run(Stage::results, [&] { contact_stage.write_contacts(range, found, nullptr, now); });
-    return;
-  }
+void World::State::write_contacts(const PairRange& range, const ContactStage::Input& found,
+                                  const NormalVelocities* velocities) {
   double part = 0;  // of the velocities
-  const Time time = time_of([&] {
-    const NormalVelocities velocities(bodies);
-    part = contact_stage.write_contacts(range, found, &velocities, now);
-  });
+  const Time time =
+      time_of([&] { part = contact_stage.write_contacts(range, found, velocities, now); });
   count(Stage::results, time.part(1 - part));
-  count(Stage::velocities, time.part(part));
+  if (velocities) count(Stage::velocities, time.part(part));
 }
 
 void World::State::test_pairs(const PairRange& range, uint32_t* direction) {

@@ -153,7 +153,8 @@ struct World::State {
   void drop_pairs();
   ContactStage::Last use_of_last_contacts(bool in_one_range) const;
   void find_results();
-  void write_contacts(const PairRange& range, const ContactStage::Input& found);
+  void write_contacts(const PairRange& range, const ContactStage::Input& found,
+                      const NormalVelocities* velocities);
   void test_pairs(const PairRange& range, uint32_t* direction);
   void find_impacts();
   void forget_ahead();
