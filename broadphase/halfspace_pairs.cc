@@ -15,20 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-using DoubleTag = hn::ScalableTag<double>;
-using D = hn::Vec<DoubleTag>;
-inline constexpr size_t kDoubleLanes = HWY_LANES(double);
-
 HWY_INLINE D load(const float* from) {
   return hn::PromoteTo(DoubleTag(), hn::LoadU(hn::Rebind<float, DoubleTag>(), from));
-}
-
-// The lanes of a mask as bits.
-template <class Tag, class AnyMask>
-HWY_INLINE uint64_t bits_of(Tag tag, AnyMask mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(tag, mask, bits);
-  return uint64_t{bits[0]} | uint64_t{bits[1]} << 8;
 }
 
 HWY_INLINE Mask is_in_order(const BoxBlock& boxes, size_t axis, size_t i) {

@@ -6,6 +6,7 @@
 #define CAROM_SIMD_COMPRESS_INL_H_
 #endif
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -95,13 +96,6 @@ HWY_INLINE Indices permute(Indices v, const Table& table, size_t mask_bits) {
   const auto lanes = hn::PromoteTo(index_tag, hn::LoadU(byte_tag, table[mask_bits].data()));
   return hn::TableLookupLanes(v, hn::IndicesFromVec(IndexTag(), lanes));
 }
-
-HWY_INLINE size_t bits_of(Mask mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(FloatTag(), mask, bits);
-  return bits[0];
-}
-
 #endif
 
 // The lanes whose byte is 1.
@@ -117,7 +111,7 @@ HWY_INLINE Mask lanes_with_one(const uint8_t* bytes) {
 HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
   const IndexTag tag;
 #if CAROM_COMPRESS_BY_TABLE
-  const size_t bits = bits_of(mask);
+  const size_t bits = bits_of(FloatTag(), mask);
   hn::StoreU(permute(v, kInOrder, bits), tag, to);
   return static_cast<size_t>(std::popcount(bits));
 #else
@@ -126,22 +120,33 @@ HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
 #endif
 }
 
-// Writes a pair (smaller, larger) of `one` and each selected lane of `others`, and returns the
-// number of pairs. May write two whole vectors. Vectors of `tag` may be narrower than the widest
-// where the ISA has an instruction for Compress.
+// The first `count` of up to eight bits.
+HWY_INLINE size_t first_bits(size_t count) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  return (size_t{1} << count) - 1;  // one instruction, with what follows
+#else
+  static constexpr uint8_t kFirst[] = {0, 1, 3, 7, 15, 31, 63, 127, 255};
+  return kFirst[count];
+#endif
+}
+
+// Writes a pair (smaller, larger) of `one` and each selected lane of the first `lanes` lanes of
+// `others`, and returns the number of pairs. May write two whole vectors. Vectors of `tag` may be
+// narrower than the widest where the ISA has an instruction for Compress.
 template <class Tag, class V, class M>
-HWY_INLINE size_t store_pairs(Tag tag, V one, V others, M mask, uint32_t* to) {
+HWY_INLINE size_t store_pairs(Tag tag, V one, V others, M mask, size_t lanes, uint32_t* to) {
+  const size_t among = first_bits(std::min(lanes, kLanesOf<Tag>));
 #if CAROM_COMPRESS_BY_TABLE
   static_assert(kLanesOf<Tag> == kLanes);
-  const size_t bits = bits_of(mask);
+  const size_t bits = bits_of(FloatTag(), mask) & among;
   const V selected = permute(others, kForInterleaving, bits);
-  const auto count = static_cast<size_t>(std::popcount(bits));
 #else
+  // The lanes beyond come last, and are not counted.
+  const size_t bits = bits_of(hn::RebindToFloat<Tag>(), mask) & among;
   const V selected = order_for_interleaving(tag, hn::Compress(others, hn::RebindMask(tag, mask)));
-  const size_t count = hn::CountTrue(hn::RebindToFloat<Tag>(), mask);
 #endif
   store_interleaved(tag, hn::Min(one, selected), hn::Max(one, selected), to);
-  return count;
+  return static_cast<size_t>(std::popcount(bits));
 }
 
 // Writes high * 2^32 + low of each selected lane, and returns their number. May write a whole
@@ -149,7 +154,7 @@ HWY_INLINE size_t store_pairs(Tag tag, V one, V others, M mask, uint32_t* to) {
 HWY_INLINE size_t store_keys(Indices high, Indices low, Mask mask, uint64_t* to) {
   const IndexTag tag;
 #if CAROM_COMPRESS_BY_TABLE
-  const size_t bits = bits_of(mask);
+  const size_t bits = bits_of(FloatTag(), mask);
   high = permute(high, kForInterleaving, bits);
   low = permute(low, kForInterleaving, bits);
   const auto count = static_cast<size_t>(std::popcount(bits));

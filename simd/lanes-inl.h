@@ -70,6 +70,15 @@ HWY_INLINE V max(V a, V b) {
 #endif
 }
 
+// Bit k is lane k of the mask, of up to sixteen lanes.
+template <class Tag, class AnyMask>
+HWY_INLINE size_t bits_of(Tag tag, AnyMask mask) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(tag, mask, bits);
+  if constexpr (kLanesOf<Tag> <= 8) return bits[0];
+  return size_t{bits[0]} | size_t{bits[1]} << 8;
+}
+
 HWY_INLINE F clamp_to_finite(F v) { return min(max(v, splat(-FLT_MAX)), splat(FLT_MAX)); }
 
 // g++ 12 copies structs of vectors through memory in pieces, and stalls on it. So pass them by

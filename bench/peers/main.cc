@@ -1,18 +1,21 @@
-// carom_peers [--smoke | --large] [--max-bodies N] [--pairs N] [--streams NAME] [--budget S]
-//             [--frame-limit S] [--out FILE.json] [RECORDING.aabb...]
+// carom_peers [--smoke | --large] [--max-bodies N] [--pairs N] [--peers NAME] [--streams NAME]
+//             [--budget S] [--frame-limit S] [--out FILE.json] [RECORDING.aabb...]
 // Compares Carom with other libraries, in one run: the broadphase on generated scenes of 1k, 10k
 // and 100k bodies and on recordings of bounds, the narrow phase on streams of pairs.
 //   --smoke          1k bodies, a few frames, 2000 pairs: checks that everything still runs
 //   --large          also a million bodies
 //   --max-bodies N   most bodies of generated scenes; 0: recordings only
 //   --pairs N        pairs of a stream (100000); 0: no narrow phase
+//   --peers NAME     only Carom, CGAL and the broadphases whose names begin with NAME: bullet; cgal
 //   --streams NAME   only streams whose names begin with NAME: hull_hull
 //   --budget S       seconds of frames a peer and scene, and of passes a runner and stream (1)
 //   --frame-limit S  a peer with a slower frame is left out (5)
 //   --out FILE       the results as JSON
 // Exit code 1 if a peer or Carom finds wrong pairs or decides wrongly.
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -31,6 +34,7 @@ struct Arguments {
   TimeLimits limits;
   size_t max_bodies = 100'000;
   size_t pairs = 100'000;
+  std::string peers;
   std::string streams;
   std::string out;
   std::vector<std::string> recordings;
@@ -48,9 +52,12 @@ bool take_value(std::string_view flag, std::string_view value, Arguments& argume
   if (flag == "--pairs") return parse(value, arguments.pairs);
   if (flag == "--budget") return parse(value, arguments.limits.budget);
   if (flag == "--frame-limit") return parse(value, arguments.limits.frame_limit);
-  if (flag != "--out" && flag != "--streams") return false;
-  (flag == "--out" ? arguments.out : arguments.streams) = value;
-  return true;
+  std::string* const text = flag == "--out"       ? &arguments.out
+                            : flag == "--peers"   ? &arguments.peers
+                            : flag == "--streams" ? &arguments.streams
+                                                  : nullptr;
+  if (text != nullptr) *text = value;
+  return text != nullptr;
 }
 
 std::optional<Arguments> parse(int argc, char** argv) {
@@ -74,13 +81,16 @@ std::optional<Arguments> parse(int argc, char** argv) {
   return arguments;
 }
 
-std::vector<PeerKind> all_kinds() {
-  std::vector<PeerKind> all;
-  for (const auto& kinds :
-       {carom_kinds(), cgal_kinds(), bullet_kinds(), fcl_kinds(), ode_kinds()}) {
-    all.insert(all.end(), kinds.begin(), kinds.end());
+// Carom, the yardstick, and the others whose names begin so.
+std::vector<PeerKind> kinds_named(std::string_view beginning) {
+  std::vector<PeerKind> named = carom_kinds();
+  for (const auto& kinds : {cgal_kinds(), bullet_kinds(), fcl_kinds(), ode_kinds()}) {
+    std::ranges::copy_if(kinds, std::back_inserter(named), [&](const PeerKind& kind) {
+      const std::string_view name = kind.name;
+      return name == kYardstick || name.starts_with(beginning);
+    });
   }
-  return all;
+  return named;
 }
 
 // Median times on one thread; infinity for peers that are too slow.
@@ -96,7 +106,8 @@ SmallerScene medians(const SceneResult& result) {
 
 class BroadphaseComparison {
  public:
-  explicit BroadphaseComparison(const TimeLimits& limits) : limits_(limits) {}
+  BroadphaseComparison(const TimeLimits& limits, std::string_view peers)
+      : limits_(limits), kinds_(kinds_named(peers)) {}
 
   const SceneResult& run(const PeerScene& scene, const SmallerScene& smaller) {
     results_.push_back(compare(scene, kinds_, limits_, smaller));
@@ -124,7 +135,7 @@ class BroadphaseComparison {
 
  private:
   TimeLimits limits_;
-  std::vector<PeerKind> kinds_ = all_kinds();
+  std::vector<PeerKind> kinds_;
   std::vector<SceneResult> results_;
 };
 
@@ -155,7 +166,7 @@ int check(const Comparisons& comparisons) {
 }
 
 int run(const Arguments& arguments) {
-  BroadphaseComparison broadphase(arguments.limits);
+  BroadphaseComparison broadphase(arguments.limits, arguments.peers);
   broadphase.run_generated(arguments.max_bodies);
   for (const std::string& path : arguments.recordings) {
     if (const Result<void> done = broadphase.run_recording(path); !done) return fail(done.error());

@@ -15,7 +15,6 @@ namespace {
 
 // Runs of boxes in a row of cells are short, so a wider vector would mostly be empty.
 using RunTag = hn::CappedTag<float, 8>;
-using RunIntTag = hn::RebindToSigned<RunTag>;
 using RunIndexTag = hn::RebindToUnsigned<RunTag>;
 using RunF = hn::Vec<RunTag>;
 using RunMask = hn::Mask<RunTag>;
@@ -69,61 +68,88 @@ HWY_INLINE void prefetch_boxes(const Columns& columns, size_t row) {
   __builtin_prefetch(columns.body + row);
 }
 
-// Appends the pairs of the box and the rows of [begin, end) that overlap it. It tests at least one
-// vector even if there is no row: a loop that mostly runs once is predicted well.
+// Where the pairs of a search go: one behind the other, until a list has no room left.
+class PairOutput {
+ public:
+  PairOutput(const PairFilter& filter, PairList& list)
+      : list_(list), filter_(filter), filters_(!lets_all_meet(filter)) {
+    begin();
+  }
+
+  Pair* first() const { return first_; }
+  // Whether a vector of pairs may no longer fit there.
+  HWY_INLINE bool is_full(const Pair* next) const { return next > last_; }
+
+  // Adds the pairs up to `next` to the list, and returns where the next one goes.
+  HWY_NOINLINE Pair* add_up_to(const Pair* next) {
+    const auto count = static_cast<size_t>(next - first_);
+    if (filters_) {
+      list_.commit(count, filter_);
+    } else {
+      list_.commit(count);
+    }
+    begin();
+    return first_;
+  }
+
+ private:
+  static constexpr size_t kLeastRoom = 512;
+
+  void begin() {
+    const std::span<Pair> room = list_.room(kLeastRoom);
+    first_ = room.data();
+    last_ = first_ + room.size() - kRunLanes;
+  }
+
+  PairList& list_;
+  const PairFilter& filter_;
+  const bool filters_;
+  Pair* first_;
+  Pair* last_;
+};
+
+// Writes the pairs of the box and the rows of [begin, end) that overlap it, and returns where the
+// next pair goes. It tests at least one vector even if there is no row: a loop that mostly runs
+// once is predicted well.
 HWY_INLINE Pair* scan(const Columns& columns, const BoxLanes& box, size_t begin, size_t end,
-                      Pair* hits) {
-  const RunTag tag;
-  const RunIntTag index_tag;
+                      Pair* next, PairOutput& out) {
   size_t row = begin;
   do {
-    const auto left = hn::Set(index_tag, static_cast<int32_t>(end) - static_cast<int32_t>(row));
-    const RunMask in_range = hn::RebindMask(tag, hn::Lt(hn::Iota(index_tag, 0), left));
-    const RunMask hit = hn::And(overlaps(columns, box, row), in_range);
+    const RunMask hit = overlaps(columns, box, row);
     const auto others = hn::LoadU(RunIndexTag(), columns.body + row);
-    hits += store_pairs(RunIndexTag(), box.body, others, hit, &hits->a);
+    if (HWY_UNLIKELY(out.is_full(next))) next = out.add_up_to(next);
+    next += store_pairs(RunIndexTag(), box.body, others, hit, end - row, &next->a);
     row += kRunLanes;
   } while (HWY_UNLIKELY(row < end));
-  return hits;
+  return next;
 }
 
 void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const PairFilter& filter,
-               PairList& out) {
+               PairList& list) {
   const Columns columns(rows);
   const CellGrid& grid = rows.grids().grid[g];
   const CellGrid::RowsAhead ahead = grid.rows_ahead();
   const ptrdiff_t behind = -static_cast<ptrdiff_t>(grid.reach[0]);
-  const bool filters = !lets_all_meet(filter);
+  PairOutput out(filter, list);
+  Pair* next = out.first();
   for (size_t i = begin; i < end; ++i) {
     const CellKey key = rows.key[i];
     const uint32_t* first = rows.first_row() + key.cell();
+    BoxLanes box;
+    load_box(columns, i, box);
     // The rest of the box's own cell, and the cells of its row that it reaches into.
     const size_t to_cell = key.cells_along_row() + 1;
-    const size_t row_end = first[to_cell];
-    size_t candidates = row_end - (i + 1);
+    next = scan(columns, box, i + 1, first[to_cell], next, out);
     // The rows ahead also count the cells before. Boxes much smaller than their cells reach few
     // rows.
     const size_t r_begin = key.reaches_next_row() ? 0 : ahead.in_slab;
     const size_t r_end = key.reaches_next_slab() ? ahead.count : ahead.in_slab;
     for (size_t r = r_begin; r < r_end; ++r) {
       const uint32_t* in_row = first + ahead.offset[r];
-      candidates += in_row[to_cell] - in_row[behind];
-    }
-    Pair* const room = out.reserve(candidates + kRunLanes);
-    BoxLanes box;
-    load_box(columns, i, box);
-    Pair* hits = scan(columns, box, i + 1, row_end, room);
-    for (size_t r = r_begin; r < r_end; ++r) {
-      const uint32_t* in_row = first + ahead.offset[r];
-      hits = scan(columns, box, in_row[behind], in_row[to_cell], hits);
-    }
-    const auto count = static_cast<size_t>(hits - room);
-    if (filters) {
-      out.commit(count, filter);
-    } else {
-      out.commit(count);
+      next = scan(columns, box, in_row[behind], in_row[to_cell], next, out);
     }
   }
+  out.add_up_to(next);
 }
 
 struct CellRange {
@@ -174,8 +200,8 @@ struct Across {
 // far apart among those of many.
 class AcrossSearch {
  public:
-  AcrossSearch(const Across& across, const PairFilter& filter, PairList& out)
-      : across_(across), columns_(across.rows), filter_(filter), out_(out) {}
+  AcrossSearch(const Across& across, const PairFilter& filter, PairList& list)
+      : across_(across), columns_(across.rows), out_(filter, list), next_(out_.first()) {}
 
   HWY_INLINE void add(size_t i) {
     Box& box = boxes_[box_count_++];
@@ -193,22 +219,21 @@ class AcrossSearch {
 
   // Tests the boxes that were added. The last one may have more rows to come.
   void test_all() {
-    const size_t candidates = find_runs();
-    Pair* const room = out_.reserve(candidates + kRunLanes);
-    Pair* hits = room;
+    find_runs();
+    Pair* next = next_;
     for (size_t r = 0; r < run_count_; ++r) {
       const Run& run = runs_[r];
-      hits = scan(columns_, lanes_of(boxes_[run.box]), run.begin, run.end, hits);
+      next = scan(columns_, lanes_of(boxes_[run.box]), run.begin, run.end, next, out_);
     }
-    const auto count = static_cast<size_t>(hits - room);
-    if (lets_all_meet(filter_)) {
-      out_.commit(count);
-    } else {
-      out_.commit(count, filter_);
-    }
+    next_ = next;
     row_count_ = 0;
     boxes_[0] = boxes_[box_count_ - 1];
     box_count_ = 1;
+  }
+
+  void finish() {
+    test_all();
+    out_.add_up_to(next_);
   }
 
  private:
@@ -228,19 +253,16 @@ class AcrossSearch {
     uint32_t box;
   };
 
-  // Leaves out rows of cells without boxes. Returns the number of boxes in all of them.
-  HWY_INLINE size_t find_runs() {
-    size_t candidates = 0;
+  // Leaves out rows of cells without boxes.
+  HWY_INLINE void find_runs() {
     run_count_ = 0;
     for (size_t r = 0; r < row_count_; ++r) {
       const ReachedRow& row = rows_[r];
       const Run run = {row.cell[0], row.cell[row.cells], row.box};
       prefetch_boxes(columns_, run.begin);
-      candidates += run.end - run.begin;
       runs_[run_count_] = run;
       run_count_ += run.begin < run.end;
     }
-    return candidates;
   }
 
   static HWY_INLINE BoxLanes lanes_of(const Box& box) {
@@ -257,8 +279,8 @@ class AcrossSearch {
 
   const Across& across_;
   const Columns columns_;
-  const PairFilter& filter_;
-  PairList& out_;
+  PairOutput out_;
+  Pair* next_;
   // A box reaches at least one row, and one box may be left of the last test.
   Box boxes_[kRows + 2];
   ReachedRow rows_[kRows];
@@ -267,12 +289,12 @@ class AcrossSearch {
 };
 
 void join_across(const CellRows& queries, size_t begin, size_t end, const CellRows& rows, size_t g,
-                 const PairFilter& filter, PairList& out) {
+                 const PairFilter& filter, PairList& list) {
   if (begin == end) return;
   const Across across(queries, rows, g);
-  AcrossSearch search(across, filter, out);
+  AcrossSearch search(across, filter, list);
   for (size_t i = begin; i < end; ++i) search.add(i);
-  search.test_all();
+  search.finish();
 }
 
 }  // namespace

@@ -78,6 +78,12 @@ class alignas(64) PairList {
     return pairs_.data() + used_;
   }
 
+  // Makes room for at least `least` pairs after the last one, and returns all that there is.
+  std::span<Pair> room(size_t least) {
+    Pair* const first = reserve(least);
+    return {first, pairs_.size() - used_};
+  }
+
   void commit(size_t pairs) {
     if (is_counting_only()) {
       dropped_ += pairs;
