@@ -93,7 +93,7 @@ class PairOutput {
   }
 
  private:
-  static constexpr size_t kLeastRoom = 512;
+  static constexpr size_t kLeastRoom = 64;
 
   void begin() {
     const std::span<Pair> room = list_.room(kLeastRoom);
