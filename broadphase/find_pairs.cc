@@ -259,6 +259,7 @@ PairSearch PairFinder::State::find(const BoundsView& bounds, const PairFilter& f
     const bool sweep = choice.method == BroadphaseMethod::sweep;
     find_by_rows(bounds, filter, sweep, parallelism, out, search);
   }
+  found.settle();
   if (!search.complete) {
     out.clear();
     return search;

@@ -214,6 +214,7 @@ size_t HalfspaceSearch::find_in_spaces(const BoundsView& bounds, const PairFilte
   out.clear();
   const size_t count = found_.count();
   if (count <= most_pairs) sorter_.sort(found_.lists(), bounds.count, parallelism, out, scratch_);
+  found_.settle();
   return count;
 }
 

@@ -120,12 +120,12 @@ HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
 #endif
 }
 
-// The first `count` of up to eight bits.
+// The first `count` bits, of as many as there are lanes here.
 HWY_INLINE size_t first_bits(size_t count) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   return (size_t{1} << count) - 1;  // one instruction, with what follows
 #else
-  static constexpr uint8_t kFirst[] = {0, 1, 3, 7, 15, 31, 63, 127, 255};
+  static constexpr uint8_t kFirst[] = {0, 1, 3, 7, 15};
   return kFirst[count];
 #endif
 }

@@ -72,11 +72,11 @@ HWY_INLINE V max(V a, V b) {
 
 // Bit k is lane k of the mask, of up to sixteen lanes.
 template <class Tag, class AnyMask>
-HWY_INLINE size_t bits_of(Tag tag, AnyMask mask) {
+HWY_INLINE uint64_t bits_of(Tag tag, AnyMask mask) {
   uint8_t bits[8] = {};
   hn::StoreMaskBits(tag, mask, bits);
   if constexpr (kLanesOf<Tag> <= 8) return bits[0];
-  return size_t{bits[0]} | size_t{bits[1]} << 8;
+  return uint64_t{bits[0]} | uint64_t{bits[1]} << 8;
 }
 
 HWY_INLINE F clamp_to_finite(F v) { return min(max(v, splat(-FLT_MAX)), splat(FLT_MAX)); }

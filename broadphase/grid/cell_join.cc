@@ -82,14 +82,19 @@ class PairOutput {
 
   // Adds the pairs up to `next` to the list, and returns where the next one goes.
   HWY_NOINLINE Pair* add_up_to(const Pair* next) {
+    end(next);
+    begin();
+    return first_;
+  }
+
+  // Adds the last pairs.
+  void end(const Pair* next) {
     const auto count = static_cast<size_t>(next - first_);
     if (filters_) {
       list_.commit(count, filter_);
     } else {
       list_.commit(count);
     }
-    begin();
-    return first_;
   }
 
  private:
@@ -149,7 +154,7 @@ void join_grid(const CellRows& rows, size_t g, size_t begin, size_t end, const P
       next = scan(columns, box, in_row[behind], in_row[to_cell], next, out);
     }
   }
-  out.add_up_to(next);
+  out.end(next);
 }
 
 struct CellRange {
@@ -233,7 +238,7 @@ class AcrossSearch {
 
   void finish() {
     test_all();
-    out_.add_up_to(next_);
+    out_.end(next_);
   }
 
  private:

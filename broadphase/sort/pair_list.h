@@ -56,15 +56,19 @@ class PairBudget {
 // never share one.
 class alignas(64) PairList {
  public:
-  // Empties the list, which draws on this budget from now on. A list that grew in the last search
-  // gets room to spare: from one search to the next a few pairs come and go.
+  // Empties the list, which draws on this budget from now on.
   void start(PairBudget& budget) {
     budget_ = &budget;
-    const size_t last = std::exchange(used_, 0);
+    used_ = 0;
     accounted_ = 0;
     dropped_ = 0;
+  }
+
+  // Ends a search, and with it the pairs. A list that grew gets room to spare now: from one search
+  // to the next a few pairs come and go.
+  void settle() {
     if (!std::exchange(has_grown_, false)) return;
-    const size_t usual = last + last / 4 + 2 * most_at_once_;
+    const size_t usual = used_ + used_ / 4 + 2 * most_at_once_;
     if (pairs_.size() < usual) {
       pairs_.clear();  // the contents need not be copied
       pairs_.resize(usual);
@@ -151,6 +155,12 @@ class FoundPairs {
     if (lists_.size() < used_) lists_.resize(used_);
     for (size_t i = first; i < used_; ++i) lists_[i].start(budget_);
     return first;
+  }
+
+  // Ends a search: the lists are ready for one that finds a little more.
+  void settle() {
+    if (count() > budget_.most()) return;
+    for (size_t i = 0; i < used_; ++i) lists_[i].settle();
   }
 
   PairList& operator[](size_t i) { return lists_[i]; }
