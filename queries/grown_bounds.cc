@@ -121,9 +121,7 @@ HWY_INLINE uint64_t grow(Columns& columns, size_t i) {
     hn::Store(new_lower, tag, columns.lower[axis].data() + i);
     hn::Store(new_upper, tag, columns.upper[axis].data() + i);
   }
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(tag, is_there, bits);
-  return bits[0] & ((1u << kBoxLanes) - 1);
+  return bits_of(tag, is_there);
 }
 
 // Puts a number, and returns which of its bits have changed.

@@ -70,7 +70,7 @@ HWY_INLINE V max(V a, V b) {
 #endif
 }
 
-// Bit k is lane k of the mask, of up to sixteen lanes.
+// Bit k is lane k of the mask, of up to sixteen lanes. Bits beyond the lanes are zero.
 template <class Tag, class AnyMask>
 HWY_INLINE uint64_t bits_of(Tag tag, AnyMask mask) {
   uint8_t bits[8] = {};

@@ -22,11 +22,8 @@ inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
 
 HWY_INLINE Children child_splat(float value) { return hn::Set(ChildTag(), value); }
 
-// The lanes of a mask, as bits.
 HWY_INLINE uint32_t child_bits(ChildMask mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(ChildTag(), mask, bits);
-  return bits[0] & ((1u << kChildLanes) - 1);
+  return static_cast<uint32_t>(bits_of(ChildTag(), mask));
 }
 
 HWY_INLINE const float* ends_of(const BoxTree::Node& node) {

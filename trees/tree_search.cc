@@ -33,9 +33,7 @@ HWY_INLINE uint32_t touching(const BoxTree::Node& node, const TreeBox& box) {
       const auto ends = hn::Ge(hn::Load(tag, node.upper[axis] + i), hn::Set(tag, box.lower[axis]));
       touch = hn::And(touch, hn::And(starts, ends));
     }
-    uint8_t mask[8] = {};
-    hn::StoreMaskBits(tag, touch, mask);
-    bits |= (mask[0] & ((1u << kChildLanes) - 1)) << i;
+    bits |= static_cast<uint32_t>(bits_of(tag, touch)) << i;
   }
   return bits;
 }
@@ -55,9 +53,8 @@ HWY_INLINE uint32_t touching(const BoxTree::Node& node, const RoundedBox& rounde
       const auto gap = hn::Max(hn::Max(above, below), hn::Zero(tag));
       squared = hn::Add(squared, hn::Mul(gap, gap));
     }
-    uint8_t mask[8] = {};
-    hn::StoreMaskBits(tag, hn::Le(squared, hn::Set(tag, squared_radius)), mask);
-    bits |= (mask[0] & ((1u << kChildLanes) - 1)) << i;
+    const auto within = hn::Le(squared, hn::Set(tag, squared_radius));
+    bits |= static_cast<uint32_t>(bits_of(tag, within)) << i;
   }
   return bits;
 }

@@ -12,10 +12,8 @@
 //   --frame-limit S  a peer with a slower frame is left out (5)
 //   --out FILE       the results as JSON
 // Exit code 1 if a peer or Carom finds wrong pairs or decides wrongly.
-#include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -81,16 +79,18 @@ std::optional<Arguments> parse(int argc, char** argv) {
   return arguments;
 }
 
-// Carom, the yardstick, and the others whose names begin so.
+// Carom, the yardstick, and the others whose names begin so. Nothing if no name does.
 std::vector<PeerKind> kinds_named(std::string_view beginning) {
   std::vector<PeerKind> named = carom_kinds();
+  bool any = false;
   for (const auto& kinds : {cgal_kinds(), bullet_kinds(), fcl_kinds(), ode_kinds()}) {
-    std::ranges::copy_if(kinds, std::back_inserter(named), [&](const PeerKind& kind) {
-      const std::string_view name = kind.name;
-      return name == kYardstick || name.starts_with(beginning);
-    });
+    for (const PeerKind& kind : kinds) {
+      const bool is_meant = std::string_view(kind.name).starts_with(beginning);
+      if (is_meant || std::string_view(kind.name) == kYardstick) named.push_back(kind);
+      any = any || is_meant;
+    }
   }
-  return named;
+  return any ? named : std::vector<PeerKind>();
 }
 
 // Median times on one thread; infinity for peers that are too slow.
@@ -106,8 +106,8 @@ SmallerScene medians(const SceneResult& result) {
 
 class BroadphaseComparison {
  public:
-  BroadphaseComparison(const TimeLimits& limits, std::string_view peers)
-      : limits_(limits), kinds_(kinds_named(peers)) {}
+  BroadphaseComparison(const TimeLimits& limits, const std::vector<PeerKind>& kinds)
+      : limits_(limits), kinds_(kinds) {}
 
   const SceneResult& run(const PeerScene& scene, const SmallerScene& smaller) {
     results_.push_back(compare(scene, kinds_, limits_, smaller));
@@ -166,7 +166,9 @@ int check(const Comparisons& comparisons) {
 }
 
 int run(const Arguments& arguments) {
-  BroadphaseComparison broadphase(arguments.limits, arguments.peers);
+  const std::vector<PeerKind> kinds = kinds_named(arguments.peers);
+  if (kinds.empty()) return fail({arguments.peers + ": no peer's name begins so"});
+  BroadphaseComparison broadphase(arguments.limits, kinds);
   broadphase.run_generated(arguments.max_bodies);
   for (const std::string& path : arguments.recordings) {
     if (const Result<void> done = broadphase.run_recording(path); !done) return fail(done.error());

@@ -68,7 +68,8 @@ HWY_INLINE void prefetch_boxes(const Columns& columns, size_t row) {
   __builtin_prefetch(columns.body + row);
 }
 
-// Where the pairs of a search go: one behind the other, until a list has no room left.
+// Where the pairs of a search go: one behind the other, until a list has no room left. The caller
+// keeps the place of the next pair, so that it stays in a register.
 class PairOutput {
  public:
   PairOutput(const PairFilter& filter, PairList& list)

@@ -53,10 +53,9 @@ void survey_block(const BoxBlock& block, Survey& survey) {
     if (HWY_LIKELY(boxes == kLanes)) {
       for (size_t k = 0; k < kLanes; ++k) ++survey.boxes_of_class[classes[k]];
     } else {
-      uint8_t valid_bits[8] = {};
-      hn::StoreMaskBits(tag, valid, valid_bits);
+      const uint64_t valid_bits = bits_of(tag, valid);
       for (size_t k = 0; k < kLanes; ++k) {
-        survey.boxes_of_class[classes[k]] += valid_bits[k / 8] >> (k % 8) & 1;
+        survey.boxes_of_class[classes[k]] += valid_bits >> k & 1;
       }
     }
   }

@@ -85,16 +85,10 @@ class Cutter {
     put_axis(0, start.x, way.x, inverse.x, at_first.x, on_path.x, margin, out);
     put_axis(1, start.y, way.y, inverse.y, at_first.y, on_path.y, margin, out);
     put_axis(2, start.z, way.z, inverse.z, at_first.z, on_path.z, margin, out);
-    return bits_of(hn::Le(first, last));
+    return static_cast<uint32_t>(bits_of(tag, hn::Le(first, last)));
   }
 
  private:
-  static HWY_INLINE uint32_t bits_of(DoubleMask mask) {
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(DoubleTag(), mask, bits);
-    return bits[0] & ((1u << kDoubleLanes) - 1);
-  }
-
   // Leaves the times at which points are between the ends of the bounds on an axis. One that stands
   // still there is between them all the time, or never.
   HWY_INLINE void cut_axis(size_t axis, D start, D way, D inverse, D slack, D& first,

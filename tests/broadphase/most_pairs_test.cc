@@ -105,10 +105,12 @@ TEST(MostPairs, AreCountedBehindTheFilter) {
   for (size_t i = 0; i < filters.motion.size(); ++i) {
     filters.motion[i] = i % 50 == 0 ? Motion::dynamic : Motion::fixed;
   }
-  for (const BroadphaseMethod method : kMethods) {
-    for (const unsigned parts : {4u, 7u})
-      expect_limits_hold(heap(900), filters.view(parts), method);
-  }
+  for_each_isa([&] {
+    for (const BroadphaseMethod method : kMethods) {
+      for (const unsigned parts : {4u, 7u})
+        expect_limits_hold(heap(900), filters.view(parts), method);
+    }
+  });
 }
 
 TEST(MostPairs, OfSeveralGrids) {

@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "carom/base/jobs.h"
+#include "tests/support/isas.h"
 #include "tests/support/own_jobs.h"
 #include "tests/world/crowds.h"
 
@@ -286,14 +287,16 @@ TEST(PayForUse, WithoutCarryingOrEventsThereIsLessMemory) {
 
 // Without carrying and events, no stage needs the last step's pairs.
 TEST(PayForUse, WithoutCarryingAndEventsTheLastStepIsNotKept) {
-  for (const Detail detail : {Detail::pairs, Detail::overlap, Detail::contact}) {
-    World world({.detail = detail, .events = false, .carry_results = false});
-    add_crowd(world, {});
-    world.step();
-    const size_t bytes = world.bytes();
-    for (int i = 0; i < 3; ++i) world.step();
-    EXPECT_EQ(world.bytes(), bytes);
-  }
+  for_each_isa([] {
+    for (const Detail detail : {Detail::pairs, Detail::overlap, Detail::contact}) {
+      World world({.detail = detail, .events = false, .carry_results = false});
+      add_crowd(world, {});
+      world.step();
+      const size_t bytes = world.bytes();
+      for (int i = 0; i < 3; ++i) world.step();
+      EXPECT_EQ(world.bytes(), bytes);
+    }
+  });
 }
 
 TEST(PayForUse, Float64CostsTwiceTheRecords) {
