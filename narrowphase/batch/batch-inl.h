@@ -44,20 +44,6 @@ HWY_INLINE F to_units(PoseLanes& pose, A& a, B& b) {
   return up;
 }
 
-HWY_INLINE Mask is_plain(const Quaternion& q) {
-  const F norm = squared_norm(q);
-  return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
-}
-
-// Scales only the lanes that are not plain: in others, subnormal components would lose bits.
-HWY_INLINE void make_plain(Quaternion& q) {
-  F up, down;
-  power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
-  const F scale = hn::IfThenElse(is_plain(q), splat(1), down);
-  q.v = q.v * scale;
-  q.w = hn::Mul(q.w, scale);
-}
-
 // Sets lanes that are not valid to the identity, and scales the others so that squares neither
 // vanish nor overflow.
 HWY_INLINE void clear_unless(Mask valid, Quaternion& q) {

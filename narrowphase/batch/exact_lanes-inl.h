@@ -1,5 +1,8 @@
-// A kernel's formula in lanes of doubles, for the rows that float32 cannot decide. exact_answer()
+// A kernel's formula in lanes of doubles, for the lanes that float32 cannot decide. exact_answer()
 // is the scalar form, exact_box_test() that of the test pass of boxes.
+//
+// Reads the rows again instead of keeping what the kernel had in registers: that would cost every
+// vector, and the rows are still in the nearest cache.
 #if defined(CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_
@@ -7,119 +10,266 @@
 #define CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_
 #endif
 
-#include <algorithm>
 #include <array>
-#include <span>
+#include <cfloat>
+#include <limits>
 
-#include "narrowphase/batch/exact_shapes.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
+#include "narrowphase/batch/single_pair.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Columns of numbers; read(c, shape) takes a shape from columns c, c + 1, ...
-struct ExactColumns {
-  const double (*column)[kDoubleLanes];
+// visit_numbers(shape, visit) calls visit() for each number of a shape and each mask, in lanes of
+// floats or of doubles.
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(Lanes3<V>& v, Visit& visit) {
+  visit(v.x), visit(v.y), visit(v.z);
+}
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(QuaternionOf<V>& q, Visit& visit) {
+  visit_numbers(q.v, visit), visit(q.w);
+}
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(SphereOf<V>& sphere, Visit& visit) {
+  visit(sphere.radius);
+}
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(AabbOf<V>& box, Visit& visit) {
+  visit_numbers(box.lower, visit), visit_numbers(box.upper, visit);
+}
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(CapsuleOf<V>& capsule, Visit& visit) {
+  visit_numbers(capsule.a, visit), visit_numbers(capsule.b, visit), visit(capsule.radius);
+}
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(BoxOf<V>& box, Visit& visit) {
+  visit_numbers(box.half, visit);
+}
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(TriangleOf<V>& triangle, Visit& visit) {
+  visit_numbers(triangle.a, visit), visit_numbers(triangle.b, visit);
+  visit_numbers(triangle.c, visit), visit(triangle.is_special);
+}
 
-  HWY_INLINE D number(size_t c) const { return hn::Load(DoubleTag(), column[c]); }
-  HWY_INLINE D3 vector(size_t c) const { return {number(c), number(c + 1), number(c + 2)}; }
-  HWY_INLINE QuaternionOf<D> quaternion(size_t c) const { return {vector(c), number(c + 3)}; }
+// Visitors. Floats go to columns, which are read as doubles.
+struct FloatWriter {
+  float (*column)[kLanes];
 
-  HWY_INLINE void read(size_t c, SphereOf<D>& sphere) const { sphere.radius = number(c); }
-  HWY_INLINE void read(size_t c, CapsuleOf<D>& capsule) const {
-    capsule = {vector(c), vector(c + 3), number(c + 6)};
-  }
-  HWY_INLINE void read(size_t c, BoxOf<D>& box) const { box.half = vector(c); }
-  HWY_INLINE void read(size_t c, TriangleOf<D>& triangle) const {
-    triangle = {vector(c), vector(c + 3), vector(c + 6), hn::Ne(number(c + 9), splat_double(0))};
-  }
-  HWY_INLINE void read(size_t c, AabbOf<D>& box) const { box = {vector(c), vector(c + 3)}; }
+  HWY_INLINE void operator()(F v) { hn::Store(v, FloatTag(), *column++); }
+  HWY_INLINE void operator()(Mask mask) { (*this)(hn::IfThenElseZero(mask, splat(1))); }
 };
 
-// Kernel::test() of rows that are unsure in float32. `kContacts`: whether more than the decision is
-// wanted.
+struct DoubleReader {
+  const float (*column)[kLanes];
+  size_t first_lane;
+
+  HWY_INLINE void operator()(D& v) {
+    const hn::Rebind<float, DoubleTag> half;
+    v = hn::PromoteTo(DoubleTag(), hn::Load(half, *column++ + first_lane));
+  }
+  HWY_INLINE void operator()(DoubleMask& mask) {
+    D v;
+    (*this)(v);
+    mask = hn::Ne(v, splat_double(0));
+  }
+};
+
+struct LargestNumber {
+  D size;
+
+  HWY_INLINE void operator()(D v) { size = max(size, hn::Abs(v)); }
+  HWY_INLINE void operator()(DoubleMask) {}
+};
+
+struct ScaleNumbers {
+  D factor;
+
+  HWY_INLINE void operator()(D& v) { v = hn::Mul(v, factor); }
+  HWY_INLINE void operator()(DoubleMask) {}
+};
+
+// The answers of kLanes rows, in doubles rounded to floats. `kContacts`: whether more than the
+// decision is wanted.
 template <class Kernel, bool kContacts>
 class ExactLanes {
-  static constexpr bool kIsTest = Kernel::kUnsure == Unsure::test;
   using A = typename Kernel::A;
   using B = typename Kernel::B;
-  using Reader = ExactPairReader<A::kKind, B::kKind>;
+  static constexpr bool kIsTest = Kernel::kUnsure == Unsure::test;
+  static constexpr bool kSeparationOnly = Kernel::kUnsure == Unsure::separation;
 
  public:
-  explicit ExactLanes(const Batch& batch) : batch_(batch), reader_(batch) {}
-
   // For test_boxes().
   static constexpr bool kHasContact = kContacts;
   static constexpr bool faces_only() { return false; }
   template <size_t kPart>
   static HWY_INLINE void fetch() {}
 
-  // Calls put(lane, numbers) for each of the lanes, with what the scalar form gives for row + lane.
-  template <class Put>
-  void test(size_t row, std::span<const size_t> lanes, const Put& put) {
-    for (size_t begin = 0; begin < lanes.size(); begin += kDoubleLanes) {
-      const auto group = lanes.subspan(begin, std::min(kDoubleLanes, lanes.size() - begin));
-      reader_.read(row, group, kDoubleLanes, in_[0], up_.data());
-      for (size_t c = 0; c < Reader::kNumbers; ++c) {
-        std::fill(in_[c] + group.size(), in_[c] + kDoubleLanes, in_[c][0]);
-      }
-      run();
-      for (size_t k = 0; k < group.size(); ++k) {
-        const size_t lane = group[k];
-        put(lane, is_answered(k) ? numbers_of(k) : scalar_form(row + lane));
+  // Separation, normal, arm_a, arm_b as the scalar form gives them; the separation alone where no
+  // more is wanted.
+  static constexpr size_t kNumbers = kContacts && !kSeparationOnly ? 10 : 1;
+
+  ExactLanes(const Batch& batch, size_t row) : batch_(batch), row_(row) {}
+
+  // Finds the answers of the lanes that are 1 in `unsure`, whose bodies are valid. Returns a bit
+  // for each of these whose status is degenerate.
+  HWY_NOINLINE uint64_t find(const float (&unsure)[kLanes]) {
+    load();
+    uint64_t degenerate = 0;
+    for (size_t first = 0; first < kLanes; first += kDoubleLanes) {
+      const hn::Rebind<float, DoubleTag> half;
+      const auto wanted = hn::Ne(hn::Load(half, unsure + first), hn::Zero(half));
+      if (hn::AllFalse(half, wanted)) continue;
+      const uint64_t left = bits_of(half, wanted) & ~run(first);
+      for (size_t i = 0; left >> i != 0; ++i) {
+        if ((left >> i & 1) != 0) degenerate |= ask_scalar_form(first + i) << (first + i);
       }
     }
+    return degenerate;
   }
+
+  HWY_INLINE F number(size_t c) const { return hn::Load(FloatTag(), answers_[c]); }
 
   // What the kernel reports.
   HWY_INLINE void operator()(DoubleMask, DoubleMask unsure, DoubleMask, D separation,
                              const D3& normal, const D3& arm_a, const D3& arm_b) {
-    const DoubleTag tag;
-    hn::Store(hn::IfThenElseZero(unsure, splat_double(1)), tag, is_unsure_);
-    const D numbers[kNumbers] = {separation, normal.x, normal.y, normal.z, arm_a.x,
-                                 arm_a.y,    arm_a.z,  arm_b.x,  arm_b.y,  arm_b.z};
-    for (size_t c = 0; c < kNumbers; ++c) hn::Store(numbers[c], tag, out_[c]);
+    const D gap = hn::Mul(separation, up_);
+    DoubleMask is_answered =
+        hn::AndNot(unsure, hn::Le(hn::Abs(gap), splat_double(DBL_MAX)));
+    // A gap of boxes that is zero in metres needs the scalar form.
+    if constexpr (kIsTest) {
+      const D zero = splat_double(0);
+      is_answered = hn::AndNot(hn::And(hn::Gt(separation, zero), hn::Le(gap, zero)), is_answered);
+    }
+    answered_ = bits_of(DoubleTag(), is_answered);
+    put(0, rounded_separation(gap));
+    if constexpr (kNumbers > 1) {
+      put(1, normal);
+      put(4, arm_a * up_);
+      put(7, arm_b * up_);
+    }
   }
 
  private:
-  static constexpr size_t kNumbers = 10;
-  using Numbers = std::array<float, kNumbers + 1>;  // as those of exact_answer()
+  // Bodies of the rows, to memory, where each half of the lanes finds them.
+  HWY_INLINE void load() {
+    const Listed bodies{batch_.pairs + row_};
+    PositionLanes positions;
+    AnyRecords::load(batch_, bodies, positions);
+    A a = A::template load<Role::a>(batch_.a, bodies, positions);
+    B b = B::template load<Role::b>(batch_.b, bodies, positions);
+    FloatWriter write{numbers_};
+    visit_numbers(positions.a, write);
+    visit_numbers(positions.b, write);
+    visit_numbers(a, write);
+    visit_numbers(b, write);
+    if constexpr (A::kIsOriented) write_orientation<Role::a>(batch_.a, bodies, write);
+    if constexpr (B::kIsOriented) write_orientation<Role::b>(batch_.b, bodies, write);
+    // Rounded to float32, positions of 64 bits are not what they were.
+    if (batch_.layout == PositionLayout::records64) load_relative(bodies);
+  }
 
-  HWY_NOINLINE void run() {
-    const ExactColumns columns{in_};
-    const PoseOf<D> pose = {columns.vector(0), columns.quaternion(3), columns.quaternion(7)};
+  template <Role kRole>
+  static HWY_INLINE void write_orientation(const BatchSide& side, const Listed& bodies,
+                                           FloatWriter& write) {
+    Quaternion q;
+    load_orientation<kRole>(side, bodies, q);
+    make_plain(q);
+    visit_numbers(q, write);
+  }
+
+  HWY_INLINE void load_relative(const Listed& bodies) {
+    const RecordSource<double, Role::a, Listed> a{batch_.a, bodies};
+    const RecordSource<double, Role::b, Listed> b{batch_.b, bodies};
+    for (size_t i = 0; i < kLanes; ++i) {
+      for (size_t c = 0; c < 3; ++c) relative_[c][i] = b.record(i)[c] - a.record(i)[c];
+    }
+  }
+
+  // Runs the lanes from `first` on, as many as there are lanes of doubles. Returns a bit for each
+  // that is answered.
+  HWY_NOINLINE uint64_t run(size_t first) {
+    first_ = first;
+    const DoubleTag tag;
+    PoseOf<D> pose;
+    D3 at_a, at_b;
     typename A::template Of<D> a;
     typename B::template Of<D> b;
-    columns.read(Reader::kOfA, a);
-    columns.read(Reader::kOfB, b);
-    Kernel::test(pose, a, b, *this);
+    DoubleReader read{numbers_, first};
+    visit_numbers(at_a, read);
+    visit_numbers(at_b, read);
+    visit_numbers(a, read);
+    visit_numbers(b, read);
+    if constexpr (A::kIsOriented) visit_numbers(pose.a, read);
+    if constexpr (B::kIsOriented) visit_numbers(pose.b, read);
+    pose.d = at_b - at_a;
+    if (batch_.layout == PositionLayout::records64) {
+      pose.d = {hn::Load(tag, relative_[0] + first), hn::Load(tag, relative_[1] + first),
+                hn::Load(tag, relative_[2] + first)};
+    }
+    if constexpr (kSeparationOnly) {
+      put(0, rounded_separation(Kernel::exact_separation(pose.d, a, b)));
+      return ~uint64_t{0};
+    } else {
+      scale(pose, a, b);
+      Kernel::test(pose, a, b, *this);
+      return answered_;
+    }
   }
 
-  // A gap of boxes that is zero in metres needs the scalar form.
-  bool is_answered(size_t k) const {
-    return is_unsure_[k] == 0 && !(kIsTest && out_[0][k] > 0 && !(out_[0][k] * up_[k] > 0));
+  // As scalar::in_scaled_units() does.
+  template <class ShapeA, class ShapeB>
+  HWY_INLINE void scale(PoseOf<D>& pose, ShapeA& a, ShapeB& b) {
+    LargestNumber largest{largest_component(pose.d)};
+    visit_numbers(a, largest);
+    visit_numbers(b, largest);
+    D down;
+    power_of_two(largest.size, up_, down);
+    ScaleNumbers by{down};
+    visit_numbers(pose.d, by);
+    visit_numbers(a, by);
+    visit_numbers(b, by);
   }
 
-  Numbers scalar_form(size_t row) const {
-    if constexpr (kIsTest) return exact_box_test(batch_, A::kKind, row);
-    return exact_answer(batch_, A::kKind, B::kKind, row);
+  // As scalar::round_separation(), of finite numbers.
+  static HWY_INLINE D rounded_separation(D v) {
+    constexpr double kLeast = std::numeric_limits<float>::denorm_min();
+    const DoubleMask vanishes =
+        hn::And(hn::Gt(v, splat_double(0)), hn::Lt(v, splat_double(kLeast)));
+    const D kept = hn::IfThenElse(vanishes, splat_double(kLeast), v);
+    return min(max(kept, splat_double(-FLT_MAX)), splat_double(FLT_MAX));
   }
 
-  Numbers numbers_of(size_t k) const {
-    Numbers numbers{};
-    numbers[0] = scalar::round_separation(scalar::finite(out_[0][k] * up_[k]));
-    for (size_t c = 1; c < 4; ++c) numbers[c] = static_cast<float>(out_[c][k]);
-    for (size_t c = 4; c < kNumbers; ++c) numbers[c] = static_cast<float>(out_[c][k] * up_[k]);
-    return numbers;
+  HWY_INLINE void put(size_t c, D v) {
+    const hn::Rebind<float, DoubleTag> half;
+    hn::Store(hn::DemoteTo(half, v), half, answers_[c] + first_);
   }
+  HWY_INLINE void put(size_t c, const D3& v) { put(c, v.x), put(c + 1, v.y), put(c + 2, v.z); }
+
+  // Returns whether the status of the lane is degenerate.
+  uint64_t ask_scalar_form(size_t lane) {
+    const size_t row = row_ + lane;
+    std::array<float, 11> numbers;
+    if constexpr (kIsTest) {
+      numbers = exact_box_test(batch_, A::kKind, row);
+    } else {
+      numbers = exact_answer(batch_, A::kKind, B::kKind, row);
+    }
+    for (size_t c = 0; c < kNumbers; ++c) answers_[c][lane] = numbers[c];
+    return numbers[10] != 0 ? 1 : 0;
+  }
+
+  static constexpr size_t kMostNumbers = 6 + 2 * 10 + 2 * 4;  // positions, triangles, orientations
 
   const Batch& batch_;
-  const Reader reader_;
-  std::array<double, kDoubleLanes> up_;
-  HWY_ALIGN double in_[Reader::kNumbers][kDoubleLanes];
-  HWY_ALIGN double out_[kNumbers][kDoubleLanes];
-  HWY_ALIGN double is_unsure_[kDoubleLanes];
+  const size_t row_;
+  size_t first_ = 0;
+  uint64_t answered_ = 0;
+  D up_;
+  HWY_ALIGN float numbers_[kMostNumbers][kLanes];
+  HWY_ALIGN double relative_[3][kLanes];
+  HWY_ALIGN float answers_[kNumbers][kLanes] = {};
 };
 
 }  // namespace carom::HWY_NAMESPACE

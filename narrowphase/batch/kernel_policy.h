@@ -10,14 +10,14 @@ enum class Units {
 };
 
 // Unsure lanes are computed again in double precision. This says how much of their results is, and
-// where not one at a time: side by side, by the Kernel::test() of lanes of doubles.
+// which way: by Kernel::test() in lanes of doubles, or one at a time.
 enum class Unsure {
   nothing,     // the kernel is exact near touch
-  separation,  // only the separation: the normal is good
-  everything,
-  in_lanes,  // everything, side by side
-  test,      // side by side: the decision, and everything of overlapping pairs (of boxes)
-  left,      // nothing: the kernel defers its unsure rows to another test
+  separation,  // in lanes, only the separation, by Kernel::exact_separation(): the normal is good
+  in_lanes,    // everything
+  test,        // in lanes: the decision, and everything of overlapping pairs (of boxes)
+  everything,  // one at a time
+  left,        // nothing: the kernel defers its unsure rows to another test
 };
 
 // Which columns a kernel is compiled to write. `Kernel::kColumns`; per_detail where it says

@@ -8,6 +8,7 @@
 
 #include <type_traits>
 
+#include "base/tolerances.h"
 #include "narrowphase/batch/batch.h"
 #include "simd/gather-inl.h"
 #include "simd/rotation-inl.h"
@@ -235,6 +236,20 @@ struct OrientationSource {
 template <Role kRole, class Bodies>
 HWY_INLINE void load_orientation(const BatchSide& side, const Bodies& bodies, Quaternion& q) {
   transpose_records(OrientationSource<kRole, Bodies>{side, bodies}, q.v, q.w);
+}
+
+HWY_INLINE Mask is_plain(const Quaternion& q) {
+  const F norm = squared_norm(q);
+  return hn::And(hn::Ge(norm, splat(kLeastSquaredNorm)), hn::Le(norm, splat(kGreatestSquaredNorm)));
+}
+
+// Scales only the lanes that are not plain: in others, subnormal components would lose bits.
+HWY_INLINE void make_plain(Quaternion& q) {
+  F up, down;
+  power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
+  const F scale = hn::IfThenElse(is_plain(q), splat(1), down);
+  q.v = q.v * scale;
+  q.w = hn::Mul(q.w, scale);
 }
 
 }  // namespace carom::HWY_NAMESPACE

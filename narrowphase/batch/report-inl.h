@@ -7,8 +7,8 @@
 #define CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
 #endif
 
+#include <array>
 #include <limits>
-#include <span>
 
 #include "narrowphase/batch/exact_lanes-inl.h"
 #include "narrowphase/batch/fetch-inl.h"
@@ -91,13 +91,13 @@ struct LaneReport {
   HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
     if (batch.single_precision) unsure = hn::AndNot(is_good_enough(answer), unsure);
-    if constexpr (Kernel::kUnsure == Unsure::separation) {
-      answer.separation = refined(unsure, answer.separation);
+    AnswerLanes in_memory = answer;  // `answer` itself stays in registers
+    if constexpr (Kernel::kUnsure == Unsure::everything) {
+      refine_one_by_one(unsure, in_memory, degenerate);
     } else {
-      AnswerLanes in_memory = answer;  // `answer` itself stays in registers
-      refine_all(unsure, in_memory, degenerate);
-      answer = in_memory;
+      refine_lanes(unsure, in_memory, degenerate);
     }
+    answer = in_memory;
     overlap = hn::Le(answer.separation, splat(0));
   }
 
@@ -140,16 +140,27 @@ struct LaneReport {
     return hn::And(hn::Ge(squared, splat(0.9f)), hn::Le(squared, splat(1.1f)));
   }
 
-  HWY_NOINLINE F refined(Mask unsure, F separation) const {
-    HWY_ALIGN float values[kLanes];
-    hn::Store(separation, FloatTag(), values);
-    size_t lanes[kLanes];
-    near_touch_separations(source, A::kKind, B::kKind, row, {lanes, list_lanes(unsure, lanes)},
-                           values);
-    return hn::Load(FloatTag(), values);
+  // `answer` is in memory.
+  HWY_NOINLINE void refine_lanes(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
+    const FloatTag tag;
+    HWY_ALIGN float lanes[kLanes];
+    hn::Store(hn::IfThenElseZero(unsure, splat(1)), tag, lanes);
+    ExactLanes<Kernel, kHasContact> exact(source, row);
+    const uint64_t degenerate_bits = exact.find(lanes);
+    F* const numbers[] = {&answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z,
+                          &answer.arm_a.x,    &answer.arm_a.y,  &answer.arm_a.z,  &answer.arm_b.x,
+                          &answer.arm_b.y,    &answer.arm_b.z};
+    for (size_t c = 0; c < exact.kNumbers; ++c) {
+      *numbers[c] = hn::IfThenElse(unsure, exact.number(c), *numbers[c]);
+    }
+    if constexpr (Kernel::kUnsure == Unsure::separation) return;
+    degenerate = hn::AndNot(unsure, degenerate);
+    if (degenerate_bits == 0) return;
+    for (size_t i = 0; i < kLanes; ++i) lanes[i] = static_cast<float>(degenerate_bits >> i & 1);
+    degenerate = hn::Or(degenerate, hn::Ne(hn::Load(tag, lanes), splat(0)));
   }
 
-  HWY_NOINLINE void refine_all(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
+  HWY_NOINLINE void refine_one_by_one(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
     constexpr size_t kNumbers = 11;
     HWY_ALIGN float values[kNumbers][kLanes];
     F* const columns[kNumbers - 1] = {
@@ -157,34 +168,15 @@ struct LaneReport {
         &answer.arm_a.y,    &answer.arm_a.z,  &answer.arm_b.x,  &answer.arm_b.y,  &answer.arm_b.z};
     for (size_t c = 0; c + 1 < kNumbers; ++c) hn::Store(*columns[c], FloatTag(), values[c]);
     hn::Store(hn::IfThenElseZero(degenerate, splat(1)), FloatTag(), values[kNumbers - 1]);
-    const auto put = [&](size_t i, const std::array<float, kNumbers>& exact) {
+    HWY_ALIGN float flags[kLanes];
+    hn::Store(hn::IfThenElseZero(unsure, splat(1)), FloatTag(), flags);
+    for (size_t i = 0; i < kLanes; ++i) {
+      if (flags[i] == 0) continue;
+      const std::array<float, kNumbers> exact = exact_answer(source, A::kKind, B::kKind, row + i);
       for (size_t c = 0; c < kNumbers; ++c) values[c][i] = exact[c];
-    };
-    if constexpr (Kernel::kUnsure == Unsure::test || Kernel::kUnsure == Unsure::in_lanes) {
-      size_t lanes[kLanes];
-      ExactLanes<Kernel, kHasContact>(source).test(row, {lanes, list_lanes(unsure, lanes)}, put);
-    } else {
-      for_each_lane(unsure,
-                    [&](size_t i) { put(i, exact_answer(source, A::kKind, B::kKind, row + i)); });
     }
     for (size_t c = 0; c + 1 < kNumbers; ++c) *columns[c] = hn::Load(FloatTag(), values[c]);
     degenerate = hn::Ne(hn::Load(FloatTag(), values[kNumbers - 1]), splat(0));
-  }
-
-  // Returns how many there are.
-  static HWY_INLINE size_t list_lanes(Mask mask, size_t (&lanes)[kLanes]) {
-    size_t count = 0;
-    for_each_lane(mask, [&](size_t i) { lanes[count++] = i; });
-    return count;
-  }
-
-  template <class Body>
-  static HWY_INLINE void for_each_lane(Mask mask, const Body& body) {
-    HWY_ALIGN float flags[kLanes];
-    hn::Store(hn::IfThenElseZero(mask, splat(1)), FloatTag(), flags);
-    for (size_t i = 0; i < kLanes; ++i) {
-      if (flags[i] != 0) body(i);
-    }
   }
 
   HWY_INLINE F3 witness(const F3& position, const F3& low, const F3& arm) const {

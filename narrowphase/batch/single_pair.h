@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "base/tolerances.h"
 #include "carom/shapes/shape.h"
@@ -24,13 +23,6 @@ scalar::PairPose<float> rounded_pose(const BodyReader& a, const BodyReader& b, P
 
 // Whether both bodies of row `row` are valid.
 bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row);
-
-// The separations of row + lane for each of the lanes, to values[lane]: in double precision, from
-// the positions as given, rounded once; the sign is right unless the gap is below about 1e-15 of
-// the pair's size. The bodies are valid. All at once, since a kernel with wide vectors waits at
-// every change to code that has none.
-void near_touch_separations(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
-                            std::span<const size_t> lanes, float* values);
 
 // The whole answer of row `row` in double precision, rounded once: separation, normal, arm_a,
 // arm_b, and 1 if the status is degenerate. Both bodies are valid.

@@ -1,9 +1,5 @@
 #include "narrowphase/batch/single_pair.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "narrowphase/batch/stated_body.h"
 #include "narrowphase/pairs/aabb/aabb_box_scalar.h"
 #include "narrowphase/pairs/any_pair.h"
@@ -17,68 +13,6 @@ namespace {
 
 Position<double> difference(const Position<double>& a, const Position<double>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-double square(const Position<double>& v) { return (v.x * v.x + v.y * v.y) + v.z * v.z; }
-
-// sqrt(distance_squared) - reach without cancellation; 0 only if the two are equal in double.
-float gap(double distance_squared, double reach) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  if (distance_squared > 4 * kLargest * kLargest) return std::numeric_limits<float>::max();
-  const double difference = distance_squared - reach * reach;
-  if (difference == 0) return 0;
-  const double gap = difference / (std::sqrt(distance_squared) + reach);
-  const auto rounded = static_cast<float>(std::clamp(gap, -kLargest, kLargest));
-  return difference > 0 ? std::max(rounded, std::numeric_limits<float>::denorm_min()) : rounded;
-}
-
-float sphere_box_separation(const BodyReader& box, size_t box_index, const Position<double>& centre,
-                            float radius) {
-  const double p[3] = {centre.x, centre.y, centre.z};
-  double delta[3];
-  double way_out = std::numeric_limits<double>::infinity();
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double lower = box.lower(axis, box_index);
-    const double upper = box.upper(axis, box_index);
-    delta[axis] = std::clamp(p[axis], lower, upper) - p[axis];
-    way_out = std::min({way_out, p[axis] - lower, upper - p[axis]});
-  }
-  const double distance_squared = square({delta[0], delta[1], delta[2]});
-  if (distance_squared > 0) return gap(distance_squared, radius);
-  return static_cast<float>(0 - (way_out + radius));
-}
-
-// A sphere in a record of its position and radius.
-struct RecordedSphere {
-  Position<double> centre;
-  float radius;
-};
-
-template <class T>
-RecordedSphere sphere_in_record(const BatchSide& side, uint32_t body) {
-  const auto record = load_strided<std::array<T, 4>>(side.records, side.record_stride, body);
-  return {{record[0], record[1], record[2]}, static_cast<float>(record[3])};
-}
-
-RecordedSphere sphere_of(const BatchSide& side, PositionLayout layout, uint32_t body) {
-  return layout == PositionLayout::records64 ? sphere_in_record<double>(side, body)
-                                             : sphere_in_record<float>(side, body);
-}
-
-// The separation of two spheres, in double precision. Many pairs of a pile are near touch, so this
-// reads no more than it needs.
-float sphere_separation(const Batch& batch, size_t row) {
-  const Pair pair = batch.pairs[row];
-  const RecordedSphere a = sphere_of(batch.a, batch.layout, pair.a);
-  const RecordedSphere b = sphere_of(batch.b, batch.layout, pair.b);
-  return gap(square(difference(a.centre, b.centre)), double{a.radius} + double{b.radius});
-}
-
-float sphere_box_separation(const Batch& batch, const BodyReader& b, size_t row) {
-  const Pair pair = batch.pairs[row];
-  const RecordedSphere a = sphere_of(batch.a, batch.layout, pair.a);
-  return sphere_box_separation(b, pair.b, difference(a.centre, b.position<double>(pair.b)),
-                               a.radius);
 }
 
 scalar::SeparationAs<double> exact_separation(const Batch& batch, ShapeKind kind_a,
@@ -174,23 +108,6 @@ bool is_valid_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_
   const Collidables a = view_of(batch.a, batch.layout, kind_a);
   const Collidables b = view_of(batch.b, batch.layout, kind_b);
   return BodyReader{a}.is_valid(pair.a) && BodyReader{b}.is_valid(pair.b);
-}
-
-void near_touch_separations(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b, size_t row,
-                            std::span<const size_t> lanes, float* values) {
-  const auto fill = [&](const auto& separation_of) {
-    for (const size_t lane : lanes) values[lane] = separation_of(row + lane);
-  };
-  if (kind_a == ShapeKind::sphere && kind_b == ShapeKind::sphere) {
-    return fill([&](size_t i) { return sphere_separation(batch, i); });
-  }
-  if (kind_a == ShapeKind::sphere && kind_b == ShapeKind::aabb) {
-    const Collidables view_b = view_of(batch.b, batch.layout, ShapeKind::aabb);
-    return fill([&](size_t i) { return sphere_box_separation(batch, BodyReader{view_b}, i); });
-  }
-  fill([&](size_t i) {
-    return scalar::round_separation(exact_separation(batch, kind_a, kind_b, i).separation);
-  });
 }
 
 std::array<float, 11> exact_answer(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/features/ball-inl.h"
 #include "simd/axis-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -44,6 +45,19 @@ struct SphereAabb {
     const Mask near_touch = hn::Le(hn::Abs(separation), hn::Mul(size, splat(kNearTouch)));
     report(hn::Le(separation, splat(0)), near_touch, no_lanes(), separation, normal,
            normal * sphere.radius, select(inside, exit, nearest));
+  }
+
+  static HWY_INLINE D exact_separation(const D3& d, const SphereOf<D>& sphere,
+                                       const AabbOf<D>& box) {
+    const D3 centre = -d;
+    const D3 way = min(max(centre, box.lower), box.upper) - centre;
+    const D3 exits = min(centre - box.lower, box.upper - centre);
+    const D exit = min(min(exits.x, exits.y), exits.z);
+    const D zero = splat_double(0);
+    const D distance_squared = dot(way, way);
+    return hn::IfThenElse(hn::Gt(distance_squared, zero),
+                          gap_to_ball(distance_squared, sphere.radius),
+                          hn::Sub(zero, hn::Add(exit, sphere.radius)));
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "narrowphase/scalar/length.h"
 #include "narrowphase/scalar/near_touch.h"
+#include "narrowphase/scalar/scaled.h"
 #include "narrowphase/scalar/separation.h"
 
 namespace carom::scalar {
@@ -43,7 +44,7 @@ inline float sphere_aabb_near_touch(float radius, const Vector3f& lower, const V
   }
   const double squared_distance = squared_length(delta);
   if (squared_distance > 0) return gap_to_ball(squared_distance, radius);
-  return static_cast<float>(0 - (exit + radius));
+  return round_separation(0 - (exit + radius));
 }
 
 // `lower` and `upper` are relative to the position of B; `d` is that position relative to the

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/features/ball-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -30,6 +31,10 @@ struct SphereSphere {
         hn::Le(hn::Abs(separation), hn::Mul(distance.length, splat(kNearTouch)));
     report(hn::Le(separation, splat(0)), near_touch, distance.is_zero, separation, normal,
            normal * a.radius, -(normal * b.radius));
+  }
+
+  static HWY_INLINE D exact_separation(const D3& d, const SphereOf<D>& a, const SphereOf<D>& b) {
+    return gap_to_ball(dot(d, d), hn::Add(a.radius, b.radius));
   }
 };
 
