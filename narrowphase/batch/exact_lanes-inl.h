@@ -52,6 +52,10 @@ HWY_INLINE void visit_numbers(TriangleOf<V>& triangle, Visit& visit) {
   visit_numbers(triangle.a, visit), visit_numbers(triangle.b, visit);
   visit_numbers(triangle.c, visit), visit(triangle.is_special);
 }
+template <class V, class Visit>
+HWY_INLINE void visit_numbers(HalfspaceOf<V>& plane, Visit& visit) {
+  visit_numbers(plane.normal, visit), visit(plane.offset);
+}
 
 // Visitors. Floats go to columns, which are read as doubles.
 struct FloatWriter {
@@ -74,20 +78,6 @@ struct DoubleReader {
     (*this)(v);
     mask = hn::Ne(v, splat_double(0));
   }
-};
-
-struct LargestNumber {
-  D size;
-
-  HWY_INLINE void operator()(D v) { size = max(size, hn::Abs(v)); }
-  HWY_INLINE void operator()(DoubleMask) {}
-};
-
-struct ScaleNumbers {
-  D factor;
-
-  HWY_INLINE void operator()(D& v) { v = hn::Mul(v, factor); }
-  HWY_INLINE void operator()(DoubleMask) {}
 };
 
 // The answers of kLanes rows, in doubles rounded to floats. `kContacts`: whether more than the
@@ -135,8 +125,7 @@ class ExactLanes {
   HWY_INLINE void operator()(DoubleMask, DoubleMask unsure, DoubleMask, D separation,
                              const D3& normal, const D3& arm_a, const D3& arm_b) {
     const D gap = hn::Mul(separation, up_);
-    DoubleMask is_answered =
-        hn::AndNot(unsure, hn::Le(hn::Abs(gap), splat_double(DBL_MAX)));
+    DoubleMask is_answered = hn::AndNot(unsure, hn::Le(hn::Abs(gap), splat_double(DBL_MAX)));
     // A gap of boxes that is zero in metres needs the scalar form.
     if constexpr (kIsTest) {
       const D zero = splat_double(0);
@@ -157,26 +146,45 @@ class ExactLanes {
     const Listed bodies{batch_.pairs + row_};
     PositionLanes positions;
     AnyRecords::load(batch_, bodies, positions);
-    A a = A::template load<Role::a>(batch_.a, bodies, positions);
-    B b = B::template load<Role::b>(batch_.b, bodies, positions);
     FloatWriter write{numbers_};
     visit_numbers(positions.a, write);
     visit_numbers(positions.b, write);
-    visit_numbers(a, write);
-    visit_numbers(b, write);
-    if constexpr (A::kIsOriented) write_orientation<Role::a>(batch_.a, bodies, write);
-    if constexpr (B::kIsOriented) write_orientation<Role::b>(batch_.b, bodies, write);
+    write_shape<Role::a, A>(batch_.a, bodies, positions, write);
+    write_shape<Role::b, B>(batch_.b, bodies, positions, write);
     // Rounded to float32, positions of 64 bits are not what they were.
     if (batch_.layout == PositionLayout::records64) load_relative(bodies);
   }
 
-  template <Role kRole>
-  static HWY_INLINE void write_orientation(const BatchSide& side, const Listed& bodies,
-                                           FloatWriter& write) {
-    Quaternion q;
-    load_orientation<kRole>(side, bodies, q);
-    make_plain(q);
-    visit_numbers(q, write);
+  template <Role kRole, class Shape>
+  static HWY_INLINE void write_shape(const BatchSide& side, const Listed& bodies,
+                                     const PositionLanes& positions, FloatWriter& write) {
+    if constexpr (Shape::kKind == ShapeKind::halfspace) {
+      HalfspaceOf<F> plane;
+      F down;
+      Shape::template load_given<kRole>(side, bodies, plane, down);
+      visit_numbers(plane, write), write(down);
+    } else {
+      Shape shape = Shape::template load<kRole>(side, bodies, positions);
+      visit_numbers(shape, write);
+    }
+    if constexpr (Shape::kIsOriented) {
+      Quaternion q;
+      load_orientation<kRole>(side, bodies, q);
+      make_plain(q);
+      visit_numbers(q, write);
+    }
+  }
+
+  template <class Shape>
+  static HWY_INLINE void read_shape(typename Shape::template Of<D>& shape, QuaternionOf<D>& q,
+                                    DoubleReader& read) {
+    visit_numbers(shape, read);
+    if constexpr (Shape::kKind == ShapeKind::halfspace) {
+      D down;
+      read(down);
+      shape.make_unit(down);
+    }
+    if constexpr (Shape::kIsOriented) visit_numbers(q, read);
   }
 
   HWY_INLINE void load_relative(const Listed& bodies) {
@@ -199,10 +207,8 @@ class ExactLanes {
     DoubleReader read{numbers_, first};
     visit_numbers(at_a, read);
     visit_numbers(at_b, read);
-    visit_numbers(a, read);
-    visit_numbers(b, read);
-    if constexpr (A::kIsOriented) visit_numbers(pose.a, read);
-    if constexpr (B::kIsOriented) visit_numbers(pose.b, read);
+    read_shape<A>(a, pose.a, read);
+    read_shape<B>(b, pose.b, read);
     pose.d = at_b - at_a;
     if (batch_.layout == PositionLayout::records64) {
       pose.d = {hn::Load(tag, relative_[0] + first), hn::Load(tag, relative_[1] + first),
@@ -221,15 +227,11 @@ class ExactLanes {
   // As scalar::in_scaled_units() does.
   template <class ShapeA, class ShapeB>
   HWY_INLINE void scale(PoseOf<D>& pose, ShapeA& a, ShapeB& b) {
-    LargestNumber largest{largest_component(pose.d)};
-    visit_numbers(a, largest);
-    visit_numbers(b, largest);
     D down;
-    power_of_two(largest.size, up_, down);
-    ScaleNumbers by{down};
-    visit_numbers(pose.d, by);
-    visit_numbers(a, by);
-    visit_numbers(b, by);
+    power_of_two(max(largest_component(pose.d), max(a.extent(), b.extent())), up_, down);
+    pose.d = pose.d * down;
+    a.scale(down);
+    b.scale(down);
   }
 
   // As scalar::round_separation(), of finite numbers.

@@ -13,38 +13,88 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-HWY_INLINE F sum_of_sizes(const F3& v) {
+template <class V>
+HWY_INLINE V sum_of_sizes(const Lanes3<V>& v) {
   return hn::Add(hn::Add(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
 // The numbers of shapes, in lanes of floats or of doubles.
+//   extent()    the greatest coordinate
+//   scale(V s)  makes the shape s times as large
 template <class V>
 struct SphereOf {
   V radius;
+
+  HWY_INLINE V extent() const { return radius; }
+  HWY_INLINE void scale(V s) { radius = hn::Mul(radius, s); }
 };
+
 template <class V>
 struct AabbOf {
   Lanes3<V> lower, upper;
+
+  HWY_INLINE V extent() const { return max(largest_component(lower), largest_component(upper)); }
+  HWY_INLINE void scale(V s) {
+    lower = lower * s;
+    upper = upper * s;
+  }
 };
+
 template <class V>
 struct CapsuleOf {
   Lanes3<V> a, b;
   V radius;
+
+  HWY_INLINE V extent() const {
+    return max(max(largest_component(a), largest_component(b)), radius);
+  }
+  HWY_INLINE void scale(V s) {
+    a = a * s;
+    b = b * s;
+    radius = hn::Mul(radius, s);
+  }
 };
+
 template <class V>
 struct BoxOf {
   Lanes3<V> half;
+
+  HWY_INLINE V extent() const { return max(max(half.x, half.y), half.z); }
+  HWY_INLINE void scale(V s) { half = half * s; }
 };
+
 template <class V>
 struct TriangleOf {
   Lanes3<V> a, b, c;
   MaskOf<V> is_special;  // thick, one-sided or with inner edges: for the scalar form
+
+  HWY_INLINE V extent() const {
+    return max(max(largest_component(a), largest_component(b)), largest_component(c));
+  }
+  HWY_INLINE void scale(V s) {
+    a = a * s;
+    b = b * s;
+    c = c * s;
+  }
+};
+
+template <class V>
+struct HalfspaceOf {
+  Lanes3<V> normal;
+  V offset;
+
+  // The normal is `down` times as long as stated.
+  HWY_INLINE void make_unit(V down) {
+    const V length = hn::Sqrt(dot(normal, normal));
+    normal = normal * hn::Div(splat_as<V>(1), length);
+    offset = hn::Div(hn::Mul(offset, down), length);
+  }
+  HWY_INLINE V extent() const { return hn::Abs(offset); }
+  HWY_INLINE void scale(V s) { offset = hn::Mul(offset, s); }
 };
 
 // Shapes as kernels see them. A lane is plainly valid if is_ordered() and size() is finite. A lane
-// whose size overflows may still be valid. Kernels that work in scaled units use
-//   extent()    the greatest coordinate
-//   scale(F s)  makes the shape s times as large
+// whose size overflows may still be valid.
 struct SphereLanes : SphereOf<F> {
   template <class V>
   using Of = SphereOf<V>;
@@ -60,8 +110,6 @@ struct SphereLanes : SphereOf<F> {
   HWY_INLINE Mask is_ordered() const { return hn::Ge(radius, splat(0)); }
   HWY_INLINE F size() const { return radius; }
   HWY_INLINE void clear_unless(Mask keep) { radius = hn::IfThenElseZero(keep, radius); }
-  HWY_INLINE F extent() const { return radius; }
-  HWY_INLINE void scale(F s) { radius = hn::Mul(radius, s); }
 };
 
 // One corner of boxes in records (box_records()): `corner` is that of the first record.
@@ -140,11 +188,6 @@ struct AabbLanes : AabbOf<F> {
     lower = zero_unless(keep, lower);
     upper = zero_unless(keep, upper);
   }
-  HWY_INLINE F extent() const { return max(largest_component(lower), largest_component(upper)); }
-  HWY_INLINE void scale(F s) {
-    lower = lower * s;
-    upper = upper * s;
-  }
 };
 
 struct CapsuleLanes : CapsuleOf<F> {
@@ -171,14 +214,6 @@ struct CapsuleLanes : CapsuleOf<F> {
     b = zero_unless(keep, b);
     radius = hn::IfThenElseZero(keep, radius);
   }
-  HWY_INLINE F extent() const {
-    return max(max(largest_component(a), largest_component(b)), radius);
-  }
-  HWY_INLINE void scale(F s) {
-    a = a * s;
-    b = b * s;
-    radius = hn::Mul(radius, s);
-  }
 };
 
 struct BoxLanes : BoxOf<F> {
@@ -200,8 +235,6 @@ struct BoxLanes : BoxOf<F> {
   HWY_INLINE Mask is_ordered() const { return hn::Ge(min(min(half.x, half.y), half.z), splat(0)); }
   HWY_INLINE F size() const { return sum_of_sizes(half); }
   HWY_INLINE void clear_unless(Mask keep) { half = zero_unless(keep, half); }
-  HWY_INLINE F extent() const { return max(max(half.x, half.y), half.z); }
-  HWY_INLINE void scale(F s) { half = half * s; }
 };
 
 struct TriangleLanes : TriangleOf<F> {
@@ -242,24 +275,19 @@ struct TriangleLanes : TriangleOf<F> {
     c = zero_unless(keep, c);
     thickness = hn::IfThenElseZero(keep, thickness);
   }
-  HWY_INLINE F extent() const {
-    return max(max(largest_component(a), largest_component(b)),
-               max(largest_component(c), thickness));
-  }
+  HWY_INLINE F extent() const { return max(TriangleOf<F>::extent(), thickness); }
   HWY_INLINE void scale(F s) {
-    a = a * s;
-    b = b * s;
-    c = c * s;
+    TriangleOf<F>::scale(s);
     thickness = hn::Mul(thickness, s);
   }
 };
 
 // The normal is made a unit vector on loading.
-struct HalfspaceLanes {
+struct HalfspaceLanes : HalfspaceOf<F> {
+  template <class V>
+  using Of = HalfspaceOf<V>;
   static constexpr ShapeKind kKind = ShapeKind::halfspace;
   static constexpr bool kIsOriented = true;
-  F3 normal;
-  F offset;
 
   static bool is_dense(const BatchSide&) { return true; }
 
@@ -267,14 +295,21 @@ struct HalfspaceLanes {
   static HWY_INLINE HalfspaceLanes load(const BatchSide& side, const Bodies& bodies,
                                         const PositionLanes&) {
     HalfspaceLanes plane;
-    load_row<kRole, 1>(side, bodies, 0, plane.normal, plane.offset);
-    F up, down;
-    power_of_two(largest_component(plane.normal), up, down);
-    const F3 n = plane.normal * down;
-    const F length = hn::Sqrt(dot(n, n));
-    plane.normal = n * hn::Div(splat(1), length);
-    plane.offset = hn::Div(hn::Mul(plane.offset, down), length);
+    F down;
+    load_given<kRole>(side, bodies, plane, down);
+    plane.make_unit(down);
     return plane;
+  }
+
+  // As stated, but for the scale of the normal: it is `down` times as long, so that squares neither
+  // vanish nor overflow.
+  template <Role kRole, class Bodies>
+  static HWY_INLINE void load_given(const BatchSide& side, const Bodies& bodies,
+                                    HalfspaceOf<F>& plane, F& down) {
+    load_row<kRole, 1>(side, bodies, 0, plane.normal, plane.offset);
+    F up;
+    power_of_two(largest_component(plane.normal), up, down);
+    plane.normal = plane.normal * down;
   }
   // A zero normal gives an offset or a size() that is NaN or infinite; so does an offset beyond
   // float32.
@@ -284,8 +319,6 @@ struct HalfspaceLanes {
     normal = zero_unless(keep, normal);
     offset = hn::IfThenElseZero(keep, clamp_to_finite(offset));
   }
-  HWY_INLINE F extent() const { return hn::Abs(offset); }
-  HWY_INLINE void scale(F s) { offset = hn::Mul(offset, s); }
 };
 
 // Kernels read the points later, from `geometry`.

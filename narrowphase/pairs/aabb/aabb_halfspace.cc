@@ -19,26 +19,27 @@ struct AabbHalfspace {
   using A = AabbLanes;
   using B = HalfspaceLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& halfspace,
-                              Report& report) {
-    F3 normal;
-    F height, plane_size;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& box,
+                              const HalfspaceOf<V>& halfspace, Report& report) {
+    Lanes3<V> normal;
+    V height, plane_size;
     place_plane(halfspace, pose.b, pose.d, normal, height, plane_size);
-    const F3 corner = {hn::IfThenElse(hn::Gt(normal.x, splat(0)), box.lower.x, box.upper.x),
-                       hn::IfThenElse(hn::Gt(normal.y, splat(0)), box.lower.y, box.upper.y),
-                       hn::IfThenElse(hn::Gt(normal.z, splat(0)), box.lower.z, box.upper.z)};
-    const F separation = hn::Sub(dot(normal, corner), height);
+    const Lanes3<V> corner = {
+        hn::IfThenElse(hn::Gt(normal.x, splat_as<V>(0)), box.lower.x, box.upper.x),
+        hn::IfThenElse(hn::Gt(normal.y, splat_as<V>(0)), box.lower.y, box.upper.y),
+        hn::IfThenElse(hn::Gt(normal.z, splat_as<V>(0)), box.lower.z, box.upper.z)};
+    const V separation = hn::Sub(dot(normal, corner), height);
 
-    const F size = box.extent();
-    const F flat = hn::Mul(splat(kLyingFlat), size);
-    const F3 half = (box.upper - box.lower) * splat(0.5f);
-    const Mask3 lies_flat = {hn::Le(hn::Mul(hn::Abs(normal.x), half.x), flat),
-                             hn::Le(hn::Mul(hn::Abs(normal.y), half.y), flat),
-                             hn::Le(hn::Mul(hn::Abs(normal.z), half.z), flat)};
-    const F3 lowest = select(lies_flat, (box.lower + box.upper) * splat(0.5f), corner);
+    const V size = box.extent();
+    const V flat = hn::Mul(splat_as<V>(kLyingFlat), size);
+    const Lanes3<V> half = (box.upper - box.lower) * splat_as<V>(0.5f);
+    const Mask3Of<V> lies_flat = {hn::Le(hn::Mul(hn::Abs(normal.x), half.x), flat),
+                                  hn::Le(hn::Mul(hn::Abs(normal.y), half.y), flat),
+                                  hn::Le(hn::Mul(hn::Abs(normal.z), half.z), flat)};
+    const Lanes3<V> lowest = select(lies_flat, (box.lower + box.upper) * splat_as<V>(0.5f), corner);
     report_over_plane(normal, plane_size, separation, lowest, size, pose.d, report);
   }
 };

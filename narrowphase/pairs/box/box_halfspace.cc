@@ -17,32 +17,34 @@ struct BoxHalfspace {
   using A = BoxLanes;
   using B = HalfspaceLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& box, const B& halfspace,
-                              Report& report) {
-    F3 normal;
-    F height, plane_size;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& box,
+                              const HalfspaceOf<V>& halfspace, Report& report) {
+    Lanes3<V> normal;
+    V height, plane_size;
     place_plane(halfspace, pose.b, pose.d, normal, height, plane_size);
-    const Rotation turn = rotation_of(pose.a);
-    const F3 slope = rotate_back(turn, normal);
-    const F3 drop = {hn::Mul(hn::Abs(slope.x), box.half.x), hn::Mul(hn::Abs(slope.y), box.half.y),
-                     hn::Mul(hn::Abs(slope.z), box.half.z)};
-    const F separation = hn::Sub(hn::Neg(hn::Add(hn::Add(drop.x, drop.y), drop.z)), height);
+    const RotationOf<V> turn = rotation_of(pose.a);
+    const Lanes3<V> slope = rotate_back(turn, normal);
+    const Lanes3<V> drop = {hn::Mul(hn::Abs(slope.x), box.half.x),
+                            hn::Mul(hn::Abs(slope.y), box.half.y),
+                            hn::Mul(hn::Abs(slope.z), box.half.z)};
+    const V separation = hn::Sub(hn::Neg(hn::Add(hn::Add(drop.x, drop.y), drop.z)), height);
 
-    const F size = box.extent();
-    const F flat = hn::Mul(splat(kLyingFlat), size);
-    const F3 lowest = rotate(turn, {lower_end(slope.x, drop.x, box.half.x, flat),
-                                    lower_end(slope.y, drop.y, box.half.y, flat),
-                                    lower_end(slope.z, drop.z, box.half.z, flat)});
+    const V size = box.extent();
+    const V flat = hn::Mul(splat_as<V>(kLyingFlat), size);
+    const Lanes3<V> lowest = rotate(turn, {lower_end(slope.x, drop.x, box.half.x, flat),
+                                           lower_end(slope.y, drop.y, box.half.y, flat),
+                                           lower_end(slope.z, drop.z, box.half.z, flat)});
     report_over_plane(normal, plane_size, separation, lowest, size, pose.d, report);
   }
 
  private:
   // The lower end of an axis of the box; its middle if it lies flat.
-  static HWY_INLINE F lower_end(F slope, F drop, F half, F flat) {
-    const F end = hn::IfThenElse(hn::Gt(slope, splat(0)), hn::Neg(half), half);
+  template <class V>
+  static HWY_INLINE V lower_end(V slope, V drop, V half, V flat) {
+    const V end = hn::IfThenElse(hn::Gt(slope, splat_as<V>(0)), hn::Neg(half), half);
     return hn::IfThenElseZero(hn::Gt(drop, flat), end);
   }
 };

@@ -17,26 +17,26 @@ struct CapsuleHalfspace {
   using A = CapsuleLanes;
   using B = HalfspaceLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& capsule, const B& halfspace,
-                              Report& report) {
-    F3 normal;
-    F height, plane_size;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const CapsuleOf<V>& capsule,
+                              const HalfspaceOf<V>& halfspace, Report& report) {
+    Lanes3<V> normal;
+    V height, plane_size;
     place_plane(halfspace, pose.b, pose.d, normal, height, plane_size);
-    const Rotation turn = rotation_of(pose.a);
-    const F3 a = rotate(turn, capsule.a);
-    const F3 b = rotate(turn, capsule.b);
-    const F height_a = dot(normal, a);
-    const F height_b = dot(normal, b);
-    const F separation = hn::Sub(hn::Sub(min(height_a, height_b), height), capsule.radius);
+    const RotationOf<V> turn = rotation_of(pose.a);
+    const Lanes3<V> a = rotate(turn, capsule.a);
+    const Lanes3<V> b = rotate(turn, capsule.b);
+    const V height_a = dot(normal, a);
+    const V height_b = dot(normal, b);
+    const V separation = hn::Sub(hn::Sub(min(height_a, height_b), height), capsule.radius);
 
-    const F size = capsule.extent();
-    const Mask lies_flat =
-        hn::Le(hn::Abs(hn::Sub(height_a, height_b)), hn::Mul(splat(kLyingFlat), size));
-    const F3 end = select(hn::Lt(height_a, height_b), a, b);
-    const F3 core = select(lies_flat, (a + b) * splat(0.5f), end);
+    const V size = capsule.extent();
+    const MaskOf<V> lies_flat =
+        hn::Le(hn::Abs(hn::Sub(height_a, height_b)), hn::Mul(splat_as<V>(kLyingFlat), size));
+    const Lanes3<V> end = select(hn::Lt(height_a, height_b), a, b);
+    const Lanes3<V> core = select(lies_flat, (a + b) * splat_as<V>(0.5f), end);
     report_over_plane(normal, plane_size, separation, core - normal * capsule.radius, size, pose.d,
                       report);
   }

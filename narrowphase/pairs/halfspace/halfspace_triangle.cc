@@ -17,36 +17,37 @@ struct HalfspaceTriangle {
   using A = HalfspaceLanes;
   using B = TriangleLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& halfspace, const B& triangle,
-                              Report& report) {
-    F3 normal;
-    F height, plane_size;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const HalfspaceOf<V>& halfspace,
+                              const TriangleOf<V>& triangle, Report& report) {
+    Lanes3<V> normal;
+    V height, plane_size;
     place_plane(halfspace, pose.a, -pose.d, normal, height, plane_size);
-    const Rotation turn = rotation_of(pose.b);
-    const F3 a = rotate(turn, triangle.a);
-    const F3 b = rotate(turn, triangle.b);
-    const F3 c = rotate(turn, triangle.c);
-    const F height_a = dot(normal, a);
-    const F height_b = dot(normal, b);
-    const F height_c = dot(normal, c);
-    const F least = min(min(height_a, height_b), height_c);
-    const F separation = hn::Sub(least, height);
+    const RotationOf<V> turn = rotation_of(pose.b);
+    const Lanes3<V> a = rotate(turn, triangle.a);
+    const Lanes3<V> b = rotate(turn, triangle.b);
+    const Lanes3<V> c = rotate(turn, triangle.c);
+    const V height_a = dot(normal, a);
+    const V height_b = dot(normal, b);
+    const V height_c = dot(normal, c);
+    const V least = min(min(height_a, height_b), height_c);
+    const V separation = hn::Sub(least, height);
 
     // The mean of the corners that are as low as the lowest.
-    const F size = triangle.extent();
-    const F low = hn::Add(least, hn::Mul(splat(kLyingFlat), size));
-    const F weight_a = hn::IfThenElseZero(hn::Le(height_a, low), splat(1));
-    const F weight_b = hn::IfThenElseZero(hn::Le(height_b, low), splat(1));
-    const F weight_c = hn::IfThenElseZero(hn::Le(height_c, low), splat(1));
-    const F weight = hn::Add(hn::Add(weight_a, weight_b), weight_c);
-    const F3 lowest = ((a * weight_a + b * weight_b) + c * weight_c) * hn::Div(splat(1), weight);
+    const V size = triangle.extent();
+    const V low = hn::Add(least, hn::Mul(splat_as<V>(kLyingFlat), size));
+    const V weight_a = hn::IfThenElseZero(hn::Le(height_a, low), splat_as<V>(1));
+    const V weight_b = hn::IfThenElseZero(hn::Le(height_b, low), splat_as<V>(1));
+    const V weight_c = hn::IfThenElseZero(hn::Le(height_c, low), splat_as<V>(1));
+    const V weight = hn::Add(hn::Add(weight_a, weight_b), weight_c);
+    const Lanes3<V> lowest =
+        ((a * weight_a + b * weight_b) + c * weight_c) * hn::Div(splat_as<V>(1), weight);
 
-    const Mask unsure = is_unsure_over_plane(separation, size, plane_size);
-    report(hn::Le(separation, splat(0)), hn::Or(unsure, triangle.is_special), no_lanes(),
-           separation, normal, (lowest - normal * separation) + pose.d, lowest);
+    const MaskOf<V> unsure = is_unsure_over_plane(separation, size, plane_size);
+    report(hn::Le(separation, splat_as<V>(0)), hn::Or(unsure, triangle.is_special),
+           no_lanes_of<V>(), separation, normal, (lowest - normal * separation) + pose.d, lowest);
   }
 };
 

@@ -16,15 +16,15 @@ struct SphereHalfspace {
   using A = SphereLanes;
   using B = HalfspaceLanes;
   static constexpr Units kUnits = Units::scaled;
-  static constexpr Unsure kUnsure = Unsure::everything;
+  static constexpr Unsure kUnsure = Unsure::in_lanes;
 
-  template <class Report>
-  static HWY_INLINE void test(const PoseLanes& pose, const A& sphere, const B& halfspace,
-                              Report& report) {
-    F3 normal;
-    F height, plane_size;
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const SphereOf<V>& sphere,
+                              const HalfspaceOf<V>& halfspace, Report& report) {
+    Lanes3<V> normal;
+    V height, plane_size;
     place_plane(halfspace, pose.b, pose.d, normal, height, plane_size);
-    const F separation = hn::Sub(hn::Neg(height), sphere.radius);
+    const V separation = hn::Sub(hn::Neg(height), sphere.radius);
     report_over_plane(normal, plane_size, separation, normal * hn::Neg(sphere.radius),
                       sphere.radius, pose.d, report);
   }
