@@ -15,6 +15,14 @@ inline constexpr float kNearTouch = 0x1p-20f;
 // that follow round to at most 30 units of 2^-24, a quarter of this.
 inline constexpr float kNearTouchScaled = 0x1p-17f;
 
+// Double precision proves a decision where the gap is wider than this, in scaled units: the formulas
+// are those of float32, whose error in doubles is at most 30 units of 2^-53; and what touches to
+// within CoreTolerance<double>::kNearEdges is left open.
+inline constexpr double kSureInDoubles = 0x1p-38;
+
+// The same for the difference of two squares, as a share of the squares: each has four roundings.
+inline constexpr double kSureOfSquares = 0x1p-48;
+
 // A remembered direction decides a pair only if it separates the shapes by more than this, in
 // scaled units. Every test then finds them separate: its best axis shows a good part of that gap,
 // which is eight times the error of a test.

@@ -69,8 +69,8 @@ struct Batch {
   WitnessFrame frame = WitnessFrame::world;
   Pass pass = Pass::test;
   ResultColumns out;
-  // One byte a row, zero on entry: 1 where float32 could not decide, even if double precision
-  // settled it later. At Pass::manifold: 1 where the kernel defers the points. nullptr: the caller
+  // One byte a row, zero on entry: 1 where neither float32 nor lanes of doubles are sure of the
+  // decision, even if the answer of doubles is given. At Pass::manifold: 1 where the kernel defers the points. nullptr: the caller
   // does not need it.
   uint8_t* unsure = nullptr;
   bool single_precision = false;  // FastKnobs

@@ -14,6 +14,7 @@
 #include <cfloat>
 #include <limits>
 
+#include "base/tolerances.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/single_pair.h"
@@ -119,6 +120,9 @@ class ExactLanes {
     return degenerate;
   }
 
+  // A bit for each of the lanes whose decision is proven.
+  uint64_t proven() const { return proven_; }
+
   HWY_INLINE F number(size_t c) const { return hn::Load(FloatTag(), answers_[c]); }
 
   // What the kernel reports.
@@ -132,6 +136,8 @@ class ExactLanes {
       is_answered = hn::AndNot(hn::And(hn::Gt(separation, zero), hn::Le(gap, zero)), is_answered);
     }
     answered_ = bits_of(DoubleTag(), is_answered);
+    const DoubleMask is_wide = hn::Gt(hn::Abs(separation), splat_double(kSureInDoubles));
+    proven_ |= (bits_of(DoubleTag(), is_wide) & answered_) << first_;
     put(0, rounded_separation(gap));
     if constexpr (kNumbers > 1) {
       put(1, normal);
@@ -215,7 +221,9 @@ class ExactLanes {
                 hn::Load(tag, relative_[2] + first)};
     }
     if constexpr (kSeparationOnly) {
-      put(0, rounded_separation(Kernel::exact_separation(pose.d, a, b)));
+      DoubleMask is_proven;
+      put(0, rounded_separation(Kernel::exact_separation(pose.d, a, b, is_proven)));
+      proven_ |= bits_of(tag, is_proven) << first;
       return ~uint64_t{0};
     } else {
       scale(pose, a, b);
@@ -268,6 +276,7 @@ class ExactLanes {
   const size_t row_;
   size_t first_ = 0;
   uint64_t answered_ = 0;
+  uint64_t proven_ = 0;
   D up_;
   HWY_ALIGN float numbers_[kMostNumbers][kLanes];
   HWY_ALIGN double relative_[3][kLanes];

@@ -59,10 +59,12 @@ struct LaneReport {
     // A gap in scaled units may vanish in metres.
     if constexpr (Kernel::kUnits == Units::scaled) overlap = hn::Le(answer.separation, splat(0));
     unsure = hn::And(unsure, valid);
-    if (HWY_UNLIKELY(marks_unsure())) mark_unsure(unsure, answer.separation);
+    Mask proven = no_lanes();
+    const F in_floats = answer.separation;
     if constexpr (Kernel::kUnsure != Unsure::nothing && Kernel::kUnsure != Unsure::left) {
-      refine(unsure, answer, overlap, degenerate);
+      proven = refine(unsure, answer, overlap, degenerate);
     }
+    if (HWY_UNLIKELY(marks_unsure())) mark_unsure(hn::AndNot(proven, unsure), proven, in_floats);
     I status = bytes_where(degenerate, static_cast<int32_t>(Status::degenerate));
     if (HWY_UNLIKELY(is_odd)) blot_out_invalid(answer, overlap, status);
     store_bytes(status, batch.out.status, row);
@@ -79,26 +81,29 @@ struct LaneReport {
   }
 
   // Gaps that vanished in metres, and lanes so large that numbers were clamped, are unsure, too.
-  HWY_INLINE void mark_unsure(Mask unsure, F separation) const {
+  HWY_INLINE void mark_unsure(Mask unsure, Mask proven, F separation) const {
     if constexpr (Kernel::kUnsure != Unsure::left) {
-      unsure = hn::Or(unsure, hn::And(valid, hn::Eq(separation, splat(0))));
-      unsure = hn::Or(unsure, hn::AndNot(plain, valid));
+      const Mask vanished = hn::Or(hn::Eq(separation, splat(0)), hn::Not(plain));
+      unsure = hn::Or(unsure, hn::AndNot(proven, hn::And(valid, vanished)));
     }
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
     store_bytes(bytes_where(unsure, 1), batch.unsure, row);
   }
 
-  HWY_INLINE void refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
-    if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return;
+  // Returns the lanes whose decisions are proven by that.
+  HWY_INLINE Mask refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
+    Mask proven = no_lanes();
+    if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return proven;
     if (batch.single_precision) unsure = hn::AndNot(is_good_enough(answer), unsure);
     AnswerLanes in_memory = answer;  // `answer` itself stays in registers
     if constexpr (Kernel::kUnsure == Unsure::everything) {
       refine_one_by_one(unsure, in_memory, degenerate);
     } else {
-      refine_lanes(unsure, in_memory, degenerate);
+      proven = refine_lanes(unsure, in_memory, degenerate);
     }
     answer = in_memory;
     overlap = hn::Le(answer.separation, splat(0));
+    return proven;
   }
 
   // NaN in lanes without an answer. Points in world coordinates stay NaN, since 0 + NaN is that
@@ -141,10 +146,9 @@ struct LaneReport {
   }
 
   // `answer` is in memory.
-  HWY_NOINLINE void refine_lanes(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
-    const FloatTag tag;
+  HWY_NOINLINE Mask refine_lanes(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
     HWY_ALIGN float lanes[kLanes];
-    hn::Store(hn::IfThenElseZero(unsure, splat(1)), tag, lanes);
+    hn::Store(hn::IfThenElseZero(unsure, splat(1)), FloatTag(), lanes);
     ExactLanes<Kernel, kHasContact> exact(source, row);
     const uint64_t degenerate_bits = exact.find(lanes);
     F* const numbers[] = {&answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z,
@@ -153,11 +157,16 @@ struct LaneReport {
     for (size_t c = 0; c < exact.kNumbers; ++c) {
       *numbers[c] = hn::IfThenElse(unsure, exact.number(c), *numbers[c]);
     }
-    if constexpr (Kernel::kUnsure == Unsure::separation) return;
-    degenerate = hn::AndNot(unsure, degenerate);
-    if (degenerate_bits == 0) return;
-    for (size_t i = 0; i < kLanes; ++i) lanes[i] = static_cast<float>(degenerate_bits >> i & 1);
-    degenerate = hn::Or(degenerate, hn::Ne(hn::Load(tag, lanes), splat(0)));
+    if constexpr (Kernel::kUnsure != Unsure::separation) {
+      degenerate = hn::Or(hn::AndNot(unsure, degenerate), lanes_of(degenerate_bits));
+    }
+    return hn::And(unsure, lanes_of(exact.proven()));
+  }
+
+  // The lanes whose bits are set.
+  static HWY_INLINE Mask lanes_of(uint64_t bits) {
+    const uint8_t bytes[8] = {static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8)};
+    return hn::LoadMaskBits(FloatTag(), bytes);
   }
 
   HWY_NOINLINE void refine_one_by_one(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {

@@ -8,6 +8,7 @@
 
 #include <cfloat>
 
+#include "base/tolerances.h"
 #include "simd/rotation-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,6 +23,17 @@ HWY_INLINE D gap_to_ball(D squared_distance, D reach) {
   const D far = splat_double(4.0 * FLT_MAX * FLT_MAX);  // the squares may have overflowed
   return hn::IfThenElse(hn::Gt(squared_distance, far), splat_double(FLT_MAX),
                         hn::IfThenElse(hn::Eq(difference, zero), zero, gap));
+}
+
+// Whether the sign of that gap is proven. The sizes are those of numbers that neither vanish nor
+// overflow when they are squared.
+HWY_INLINE DoubleMask is_proven_gap(D squared_distance, D reach) {
+  const D squared_reach = hn::Mul(reach, reach);
+  const D sizes = hn::Add(squared_distance, squared_reach);
+  const D apart = hn::Abs(hn::Sub(squared_distance, squared_reach));
+  const DoubleMask is_usual = hn::And(hn::Gt(sizes, splat_double(0x1p-900)),
+                                      hn::Lt(sizes, splat_double(0x1p900)));
+  return hn::And(is_usual, hn::Gt(apart, hn::Mul(sizes, splat_double(kSureOfSquares))));
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -47,17 +47,20 @@ struct SphereAabb {
            normal * sphere.radius, select(inside, exit, nearest));
   }
 
-  static HWY_INLINE D exact_separation(const D3& d, const SphereOf<D>& sphere,
-                                       const AabbOf<D>& box) {
+  static HWY_INLINE D exact_separation(const D3& d, const SphereOf<D>& sphere, const AabbOf<D>& box,
+                                       DoubleMask& is_proven) {
     const D3 centre = -d;
     const D3 way = min(max(centre, box.lower), box.upper) - centre;
     const D3 exits = min(centre - box.lower, box.upper - centre);
     const D exit = min(min(exits.x, exits.y), exits.z);
     const D zero = splat_double(0);
-    const D distance_squared = dot(way, way);
-    return hn::IfThenElse(hn::Gt(distance_squared, zero),
-                          gap_to_ball(distance_squared, sphere.radius),
-                          hn::Sub(zero, hn::Add(exit, sphere.radius)));
+    const D squared_distance = dot(way, way);
+    const D separation = hn::IfThenElse(hn::Gt(squared_distance, zero),
+                                        gap_to_ball(squared_distance, sphere.radius),
+                                        hn::Sub(zero, hn::Add(exit, sphere.radius)));
+    const D size = max(max(largest_component(d), box.extent()), sphere.radius);
+    is_proven = hn::Gt(hn::Abs(separation), hn::Mul(size, splat_double(kSureInDoubles)));
+    return separation;
   }
 };
 

@@ -33,8 +33,12 @@ struct SphereSphere {
            normal * a.radius, -(normal * b.radius));
   }
 
-  static HWY_INLINE D exact_separation(const D3& d, const SphereOf<D>& a, const SphereOf<D>& b) {
-    return gap_to_ball(dot(d, d), hn::Add(a.radius, b.radius));
+  static HWY_INLINE D exact_separation(const D3& d, const SphereOf<D>& a, const SphereOf<D>& b,
+                                       DoubleMask& is_proven) {
+    const D squared_distance = dot(d, d);
+    const D reach = hn::Add(a.radius, b.radius);
+    is_proven = is_proven_gap(squared_distance, reach);
+    return gap_to_ball(squared_distance, reach);
   }
 };
 
