@@ -15,12 +15,8 @@ inline constexpr float kNearTouch = 0x1p-20f;
 // that follow round to at most 30 units of 2^-24, a quarter of this.
 inline constexpr float kNearTouchScaled = 0x1p-17f;
 
-// Double precision proves a decision where the gap is wider than this, in scaled units: the formulas
-// are those of float32, whose error in doubles is at most 30 units of 2^-53; and what touches to
-// within CoreTolerance<double>::kNearEdges is left open.
-inline constexpr double kSureInDoubles = 0x1p-38;
-
-// The same for the difference of two squares, as a share of the squares: each has four roundings.
+// Double precision proves the sign of the difference of two squares where it is more than this
+// share of them: each has four roundings of 2^-53.
 inline constexpr double kSureOfSquares = 0x1p-48;
 
 // A remembered direction decides a pair only if it separates the shapes by more than this, in
@@ -202,7 +198,8 @@ inline constexpr double kFlatDifference = 0x1p-36;
 // A point sees a face if it is further than this in front of it: some dozen roundings.
 inline constexpr double kInFace = 0x1p-47;
 
-// A gap or depth of cores above this exceeds all rounding: the decision is proven.
+// A gap or depth above this exceeds all rounding: the decision is proven. So does one that a kernel
+// finds in lanes of doubles, whose formulas are those of float32: 30 units of 2^-53.
 inline constexpr double kProvenGap = 0x1p-36;
 
 // --- Cores in float32, in scaled units: what GJK in lanes may decide. Coordinates of a difference

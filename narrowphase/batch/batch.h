@@ -70,8 +70,8 @@ struct Batch {
   Pass pass = Pass::test;
   ResultColumns out;
   // One byte a row, zero on entry: 1 where neither float32 nor lanes of doubles are sure of the
-  // decision, even if the answer of doubles is given. At Pass::manifold: 1 where the kernel defers the points. nullptr: the caller
-  // does not need it.
+  // decision, even if the answer of doubles is given. At Pass::manifold: 1 where the kernel defers
+  // the points. nullptr: the caller does not need it.
   uint8_t* unsure = nullptr;
   bool single_precision = false;  // FastKnobs
   bool faces_only = false;        // FastKnobs
@@ -90,6 +90,11 @@ struct Batch {
 // The value in Batch::unsure of a deferred row whose cores surely overlap: only its depth is still
 // to be found.
 inline constexpr uint8_t kDeep = 2;
+
+// Whether only decisions are wanted, and these as good as those of the standard tier.
+inline bool is_plain_decision(const Batch& batch) {
+  return batch.detail == Detail::overlap && !batch.single_precision && !batch.faces_only;
+}
 
 // run_NAME(batch) for every pair kind, on the ISA in use.
 #define CAROM_PAIR(name, kind_a, kind_b, passes) void run_##name(const Batch& batch);

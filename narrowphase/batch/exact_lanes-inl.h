@@ -136,7 +136,7 @@ class ExactLanes {
       is_answered = hn::AndNot(hn::And(hn::Gt(separation, zero), hn::Le(gap, zero)), is_answered);
     }
     answered_ = bits_of(DoubleTag(), is_answered);
-    const DoubleMask is_wide = hn::Gt(hn::Abs(separation), splat_double(kSureInDoubles));
+    const DoubleMask is_wide = hn::Gt(hn::Abs(separation), splat_double(kProvenGap));
     proven_ |= (bits_of(DoubleTag(), is_wide) & answered_) << first_;
     put(0, rounded_separation(gap));
     if constexpr (kNumbers > 1) {

@@ -74,10 +74,10 @@ HWY_INLINE void fetch_side(const BatchSide& side, const Listed& near, const List
   }
 }
 
-// The same of both sides.
+// The same of both sides. Not of rows: processors see by themselves that one follows the other.
 template <class A, class B>
 HWY_INLINE void fetch_lanes(const Batch& batch, size_t row, LaneRange lanes) {
-  if (row + kPairsAhead + kLanes > batch.count) return;
+  if (batch.pairs_are_rows || row + kPairsAhead + kLanes > batch.count) return;
   const size_t last = batch.count - kLanes;
   const Listed near{batch.pairs + row + kPairsAhead};
   const Listed far{batch.pairs + std::min(row + 2 * kPairsAhead, last)};

@@ -31,8 +31,8 @@ HWY_INLINE DoubleMask is_proven_gap(D squared_distance, D reach) {
   const D squared_reach = hn::Mul(reach, reach);
   const D sizes = hn::Add(squared_distance, squared_reach);
   const D apart = hn::Abs(hn::Sub(squared_distance, squared_reach));
-  const DoubleMask is_usual = hn::And(hn::Gt(sizes, splat_double(0x1p-900)),
-                                      hn::Lt(sizes, splat_double(0x1p900)));
+  const DoubleMask is_usual =
+      hn::And(hn::Gt(sizes, splat_double(0x1p-900)), hn::Lt(sizes, splat_double(0x1p900)));
   return hn::And(is_usual, hn::Gt(apart, hn::Mul(sizes, splat_double(kSureOfSquares))));
 }
 

@@ -1,4 +1,6 @@
 // Box along the world axes against an oriented box, by the separating axis theorem.
+#include <type_traits>
+
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -7,6 +9,7 @@
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/boxes_contact-inl.h"
+#include "narrowphase/features/boxes_decision-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -50,6 +53,21 @@ struct AabbBox : AabbBoxBase {
   }
 };
 
+// The decision alone, where its sign is all that is asked for.
+struct AabbBoxDecision : AabbBox {
+  static constexpr Columns kColumns = Columns::decision;
+
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& a, const BoxOf<V>& b,
+                              Report& report) {
+    if constexpr (std::is_same_v<V, F>) {
+      decide_boxes(boxes(pose, a, b), report);
+    } else {
+      AabbBox::test(pose, a, b, report);
+    }
+  }
+};
+
 struct AabbBoxDistance : AabbBoxBase {
   static constexpr Unsure kUnsure = Unsure::in_lanes;
   static constexpr Columns kColumns = Columns::contact;
@@ -64,7 +82,8 @@ struct AabbBoxDistance : AabbBoxBase {
 void aabb_box(const Batch& batch) {
   switch (batch.pass) {
     case Pass::test:
-      return run_batch<AabbBox>(batch);
+      return is_plain_decision(batch) ? run_batch<AabbBoxDecision>(batch)
+                                      : run_batch<AabbBox>(batch);
     case Pass::distance:
       return run_batch<AabbBoxDistance>(batch);
     case Pass::manifold:

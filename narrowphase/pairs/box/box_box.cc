@@ -1,4 +1,6 @@
 // Oriented box against oriented box, by the separating axis theorem.
+#include <type_traits>
+
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -7,6 +9,7 @@
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/features/boxes_contact-inl.h"
+#include "narrowphase/features/boxes_decision-inl.h"
 #include "narrowphase/manifolds/manifold-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,6 +42,21 @@ struct BoxBox : BoxBoxBase {
   }
 };
 
+// The decision alone, where its sign is all that is asked for.
+struct BoxBoxDecision : BoxBox {
+  static constexpr Columns kColumns = Columns::decision;
+
+  template <class V, class Report>
+  static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& a, const BoxOf<V>& b,
+                              Report& report) {
+    if constexpr (std::is_same_v<V, F>) {
+      decide_boxes(boxes(pose, rotation_of(pose.a), a, b), report);
+    } else {
+      BoxBox::test(pose, a, b, report);
+    }
+  }
+};
+
 struct BoxBoxDistance : BoxBoxBase {
   static constexpr Unsure kUnsure = Unsure::in_lanes;
   static constexpr Columns kColumns = Columns::contact;
@@ -55,7 +73,7 @@ struct BoxBoxDistance : BoxBoxBase {
 void box_box(const Batch& batch) {
   switch (batch.pass) {
     case Pass::test:
-      return run_batch<BoxBox>(batch);
+      return is_plain_decision(batch) ? run_batch<BoxBoxDecision>(batch) : run_batch<BoxBox>(batch);
     case Pass::distance:
       return run_batch<BoxBoxDistance>(batch);
     case Pass::manifold:

@@ -55,11 +55,11 @@ struct SphereAabb {
     const D exit = min(min(exits.x, exits.y), exits.z);
     const D zero = splat_double(0);
     const D squared_distance = dot(way, way);
-    const D separation = hn::IfThenElse(hn::Gt(squared_distance, zero),
-                                        gap_to_ball(squared_distance, sphere.radius),
-                                        hn::Sub(zero, hn::Add(exit, sphere.radius)));
+    const D separation =
+        hn::IfThenElse(hn::Gt(squared_distance, zero), gap_to_ball(squared_distance, sphere.radius),
+                       hn::Sub(zero, hn::Add(exit, sphere.radius)));
     const D size = max(max(largest_component(d), box.extent()), sphere.radius);
-    is_proven = hn::Gt(hn::Abs(separation), hn::Mul(size, splat_double(kSureInDoubles)));
+    is_proven = hn::Gt(hn::Abs(separation), hn::Mul(size, splat_double(kProvenGap)));
     return separation;
   }
 };
