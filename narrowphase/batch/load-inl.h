@@ -188,6 +188,7 @@ struct AnyRecordsOrNone {
   static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
     if (batch.layout == PositionLayout::none) {
       NoRecords::load(batch, bodies, out);
+      out.a_low = out.b_low = splat3(-0.0f);
     } else {
       AnyRecords::load(batch, bodies, out);
     }

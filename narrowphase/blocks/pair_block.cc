@@ -86,9 +86,7 @@ class BlockRunner {
     if (!block_.a.kind && !block_.b.kind) {
       const PairKindRef kind = find_pair_kind(block_.a.uniform_kind, block_.b.uniform_kind);
       if (layout_ && !kind.flipped && is_complete(block_.out, block_.detail)) {
-        run_in_place(kind);
-        return move_points(kind, block_.out, block_.count,
-                           [this](size_t row) { return pair(row); });
+        return run_in_place(kind);
       }
     }
     sort_by_kind();
@@ -103,11 +101,10 @@ class BlockRunner {
   }
 
  private:
-  // Kernels find manifolds relative to the bodies, so points in world coordinates are moved
-  // afterwards. A manifold that is the witness point needs that only where the sides are exchanged.
+  // Where the sides are exchanged, manifolds are found relative to the bodies, and moved to the
+  // world afterwards.
   bool moves_points(PairKindRef kind) const {
-    return has_manifolds(block_.detail) && block_.frame == WitnessFrame::world &&
-           (kind.flipped || kPairKinds[kind.index].has_manifold_pass());
+    return has_manifolds(block_.detail) && block_.frame == WitnessFrame::world && kind.flipped;
   }
 
   static size_t slot(PairKindRef kind) { return size_t{kind.index} * 2 + kind.flipped; }
@@ -212,7 +209,7 @@ class BlockRunner {
   void scatter(PairKindRef kind, ResultColumns from, const uint16_t* rows, size_t count) {
     if (has_contacts(block_.detail)) {
       if (kind.flipped) flip(from, rows, count);
-      move_points(kind, from, count, [&](size_t i) { return pair(rows[i]); });
+      if (moves_points(kind)) move_points(from, rows, count);
     }
     copy_rows(from, block_.out, block_.detail, count, [&](size_t i) { return rows[i]; });
   }
@@ -253,16 +250,12 @@ class BlockRunner {
     return {finite(b.x - a.x), finite(b.y - a.y), finite(b.z - a.z)};
   }
 
-  // Moves points from relative to the bodies to world coordinates, if the caller wants that and the
-  // kernels have not done it.
-  template <class PairAt>
-  void move_points(PairKindRef kind, const ResultColumns& columns, size_t count,
-                   const PairAt& pair_at) const {
-    if (!moves_points(kind)) return;
+  // Moves points from relative to the bodies to world coordinates.
+  void move_points(const ResultColumns& columns, const uint16_t* rows, size_t count) const {
     const bool is_float64 = BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64();
     for (size_t i = 0; i < count; ++i) {
-      is_float64 ? move_points_of<double>(pair_at(i), columns, i)
-                 : move_points_of<float>(pair_at(i), columns, i);
+      is_float64 ? move_points_of<double>(pair(rows[i]), columns, i)
+                 : move_points_of<float>(pair(rows[i]), columns, i);
     }
   }
 

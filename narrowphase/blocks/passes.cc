@@ -5,6 +5,7 @@
 #include "base/few_of.h"
 #include "narrowphase/batch/packed_direction.h"
 #include "narrowphase/batch/row_selection.h"
+#include "narrowphase/batch/world_points.h"
 #include "narrowphase/blocks/pass_plan.h"
 #include "narrowphase/hulls/features.h"
 #include "narrowphase/manifolds/witness_points.h"
@@ -134,7 +135,9 @@ void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
   remember_directions(batch, open, direction);
 }
 
-void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pairs) {
+// `batch` has witness points relative to the bodies; manifolds get their points in `frame`.
+void run_manifolds(const PairKind& kind, const Batch& batch, WitnessFrame frame,
+                   bool of_separate_pairs) {
   std::fill_n(batch.out.manifold_count, batch.count, uint8_t{0});
   if (of_separate_pairs) std::fill_n(batch.out.manifold, batch.count, ManifoldPoints{});
   TestColumns contacts;
@@ -159,6 +162,7 @@ void run_manifolds(const PairKind& kind, const Batch& batch, bool of_separate_pa
   touching.pack(touch, {columns.begin(), columns.size()});
   if (touching.count() == 0) return;
   Batch manifolds = touching.batch(Pass::manifold);
+  manifolds.frame = frame;
   manifolds.tested = to;
   manifolds.manifold_row = touching.rows();
   if (batch.reach) manifolds.reach = reach.data();
@@ -181,7 +185,8 @@ void run_search(const PairKind& kind, const Batch& batch, const PassPlan& plan,
   }
 }
 
-void run_points(const PairKind& kind, const Batch& batch, const PassPlan& plan) {
+void run_points(const PairKind& kind, const Batch& batch, WitnessFrame frame,
+                const PassPlan& plan) {
   switch (plan.points) {
     case PassPlan::Points::none:
       return;
@@ -192,7 +197,7 @@ void run_points(const PairKind& kind, const Batch& batch, const PassPlan& plan) 
     case PassPlan::Points::witnesses:
       return copy_witnesses(batch);
     case PassPlan::Points::clipped:
-      return run_manifolds(kind, batch, plan.clears_separate);
+      return run_manifolds(kind, batch, frame, plan.clears_separate);
   }
 }
 
@@ -205,6 +210,8 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured measured, uin
   Batch batch = asked;
   batch.single_precision = plan.single_precision;
   batch.faces_only = plan.faces_only;
+  // Points are clipped relative to the bodies.
+  if (plan.points == PassPlan::Points::clipped) batch.frame = WitnessFrame::body;
   if (plan.known == PassPlan::Known::features) batch.features = batch.out.features;
   if (plan.proves) {
     std::fill_n(unsure.begin(), batch.count, uint8_t{0});
@@ -214,7 +221,8 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured measured, uin
   if (plan.measures_separate) run_distances(kind, batch, plan.measures_invalid);
   if (plan.proves) decide_unsure(kind, batch, accuracy.tier);
   if (plan.bounds) bound_separations(kind, batch);
-  run_points(kind, batch, plan);
+  run_points(kind, batch, asked.frame, plan);
+  if (batch.frame != asked.frame) move_to_world(batch);
 }
 
 }  // namespace carom

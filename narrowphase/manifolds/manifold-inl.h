@@ -73,7 +73,7 @@ class ManifoldLoop {
       contact_points(a, b, placed, contact, points);
     }
     ManifoldRows rows;
-    put_records(points, contact, up, rows);
+    put_records(points, contact, up, batch.frame, positions, rows);
     rows.copy_to(batch.out, batch.manifold_row + row, std::min(kLanes, batch.count - row));
   }
 
@@ -96,9 +96,10 @@ class ManifoldLoop {
     store_bytes(bytes_where(hn::Not(is_known), 1), batch.unsure, row);
   }
 
-  // Converts to metres. No point is deeper than the contact, and none is further than the reach. A
-  // single point is the witness point.
+  // Converts to metres, in the frame that the caller wants. No point is deeper than the contact,
+  // and none is further than the reach. A single point is the witness point.
   static HWY_INLINE void put_records(PointLanes& points, const ContactLanes& contact, F up,
+                                     WitnessFrame frame, const PositionLanes& positions,
                                      ManifoldRows& rows) {
     const Mask has_more = points.used[1];
     points.point[0] = select(has_more, points.point[0], contact.arm_a);
@@ -109,7 +110,9 @@ class ManifoldLoop {
     F s[4];
     for (size_t k = 0; k < 4; ++k) {
       count = hn::Add(count, hn::IfThenElseZero(points.used[k], splat(1)));
-      points.point[k] = zero_unless(points.used[k], points.point[k] * up);
+      F3 point = points.point[k] * up;
+      if (frame == WitnessFrame::world) point = positions.a + (positions.a_low + point);
+      points.point[k] = zero_unless(points.used[k], point);
       s[k] = min(max(points.s[k], contact.separation), contact.reach);
       s[k] = hn::IfThenElseZero(points.used[k], hn::Mul(s[k], up));
     }

@@ -4,6 +4,7 @@
 
 #include "narrowphase/batch/column_memory.h"
 #include "narrowphase/batch/single_pair.h"
+#include "narrowphase/batch/world_point.h"
 
 namespace carom {
 
@@ -13,11 +14,16 @@ void run_manifolds(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b,
   Batch lanes = batch;
   lanes.unsure = left.data();
   in_lanes(lanes);
+  const Collidables bodies_a = view_of(batch.a, batch.layout, kind_a);
   for (size_t row = 0; row < batch.count; ++row) {
     if (left[row] == 0) continue;
     const size_t to = batch.manifold_row[row];
-    batch.out.manifold_count[to] =
-        manifold_answer(batch, kind_a, kind_b, row, batch.out.manifold[to]);
+    ManifoldPoints& points = batch.out.manifold[to];
+    const uint8_t count = manifold_answer(batch, kind_a, kind_b, row, points);
+    batch.out.manifold_count[to] = count;
+    for (size_t k = 0; batch.frame == WitnessFrame::world && k < count; ++k) {
+      points.point[k] = world_point(BodyReader{bodies_a}, batch.pairs[row].a, points.point[k]);
+    }
   }
 }
 
