@@ -8,6 +8,7 @@
 // After the loop over targets.
 #include "narrowphase/batch/load-inl.h"
 #include "narrowphase/batch/store-inl.h"
+#include "simd/axis-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -18,10 +19,11 @@ HWY_INLINE void move_points(const std::array<float*, 3>& columns, size_t row, co
   const auto column = [&](size_t axis)
                           HWY_ATTR { return hn::LoadU(FloatTag(), columns[axis] + row); };
   const F3 arm = {column(0), column(1), column(2)};
-  store(position + (low + arm), columns, row);
+  const Mask3 has_answer = {hn::Eq(arm.x, arm.x), hn::Eq(arm.y, arm.y), hn::Eq(arm.z, arm.z)};
+  store(select(has_answer, position + (low + arm), arm), columns, row);
 }
 
-// A NaN (no answer) keeps its bits: adding to it changes none.
+// A NaN (no answer) keeps its bits, wherever the body is.
 void move_rows(const Batch& batch, size_t& row) {
   for (; row + kLanes <= batch.count; row += kLanes) {
     PositionLanes positions;

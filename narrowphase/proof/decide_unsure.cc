@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/proof/exact_overlap.h"
 #include "narrowphase/proof/proof.h"
+#include "narrowphase/proof/upright_boxes.h"
 
 namespace carom {
 namespace {
 
 uint8_t decide(const StatedBody& a, const StatedBody& b, Tier tier) {
+  if (const std::optional<bool> overlap = upright_boxes_overlap(a, b)) return *overlap ? 1 : 0;
   const uint8_t proven = prove_overlap(a, b);
   if (proven != kUndecided || tier != Tier::exact) return proven;
   return exact_overlap(a, b);
