@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <optional>
 
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/proof/exact_overlap.h"
@@ -13,11 +12,15 @@
 namespace carom {
 namespace {
 
-uint8_t decide(const StatedBody& a, const StatedBody& b, Tier tier) {
-  if (const std::optional<bool> overlap = upright_boxes_overlap(a, b)) return *overlap ? 1 : 0;
-  const uint8_t proven = prove_overlap(a, b);
+uint8_t decide(const BodyReader& a, const BodyReader& b, Pair pair, Tier tier) {
+  UprightBox box_a, box_b;
+  if (read_upright_box(a, pair.a, box_a) && read_upright_box(b, pair.b, box_b)) {
+    return do_overlap(box_a, box_b);
+  }
+  const StatedBody body_a = stated_body(a, pair.a), body_b = stated_body(b, pair.b);
+  const uint8_t proven = prove_overlap(body_a, body_b);
   if (proven != kUndecided || tier != Tier::exact) return proven;
-  return exact_overlap(a, b);
+  return exact_overlap(body_a, body_b);
 }
 
 // The next unsure row, or count. Unsure rows are rare, so the loop skips eight rows at a time.
@@ -50,8 +53,7 @@ void decide_unsure(const PairKind& kind, const Batch& batch, Tier tier) {
   for (size_t row = 0;; ++row) {
     row = next_marked(batch.unsure, row, batch.count);
     if (row == batch.count) return;
-    const Pair pair = batch.pairs[row];
-    const uint8_t overlap = decide(stated_body(a, pair.a), stated_body(b, pair.b), tier);
+    const uint8_t overlap = decide(a, b, batch.pairs[row], tier);
     batch.out.overlap[row] = overlap;
     if (!has_contacts(batch.detail)) continue;
     float& separation = batch.out.separation[row];

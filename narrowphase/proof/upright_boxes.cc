@@ -3,65 +3,36 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <variant>
 
 #include "base/dyadic.h"
 
 namespace carom {
 namespace {
 
-// Relative to the position.
-struct Extent {
-  std::array<float, 3> lower, upper;
-};
+int sign_of(float x) { return (x > 0) - (x < 0); }
 
-// The axis of the world along which each axis of a body lies, if it is turned by quarter turns. All
-// components of its quaternion that are not zero are equal then, but for their signs; and there are
-// one (no turn, or half a turn), two, or four.
-std::optional<std::array<size_t, 3>> axes_of_quarter_turns(const Row& q) {
-  std::array<int, 4> sign;
-  float size = 0;
-  for (const float c : q) size = std::max(size, std::fabs(c));
-  for (size_t i = 0; i < 4; ++i) {
-    if (q[i] != 0 && std::fabs(q[i]) != size) return std::nullopt;
-    sign[i] = q[i] > 0 ? 1 : q[i] < 0 ? -1 : 0;
-  }
-  const auto [x, y, z, w] = sign;
-  const int norm = x * x + y * y + z * z + w * w;
-  if (norm == 0 || norm == 3) return std::nullopt;
-  // Columns of the rotation, times the norm.
-  const std::array<std::array<int, 3>, 3> turned = {{
-      {w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)},
-      {2 * (x * y - w * z), w * w - x * x + y * y - z * z, 2 * (y * z + w * x)},
-      {2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z},
-  }};
-  std::array<size_t, 3> axes{};
-  for (size_t i = 0; i < 3; ++i) {
-    while (turned[i][axes[i]] == 0) ++axes[i];
-  }
-  return axes;
-}
-
-std::optional<Extent> extent_of(const StatedBody& body) {
-  if (const auto* const aabb = std::get_if<Aabb>(&body.shape)) {
-    Extent extent;
-    for (int i = 0; i < 3; ++i) {
-      extent.lower[static_cast<size_t>(i)] = aabb->lower[i];
-      extent.upper[static_cast<size_t>(i)] = aabb->upper[i];
-    }
-    return extent;
-  }
-  const auto* const box = std::get_if<Box>(&body.shape);
-  if (!box) return std::nullopt;
-  const auto axes = axes_of_quarter_turns(body.orientation);
-  if (!axes) return std::nullopt;
-  Extent extent;
-  for (size_t i = 0; i < 3; ++i) {
-    const float half = box->half[static_cast<int>(i)];
-    extent.lower[(*axes)[i]] = -half;
-    extent.upper[(*axes)[i]] = half;
-  }
-  return extent;
+// Sets how much of the half axes of a box lies along each axis of the world. Returns false unless
+// the box is turned by quarter turns. All components of its quaternion that are not zero are equal
+// then, but for their signs; and there are one (no turn, or half a turn), two, or four. Without
+// branches on which they are: these cannot be predicted.
+bool turn_half(const Row& q, const Row& half, std::array<float, 3>& extent) {
+  const float size = std::max(std::max(std::fabs(q[0]), std::fabs(q[1])),
+                              std::max(std::fabs(q[2]), std::fabs(q[3])));
+  const auto is_odd = [size](float c) { return int{c != 0} & int{std::fabs(c) != size}; };
+  const int odd = (is_odd(q[0]) + is_odd(q[1])) + (is_odd(q[2]) + is_odd(q[3]));
+  const int x = sign_of(q[0]), y = sign_of(q[1]), z = sign_of(q[2]), w = sign_of(q[3]);
+  const int xx = x * x, yy = y * y, zz = z * z, ww = w * w;
+  const int norm = (xx + yy) + (zz + ww);
+  if (odd != 0 || norm == 0 || norm == 3) return false;
+  // Each row of the rotation has one entry that is not zero.
+  const auto along = [&half](int of_x, int of_y, int of_z) {
+    const auto part = [](int entry, float length) { return entry != 0 ? length : 0.0f; };
+    return (part(of_x, half[0]) + part(of_y, half[1])) + part(of_z, half[2]);
+  };
+  extent[0] = along(ww + xx - yy - zz, x * y - w * z, x * z + w * y);
+  extent[1] = along(x * y + w * z, ww - xx + yy - zz, y * z - w * x);
+  extent[2] = along(x * z - w * y, y * z + w * x, ww - xx - yy + zz);
+  return true;
 }
 
 // Whether a + b is what rounding makes of it.
@@ -80,16 +51,27 @@ bool reaches(double from, float low, double to, float high) {
 
 }  // namespace
 
-std::optional<bool> upright_boxes_overlap(const StatedBody& a, const StatedBody& b) {
-  const std::optional<Extent> of_a = extent_of(a);
-  if (!of_a) return std::nullopt;
-  const std::optional<Extent> of_b = extent_of(b);
-  if (!of_b) return std::nullopt;
-  const double at_a[3] = {a.position.x, a.position.y, a.position.z};
-  const double at_b[3] = {b.position.x, b.position.y, b.position.z};
+bool read_upright_box(const BodyReader& body, size_t index, UprightBox& box) {
+  const ShapeKind kind = body.kind(index);
+  if (kind != ShapeKind::box && kind != ShapeKind::aabb) return false;
+  const Position<double> at = body.position<double>(index);
+  box.position = {at.x, at.y, at.z};
+  if (kind == ShapeKind::aabb) {
+    for (size_t i = 0; i < 3; ++i) {
+      box.lower[i] = body.lower(i, index);
+      box.upper[i] = body.upper(i, index);
+    }
+    return true;
+  }
+  if (!turn_half(body.orientation(index), body.row(index, 0), box.upper)) return false;
+  for (size_t i = 0; i < 3; ++i) box.lower[i] = -box.upper[i];
+  return true;
+}
+
+bool do_overlap(const UprightBox& a, const UprightBox& b) {
   for (size_t i = 0; i < 3; ++i) {
-    if (!reaches(at_b[i], of_b->lower[i], at_a[i], of_a->upper[i])) return false;
-    if (!reaches(at_a[i], of_a->lower[i], at_b[i], of_b->upper[i])) return false;
+    if (!reaches(b.position[i], b.lower[i], a.position[i], a.upper[i])) return false;
+    if (!reaches(a.position[i], a.lower[i], b.position[i], b.upper[i])) return false;
   }
   return true;
 }
