@@ -147,10 +147,8 @@ struct LaneReport {
 
   // `answer` is in memory.
   HWY_NOINLINE Mask refine_lanes(Mask unsure, AnswerLanes& answer, Mask& degenerate) const {
-    HWY_ALIGN float lanes[kLanes];
-    hn::Store(hn::IfThenElseZero(unsure, splat(1)), FloatTag(), lanes);
     ExactLanes<Kernel, kHasContact> exact(source, row);
-    const uint64_t degenerate_bits = exact.find(lanes);
+    const uint64_t degenerate_bits = exact.find(bits_of(FloatTag(), unsure));
     F* const numbers[] = {&answer.separation, &answer.normal.x, &answer.normal.y, &answer.normal.z,
                           &answer.arm_a.x,    &answer.arm_a.y,  &answer.arm_a.z,  &answer.arm_b.x,
                           &answer.arm_b.y,    &answer.arm_b.z};

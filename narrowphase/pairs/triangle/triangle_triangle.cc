@@ -220,10 +220,14 @@ struct TriangleTriangle {
     MaskOf<V> unsure = hn::Or(a.is_special, b.is_special);
     if constexpr (std::is_same_v<V, D>) {
       // Between triangles that touch there is no good direction: an axis gives the normal.
-      const MaskOf<V> touching =
-          hn::AndNot(is_crossing, hn::Le(nearest.distance, splat_as<V>(Tolerance::kNearEdges)));
+      const MaskOf<V> touching = hn::AndNot(
+          is_crossing, hn::Le(nearest.distance, splat_as<V>(Tolerance::kNearEdges)));
       normal = select(touching, axes.normal, normal);
-      unsure = hn::Or(unsure, hn::AndNot(axes.exists(), touching));
+      // A gap wide enough for a proof must be one along the normal, too.
+      const V wide = splat_as<V>(kProvenGap);
+      const MaskOf<V> is_open =
+          hn::And(hn::Gt(separation, wide), hn::Le(axes.gap_along(normal), wide));
+      unsure = hn::Or(unsure, hn::Or(is_open, hn::AndNot(axes.exists(), touching)));
     } else {
       const V least = hn::Sub(separation, splat_as<V>(Tolerance::kTilt));
       const MaskOf<V> is_tilted = hn::AndNot(is_crossing, hn::Lt(axes.gap_along(normal), least));

@@ -26,7 +26,7 @@ ConvexFamily family_named(const std::string& wanted) {
 std::vector<KindPair> kinds_in_doubles() {
   const auto is_plain = [](ShapeKind kind) {
     return kind == ShapeKind::sphere || kind == ShapeKind::capsule || kind == ShapeKind::aabb ||
-           kind == ShapeKind::box || kind == ShapeKind::triangle;
+           kind == ShapeKind::box || kind == ShapeKind::triangle || kind == ShapeKind::halfspace;
   };
   std::vector<KindPair> all = supported_kind_pairs();
   std::erase_if(all,
