@@ -220,8 +220,8 @@ struct TriangleTriangle {
     MaskOf<V> unsure = hn::Or(a.is_special, b.is_special);
     if constexpr (std::is_same_v<V, D>) {
       // Between triangles that touch there is no good direction: an axis gives the normal.
-      const MaskOf<V> touching = hn::AndNot(
-          is_crossing, hn::Le(nearest.distance, splat_as<V>(Tolerance::kNearEdges)));
+      const MaskOf<V> touching =
+          hn::AndNot(is_crossing, hn::Le(nearest.distance, splat_as<V>(Tolerance::kNearEdges)));
       normal = select(touching, axes.normal, normal);
       // A gap wide enough for a proof must be one along the normal, too.
       const V wide = splat_as<V>(kProvenGap);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -101,6 +102,19 @@ TEST(UnsureLanesCases, WithZerosOfBothSigns) {
   pair.a.shape = Capsule{{-0.0f, -0.0f, -0.0f}, {-0.0f, -0.0f, -0.0f}, 0};
   pair.b.shape = Box{{1, 1, 0}};
   expect_the_reference(pair, PositionType::float32);
+}
+
+// The square of this gap is not a double, but zero.
+TEST(UnsureLanesCases, WithAGapThatVanishesWhenSquared) {
+  TestPair pair;
+  pair.a.shape = Sphere{0};
+  pair.a.position = {-0.0, -0.0, 0};
+  pair.b.shape = Aabb{{0, 0, -0x1.68a93p-1f}, {0, 0, 0x1.68a93p-1f}};
+  pair.b.position = {0, 0x4p-1074, -0x1.68a91f1811c01p-1};
+  expect_the_reference(pair, PositionType::float64);
+  const Row row = expected_rows({&pair, 1}, PositionType::float64)[0];
+  EXPECT_EQ(row.overlap, 0);
+  EXPECT_EQ(row.separation, std::numeric_limits<float>::denorm_min());
 }
 
 // The difference of the positions is beyond doubles.
