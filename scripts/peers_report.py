@@ -239,6 +239,41 @@ def casts_table(streams):
     yield ""
 
 
+OTHERS = [("fcl", "FCL"), ("ode", "ODE")]
+
+
+def other_cells(stream, runners, name):
+    if name not in runners:
+        return ["-", "-"]
+    compared = stream["pairs"] - stream["excluded"]
+    return [number(runners[name]["ns"]), f"{100 * runners[name]['different'] / compared:.3g} %"]
+
+
+def others_table(streams, isas):
+    """Other libraries than Bullet."""
+    lines = []
+    for stream in streams:
+        runners = {runner["runner"]: runner for runner in stream["runners"]}
+        if not any(name in runners for name, _ in OTHERS):
+            continue
+        cells = [stream["pair"], stream["detail"]]
+        for name, _ in OTHERS:
+            cells += other_cells(stream, runners, name)
+        lines.append(row(cells + [number(runners["bullet"]["ns"]), number(runners[isas[-1]]["ns"])]))
+    if not lines:
+        return
+    yield "\n## FCL and ODE\n"
+    yield ("In the same run: `fcl::collide()` of two objects, and `fcl::distance()` for `distance`, "
+           "`clearance` and `again`; `dCollide()` of two geoms. Both compute in double precision, and "
+           "find one contact, four for manifolds, none for `overlap`. `otherwise`: pairs that the "
+           "library decides otherwise than Carom, apart from those too near touch.\n")
+    yield row(["pair", "output"] + [cell for _, title in OTHERS for cell in (title, "otherwise")]
+              + ["Bullet", isas[-1]])
+    yield "|---|---|" + "---:|" * (2 * len(OTHERS) + 2)
+    yield from lines
+    yield ""
+
+
 def decisions_table(streams):
     yield row(["pair", "output", "pairs", "overlap", "too near touch", "Bullet decides otherwise"])
     yield "|---|---|" + "---:|" * 4
@@ -277,6 +312,7 @@ def streams_page(report):
            "of the pairs meet. Bullet runs `btContinuousConvexCollision`, as the sweep test of its "
            "world does; its other cast is below.\n")
     yield from casts_table(streams)
+    yield from others_table(streams, isas)
     yield "## Decisions\n"
     yield ("Before anything is timed, all results of Carom are compared with its reference bit by "
            "bit, and Bullet's decisions with Carom's, except for pairs whose separation is below "

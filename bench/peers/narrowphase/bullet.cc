@@ -89,7 +89,7 @@ class Bodies {
  public:
   explicit Bodies(const PeerBodies& source) {
     std::vector<std::shared_ptr<btCollisionShape>> shared;
-    for (const auto& points : source.hulls) shared.push_back(make_hull(points));
+    for (const PeerHull& hull : source.hulls) shared.push_back(make_hull(hull.points));
     if (source.shape == PeerShape::mesh) shared.push_back(make_mesh(source));
     for (const PeerBody& body : source.bodies) {
       shapes_.push_back(shared.empty() ? make_shape(source.shape, body.size) : shared[body.hull]);

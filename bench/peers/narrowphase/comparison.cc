@@ -98,7 +98,33 @@ std::string difference_again(const PairStream& stream, const PeerStreamSpec& spe
 
 PeerDetail peer_detail(const PeerStreamSpec& spec) {
   if (spec.measured != Measured::overlapping) return PeerDetail::distance;
-  return spec.detail == Detail::overlap ? PeerDetail::overlap : PeerDetail::contact;
+  if (spec.detail == Detail::overlap) return PeerDetail::overlap;
+  return spec.detail == Detail::manifold ? PeerDetail::manifold : PeerDetail::contact;
+}
+
+// A library beside Bullet.
+struct OtherPeer {
+  const char* name;
+  std::unique_ptr<PairPeer> pairs;
+  size_t different;
+};
+using OtherPeers = std::vector<OtherPeer>;
+
+OtherPeers other_peers(const PeerStreamSpec& spec, const PairStream& stream) {
+  const PeerBodies a = peer_bodies(spec.a, stream.bodies_a());
+  const PeerBodies b = peer_bodies(spec.b, stream.bodies_b());
+  OtherPeers peers;
+  std::vector<uint8_t> overlaps(stream.spec().count);
+  const auto add = [&](const char* name, std::unique_ptr<PairPeer> pairs) {
+    if (!pairs) return;
+    StreamResult result;
+    pairs->run(overlaps);
+    compare_decisions(stream, overlaps, result);
+    peers.push_back({name, std::move(pairs), result.different});
+  };
+  add("fcl", make_fcl_pairs(a, b, peer_detail(spec)));
+  add("ode", make_ode_pairs(a, b, peer_detail(spec)));
+  return peers;
 }
 
 // Processor time of this process, which other programs do not disturb.
@@ -106,8 +132,9 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 
 class TimedRunner {
  public:
-  TimedRunner(std::string name, std::function<void()> pass, std::optional<Isa> isa = std::nullopt)
-      : name_(std::move(name)), pass_(std::move(pass)), isa_(isa) {}
+  TimedRunner(std::string name, std::function<void()> pass, std::optional<Isa> isa = std::nullopt,
+              size_t different = 0)
+      : name_(std::move(name)), pass_(std::move(pass)), isa_(isa), different_(different) {}
 
   // The first pass is not timed, because the runner before has filled the caches.
   void take_turn(double seconds) {
@@ -123,13 +150,14 @@ class TimedRunner {
 
   RunnerResult result() {
     std::sort(times_.begin(), times_.end());
-    return {name_, times_.size(), times_[times_.size() / 2], times_.front()};
+    return {name_, times_.size(), times_[times_.size() / 2], times_.front(), different_};
   }
 
  private:
   std::string name_;
   std::function<void()> pass_;
   std::optional<Isa> isa_;
+  size_t different_;
   std::vector<double> times_;
 };
 
@@ -174,17 +202,21 @@ std::vector<RunnerResult> time_in_turns(std::vector<TimedRunner> runners, double
   unforce_isa();
   std::vector<RunnerResult> timed;
   for (TimedRunner& runner : runners) timed.push_back(runner.result());
-  timed.push_back({"reference", 1, reference_seconds, reference_seconds});
+  timed.push_back({"reference", 1, reference_seconds, reference_seconds, 0});
   return timed;
 }
 
 template <class Stream>
 std::vector<RunnerResult> time_in_turns(const Stream& stream, const PeerStreamSpec& spec,
-                                        PairPeer& bullet, double budget) {
+                                        PairPeer& bullet, const OtherPeers& others, double budget) {
   ResultArrays results(stream.spec().count, Detail::manifold);
   std::vector<uint8_t> overlaps(stream.spec().count);
   std::vector<TimedRunner> runners;
   runners.emplace_back("bullet", [&] { bullet.run(overlaps); });
+  for (const OtherPeer& other : others) {
+    runners.emplace_back(
+        other.name, [&] { other.pairs->run(overlaps); }, std::nullopt, other.different);
+  }
   for (const Isa isa : usable_isas()) {
     const auto pass = std::make_shared<CaromPass<Stream>>(stream, spec, results.columns());
     runners.emplace_back(
@@ -260,7 +292,7 @@ StreamResult compare_motions(const PeerStreamSpec& spec, size_t pairs, double bu
 
 template <class Stream>
 StreamResult compare(const PeerStreamSpec& spec, const Stream& stream, PairPeer& bullet,
-                     double budget) {
+                     const OtherPeers& others, double budget) {
   StreamResult result;
   result.pair = spec.name();
   result.output = spec.output();
@@ -273,7 +305,7 @@ StreamResult compare(const PeerStreamSpec& spec, const Stream& stream, PairPeer&
   std::vector<uint8_t> overlaps(result.pairs);
   result.bullet_points = bullet.run(overlaps);
   compare_decisions(stream, overlaps, result);
-  if (result.agrees()) result.runners = time_in_turns(stream, spec, bullet, budget);
+  if (result.agrees()) result.runners = time_in_turns(stream, spec, bullet, others, budget);
   return result;
 }
 
@@ -371,14 +403,14 @@ StreamResult compare(const PeerStreamSpec& spec, size_t pairs, double budget) {
     const auto bullet =
         make_bullet_pairs(peer_bodies(spec.a, stream.bodies()),
                           peer_ground(stream.terrain(), pairs), PeerDetail::contact);
-    return compare(spec, stream, *bullet, budget);
+    return compare(spec, stream, *bullet, {}, budget);
   }
   PairStream stream(
       {.kind_a = spec.a, .kind_b = spec.b, .count = pairs, .vertices = spec.vertices});
   if (spec.again) stream.draw_next_step();
   const auto bullet = make_bullet_pairs(peer_bodies(spec.a, stream.bodies_a()),
                                         peer_bodies(spec.b, stream.bodies_b()), peer_detail(spec));
-  return compare(spec, stream, *bullet, budget);
+  return compare(spec, stream, *bullet, other_peers(spec, stream), budget);
 }
 
 }  // namespace carom::bench

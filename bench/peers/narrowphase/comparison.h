@@ -1,5 +1,5 @@
-// Compares Carom, its scalar reference and Bullet on streams of pairs: first the decisions, then
-// the times in turns.
+// Compares Carom, its scalar reference, Bullet and other libraries on streams of pairs: first the
+// decisions, then the times in turns.
 #pragma once
 
 #include <optional>
@@ -35,10 +35,11 @@ struct PeerStreamSpec {
 std::vector<PeerStreamSpec> peer_streams();
 
 struct RunnerResult {
-  std::string runner;  // "bullet", "reference", or the name of an instruction set
+  std::string runner;  // "bullet", "fcl", "ode", "reference", or the name of an instruction set
   size_t passes = 0;
   double median_seconds = 0;  // processor time of a pass
   double least_seconds = 0;
+  size_t different = 0;  // pairs that another library decides differently; Bullet's are below
 };
 
 struct StreamResult {

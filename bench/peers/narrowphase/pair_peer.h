@@ -22,15 +22,20 @@ struct PeerBody {
   size_t hull = 0;  // index into the hulls; bodies share them
 };
 
+struct PeerHull {
+  std::vector<std::array<float, 3>> points;
+  std::vector<std::vector<int>> faces;  // corners of each in order, seen from outside to the left
+};
+
 struct PeerBodies {
   PeerShape shape;
   std::vector<PeerBody> bodies = {};
-  std::vector<std::vector<std::array<float, 3>>> hulls = {};  // points
-  std::vector<std::array<float, 3>> vertices = {};            // of the mesh; all bodies share it
+  std::vector<PeerHull> hulls = {};
+  std::vector<std::array<float, 3>> vertices = {};  // of the mesh; all bodies share it
   std::vector<std::array<uint32_t, 3>> triangles = {};
 };
 
-enum class PeerDetail { overlap, contact, distance };
+enum class PeerDetail { overlap, contact, manifold, distance };
 
 // Pair i is (a[i], b[i]).
 class PairPeer {
@@ -44,6 +49,13 @@ class PairPeer {
 // nearest points of separate pairs and the depth of the others.
 std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
                                             PeerDetail detail);
+
+// The same of other libraries, defined in fcl.cc and ode.cc; nullptr where they have no call for
+// the shapes or the detail.
+std::unique_ptr<PairPeer> make_fcl_pairs(const PeerBodies& a, const PeerBodies& b,
+                                         PeerDetail detail);
+std::unique_ptr<PairPeer> make_ode_pairs(const PeerBodies& a, const PeerBodies& b,
+                                         PeerDetail detail);
 
 // One of Bullet's casts: the one that its world's sweep test runs, or the faster one without
 // rotation.

@@ -39,10 +39,10 @@ PeerShape peer_shape(ShapeKind kind) {
   }
 }
 
-// Collects the points of hulls, each geometry once.
+// Collects hulls, each geometry once.
 class PeerHulls {
  public:
-  explicit PeerHulls(std::vector<std::vector<std::array<float, 3>>>& all) : all_(all) {}
+  explicit PeerHulls(std::vector<PeerHull>& all) : all_(all) {}
 
   // Index of a shape's hull; 0 for other shapes.
   size_t place_of(const Shape& shape) {
@@ -50,16 +50,20 @@ class PeerHulls {
     if (!hull) return 0;
     const auto [found, is_new] = places_.emplace(hull->geometry.get(), all_.size());
     if (is_new) {
-      all_.emplace_back();
+      PeerHull& plain = all_.emplace_back();
       for (const Eigen::Vector3f& p : hull->geometry->points()) {
-        all_.back().push_back({p.x(), p.y(), p.z()});
+        plain.points.push_back({p.x(), p.y(), p.z()});
+      }
+      for (const HullGeometry::Face& face : hull->geometry->faces()) {
+        const auto outline = hull->geometry->corners(face);
+        plain.faces.emplace_back(outline.begin(), outline.end());
       }
     }
     return found->second;
   }
 
  private:
-  std::vector<std::vector<std::array<float, 3>>>& all_;
+  std::vector<PeerHull>& all_;
   std::map<const HullGeometry*, size_t> places_;
 };
 

@@ -22,7 +22,8 @@ ordered_json runner_json(const StreamResult& result, const RunnerResult& runner)
           {"ns", ns_per_pair(result, runner.median_seconds)},
           {"ns_min", ns_per_pair(result, runner.least_seconds)},
           {"times_bullet", times_bullet(result, runner)},
-          {"passes", runner.passes}};
+          {"passes", runner.passes},
+          {"different", runner.different}};
 }
 
 ordered_json stream_json(const StreamResult& result) {
@@ -48,11 +49,12 @@ void print(const StreamResult& result) {
     std::printf("  Carom differs from its reference: %s\n", result.wrong.c_str());
   }
   if (result.runners.empty()) return;
-  std::printf("  %-24s %10s %9s %8s\n", "runner", "ns/pair", "x Bullet", "passes");
+  std::printf("  %-24s %10s %9s %8s %10s\n", "runner", "ns/pair", "x Bullet", "passes",
+              "otherwise");
   for (const RunnerResult& runner : result.runners) {
-    std::printf("  %-24s %10.2f %9.2f %8zu\n", runner.runner.c_str(),
+    std::printf("  %-24s %10.2f %9.2f %8zu %10zu\n", runner.runner.c_str(),
                 ns_per_pair(result, runner.median_seconds), times_bullet(result, runner),
-                runner.passes);
+                runner.passes, runner.different);
   }
   std::fflush(stdout);
 }
