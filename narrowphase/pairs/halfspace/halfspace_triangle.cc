@@ -32,7 +32,7 @@ struct HalfspaceTriangle {
     const V height_a = dot(normal, a);
     const V height_b = dot(normal, b);
     const V height_c = dot(normal, c);
-    const V least = min(min(height_a, height_b), height_c);
+    const V least = min(height_c, min(height_b, height_a));  // of equal ones the first
     const V separation = hn::Sub(least, height);
 
     // The mean of the corners that are as low as the lowest.

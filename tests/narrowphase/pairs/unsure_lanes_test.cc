@@ -104,6 +104,19 @@ TEST(UnsureLanesCases, WithZerosOfBothSigns) {
   expect_the_reference(pair, PositionType::float32);
 }
 
+// The corners of this triangle are zeros of both signs, and as high as the plane. Lanes of doubles
+// once took the last of them, and the scalar form the first.
+TEST(UnsureLanesCases, WithATriangleOfZerosOverAPlane) {
+  TestPair pair;
+  pair.a.shape = Halfspace{{1, 1, 1}, 1};
+  Triangle triangle;
+  triangle.corners = {Eigen::Vector3f(0, 0, 0), {0, 0, 0}, {-0.0f, -0.0f, -0.0f}};
+  pair.b.shape = triangle;
+  pair.b.position = {1, 0, 0};
+  expect_the_reference(pair, PositionType::float32);
+  expect_the_reference(pair, PositionType::float64);
+}
+
 // The square of this gap is not a double, but zero.
 TEST(UnsureLanesCases, WithAGapThatVanishesWhenSquared) {
   TestPair pair;
