@@ -198,8 +198,8 @@ inline constexpr double kFlatDifference = 0x1p-36;
 // A point sees a face if it is further than this in front of it: some dozen roundings.
 inline constexpr double kInFace = 0x1p-47;
 
-// A gap or depth above this exceeds all rounding: the decision is proven. So does one that a kernel
-// finds in lanes of doubles, whose formulas are those of float32: 30 units of 2^-53.
+// A gap or depth above this exceeds all rounding: the decision is proven. That holds for cores, and
+// for spheres, half-spaces and pairs of boxes in lanes of doubles (30 units of 2^-53).
 inline constexpr double kProvenGap = 0x1p-36;
 
 // --- Cores in float32, in scaled units: what GJK in lanes may decide. Coordinates of a difference

@@ -12,7 +12,9 @@
 //   report(overlap, unsure, degenerate, separation, normal, arm_a, arm_b)
 // once; names, frames and signs as in Contact. test() is branch-free and the same at every detail:
 // the compiler drops what a detail does not store. `unsure`: the lanes that float32 cannot decide.
-// Where kUnsure says so, test() is a template of lanes of floats or doubles.
+// Where kUnsure says so, test() is a template of lanes of floats or doubles. With
+// Unsure::separation there is
+//   static D exact_separation(d, a, b, is_proven)   in metres; not rounded to float yet
 #if defined(CAROM_NARROWPHASE_BATCH_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_BATCH_INL_H_

@@ -1,5 +1,6 @@
-// A kernel's formula in lanes of doubles, for the lanes that float32 cannot decide. exact_answer()
-// is the scalar form, exact_box_test() that of the test pass of boxes.
+// A kernel's formula in lanes of doubles, for the lanes that float32 cannot decide: test(), or
+// exact_separation() where the separation alone is found again. exact_answer() is the scalar form,
+// exact_box_test() that of the test pass of boxes.
 //
 // Reads the rows again instead of keeping what the kernel had in registers: that would cost every
 // vector, and the rows are still in the nearest cache.
@@ -93,6 +94,15 @@ class ExactLanes {
   static constexpr bool kIsTest = Kernel::kUnsure == Unsure::test;
   static constexpr bool kSeparationOnly = Kernel::kUnsure == Unsure::separation;
 
+  static constexpr bool is_one_of(ShapeKind kind) { return A::kKind == kind || B::kKind == kind; }
+  static constexpr bool is_box(ShapeKind kind) {
+    return kind == ShapeKind::aabb || kind == ShapeKind::box;
+  }
+  // Whether a gap wider than rounding proves the decision. Not where nearly parallel edges make a
+  // kernel skip an axis, or take another feature for the nearest: that may matter by more.
+  static constexpr bool kProves = is_one_of(ShapeKind::sphere) || is_one_of(ShapeKind::halfspace) ||
+                                  (is_box(A::kKind) && is_box(B::kKind));
+
  public:
   // For test_boxes().
   static constexpr bool kHasContact = kContacts;
@@ -133,8 +143,10 @@ class ExactLanes {
       is_answered = hn::AndNot(hn::And(hn::Gt(separation, zero), hn::Le(gap, zero)), is_answered);
     }
     answered_ = bits_of(DoubleTag(), is_answered);
-    const DoubleMask is_wide = hn::Gt(hn::Abs(separation), splat_double(kProvenGap));
-    proven_ |= (bits_of(DoubleTag(), is_wide) & answered_) << first_;
+    if constexpr (kProves) {
+      const DoubleMask is_wide = hn::Gt(hn::Abs(separation), splat_double(kProvenGap));
+      proven_ |= (bits_of(DoubleTag(), is_wide) & answered_) << first_;
+    }
     put(0, rounded_separation(gap));
     if constexpr (kNumbers > 1) {
       put(1, normal);

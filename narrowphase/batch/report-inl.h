@@ -94,7 +94,10 @@ struct LaneReport {
   HWY_INLINE Mask refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
     Mask proven = no_lanes();
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return proven;
-    if (batch.single_precision) unsure = hn::AndNot(is_good_enough(answer), unsure);
+    if (HWY_UNLIKELY(batch.single_precision)) {
+      unsure = hn::AndNot(is_good_enough(answer), unsure);
+      if (hn::AllFalse(FloatTag(), unsure)) return proven;
+    }
     AnswerLanes in_memory = answer;  // `answer` itself stays in registers
     if constexpr (Kernel::kUnsure == Unsure::everything) {
       refine_one_by_one(unsure, in_memory, degenerate);

@@ -1,4 +1,5 @@
-// The gap between balls and points, in lanes of doubles. Source and reasons: near_touch.h.
+// The gap between balls and points, in lanes of doubles. Source and reasons:
+// narrowphase/scalar/near_touch.h.
 #if defined(CAROM_NARROWPHASE_FEATURES_BALL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_FEATURES_BALL_INL_H_
 #undef CAROM_NARROWPHASE_FEATURES_BALL_INL_H_

@@ -13,6 +13,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
+// Gaps along cross products below this show nothing: edges so nearly parallel leave the decision to
+// the faces.
+constexpr float kLeastEdgeGap = 0x1p-100f;
+
 // The greatest of some gaps, less what rounding may have added to each, and plus that.
 struct GapBounds {
   F least, most;
@@ -24,8 +28,9 @@ struct GapBounds {
 };
 
 // The gap along the cross product of axis kA of A and axis kB of B, times the length of that
-// vector. All its rounding errors have that length as a factor, too, of which the sum of the two
-// components is a bound.
+// vector. Rounding in here has that length as a factor, too, of which the sum of the two components
+// is a bound; that of the turn moves points of B by as much as that of other axes. This ends where
+// products vanish, far below kLeastEdgeGap.
 template <int kA, int kB>
 HWY_INLINE void offer_edges(const BoxPairLanes& p, const Rotation& sizes, const Rotation& crosses,
                             GapBounds& gaps) {
@@ -73,9 +78,8 @@ HWY_INLINE void decide_boxes(const BoxPairLanes& p, Report& report) {
   offer_edges<2, 1>(p, sizes, crosses, edges);
   offer_edges<2, 2>(p, sizes, crosses, edges);
 
-  const F zero = splat(0);
-  const Mask is_separate = hn::Or(hn::Gt(face, near), hn::Gt(edges.least, zero));
-  const Mask overlaps = hn::And(hn::Lt(face, hn::Neg(near)), hn::Le(edges.most, zero));
+  const Mask is_separate = hn::Or(hn::Gt(face, near), hn::Gt(edges.least, splat(kLeastEdgeGap)));
+  const Mask overlaps = hn::And(hn::Lt(face, hn::Neg(near)), hn::Le(edges.most, splat(0)));
   report(overlaps, hn::Not(hn::Or(is_separate, overlaps)), no_lanes(),
          hn::IfThenElse(is_separate, near, hn::Neg(near)), p.centre, p.centre, p.centre);
 }

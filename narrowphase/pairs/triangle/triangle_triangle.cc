@@ -223,11 +223,7 @@ struct TriangleTriangle {
       const MaskOf<V> touching =
           hn::AndNot(is_crossing, hn::Le(nearest.distance, splat_as<V>(Tolerance::kNearEdges)));
       normal = select(touching, axes.normal, normal);
-      // A gap wide enough for a proof must be one along the normal, too.
-      const V wide = splat_as<V>(kProvenGap);
-      const MaskOf<V> is_open =
-          hn::And(hn::Gt(separation, wide), hn::Le(axes.gap_along(normal), wide));
-      unsure = hn::Or(unsure, hn::Or(is_open, hn::AndNot(axes.exists(), touching)));
+      unsure = hn::Or(unsure, hn::AndNot(axes.exists(), touching));
     } else {
       const V least = hn::Sub(separation, splat_as<V>(Tolerance::kTilt));
       const MaskOf<V> is_tilted = hn::AndNot(is_crossing, hn::Lt(axes.gap_along(normal), least));

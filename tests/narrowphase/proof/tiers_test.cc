@@ -284,6 +284,77 @@ TEST(FastTier, FacesOnlyLeavesOtherKindsAlone) {
   EXPECT_TRUE(same_rows(standard, run_rows(pairs, call), pairs));
 }
 
+void expect_never_wrong(const std::vector<TestPair>& pairs) {
+  const std::vector<bool> overlaps = all_exact(pairs, PositionType::float32);
+  for_each_isa([&] {
+    for (const Tier tier : {Tier::certified, Tier::exact}) {
+      const auto rows = run_rows(pairs, call_of(tier, PositionType::float32, Detail::contact));
+      for (size_t i = 0; i < rows.size(); ++i) {
+        if (tier == Tier::certified && rows[i].overlap == kUndecided) continue;
+        ASSERT_EQ(rows[i].overlap, overlaps[i]) << show(pairs[i]);
+      }
+    }
+  });
+}
+
+// The segment lies beside the edge of the box, at an angle of 2^-24: only the cross product of both
+// separates them, which the kernels leave out.
+TEST(Tiers, ASegmentNearlyAlongAnEdge) {
+  constexpr float kStep = 0x1p-26f, kHalf = 0x1p-10f;
+  const Eigen::Vector3f a(-1, kHalf + 2 * kStep, kHalf - kStep);
+  const Eigen::Vector3f b(1, kHalf - kStep, kHalf + 2 * kStep);
+  const Eigen::Vector3f half(1, kHalf, kHalf);
+  Triangle triangle;
+  triangle.corners = {a, b, {0, 1, 1}};
+  std::vector<TestPair> pairs(4);
+  pairs[0].a.shape = pairs[1].a.shape = Capsule{a, b, 0};
+  pairs[0].b.shape = pairs[2].a.shape = Box{half};
+  pairs[1].b.shape = pairs[3].a.shape = Aabb{-half, half};
+  pairs[2].b.shape = pairs[3].b.shape = triangle;
+  expect_never_wrong(pairs);
+}
+
+// The lines of these segments cross beyond the end of one, at angles of about 2^-25.
+TEST(Tiers, SegmentsWhoseLinesCrossBesideThem) {
+  Random random(5);
+  std::vector<TestPair> pairs;
+  for (size_t i = 0; i < rounds(2000); ++i) {
+    const double angle = 0x1p-25 * random.uniform(1, 1.3), crossing = random.uniform(1.005, 1.2);
+    const auto height = [&](double x) { return static_cast<float>(angle * (crossing - x)); };
+    const auto radius = static_cast<float>(height(1) * random.uniform(0.1, 1.2) / 2);
+    TestPair pair;
+    pair.a.shape = Capsule{{0, 0, 0}, {1, 0, 0}, radius};
+    pair.b.shape = Capsule{{0, height(0), 0}, {1, height(1), 0}, radius};
+    if (random.chance(0.5)) {
+      const Eigen::Quaterniond turn(Eigen::AngleAxisd(random.uniform(0, 3), random.direction()));
+      pair.a.orientation = pair.b.orientation = turn.cast<float>();
+    }
+    pairs.push_back(pair);
+  }
+  expect_never_wrong(pairs);
+}
+
+// Products with so small a turn vanish, or round to the least number there is.
+TEST(Tiers, BoxesTurnedByTheLeastNumbers) {
+  std::vector<TestPair> pairs;
+  for (const float z : {1.4e-45f, 1e-44f, 1e-43f, 1e-42f, 1e-41f, 1e-40f, 1e-38f, 1e-30f}) {
+    TestPair pair;
+    pair.a.shape = Box{{1, 1, 1.2f}};
+    pair.b.shape = Box{{1, 1, 0.2f}};
+    pair.b.position = {0, 0, 1.3};
+    pair.b.orientation = Eigen::Quaternionf(1, 0, 0, z);
+    pairs.push_back(pair);
+  }
+  for_each_isa([&] {
+    for (const Tier tier : {Tier::standard, Tier::certified, Tier::exact}) {
+      for (const Detail detail : {Detail::overlap, Detail::contact}) {
+        const auto rows = run_rows(pairs, call_of(tier, PositionType::float32, detail));
+        for (const Row& row : rows) EXPECT_EQ(row.overlap, 1);
+      }
+    }
+  });
+}
+
 // x + y <= 7 and x <= y cut this k-DOP at (3.5, 3.5), in units of the least float: its corners
 // round to (4, 4), which the sphere overlaps. Floats are too coarse for such k-DOPs, and must not
 // prove anything.
