@@ -301,8 +301,13 @@ class ExactLanes {
   }
 
   HWY_INLINE void put(size_t c, D v) {
+#if HWY_TARGET == HWY_SCALAR
+    // DemoteTo() would make the greatest float of what is beyond floats; elsewhere it is infinite.
+    answers_[c][first_] = static_cast<float>(hn::GetLane(v));
+#else
     const hn::Rebind<float, DoubleTag> half;
     hn::Store(hn::DemoteTo(half, v), half, answers_[c] + first_);
+#endif
   }
   HWY_INLINE void put(size_t c, const D3& v) { put(c, v.x), put(c + 1, v.y), put(c + 2, v.z); }
 

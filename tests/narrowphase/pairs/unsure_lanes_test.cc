@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -102,6 +103,21 @@ TEST(UnsureLanesCases, WithZerosOfBothSigns) {
   pair.a.shape = Capsule{{-0.0f, -0.0f, -0.0f}, {-0.0f, -0.0f, -0.0f}, 0};
   pair.b.shape = Box{{1, 1, 0}};
   expect_the_reference(pair, PositionType::float32);
+}
+
+// The point of the half-space that is nearest to the sphere is beyond floats. Highway's scalar
+// target once rounded it to the greatest of these.
+TEST(UnsureLanesCases, WithANearestPointBeyondFloats) {
+  TestPair pair;
+  pair.a.shape = Sphere{1};
+  pair.a.position = {2e38, 2e38, 2e38};
+  pair.b.shape = Halfspace{{0.01f, -1, -1}, 3e38f};
+  pair.b.position = {-2e38, -2e38, -2e38};
+  expect_the_reference(pair, PositionType::float32);
+  expect_the_reference(pair, PositionType::float64);
+  const Row row = expected_rows({&pair, 1}, PositionType::float64)[0];
+  EXPECT_TRUE(std::isinf(row.point_a[0]) || std::isinf(row.point_b[0]) ||
+              std::isinf(row.point_b[1]));
 }
 
 // The corners of this triangle are zeros of both signs, and as high as the plane. Lanes of doubles
