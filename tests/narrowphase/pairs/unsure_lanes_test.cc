@@ -110,14 +110,14 @@ TEST(UnsureLanesCases, WithZerosOfBothSigns) {
 TEST(UnsureLanesCases, WithANearestPointBeyondFloats) {
   TestPair pair;
   pair.a.shape = Sphere{1};
-  pair.a.position = {2e38, 2e38, 2e38};
-  pair.b.shape = Halfspace{{0.01f, -1, -1}, 3e38f};
-  pair.b.position = {-2e38, -2e38, -2e38};
-  expect_the_reference(pair, PositionType::float32);
-  expect_the_reference(pair, PositionType::float64);
-  const Row row = expected_rows({&pair, 1}, PositionType::float64)[0];
-  EXPECT_TRUE(std::isinf(row.point_a[0]) || std::isinf(row.point_b[0]) ||
-              std::isinf(row.point_b[1]));
+  pair.a.position = {3e38, 0, 0};
+  pair.b.shape = Halfspace{{0, 1, 0}, 0};
+  pair.b.position = {-3e38, 0, 0};
+  pair.b.orientation = Eigen::Quaternionf(0.5f, 0, 0.5f, 0);
+  for (const PositionType positions : kPositionTypes) {
+    expect_the_reference(pair, positions);
+    EXPECT_TRUE(std::isinf(expected_rows({&pair, 1}, positions)[0].point_b[0]));
+  }
 }
 
 // The corners of this triangle are zeros of both signs, and as high as the plane. Lanes of doubles
