@@ -15,9 +15,14 @@ inline constexpr float kNearTouch = 0x1p-20f;
 // that follow round to at most 30 units of 2^-24, a quarter of this.
 inline constexpr float kNearTouchScaled = 0x1p-17f;
 
-// Double precision proves the sign of the difference of two squares where it is more than this
-// share of them: each has four roundings of 2^-53.
+// Double precision proves the sign of a squared distance less the square of a reach where it is
+// more than this share of both: the first has five roundings of 2^-53, the second three.
 inline constexpr double kSureOfSquares = 0x1p-48;
+
+// A gap of two boxes along the cross product of edges, times the length of that product, says
+// nothing below this: products in it may have vanished. Edges so nearly parallel leave the decision
+// to the faces.
+inline constexpr float kLeastEdgeGap = 0x1p-100f;
 
 // A remembered direction decides a pair only if it separates the shapes by more than this, in
 // scaled units. Every test then finds them separate: its best axis shows a good part of that gap,

@@ -80,7 +80,8 @@ struct LaneReport {
     return {scaled(separation, up), normal, arm_a * up, arm_b * up};
   }
 
-  // Gaps that vanished in metres, and lanes so large that numbers were clamped, are unsure, too.
+  // Gaps that vanished in metres, and lanes so large that numbers were clamped, are unsure, too,
+  // unless they are proven. `separation`: in float32.
   HWY_INLINE void mark_unsure(Mask unsure, Mask proven, F separation) const {
     if constexpr (Kernel::kUnsure != Unsure::left) {
       const Mask vanished = hn::Or(hn::Eq(separation, splat(0)), hn::Not(plain));

@@ -13,10 +13,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// Gaps along cross products below this show nothing: edges so nearly parallel leave the decision to
-// the faces.
-constexpr float kLeastEdgeGap = 0x1p-100f;
-
 // The greatest of some gaps, less what rounding may have added to each, and plus that.
 struct GapBounds {
   F least, most;

@@ -1,8 +1,10 @@
 // The tiers of collide(): their promises, on every instruction set.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "narrowphase/proof/exact_overlap.h"
 #include "tests/support/isas.h"
@@ -353,6 +355,27 @@ TEST(Tiers, BoxesTurnedByTheLeastNumbers) {
       }
     }
   });
+}
+
+// Stacks and lattices touch exactly.
+TEST(Tiers, BoxesAlongTheAxesAreNeverUndecided) {
+  const std::vector<ConvexFamily> all = convex_families();
+  const auto is_lattice = [](const ConvexFamily& f) { return f.name == std::string("lattice"); };
+  const ConvexFamily family = *std::ranges::find_if(all, is_lattice);
+  for (const KindPair kinds :
+       {KindPair{ShapeKind::box, ShapeKind::box}, KindPair{ShapeKind::aabb, ShapeKind::box},
+        KindPair{ShapeKind::box, ShapeKind::aabb}, KindPair{ShapeKind::aabb, ShapeKind::aabb}}) {
+    const auto pairs = make_kind_pairs(family, kinds, PositionType::float32, rounds(1000), 9);
+    const std::vector<bool> overlaps = all_exact(pairs, PositionType::float32);
+    const auto rows =
+        run_rows(pairs, call_of(Tier::certified, PositionType::float32, Detail::contact));
+    size_t touching = 0;
+    for (size_t i = 0; i < rows.size(); ++i) {
+      ASSERT_EQ(rows[i].overlap, overlaps[i]) << show(pairs[i]);
+      touching += rows[i].separation == 0;
+    }
+    EXPECT_GT(touching, pairs.size() / 20);
+  }
 }
 
 // x + y <= 7 and x <= y cut this k-DOP at (3.5, 3.5), in units of the least float: its corners
