@@ -265,8 +265,8 @@ def others_table(streams, isas):
     yield "\n## FCL and ODE\n"
     yield ("In the same run: `fcl::collide()` of two objects, and `fcl::distance()` for `distance`, "
            "`clearance` and `again`; `dCollide()` of two geoms. Both compute in double precision, and "
-           "find one contact, four for manifolds, none for `overlap`. `otherwise`: pairs that the "
-           "library decides otherwise than Carom, apart from those too near touch.\n")
+           "find one contact, four for manifolds; for `overlap` FCL finds none. `otherwise`: pairs "
+           "that the library decides otherwise than Carom, apart from those too near touch.\n")
     yield row(["pair", "output"] + [cell for _, title in OTHERS for cell in (title, "otherwise")]
               + ["Bullet", isas[-1]])
     yield "|---|---|" + "---:|" * (2 * len(OTHERS) + 2)

@@ -55,7 +55,7 @@ class Bodies {
 class OdePairs final : public PairPeer {
  public:
   OdePairs(const PeerBodies& a, const PeerBodies& b, PeerDetail detail) : a_(a), b_(b) {
-    // Not CONTACTS_UNIMPORTANT for decisions: with it one in eleven pairs of boxes has no contact.
+    // Not CONTACTS_UNIMPORTANT for decisions: with it one in six boxes that overlap has no contact.
     flags_ = detail == PeerDetail::manifold ? kMostContacts : 1;
   }
 
