@@ -135,7 +135,9 @@ class PartSweep {
     if (other.placed.kind() == ShapeKind::halfspace) {
       for_each_below(tree, other, met);
     } else {
-      tree.placed.tree().find_touching({SweptRegion(tree, other).box()}, met);
+      tree.placed.tree().find_touching(
+          {SweptRegion(tree, other).box()},
+          [&](std::span<const uint32_t> items) { std::for_each(items.begin(), items.end(), met); });
     }
   }
 

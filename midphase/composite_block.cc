@@ -111,14 +111,24 @@ class CompositeRun {
 
   void search(size_t k, double reach) {
     const BodyPair bodies(a_, b_, pair(k));
-    find_part_pairs(bodies.a, bodies.b, reach,
-                    [&](const PlacedPart& a, const PlacedPart& b) { add(k, a, b); });
+    find_part_pairs(bodies.a, bodies.b, reach, [&](const NearParts& parts) { add(k, parts); });
   }
 
-  void add(size_t k, const PlacedPart& a, const PlacedPart& b) {
-    if (!find_pair_kind(a.kind(), b.kind()).exists()) return;
+  void add(size_t k, const NearParts& parts) {
+    if (!parts.triangles.empty()) return add_triangles(k, parts);
+    if (!find_pair_kind(parts.a.kind(), parts.b.kind()).exists()) return;
     if (batch_.is_full()) flush();
-    batch_.add(k, a, b, reach(k));
+    batch_.add(k, parts.a, parts.b, reach(k));
+  }
+
+  // Every kind has a kernel with triangles.
+  void add_triangles(size_t k, const NearParts& parts) {
+    for (std::span<const uint32_t> left = parts.triangles; !left.empty();) {
+      if (batch_.is_full()) flush();
+      const size_t count = std::min(left.size(), batch_.room());
+      batch_.add(k, {parts.a, parts.b, left.first(count)}, reach(k));
+      left = left.subspan(count);
+    }
   }
 
   // Tests the waiting pairs of parts. All pairs of bodies before the current one are then complete.
@@ -272,8 +282,7 @@ class CompositeRun {
     for (const size_t k : to_measure) {
       if (outcomes_[k].is_found) continue;
       const BodyPair bodies(a_, b_, pair(k));
-      find_near_part_pair(bodies.a, bodies.b,
-                          [&](const PlacedPart& a, const PlacedPart& b) { add(k, a, b); });
+      find_near_part_pair(bodies.a, bodies.b, [&](const NearParts& parts) { add(k, parts); });
     }
     run_batch();
     for (const size_t k : to_measure) {

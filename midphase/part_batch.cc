@@ -23,7 +23,6 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
   are_mixed_ = are_mixed_ || kind_[body] != kind_[0];
   frame_[body] = frames_used_ - 1;
   triangle_[body] = part.triangle;
-  order_[body] = part.order();
   first_row_[body] = rows_used_;
   if (is_of_mesh(body)) {
     put_triangle_rows(part.mesh(), part.triangle, rows_.data() + rows_used_);
@@ -40,8 +39,37 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
   return body;
 }
 
+// What all triangles share is written column by column.
+uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
+                                    std::span<const uint32_t> triangles) {
+  const uint32_t first = count_, first_row = rows_used_;
+  const size_t count = triangles.size();
+  const bool has_frame = frames_used_ > 0 && frames_[frames_used_ - 1].is_of(owner, mesh);
+  if (!has_frame) put_frame(owner, mesh);
+  const Double3& p = mesh.position;
+  std::fill_n(record_.begin() + first, count, Position{p[0], p[1], p[2], 0});
+  std::fill_n(orientation_.begin() + first, count, mesh.orientation);
+  std::fill_n(kind_.begin() + first, count, ShapeKind::triangle);
+  std::fill_n(frame_.begin() + first, count, frames_used_ - 1);
+  std::copy_n(triangles.begin(), count, triangle_.begin() + first);
+  are_mixed_ = are_mixed_ || kind_[0] != ShapeKind::triangle;
+  Row* const rows = rows_.data() + first_row;
+  constexpr uint32_t kRows = row_count(ShapeKind::triangle);
+  for (uint32_t i = 0; i < count; ++i) {
+    first_row_[first + i] = first_row + kRows * i;
+    put_triangle_rows(mesh.mesh(), triangles[i], rows + kRows * i);
+  }
+  for (size_t i = 0; mesh.one_sided && i < count; ++i) {
+    rows[kRows * i + 1][3] = *mesh.one_sided ? 1.0f : 0.0f;
+  }
+  count_ += static_cast<uint32_t>(count);
+  rows_used_ += kRows * static_cast<uint32_t>(count);
+  return first;
+}
+
 void PartColumns::put_frame(size_t owner, const PlacedPart& part) {
-  const MeshGeometry* const mesh = part.triangle == part.kWhole ? nullptr : &part.mesh();
+  const bool is_of_mesh = part.part->kind == ShapeKind::mesh;
+  const MeshGeometry* const mesh = is_of_mesh ? &part.mesh() : nullptr;
   frames_[frames_used_++] = {part.position, part.arm, part.turn, mesh, part.child, owner};
 }
 
@@ -96,6 +124,18 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, floa
   reach_[count_] = reach;
   owner_[count_] = static_cast<uint32_t>(owner);
   pairs_[count_++] = {sides_[0].put(owner, a), sides_[1].put(owner, b)};
+}
+
+void PartBatch::add(size_t owner, const NearParts& parts, float reach) {
+  const auto& [a, b, triangles] = parts;
+  const size_t mesh_side = a.kind() == ShapeKind::mesh ? 0 : 1;
+  const uint32_t first = sides_[mesh_side].put_triangles(owner, mesh_side == 0 ? a : b, triangles);
+  const uint32_t other = sides_[1 - mesh_side].put(owner, mesh_side == 0 ? b : a);
+  for (uint32_t i = 0; i < triangles.size(); ++i) {
+    reach_[count_] = reach;
+    owner_[count_] = static_cast<uint32_t>(owner);
+    pairs_[count_++] = mesh_side == 0 ? Pair{first + i, other} : Pair{other, first + i};
+  }
 }
 
 void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "carom/results/pair.h"
 #include "carom/results/tier.h"
+#include "midphase/part_search.h"
 #include "midphase/placed_part.h"
 #include "narrowphase/batch/column_memory.h"
 
@@ -18,12 +20,18 @@ class PartColumns {
   // Adds a part, and returns the index of its body. A part that repeats the last one is not added
   // again.
   uint32_t put(size_t owner, const PlacedPart& part);
+  // Adds triangles of a mesh, and returns the index of the first one's body.
+  uint32_t put_triangles(size_t owner, const PlacedPart& mesh, std::span<const uint32_t> triangles);
 
   Collidables view() const;
   ShapeKind kind(size_t body) const { return kind_[body]; }
   Double3 middle(size_t body) const;
   const Double3& arm(size_t body) const { return frames_[frame_[body]].arm; }
-  uint64_t order(size_t body) const { return order_[body]; }
+  // See PlacedPart::order().
+  uint64_t order(size_t body) const {
+    const uint32_t triangle = is_of_mesh(body) ? triangle_[body] : 0;
+    return uint64_t{frames_[frame_[body]].child} << 32 | triangle;
+  }
 
   // Whether the body is a triangle of a mesh; triangle() then gives it.
   bool is_of_mesh(size_t body) const { return triangle_[body] != PlacedPart::kWhole; }
@@ -66,7 +74,6 @@ class PartColumns {
   std::array<const DopGeometry*, kPairsPerBlock> dops_;
   std::array<uint32_t, kPairsPerBlock> frame_;
   std::array<uint32_t, kPairsPerBlock> triangle_;
-  std::array<uint64_t, kPairsPerBlock> order_;
   std::array<Frame, kPairsPerBlock> frames_;
 };
 
@@ -84,10 +91,14 @@ class PartBatch {
  public:
   size_t count() const { return count_; }
   bool is_full() const { return count_ == kPairsPerBlock; }
+  // How many pairs may still be added.
+  size_t room() const { return kPairsPerBlock - count_; }
   void clear();
   // Adds a pair for `owner`, with its contact distance. Its kinds must have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach);
-  // The same, and sets the inner edges of triangles.
+  // Adds the pairs of one part with each of some triangles of a mesh; there must be room for them.
+  void add(size_t owner, const NearParts& parts, float reach);
+  // Adds a pair, and sets the inner edges of triangles.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
            const std::array<uint8_t, 2>& inner_edges);
 

@@ -175,23 +175,38 @@ bool takes_apart_first(const PlacedPart& a, const PlacedPart& b) {
 
 class PartSearch {
  public:
-  PartSearch(double reach, PartPairFound found) : reach_(reach), found_(found) {}
+  PartSearch(double reach, NearPartsFound found) : reach_(reach), found_(found) {}
 
   void run(const PlacedPart& a, const PlacedPart& b) const {
     if (!a.has_parts() && !b.has_parts()) {
-      found_(a, b);
+      found_({a, b});
     } else if (a.kind() == b.kind()) {
       take_apart_both(a, b);
     } else if (takes_apart_first(a, b)) {
-      PartOf part(a);
-      for_each_near(a, b, [&](uint32_t item) { run(part.item(item), b); });
+      take_apart(a, b, [&](const PlacedPart& part) { run(part, b); }, {a, b});
     } else {
-      PartOf part(b);
-      for_each_near(b, a, [&](uint32_t item) { run(a, part.item(item)); });
+      take_apart(b, a, [&](const PlacedPart& part) { run(a, part); }, {a, b});
     }
   }
 
  private:
+  // Goes on with each part of `tree` that is near the other one. The triangles of a mesh, which
+  // need no more searching, are found some at a time: those of `both`.
+  template <class GoOn>
+  void take_apart(const PlacedPart& tree, const PlacedPart& other, const GoOn& go_on,
+                  const NearParts& both) const {
+    if (tree.kind() == ShapeKind::mesh && !other.has_parts()) {
+      for_each_near(tree, other, [&](std::span<const uint32_t> triangles) {
+        found_({both.a, both.b, triangles});
+      });
+    } else {
+      PartOf part(tree);
+      for_each_near(tree, other, [&](std::span<const uint32_t> items) {
+        for (const uint32_t item : items) go_on(part.item(item));
+      });
+    }
+  }
+
   void take_apart_both(const PlacedPart& a, const PlacedPart& b) const {
     const FrameChange change = to_frame_of(a, b);
     const double lengths = size_of(a) + size_of(b) + greatest(change.offset);
@@ -204,14 +219,17 @@ class PartSearch {
   void for_each_near(const PlacedPart& tree, const PlacedPart& other, const Use& use) const {
     if (is_plane(other)) {
       const SeenPlane plane(tree, other);
-      tree.tree().find_below(plane.normal, plane.limit + with_slack(reach_, plane.lengths), use);
+      tree.tree().find_below(plane.normal, plane.limit + with_slack(reach_, plane.lengths),
+                             [&](uint32_t item) {
+                               use({&item, 1});
+                             });
     } else {
       tree.tree().find_touching(SeenPart(tree, other).surroundings(reach_), use);
     }
   }
 
   const double reach_;
-  const PartPairFound found_;
+  const NearPartsFound found_;
 };
 
 uint32_t near_item(const PlacedPart& tree, const PlacedPart& other) {
@@ -221,11 +239,11 @@ uint32_t near_item(const PlacedPart& tree, const PlacedPart& other) {
 
 }  // namespace
 
-void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, PartPairFound found) {
+void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, NearPartsFound found) {
   PartSearch(reach, found).run(a, b);
 }
 
-void find_near_part_pair(const PlacedPart& first, const PlacedPart& second, PartPairFound found) {
+void find_near_part_pair(const PlacedPart& first, const PlacedPart& second, NearPartsFound found) {
   PlacedPart a = first, b = second;
   while (a.has_parts() || b.has_parts()) {
     const bool is_first = takes_apart_first(a, b) || (a.has_parts() && a.kind() == b.kind());
@@ -233,7 +251,7 @@ void find_near_part_pair(const PlacedPart& first, const PlacedPart& second, Part
     if (tree.tree().is_empty()) return;
     tree = tree.item(near_item(tree, is_first ? b : a));
   }
-  found(a, b);
+  found({a, b});
 }
 
 }  // namespace carom

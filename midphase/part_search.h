@@ -2,20 +2,30 @@
 // parts.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "base/parallel.h"
 #include "midphase/placed_part.h"
 
 namespace carom {
 
-// Receives parts that have no parts themselves.
-using PartPairFound = FunctionRef<void(const PlacedPart& a, const PlacedPart& b)>;
+// Two parts that have no parts themselves; or one and a mesh, of which each of these triangles is
+// meant.
+struct NearParts {
+  const PlacedPart& a;
+  const PlacedPart& b;
+  std::span<const uint32_t> triangles = {};
+};
+
+using NearPartsFound = FunctionRef<void(const NearParts&)>;
 
 // Finds all pairs of parts that are at most `reach` metres apart, and some that are further. Every
 // pair that a test may find to be that near is among them, despite all rounding. A half-space is
 // near everything that reaches below its plane.
-void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, PartPairFound found);
+void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, NearPartsFound found);
 
 // Finds one pair of parts that is about the nearest; none if one of the bodies has no parts.
-void find_near_part_pair(const PlacedPart& a, const PlacedPart& b, PartPairFound found);
+void find_near_part_pair(const PlacedPart& a, const PlacedPart& b, NearPartsFound found);
 
 }  // namespace carom

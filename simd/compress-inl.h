@@ -106,18 +106,23 @@ HWY_INLINE Mask lanes_with_one(const uint8_t* bytes) {
   return hn::RebindMask(FloatTag(), hn::Eq(numbers, hn::Set(tag, 1)));
 }
 
-// Writes the selected lanes to `to` and returns their number. May write a whole vector. (Some
+// Writes the selected lanes to `to` and returns their number. May write a whole vector. Vectors of
+// `tag` may be narrower than the widest where the ISA has an instruction for Compress. (Some
 // processors take a hundred cycles to compress to memory.)
-HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
-  const IndexTag tag;
+template <class Tag, class V, class M>
+HWY_INLINE size_t compress_store(Tag tag, V v, M mask, uint32_t* to) {
+  const size_t bits = bits_of(tag, mask);
 #if CAROM_COMPRESS_BY_TABLE
-  const size_t bits = bits_of(FloatTag(), mask);
+  static_assert(kLanesOf<Tag> == kLanes);
   hn::StoreU(permute(v, kInOrder, bits), tag, to);
-  return static_cast<size_t>(std::popcount(bits));
 #else
-  hn::StoreU(hn::Compress(v, hn::RebindMask(tag, mask)), tag, to);
-  return hn::CountTrue(FloatTag(), mask);
+  hn::StoreU(hn::Compress(v, mask), tag, to);
 #endif
+  return static_cast<size_t>(std::popcount(bits));
+}
+
+HWY_INLINE size_t compress_store(Indices v, Mask mask, uint32_t* to) {
+  return compress_store(IndexTag(), v, hn::RebindMask(IndexTag(), mask), to);
 }
 
 // The first `count` bits, of as many as there are lanes here.
@@ -131,8 +136,7 @@ HWY_INLINE size_t first_bits(size_t count) {
 }
 
 // Writes a pair (smaller, larger) of `one` and each selected lane of the first `lanes` lanes of
-// `others`, and returns the number of pairs. May write two whole vectors. Vectors of `tag` may be
-// narrower than the widest where the ISA has an instruction for Compress.
+// `others`, and returns the number of pairs. May write two whole vectors. `tag` as above.
 template <class Tag, class V, class M>
 HWY_INLINE size_t store_pairs(Tag tag, V one, V others, M mask, size_t lanes, uint32_t* to) {
   const size_t among = first_bits(std::min(lanes, kLanesOf<Tag>));

@@ -62,6 +62,9 @@ TreeBox rounded_outwards(const Double3& middle, const Double3& half);
 // of float32, the result is a box that has been grown by the radius instead.
 RoundedBox rounded_outwards(const Double3& middle, const Double3& half, double radius);
 
+// Receives some of the items of a tree.
+using ItemsFound = FunctionRef<void(std::span<const uint32_t> items)>;
+
 class BoxTree {
  public:
   static constexpr size_t kChildren = 8;
@@ -91,9 +94,9 @@ class BoxTree {
   std::span<const Node> nodes() const { return nodes_; }  // the first is the root
   size_t bytes() const { return nodes_.capacity() * sizeof(Node); }
 
-  // Calls `found` with every item that touches the box. The items and their order are the same on
-  // every ISA.
-  void find_touching(const RoundedBox& box, FunctionRef<void(uint32_t item)> found) const;
+  // Calls `found` with all items that touch the box, some at a time. The items and their order are
+  // the same on every ISA.
+  void find_touching(const RoundedBox& box, ItemsFound found) const;
 
   // Calls `found` with every item whose box has a corner with normal . x <= limit.
   void find_below(const Double3& normal, double limit,

@@ -10,7 +10,7 @@
 #include <bit>
 #include <vector>
 
-#include "simd/lanes-inl.h"
+#include "simd/compress-inl.h"
 #include "trees/tree.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,43 +18,40 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 using ChildTag = hn::CappedTag<float, BoxTree::kChildren>;
+using ChildMask = hn::Mask<ChildTag>;
 inline constexpr size_t kChildLanes = hn::MaxLanes(ChildTag());
+
+// Which of the children from `first` on, a vector of them, touch the box.
+HWY_INLINE ChildMask touching(const BoxTree::Node& node, size_t first, const TreeBox& box) {
+  const ChildTag tag;
+  const auto touches_along = [&](size_t axis) HWY_ATTR {
+    return hn::And(hn::Le(hn::Load(tag, node.lower[axis] + first), hn::Set(tag, box.upper[axis])),
+                   hn::Ge(hn::Load(tag, node.upper[axis] + first), hn::Set(tag, box.lower[axis])));
+  };
+  return hn::And(touches_along(0), hn::And(touches_along(1), touches_along(2)));
+}
+
+// Which of them are within the radius of the box.
+HWY_INLINE ChildMask touching(const BoxTree::Node& node, size_t first, const RoundedBox& rounded) {
+  const ChildTag tag;
+  const auto& [box, squared_radius] = rounded;
+  auto squared = hn::Zero(tag);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto above =
+        hn::Sub(hn::Load(tag, node.lower[axis] + first), hn::Set(tag, box.upper[axis]));
+    const auto below =
+        hn::Sub(hn::Set(tag, box.lower[axis]), hn::Load(tag, node.upper[axis] + first));
+    const auto gap = hn::Max(hn::Max(above, below), hn::Zero(tag));
+    squared = hn::Add(squared, hn::Mul(gap, gap));
+  }
+  return hn::Le(squared, hn::Set(tag, squared_radius));
+}
 
 // Bit i is set if child i touches the box.
 HWY_INLINE uint32_t touching(const BoxTree::Node& node, const TreeBox& box) {
-  const ChildTag tag;
   uint32_t bits = 0;
   for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
-    auto touch = hn::And(hn::Le(hn::Load(tag, node.lower[0] + i), hn::Set(tag, box.upper[0])),
-                         hn::Ge(hn::Load(tag, node.upper[0] + i), hn::Set(tag, box.lower[0])));
-    for (size_t axis = 1; axis < 3; ++axis) {
-      const auto starts =
-          hn::Le(hn::Load(tag, node.lower[axis] + i), hn::Set(tag, box.upper[axis]));
-      const auto ends = hn::Ge(hn::Load(tag, node.upper[axis] + i), hn::Set(tag, box.lower[axis]));
-      touch = hn::And(touch, hn::And(starts, ends));
-    }
-    bits |= static_cast<uint32_t>(bits_of(tag, touch)) << i;
-  }
-  return bits;
-}
-
-// Bit i is set if child i is within the radius of the box.
-HWY_INLINE uint32_t touching(const BoxTree::Node& node, const RoundedBox& rounded) {
-  const ChildTag tag;
-  const auto& [box, squared_radius] = rounded;
-  uint32_t bits = 0;
-  for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
-    auto squared = hn::Zero(tag);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const auto above =
-          hn::Sub(hn::Load(tag, node.lower[axis] + i), hn::Set(tag, box.upper[axis]));
-      const auto below =
-          hn::Sub(hn::Set(tag, box.lower[axis]), hn::Load(tag, node.upper[axis] + i));
-      const auto gap = hn::Max(hn::Max(above, below), hn::Zero(tag));
-      squared = hn::Add(squared, hn::Mul(gap, gap));
-    }
-    const auto within = hn::Le(squared, hn::Set(tag, squared_radius));
-    bits |= static_cast<uint32_t>(bits_of(tag, within)) << i;
+    bits |= static_cast<uint32_t>(bits_of(ChildTag(), touching(node, i, box))) << i;
   }
   return bits;
 }
@@ -66,10 +63,9 @@ HWY_INLINE void for_each_bit(uint32_t bits, const Use& use) {
 
 constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
 
-// A bound for the stack. A node's items are split seven times, always the largest group, and a
-// split leaves at most 7/8 in one part, so no child gets half of the items. That makes 31 levels,
-// with seven children waiting in each.
-inline constexpr size_t kMostWaiting = 8 * 32;
+// A bound for the depth. A node's items are split seven times, always the largest group, and a
+// split leaves at most 7/8 in one part, so no child gets half of the items.
+inline constexpr size_t kMostLevels = 32;
 
 // Without this, a search spends a third of its time waiting for nodes.
 HWY_INLINE void prefetch(const BoxTree::Node& node) {
@@ -79,27 +75,52 @@ HWY_INLINE void prefetch(const BoxTree::Node& node) {
   }
 }
 
+// A search visits so many waiting nodes one after the other. None of them depends on what another
+// one finds, so that the processor works on several at a time.
+inline constexpr size_t kVisits = 8;
+
+// A bound for what waits. Deeper nodes lie on top and go first. So nodes of one level are visited
+// only when fewer than kVisits of deeper levels wait, which go with them, and of each level no more
+// wait than the children of kVisits nodes.
+inline constexpr size_t kMostWaiting = kMostLevels * kVisits * BoxTree::kChildren;
+
+// The items and nodes among the touching children are stored without branches: which they are is as
+// random as what touches, and would be predicted badly.
 template <class Box>
-HWY_INLINE void find_items(const BoxTree& tree, const Box& box, FunctionRef<void(uint32_t)> found) {
+HWY_INLINE void find_items(const BoxTree& tree, const Box& box, ItemsFound found) {
+  constexpr size_t kAtOnce = 128;
+  const hn::RebindToUnsigned<ChildTag> tag;
   const BoxTree::Node* const nodes = tree.nodes().data();
-  uint32_t waiting[kMostWaiting];
-  size_t count = 0;
-  waiting[count++] = 0;
-  while (count > 0) {
-    const BoxTree::Node& node = nodes[waiting[--count]];
-    for_each_bit(touching(node, box), [&](size_t i) {
-      const uint32_t child = node.child[i];
-      if (is_item(child)) {
-        found(child - BoxTree::kItem);
-      } else {
-        prefetch(nodes[child]);
-        waiting[count++] = child;
+  uint32_t waiting[kMostWaiting + kChildLanes], items[kAtOnce + BoxTree::kChildren];
+  uint32_t visited[kVisits];
+  size_t waiting_count = 1, item_count = 0;
+  waiting[0] = 0;
+  while (waiting_count > 0) {
+    const size_t visits = std::min(waiting_count, kVisits);
+    waiting_count -= visits;
+    std::copy_n(waiting + waiting_count, kVisits, visited);
+    for (size_t k = 0; k < visits; ++k) prefetch(nodes[visited[k]]);
+    for (size_t k = 0; k < visits; ++k) {
+      const BoxTree::Node& node = nodes[visited[k]];
+      for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
+        const auto touch = hn::RebindMask(tag, touching(node, i, box));
+        const auto children = hn::Load(tag, node.child + i);
+        const auto is_item = hn::TestBit(children, hn::Set(tag, BoxTree::kItem));
+        const auto numbers = hn::AndNot(hn::Set(tag, BoxTree::kItem), children);
+        item_count += compress_store(tag, numbers, hn::And(touch, is_item), items + item_count);
+        waiting_count +=
+            compress_store(tag, children, hn::AndNot(is_item, touch), waiting + waiting_count);
       }
-    });
+      if (item_count >= kAtOnce) {
+        found({items, item_count});
+        item_count = 0;
+      }
+    }
   }
+  if (item_count > 0) found({items, item_count});
 }
 
-void touching_items(const BoxTree& tree, const RoundedBox& box, FunctionRef<void(uint32_t)> found) {
+void touching_items(const BoxTree& tree, const RoundedBox& box, ItemsFound found) {
   if (tree.is_empty()) return;
   if (box.squared_radius == 0) {  // the squares of small distances might underflow
     find_items(tree, box.box, found);
@@ -234,7 +255,7 @@ namespace carom {
 HWY_EXPORT(touching_items);
 HWY_EXPORT(touching_pairs);
 
-void BoxTree::find_touching(const RoundedBox& box, FunctionRef<void(uint32_t)> found) const {
+void BoxTree::find_touching(const RoundedBox& box, ItemsFound found) const {
   CAROM_DISPATCH(touching_items)(*this, box, found);
 }
 

@@ -47,7 +47,9 @@ size_t expect_all_found(const BoxTree& tree, const std::vector<TreeBox>& boxes,
   for (int i = 0; i < 20; ++i) {
     const TreeBox query = random_box(random, 2);
     std::vector<uint32_t> found, expected;
-    tree.find_touching({query}, [&](uint32_t item) { found.push_back(item); });
+    tree.find_touching({query}, [&](std::span<const uint32_t> items) {
+      found.insert(found.end(), items.begin(), items.end());
+    });
     for (uint32_t k = 0; k < boxes.size(); ++k) {
       if (parts[k] < RefittedTree::kParts && boxes_touch(boxes[k], query)) expected.push_back(k);
     }

@@ -64,9 +64,14 @@ std::vector<TreeBox> make_boxes(const Style& style, size_t count, Random& random
   return boxes;
 }
 
+auto put_in(Items& all) {
+  return
+      [&](std::span<const uint32_t> items) { all.insert(all.end(), items.begin(), items.end()); };
+}
+
 Items found_in(const BoxTree& tree, const TreeBox& box) {
   Items found;
-  tree.find_touching({box}, [&](uint32_t item) { found.push_back(item); });
+  tree.find_touching({box}, put_in(found));
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -134,8 +139,7 @@ TEST(BoxTree, FindsWhatIsNearABox) {
         const double radius = random.uniform(0, style.spread / 3);
         const TreeBox box = rounded_outwards(middle, half);
         Items found;
-        tree.find_touching(rounded_outwards(middle, half, radius),
-                           [&](uint32_t item) { found.push_back(item); });
+        tree.find_touching(rounded_outwards(middle, half, radius), put_in(found));
         const bool is_round = radius > 1e-15 && radius < 1e15;
         const std::set<uint32_t> all(found.begin(), found.end());
         ASSERT_EQ(all.size(), found.size());
@@ -151,8 +155,7 @@ TEST(BoxTree, FindsWhatIsNearABox) {
         }
         for_each_isa([&] {
           Items again;
-          tree.find_touching(rounded_outwards(middle, half, radius),
-                             [&](uint32_t item) { again.push_back(item); });
+          tree.find_touching(rounded_outwards(middle, half, radius), put_in(again));
           EXPECT_EQ(again, found);  // in the same order
         });
       }
