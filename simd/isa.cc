@@ -5,6 +5,10 @@
 
 #include "simd/dispatch.h"
 
+#if HWY_ARCH_X86
+#include <cpuid.h>
+#endif
+
 namespace carom {
 namespace {
 
@@ -40,29 +44,57 @@ std::vector<Isa> isas_in(int64_t bits) {
   return isas;
 }
 
-void choose(hwy::ChosenTarget& chosen, Isa isa) { chosen.Update(usable_bits() & target(isa).bits); }
-
 bool is_usable(Isa isa) { return (usable_bits() & target(isa).bits) != 0; }
 
-Isa default_isa() {
-  if (const char* forced = std::getenv("CAROM_ISA")) {
-    const std::optional<Isa> isa = isa_from_name(forced);
-    if (isa && is_usable(*isa)) return *isa;
+// Whether this is an AMD processor of family 25. Those of them that have AVX-512 (Zen 4) run it in
+// two halves.
+bool runs_wide_vectors_in_halves() {
+#if HWY_ARCH_X86
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  if (__get_cpuid(0, &a, &b, &c, &d) == 0 || b != signature_AMD_ebx) return false;
+  if (__get_cpuid(1, &a, &b, &c, &d) == 0) return false;
+  const unsigned family = (a >> 8 & 0xf) + (a >> 20 & 0xff);
+  return family == 25;
+#else
+  return false;
+#endif
+}
+
+Isa isa_for_searches(Isa best) {
+  static const bool are_halves = runs_wide_vectors_in_halves();
+  return best == Isa::avx512 && are_halves && is_usable(Isa::avx2) ? Isa::avx2 : best;
+}
+
+struct ChosenTargets {
+  hwy::ChosenTarget all, searches;
+
+  ChosenTargets() { choose_default(); }
+
+  void choose(Isa isa, Isa for_searches) {
+    all.Update(usable_bits() & target(isa).bits);
+    searches.Update(usable_bits() & target(for_searches).bits);
   }
-  return usable_isas().back();
+  void choose_default() {
+    const char* const name = std::getenv("CAROM_ISA");
+    const std::optional<Isa> forced = name ? isa_from_name(name) : std::nullopt;
+    if (forced && is_usable(*forced)) return choose(*forced, *forced);
+    const Isa best = usable_isas().back();
+    choose(best, isa_for_searches(best));
+  }
+};
+
+ChosenTargets& chosen_targets() {
+  static ChosenTargets chosen;
+  return chosen;
 }
 
 }  // namespace
 
 namespace simd {
 
-hwy::ChosenTarget& chosen_target() {
-  static struct Chosen {
-    Chosen() { choose(target, default_isa()); }
-    hwy::ChosenTarget target;
-  } chosen;
-  return chosen.target;
-}
+const hwy::ChosenTarget& chosen_target() { return chosen_targets().all; }
+
+const hwy::ChosenTarget& target_for_searches() { return chosen_targets().searches; }
 
 }  // namespace simd
 
@@ -81,10 +113,10 @@ std::vector<Isa> usable_isas() { return isas_in(usable_bits()); }
 
 bool force_isa(Isa isa) {
   if (!is_usable(isa)) return false;
-  choose(simd::chosen_target(), isa);
+  chosen_targets().choose(isa, isa);
   return true;
 }
 
-void unforce_isa() { choose(simd::chosen_target(), default_isa()); }
+void unforce_isa() { chosen_targets().choose_default(); }
 
 }  // namespace carom

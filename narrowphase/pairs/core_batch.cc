@@ -113,7 +113,8 @@ class RowTester {
 }  // namespace
 
 template <class A, class B>
-void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
+void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
+  const auto in_lanes = batch.pass == Pass::test ? kernels.for_decisions : kernels.for_all_else;
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
   if (batch.pass == Pass::manifold) return run_manifolds(batch, kind_a, kind_b, in_lanes);
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
@@ -133,11 +134,11 @@ void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&)) {
   for (size_t i = 0; i < count; ++i) rows.run(list[i], left[list[i]] == kDeep);
 }
 
-template void run_core_batch<Sphere, Hull>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Capsule, Hull>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Aabb, Hull>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Box, Hull>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Hull, Hull>(const Batch&, void (*)(const Batch&));
-template void run_core_batch<Hull, Triangle>(const Batch&, void (*)(const Batch&));
+template void run_core_batch<Sphere, Hull>(const Batch&, const CoreKernels&);
+template void run_core_batch<Capsule, Hull>(const Batch&, const CoreKernels&);
+template void run_core_batch<Aabb, Hull>(const Batch&, const CoreKernels&);
+template void run_core_batch<Box, Hull>(const Batch&, const CoreKernels&);
+template void run_core_batch<Hull, Hull>(const Batch&, const CoreKernels&);
+template void run_core_batch<Hull, Triangle>(const Batch&, const CoreKernels&);
 
 }  // namespace carom

@@ -7,10 +7,17 @@
 
 namespace carom {
 
-// A and B: types of shapes, as in Shape. `in_lanes` tests the rows that float32 can decide and
-// marks the others as unsure. Deferred rows have the bits of the
-// reference on every ISA, because their support points have.
+// A kernel in lanes that tests the rows that float32 can decide and marks the others as unsure.
+// Decisions are searches (simd/dispatch.h); what follows from them takes longer, and gains from
+// wide vectors.
+struct CoreKernels {
+  void (*for_decisions)(const Batch&);
+  void (*for_all_else)(const Batch&);
+};
+
+// A and B: types of shapes, as in Shape. Deferred rows have the bits of the reference on every ISA,
+// because their support points have.
 template <class A, class B>
-void run_core_batch(const Batch& batch, void (*in_lanes)(const Batch&));
+void run_core_batch(const Batch& batch, const CoreKernels& kernels);
 
 }  // namespace carom

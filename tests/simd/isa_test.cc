@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "simd/dispatch.h"
+
 namespace carom {
 namespace {
 
@@ -93,6 +95,25 @@ TEST(Isa, ForceBeatsTheEnvironment) {
   EXPECT_EQ(active_isa(), best);
   unforce_isa();
   EXPECT_EQ(active_isa(), Isa::scalar);
+}
+
+// Searches may run on AVX2 in place of AVX-512, but only by default.
+TEST(Isa, SearchesRunOnTheForcedIsa) {
+  const auto index = [] { return simd::chosen_target().GetIndex(); };
+  const auto index_for_searches = [] { return simd::target_for_searches().GetIndex(); };
+  for (const Isa isa : usable_isas()) {
+    ASSERT_TRUE(force_isa(isa));
+    EXPECT_EQ(index_for_searches(), index()) << name(isa);
+    unforce_isa();
+    const ScopedEnvironment environment(name(isa));
+    EXPECT_EQ(index_for_searches(), index()) << name(isa);
+  }
+  const size_t by_default = index_for_searches();
+  if (by_default == index()) return;
+  EXPECT_EQ(active_isa(), Isa::avx512);
+  ASSERT_TRUE(force_isa(Isa::avx2));
+  EXPECT_EQ(by_default, index());
+  unforce_isa();
 }
 
 TEST(Isa, WhatTheEnvironmentCannotMeanIsIgnored) {

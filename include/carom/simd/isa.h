@@ -31,7 +31,8 @@ CAROM_EXPORT std::vector<Isa> compiled_isas();
 /// Those of them that this machine can run, weakest first.
 CAROM_EXPORT std::vector<Isa> usable_isas();
 
-/// The one in use. Results have the same bits whichever it is.
+/// The one in use. Results have the same bits whichever it is. Some kernels use AVX2 in place of
+/// AVX-512 on processors on which they are faster so, unless the choice is forced.
 CAROM_EXPORT Isa active_isa();
 
 /// Makes all kernels of this process use `isa` from the next call on. Returns false, and changes

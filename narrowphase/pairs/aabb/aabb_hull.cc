@@ -42,7 +42,7 @@ namespace carom {
 HWY_EXPORT(aabb_hull);
 
 void run_aabb_hull(const Batch& batch) {
-  run_core_batch<Aabb, Hull>(batch, CAROM_DISPATCH(aabb_hull));
+  run_core_batch<Aabb, Hull>(batch, {CAROM_DISPATCH_SEARCH(aabb_hull), CAROM_DISPATCH(aabb_hull)});
 }
 
 }  // namespace carom

@@ -42,7 +42,7 @@ namespace carom {
 HWY_EXPORT(box_hull);
 
 void run_box_hull(const Batch& batch) {
-  run_core_batch<Box, Hull>(batch, CAROM_DISPATCH(box_hull));
+  run_core_batch<Box, Hull>(batch, {CAROM_DISPATCH_SEARCH(box_hull), CAROM_DISPATCH(box_hull)});
 }
 
 }  // namespace carom

@@ -36,7 +36,8 @@ namespace carom {
 HWY_EXPORT(capsule_hull);
 
 void run_capsule_hull(const Batch& batch) {
-  run_core_batch<Capsule, Hull>(batch, CAROM_DISPATCH(capsule_hull));
+  run_core_batch<Capsule, Hull>(
+      batch, {CAROM_DISPATCH_SEARCH(capsule_hull), CAROM_DISPATCH(capsule_hull)});
 }
 
 }  // namespace carom

@@ -45,7 +45,7 @@ namespace carom {
 HWY_EXPORT(hull_hull);
 
 void run_hull_hull(const Batch& batch) {
-  run_core_batch<Hull, Hull>(batch, CAROM_DISPATCH(hull_hull));
+  run_core_batch<Hull, Hull>(batch, {CAROM_DISPATCH_SEARCH(hull_hull), CAROM_DISPATCH(hull_hull)});
 }
 
 }  // namespace carom

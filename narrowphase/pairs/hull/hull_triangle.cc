@@ -43,7 +43,8 @@ namespace carom {
 HWY_EXPORT(hull_triangle);
 
 void run_hull_triangle(const Batch& batch) {
-  run_core_batch<Hull, Triangle>(batch, CAROM_DISPATCH(hull_triangle));
+  run_core_batch<Hull, Triangle>(
+      batch, {CAROM_DISPATCH_SEARCH(hull_triangle), CAROM_DISPATCH(hull_triangle)});
 }
 
 }  // namespace carom

@@ -32,7 +32,8 @@ namespace carom {
 HWY_EXPORT(sphere_hull);
 
 void run_sphere_hull(const Batch& batch) {
-  run_core_batch<Sphere, Hull>(batch, CAROM_DISPATCH(sphere_hull));
+  run_core_batch<Sphere, Hull>(batch,
+                               {CAROM_DISPATCH_SEARCH(sphere_hull), CAROM_DISPATCH(sphere_hull)});
 }
 
 }  // namespace carom
