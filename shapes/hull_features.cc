@@ -13,6 +13,7 @@ namespace carom {
 namespace {
 
 using Eigen::Vector3d;
+using Eigen::Vector4d;
 
 Vector3d point(const HullGeometry& hull, uint32_t i) { return hull.points()[i].cast<double>(); }
 
@@ -92,8 +93,15 @@ bool HullFeatures::add_edges(const HullGeometry& hull) {
     const Vector3d along = point(hull, there.second) - point(hull, there.first);
     const double length = along.stableNorm();
     if (!(length > 0)) return false;
-    edges_.push_back({(along / length).cast<float>(), there.first, left, right});
-    sides_.push_back({static_cast<uint16_t>(left), static_cast<uint16_t>(right)});
+    const Vector3d direction = along / length;
+    edges_.push_back({Vector4d(direction.x(), direction.y(), direction.z(), 0).cast<float>(),
+                      there.first, left, right});
+  }
+  const size_t padded = (edges_.size() + 63) / 64 * 64;
+  sides_.assign(2 * padded, 0);
+  for (size_t e = 0; e < edges_.size(); ++e) {
+    sides_[e] = static_cast<uint8_t>(edges_[e].left);
+    sides_[padded + e] = static_cast<uint8_t>(edges_[e].right);
   }
   return true;
 }

@@ -17,7 +17,7 @@ class HullFeatures {
  public:
   // An edge from one point to the next, with the faces on either side as seen from outside.
   struct Edge {
-    Eigen::Vector3f direction;  // unit, along left normal x right normal
+    Eigen::Vector4f direction;  // unit, along left normal x right normal; then 0
     uint32_t from;              // point
     uint32_t left, right;       // faces
   };
@@ -36,11 +36,14 @@ class HullFeatures {
   // The same in columns: x, y and z of the normals, then the heights. Columns are padded to a
   // multiple of sixteen with faces of infinite height.
   const float* column(size_t i) const { return columns_.data() + i * columns_.size() / 4; }
+  // The planes as records: normal, height.
+  std::span<const std::array<float, 4>> planes() const { return planes_; }
   // A ball of this radius around the middle of the hull surely lies inside it.
   float inner_radius() const { return inner_radius_; }
   std::span<const Edge> edges() const { return edges_; }
-  // The left and the right face of each edge.
-  std::span<const std::array<uint16_t, 2>> sides() const { return sides_; }
+  // The left faces (0) or the right faces (1) of all edges, padded to a multiple of 64. Only for
+  // hulls of up to 256 faces.
+  const uint8_t* sides(size_t side) const { return sides_.data() + side * sides_.size() / 2; }
 
   size_t bytes() const;
 
@@ -49,7 +52,7 @@ class HullFeatures {
   bool add_edges(const HullGeometry& hull);
 
   std::vector<Edge> edges_;
-  std::vector<std::array<uint16_t, 2>> sides_;
+  std::vector<uint8_t> sides_;
   std::vector<std::array<float, 4>> planes_;
   std::vector<float> columns_;
   float inner_radius_ = 0;

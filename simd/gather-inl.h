@@ -33,13 +33,9 @@ HWY_INLINE hn::Vec<Tag> interleaved_row(Tag tag, const Source& source, size_t k)
   }
 }
 
-template <class Source>
-HWY_INLINE void transpose_records(const Source& source, F3& xyz, F& w) {
+// Transposes every block of four by four. Lane i of xyz and w is of row i % 4.
+HWY_INLINE void transpose_rows(F r0, F r1, F r2, F r3, F3& xyz, F& w) {
   const FloatTag tag;
-  const F r0 = interleaved_row(tag, source, 0);
-  const F r1 = interleaved_row(tag, source, 1);
-  const F r2 = interleaved_row(tag, source, 2);
-  const F r3 = interleaved_row(tag, source, 3);
   const F xy02 = hn::InterleaveLower(tag, r0, r2);
   const F xy13 = hn::InterleaveLower(tag, r1, r3);
   const F zw02 = hn::InterleaveUpper(tag, r0, r2);
@@ -48,6 +44,13 @@ HWY_INLINE void transpose_records(const Source& source, F3& xyz, F& w) {
   xyz.y = hn::InterleaveUpper(tag, xy02, xy13);
   xyz.z = hn::InterleaveLower(tag, zw02, zw13);
   w = hn::InterleaveUpper(tag, zw02, zw13);
+}
+
+template <class Source>
+HWY_INLINE void transpose_records(const Source& source, F3& xyz, F& w) {
+  const FloatTag tag;
+  transpose_rows(interleaved_row(tag, source, 0), interleaved_row(tag, source, 1),
+                 interleaved_row(tag, source, 2), interleaved_row(tag, source, 3), xyz, w);
 }
 
 // Four doubles, rounded to float32.

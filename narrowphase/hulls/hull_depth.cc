@@ -44,9 +44,8 @@ class DepthSearch {
     const Side b = {b_, memory.a_in_b,
                     inside(a_, rotate_back(turn_, Vector3f(middle_of(a_) - centre_))),
                     memory.bounds_b};
-    const BestFace best_a = try_faces(a, -kLargest);
-    if (is_doubtful_) return not_in_float<float>();
-    const BestFace best_b = try_faces(b, best_a.gap);
+    BestFace best_a, best_b;
+    try_faces(a, best_a, b, best_b);
     if (is_doubtful_) return not_in_float<float>();
     keep_faces(a, best_a, b, best_b);
     cross_edges(a, b, memory);
@@ -54,15 +53,10 @@ class DepthSearch {
   }
 
  private:
-  struct Edges {
-    size_t count;
-    std::array<uint16_t, Solid::kMostEdges> index;
-  };
-
   struct Memory {
     HullPoints a, b_in_a, a_in_b;
     FaceBounds bounds_a, bounds_b;
-    EdgeColumns edges_a, edges_b;
+    OpenEdges open_a, open_b;
   };
 
   // Not inlined, because every loop would look up its address again.
@@ -88,11 +82,27 @@ class DepthSearch {
 
   // --- Faces ---
 
-  // The best face whose gap is greater than `least`.
-  BestFace try_faces(const Side& side, float least) {
-    if (!has_few_features(side)) return try_best_faces(side, least);
-    const BestFace best = steps_.try_all(side.solid, side.others, side.bounds);
-    return best.gap > least ? best : BestFace{least, 0};
+  // The best faces of both solids. Of the one that is less than the other's, it only finds that.
+  // The two searches take turns, so that the processor works on both.
+  void try_faces(const Side& a, BestFace& best_a, const Side& b, BestFace& best_b) {
+    BestFace next_a = first_face(a, best_a), next_b = first_face(b, best_b);
+    while (!is_doubtful_) {
+      const float least = std::max(best_a.gap, best_b.gap);
+      const bool goes_on_a = next_a.gap > least, goes_on_b = next_b.gap > least;
+      if (!goes_on_a && !goes_on_b) return;
+      if (goes_on_a) try_next(a, next_a, best_a);
+      if (goes_on_b) try_next(b, next_b, best_b);
+    }
+  }
+
+  // The face to try first. Where features are few, it tries all, and none is next.
+  BestFace first_face(const Side& side, BestFace& best) const {
+    if (!has_few_features(side)) {
+      side.bounds.count = 0;
+      return steps_.bound(side.solid, side.inside, side.bounds);
+    }
+    best = steps_.try_all(side.solid, side.others, side.bounds);
+    return {};
   }
 
   static bool has_few_features(const Side& side) {
@@ -102,24 +112,13 @@ class DepthSearch {
            side.others.count * groups <= kFewFeatures;
   }
 
-  // Tries the face with the greatest bound first. The point it finds lowers the bounds of the
-  // others.
-  BestFace try_best_faces(const Side& side, float least) {
-    FaceBounds& bounds = side.bounds;
-    bounds.count = 0;
-    Ball ball = side.inside;
-    BestFace best{least, 0};
-    while (true) {
-      const BestFace next = steps_.bound(side.solid, ball, bounds);
-      if (!(next.gap > best.gap)) return best;
-      is_doubtful_ = bounds.count == FaceBounds::kMostBalls;
-      if (is_doubtful_) return best;
-      const FurthestOfHull lowest = steps_.furthest(side.others, -side.solid.normal(next.face));
-      const float gap = -lowest.height - side.solid.height(next.face);
-      bounds.gap[next.face] = -kLargest;
-      ball = {side.others[lowest.index], 0};
-      if (gap > best.gap) best = {gap, next.face};
-    }
+  // Tries the face with the greatest bound. The point it finds lowers the bounds of the others.
+  void try_next(const Side& side, BestFace& next, BestFace& best) {
+    is_doubtful_ = is_doubtful_ || side.bounds.count == FaceBounds::kMostBalls;
+    if (is_doubtful_) return;
+    const TriedFace tried = steps_.try_face(side.solid, side.others, next.face, side.bounds);
+    if (tried.gap > best.gap) best = {tried.gap, next.face};
+    next = tried.next;
   }
 
   void keep_faces(const Side& a, const BestFace& best_a, const Side& b, const BestFace& best_b) {
@@ -134,65 +133,31 @@ class DepthSearch {
 
   // --- Edges ---
 
-  // Finds the edges whose axes may be better than the best face, or as good up to rounding: no ball
-  // settles both faces. The loop has no branches, because they would be unpredictable.
-  void find_edges_to_cross(const Side& side, Edges& edges) const {
-    steps_.settle(side.solid, gap_ - kSameGapInFloat, side.bounds);
-    const auto& settled = side.bounds.settled;
-    size_t count = 0;
-    uint16_t e = 0;
-    for (const auto& [left, right] : side.solid.sides) {
-      edges.index[count] = e++;
-      count += (settled[left] & settled[right]) == 0 ? 1 : 0;
-    }
-    edges.count = count;
-  }
-
-  // `corners`: in the frame of A.
-  static void put_edges(const Solid& solid, const HullPoints& corners, const Edges& edges,
-                        EdgeColumns& columns) {
-    columns.count = edges.count;
-    for (size_t k = 0; k < edges.count; ++k) {
-      const Solid::Edge& edge = solid.edges[edges.index[k]];
-      for (size_t axis = 0; axis < 3; ++axis) {
-        columns.direction[axis][k] = edge.direction[static_cast<int>(axis)];
-        columns.left[axis][k] = solid.plane[axis][edge.left];
-        columns.right[axis][k] = solid.plane[axis][edge.right];
-      }
-      columns.from[0][k] = corners.x[edge.from];
-      columns.from[1][k] = corners.y[edge.from];
-      columns.from[2][k] = corners.z[edge.from];
-    }
-  }
-
+  // Crosses the edges whose axes may be better than the best face, or as good up to rounding.
   void cross_edges(const Side& a, const Side& b, Memory& memory) {
-    Edges edges_a, edges_b;
-    find_edges_to_cross(a, edges_a);
-    find_edges_to_cross(b, edges_b);
-    is_doubtful_ = edges_a.count > kMostCrossed || edges_b.count > kMostCrossed;
-    if (is_doubtful_ || edges_a.count == 0 || edges_b.count == 0) return;
-    put_edges(a_, memory.a, edges_a, memory.edges_a);
-    put_edges(b_, memory.b_in_a, edges_b, memory.edges_b);
-    const Crossing crossing =
-        steps_.cross(memory.edges_a, memory.edges_b, turn_, gap_ - kSameGapInFloat);
+    const float gap = gap_ - kSameGapInFloat;
+    steps_.find_open(a_, gap, a.bounds, memory.open_a);
+    steps_.find_open(b_, gap, b.bounds, memory.open_b);
+    const size_t count_a = memory.open_a.count, count_b = memory.open_b.count;
+    is_doubtful_ = count_a > kMostCrossed || count_b > kMostCrossed;
+    if (is_doubtful_ || count_a == 0 || count_b == 0) return;
+    const CrossedEdges edges_a{a_, memory.open_a}, edges_b{b_, memory.open_b};
+    const Crossing crossing = steps_.cross(edges_a, edges_b, turn_, centre_, gap);
     is_doubtful_ = crossing.is_doubtful;
     may_cross_ = crossing.exists;
     if (crossing.exists && crossing.gap > gap_) {
-      take_crossing(crossing, memory.edges_a, memory.edges_b);
+      take_crossing(crossing.gap, edges_a.edge(crossing.of_a), edges_b.edge(crossing.of_b));
     }
   }
 
-  void take_crossing(const Crossing& crossing, const EdgeColumns& a, const EdgeColumns& b) {
-    const auto of = [](const EdgeColumns::Column3& column, size_t k) -> Vector3f {
-      return {column[0][k], column[1][k], column[2][k]};
-    };
-    const size_t i = crossing.of_a, k = crossing.of_b;
+  void take_crossing(float gap, const Solid::Edge& a, const Solid::Edge& b) {
     has_crossing_ = true;
-    gap_ = crossing.gap;
-    edge_a_ = {of(a.direction, i), of(a.from, i)};
-    edge_b_ = {rotate(turn_, of(b.direction, k)), of(b.from, k)};
+    gap_ = gap;
+    edge_a_ = {a.direction.head<3>(), a_.corner(a.from)};
+    edge_b_ = {rotate<float>(turn_, b.direction.head<3>()),
+               rotate(turn_, b_.corner(b.from)) + centre_};
     across_ = cross(edge_a_.direction, edge_b_.direction);
-    if (dot(across_, Vector3f(of(a.left, i) + of(a.right, i))) < 0) across_ = -across_;
+    if (dot(across_, Vector3f(a_.normal(a.left) + a_.normal(a.right))) < 0) across_ = -across_;
     normal_ = across_ * (1 / std::sqrt(dot(across_, across_)));
   }
 

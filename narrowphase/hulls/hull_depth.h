@@ -52,8 +52,11 @@ struct FaceBounds {
 
   size_t count;                                              // of balls so far
   std::array<std::array<float, kMost>, kMostBalls> between;  // above zero: middle above the face
-  std::array<float, kMost> gap;  // least bound of all balls; -kLargest once the face was tried
-  std::array<uint32_t, kMost> settled;  // a bit per ball: `between` is low enough
+  std::array<float, kMost> gap;                              // least bound of all balls
+  // A bit per ball, in rows of eight balls: `between` is low enough.
+  std::array<std::array<uint8_t, kMost>, kMostBalls / 8> settled;
+
+  size_t settled_rows() const { return (count + 7) / 8; }
 };
 
 struct BestFace {
@@ -61,22 +64,32 @@ struct BestFace {
   size_t face = 0;
 };
 
+// What the support point of a face gives: the gap of the face's axis, and the face to try next.
+struct TriedFace {
+  float gap;
+  BestFace next;
+};
+
 // With more open edges than this on one solid, the pair is unsure and goes to double precision.
 inline constexpr size_t kMostCrossed = 64;
 
-// Edges of one solid, in columns: start points, directions, and the normals of the faces beside
-// them.
-struct EdgeColumns {
-  using Column3 = std::array<std::array<float, kMostCrossed>, 3>;
-
+// The edges of a solid that may have an axis better than those of the faces.
+struct OpenEdges {
   size_t count;
-  Column3 from, direction, left, right;
+  std::array<uint16_t, Solid::kMostEdges> index;
+};
+
+struct CrossedEdges {
+  const Solid& solid;
+  const OpenEdges& open;  // up to kMostCrossed, and at least one
+
+  const Solid::Edge& edge(size_t k) const { return solid.edges[open.index[k]]; }
 };
 
 // The best axis perpendicular to an edge of each solid, if it `exists`. `gap` is measured along it.
 struct Crossing {
   float gap;
-  size_t of_a = 0, of_b = 0;
+  size_t of_a = 0, of_b = 0;  // which of the open edges
   bool exists = false;
   bool is_doubtful = false;  // some edges with crossing arcs are nearly parallel
 };
@@ -86,19 +99,21 @@ struct HullSteps {
   // Computes turn * (point * scale) + offset of all points.
   void (*place)(const Solid& solid, const scalar::Rotation<float>& turn, const Vector3f& offset,
                 HullPoints& out);
-  // Adds the bounds of one more ball. Returns the first untried face with the greatest bound.
+  // Adds the bounds of one more ball. Returns the first face with the greatest bound.
   BestFace (*bound)(const Solid& solid, const Ball& ball, FaceBounds& bounds);
+  // Finds the gap of a face's axis, and adds the bounds of the point that gives it.
+  TriedFace (*try_face)(const Solid& solid, const HullPoints& points, size_t face,
+                        FaceBounds& bounds);
   // Uses all points of the other solid, which are few. Returns the first face with the greatest
   // gap.
   BestFace (*try_all)(const Solid& solid, const HullPoints& points, FaceBounds& bounds);
-  // Sets `settled`: the balls that bound the axes beside a face by `gap`, which is below zero.
-  void (*settle)(const Solid& solid, float gap, FaceBounds& bounds);
-  FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
+  // Finds the edges between two faces that no ball settles together: none bounds the axes beside
+  // both by `gap`, which is below zero.
+  void (*find_open)(const Solid& solid, float gap, FaceBounds& bounds, OpenEdges& open);
   // The best axis perpendicular to an edge of A and one of B whose arcs cross, if its gap is
-  // greater than `gap`; the first of equals. `turn` takes directions and normals of B to the frame
-  // of the rest.
-  Crossing (*cross)(const EdgeColumns& a, const EdgeColumns& b, const scalar::Rotation<float>& turn,
-                    float gap);
+  // greater than `gap`; the first of equals. turn * p + offset takes B to the frame of A.
+  Crossing (*cross)(const CrossedEdges& a, const CrossedEdges& b,
+                    const scalar::Rotation<float>& turn, const Vector3f& offset, float gap);
   // The furthest point, and the number of points that reach as far up to kFacingSlack.
   FacingPoints (*facing)(const HullPoints& points, const Vector3f& way);
 };

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/hulls/hull_steps.h"
+#include "narrowphase/hulls/hull_edges-inl.h"
 #include "simd/first_of_most-inl.h"
 #include "simd/rotation-inl.h"
 
@@ -14,8 +15,6 @@ namespace carom::HWY_NAMESPACE {
 namespace {
 
 using scalar::Vector3;
-
-HWY_INLINE F3 in_all_lanes(const Vector3f& v) { return {splat(v.x()), splat(v.y()), splat(v.z())}; }
 
 void place_points(const Solid& solid, const scalar::Rotation<float>& turn, const Vector3f& offset,
                   HullPoints& out) {
@@ -83,6 +82,31 @@ BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
   return {best.value(), best.first_of(solid.face_count)};
 }
 
+HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
+  const FloatTag tag;
+  return dot(way, {hn::LoadU(tag, points.x.data() + i), hn::LoadU(tag, points.y.data() + i),
+                   hn::LoadU(tag, points.z.data() + i)});
+}
+
+FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
+  const F3 n = in_all_lanes(way);
+  const Mask all = hn::Not(no_lanes());
+  FirstOfMost best = FirstOfMost::none();
+  F index = lane_indices();
+  for (size_t i = 0; i < points.padded; i += kLanes) {
+    best.keep(all, heights(points, n, i), index);
+    index = hn::Add(index, splat(kLanes));
+  }
+  return {best.first_of(points.count), best.value()};
+}
+
+TriedFace try_face(const Solid& solid, const HullPoints& points, size_t face,
+                   FaceBounds& bounds) {
+  const FurthestOfHull lowest = furthest_of_hull(points, -solid.normal(face));
+  const float gap = -lowest.height - solid.height(face);
+  return {gap, bound_faces(solid, {points[lowest.index], 0}, bounds)};
+}
+
 BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds& bounds) {
   const FloatTag tag;
   bounds.count = points.count;
@@ -104,40 +128,6 @@ BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds&
   return {best.value(), best.first_of(solid.face_count)};
 }
 
-void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
-  const FloatTag tag;
-  const hn::RebindToUnsigned<FloatTag> bits;
-  const F most = splat(gap);
-  for (size_t i = 0; i < solid.face_count; i += kLanes) {
-    auto settled = hn::Zero(bits);
-    auto bit = hn::Set(bits, 1);
-    for (size_t ball = 0; ball < bounds.count; ++ball) {
-      const Mask is_low = hn::Le(hn::LoadU(tag, bounds.between[ball].data() + i), most);
-      settled = hn::Or(settled, hn::IfThenElseZero(hn::RebindMask(bits, is_low), bit));
-      bit = hn::Add(bit, bit);
-    }
-    hn::StoreU(settled, bits, bounds.settled.data() + i);
-  }
-}
-
-HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
-  const FloatTag tag;
-  return dot(way, {hn::LoadU(tag, points.x.data() + i), hn::LoadU(tag, points.y.data() + i),
-                   hn::LoadU(tag, points.z.data() + i)});
-}
-
-FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
-  const F3 n = in_all_lanes(way);
-  const Mask all = hn::Not(no_lanes());
-  FirstOfMost best = FirstOfMost::none();
-  F index = lane_indices();
-  for (size_t i = 0; i < points.padded; i += kLanes) {
-    best.keep(all, heights(points, n, i), index);
-    index = hn::Add(index, splat(kLanes));
-  }
-  return {best.first_of(points.count), best.value()};
-}
-
 FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   const FloatTag tag;
   const FurthestOfHull furthest = furthest_of_hull(points, way);
@@ -153,82 +143,9 @@ FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   return {furthest, found};
 }
 
-// kLanes edges of a column. The places after the last edge hold edges without direction, which
-// cross no other.
-struct EdgeLanes {
-  F3 from, direction, left, right;
-
-  HWY_INLINE EdgeLanes(const EdgeColumns& edges, size_t k) {
-    const Mask exist = hn::FirstN(FloatTag(), edges.count - k);
-    const auto load = [&](const EdgeColumns::Column3& column) HWY_ATTR -> F3 {
-      const FloatTag tag;
-      return zero_unless(
-          exist, F3{hn::LoadU(tag, column[0].data() + k), hn::LoadU(tag, column[1].data() + k),
-                    hn::LoadU(tag, column[2].data() + k)});
-    };
-    from = load(edges.from);
-    direction = load(edges.direction);
-    left = load(edges.left);
-    right = load(edges.right);
-  }
-};
-
-HWY_INLINE F3 in_all_lanes(const EdgeColumns::Column3& column, size_t i) {
-  return {splat(column[0][i]), splat(column[1][i]), splat(column[2][i])};
-}
-
-// Crosses all edges of A with one vector of edges of B, in the frame of A.
-HWY_INLINE void cross_with(const EdgeColumns& a, const EdgeLanes& b, F index, FirstOfMost& best,
-                           Mask& doubtful) {
-  const F zero = splat(0);
-  for (size_t i = 0; i < a.count; ++i) {
-    const F3 direction = in_all_lanes(a.direction, i);
-    const F3 left = in_all_lanes(a.left, i), right = in_all_lanes(a.right, i);
-    const F of_left = dot(b.left, direction), of_right = dot(b.right, direction);
-    const F on_left = dot(left, b.direction), on_right = dot(right, b.direction);
-    const Mask crosses = hn::And(hn::Lt(hn::Mul(of_right, of_left), zero),
-                                 hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
-                                         hn::Lt(hn::Mul(of_right, on_left), zero)));
-    if (!hn::AllFalse(FloatTag(), crosses)) {
-      const F3 n = cross(direction, b.direction);
-      const F nn = dot(n, n);
-      doubtful = hn::Or(doubtful, hn::AndNot(hn::Gt(nn, splat(kAlongEachOther)), crosses));
-      const F along =
-          hn::Mul(dot(n, b.from - in_all_lanes(a.from, i)), hn::Div(splat(1), hn::Sqrt(nn)));
-      const Mask is_back = hn::Lt(dot(n, left + right), zero);
-      best.keep_first(crosses, hn::IfThenElse(is_back, hn::Neg(along), along), index);
-    }
-    index = hn::Add(index, splat(kMostCrossed));
-  }
-}
-
-Crossing cross_edges(const EdgeColumns& a, const EdgeColumns& b,
-                     const scalar::Rotation<float>& turn, float gap) {
-  const Rotation r{in_all_lanes(turn.x), in_all_lanes(turn.y), in_all_lanes(turn.z)};
-  Mask doubtful = no_lanes();
-  Crossing crossing{gap};
-  FirstOfMost best{splat(gap), splat(-1)};
-  for (size_t k = 0; k < b.count; k += kLanes) {
-    EdgeLanes edges(b, k);
-    edges.direction = rotate(r, edges.direction);
-    edges.left = rotate(r, edges.left);
-    edges.right = rotate(r, edges.right);
-    cross_with(a, edges, hn::Add(lane_indices(), splat(static_cast<float>(k))), best, doubtful);
-  }
-  crossing.is_doubtful = !hn::AllFalse(FloatTag(), doubtful);
-  crossing.exists = best.value() > gap;
-  if (!crossing.exists) return crossing;
-  const size_t first = best.first();
-  crossing.gap = best.value();
-  crossing.of_a = first / kMostCrossed;
-  crossing.of_b = first % kMostCrossed;
-  return crossing;
-}
-
 const HullSteps& hull_steps() {
-  static constexpr HullSteps kSteps = {&place_points, &bound_faces,      &try_all_faces,
-                                       &settle_faces, &furthest_of_hull, &cross_edges,
-                                       &facing_points};
+  static constexpr HullSteps kSteps = {&place_points,    &bound_faces, &try_face,     &try_all_faces,
+                                       &find_open_edges, &cross_edges, &facing_points};
   return kSteps;
 }
 

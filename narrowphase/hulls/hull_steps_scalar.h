@@ -29,6 +29,22 @@ inline BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bo
   return best;
 }
 
+inline FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
+  FurthestOfHull best{0, dot(way, points[0])};
+  for (size_t i = 1; i < points.count; ++i) {
+    const float height = dot(way, points[i]);
+    if (height > best.height) best = {i, height};
+  }
+  return best;
+}
+
+inline TriedFace try_face(const Solid& solid, const HullPoints& points, size_t face,
+                          FaceBounds& bounds) {
+  const FurthestOfHull lowest = furthest_of_hull(points, -solid.normal(face));
+  const float gap = -lowest.height - solid.height(face);
+  return {gap, bound_faces(solid, {points[lowest.index], 0}, bounds)};
+}
+
 inline BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds& bounds) {
   bounds.count = points.count;
   BestFace best;
@@ -46,46 +62,50 @@ inline BestFace try_all_faces(const Solid& solid, const HullPoints& points, Face
 
 inline void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
   for (size_t f = 0; f < solid.face_count; ++f) {
-    bounds.settled[f] = 0;
+    for (size_t row = 0; row < bounds.settled_rows(); ++row) bounds.settled[row][f] = 0;
     for (size_t ball = 0; ball < bounds.count; ++ball) {
-      bounds.settled[f] |= uint32_t{bounds.between[ball][f] <= gap} << ball;
+      const int bit = bounds.between[ball][f] <= gap ? 1 << ball % 8 : 0;
+      bounds.settled[ball / 8][f] = static_cast<uint8_t>(bounds.settled[ball / 8][f] | bit);
     }
+  }
+}
+
+inline void find_open_edges(const Solid& solid, float gap, FaceBounds& bounds, OpenEdges& open) {
+  settle_faces(solid, gap, bounds);
+  open.count = 0;
+  for (size_t e = 0; e < solid.edges.size(); ++e) {
+    int settled = 0;
+    for (size_t row = 0; row < bounds.settled_rows(); ++row) {
+      settled |= bounds.settled[row][solid.side[0][e]] & bounds.settled[row][solid.side[1][e]];
+    }
+    if (settled == 0) open.index[open.count++] = static_cast<uint16_t>(e);
   }
 }
 
 // Two edges have a common axis if the arc of A's edge on the sphere of normals crosses the negated
 // arc of B's edge.
-inline Crossing cross_edges(const EdgeColumns& a, const EdgeColumns& b, const Rotation<float>& turn,
-                            float gap) {
-  const auto of = [](const EdgeColumns::Column3& column, size_t k) -> Vector3f {
-    return {column[0][k], column[1][k], column[2][k]};
-  };
+inline Crossing cross_edges(const CrossedEdges& a, const CrossedEdges& b,
+                            const Rotation<float>& turn, const Vector3f& offset, float gap) {
   Crossing best{gap};
-  for (size_t i = 0; i < a.count; ++i) {
-    const Vector3f direction_a = of(a.direction, i), left_a = of(a.left, i);
-    const Vector3f right_a = of(a.right, i);
-    for (size_t k = 0; k < b.count; ++k) {
-      const Vector3f direction_b = rotate(turn, of(b.direction, k));
-      const float of_left = dot(rotate(turn, of(b.left, k)), direction_a);
-      const float of_right = dot(rotate(turn, of(b.right, k)), direction_a);
+  for (size_t i = 0; i < a.open.count; ++i) {
+    const Solid::Edge& edge_a = a.edge(i);
+    const Vector3f direction_a = edge_a.direction.head<3>(), from_a = a.solid.corner(edge_a.from);
+    const Vector3f left_a = a.solid.normal(edge_a.left), right_a = a.solid.normal(edge_a.right);
+    for (size_t k = 0; k < b.open.count; ++k) {
+      const Solid::Edge& edge_b = b.edge(k);
+      const Vector3f direction_b = rotate<float>(turn, edge_b.direction.head<3>());
+      const Vector3f from_b = rotate(turn, b.solid.corner(edge_b.from)) + offset;
+      const float of_left = dot(rotate(turn, b.solid.normal(edge_b.left)), direction_a);
+      const float of_right = dot(rotate(turn, b.solid.normal(edge_b.right)), direction_a);
       const float on_left = dot(left_a, direction_b), on_right = dot(right_a, direction_b);
       if (!(of_right * of_left < 0 && on_right * on_left < 0 && of_right * on_left < 0)) continue;
       const Vector3f n = cross(direction_a, direction_b);
       const float nn = dot(n, n);
       if (!(nn > kAlongEachOther)) best.is_doubtful = true;
-      const float along = dot(n, Vector3f(of(b.from, k) - of(a.from, i))) * (1 / std::sqrt(nn));
+      const float along = dot(n, Vector3f(from_b - from_a)) * (1 / std::sqrt(nn));
       const float found = dot(n, Vector3f(left_a + right_a)) < 0 ? -along : along;
       if (found > best.gap) best = {found, i, k, true, best.is_doubtful};
     }
-  }
-  return best;
-}
-
-inline FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
-  FurthestOfHull best{0, dot(way, points[0])};
-  for (size_t i = 1; i < points.count; ++i) {
-    const float height = dot(way, points[i]);
-    if (height > best.height) best = {i, height};
   }
   return best;
 }
@@ -98,8 +118,7 @@ inline FacingPoints facing_points(const HullPoints& points, const Vector3f& way)
   return facing;
 }
 
-inline constexpr HullSteps kHullSteps = {&place_points, &bound_faces,      &try_all_faces,
-                                         &settle_faces, &furthest_of_hull, &cross_edges,
-                                         &facing_points};
+inline constexpr HullSteps kHullSteps = {&place_points,    &bound_faces, &try_face,     &try_all_faces,
+                                         &find_open_edges, &cross_edges, &facing_points};
 
 }  // namespace carom::scalar

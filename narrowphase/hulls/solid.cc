@@ -16,8 +16,10 @@ SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
   view_.face_count = features->face_count();
   for (size_t axis = 0; axis < 3; ++axis) view_.point[axis] = geometry.column(axis);
   for (size_t i = 0; i < 4; ++i) view_.plane[i] = features->column(i);
+  view_.point_record = geometry.records().data();
+  view_.plane_record = features->planes().data();
   view_.edges = features->edges();
-  view_.sides = features->sides();
+  view_.side = {features->sides(0), features->sides(1)};
   view_.middle = {middle[0], middle[1], middle[2]};
   view_.inner_radius = features->inner_radius();
   view_.scale = static_cast<float>(hull.scale);
@@ -65,13 +67,13 @@ void SmallSolid::put_box(const Vector3f& lower, const Vector3f& upper) {
     put_face(-Vector3f::Unit(axis), -lower[axis]);
     put_face(Vector3f::Unit(axis), upper[axis]);
   }
-  for (uint16_t axis = 0; axis < 3; ++axis) {
-    const auto next = static_cast<uint16_t>((axis + 1) % 3);
-    const auto last = static_cast<uint16_t>((axis + 2) % 3);
-    for (uint16_t ends_at = 0; ends_at < 4; ++ends_at) {
-      const uint16_t one = ends_at & 1, other = ends_at >> 1;
-      const auto face = static_cast<uint16_t>(2 * next + one);
-      const auto other_face = static_cast<uint16_t>(2 * last + other);
+  for (uint8_t axis = 0; axis < 3; ++axis) {
+    const auto next = static_cast<uint8_t>((axis + 1) % 3);
+    const auto last = static_cast<uint8_t>((axis + 2) % 3);
+    for (uint8_t ends_at = 0; ends_at < 4; ++ends_at) {
+      const uint8_t one = ends_at & 1, other = ends_at >> 1;
+      const auto face = static_cast<uint8_t>(2 * next + one);
+      const auto other_face = static_cast<uint8_t>(2 * last + other);
       const auto from = uint32_t{one} << next | uint32_t{other} << last;
       if (one == other) {
         put_edge(Vector3f::Unit(axis), from, face, other_face);
@@ -90,12 +92,12 @@ void SmallSolid::put_triangle(const std::array<Vector3f, 3>& corners, const Vect
   const float height = scalar::dot(normal, corners[0]);
   put_face(normal, height);
   put_face(-normal, -height);
-  for (uint16_t i = 0; i < 3; ++i) {
+  for (uint8_t i = 0; i < 3; ++i) {
     const uint32_t from = i, to = (i + 1u) % 3;
     const Vector3f along = corners[to] - corners[from];
     const Vector3f direction = along * (1 / std::sqrt(scalar::dot(along, along)));
     const Vector3f outwards = scalar::cross(direction, normal);
-    const auto side = static_cast<uint16_t>(2 + i);
+    const auto side = static_cast<uint8_t>(2 + i);
     put_face(outwards,
              std::max(scalar::dot(outwards, corners[from]), scalar::dot(outwards, corners[to])));
     put_edge(direction, from, 0, side);
@@ -117,8 +119,8 @@ void SmallSolid::put_segment(const Vector3f& from, const Vector3f& to) {
     for (const Vector3f& normal : {u, v, Vector3f(-u), Vector3f(-v)}) {
       put_face(normal, std::max(scalar::dot(normal, from), scalar::dot(normal, to)));
     }
-    for (uint16_t side = 0; side < 4; ++side) {
-      put_edge(direction, 0, side, static_cast<uint16_t>((side + 1) % 4));
+    for (uint8_t side = 0; side < 4; ++side) {
+      put_edge(direction, 0, side, static_cast<uint8_t>((side + 1) % 4));
     }
   }
   view_.middle = (from + to) * 0.5f;
@@ -128,17 +130,20 @@ void SmallSolid::put_segment(const Vector3f& from, const Vector3f& to) {
 
 void SmallSolid::put_point(const Vector3f& point) {
   for (size_t axis = 0; axis < 3; ++axis) point_[axis][view_.point_count] = point[int(axis)];
+  point_records_.push_back({point.x(), point.y(), point.z(), 0});
   ++view_.point_count;
 }
 
 void SmallSolid::put_face(const Vector3f& normal, float height) {
   for (size_t axis = 0; axis < 3; ++axis) plane_[axis][view_.face_count] = normal[int(axis)];
   plane_[3][view_.face_count++] = height;
+  plane_records_.push_back({normal.x(), normal.y(), normal.z(), height});
 }
 
-void SmallSolid::put_edge(const Vector3f& direction, uint32_t from, uint16_t left, uint16_t right) {
-  edges_.push_back({direction, from, left, right});
-  sides_.push_back({left, right});
+void SmallSolid::put_edge(const Vector3f& direction, uint32_t from, uint8_t left, uint8_t right) {
+  side_[0][edges_.size()] = left;
+  side_[1][edges_.size()] = right;
+  edges_.push_back({{direction.x(), direction.y(), direction.z(), 0}, from, left, right});
 }
 
 void SmallSolid::close() {
@@ -150,8 +155,10 @@ void SmallSolid::close() {
   }
   std::fill(plane_[3].begin() + view_.face_count, plane_[3].end(), HUGE_VALF);
   view_.plane[3] = plane_[3].data();
+  view_.point_record = point_records_.begin();
+  view_.plane_record = plane_records_.begin();
   view_.edges = {edges_.begin(), edges_.size()};
-  view_.sides = {sides_.begin(), sides_.size()};
+  view_.side = {side_[0].data(), side_[1].data()};
 }
 
 }  // namespace carom

@@ -25,8 +25,11 @@ struct Solid {
   size_t face_count = 0;
   std::array<const float*, 3> point;  // padded with the first point
   std::array<const float*, 4> plane;  // normal, height; padded with faces out of reach
+  // The same as records, for what needs few of them: coordinates, then anything; normal, height.
+  const std::array<float, 4>* point_record;
+  const std::array<float, 4>* plane_record;
   std::span<const Edge> edges;
-  std::span<const std::array<uint16_t, 2>> sides;  // the faces beside each edge
+  std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
   Vector3f middle;                                 // inside
   float inner_radius;                              // of a ball around `middle` inside the solid
   float scale = 1;
@@ -62,20 +65,22 @@ class SmallSolid {
 
  private:
   static constexpr size_t kMost = 16;
+  static constexpr size_t kMostSides = 64;
 
   void put_box(const Vector3f& lower, const Vector3f& upper);
   void put_triangle(const std::array<Vector3f, 3>& corners, const Vector3f& normal);
   void put_segment(const Vector3f& from, const Vector3f& to);
   void put_point(const Vector3f& point);
   void put_face(const Vector3f& normal, float height);
-  void put_edge(const Vector3f& direction, uint32_t from, uint16_t left, uint16_t right);
+  void put_edge(const Vector3f& direction, uint32_t from, uint8_t left, uint8_t right);
   void close();
 
   Solid view_;
   std::array<std::array<float, kMost>, 3> point_;
   std::array<std::array<float, kMost>, 4> plane_;
+  FewOf<std::array<float, 4>, kMost> point_records_, plane_records_;
   FewOf<Solid::Edge, 12> edges_;
-  FewOf<std::array<uint16_t, 2>, 12> sides_;
+  std::array<std::array<uint8_t, kMostSides>, 2> side_{};
 };
 
 // A hull stores its features; this only views them.
