@@ -195,9 +195,9 @@ HWY_INLINE void cross_lanes(const EdgeLanes& a, const EdgeLanes& b, F index, Fir
   const F zero = splat(0);
   const F of_left = dot(b.left, a.direction), of_right = dot(b.right, a.direction);
   const F on_left = dot(a.left, b.direction), on_right = dot(a.right, b.direction);
-  const Mask crosses = hn::And(hn::Lt(hn::Mul(of_right, of_left), zero),
-                               hn::And(hn::Lt(hn::Mul(on_right, on_left), zero),
-                                       hn::Lt(hn::Mul(of_right, on_left), zero)));
+  const Mask crosses = hn::And(
+      hn::Lt(hn::Mul(of_right, of_left), zero),
+      hn::And(hn::Lt(hn::Mul(on_right, on_left), zero), hn::Lt(hn::Mul(of_right, on_left), zero)));
   const F3 n = cross(a.direction, b.direction);
   const F nn = dot(n, n);
   doubtful = hn::Or(doubtful, hn::AndNot(hn::Gt(nn, splat(kAlongEachOther)), crosses));

@@ -5,8 +5,8 @@
 #define HWY_TARGET_INCLUDE "narrowphase/hulls/hull_steps.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/hulls/hull_edges-inl.h"
+#include "narrowphase/hulls/hull_steps.h"
 #include "simd/first_of_most-inl.h"
 #include "simd/rotation-inl.h"
 
@@ -100,8 +100,7 @@ FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
   return {best.first_of(points.count), best.value()};
 }
 
-TriedFace try_face(const Solid& solid, const HullPoints& points, size_t face,
-                   FaceBounds& bounds) {
+TriedFace try_face(const Solid& solid, const HullPoints& points, size_t face, FaceBounds& bounds) {
   const FurthestOfHull lowest = furthest_of_hull(points, -solid.normal(face));
   const float gap = -lowest.height - solid.height(face);
   return {gap, bound_faces(solid, {points[lowest.index], 0}, bounds)};
@@ -144,8 +143,9 @@ FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
 }
 
 const HullSteps& hull_steps() {
-  static constexpr HullSteps kSteps = {&place_points,    &bound_faces, &try_face,     &try_all_faces,
-                                       &find_open_edges, &cross_edges, &facing_points};
+  static constexpr HullSteps kSteps = {&place_points,  &bound_faces,     &try_face,
+                                       &try_all_faces, &find_open_edges, &cross_edges,
+                                       &facing_points};
   return kSteps;
 }
 

@@ -118,7 +118,8 @@ inline FacingPoints facing_points(const HullPoints& points, const Vector3f& way)
   return facing;
 }
 
-inline constexpr HullSteps kHullSteps = {&place_points,    &bound_faces, &try_face,     &try_all_faces,
-                                         &find_open_edges, &cross_edges, &facing_points};
+inline constexpr HullSteps kHullSteps = {&place_points,  &bound_faces,     &try_face,
+                                         &try_all_faces, &find_open_edges, &cross_edges,
+                                         &facing_points};
 
 }  // namespace carom::scalar

@@ -30,8 +30,8 @@ struct Solid {
   const std::array<float, 4>* plane_record;
   std::span<const Edge> edges;
   std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
-  Vector3f middle;                                 // inside
-  float inner_radius;                              // of a ball around `middle` inside the solid
+  Vector3f middle;                     // inside
+  float inner_radius;                  // of a ball around `middle` inside the solid
   float scale = 1;
   bool is_turned = true;
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -30,36 +31,72 @@ struct Edge {
   Vector3f from, direction, left, right;
 };
 
-void put(const Vector3f& v, size_t k, EdgeColumns::Column3& column) {
-  for (int axis = 0; axis < 3; ++axis) column[static_cast<size_t>(axis)][k] = v[axis];
-}
-Vector3f get(const EdgeColumns::Column3& column, size_t k) {
-  return {column[0][k], column[1][k], column[2][k]};
+// Open edges that share no face and no point with each other.
+struct Edges {
+  size_t count;
+  std::array<Edge, kMostCrossed> edge;
+};
+
+// Edges behind the last open one would win if the kernel read them.
+template <class Make>
+Edges edges_of(size_t count, const Make& make) {
+  Edges edges;
+  edges.count = count;
+  for (size_t k = 0; k < kMostCrossed; ++k) {
+    edges.edge[k] = make();
+    if (k >= count) edges.edge[k].from *= 1e6f;
+  }
+  return edges;
 }
 
-// Places behind the last edge hold edges that would win if the kernel read them.
-template <class Make>
-EdgeColumns columns_of(size_t count, const Make& make) {
-  EdgeColumns columns;
-  columns.count = count;
-  for (size_t k = 0; k < kMostCrossed; ++k) {
-    const Edge edge = make();
-    put(k < count ? edge.from : Vector3f(edge.from * 1e6f), k, columns.from);
-    put(edge.direction, k, columns.direction);
-    put(edge.left, k, columns.left);
-    put(edge.right, k, columns.right);
+// The parts of a solid that crossings look at. Every other edge of the solid is open.
+class EdgeSolid {
+ public:
+  explicit EdgeSolid(const Edges& edges) {
+    open_.count = edges.count;
+    for (uint16_t k = 0; k < kMostCrossed; ++k) {
+      const Edge& edge = edges.edge[k];
+      const Vector3f& d = edge.direction;
+      const uint32_t left = 2u * k, right = left + 1;
+      points_.push_back({edge.from.x(), edge.from.y(), edge.from.z(), 0});
+      for (const Vector3f& n : {edge.left, edge.right}) planes_.push_back({n.x(), n.y(), n.z(), 0});
+      edges_.push_back({{d.x(), d.y(), d.z(), 0}, k, left, right});
+      edges_.push_back({{d.z(), d.x(), d.y(), 0}, k, right, left});
+      if (k < edges.count) open_.index[k] = static_cast<uint16_t>(2 * k);
+    }
+    for (size_t i = 0; i < 4; ++i) {
+      for (const auto& plane : planes_) plane_[i].push_back(plane[i]);
+      for (const auto& point : points_) point_[i].push_back(point[i]);
+      solid_.plane[i] = plane_[i].data();
+      if (i < 3) solid_.point[i] = point_[i].data();
+    }
+    solid_.point_record = points_.data();
+    solid_.plane_record = planes_.data();
+    solid_.edges = edges_;
   }
-  return columns;
-}
+  EdgeSolid(const EdgeSolid&) = delete;
+  EdgeSolid& operator=(const EdgeSolid&) = delete;
+
+  CrossedEdges edges() const { return {solid_, open_}; }
+
+ private:
+  std::vector<std::array<float, 4>> points_, planes_;
+  std::array<std::vector<float>, 4> point_, plane_;
+  std::vector<Solid::Edge> edges_;
+  Solid solid_;
+  OpenEdges open_;
+};
 
 struct Crossed {
-  EdgeColumns a, b;
+  Edges a, b;
   Turn turn;
   float gap;
+  Vector3f offset = Vector3f::Zero();
 };
 
 Crossing cross(const HullSteps& steps, const Crossed& edges) {
-  return steps.cross(edges.a, edges.b, edges.turn, edges.gap);
+  const EdgeSolid a(edges.a), b(edges.b);
+  return steps.cross(a.edges(), b.edges(), edges.turn, edges.offset, edges.gap);
 }
 
 void expect_same_in_lanes(const Crossed& edges, const Crossing& expected) {
@@ -129,7 +166,8 @@ void for_each_counts(uint64_t seed, uint32_t count_each, const MakeEdge& make_ed
       SCOPED_TRACE(std::to_string(count_a) + " and " + std::to_string(count_b));
       for (uint32_t round = 0; round < count_each; ++round) {
         const auto edge = [&] { return make_edge(random); };
-        Crossed edges{columns_of(count_a, edge), columns_of(count_b, edge), make_turn(random), 0};
+        Crossed edges{edges_of(count_a, edge), edges_of(count_b, edge), make_turn(random), 0};
+        edges.offset = integers(random, 1);
         edges.gap = static_cast<float>(random.chance(0.2) ? -1e30 : random.uniform(-2, 1.5));
         check(edges);
         if (testing::Test::HasFailure()) return;
@@ -165,23 +203,23 @@ struct BestOfIntegers {
 
 BestOfIntegers best_of_integers(const Crossed& edges) {
   const auto as_int = [](const Vector3f& v) -> Eigen::Vector3i { return v.cast<int>(); };
-  const auto turned = [&](const EdgeColumns::Column3& column, size_t k) {
-    return as_int(scalar::rotate(edges.turn, get(column, k)));
-  };
+  const auto turned = [&](const Vector3f& v) { return as_int(scalar::rotate(edges.turn, v)); };
   BestOfIntegers best;
   for (size_t i = 0; i < edges.a.count; ++i) {
-    const auto direction = as_int(get(edges.a.direction, i));
-    const auto left = as_int(get(edges.a.left, i)), right = as_int(get(edges.a.right, i));
+    const Edge& edge_a = edges.a.edge[i];
+    const auto direction = as_int(edge_a.direction);
+    const auto left = as_int(edge_a.left), right = as_int(edge_a.right);
     for (size_t k = 0; k < edges.b.count; ++k) {
-      const auto other = turned(edges.b.direction, k);
-      const int of_left = turned(edges.b.left, k).dot(direction);
-      const int of_right = turned(edges.b.right, k).dot(direction);
+      const Edge& edge_b = edges.b.edge[k];
+      const auto other = turned(edge_b.direction);
+      const int of_left = turned(edge_b.left).dot(direction);
+      const int of_right = turned(edge_b.right).dot(direction);
       const int on_left = left.dot(other), on_right = right.dot(other);
       const auto n = direction.cross(other);
       const bool crosses = of_left * of_right < 0 && on_left * on_right < 0 &&
                            of_right * on_left < 0 && n.squaredNorm() > 0;
       if (!crosses) continue;
-      const int along = n.dot(as_int(get(edges.b.from, k) - get(edges.a.from, i)));
+      const int along = n.dot(turned(edge_b.from) + as_int(edges.offset) - as_int(edge_a.from));
       const int gap = n.dot(left + right) < 0 ? -along : along;
       if (!(static_cast<float>(gap) > edges.gap)) continue;
       best.ties = best.exists && gap < best.gap    ? best.ties
@@ -234,15 +272,15 @@ TEST(HullCrossings, OfOneParallelPairAmongManyEdges) {
   for (size_t at = 0; at < kMostCrossed; ++at) {
     // All other edges lie along x and cannot cross.
     const auto apart = [] { return Edge{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}}; };
-    Crossed edges{columns_of(kMostCrossed, apart), columns_of(kMostCrossed, apart), {}, -1};
+    Crossed edges{edges_of(kMostCrossed, apart), edges_of(kMostCrossed, apart), {}, -1};
     edges.turn = {Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
     const size_t of_a = random.below(kMostCrossed);
-    put({-1, 0, 1}, of_a, edges.a.left);
-    put({1, 0, 1}, of_a, edges.a.right);
-    put({-1, 0, -1}, at, edges.b.left);
-    put({1, 0, -1}, at, edges.b.right);
+    edges.a.edge[of_a].left = {-1, 0, 1};
+    edges.a.edge[of_a].right = {1, 0, 1};
+    edges.b.edge[at].left = {-1, 0, -1};
+    edges.b.edge[at].right = {1, 0, -1};
     for (const float tilt : {0.0f, 0x1p-9f, 0x1p-8f, 0x1.1p-8f, 0x1p-4f}) {
-      put({1, tilt, 0}, at, edges.b.direction);
+      edges.b.edge[at].direction = {1, tilt, 0};
       const Crossing expected = cross(scalar::kHullSteps, edges);
       EXPECT_EQ(expected.is_doubtful, tilt <= 0x1p-8f) << tilt;
       EXPECT_EQ(expected.exists, tilt > 0) << tilt;
@@ -275,11 +313,9 @@ long double inside_arc(const Vec& left, const Vec& right, const Vec& n) {
 BestOfAll best_of_all(const Crossed& edges) {
   constexpr long double kNear = 1e-4L;
   const Turn& r = edges.turn;
-  const auto vec = [](const EdgeColumns::Column3& column, size_t k) {
-    return oracle::vec3_as<long double>(get(column, k));
-  };
-  const auto turned = [&](const EdgeColumns::Column3& column, size_t k) {
-    const Vec v = vec(column, k);
+  const auto vec = [](const Vector3f& v) { return oracle::vec3_as<long double>(v); };
+  const auto turned = [&](const Vector3f& of_b) {
+    const Vec v = vec(of_b);
     return oracle::vec3_as<long double>(r.x) * v.x + oracle::vec3_as<long double>(r.y) * v.y +
            oracle::vec3_as<long double>(r.z) * v.z;
   };
@@ -291,16 +327,16 @@ BestOfAll best_of_all(const Crossed& edges) {
   std::vector<Found> all;
   for (size_t i = 0; i < edges.a.count; ++i) {
     for (size_t k = 0; k < edges.b.count; ++k) {
-      const Vec across = oracle::cross(vec(edges.a.direction, i), turned(edges.b.direction, k));
+      const Edge &a = edges.a.edge[i], &b = edges.b.edge[k];
+      const Vec across = oracle::cross(vec(a.direction), turned(b.direction));
+      const Vec apart = turned(b.from) + vec(edges.offset) - vec(a.from);
       for (const long double way : {1.0L, -1.0L}) {
         const Vec n = oracle::normalized(across) * way;
-        const long double inside =
-            std::min(inside_arc(vec(edges.a.left, i), vec(edges.a.right, i), n),
-                     inside_arc(turned(edges.b.left, k), turned(edges.b.right, k), -n));
+        const long double inside = std::min(inside_arc(vec(a.left), vec(a.right), n),
+                                            inside_arc(turned(b.left), turned(b.right), -n));
         const long double rounding = kNear / oracle::length(across);
         if (inside < -rounding) continue;
-        all.push_back({dot(n, vec(edges.b.from, k) - vec(edges.a.from, i)),
-                       inside > rounding && rounding < 100 * kNear, i, k});
+        all.push_back({dot(n, apart), inside > rounding && rounding < 100 * kNear, i, k});
       }
     }
   }
