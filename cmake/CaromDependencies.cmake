@@ -30,6 +30,7 @@ if(CAROM_BUILD_PEERS)
   find_path(CGAL_INCLUDE_DIR CGAL/box_intersection_d.h REQUIRED)  # header only, as used here
   pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet)
   pkg_check_modules(ode REQUIRED IMPORTED_TARGET ode)
+  pkg_check_modules(ccd REQUIRED IMPORTED_TARGET ccd)
   # Both package files of FCL ask for more than its broadphase needs, and for C++11.
   pkg_check_modules(fcl REQUIRED fcl)
   find_library(FCL_LIBRARY fcl REQUIRED)

@@ -35,7 +35,9 @@ ordered_json context_json(const TimeLimits& limits) {
   json["libraries"] = {{"cgal", CGAL_VERSION_STR},
                        {"bullet", CAROM_BULLET_VERSION},
                        {"fcl", CAROM_FCL_VERSION},
-                       {"ode", CAROM_ODE_VERSION}};
+                       {"ode", CAROM_ODE_VERSION},
+                       {"ccd", CAROM_CCD_VERSION},
+                       {"mujoco", CAROM_MUJOCO_VERSION}};  // "" where it is not installed
   json["budget_s"] = limits.budget;
   json["frame_limit_s"] = limits.frame_limit;
   return json;

@@ -49,6 +49,9 @@ class MotionStream {
   const std::vector<PlacedShape>& bodies_b() const { return bodies_b_; }
   // Displacements of B; A can turn but does not move.
   const std::vector<Eigen::Vector3f>& displacements() const { return displacement_; }
+  // Rotations, axis times angle; empty if the bodies do not turn.
+  const std::vector<Eigen::Vector3f>& turns_a() const { return rotation_a_; }
+  const std::vector<Eigen::Vector3f>& turns_b() const { return rotation_b_; }
   const reference::Impact& expected(size_t i) const { return expected_[i]; }
   double hit_percent() const;
   double reference_seconds() const { return reference_seconds_; }

@@ -8,6 +8,8 @@
 #include <fcl/narrowphase/collision_object.h>
 #include <fcl/narrowphase/distance.h>
 
+#include <cmath>
+
 #include "bench/peers/narrowphase/pair_peer.h"
 
 namespace carom::bench {
@@ -72,26 +74,30 @@ class FclPairs final : public PairPeer {
     distance_.enable_signed_distance = true;
   }
 
-  size_t run(std::span<uint8_t> overlaps) override {
-    size_t points = 0;
+  void run(PairAnswers& answers) override {
     for (size_t i = 0; i < a_.count(); ++i) {
-      points += measures_ ? measure(i, overlaps[i]) : collide(i, overlaps[i]);
+      float& separation = answers.separations[i];
+      answers.overlaps[i] = (measures_ ? measure(i, separation) : collide(i, separation)) ? 1 : 0;
     }
-    return points;
   }
 
  private:
-  size_t collide(size_t i, uint8_t& overlap) const {
+  bool collide(size_t i, float& separation) const {
     fcl::CollisionResultd result;
     fcl::collide(a_.object(i), b_.object(i), collision_, result);
-    overlap = result.isCollision() ? 1 : 0;
-    return result.numContacts();
+    separation = kNotReported;
+    for (size_t contact = 0; contact < result.numContacts(); ++contact) {
+      const double depth = result.getContact(contact).penetration_depth;
+      separation = std::fmin(separation, static_cast<float>(-depth));
+    }
+    return result.isCollision();
   }
 
-  size_t measure(size_t i, uint8_t& overlap) const {
+  bool measure(size_t i, float& separation) const {
     fcl::DistanceResultd result;
-    overlap = fcl::distance(a_.object(i), b_.object(i), distance_, result) <= 0 ? 1 : 0;
-    return 1;
+    const double distance = fcl::distance(a_.object(i), b_.object(i), distance_, result);
+    separation = static_cast<float>(distance);
+    return distance <= 0;
   }
 
   const Bodies a_, b_;

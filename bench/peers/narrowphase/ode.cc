@@ -2,6 +2,8 @@
 // shapes take planes that a caller must find, and are left out; it has no distances.
 #include <ode/ode.h>
 
+#include <cmath>
+
 #include "bench/peers/narrowphase/pair_peer.h"
 
 namespace carom::bench {
@@ -59,16 +61,19 @@ class OdePairs final : public PairPeer {
     flags_ = detail == PeerDetail::manifold ? kMostContacts : 1;
   }
 
-  size_t run(std::span<uint8_t> overlaps) override {
-    size_t points = 0;
+  void run(PairAnswers& answers) override {
     std::array<dContactGeom, kMostContacts> contacts;
     for (size_t i = 0; i < a_.count(); ++i) {
       const int found =
           dCollide(a_.geom(i), b_.geom(i), flags_, contacts.data(), sizeof contacts[0]);
-      overlaps[i] = found > 0 ? 1 : 0;
-      points += static_cast<size_t>(found);
+      answers.overlaps[i] = found > 0 ? 1 : 0;
+      float separation = kNotReported;
+      for (int contact = 0; contact < found; ++contact) {
+        const dReal depth = contacts[static_cast<size_t>(contact)].depth;
+        separation = std::fmin(separation, static_cast<float>(-depth));
+      }
+      answers.separations[i] = separation;
     }
-    return points;
   }
 
  private:

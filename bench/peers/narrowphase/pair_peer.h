@@ -5,8 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace carom::bench {
@@ -37,34 +37,48 @@ struct PeerBodies {
 
 enum class PeerDetail { overlap, contact, manifold, distance };
 
+// What a library says of pairs. A separation is below zero, by the depth of the deepest contact,
+// where the bodies overlap, and NaN where the library reports none.
+struct PairAnswers {
+  explicit PairAnswers(size_t count) : overlaps(count), separations(count) {}
+  std::vector<uint8_t> overlaps;
+  std::vector<float> separations;
+};
+inline constexpr float kNotReported = std::numeric_limits<float>::quiet_NaN();
+
 // Pair i is (a[i], b[i]).
 class PairPeer {
  public:
   virtual ~PairPeer() = default;
-  // One pass: writes whether each pair overlaps, and returns the number of contact points found.
-  virtual size_t run(std::span<uint8_t> overlaps) = 0;
+  // One pass over all pairs.
+  virtual void run(PairAnswers& answers) = 0;
 };
+using MakePairPeer = std::unique_ptr<PairPeer>(const PeerBodies& a, const PeerBodies& b,
+                                               PeerDetail detail);
 
-// Defined in bullet.cc. PeerDetail::overlap is for boxes only. PeerDetail::distance finds the
+// Each is defined in the file of its library, and returns nullptr where the library has no call for
+// the shapes or the detail. PeerDetail::overlap is for boxes only. PeerDetail::distance finds the
 // nearest points of separate pairs and the depth of the others.
-std::unique_ptr<PairPeer> make_bullet_pairs(const PeerBodies& a, const PeerBodies& b,
-                                            PeerDetail detail);
-
-// The same of other libraries, defined in fcl.cc and ode.cc; nullptr where they have no call for
-// the shapes or the detail.
-std::unique_ptr<PairPeer> make_fcl_pairs(const PeerBodies& a, const PeerBodies& b,
-                                         PeerDetail detail);
-std::unique_ptr<PairPeer> make_ode_pairs(const PeerBodies& a, const PeerBodies& b,
-                                         PeerDetail detail);
+MakePairPeer make_bullet_pairs, make_fcl_pairs, make_ode_pairs;
+// libccd alone: GJK and EPA, or the refinement of portals (MPR).
+MakePairPeer make_ccd_gjk_pairs, make_ccd_mpr_pairs;
+// Returns nullptr where Carom was built without MuJoCo.
+MakePairPeer make_mujoco_pairs;
+// Two meshes: FCL with all contacts, or with the first that it finds.
+MakePairPeer make_fcl_mesh_pairs, make_fcl_first_mesh_pairs;
 
 // One of Bullet's casts: the one that its world's sweep test runs, or the faster one without
 // rotation.
 enum class PeerCast { continuous, gjk };
 
-// Defined in bullet.cc. B moves by a displacement; run() writes impacts as "overlaps" and returns
-// their number. Convex shapes only.
+// How bodies move from their poses.
+struct PeerMotions {
+  std::vector<std::array<float, 3>> displacements;     // of B
+  std::vector<std::array<float, 3>> turns_a, turns_b;  // axis times angle; empty if none turns
+};
+
+// Defined in bullet_casts.cc. Writes impacts as overlaps. Convex shapes only.
 std::unique_ptr<PairPeer> make_bullet_casts(const PeerBodies& a, const PeerBodies& b,
-                                            std::vector<std::array<float, 3>> displacements,
-                                            PeerCast cast);
+                                            PeerMotions motions, PeerCast cast);
 
 }  // namespace carom::bench

@@ -67,28 +67,33 @@ class PeerHulls {
   std::map<const HullGeometry*, size_t> places_;
 };
 
+PeerBody peer_body(const PlacedShape& body) {
+  const Eigen::Vector3f p = body.position.cast<float>();
+  const Eigen::Vector4f q = body.orientation.coeffs();
+  return {{p.x(), p.y(), p.z()},
+          {q.x(), q.y(), q.z(), q.w()},
+          std::visit([](const auto& shape) { return peer_size(shape); }, body.shape)};
+}
+
 }  // namespace
 
 PeerBodies peer_bodies(ShapeKind kind, const std::vector<PlacedShape>& bodies) {
   PeerBodies all = {.shape = peer_shape(kind)};
   PeerHulls hulls(all.hulls);
   for (const PlacedShape& body : bodies) {
-    const Eigen::Vector3f p = body.position.cast<float>();
-    const Eigen::Vector4f q = body.orientation.coeffs();
-    all.bodies.push_back(
-        {{p.x(), p.y(), p.z()},
-         {q.x(), q.y(), q.z(), q.w()},
-         std::visit([](const auto& shape) { return peer_size(shape); }, body.shape),
-         hulls.place_of(body.shape)});
+    all.bodies.push_back(peer_body(body));
+    all.bodies.back().hull = hulls.place_of(body.shape);
   }
   return all;
 }
 
-PeerBodies peer_ground(const Terrain& terrain, size_t count) {
+PeerBodies peer_meshes(std::span<const Eigen::Vector3f> vertices,
+                       std::span<const std::array<uint32_t, 3>> triangles,
+                       const std::vector<PlacedShape>& bodies) {
   PeerBodies all = {.shape = PeerShape::mesh};
-  for (const Eigen::Vector3f& p : terrain.vertices) all.vertices.push_back({p.x(), p.y(), p.z()});
-  for (const auto& [a, b, c] : terrain.triangles) all.triangles.push_back({a, b, c});
-  all.bodies.assign(count, {{0, 0, 0}, {0, 0, 0, 1}, {}});
+  for (const Eigen::Vector3f& p : vertices) all.vertices.push_back({p.x(), p.y(), p.z()});
+  all.triangles.assign(triangles.begin(), triangles.end());
+  for (const PlacedShape& body : bodies) all.bodies.push_back(peer_body(body));
   return all;
 }
 

@@ -1,18 +1,20 @@
 // Converts bodies of streams for other libraries.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "bench/peers/narrowphase/pair_peer.h"
 #include "bench/support/bodies.h"
-#include "bench/support/mesh_stream.h"
 
 namespace carom::bench {
 
 // Aabbs become boxes without rotation.
 PeerBodies peer_bodies(ShapeKind kind, const std::vector<PlacedShape>& bodies);
 
-// `count` bodies with the same terrain.
-PeerBodies peer_ground(const Terrain& terrain, size_t count);
+// Bodies that share a mesh.
+PeerBodies peer_meshes(std::span<const Eigen::Vector3f> vertices,
+                       std::span<const std::array<uint32_t, 3>> triangles,
+                       const std::vector<PlacedShape>& bodies);
 
 }  // namespace carom::bench

@@ -8,34 +8,52 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double ns_per_pair(const StreamResult& result, double seconds) {
-  return 1e9 * seconds / static_cast<double>(result.pairs);
-}
-
 // Speed relative to Bullet.
 double times_bullet(const StreamResult& result, const RunnerResult& runner) {
-  return result.timed("bullet")->median_seconds / runner.median_seconds;
+  return result.timed("bullet")->seconds_per_pair() / runner.seconds_per_pair();
+}
+
+ordered_json agreement_json(const Agreement& agreement) {
+  ordered_json json = {{"pairs", agreement.pairs},
+                       {"excluded", agreement.excluded},
+                       {"different", agreement.different},
+                       {"measured", agreement.measured}};
+  if (agreement.measured > 0) {
+    json["median_error"] = agreement.median_error;
+    json["worst_error"] = agreement.worst_error;
+  }
+  return json;
 }
 
 ordered_json runner_json(const StreamResult& result, const RunnerResult& runner) {
-  return {{"runner", runner.runner},
-          {"ns", ns_per_pair(result, runner.median_seconds)},
-          {"ns_min", ns_per_pair(result, runner.least_seconds)},
-          {"times_bullet", times_bullet(result, runner)},
-          {"passes", runner.passes},
-          {"different", runner.different}};
+  ordered_json json = {{"runner", runner.runner},
+                       {"ns", 1e9 * runner.seconds_per_pair()},
+                       {"ns_min", 1e9 * runner.least_seconds / static_cast<double>(runner.pairs)},
+                       {"times_bullet", times_bullet(result, runner)},
+                       {"passes", runner.passes}};
+  if (runner.agreement) json["agreement"] = agreement_json(*runner.agreement);
+  return json;
 }
 
 ordered_json stream_json(const StreamResult& result) {
-  ordered_json json = {{"pair", result.pair},           {"detail", result.output},
-                       {"pairs", result.pairs},         {"hit_percent", result.hit_percent},
-                       {"wrong", result.wrong},         {"excluded", result.excluded},
-                       {"different", result.different}, {"bullet_points", result.bullet_points}};
+  ordered_json json = {{"pair", result.pair},   {"detail", result.output},
+                       {"pairs", result.pairs}, {"hit_percent", result.hit_percent},
+                       {"wrong", result.wrong}, {"bullet", agreement_json(result.bullet)}};
   json["runners"] = ordered_json::array();
   for (const RunnerResult& runner : result.runners) {
     json["runners"].push_back(runner_json(result, runner));
   }
   return json;
+}
+
+void print(const StreamResult& result, const RunnerResult& runner) {
+  std::printf("  %-24s %10.2f %9.2f %8zu", runner.runner.c_str(), 1e9 * runner.seconds_per_pair(),
+              times_bullet(result, runner), runner.passes);
+  if (runner.agreement) std::printf(" %10zu", runner.agreement->different);
+  if (runner.agreement && runner.agreement->measured > 0) {
+    std::printf(" %9.1e %9.1e", runner.agreement->median_error, runner.agreement->worst_error);
+  }
+  std::printf("\n");
 }
 
 }  // namespace
@@ -44,18 +62,14 @@ void print(const StreamResult& result) {
   std::printf(
       "\n%s, %s: %zu pairs, %.1f %% overlap; Bullet: %zu decide otherwise, %zu not compared\n",
       result.pair.c_str(), result.output.c_str(), result.pairs, result.hit_percent,
-      result.different, result.excluded);
+      result.bullet.different, result.bullet.excluded);
   if (!result.wrong.empty()) {
     std::printf("  Carom differs from its reference: %s\n", result.wrong.c_str());
   }
   if (result.runners.empty()) return;
-  std::printf("  %-24s %10s %9s %8s %10s\n", "runner", "ns/pair", "x Bullet", "passes",
-              "otherwise");
-  for (const RunnerResult& runner : result.runners) {
-    std::printf("  %-24s %10.2f %9.2f %8zu %10zu\n", runner.runner.c_str(),
-                ns_per_pair(result, runner.median_seconds), times_bullet(result, runner),
-                runner.passes, runner.different);
-  }
+  std::printf("  %-24s %10s %9s %8s %10s %9s %9s\n", "runner", "ns/pair", "x Bullet", "passes",
+              "otherwise", "error", "worst");
+  for (const RunnerResult& runner : result.runners) print(result, runner);
   std::fflush(stdout);
 }
 
