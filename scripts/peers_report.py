@@ -75,6 +75,9 @@ STREAM_TARGETS = {
     ("capsule_mesh", "contact"): (6779 / 900, 6779 / 400),
     ("box_mesh", "contact"): (13799 / 1700, 13799 / 800),
     ("hull_mesh_16", "contact"): (15948 / 2700, 15948 / 1500),
+    ("mesh_mesh", "contact"): (5, 20),
+    ("hull_hull_16", "toi"): (10, 25),
+    ("hull_hull_16", "turning"): (5, 10),
 }
 
 # Names for readers, and colour and dashes of the lines.
@@ -211,7 +214,8 @@ def stream_row(stream, isas):
         return row(name + [stream["wrong"] or "too many decisions differ"] + [""] * (len(isas) + 4))
     must, aim = STREAM_TARGETS.get((stream["pair"], stream["detail"]), (None, None))
     ratio = runners[isas[-1]]["times_bullet"]
-    times = [number(runners[runner]["ns"]) for runner in ["bullet", "reference"] + isas]
+    times = [number(runners[runner]["ns"]) if runner in runners else "-"
+             for runner in ["bullet", "reference"] + isas]
     targets = [target(f"{goal:.3g}", ratio >= goal) if goal else "" for goal in (must, aim)]
     return row(name + times + [f"{ratio:.3g}"] + targets)
 
@@ -239,48 +243,98 @@ def casts_table(streams):
     yield ""
 
 
-OTHERS = [("fcl", "FCL"), ("ode", "ODE")]
+# Other libraries than Bullet: a section each, with the runners in it and what they call.
+OTHERS = [
+    ("FCL", {"fcl": ""},
+     "`fcl::collide()` of two objects, and `fcl::distance()` for `distance`, `clearance` and "
+     "`again`. It finds one contact, four for manifolds; for `overlap` none."),
+    ("ODE", {"ode": ""}, "`dCollide()` of two geoms, for one contact, four for manifolds."),
+    ("libccd", {"ccd_gjk": "GJK, EPA", "ccd_mpr": "MPR"},
+     "`ccdGJKPenetration()` and `ccdMPRPenetration()`, for `overlap` `ccdGJKIntersect()` and "
+     "`ccdMPRIntersect()`, at the tolerance of 1e-6 that FCL sets. MPR finds a depth in the "
+     "direction in which its portal leaves the shape, which need not be the least."),
+    ("MuJoCo", {"mujoco": ""},
+     "The collider of the two types in its public table `mjCOLLISIONFUNC`, without the rest of "
+     "`mj_collision()`. Pose and size are written into the model in the time. Hulls have more "
+     "than one contact for manifolds alone (`multiccd`)."),
+]
 
 
-def other_cells(stream, runners, name):
-    if name not in runners:
-        return ["-", "-"]
-    compared = stream["pairs"] - stream["excluded"]
-    return [number(runners[name]["ns"]), f"{100 * runners[name]['different'] / compared:.3g} %"]
+def agreement_cells(agreement):
+    """The share of decisions that differ, and the errors of what was measured."""
+    compared = max(agreement["pairs"] - agreement["excluded"], 1)
+    errors = [f"{agreement[error]:.1e}" if agreement["measured"] else "-"
+              for error in ("median_error", "worst_error")]
+    return [f"{100 * agreement['different'] / compared:.3g} %"] + errors
 
 
-def others_table(streams, isas):
-    """Other libraries than Bullet."""
-    lines = []
+def other_rows(streams, names, strongest):
     for stream in streams:
         runners = {runner["runner"]: runner for runner in stream["runners"]}
-        if not any(name in runners for name, _ in OTHERS):
+        for name, title in names.items():
+            if name not in runners or stream["pair"] == "mesh_mesh":
+                continue
+            runner = runners[name]
+            pair = f"{stream['pair']}, {title}" if title else stream["pair"]
+            yield row([pair, stream["detail"], number(runner["ns"]),
+                       f"{runner['ns'] / runners[strongest]['ns']:.3g}"]
+                      + agreement_cells(runner["agreement"]))
+
+
+def others_tables(streams, libraries, strongest):
+    yield "\n## Other libraries\n"
+    yield ("In the same run, on the first 20,000 pairs of a stream; all compute in double precision. "
+           "`x`: how many times slower than Carom on its strongest instruction set. `otherwise`: the "
+           "share of pairs that the library decides otherwise than Carom, apart from those too near "
+           "touch. `error`: how far the separation or depth that it reports is from Carom's, as a "
+           "share of the mean bounding radius, median and worst; of several contacts the deepest "
+           "counts. Carom's own errors are in [accuracy](accuracy.md).\n")
+    if not libraries["mujoco"]:
+        yield "MuJoCo was not installed when this page was made.\n"
+    for library, names, calls in OTHERS:
+        rows = list(other_rows(streams, names, strongest))
+        if not rows:
             continue
-        cells = [stream["pair"], stream["detail"]]
-        for name, _ in OTHERS:
-            cells += other_cells(stream, runners, name)
-        lines.append(row(cells + [number(runners["bullet"]["ns"]), number(runners[isas[-1]]["ns"])]))
-    if not lines:
+        yield f"### {library}\n"
+        yield calls + "\n"
+        yield row(["pair", "output", "ns", "x", "otherwise", "error", "worst error"])
+        yield "|---|---|" + "---:|" * 5
+        yield from rows
+        yield ""
+
+
+def meshes_table(streams, isas):
+    """Two meshes."""
+    stream = next((s for s in streams if s["pair"] == "mesh_mesh" and s["runners"]), None)
+    if not stream:
         return
-    yield "\n## FCL and ODE\n"
-    yield ("In the same run: `fcl::collide()` of two objects, and `fcl::distance()` for `distance`, "
-           "`clearance` and `again`; `dCollide()` of two geoms. Both compute in double precision, and "
-           "find one contact, four for manifolds; for `overlap` FCL finds none. `otherwise`: pairs "
-           "that the library decides otherwise than Carom, apart from those too near touch.\n")
-    yield row(["pair", "output"] + [cell for _, title in OTHERS for cell in (title, "otherwise")]
-              + ["Bullet", isas[-1]])
-    yield "|---|---|" + "---:|" * (2 * len(OTHERS) + 2)
-    yield from lines
+    runners = {runner["runner"]: runner for runner in stream["runners"]}
+    yield "\n## Two meshes\n"
+    yield (f"`mesh_mesh`: {stream['pairs']} pairs of bumpy balls of 10,092 triangles each; those that "
+           "touch do so over some 50 triangles. Carom finds the deepest contact. Bullet: "
+           "`btGImpactCollisionAlgorithm` without a margin. FCL: `collide()` of two "
+           "`BVHModel<OBBRSS>` with contacts, all of them or the first that it finds. The "
+           "reference, which tries all pairs of triangles, is left out: the instruction sets are "
+           "compared with the scalar form.\n")
+    yield row(["library", "ns", "x", "otherwise"])
+    yield "|---|" + "---:|" * 3
+    for name, title in (("bullet", "Bullet"), ("fcl", "FCL, all contacts"),
+                        ("fcl_first", "FCL, first contact")):
+        runner = runners[name]
+        yield row([title, number(runner["ns"]), f"{runner['ns'] / runners[isas[-1]]['ns']:.3g}",
+                   agreement_cells(runner["agreement"])[0]])
     yield ""
 
 
 def decisions_table(streams):
-    yield row(["pair", "output", "pairs", "overlap", "too near touch", "Bullet decides otherwise"])
-    yield "|---|---|" + "---:|" * 4
+    yield row(["pair", "output", "pairs", "overlap", "too near touch", "Bullet decides otherwise",
+               "error", "worst error"])
+    yield "|---|---|" + "---:|" * 6
     for stream in streams:
+        bullet = stream["bullet"]
         yield row([stream["pair"], stream["detail"], str(stream["pairs"]),
-                   f"{stream['hit_percent']:.1f} %", str(stream["excluded"]),
-                   str(stream["different"])])
+                   f"{stream['hit_percent']:.1f} %", str(bullet["excluded"]),
+                   str(bullet["different"])] + agreement_cells(bullet)[1:])
 
 
 def streams_page(report):
@@ -309,15 +363,17 @@ def streams_page(report):
            "knew, while Bullet begins anew. Bullet is asked for depths in all three: the targets "
            "are those that were set for distances without depths. `toi`: one of the two moves in "
            "a straight line, and the time of impact is found, `impact`: and the contact then; half "
-           "of the pairs meet. Bullet runs `btContinuousConvexCollision`, as the sweep test of its "
+           "of the pairs meet; `turning`: both turn as well, by up to a radian. Bullet runs `btContinuousConvexCollision`, as the sweep test of its "
            "world does; its other cast is below.\n")
     yield from casts_table(streams)
-    yield from others_table(streams, isas)
+    yield from meshes_table(streams, isas)
+    yield from others_tables(streams, context["libraries"], isas[-1])
     yield "## Decisions\n"
     yield ("Before anything is timed, all results of Carom are compared with its reference bit by "
            "bit, and Bullet's decisions with Carom's, except for pairs whose separation is below "
            "0.001 of their mean bounding radius: Bullet rounds the corners of boxes and makes "
-           "triangles thicker by a margin, 0.25 mm here.\n")
+           "triangles thicker by a margin, 0.25 mm here. The errors are those of its separations "
+           "and depths, as above.\n")
     yield from decisions_table(streams)
 
 

@@ -63,7 +63,7 @@ else
   echo "setup: packages are missing; run as root:" >&2
   echo "  apt-get update && apt-get install -y --no-install-recommends" \
     "${missing[*]} ${options[*]}" >&2
-  exit 1
+  exit $((${#missing[@]} > 0))
 fi
 
 "${as_root[@]}" apt-get update -q

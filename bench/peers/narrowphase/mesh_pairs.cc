@@ -8,6 +8,7 @@
 #include "bench/support/pair_stream.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "carom/simd/isa.h"
 
 namespace carom::bench {
 namespace {
