@@ -244,19 +244,32 @@ def casts_table(streams):
 
 
 # Other libraries than Bullet: a section each, with the runners in it and what they call.
+# Other libraries than Bullet: a section each, with the runners in it, what they call, and what is
+# known of their errors.
 OTHERS = [
     ("FCL", {"fcl": ""},
      "`fcl::collide()` of two objects, and `fcl::distance()` for `distance`, `clearance` and "
-     "`again`. It finds one contact, four for manifolds; for `overlap` none."),
-    ("ODE", {"ode": ""}, "`dCollide()` of two geoms, for one contact, four for manifolds."),
+     "`again`. It finds one contact, four for manifolds; for `overlap` none. `collide()` asks "
+     "libccd's MPR about capsules and hulls, so that depths are too large (see libccd); of two boxes "
+     "whose edges meet they are up to 5 % too large, since a face is preferred (see ODE)."),
+    ("ODE", {"ode": ""},
+     "`dCollide()` of two geoms, for one contact, four for manifolds. For two boxes it takes a face "
+     "rather than a pair of edges unless these are better by 5 %, and its depth is then as much too "
+     "large. For a capsule and a box it measures from the point of the capsule's axis that is nearest "
+     "to the box: the depth is right while the axis is outside, and too small once it is inside."),
     ("libccd", {"ccd_gjk": "GJK, EPA", "ccd_mpr": "MPR"},
      "`ccdGJKPenetration()` and `ccdMPRPenetration()`, for `overlap` `ccdGJKIntersect()` and "
-     "`ccdMPRIntersect()`, at the tolerance of 1e-6 that FCL sets. MPR finds a depth in the "
-     "direction in which its portal leaves the shape, which need not be the least."),
+     "`ccdMPRIntersect()`, at the tolerance of 1e-6 that FCL sets. MPR finds the depth in the "
+     "direction in which its portal leaves the shape, which is never less than the least and up to "
+     "2.5 times as much. GJK and EPA find the least for polyhedra but for some pairs, whose depth is too "
+     "small; for round shapes more often, and sometimes 0."),
     ("MuJoCo", {"mujoco": ""},
      "The collider of the two types in its public table `mjCOLLISIONFUNC`, without the rest of "
      "`mj_collision()`. Pose and size are written into the model in the time. Hulls have more "
-     "than one contact for manifolds alone (`multiccd`)."),
+     "than one contact for manifolds alone (`multiccd`). `dist` of the deepest contact is compared. "
+     "For two boxes it is right where edges meet, and half the depth where the least depth is across "
+     "a face. For a sphere or a capsule in a box it is right while the centre or the axis is outside, "
+     "and too small once it is inside. Hulls are those of MPR, as with libccd."),
 ]
 
 
@@ -373,7 +386,7 @@ def streams_page(report):
            "bit, and Bullet's decisions with Carom's, except for pairs whose separation is below "
            "0.001 of their mean bounding radius: Bullet rounds the corners of boxes and makes "
            "triangles thicker by a margin, 0.25 mm here. The errors are those of its separations "
-           "and depths, as above.\n")
+           "and depths, as above. Its boxes prefer a face to a pair of edges by 5 %, as ODE's.\n")
     yield from decisions_table(streams)
 
 

@@ -1,5 +1,5 @@
-// FCL: collide() of two objects, with libccd's GJK and EPA for what it has no formula of its own
-// for (its default), in double precision; distance() for distances.
+// FCL: collide() of two objects, with libccd's MPR for what it has no formula of its own for (its
+// default), in double precision; distance(), with GJK and EPA, for distances.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/convex.h>
@@ -86,6 +86,7 @@ class FclPairs final : public PairPeer {
     fcl::CollisionResultd result;
     fcl::collide(a_.object(i), b_.object(i), collision_, result);
     separation = kNotReported;
+    if (!collision_.enable_contact) return result.isCollision();  // its contacts have no depth
     for (size_t contact = 0; contact < result.numContacts(); ++contact) {
       const double depth = result.getContact(contact).penetration_depth;
       separation = std::fmin(separation, static_cast<float>(-depth));
