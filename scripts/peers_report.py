@@ -243,7 +243,6 @@ def casts_table(streams):
     yield ""
 
 
-# Other libraries than Bullet: a section each, with the runners in it and what they call.
 # Other libraries than Bullet: a section each, with the runners in it, what they call, and what is
 # known of their errors.
 OTHERS = [
