@@ -1,5 +1,6 @@
 #include "impacts/impact_contacts.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "geometries/mesh_memory.h"
 #include "impacts/composite_times.h"
 #include "impacts/moving_body.h"
+#include "impacts/placed_side.h"
 #include "impacts/rays/point_contact.h"
 #include "midphase/part_batch.h"
 #include "narrowphase/blocks/pair_block.h"
@@ -17,77 +19,9 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-// The pose of a body, or of a part, at a time.
-struct PlaceInTime {
-  Double3 position;
-  Double3 arm;  // from the pivot of the body
-  Row orientation;
-};
-
-PlaceInTime place_at(const Double3& pivot, const Double3& arm, const Row& orientation,
-                     const MovingReader& side, size_t body, double t) {
-  const Position<float> d = side.displacement(body);
-  const Double3 moved = plus(pivot, {d.x * t, d.y * t, d.z * t});
-  const Eigen::Vector3d rotation = side.rotation_vector(body);
-  if (rotation.isZero(0)) return {plus(moved, arm), arm, orientation};
-  const scalar::Quaternion<double> turn = scalar::turn_by(rotation, t);
-  const Eigen::Vector3d turned_arm =
-      scalar::rotate(scalar::rotation_of(turn), Eigen::Vector3d(arm.data()));
-  const Double3 arm_then = {turned_arm.x(), turned_arm.y(), turned_arm.z()};
-  const Row as_row = {static_cast<float>(turn.v.x()), static_cast<float>(turn.v.y()),
-                      static_cast<float>(turn.v.z()), static_cast<float>(turn.w)};
-  return {plus(moved, arm_then), arm_then, product(as_row, orientation)};
-}
-
-// Simple bodies at their times of impact, packed. Their shape rows stay in the caller's arrays.
-class PlacedSide {
- public:
-  void clear() { count_ = 0; }
-
-  // `position` is that at the start.
-  void put(const MovingReader& side, size_t body, const Double3& position, double t) {
-    const BodyReader reader = side.body();
-    const PlaceInTime place = place_at(position, {}, reader.orientation(body), side, body, t);
-    kind_[count_] = reader.kind(body);
-    const bool is_sphere = kind_[count_] == ShapeKind::sphere;
-    record_[count_] = {place.position[0], place.position[1], place.position[2],
-                       is_sphere ? reader.radius(body) : 0.0};
-    orientation_[count_] = place.orientation;
-    first_row_[count_] =
-        row_count(kind_[count_]) > 0 ? static_cast<uint32_t>(reader.first_row(body)) : 0;
-    box_slot_[count_] = static_cast<uint32_t>(reader.box(body));
-    dops_[count_] = reader.dop_geometry(body);
-    ++count_;
-  }
-
-  Collidables view(const Collidables& bodies) const {
-    Collidables view;
-    view.count = count_;
-    view.position = {
-        .data = record_.data(), .stride = sizeof record_[0], .type = PositionType::float64};
-    view.kind = bodies.kind ? kind_.data() : nullptr;
-    view.uniform_kind = bodies.uniform_kind;
-    view.boxes = bodies.boxes;
-    view.box_slot = box_slot_.data();
-    view.orientation.data = orientation_[0].data();
-    view.rows = {bodies.rows.data, first_row_.data()};
-    view.dops = dops_.data();
-    return view;
-  }
-
- private:
-  size_t count_ = 0;
-  alignas(64) std::array<std::array<double, 4>, kPairsPerBlock> record_;
-  std::array<Row, kPairsPerBlock> orientation_;
-  std::array<ShapeKind, kPairsPerBlock> kind_;
-  std::array<const DopGeometry*, kPairsPerBlock> dops_;
-  std::array<uint32_t, kPairsPerBlock> first_row_, box_slot_;
-};
-
 struct ContactScratch {
+  MeetingRows meeting;  // simple bodies
   PlacedSide a, b;
-  size_t count;
-  std::array<uint16_t, kPairsPerBlock> row;  // of every placed pair
   TestColumns columns;
   PartBatch parts;
   std::array<std::array<Double3, 2>, kPairsPerBlock> arms;  // of the parts of every pair
@@ -109,20 +43,9 @@ class ImpactContacts {
         scratch_(scratch) {}
 
   void run() {
-    clear();
-    for (size_t row = 0; row < first_.count; ++row) {
-      prefetch(row);
-      const bool meets = first_.time[row] <= 1;
-      if (!meets) {
-        write_nothing(row);
-      } else if (is_point_at_mesh(row)) {
-        take_triangle(row);
-      } else if (is_composite(row)) {
-        add_parts(row);
-      } else {
-        add_bodies(row);
-      }
-    }
+    scratch_.parts.clear();
+    write_nothing();
+    sort_rows();
     run_bodies();
     run_parts();
   }
@@ -141,35 +64,81 @@ class ImpactContacts {
            carom::is_composite(b_.body().kind(pairs_[row].b));
   }
 
-  void clear() {
-    scratch_.a.clear();
-    scratch_.b.clear();
-    scratch_.count = 0;
-    scratch_.parts.clear();
-  }
-
-  void write_nothing(size_t row) {
-    if (out_.separation) out_.separation[row] = kNan;
+  // For the rows that do not meet; the others are overwritten.
+  void write_nothing() {
+    const auto fill = [this](float* column) {
+      if (column) std::fill_n(column, first_.count, kNan);
+    };
+    fill(out_.separation);
     for (const std::array<float*, 3>& columns : {out_.normal, out_.point_a, out_.point_b}) {
-      for (float* column : columns) {
-        if (column) column[row] = kNan;
-      }
+      std::for_each(columns.begin(), columns.end(), fill);
     }
   }
 
-  void add_bodies(size_t row) {
-    scratch_.row[scratch_.count++] = static_cast<uint16_t>(row);
-    // Positions are relative to A, so the contact does not depend on where both are.
-    const Pair pair = pairs_[row];
-    scratch_.a.put(a_, pair.a, {}, first_.time[row]);
-    scratch_.b.put(b_, pair.b, place_between(a_, b_, pair), first_.time[row]);
+  void sort_rows() {
+    MeetingRows& meeting = scratch_.meeting;
+    const bool may_have_parts = may_be_composite(side_a_.bodies) || may_be_composite(side_b_.bodies);
+    size_t count = 0;
+    for (size_t row = 0; row < first_.count; ++row) {
+      bool is_simple = first_.time[row] <= 1;
+      if (may_have_parts) is_simple = !take_parts(row) && is_simple;
+      meeting.row[count] = static_cast<uint16_t>(row);
+      count += is_simple;
+    }
+    meeting.count = count;
+    for (size_t i = 0; i < count; ++i) {
+      const size_t row = meeting.row[i];
+      meeting.body_a[i] = pairs_[row].a;
+      meeting.body_b[i] = pairs_[row].b;
+      meeting.time[i] = first_.time[row];
+    }
+  }
+
+  static bool may_be_composite(const Collidables& bodies) {
+    return bodies.kind || carom::is_composite(bodies.uniform_kind);
+  }
+
+  // Returns whether the row meets and has parts.
+  bool take_parts(size_t row) {
+    prefetch(row);
+    if (!(first_.time[row] <= 1)) return false;
+    if (is_point_at_mesh(row)) {
+      take_triangle(row);
+      return true;
+    }
+    if (!is_composite(row)) return false;
+    add_parts(row);
+    return true;
   }
 
   void run_bodies() {
-    if (scratch_.count == 0) return;
-    const ResultColumns found =
-        test(scratch_.a.view(side_a_.bodies), scratch_.b.view(side_b_.bodies), scratch_.count);
-    for (size_t i = 0; i < scratch_.count; ++i) write(scratch_.row[i], found, i, {});
+    const MeetingRows& meeting = scratch_.meeting;
+    if (meeting.count == 0) return;
+    scratch_.a.start_at_a(meeting);
+    scratch_.b.start_at_b(side_a_, side_b_, meeting);
+    scratch_.a.place(side_a_, meeting.body_a.data(), meeting);
+    scratch_.b.place(side_b_, meeting.body_b.data(), meeting);
+    const ResultColumns found = test(scratch_.a.view(), scratch_.b.view(), meeting.count);
+    if (frame_ == WitnessFrame::body) return write_bodies(found);
+    for (size_t i = 0; i < meeting.count; ++i) write(meeting.row[i], found, i, {});
+  }
+
+  // Points relative to the bodies, column by column.
+  void write_bodies(const ResultColumns& found) {
+    const auto as_found = [](float number) { return number; };
+    const auto of_point = [](float number) { return number + 0.0f; };  // no zero is negative
+    write_column(found.separation, as_found, out_.separation);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      write_column(found.normal[axis], as_found, out_.normal[axis]);
+      write_column(found.point_a[axis], of_point, out_.point_a[axis]);
+      write_column(found.point_b[axis], of_point, out_.point_b[axis]);
+    }
+  }
+  template <class Number>
+  void write_column(const float* found, const Number& number, float* column) {
+    if (!column) return;
+    const MeetingRows& meeting = scratch_.meeting;
+    for (size_t i = 0; i < meeting.count; ++i) column[meeting.row[i]] = number(found[i]);
   }
 
   void take_triangle(size_t row) {

@@ -4,29 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+
+#include "impacts/body_columns.h"
 
 namespace carom {
 namespace {
-
-// Element i of an array with a stride; zero if there is no array.
-template <class T>
-class Strided {
- public:
-  Strided(const void* data, size_t stride)
-      : data_(static_cast<const char*>(data ? data : &kNone)), stride_(data ? stride : 0) {}
-
-  T operator[](size_t i) const {
-    T value;
-    std::memcpy(&value, data_ + i * stride_, sizeof(T));
-    return value;
-  }
-
- private:
-  static constexpr T kNone{};
-  const char* data_;
-  size_t stride_;
-};
 
 // Writes the numbers of one body, one per column.
 class RowWriter {
@@ -49,23 +31,13 @@ class RowWriter {
   double* next_;
 };
 
-// The bodies of a side. The view is copied, so that the compiler knows that writes do not change
-// it.
-struct Side {
-  const Collidables bodies;
-  const SweepView sweep;
+// The bodies of a side.
+struct Side : BodyColumns {
   const LinearKind kind;
   const uint32_t* const body;
 
   explicit Side(const LinearSide& side)
-      : bodies(side.side.bodies), sweep(side.side.sweep), kind(side.kind), body(side.body) {}
-
-  BodyReader reader() const { return {bodies}; }
-
-  Strided<Position<float>> displacement() const {
-    return {sweep.displacement, sweep.displacement_stride};
-  }
-  Strided<Position<float>> rotation() const { return {sweep.rotation, sweep.rotation_stride}; }
+      : BodyColumns(side.side), kind(side.kind), body(side.body) {}
 
   Row row(size_t i, size_t k) const {
     return row_at(bodies.rows.data, sizeof(Row), reader().first_row(i) + k);
@@ -73,32 +45,6 @@ struct Side {
   Row orientation(size_t i) const {
     if (!bodies.orientation.data) return {0, 0, 0, 1};
     return row_at(bodies.orientation.data, bodies.orientation.stride, i);
-  }
-
-  // Calls use(positions).
-  template <class Use>
-  void with_positions(const Use& use) const {
-    const PositionView& view = bodies.position;
-    if (reader().is_float64()) return use(Strided<Position<double>>(view.data, view.stride));
-    use(Strided<Position<float>>(view.data, view.stride));
-  }
-
-  // Calls use(radii).
-  template <class Use>
-  void with_radii(const Use& use) const {
-    const PositionView& view = bodies.position;
-    const char* base = static_cast<const char*>(view.data);
-    switch (view.radius_layout) {
-      case RadiusLayout::none:
-        return use(Strided<float>(nullptr, 0));
-      case RadiusLayout::column:
-        return use(Strided<float>(view.radius, view.radius_stride));
-      case RadiusLayout::fourth:
-        if (reader().is_float64()) {
-          return use(Strided<double>(base + sizeof(Position<double>), view.stride));
-        }
-        return use(Strided<float>(base + sizeof(Position<float>), view.stride));
-    }
   }
 
   bool is_turned_box(size_t i) const { return reader().kind(i) == ShapeKind::box; }
