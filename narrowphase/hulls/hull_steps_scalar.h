@@ -1,6 +1,8 @@
 // The steps of the float32 penetration search: the scalar form.
 #pragma once
 
+#include <algorithm>
+
 #include "narrowphase/hulls/hull_depth.h"
 
 namespace carom::scalar {
@@ -61,11 +63,14 @@ inline BestFace try_all_faces(const Solid& solid, const HullPoints& points, Face
 }
 
 inline void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
-  for (size_t f = 0; f < solid.face_count; ++f) {
-    for (size_t row = 0; row < bounds.settled_rows(); ++row) bounds.settled[row][f] = 0;
-    for (size_t ball = 0; ball < bounds.count; ++ball) {
-      const int bit = bounds.between[ball][f] <= gap ? 1 << ball % 8 : 0;
-      bounds.settled[ball / 8][f] = static_cast<uint8_t>(bounds.settled[ball / 8][f] | bit);
+  for (size_t row = 0; row < bounds.settled_rows(); ++row) {
+    const size_t first = 8 * row, count = std::min<size_t>(bounds.count - first, 8);
+    for (size_t f = 0; f < solid.face_count; ++f) {
+      uint32_t settled = 0;
+      for (size_t i = 0; i < count; ++i) {
+        settled |= uint32_t{bounds.between[first + i][f] <= gap} << i;
+      }
+      bounds.settled[row][f] = static_cast<uint8_t>(settled);
     }
   }
 }
@@ -74,11 +79,13 @@ inline void find_open_edges(const Solid& solid, float gap, FaceBounds& bounds, O
   settle_faces(solid, gap, bounds);
   open.count = 0;
   for (size_t e = 0; e < solid.edges.size(); ++e) {
-    int settled = 0;
+    uint32_t settled = 0;
     for (size_t row = 0; row < bounds.settled_rows(); ++row) {
-      settled |= bounds.settled[row][solid.side[0][e]] & bounds.settled[row][solid.side[1][e]];
+      const auto& faces = bounds.settled[row];
+      settled |= uint32_t{faces[solid.side[0][e]]} & faces[solid.side[1][e]];
     }
-    if (settled == 0) open.index[open.count++] = static_cast<uint16_t>(e);
+    open.index[open.count] = static_cast<uint16_t>(e);
+    open.count += settled == 0 ? 1 : 0;
   }
 }
 
