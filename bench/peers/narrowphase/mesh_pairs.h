@@ -1,5 +1,4 @@
-// Pairs of bumpy balls, meshes of 10,000 triangles; half of the pairs touch, over some 50
-// triangles.
+// Pairs of bumpy balls, meshes of 10,000 triangles; half of the pairs touch, over dozens of them.
 #pragma once
 
 #include <memory>
