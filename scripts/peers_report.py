@@ -268,7 +268,8 @@ OTHERS = [
      "than one contact for manifolds alone (`multiccd`). `dist` of the deepest contact is compared. "
      "For two boxes it is right where edges meet, and half the depth where the least depth is across "
      "a face. For a capsule and a box it is right while the axis is outside, and too small once it is "
-     "inside; so it is for some spheres deep in a box. Hulls go to MPR, as with libccd."),
+     "inside; for a sphere whose centre is inside it is the radius. Hulls go to MPR, as with "
+     "libccd."),
 ]
 
 
@@ -323,7 +324,7 @@ def meshes_table(streams, isas):
     runners = {runner["runner"]: runner for runner in stream["runners"]}
     yield "\n## Two meshes\n"
     yield (f"`mesh_mesh`: {stream['pairs']} pairs of bumpy balls of 10,092 triangles each; those that "
-           "touch do so over dozens of triangles. Carom finds the deepest contact. Bullet: "
+           "touch do so over some 35 triangles of each. Carom finds the deepest contact. Bullet: "
            "`btGImpactCollisionAlgorithm` without a margin. FCL: `collide()` of two "
            "`BVHModel<OBBRSS>` with contacts, all of them or the first that it finds. The "
            "reference, which tries all pairs of triangles, is left out: the instruction sets are "

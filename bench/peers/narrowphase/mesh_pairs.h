@@ -1,4 +1,4 @@
-// Pairs of bumpy balls, meshes of 10,000 triangles; half of the pairs touch, over dozens of them.
+// Pairs of bumpy balls, meshes of 10,000 triangles; half of them touch, each over some 35.
 #pragma once
 
 #include <memory>
