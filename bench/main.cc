@@ -1,8 +1,10 @@
-// carom_bench [--smoke | --large] [Google Benchmark's flags]
-//   --smoke  short streams, small scenes, few repetitions: checks that everything still runs
-//   --large  also scenes of a million bodies
+// carom_bench [--smoke | --large] [--pairs=N] [Google Benchmark's flags]
+//   --smoke    short streams, small scenes, few repetitions: checks that everything still runs
+//   --large    also scenes of a million bodies
+//   --pairs=N  streams of N pairs, fewer of hulls and k-DOPs
 #include <benchmark/benchmark.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 #include <vector>
@@ -17,6 +19,7 @@ namespace {
 // Removes our own flags from the list. Later flags override those that --smoke adds.
 Options take_options(std::vector<char*>& arguments) {
   static char min_time[] = "--benchmark_min_time=0.001";
+  constexpr const char* kPairs = "--pairs=";
   Options options;
   for (auto argument = std::next(arguments.begin()); argument != arguments.end();) {
     if (std::strcmp(*argument, "--smoke") == 0) {
@@ -24,6 +27,9 @@ Options take_options(std::vector<char*>& arguments) {
       *argument++ = min_time;
     } else if (std::strcmp(*argument, "--large") == 0) {
       options.max_bodies = 1'000'000;
+      argument = arguments.erase(argument);
+    } else if (std::strncmp(*argument, kPairs, std::strlen(kPairs)) == 0) {
+      options.pairs = std::strtoul(*argument + std::strlen(kPairs), nullptr, 10);
       argument = arguments.erase(argument);
     } else {
       ++argument;
@@ -33,6 +39,7 @@ Options take_options(std::vector<char*>& arguments) {
 }
 
 void register_all(const Options& options) {
+  register_clock();
   register_memory();
   register_bounds();
   register_dop_bounds();

@@ -1,5 +1,6 @@
 // What the memory of this machine gives: memory/WAY/THREADS, in nanoseconds a line of 64 bytes.
-// docs/frame.md compares the stages of a frame with it.
+// docs/frame.md compares the stages of a frame with it. cache/copy/t1 copies about as many bytes as
+// a stream of pairs has, which stay in the last level of the caches: docs/roofline.md.
 #include <cstring>
 #include <string>
 #include <vector>
@@ -17,8 +18,8 @@ struct alignas(64) Line {
 };
 using Lines = std::vector<Line>;
 
-// Many times the last level of a cache; a task of a thread takes an eighth.
-constexpr size_t kLines = size_t{1} << 22, kLinesPerTask = kLines / 8;
+// Many times the last level of a cache, and 4 MiB.
+constexpr size_t kLines = size_t{1} << 22, kLinesOfCache = size_t{1} << 16;
 
 void read(const Lines& lines, Lines&, size_t begin, size_t end) {
   uint64_t sum[8] = {};
@@ -43,35 +44,37 @@ void gather(const Lines& lines, Lines&, size_t begin, size_t end) {
 
 using Way = void (*)(const Lines& from, Lines& to, size_t begin, size_t end);
 
-void measure_memory(benchmark::State& state, Way way, int threads) {
-  const Lines from(kLines, Line{{1, 2, 3, 4, 5, 6, 7, 8}});
-  Lines to(kLines);
+// A task of a thread takes an eighth of the lines.
+void measure_memory(benchmark::State& state, Way way, size_t lines, int threads) {
+  const Lines from(lines, Line{{1, 2, 3, 4, 5, 6, 7, 8}});
+  Lines to(lines);
   ThreadArena arena(threads);
   PassTimes times;
   arena.run([&] {
     for (auto _ : state) {
       times.measure([&] {
-        for_each_block(kLines, kLinesPerTask, arena.parallelism(),
+        for_each_block(lines, lines / 8, arena.parallelism(),
                        [&](size_t, size_t begin, size_t end) { way(from, to, begin, end); });
       });
     }
   });
-  report(state, "line", kLines, times);
+  report(state, "line", lines, times);
 }
 
 }  // namespace
 
 void register_memory() {
-  const auto add = [](const char* name, Way way) {
-    for (const int threads : {1, 2}) {
-      const auto run = [=](benchmark::State& state) { measure_memory(state, way, threads); };
-      const std::string full_name = std::string("memory/") + name + "/t" + std::to_string(threads);
-      benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMillisecond);
-    }
+  const auto add = [](const char* name, Way way, size_t lines, int threads) {
+    const auto run = [=](benchmark::State& state) { measure_memory(state, way, lines, threads); };
+    const std::string full_name = std::string(name) + "/t" + std::to_string(threads);
+    benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMillisecond);
   };
-  add("read", read);
-  add("copy", copy);
-  add("gather", gather);
+  for (const int threads : {1, 2}) {
+    add("memory/read", read, kLines, threads);
+    add("memory/copy", copy, kLines, threads);
+    add("memory/gather", gather, kLines, threads);
+  }
+  add("cache/copy", copy, kLinesOfCache, 1);
 }
 
 }  // namespace carom::bench

@@ -60,6 +60,8 @@ void measure_kernel(benchmark::State& state, const PairStream& stream, Detail de
     benchmark::DoNotOptimize(stream.run(detail, results.columns()));
     benchmark::ClobberMemory();
   });
+  state.counters["pairs"] = static_cast<double>(stream.spec().count);
+  state.counters["bytes_per_pair"] = static_cast<double>(stream.bytes_per_pair(detail));
 }
 
 void measure_reference(benchmark::State& state, const PairStream& stream) {

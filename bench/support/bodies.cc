@@ -131,6 +131,14 @@ DenseBodies::DenseBodies(ShapeKind kind, std::span<const PlacedShape> bodies, St
   if (row_count(kind) > 0) store_rows(bodies);
 }
 
+size_t DenseBodies::bytes_per_body() const {
+  const size_t corners = view_.boxes.lower.size() + view_.boxes.upper.size();
+  return (view_.position.data ? view_.position.stride : 0) +
+         (view_.boxes.lower[0] ? corners * view_.boxes.stride : 0) +
+         (view_.orientation.data ? view_.orientation.stride : 0) +
+         row_count(view_.uniform_kind) * sizeof(rows_[0]);
+}
+
 template <class T>
 void DenseBodies::store_records(std::span<const PlacedShape> bodies, std::vector<T>& records) {
   records.reserve(4 * bodies.size());

@@ -194,6 +194,16 @@ double PairStream::hit_percent() const {
   return 100.0 * static_cast<double>(hits) / static_cast<double>(spec_.count);
 }
 
+size_t PairStream::bytes_per_pair(Detail detail) const {
+  size_t bytes = a_->bytes_per_body() + b_->bytes_per_body();
+  for_each_column(
+      [&]<class T>(const ColumnInfo& info, T*) {
+        if (info.detail <= detail && !is_optional(info.role)) bytes += sizeof(T);
+      },
+      ResultColumns());
+  return spec_.access == Access::pairs ? bytes + sizeof(Pair) : bytes;
+}
+
 Result<void> PairStream::run(Detail detail, const ResultColumns& out, Measured measured) const {
   return run(*b_, detail, out, measured);
 }

@@ -60,6 +60,9 @@ class PairStream {
   double hit_percent() const;
   // The time of one pass of the reference.
   double reference_seconds() const { return reference_seconds_; }
+  // The bytes of both bodies and of the columns that this detail needs: the least that a test reads
+  // and writes.
+  size_t bytes_per_pair(Detail detail) const;
 
   // Runs one pass.
   Result<void> run(Detail detail, const ResultColumns& out,

@@ -10,6 +10,7 @@ struct Options {
   size_t max_bodies = 100'000;  // of a scene
 };
 
+void register_clock();
 void register_memory();
 void register_bounds();
 void register_dop_bounds();
