@@ -10,9 +10,9 @@ namespace {
 
 constexpr size_t kAdditions = size_t{1} << 20;
 
-// Every addition waits for the last one, and takes one cycle. The compiler cannot join them, because
-// it does not know what the empty instruction does to the sum. A loop as short as this can take more
-// than a cycle by itself.
+// Every addition waits for the last one, and takes one cycle. The compiler cannot join them,
+// because it does not know what the empty instruction does to the sum. A loop as short as this can
+// take more than a cycle by itself.
 void add_in_turn(uint64_t step) {
   uint64_t sum = step;
 #pragma GCC unroll 16

@@ -52,8 +52,8 @@ class DenseBodies {
   DenseBodies& operator=(const DenseBodies&) = delete;
 
   const Collidables& view() const { return view_; }
-  // Bytes of a body in the arrays that tests read: record, corners, orientation and rows. Geometries
-  // that rows refer to do not count.
+  // Bytes of a body in the arrays that tests read: record, corners, orientation and rows.
+  // Geometries that rows refer to do not count.
   size_t bytes_per_body() const;
 
  private:
