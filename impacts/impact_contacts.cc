@@ -77,7 +77,8 @@ class ImpactContacts {
 
   void sort_rows() {
     MeetingRows& meeting = scratch_.meeting;
-    const bool may_have_parts = may_be_composite(side_a_.bodies) || may_be_composite(side_b_.bodies);
+    const bool may_have_parts =
+        may_be_composite(side_a_.bodies) || may_be_composite(side_b_.bodies);
     size_t count = 0;
     for (size_t row = 0; row < first_.count; ++row) {
       bool is_simple = first_.time[row] <= 1;

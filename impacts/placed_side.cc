@@ -103,8 +103,7 @@ void PlacedSide::put_shapes(const BodyColumns& side) {
 
 Collidables PlacedSide::view() const {
   const Collidables& bodies = side_->bodies;
-  const bool is_turned =
-      bodies.orientation.data != nullptr || side_->sweep.rotation != nullptr;
+  const bool is_turned = bodies.orientation.data != nullptr || side_->sweep.rotation != nullptr;
   Collidables view;
   view.count = count_;
   view.position = {
