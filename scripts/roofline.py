@@ -9,7 +9,7 @@ kernel, with its instructions and bytes a pair.
 CAROM_BENCH, of a release build, measures times, the clock and the memory: nothing else should run.
 The quicker of two rounds counts. Valgrind counts the instructions of collide_rows() at each address,
 on few pairs and with AVX2, since it knows no AVX-512; objdump says what stands there. docs/roofline.md
-says how to read the tables. All that takes about three minutes.
+says how to read the tables. All that takes about four minutes.
 """
 
 import argparse
