@@ -51,6 +51,7 @@ uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
   std::fill_n(orientation_.begin() + first, count, mesh.orientation);
   std::fill_n(kind_.begin() + first, count, ShapeKind::triangle);
   std::fill_n(frame_.begin() + first, count, frames_used_ - 1);
+  std::fill_n(dops_.begin() + first, count, nullptr);
   std::copy_n(triangles.begin(), count, triangle_.begin() + first);
   are_mixed_ = are_mixed_ || kind_[0] != ShapeKind::triangle;
   Row* const rows = rows_.data() + first_row;

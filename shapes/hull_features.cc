@@ -47,6 +47,7 @@ bool HullFeatures::add_faces(const HullGeometry& hull) {
   const double most_behind = kBehindFace * double{hull.size()};
   const size_t padded = (hull.faces().size() + 15) / 16 * 16;
   columns_.assign(4 * padded, 0);
+  planes_.reserve(hull.faces().size());
   std::fill_n(columns_.begin() + static_cast<ptrdiff_t>(3 * padded), padded, HUGE_VALF);
   double inner_radius = HUGE_VAL;
   for (const HullGeometry::Face& face : hull.faces()) {
@@ -82,6 +83,7 @@ bool HullFeatures::add_edges(const HullGeometry& hull) {
   }
   const auto is_before = [](const Way& a, const Way& b) { return a.ends < b.ends; };
   std::sort(ways.begin(), ways.end(), is_before);
+  edges_.reserve(ways.size() / 2);
   const auto is_same = [](const Way& a, const Way& b) { return a.ends == b.ends; };
   if (std::adjacent_find(ways.begin(), ways.end(), is_same) != ways.end()) return false;
   for (const auto& [there, left] : ways) {

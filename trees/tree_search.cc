@@ -7,7 +7,9 @@
 // After the loop over targets.
 #include <hwy/cache_control.h>
 
+#include <algorithm>
 #include <bit>
+#include <span>
 #include <vector>
 
 #include "simd/compress-inl.h"
@@ -63,9 +65,9 @@ HWY_INLINE void for_each_bit(uint32_t bits, const Use& use) {
 
 constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
 
-// A bound for the depth. A node's items are split seven times, always the largest group, and a
-// split leaves at most 7/8 in one part, so no child gets half of the items.
-inline constexpr size_t kMostLevels = 32;
+// A bound for the depth. A child of a node is a part of a division of its items, which leaves at
+// most 7/8 of them in one part, and 2^31 items are fewer than (8/7)^161.
+inline constexpr size_t kMostLevels = 162;
 
 // Without this, a search spends a third of its time waiting for nodes.
 HWY_INLINE void prefetch(const BoxTree::Node& node) {
@@ -98,18 +100,18 @@ HWY_INLINE void find_items(const BoxTree& tree, const Box& box, ItemsFound found
   while (waiting_count > 0) {
     const size_t visits = std::min(waiting_count, kVisits);
     waiting_count -= visits;
-    std::copy_n(waiting + waiting_count, kVisits, visited);
+    std::copy_n(waiting + waiting_count, kVisits, visited);  // always so many: no loop
     for (size_t k = 0; k < visits; ++k) prefetch(nodes[visited[k]]);
     for (size_t k = 0; k < visits; ++k) {
       const BoxTree::Node& node = nodes[visited[k]];
       for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
         const auto touch = hn::RebindMask(tag, touching(node, i, box));
         const auto children = hn::Load(tag, node.child + i);
-        const auto is_item = hn::TestBit(children, hn::Set(tag, BoxTree::kItem));
+        const auto are_items = hn::TestBit(children, hn::Set(tag, BoxTree::kItem));
         const auto numbers = hn::AndNot(hn::Set(tag, BoxTree::kItem), children);
-        item_count += compress_store(tag, numbers, hn::And(touch, is_item), items + item_count);
+        item_count += compress_store(tag, numbers, hn::And(touch, are_items), items + item_count);
         waiting_count +=
-            compress_store(tag, children, hn::AndNot(is_item, touch), waiting + waiting_count);
+            compress_store(tag, children, hn::AndNot(are_items, touch), waiting + waiting_count);
       }
       if (item_count >= kAtOnce) {
         found({items, item_count});

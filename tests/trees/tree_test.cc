@@ -110,6 +110,33 @@ TEST(BoxTree, FindsWhatBruteForceFinds) {
   }
 }
 
+size_t depth_of(std::span<const BoxTree::Node> nodes, uint32_t index = 0) {
+  size_t most = 0;
+  for (const uint32_t child : nodes[index].child) {
+    if (child < BoxTree::kItem) most = std::max(most, depth_of(nodes, child));
+  }
+  return most + 1;
+}
+
+// An eighth of the boxes, and the others a tenth as far from the corner, again and again. A node
+// then has nearly all of its items in one child.
+TEST(BoxTree, SearchesOfDeepTreesFindAll) {
+  std::vector<TreeBox> boxes;
+  float size = 1e35f;
+  for (size_t left = 30'000; left > 0; size /= 10) {
+    const size_t count = size < 1e-35f ? left : left / 8 + 1;
+    for (size_t i = 0; i < count; ++i) {
+      const float at = size * (1 + static_cast<float>(i) / static_cast<float>(count));
+      boxes.push_back({{at, at, at}, {at, at, at}});
+    }
+    left -= count;
+  }
+  const BoxTree tree(boxes);
+  EXPECT_GT(depth_of(tree.nodes()), 32u);
+  const TreeBox everything = {{0, 0, 0}, {FLT_MAX, FLT_MAX, FLT_MAX}};
+  for_each_isa([&] { EXPECT_EQ(found_in(tree, everything).size(), boxes.size()); });
+}
+
 double squared_distance(const TreeBox& a, const TreeBox& b) {
   double sum = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
