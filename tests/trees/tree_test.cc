@@ -118,22 +118,22 @@ size_t depth_of(std::span<const BoxTree::Node> nodes, uint32_t index = 0) {
   return most + 1;
 }
 
-// An eighth of the boxes, and the others a tenth as far from the corner, again and again. A node
-// then has nearly all of its items in one child.
+// An eighth of the boxes, and the others a fifth as far from the corner, again and again. A node
+// then has nearly all of its items in its last child, and a search leaves the others waiting.
 TEST(BoxTree, SearchesOfDeepTreesFindAll) {
   std::vector<TreeBox> boxes;
   float size = 1e35f;
-  for (size_t left = 30'000; left > 0; size /= 10) {
+  for (size_t left = 300'000; left > 0; size /= 5) {
     const size_t count = size < 1e-35f ? left : left / 8 + 1;
     for (size_t i = 0; i < count; ++i) {
-      const float at = size * (1 + static_cast<float>(i) / static_cast<float>(count));
+      const float at = -size * (1 + static_cast<float>(i) / static_cast<float>(count));
       boxes.push_back({{at, at, at}, {at, at, at}});
     }
     left -= count;
   }
   const BoxTree tree(boxes);
   EXPECT_GT(depth_of(tree.nodes()), 32u);
-  const TreeBox everything = {{0, 0, 0}, {FLT_MAX, FLT_MAX, FLT_MAX}};
+  const TreeBox everything = {{-FLT_MAX, -FLT_MAX, -FLT_MAX}, {0, 0, 0}};
   for_each_isa([&] { EXPECT_EQ(found_in(tree, everything).size(), boxes.size()); });
 }
 
