@@ -179,62 +179,6 @@ HWY_INLINE void way_between(const Seen<kSeen>& seen, size_t from, size_t to, See
   way.s = hn::Sub(seen.s[to], seen.s[from]);
 }
 
-// Projects the face of a box, and its sides, into the coordinates of another face.
-HWY_INLINE void see(const FaceView& view, const Rectangle& face, Seen<4>& seen, SeenWay& way_u,
-                    SeenWay& way_v) {
-  const FaceFrame& frame = face.frame;
-  SeenWay origin, u, v;
-  view.project(frame.origin + frame.n * frame.height, origin.x, origin.y, origin.s);
-  view.project_way(frame.u, u.x, u.y, u.s);
-  view.project_way(frame.v, v.x, v.y, v.s);
-  for (size_t i = 0; i < 4; ++i) {
-    const F x = face.corner_x(i);
-    const F y = face.corner_y(i);
-    seen.x[i] = hn::Add(hn::Add(origin.x, hn::Mul(u.x, x)), hn::Mul(v.x, y));
-    seen.y[i] = hn::Add(hn::Add(origin.y, hn::Mul(u.y, x)), hn::Mul(v.y, y));
-    seen.s[i] = hn::Add(hn::Add(origin.s, hn::Mul(u.s, x)), hn::Mul(v.s, y));
-  }
-  const F size_u = hn::Sub(face.upper_x, face.lower_x);
-  const F size_v = hn::Sub(face.upper_y, face.lower_y);
-  way_u.x = hn::Mul(u.x, size_u);
-  way_u.y = hn::Mul(u.y, size_u);
-  way_u.s = hn::Mul(u.s, size_u);
-  way_v.x = hn::Mul(v.x, size_v);
-  way_v.y = hn::Mul(v.y, size_v);
-  way_v.s = hn::Mul(v.s, size_v);
-}
-
-// Stores the corners of the face that a rectangle covers, from point kFirst on. They lie between
-// both pairs of its sides.
-template <size_t kFirst, size_t kCount>
-HWY_INLINE void put_corners(const Rectangle& face, Mask is_open, const Seen<4>& seen,
-                            const SeenWay& u, const SeenWay& v, F touching,
-                            ClipPoints<kCount>& out) {
-  const F zero = splat(0);
-  const F area = area_left(u.x, u.y, v.x, v.y);
-  const F side = hn::IfThenElse(hn::Lt(area, zero), splat(-1), splat(1));
-  const F slack_u = slack_of_edge(u.x, u.y);
-  const F slack_v = slack_of_edge(v.x, v.y);
-  const F positive = hn::Mul(area, side);
-  const F most_u = hn::Add(positive, slack_u);
-  const F most_v = hn::Add(positive, slack_v);
-  const Mask has_area = hn::And(is_open, hn::Gt(positive, hn::Add(slack_u, slack_v)));
-  const F slope_x = hn::Div(hn::Sub(hn::Mul(u.s, v.y), hn::Mul(v.s, u.y)), area);
-  const F slope_y = hn::Div(hn::Sub(hn::Mul(u.x, v.s), hn::Mul(v.x, u.s)), area);
-  for (size_t k = 0; k < 4; ++k) {
-    const F r_x = hn::Sub(face.corner_x(k), seen.x[0]);
-    const F r_y = hn::Sub(face.corner_y(k), seen.y[0]);
-    const F beside_u = hn::Mul(area_left(u.x, u.y, r_x, r_y), side);
-    const F beside_v = hn::Mul(area_left(r_x, r_y, v.x, v.y), side);
-    const Mask above =
-        hn::And(hn::Ge(hn::Add(beside_u, slack_u), zero), hn::Ge(hn::Add(beside_v, slack_v), zero));
-    const Mask below = hn::And(hn::Le(beside_u, most_u), hn::Le(beside_v, most_v));
-    const F rise = hn::Add(hn::Mul(r_x, slope_x), hn::Mul(r_y, slope_y));
-    out.put(kFirst + k, hn::And(has_area, hn::And(above, below)), face.corner_x(k),
-            face.corner_y(k), hn::Add(seen.s[0], rise), touching);
-  }
-}
-
 // Stores the corners of the face that a polygon with this normal covers, from point kFirst on.
 template <size_t kFirst, class Face, size_t kSeen, size_t kCount>
 HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, const F3& m,
@@ -285,23 +229,9 @@ HWY_INLINE void put_corners(const Face& face, Mask is_open, const F3& normal, co
   }
 }
 
-// The corners of the region that two box faces cover, seen along m, a unit vector. Corners where
-// the other face is more than `touching` above are left out.
-HWY_INLINE void clip(const Rectangle& face, const Rectangle& other, const F3& m, F touching,
-                     ClipPoints<12>& out) {
-  const FaceView view(face.frame, m);
-  const Mask is_open = view.is_open;
-  Seen<4> seen;
-  SeenWay u, v;
-  see(view, other, seen, u, v);
-  put_edge(face, is_open, seen, 0, 1, u, touching, 0, out);
-  put_edge(face, is_open, seen, 3, 2, u, touching, 2, out);
-  put_edge(face, is_open, seen, 1, 2, v, touching, 4, out);
-  put_edge(face, is_open, seen, 0, 3, v, touching, 6, out);
-  put_corners<8>(face, is_open, seen, u, v, touching, out);
-}
-
-// The same for another polygon. Its normal is zero if it has no area.
+// The corners of the region that a face and another polygon cover, seen along m, a unit vector.
+// Corners where the other one is more than `touching` above are left out. Its normal is zero if it
+// has no area.
 template <class Face, class OtherFace, size_t kCount>
 HWY_INLINE void clip(const Face& face, const FaceSide<OtherFace>& other, const F3& m, F touching,
                      ClipPoints<kCount>& out) {

@@ -172,63 +172,6 @@ void add_edge(const Face& face, const SeenEdge& edge, float touching, ClipPoints
   keep(far, touching, out);
 }
 
-// The face of a box, projected into the coordinates of another face.
-struct SeenRectangle {
-  std::array<ClipPoint, 4> corners;
-  ClipPoint way_u, way_v;  // its sides
-
-  SeenRectangle(const FaceView& view, const Rectangle& face) {
-    const ClipPoint origin = view.project(face.frame.origin + face.frame.n * face.frame.height);
-    const ClipPoint u = view.project_way(face.frame.u);
-    const ClipPoint v = view.project_way(face.frame.v);
-    const std::array<Point2, 4> at = face.corners();
-    for (size_t i = 0; i < 4; ++i) {
-      corners[i] = {(origin.x + u.x * at[i].x) + v.x * at[i].y,
-                    (origin.y + u.y * at[i].x) + v.y * at[i].y,
-                    (origin.s + u.s * at[i].x) + v.s * at[i].y};
-    }
-    const float size_u = face.upper.x - face.lower.x, size_v = face.upper.y - face.lower.y;
-    way_u = {u.x * size_u, u.y * size_u, u.s * size_u};
-    way_v = {v.x * size_v, v.y * size_v, v.s * size_v};
-  }
-
-  // Opposite edges have the same direction.
-  std::array<SeenEdge, 4> edges() const {
-    return {{{corners[0], corners[1], way_u},
-             {corners[3], corners[2], way_u},
-             {corners[1], corners[2], way_v},
-             {corners[0], corners[3], way_v}}};
-  }
-};
-
-inline float cross2(const ClipPoint& a, const ClipPoint& b) { return a.x * b.y - a.y * b.x; }
-
-inline float slack_of_way(const ClipPoint& way) {
-  return kClipSlack * (std::fabs(way.x) + std::fabs(way.y));
-}
-
-// Adds the corners of the face that a rectangle covers. They lie between both pairs of its sides.
-inline void add_corners(const Rectangle& face, const SeenRectangle& seen, float touching,
-                        ClipPoints& out) {
-  const ClipPoint& u = seen.way_u;
-  const ClipPoint& v = seen.way_v;
-  const float area = cross2(u, v);
-  const float side = area < 0 ? -1.0f : 1.0f;
-  const float slack_u = slack_of_way(u), slack_v = slack_of_way(v);
-  if (!(area * side > slack_u + slack_v)) return;
-  const float slope_x = (u.s * v.y - v.s * u.y) / area;
-  const float slope_y = (u.x * v.s - v.x * u.s) / area;
-  for (const Point2& corner : face.corners()) {
-    const ClipPoint r = {corner.x - seen.corners[0].x, corner.y - seen.corners[0].y, 0};
-    const float beside_u = cross2(u, r) * side;
-    const float beside_v = cross2(r, v) * side;
-    const bool covered = beside_u + slack_u >= 0 && beside_u <= area * side + slack_u &&
-                         beside_v + slack_v >= 0 && beside_v <= area * side + slack_v;
-    const float s = seen.corners[0].s + (r.x * slope_x + r.y * slope_y);
-    if (covered) keep({corner.x, corner.y, s}, touching, out);
-  }
-}
-
 // Adds the corners of the face that a polygon with this normal covers.
 template <class Face>
 void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
@@ -264,20 +207,9 @@ void add_corners(const Face& face, const Vector3f& normal, const Vector3f& m,
   }
 }
 
-// The corners of the region that two box faces cover, seen along m, a unit vector. Corners where
-// the other face is more than `touching` above are left out.
-inline ClipPoints clip(const Rectangle& face, const Rectangle& other, const Vector3f& m,
-                       float touching) {
-  ClipPoints out;
-  const FaceView view(face.frame, m);
-  if (view.is_edge_on()) return out;
-  const SeenRectangle seen(view, other);
-  for (const SeenEdge& edge : seen.edges()) add_edge(face, edge, touching, out);
-  add_corners(face, seen, touching, out);
-  return out;
-}
-
-// The same for a polygon with this normal, which is zero if it has no area.
+// The corners of the region that a face and a polygon with this normal cover, seen along m, a unit
+// vector. Corners where the polygon is more than `touching` above are left out. The normal is zero
+// if the polygon has no area.
 template <class Face, class Corners>
 ClipPoints clip(const Face& face, const Corners& corners, const Vector3f& normal, const Vector3f& m,
                 float touching) {

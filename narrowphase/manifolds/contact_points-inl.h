@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "narrowphase/manifolds/face_contact-inl.h"
+#include "narrowphase/manifolds/rectangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -31,7 +32,7 @@ HWY_INLINE void contact_points(const A& a, const B& b, const PlacedPair& placed,
   face_towards(-contact.normal, b, placed.b, other);
   if constexpr (std::is_same_v<A, AabbLanes> && std::is_same_v<B, AabbLanes>) {
     // The axes are constants here, with which the compiler drops a part of clipping.
-    ClipPoints<12> all;
+    ClipPoints<8> all;
     clip(face, other, contact.normal, contact.touching(), all);
     put_on_frame(face.frame, all, splat(kSamePoint), out);
   } else {

@@ -6,6 +6,7 @@
 // After the loop over targets.
 #include "narrowphase/manifolds/face_contact-inl.h"
 #include "narrowphase/manifolds/hull_side-inl.h"
+#include "narrowphase/manifolds/rectangles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -51,7 +52,7 @@ HWY_INLINE void swap_where(Mask mask, FaceSide<Face>& a, FaceSide<Face>& b) {
 
 void touch_boxes(const Rectangle& face, const Rectangle& other, const ContactLanes& contact,
                  PointLanes& out) {
-  ClipPoints<12> all;
+  ClipPoints<8> all;
   clip(face, other, contact.normal, contact.touching(), all);
   put_on_frame(face.frame, all, splat(kSamePoint), out);
 }

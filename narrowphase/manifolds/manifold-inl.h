@@ -11,6 +11,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "base/fetch_ahead.h"
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/manifolds/contact_points-inl.h"
 
@@ -44,6 +45,11 @@ class ManifoldLoop {
  private:
   static HWY_INLINE void run_rows(const Batch& batch, size_t row) {
     const ResultColumns& tested = batch.tested;
+    const size_t row_count = std::min(kLanes, batch.count - row);
+    // Rows that touch lie apart, which no processor foresees.
+    for (size_t i = 0; i < row_count; ++i) {
+      fetch_to_write(batch.out.manifold, batch.manifold_row[row + i]);
+    }
     const Listed bodies{batch.pairs + row};
     PositionLanes positions;
     PoseLanes pose;
@@ -74,7 +80,7 @@ class ManifoldLoop {
     }
     ManifoldRows rows;
     put_records(points, contact, up, batch.frame, positions, rows);
-    rows.copy_to(batch.out, batch.manifold_row + row, std::min(kLanes, batch.count - row));
+    rows.copy_to(batch.out, batch.manifold_row + row, row_count);
   }
 
   template <class Shape>

@@ -8,6 +8,7 @@
 #include "carom/results/contact.h"
 #include "narrowphase/manifolds/hull_face.h"
 #include "narrowphase/manifolds/line_contact_scalar.h"
+#include "narrowphase/manifolds/rectangles_scalar.h"
 #include "narrowphase/manifolds/reduce_scalar.h"
 #include "narrowphase/scalar/scaled.h"
 
