@@ -69,21 +69,28 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
           .has_ended = out.has_ended && is_close};
 }
 
+// The points of a core that reach `least` along n: every `step`-th of them. `count`: of all of
+// them.
+inline Meeting::Points points_from(const Core& core, const CoreVector& n, double least, size_t step,
+                                   size_t& count) {
+  Meeting::Points points;
+  count = 0;
+  for (size_t i = 0; i < core.size(); ++i) {
+    if (!(dot(n, core.point(i)) >= least)) continue;
+    if (count++ % step == 0 && !points.is_full()) points.push_back(eigen_vector(core.point(i)));
+  }
+  return points;
+}
+
 // The furthest points of a core along n, up to a slack. If there are too many, an even sample of
 // them.
 inline Meeting::Points furthest_points(const Core& core, const CoreVector& n, double slack,
                                        FurthestPoint furthest) {
   const double least = dot(n, core.point(furthest(core, n))) - slack;
-  size_t count = 0;
-  for (size_t i = 0; i < core.size(); ++i) count += dot(n, core.point(i)) >= least;
-  const size_t step = (count + Meeting::Points::kCapacity - 1) / Meeting::Points::kCapacity;
-  Meeting::Points points;
-  size_t found = 0;
-  for (size_t i = 0; found < count; ++i) {
-    if (dot(n, core.point(i)) >= least && found++ % step == 0) {
-      points.push_back(eigen_vector(core.point(i)));
-    }
-  }
+  constexpr size_t kMost = Meeting::Points::kCapacity;
+  size_t count;
+  Meeting::Points points = points_from(core, n, least, 1, count);
+  if (count > kMost) points = points_from(core, n, least, (count + kMost - 1) / kMost, count);
   return points;
 }
 
@@ -105,14 +112,15 @@ inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, co
 // until they face each other.
 inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
                               FurthestPoint furthest) {
+  if (a.size() == 1) return eigen_vector(a.point(0));
   const Vector3d n = eigen_vector(gap.normal);
   Vector3d best;
   double least = HUGE_VAL;
   for (double slack = kInPlane; slack <= kMostSlack; slack *= 256) {
-    const Meeting::Points on_a = furthest_points(a, gap.normal, slack, furthest);
-    const Meeting::Points on_b = furthest_points(b, -gap.normal, slack, furthest);
     // Most pairs touch at a corner, or where two edges cross.
+    const Meeting::Points on_a = furthest_points(a, gap.normal, slack, furthest);
     if (gap.is_at_corners && on_a.size() == 1) return on_a[0];
+    const Meeting::Points on_b = furthest_points(b, -gap.normal, slack, furthest);
     if (gap.is_at_corners && on_b.size() == 1) return on_b[0] - n * gap.size;
     if (on_a.size() == 2 && on_b.size() == 2 && find_crossing(on_a, on_b, n, best)) return best;
     const Meeting meeting(on_a, on_b, n);
