@@ -17,7 +17,7 @@ namespace {
 using scalar::kNever;
 
 constexpr size_t kRowsPerBlock = 1024;
-constexpr size_t kKinds = 6;  // of LinearKind
+constexpr size_t kKinds = 7;  // of LinearKind
 constexpr uint8_t kAdvanced = kKinds * kKinds;
 constexpr size_t kGroups = kAdvanced + 1;
 
@@ -107,10 +107,10 @@ class SimpleTimes {
 
   static uint8_t group_of(LinearKind a, LinearKind b) {
     const auto [low, high] = std::minmax(a, b);
-    const bool has_kernel = high != LinearKind::none && low != LinearKind::triangle;
-    if (!has_kernel && !(low == LinearKind::triangle && high == LinearKind::plane)) {
-      return kAdvanced;
-    }
+    const bool has_kernel = high < LinearKind::hull && low != LinearKind::triangle;
+    const bool is_special = (low == LinearKind::triangle && high == LinearKind::plane) ||
+                            (low == LinearKind::hull && high == LinearKind::hull);
+    if (!has_kernel && !is_special) return kAdvanced;
     return static_cast<uint8_t>(static_cast<size_t>(a) * kKinds + static_cast<size_t>(b));
   }
 

@@ -45,6 +45,8 @@ class NearestPoint {
   double squared() const { return squared_; }
   const Corners& corners() const { return corners_; }
   bool is_around_zero() const { return corners_.size() == 4; }
+  // Whether corner i of those that were given, but the last, is one of them.
+  bool spans(size_t i) const { return kept_ >> i & 1; }
 
  private:
   // `others`: bits of the corners that span the point besides the last one.
