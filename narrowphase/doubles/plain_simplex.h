@@ -28,6 +28,14 @@ struct PlainSimplex {
     }
     used = kept | taken;
   }
+
+  bool holds(const CoreVector& point) const {
+    for (size_t i = 0; i < 3; ++i) {
+      const CoreVector& p = corner[i];
+      if ((used >> i & 1) && p.x == point.x && p.y == point.y && p.z == point.z) return true;
+    }
+    return false;
+  }
 };
 
 // Zero is surely inside a tetrahedron if the volumes that it spans with the corners all exceed this
