@@ -18,6 +18,7 @@
 #include "impacts/approach.h"
 #include "impacts/direction_gap.h"
 #include "impacts/linear/crossing_scalar.h"
+#include "impacts/turning_approach.h"
 #include "narrowphase/doubles/gjk.h"
 #include "narrowphase/doubles/make_core.h"
 
@@ -234,6 +235,10 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
     t = careful.time();
     if (t > 1) return {kNever};
     if (careful.is_over()) return {t};
+  } else {
+    const TurningApproach approach(pair, t, tolerance);
+    t = approach.time();
+    if (approach.is_over()) return {t};
   }
   for (int round = 0; round < kMostRounds; ++round) {
     place(pair.a, Vector3d::Zero(), t, scratch.placed_a);
