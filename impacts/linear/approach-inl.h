@@ -93,19 +93,21 @@ struct ApproachLanes {
     use(lanes.rounds);
   }
 
-  void copy_lane(const ApproachLanes& source, size_t lane, size_t to) {
-    a.copy_lane(source.a, lane, to);
-    b.copy_lane(source.b, lane, to);
-    std::array<double, 32> numbers;
-    size_t count = 0;
-    for_each_number(source, [&](const LaneNumber& n) { numbers[count++] = n.lane[lane]; });
-    count = 0;
-    for_each_number(*this, [&](LaneNumber& n) { n.lane[to] = numbers[count++]; });
-  }
-
   // The corner of B - A that is lowest along n, at no offset.
   HWY_INLINE D3 lowest(const D3& n) const { return b.furthest(-n) - a.furthest(n); }
 };
+
+// Copies lane `lane` of a search to lane `to` of another one.
+template <class Lanes>
+void copy_lane(const Lanes& source, size_t lane, Lanes& out, size_t to) {
+  out.a.copy_lane(source.a, lane, to);
+  out.b.copy_lane(source.b, lane, to);
+  std::array<double, 80> numbers;
+  size_t count = 0;
+  Lanes::for_each_number(source, [&](const LaneNumber& n) { numbers[count++] = n.lane[lane]; });
+  count = 0;
+  Lanes::for_each_number(out, [&](LaneNumber& n) { n.lane[to] = numbers[count++]; });
+}
 
 // Sets up the searches, of which points, ways, tolerances and times are there, and as the first
 // corner the way from a point inside of A to one inside of B, at no offset.

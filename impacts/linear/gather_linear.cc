@@ -75,6 +75,8 @@ class LinearGather {
     if (b.kind == LinearKind::hull) {
       put_hulls(a, first_of_a, rows_.hull_a());
       put_hulls(b, first_of_b, rows_.hull_b());
+      put_rotations(a, first_of_b + number_count(b.kind));
+      put_rotations(b, first_of_b + number_count(b.kind) + 3);
       return;
     }
     put_bodies(a, first_of_a);
@@ -220,6 +222,15 @@ class LinearGather {
       out.put(hulls[i] ? hulls[i]->size() : 0);
       out.put4(q);
       check(i, hulls[i] != nullptr && is_rotation(q));
+    }
+  }
+
+  void put_rotations(const Side& side, size_t column) {
+    if (!side.sweep.rotation) return rows_.clear(column, 3, count_);
+    const Strided<Position<float>> rotation = side.rotation();
+    for (size_t i = 0; i < count_; ++i) {
+      const Position<float> w = rotation[side.body[i]];
+      RowWriter(rows_, column, i).put3(std::array{w.x, w.y, w.z});
     }
   }
 

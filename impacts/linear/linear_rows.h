@@ -53,11 +53,16 @@ class LinearRows {
   // Distance between columns, in numbers. A power of two would put a whole row into a few sets of
   // the cache (capsules: 100 instead of 59 ns per pair).
   static constexpr size_t kStride = kMost + 8;
-  static constexpr size_t kPairColumns = 6;  // from (3), way (3)
+  static constexpr size_t kPairColumns = 6;      // from (3), way (3)
+  static constexpr size_t kRotationColumns = 6;  // of two hulls
   static constexpr size_t kMostColumns = kPairColumns + 11 + 13;
 
   double* column(size_t c) { return values_.data() + c * kStride; }
   const double* column(size_t c) const { return values_.data() + c * kStride; }
+
+  void clear(size_t first, size_t columns, size_t count) {
+    for (size_t c = first; c < first + columns; ++c) std::fill_n(column(c), count, 0.0);
+  }
 
   // Fills the last vector with copies of the last row.
   void pad(size_t columns, size_t count) {
@@ -92,6 +97,8 @@ LinearKernel rounded_kernel(LinearKind a, LinearKind b);
 LinearKernel box_kernel(LinearKind a, LinearKind b);
 LinearKernel plane_kernel(LinearKind a);
 LinearKernel hull_kernel();  // of two hulls
+// Of two hulls that may rotate: after their columns come the rotations over the interval (3 each).
+LinearKernel turning_hull_kernel();
 
 // The kernel for A and B in this order; nullptr: there is none.
 inline LinearKernel linear_kernel(LinearKind a, LinearKind b) {
