@@ -162,16 +162,12 @@ class TurningApproach {
   // by how much; `next` becomes the points that are nearest then. Sets is_over_ and t_ if the gap
   // stays open.
   double go(const Vector3d& n, double gap, const Corner& low, Ends& next) {
-    const double aim = tolerance_ / 2, least = tolerance_ / 4, left = pair_.latest - t_;
+    const double aim = tolerance_ / 2, least = tolerance_ / 4, left = 1 - t_;
     const double closing = (length(cross(n, pair_.a.rotation)) * pair_.a.reach +
                             length(cross(n, pair_.b.rotation)) * pair_.b.reach) -
                            dot(n, pair_.way);
     const double sure = closing > 0 ? (gap - aim) / closing : kNever;
-    is_over_ = sure >= left;
-    if (is_over_) {
-      t_ = kNever;
-      return 0;
-    }
+    if (sure >= pair_.latest - t_) return never();
     // The time at which the gap closes at its present rate.
     const auto time_to_close = [&](double rate) {
       return rate < 0 ? min((gap - aim) / -rate, left) : left;
@@ -201,15 +197,17 @@ class TurningApproach {
     double share = 1;
     if (falls > 0 && root >= 0) share = min(2 * room / (falls + std::sqrt(root)), 1.0);
     const double step = max(s * share, sure);
-    is_over_ = step >= left;
-    if (is_over_) {
-      t_ = kNever;
-      return 0;
-    }
+    if (step >= left || t_ + step > pair_.latest) return never();
     if (share > 0.5) next = ends;
     if (!(t_ + step > t_)) return 0;
     t_ += step;
     return step;
+  }
+
+  double never() {
+    t_ = kNever;
+    is_over_ = true;
+    return 0;
   }
 
   const MovingPair& pair_;
