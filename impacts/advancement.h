@@ -18,6 +18,7 @@
 #include "impacts/approach.h"
 #include "impacts/direction_gap.h"
 #include "impacts/linear/crossing_scalar.h"
+#include "impacts/turning_approach.h"
 #include "narrowphase/doubles/gjk.h"
 #include "narrowphase/doubles/make_core.h"
 
@@ -226,10 +227,17 @@ inline AdvancementResult time_of_cores(const MovingPair& pair, double tolerance,
   double t = time_of_balls(pair, tolerance);
   if (t > pair.latest) return {kNever};
   if (!(pair.a.speed > 0) && !(pair.b.speed > 0)) {
-    const Approach approach(pair, t, tolerance);
-    t = approach.time();
+    const Approach<PlainNearest> plain(pair, t, tolerance);
     // The margin that covers rounding may lead a little past the end.
+    if (plain.time() > 1) return {kNever};
+    if (plain.is_over()) return {plain.time()};
+    const Approach<CarefulNearest> careful(pair, plain.time(), tolerance);
+    t = careful.time();
     if (t > 1) return {kNever};
+    if (careful.is_over()) return {t};
+  } else {
+    const TurningApproach approach(pair, t, tolerance);
+    t = approach.time();
     if (approach.is_over()) return {t};
   }
   for (int round = 0; round < kMostRounds; ++round) {

@@ -12,9 +12,41 @@
 #include "impacts/direction_gap.h"
 #include "impacts/linear/crossing_scalar.h"
 #include "narrowphase/doubles/gjk.h"
+#include "narrowphase/doubles/plain_simplex.h"
 
 namespace carom::scalar {
 
+inline constexpr int kMostApproachRounds = 32;  // four are usual
+
+// NearestPoint with the interface of PlainNearest, for what that leaves unclear.
+class CarefulNearest {
+ public:
+  CoreVector point;
+  double squared;
+  unsigned kept = 0;
+  bool is_around;
+  static constexpr bool is_unclear = false;
+
+  CarefulNearest(const PlainSimplex& simplex, const CoreVector& last) {
+    NearestPoint::Corners corners;
+    FewOf<unsigned, 4> place;
+    for (unsigned i = 0; i < 3; ++i) {
+      if (!(simplex.used >> i & 1) || are_same(simplex.corner[i], last)) continue;
+      corners.push_back(simplex.corner[i]);
+      place.push_back(1u << i);
+    }
+    corners.push_back(last);
+    const NearestPoint nearest(corners);
+    point = nearest.point();
+    squared = nearest.squared();
+    is_around = nearest.is_around_zero();
+    for (size_t i = 0; i < place.size(); ++i) {
+      if (nearest.spans(i)) kept |= place[i];
+    }
+  }
+};
+
+template <class Nearest>
 class Approach {
  public:
   // Starts at time t. Cores that are `tolerance` apart count as touching.
@@ -29,37 +61,41 @@ class Approach {
 
   // Until this time the cores are apart; kNever if they are until pair.latest.
   double time() const { return t_; }
-  // Whether they touch then. If not, a more careful search has to go on.
+  // Whether they touch then, or never. If not, a more careful search has to go on.
   bool is_over() const { return is_over_; }
 
  private:
-  using Corners = NearestPoint::Corners;
-
   void run() {
-    constexpr int kMostRounds = 32;  // four are usual
     const CoreVector middles = pair_.b.core->middle - pair_.a.core->middle;
-    NearestPoint nearest({corner(middles + (from_ + way_ * t_))});
-    for (int round = 0; round < kMostRounds; ++round) {
-      const double distance = std::sqrt(nearest.squared());
-      is_over_ = nearest.is_around_zero() || distance - pair_.radii <= tolerance_;
-      if (is_over_) return;
-      const CoreVector n = nearest.point() * (1 / distance), next = corner(n);
-      const double gap = dot(n, next) - pair_.radii;
+    PlainSimplex simplex;  // at no offset
+    CoreVector at = from_ + way_ * t_;
+    simplex.replace(0, corner(middles + at));
+    Nearest nearest({}, simplex.corner[0] + at);
+    for (int round = 0; round < kMostApproachRounds; ++round) {
+      const double distance = std::sqrt(nearest.squared);
+      is_over_ = nearest.is_around || distance - pair_.radii <= tolerance_;
+      if (is_over_ || nearest.is_unclear) return;
+      const CoreVector n = nearest.point * (1 / distance), next = corner(n);
+      const double gap = dot(n, next + at) - pair_.radii;
       double step = 0;
       if (gap > tolerance_) {
         step = time_to_close(gap, -dot(n, way_));
         if (is_over_) return;
         t_ += step;
+        at = from_ + way_ * t_;
       }
-      const NearestPoint nearer(moved(nearest.corners(), next, way_ * step));
-      if (!(step > 0) && !(nearer.squared() < nearest.squared())) return;
+      PlainSimplex placed = simplex;
+      for (CoreVector& placed_corner : placed.corner) placed_corner = placed_corner + at;
+      const Nearest nearer(placed, next + at);
+      if (!(step > 0) && !(nearer.squared < nearest.squared)) return;
+      simplex.replace(nearer.kept, next);
       nearest = nearer;
     }
   }
 
-  // The corner of B - A that is lowest along n, at the present time.
+  // The corner of B - A that is lowest along n, at no offset.
   CoreVector corner(const CoreVector& n) const {
-    return difference_point(*pair_.a.core, *pair_.b.core, n, pair_.furthest) + (from_ + way_ * t_);
+    return difference_point(*pair_.a.core, *pair_.b.core, n, pair_.furthest);
   }
 
   // Leaves half of the tolerance. Sets t_ and is_over_ if the gap certainly does not close in time:
@@ -70,15 +106,6 @@ class Approach {
     is_over_ = !(closing * (pair_.latest - t_) >= way - tolerance_ / 4);
     if (is_over_) t_ = kNever;
     return way / closing;
-  }
-
-  static Corners moved(const Corners& corners, const CoreVector& last, const CoreVector& way) {
-    Corners result;
-    for (const CoreVector& corner : corners) {
-      if (!are_same(corner, last)) result.push_back(corner + way);
-    }
-    result.push_back(last + way);
-    return result;
   }
 
   const MovingPair& pair_;

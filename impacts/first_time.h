@@ -123,11 +123,16 @@ inline void make_core(const MovingShape& moving, double scale, Core& core) {
       moving.shape);
 }
 
+// The arm, which is of no matter for a body that does not rotate.
+inline Vector3d arm_in_time(const MovingShape& moving) {
+  return moving.rotation.isZero(0) ? Vector3d(Vector3d::Zero()) : moving.arm;
+}
+
 inline const MovingCore& moving_core(const MovingShape& moving, double scale, KeptCore& kept) {
   if (kept.scale == scale) return kept.moving;
   make_core(moving, scale, kept.core);
-  kept.moving =
-      moving_core(kept.core, moving.arm * scale, moving.rotation, turns(kind_of(moving.shape)));
+  kept.moving = moving_core(kept.core, arm_in_time(moving) * scale, moving.rotation,
+                            turns(kind_of(moving.shape)));
   kept.scale = scale;
   return kept.moving;
 }
@@ -147,13 +152,13 @@ inline double scale_down(double size, const Vector3d& from, const Vector3d& way)
 }
 
 inline double size_with_arm(const MovingShape& moving) {
-  return max(size_of_shape(moving.shape), largest_component(moving.arm));
+  return max(size_of_shape(moving.shape), largest_component(arm_in_time(moving)));
 }
 
 inline MovingPair pair_of(const MovingShape& a, const MovingShape& b, const Vector3d& from,
                           const Vector3d& way, double scale) {
   MovingPair pair;
-  pair.from = (from + (a.arm - b.arm)) * scale;
+  pair.from = (from + (arm_in_time(a) - arm_in_time(b))) * scale;
   pair.way = way * scale;
   return pair;
 }

@@ -17,8 +17,9 @@ namespace {
 using scalar::kNever;
 
 constexpr size_t kRowsPerBlock = 1024;
-constexpr size_t kKinds = 6;  // of LinearKind
-constexpr uint8_t kAdvanced = kKinds * kKinds;
+constexpr size_t kKinds = 7;  // of LinearKind
+constexpr uint8_t kTurningHulls = kKinds * kKinds;
+constexpr uint8_t kAdvanced = kTurningHulls + 1;
 constexpr size_t kGroups = kAdvanced + 1;
 
 // The rows of a block, sorted by how they are tested.
@@ -48,9 +49,10 @@ class SimpleTimes {
 
   void run() {
     sort_rows();
-    for (size_t group = 0; group < kAdvanced; ++group) {
+    for (size_t group = 0; group < kTurningHulls; ++group) {
       if (!rows_of(group).empty()) run_linear(group);
     }
+    if (!rows_of(kTurningHulls).empty()) run_turning_hulls();
     if (!rows_of(kAdvanced).empty()) advance();
     leave_out_what_passes();
   }
@@ -91,8 +93,11 @@ class SimpleTimes {
   }
 
   uint8_t group_of(Pair pair) const {
-    if (!a_.moves_in_a_line(pair.a) || !b_.moves_in_a_line(pair.b)) return kAdvanced;
-    return group_of(kind_of(a_, pair.a), kind_of(b_, pair.b));
+    const LinearKind a = kind_of(a_, pair.a), b = kind_of(b_, pair.b);
+    if (a_.moves_in_a_line(pair.a) && b_.moves_in_a_line(pair.b)) return group_of(a, b);
+    const bool has_arms = a_.side.arm || b_.side.arm;
+    const bool are_hulls = a == LinearKind::hull && b == LinearKind::hull;
+    return are_hulls && !has_arms ? kTurningHulls : kAdvanced;
   }
 
   // The common group of all rows, if each side has bodies of one kind only and none rotates.
@@ -107,10 +112,10 @@ class SimpleTimes {
 
   static uint8_t group_of(LinearKind a, LinearKind b) {
     const auto [low, high] = std::minmax(a, b);
-    const bool has_kernel = high != LinearKind::none && low != LinearKind::triangle;
-    if (!has_kernel && !(low == LinearKind::triangle && high == LinearKind::plane)) {
-      return kAdvanced;
-    }
+    const bool has_kernel = high < LinearKind::hull && low != LinearKind::triangle;
+    const bool is_special = (low == LinearKind::triangle && high == LinearKind::plane) ||
+                            (low == LinearKind::hull && high == LinearKind::hull);
+    if (!has_kernel && !is_special) return kAdvanced;
     return static_cast<uint8_t>(static_cast<size_t>(a) * kKinds + static_cast<size_t>(b));
   }
 
@@ -125,19 +130,29 @@ class SimpleTimes {
     const auto kind_b = static_cast<LinearKind>(group % kKinds);
     const bool flipped = kind_a > kind_b;
     const LinearKind low = flipped ? kind_b : kind_a, high = flipped ? kind_a : kind_b;
-    const LinearKernel kernel = linear_kernel(low, high);
-    const size_t columns = LinearRows::kPairColumns + number_count(low) + number_count(high);
     const LinearSide a{a_.side, kind_a, scratch_.body_a.data()},
         b{b_.side, kind_b, scratch_.body_b.data()};
-    const std::span<const uint16_t> rows = rows_of(group);
+    run_kernel(linear_kernel(low, high), rows_of(group), flipped ? b : a, flipped ? a : b);
+  }
+
+  void run_turning_hulls() {
+    run_kernel(turning_hull_kernel(), rows_of(kTurningHulls),
+               {a_.side, LinearKind::hull, scratch_.body_a.data()},
+               {b_.side, LinearKind::hull, scratch_.body_b.data()});
+  }
+
+  // A and B are in the order of the kernel.
+  void run_kernel(LinearKernel kernel, std::span<const uint16_t> rows, const LinearSide& a,
+                  const LinearSide& b) {
+    const size_t columns = LinearRows::kPairColumns + number_count(a.kind) + number_count(b.kind) +
+                           (b.kind == LinearKind::hull ? LinearRows::kRotationColumns : 0);
     for (size_t begin = 0; begin < rows.size(); begin += LinearRows::kMost) {
       const auto chunk = rows.subspan(begin, std::min(rows.size() - begin, LinearRows::kMost));
       for (size_t i = 0; i < chunk.size(); ++i) {
         scratch_.body_a[i] = pairs_[chunk[i]].a;
         scratch_.body_b[i] = pairs_[chunk[i]].b;
       }
-      gather_linear(flipped ? b : a, flipped ? a : b, chunk.size(), scratch_.rows,
-                    scratch_.valid.data());
+      gather_linear(a, b, chunk.size(), scratch_.rows, scratch_.valid.data());
       scratch_.rows.pad(columns, chunk.size());
       kernel(scratch_.rows, chunk.size());
       write_times(chunk);

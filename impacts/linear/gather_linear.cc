@@ -72,6 +72,13 @@ class LinearGather {
     check_rotations(b);
     add_middles(b, 1);
     add_middles(a, -1);
+    if (b.kind == LinearKind::hull) {
+      put_hulls(a, first_of_a, rows_.hull_a());
+      put_hulls(b, first_of_b, rows_.hull_b());
+      put_rotations(a, first_of_b + number_count(b.kind));
+      put_rotations(b, first_of_b + number_count(b.kind) + 3);
+      return;
+    }
     put_bodies(a, first_of_a);
     if (b.kind == LinearKind::plane) {
       put_planes(b, first_of_b);
@@ -201,6 +208,30 @@ class LinearGather {
     }
     out.put4(Row{0, 0, 0, 1});
     return is_valid;
+  }
+
+  void put_hulls(const Side& side, size_t column, const HullGeometry** hulls) {
+    for (size_t i = 0; i < count_; ++i) {
+      const uint32_t body = side.body[i];
+      hulls[i] = geometry_at<HullGeometry>(side.row(body, 0));
+      const Row q = side.orientation(body);
+      const Eigen::Vector3d middle =
+          hulls[i] ? hulls[i]->middle() : Eigen::Vector3d(Eigen::Vector3d::Zero());
+      RowWriter out(rows_, column, i);
+      out.put3(middle);
+      out.put(hulls[i] ? hulls[i]->size() : 0);
+      out.put4(q);
+      check(i, hulls[i] != nullptr && is_rotation(q));
+    }
+  }
+
+  void put_rotations(const Side& side, size_t column) {
+    if (!side.sweep.rotation) return rows_.clear(column, 3, count_);
+    const Strided<Position<float>> rotation = side.rotation();
+    for (size_t i = 0; i < count_; ++i) {
+      const Position<float> w = rotation[side.body[i]];
+      RowWriter(rows_, column, i).put3(std::array{w.x, w.y, w.z});
+    }
   }
 
   // Half-spaces relative to the other bodies, whose positions are in the first columns.

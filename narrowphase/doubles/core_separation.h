@@ -39,6 +39,13 @@ inline double depth_of_zero(const NearestPoint::Corners& y) {
   return least;
 }
 
+// Three corners that are no sliver.
+inline bool is_plain_face(const NearestPoint::Corners& corners) {
+  if (corners.size() != 3) return false;
+  const CoreVector u = corners[1] - corners[0], v = corners[2] - corners[0];
+  return !is_of_sliver(cross(u, v), u, v);
+}
+
 inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
   const FurthestPoint furthest = test.furthest;
   const NearestWay nearest = nearest_way(a, b, furthest);
@@ -55,6 +62,11 @@ inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
             .normal = nearest.way * (1 / distance),
             .is_proven = true,
             .is_at_corners = distance > kFarFromTouching};
+  }
+  // The normal of a face of the difference is exact however near it is.
+  if (is_distance && distance > kTouchingCores && is_plain_face(nearest.corners)) {
+    return {
+        .size = distance, .normal = nearest.way * (1 / distance), .is_proven = parted > kProvenGap};
   }
   WayOut out = WayOutSearch(a, b, furthest).run(nearest.corners);
   // For a difference without volume, the penetration search tries only one direction.
@@ -107,6 +119,18 @@ inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, co
   return slope * slope > kParallelEdges * (dot(u, u) * dot(v, v));
 }
 
+// Whether the point lies well inside the triangle, seen along n.
+inline bool is_over_triangle(const Vector3d& point, const Meeting::Points& triangle,
+                             const Vector3d& n) {
+  constexpr double kInside = 0x1p-20;
+  const Vector3d u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
+  const Vector3d way = point - triangle[0];
+  const double area = dot(n, cross(u, v));
+  const double of_u = dot(n, cross(way, v)) / area, of_v = dot(n, cross(u, way)) / area;
+  const bool is_inside = of_u > kInside && of_v > kInside && of_u + of_v < 1 - kInside;
+  return is_inside && area * area > kParallelEdges * (dot(u, u) * dot(v, v));
+}
+
 // The contact location on A. The normal is rounded, most of all for shapes that are close. So the
 // points that should face each other may miss the furthest height by a little, and the slack grows
 // until they face each other.
@@ -123,6 +147,10 @@ inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
     const Meeting::Points on_b = furthest_points(b, -gap.normal, slack, furthest);
     if (gap.is_at_corners && on_b.size() == 1) return on_b[0] - n * gap.size;
     if (on_a.size() == 2 && on_b.size() == 2 && find_crossing(on_a, on_b, n, best)) return best;
+    if (on_a.size() == 1 && on_b.size() == 3 && is_over_triangle(on_a[0], on_b, n)) return on_a[0];
+    if (on_a.size() == 3 && on_b.size() == 1 && is_over_triangle(on_b[0], on_a, n)) {
+      return on_b[0] + n * dot(n, Vector3d(on_a[0] - on_b[0]));
+    }
     const Meeting meeting(on_a, on_b, n);
     if (meeting.distance() < least) {
       least = meeting.distance();

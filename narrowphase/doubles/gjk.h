@@ -11,6 +11,7 @@
 #include "base/few_of.h"
 #include "base/tolerances.h"
 #include "narrowphase/doubles/core.h"
+#include "narrowphase/doubles/plain_simplex.h"
 #include "narrowphase/doubles/sliver_cross.h"
 
 namespace carom {
@@ -45,6 +46,8 @@ class NearestPoint {
   double squared() const { return squared_; }
   const Corners& corners() const { return corners_; }
   bool is_around_zero() const { return corners_.size() == 4; }
+  // Whether corner i of those that were given, but the last, is one of them.
+  bool spans(size_t i) const { return kept_ >> i & 1; }
 
  private:
   // `others`: bits of the corners that span the point besides the last one.
@@ -136,9 +139,35 @@ struct NearestWay {
   double gap = 0;  // between the projections on `way`, times its length; 0 if the cores touch
 };
 
+// About the corners of B - A that are nearest to zero, or that have it inside: the plain search as
+// far as it goes.
+inline NearestPoint::Corners corners_about_nearest(const Core& a, const Core& b,
+                                                   FurthestPoint furthest) {
+  constexpr int kMostRounds = 32;  // six are usual
+  const CoreVector first = difference_point(a, b, b.middle - a.middle, furthest);
+  scalar::PlainSimplex simplex;
+  simplex.replace(0, first);
+  scalar::PlainNearest nearest({}, first);
+  for (int round = 0; round < kMostRounds && nearest.squared > kTouchingSquared; ++round) {
+    const CoreVector next = difference_point(a, b, nearest.point, furthest);
+    const bool has_ended = dot(nearest.point, next) >= nearest.squared || simplex.holds(next);
+    if (has_ended) break;
+    const scalar::PlainNearest nearer(simplex, next);
+    const bool is_careful = nearer.is_around || nearer.is_unclear;
+    if (is_careful || !(nearer.squared < nearest.squared)) break;
+    simplex.replace(nearer.kept, next);
+    nearest = nearer;
+  }
+  NearestPoint::Corners corners;
+  for (size_t i = 0; i < 3; ++i) {
+    if (simplex.used >> i & 1) corners.push_back(simplex.corner[i]);
+  }
+  return corners;
+}
+
 inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
-  constexpr int kMostRounds = 128;  // a dozen is usual
-  NearestPoint nearest({difference_point(a, b, b.middle - a.middle, furthest)});
+  constexpr int kMostRounds = 128;  // one or two are usual
+  NearestPoint nearest(corners_about_nearest(a, b, furthest));
   for (int round = 0;; ++round) {
     const CoreVector& way = nearest.point();
     if (nearest.squared() <= kTouchingSquared || nearest.is_around_zero()) {

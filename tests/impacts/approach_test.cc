@@ -85,7 +85,13 @@ void draw(Random& random, MovingCores& cores) {
   cores.pair.furthest = &scalar::furthest_point;
 }
 
-TEST(Approach, IsAsSlowAsTheSlowSearchSays) {
+template <class Nearest>
+class StraightApproach : public testing::Test {};
+using Searches = testing::Types<scalar::PlainNearest, scalar::CarefulNearest>;
+TYPED_TEST_SUITE(StraightApproach, Searches);
+
+TYPED_TEST(StraightApproach, IsAsSlowAsTheSlowSearchSays) {
+  using Nearest = TypeParam;
   constexpr double kRounding = 1e-13;
   Random random(1);
   size_t pairs = 0, met = 0, missed = 0, unsure = 0;
@@ -94,7 +100,7 @@ TEST(Approach, IsAsSlowAsTheSlowSearchSays) {
     draw(random, cores);
     if (cores.distance(0) <= kTolerance) continue;
     ++pairs;
-    const scalar::Approach approach(cores.pair, 0, kTolerance);
+    const scalar::Approach<Nearest> approach(cores.pair, 0, kTolerance);
     if (approach.time() == scalar::kNever) {
       ++missed;
       ASSERT_TRUE(approach.is_over());
@@ -121,7 +127,8 @@ TEST(Approach, IsAsSlowAsTheSlowSearchSays) {
   EXPECT_LT(unsure, pairs / 50);
 }
 
-TEST(Approach, EndsAtTheLatestTimeThatCounts) {
+TYPED_TEST(StraightApproach, EndsAtTheLatestTimeThatCounts) {
+  using Nearest = TypeParam;
   MovingCores cores;
   for (Core* core : {&cores.a, &cores.b}) {
     core->resize(1);
@@ -134,9 +141,9 @@ TEST(Approach, EndsAtTheLatestTimeThatCounts) {
   cores.pair.way = {-4, 0, 0};
   cores.pair.radii = 1;
   cores.pair.furthest = &scalar::furthest_point;
-  EXPECT_NEAR(scalar::Approach(cores.pair, 0, kTolerance).time(), 0.75, 1e-9);
+  EXPECT_NEAR(scalar::Approach<Nearest>(cores.pair, 0, kTolerance).time(), 0.75, 1e-9);
   cores.pair.latest = 0.7;
-  EXPECT_EQ(scalar::Approach(cores.pair, 0, kTolerance).time(), scalar::kNever);
+  EXPECT_EQ(scalar::Approach<Nearest>(cores.pair, 0, kTolerance).time(), scalar::kNever);
 }
 
 }  // namespace
