@@ -212,7 +212,9 @@ class PartSearch {
     const double lengths = size_of(a) + size_of(b) + greatest(change.offset);
     PartOf part_a(a), part_b(b);
     find_touching_items(a.tree(), b.tree(), change, with_slack(reach_, lengths),
-                        [&](uint32_t i, uint32_t j) { run(part_a.item(i), part_b.item(j)); });
+                        [&](std::span<const ItemPair> pairs) {
+                          for (const ItemPair& p : pairs) run(part_a.item(p.a), part_b.item(p.b));
+                        });
   }
 
   template <class Use>
