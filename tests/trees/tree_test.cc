@@ -301,6 +301,10 @@ TEST(BoxTree, SomeItemIsNear) {
       const uint32_t low = tree.low_item({0, 0, 1});
       ASSERT_LT(std::max(near, low), count);
       EXPECT_FALSE(is_empty(boxes[near]) || is_empty(boxes[low]));
+      FrameChange change = {{{{0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1}}}, {style.spread, 0, 0}};
+      const ItemPair both = near_items(tree, tree, change);
+      ASSERT_LT(std::max(both.a, both.b), count);
+      EXPECT_FALSE(is_empty(boxes[both.a]) || is_empty(boxes[both.b]));
     }
   }
 }
