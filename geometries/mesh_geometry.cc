@@ -76,7 +76,9 @@ class MeshMaker {
   MeshMaker(std::span<const Vector3f> vertices, std::span<const Corners> triangles,
             const MeshRules& rules)
       : mesh_(new MeshGeometry()) {
+    mesh_->vertices_.reserve(vertices.size() + 1);
     mesh_->vertices_.assign(vertices.begin(), vertices.end());
+    mesh_->vertices_.push_back(Vector3f::Zero());
     mesh_->triangles_.assign(triangles.begin(), triangles.end());
     mesh_->rules_ = rules;
   }

@@ -83,15 +83,17 @@ class CompositeRun {
   }
 
   void run() {
+    const bool measures =
+        tests_.measured == Measured::all && (has_contacts(block_.detail) || tests_.bounds);
+    const Apart apart = measures ? Apart::by_boxes : Apart::by_planes;
     ValidBodies valid_a(a_), valid_b(b_);
     for (current_ = 0; current_ < rows_.size(); ++current_) {
       const Pair p = pair(current_);
       outcomes_[current_] = valid_a.has(p.a) && valid_b.has(p.b) ? Outcome{} : no_answer();
-      if (!outcomes_[current_].is_invalid()) search(current_, reach(current_));
+      if (!outcomes_[current_].is_invalid()) search(current_, reach(current_), apart);
     }
     flush();
-    const bool is_asked = has_contacts(block_.detail) || tests_.bounds;
-    if (tests_.measured == Measured::all && is_asked) measure();
+    if (measures) measure();
   }
 
  private:
@@ -109,13 +111,15 @@ class CompositeRun {
     return overlap == 1 || (tests_.reach && overlap == 0 && separation <= reach(k));
   }
 
-  void search(size_t k, double reach) {
+  void search(size_t k, double reach, Apart apart) {
     const BodyPair bodies(a_, b_, pair(k));
-    find_part_pairs(bodies.a, bodies.b, reach, [&](const NearParts& parts) { add(k, parts); });
+    find_part_pairs(bodies.a, bodies.b, reach, apart,
+                    [&](const NearParts& parts) { add(k, parts); });
   }
 
   void add(size_t k, const NearParts& parts) {
     if (!parts.triangles.empty()) return add_triangles(k, parts);
+    if (!parts.pairs.empty()) return add_triangle_pairs(k, parts);
     if (!find_pair_kind(parts.a.kind(), parts.b.kind()).exists()) return;
     if (batch_.is_full()) flush();
     batch_.add(k, parts.a, parts.b, reach(k));
@@ -126,7 +130,16 @@ class CompositeRun {
     for (std::span<const uint32_t> left = parts.triangles; !left.empty();) {
       if (batch_.is_full()) flush();
       const size_t count = std::min(left.size(), batch_.room());
-      batch_.add(k, {parts.a, parts.b, left.first(count)}, reach(k));
+      batch_.add_triangles(k, {parts.a, parts.b, left.first(count)}, reach(k));
+      left = left.subspan(count);
+    }
+  }
+
+  void add_triangle_pairs(size_t k, const NearParts& parts) {
+    for (std::span<const ItemPair> left = parts.pairs; !left.empty();) {
+      if (batch_.is_full()) flush();
+      const size_t count = std::min(left.size(), batch_.room());
+      batch_.add_triangle_pairs(k, {parts.a, parts.b, {}, left.first(count)}, reach(k));
       left = left.subspan(count);
     }
   }
@@ -288,7 +301,7 @@ class CompositeRun {
     for (const size_t k : to_measure) {
       const float reach = std::max(outcomes_[k].separation, 0.0f);
       outcomes_[k] = {};
-      search(k, reach);
+      search(k, reach, Apart::by_planes);
     }
     run_batch();
     contacts_.clear();

@@ -40,10 +40,10 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
 }
 
 // What all triangles share is written column by column.
-uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
-                                    std::span<const uint32_t> triangles) {
+template <class Triangle>
+uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh, size_t count,
+                                    const Triangle& triangle) {
   const uint32_t first = count_, first_row = rows_used_;
-  const size_t count = triangles.size();
   const bool has_frame = frames_used_ > 0 && frames_[frames_used_ - 1].is_of(owner, mesh);
   if (!has_frame) put_frame(owner, mesh);
   const Double3& p = mesh.position;
@@ -52,13 +52,13 @@ uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
   std::fill_n(kind_.begin() + first, count, ShapeKind::triangle);
   std::fill_n(frame_.begin() + first, count, frames_used_ - 1);
   std::fill_n(dops_.begin() + first, count, nullptr);
-  std::copy_n(triangles.begin(), count, triangle_.begin() + first);
   are_mixed_ = are_mixed_ || kind_[0] != ShapeKind::triangle;
   Row* const rows = rows_.data() + first_row;
   constexpr uint32_t kRows = row_count(ShapeKind::triangle);
   for (uint32_t i = 0; i < count; ++i) {
+    triangle_[first + i] = triangle(i);
     first_row_[first + i] = first_row + kRows * i;
-    put_triangle_rows(mesh.mesh(), triangles[i], rows + kRows * i);
+    put_triangle_rows(mesh.mesh(), triangle(i), rows + kRows * i);
   }
   for (size_t i = 0; mesh.one_sided && i < count; ++i) {
     rows[kRows * i + 1][3] = *mesh.one_sided ? 1.0f : 0.0f;
@@ -127,16 +127,30 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, floa
   pairs_[count_++] = {sides_[0].put(owner, a), sides_[1].put(owner, b)};
 }
 
-void PartBatch::add(size_t owner, const NearParts& parts, float reach) {
-  const auto& [a, b, triangles] = parts;
+void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach) {
+  const PlacedPart &a = parts.a, &b = parts.b;
   const size_t mesh_side = a.kind() == ShapeKind::mesh ? 0 : 1;
-  const uint32_t first = sides_[mesh_side].put_triangles(owner, mesh_side == 0 ? a : b, triangles);
+  const uint32_t first =
+      sides_[mesh_side].put_triangles(owner, mesh_side == 0 ? a : b, parts.triangles.size(),
+                                      [&](size_t i) { return parts.triangles[i]; });
   const uint32_t other = sides_[1 - mesh_side].put(owner, mesh_side == 0 ? b : a);
-  for (uint32_t i = 0; i < triangles.size(); ++i) {
+  for (uint32_t i = 0; i < parts.triangles.size(); ++i) {
     reach_[count_] = reach;
     owner_[count_] = static_cast<uint32_t>(owner);
     pairs_[count_++] = mesh_side == 0 ? Pair{first + i, other} : Pair{other, first + i};
   }
+}
+
+void PartBatch::add_triangle_pairs(size_t owner, const NearParts& parts, float reach) {
+  const std::span<const ItemPair> pairs = parts.pairs;
+  const size_t count = pairs.size();
+  const uint32_t first_a =
+      sides_[0].put_triangles(owner, parts.a, count, [&](size_t i) { return pairs[i].a; });
+  const uint32_t first_b =
+      sides_[1].put_triangles(owner, parts.b, count, [&](size_t i) { return pairs[i].b; });
+  std::fill_n(reach_.begin() + count_, count, reach);
+  std::fill_n(owner_.begin() + count_, count, static_cast<uint32_t>(owner));
+  for (uint32_t i = 0; i < count; ++i) pairs_[count_++] = {first_a + i, first_b + i};
 }
 
 void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,

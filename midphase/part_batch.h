@@ -20,8 +20,11 @@ class PartColumns {
   // Adds a part, and returns the index of its body. A part that repeats the last one is not added
   // again.
   uint32_t put(size_t owner, const PlacedPart& part);
-  // Adds triangles of a mesh, and returns the index of the first one's body.
-  uint32_t put_triangles(size_t owner, const PlacedPart& mesh, std::span<const uint32_t> triangles);
+  // Adds `count` triangles of a mesh, number i being triangle(i), and returns the index of the
+  // first one's body.
+  template <class Triangle>
+  uint32_t put_triangles(size_t owner, const PlacedPart& mesh, size_t count,
+                         const Triangle& triangle);
 
   Collidables view() const;
   ShapeKind kind(size_t body) const { return kind_[body]; }
@@ -97,7 +100,9 @@ class PartBatch {
   // Adds a pair for `owner`, with its contact distance. Its kinds must have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach);
   // Adds the pairs of one part with each of some triangles of a mesh; there must be room for them.
-  void add(size_t owner, const NearParts& parts, float reach);
+  void add_triangles(size_t owner, const NearParts& parts, float reach);
+  // Adds pairs of triangles of two meshes; there must be room for them.
+  void add_triangle_pairs(size_t owner, const NearParts& parts, float reach);
   // Adds a pair, and sets the inner edges of triangles.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
            const std::array<uint8_t, 2>& inner_edges);

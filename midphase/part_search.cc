@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/few_of.h"
+#include "geometries/near_triangles.h"
 
 namespace carom {
 namespace {
@@ -37,6 +38,10 @@ double size_of(const PlacedPart& tree) {
 double with_slack(double reach, double lengths) {
   if (!(lengths < kBeyondSearch)) return std::numeric_limits<double>::infinity();
   return reach + kSearchSlack * lengths;
+}
+
+TriangleArrays arrays_of(const MeshGeometry& mesh) {
+  return {mesh.vertices().data()->data(), mesh.triangles().data()};
 }
 
 // A part in the frame of a tree.
@@ -175,7 +180,8 @@ bool takes_apart_first(const PlacedPart& a, const PlacedPart& b) {
 
 class PartSearch {
  public:
-  PartSearch(double reach, NearPartsFound found) : reach_(reach), found_(found) {}
+  PartSearch(double reach, Apart apart, NearPartsFound found)
+      : reach_(reach), apart_(apart), found_(found) {}
 
   void run(const PlacedPart& a, const PlacedPart& b) const {
     if (!a.has_parts() && !b.has_parts()) {
@@ -210,9 +216,26 @@ class PartSearch {
   void take_apart_both(const PlacedPart& a, const PlacedPart& b) const {
     const FrameChange change = to_frame_of(a, b);
     const double lengths = size_of(a) + size_of(b) + greatest(change.offset);
+    const double reach = with_slack(reach_, lengths);
+    if (a.kind() == ShapeKind::mesh) return find_triangles(a, b, change, reach);
     PartOf part_a(a), part_b(b);
-    find_touching_items(a.tree(), b.tree(), change, with_slack(reach_, lengths),
-                        [&](uint32_t i, uint32_t j) { run(part_a.item(i), part_b.item(j)); });
+    find_touching_items(a.tree(), b.tree(), change, reach, [&](std::span<const ItemPair> pairs) {
+      for (const ItemPair& p : pairs) run(part_a.item(p.a), part_b.item(p.b));
+    });
+  }
+
+  // Triangles are thick behind their planes.
+  void find_triangles(const PlacedPart& a, const PlacedPart& b, const FrameChange& b_to_a,
+                      double reach) const {
+    const double thickness = double{a.mesh().rules().thickness} + b.mesh().rules().thickness;
+    const PairScale scale(size_of(a), size_of(b), b_to_a.offset, reach + thickness);
+    const TriangleArrays triangles_a = arrays_of(a.mesh()), triangles_b = arrays_of(b.mesh());
+    find_touching_items(a.tree(), b.tree(), b_to_a, reach, [&](std::span<ItemPair> pairs) {
+      const size_t count = apart_ == Apart::by_planes
+                               ? keep_near(triangles_a, triangles_b, b_to_a, scale, pairs)
+                               : pairs.size();
+      if (count > 0) found_({a, b, {}, pairs.first(count)});
+    });
   }
 
   template <class Use>
@@ -229,6 +252,7 @@ class PartSearch {
   }
 
   const double reach_;
+  const Apart apart_;
   const NearPartsFound found_;
 };
 
@@ -239,14 +263,22 @@ uint32_t near_item(const PlacedPart& tree, const PlacedPart& other) {
 
 }  // namespace
 
-void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, NearPartsFound found) {
-  PartSearch(reach, found).run(a, b);
+void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, Apart apart,
+                     NearPartsFound found) {
+  PartSearch(reach, apart, found).run(a, b);
 }
 
 void find_near_part_pair(const PlacedPart& first, const PlacedPart& second, NearPartsFound found) {
   PlacedPart a = first, b = second;
   while (a.has_parts() || b.has_parts()) {
-    const bool is_first = takes_apart_first(a, b) || (a.has_parts() && a.kind() == b.kind());
+    if (a.kind() == b.kind()) {
+      if (a.tree().is_empty() || b.tree().is_empty()) return;
+      const ItemPair near = near_items(a.tree(), b.tree(), to_frame_of(a, b));
+      a = a.item(near.a);
+      b = b.item(near.b);
+      continue;
+    }
+    const bool is_first = takes_apart_first(a, b);
     PlacedPart& tree = is_first ? a : b;
     if (tree.tree().is_empty()) return;
     tree = tree.item(near_item(tree, is_first ? b : a));

@@ -11,19 +11,25 @@
 namespace carom {
 
 // Two parts that have no parts themselves; or one and a mesh, of which each of these triangles is
-// meant.
+// meant; or two meshes, of which each of these pairs of triangles is meant.
 struct NearParts {
   const PlacedPart& a;
   const PlacedPart& b;
   std::span<const uint32_t> triangles = {};
+  std::span<const ItemPair> pairs = {};
 };
 
 using NearPartsFound = FunctionRef<void(const NearParts&)>;
 
+// What tells parts apart: their boxes, or also the planes of triangles where two meshes meet. Pairs
+// whose boxes touch are near, so that the nearest of them bounds a distance.
+enum class Apart { by_boxes, by_planes };
+
 // Finds all pairs of parts that are at most `reach` metres apart, and some that are further. Every
 // pair that a test may find to be that near is among them, despite all rounding. A half-space is
 // near everything that reaches below its plane.
-void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, NearPartsFound found);
+void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, Apart apart,
+                     NearPartsFound found);
 
 // Finds one pair of parts that is about the nearest; none if one of the bodies has no parts.
 void find_near_part_pair(const PlacedPart& a, const PlacedPart& b, NearPartsFound found);

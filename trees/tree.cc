@@ -273,6 +273,37 @@ uint32_t best_item(std::span<const BoxTree::Node> nodes, const Cost& cost) {
   return child - BoxTree::kItem;
 }
 
+// A place in a tree: a node or an item, and its box.
+struct Place {
+  uint32_t child;
+  TreeBox box;
+};
+
+// The children of a place that is a node; an item alone. Returns how many they are.
+size_t children_of(std::span<const BoxTree::Node> nodes, const Place& place,
+                   std::array<Place, BoxTree::kChildren>& children) {
+  if (is_item(place.child)) {
+    children[0] = place;
+    return 1;
+  }
+  const BoxTree::Node& node = nodes[place.child];
+  size_t count = 0;
+  for (size_t i = 0; i < BoxTree::kChildren; ++i) {
+    if (!is_empty(node.box(i))) children[count++] = {node.child[i], node.box(i)};
+  }
+  return count;
+}
+
+// The squared distance of the middles.
+double middle_distance(const TreeBox& a, const TreeBox& b) {
+  double sum = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double way = middle(a, axis) - middle(b, axis);
+    sum += way * way;
+  }
+  return sum;
+}
+
 // The largest float32 <= x, but never below -FLT_MAX or above FLT_MAX.
 float downwards(double x) {
   return round_downwards(std::clamp(x, -double{FLT_MAX}, double{FLT_MAX}));
@@ -332,6 +363,31 @@ TreeBox FrameChange::around(const TreeBox& box, double reach) const {
     new_half[axis] = dot({std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2])}, half) + reach;
   }
   return rounded_outwards(new_middle, new_half);
+}
+
+// Goes down in both trees at once, always to the two children whose boxes are nearest, and of those
+// that touch to the ones whose middles are.
+ItemPair near_items(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a) {
+  Place place_a = {0, kNothing}, place_b = {0, kNothing};
+  while (!is_item(place_a.child) || !is_item(place_b.child)) {
+    std::array<Place, BoxTree::kChildren> of_a, of_b;
+    const size_t count_a = children_of(a.nodes(), place_a, of_a);
+    const size_t count_b = children_of(b.nodes(), place_b, of_b);
+    std::pair least(HUGE_VAL, HUGE_VAL);
+    place_a = of_a[0];
+    place_b = of_b[0];
+    for (size_t j = 0; j < count_b; ++j) {
+      const TreeBox seen = b_to_a.around(of_b[j].box, 0);
+      for (size_t i = 0; i < count_a; ++i) {
+        const std::pair cost(distance(of_a[i].box, seen), middle_distance(of_a[i].box, seen));
+        if (!(cost < least)) continue;
+        least = cost;
+        place_a = of_a[i];
+        place_b = of_b[j];
+      }
+    }
+  }
+  return {place_a.child - BoxTree::kItem, place_b.child - BoxTree::kItem};
 }
 
 BoxTree::BoxTree(std::span<const TreeBox> boxes) { TreeBuilder(boxes, nodes_).build(); }

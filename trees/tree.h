@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <compare>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -115,10 +116,25 @@ class BoxTree {
   std::vector<Node> nodes_;
 };
 
-// Calls `found` with every pair of items whose boxes touch after those of `b` were turned into the
-// frame of `a` and grown by `reach`. It also finds a few more pairs, since it puts a box around
-// each turned box.
+// An item of each of two trees.
+struct ItemPair {
+  uint32_t a, b;
+
+  friend auto operator<=>(const ItemPair&, const ItemPair&) = default;
+};
+
+// Items of two trees that are about the nearest to each other. The trees must not be empty.
+ItemPair near_items(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a);
+
+// Receives some of the pairs of items of two trees, and may change them.
+using ItemPairsFound = FunctionRef<void(std::span<ItemPair> pairs)>;
+
+// Calls `found` with all pairs of items whose boxes touch when those of `b` are put into the frame
+// of `a`, each with a box around it that is grown by `reach`, and when those of `a` are put into
+// the frame of `b` likewise; some pairs at a time. The pairs and their order are the same on every
+// ISA. `reach` may be infinite. It also finds pairs that are further apart by up to 2^-17 of all
+// lengths, since it turns boxes in float32.
 void find_touching_items(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a,
-                         double reach, FunctionRef<void(uint32_t item_a, uint32_t item_b)> found);
+                         double reach, ItemPairsFound found);
 
 }  // namespace carom

@@ -8,9 +8,7 @@
 #include <hwy/cache_control.h>
 
 #include <algorithm>
-#include <bit>
 #include <span>
-#include <vector>
 
 #include "simd/compress-inl.h"
 #include "trees/tree.h"
@@ -48,22 +46,6 @@ HWY_INLINE ChildMask touching(const BoxTree::Node& node, size_t first, const Rou
   }
   return hn::Le(squared, hn::Set(tag, squared_radius));
 }
-
-// Bit i is set if child i touches the box.
-HWY_INLINE uint32_t touching(const BoxTree::Node& node, const TreeBox& box) {
-  uint32_t bits = 0;
-  for (size_t i = 0; i < BoxTree::kChildren; i += kChildLanes) {
-    bits |= static_cast<uint32_t>(bits_of(ChildTag(), touching(node, i, box))) << i;
-  }
-  return bits;
-}
-
-template <class Use>
-HWY_INLINE void for_each_bit(uint32_t bits, const Use& use) {
-  for (; bits != 0; bits &= bits - 1) use(static_cast<size_t>(std::countr_zero(bits)));
-}
-
-constexpr bool is_item(uint32_t child) { return child >= BoxTree::kItem; }
 
 // A bound for the depth. A child of a node is a part of a division of its items, which leaves at
 // most 7/8 of them in one part, and 2^31 items are fewer than (8/7)^161.
@@ -131,120 +113,6 @@ void touching_items(const BoxTree& tree, const RoundedBox& box, ItemsFound found
   }
 }
 
-// Two children, nodes or items, whose boxes touch. If one is an item, `box` is its box in the frame
-// of the other's tree.
-struct Meeting {
-  uint32_t a, b;
-  TreeBox box;
-};
-
-// `found` may start another search. Each search uses only the part of the stack above its own
-// start.
-class MeetingStack {
- public:
-  explicit MeetingStack(std::vector<Meeting>& all) : all_(all), start_(all.size()) {}
-  ~MeetingStack() { all_.resize(start_); }
-  MeetingStack(const MeetingStack&) = delete;
-  MeetingStack& operator=(const MeetingStack&) = delete;
-
-  bool is_empty() const { return all_.size() == start_; }
-  void push(const Meeting& meeting) { all_.push_back(meeting); }
-  Meeting pop() {
-    const Meeting last = all_.back();
-    all_.pop_back();
-    return last;
-  }
-
- private:
-  std::vector<Meeting>& all_;
-  const size_t start_;
-};
-
-class TreePair {
- public:
-  TreePair(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a, double reach,
-           FunctionRef<void(uint32_t, uint32_t)> found)
-      : nodes_a_(a.nodes().data()),
-        nodes_b_(b.nodes().data()),
-        b_to_a_(b_to_a),
-        a_to_b_(b_to_a.inverse()),
-        reach_(reach),
-        found_(found) {}
-
-  void run(MeetingStack& stack) const {
-    stack.push({0, 0, {}});
-    while (!stack.is_empty()) {
-      const Meeting m = stack.pop();
-      if (is_item(m.b)) {
-        item_of_b(m, stack);
-      } else if (is_item(m.a)) {
-        item_of_a(m, stack);
-      } else {
-        two_nodes(m, stack);
-      }
-    }
-  }
-
- private:
-  void two_nodes(const Meeting& m, MeetingStack& stack) const {
-    const BoxTree::Node& a = nodes_a_[m.a];
-    const BoxTree::Node& b = nodes_b_[m.b];
-    for (size_t j = 0; j < BoxTree::kChildren; ++j) {
-      const TreeBox box = b.box(j);
-      if (!(box.lower[0] <= box.upper[0])) continue;
-      const TreeBox in_a = b_to_a_.around(box, reach_);
-      for_each_bit(touching(a, in_a), [&](size_t i) {
-        if (is_item(a.child[i]) && is_item(b.child[j])) {
-          found_(a.child[i] - BoxTree::kItem, b.child[j] - BoxTree::kItem);
-        } else if (is_item(b.child[j])) {
-          stack.push({a.child[i], b.child[j], in_a});
-        } else if (is_item(a.child[i])) {
-          stack.push({a.child[i], b.child[j], a_to_b_.around(a.box(i), reach_)});
-        } else {
-          stack.push({a.child[i], b.child[j], {}});
-        }
-      });
-    }
-  }
-
-  void item_of_b(const Meeting& m, MeetingStack& stack) const {
-    const BoxTree::Node& a = nodes_a_[m.a];
-    for_each_bit(touching(a, m.box), [&](size_t i) {
-      if (is_item(a.child[i])) {
-        found_(a.child[i] - BoxTree::kItem, m.b - BoxTree::kItem);
-      } else {
-        stack.push({a.child[i], m.b, m.box});
-      }
-    });
-  }
-
-  void item_of_a(const Meeting& m, MeetingStack& stack) const {
-    const BoxTree::Node& b = nodes_b_[m.b];
-    for_each_bit(touching(b, m.box), [&](size_t j) {
-      if (is_item(b.child[j])) {
-        found_(m.a - BoxTree::kItem, b.child[j] - BoxTree::kItem);
-      } else {
-        stack.push({m.a, b.child[j], m.box});
-      }
-    });
-  }
-
-  const BoxTree::Node* nodes_a_;
-  const BoxTree::Node* nodes_b_;
-  const FrameChange& b_to_a_;
-  const FrameChange a_to_b_;
-  const double reach_;
-  FunctionRef<void(uint32_t, uint32_t)> found_;
-};
-
-void touching_pairs(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a, double reach,
-                    FunctionRef<void(uint32_t, uint32_t)> found) {
-  if (a.is_empty() || b.is_empty()) return;
-  static thread_local std::vector<Meeting> meetings;
-  MeetingStack stack(meetings);
-  TreePair(a, b, b_to_a, reach, found).run(stack);
-}
-
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -255,15 +123,9 @@ HWY_AFTER_NAMESPACE();
 namespace carom {
 
 HWY_EXPORT(touching_items);
-HWY_EXPORT(touching_pairs);
 
 void BoxTree::find_touching(const RoundedBox& box, ItemsFound found) const {
   CAROM_DISPATCH(touching_items)(*this, box, found);
-}
-
-void find_touching_items(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a,
-                         double reach, FunctionRef<void(uint32_t, uint32_t)> found) {
-  CAROM_DISPATCH(touching_pairs)(a, b, b_to_a, reach, found);
 }
 
 }  // namespace carom

@@ -16,7 +16,7 @@ namespace {
 
 using oracle::Random;
 using Items = std::vector<uint32_t>;
-using ItemPairs = std::vector<std::pair<uint32_t, uint32_t>>;
+using ItemPairs = std::vector<ItemPair>;
 
 constexpr TreeBox kEmpty = {{1, 1, 1}, {-1, -1, -1}};
 
@@ -214,8 +214,19 @@ TEST(BoxTree, FindsWhatIsBelowAPlane) {
   }
 }
 
-// The search finds all items whose turned boxes touch. Every item that it finds touches the box
-// around the turned box.
+double greatest_of(const std::vector<TreeBox>& boxes) {
+  double most = 0;
+  for (const TreeBox& box : boxes) {
+    for (size_t axis = 0; axis < 3 && !is_empty(box); ++axis) {
+      most =
+          std::max({most, std::fabs(double{box.lower[axis]}), std::fabs(double{box.upper[axis]})});
+    }
+  }
+  return most;
+}
+
+// The search finds all items whose boxes touch in both frames, and only items that do up to
+// rounding.
 TEST(BoxTree, TwoTreesFindAllThatTouch) {
   for (const Style& style : kStyles) {
     SCOPED_TRACE(style.name);
@@ -229,6 +240,9 @@ TEST(BoxTree, TwoTreesFindAllThatTouch) {
         if (random.chance(0.5)) change = {{{{0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1}}}, {}};
         change.offset[0] = random.uniform(-style.spread, style.spread);
         const double reach = random.chance(0.5) ? 0 : style.size;
+        const double lengths =
+            greatest_of(boxes_a) + greatest_of(boxes_b) + greatest(change.offset);
+        const double most = reach + 0x1p-17 * lengths;
         ItemPairs expected;
         for (uint32_t i = 0; i < count_a; ++i) {
           for (uint32_t j = 0; j < count_b; ++j) {
@@ -241,15 +255,15 @@ TEST(BoxTree, TwoTreesFindAllThatTouch) {
         }
         for_each_isa([&] {
           ItemPairs found;
-          find_touching_items(a, b, change, reach, [&](uint32_t i, uint32_t j) {
-            found.push_back({i, j});
+          find_touching_items(a, b, change, reach, [&](std::span<const ItemPair> pairs) {
+            found.insert(found.end(), pairs.begin(), pairs.end());
           });
           std::sort(found.begin(), found.end());
           EXPECT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end());
           EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
           for (const auto& [i, j] : found) {
-            EXPECT_TRUE(touch(boxes_a[i], change.around(boxes_b[j], reach)) ||
-                        touch(boxes_b[j], change.inverse().around(boxes_a[i], reach)));
+            EXPECT_TRUE(touch(boxes_a[i], change.around(boxes_b[j], most)));
+            EXPECT_TRUE(touch(boxes_b[j], change.inverse().around(boxes_a[i], most)));
           }
         });
       }
@@ -287,6 +301,10 @@ TEST(BoxTree, SomeItemIsNear) {
       const uint32_t low = tree.low_item({0, 0, 1});
       ASSERT_LT(std::max(near, low), count);
       EXPECT_FALSE(is_empty(boxes[near]) || is_empty(boxes[low]));
+      FrameChange change = {{{{0.6, -0.8, 0}, {0.8, 0.6, 0}, {0, 0, 1}}}, {style.spread, 0, 0}};
+      const ItemPair both = near_items(tree, tree, change);
+      ASSERT_LT(std::max(both.a, both.b), count);
+      EXPECT_FALSE(is_empty(boxes[both.a]) || is_empty(boxes[both.b]));
     }
   }
 }

@@ -31,7 +31,9 @@ class CAROM_EXPORT MeshGeometry {
   ~MeshGeometry();
 
   /// The vertices in the order in which they were given.
-  std::span<const Eigen::Vector3f> vertices() const { return vertices_; }
+  std::span<const Eigen::Vector3f> vertices() const {
+    return {vertices_.data(), vertices_.size() - 1};
+  }
   /// Three vertex indices a triangle, in the order in which they were given; sub-shape indices
   /// refer to it.
   std::span<const std::array<uint32_t, 3>> triangles() const { return triangles_; }
@@ -68,7 +70,7 @@ class CAROM_EXPORT MeshGeometry {
   friend class MeshMaker;
   MeshGeometry();
 
-  std::vector<Eigen::Vector3f> vertices_;
+  std::vector<Eigen::Vector3f> vertices_;  // and one more, so that lanes may read four numbers each
   std::vector<std::array<uint32_t, 3>> triangles_;
   std::vector<Edges> edges_;
   MeshRules rules_;

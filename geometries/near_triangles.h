@@ -1,0 +1,26 @@
+// Leaves out pairs of triangles that the plane of one keeps apart.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "trees/pair_scale.h"
+#include "trees/tree.h"
+
+namespace carom {
+
+// The triangles of a mesh, as lanes read them.
+struct TriangleArrays {
+  const float* vertices;  // three numbers each; one more number follows the last vertex
+  const std::array<uint32_t, 3>* triangles;
+};
+
+// Moves the pairs of triangles that may be within the reach of `scale` to the front, in their
+// order, and returns how many they are. The others are further apart along the normal of one of the
+// two triangles. The pairs that are kept are the same on every ISA.
+size_t keep_near(const TriangleArrays& a, const TriangleArrays& b, const FrameChange& b_to_a,
+                 const PairScale& scale, std::span<ItemPair> pairs);
+
+}  // namespace carom
