@@ -232,6 +232,10 @@ inline constexpr float kNearCores = 0x1p-12f;
 // Points within this of the support point, along the normal, face the other core as well.
 inline constexpr float kFacingSlack = 0x1p-16f;
 
+// Points that face the other core count as one if they are nearer to each other than this: some
+// roundings of the corners of k-DOPs, of which many are such groups.
+inline constexpr float kOneCorner = 0x1p-19f;
+
 // Squared sine below which two crossing edges do not locate the contact: rounding moves the
 // crossing by eight times as much.
 inline constexpr float kSmallCrossing = 0x1p-6f;

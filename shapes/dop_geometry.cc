@@ -30,9 +30,8 @@ Hull hull_of_corners(const DopPolytope& polytope) {
 }  // namespace
 
 DopGeometry::DopGeometry(const Dop& dop)
-    : size_(DopSlabs(dop).with_tight_axes().size()),
-      polytope_(DopSlabs(dop)),
-      hull_(hull_of_corners(polytope_)) {
+    : size_(DopSlabs(dop).with_tight_axes().size()), polytope_(DopSlabs(dop)) {
+  hull_ = hull_of_corners(polytope_);
   const auto rows = shape_rows(dop);
   std::copy_n(rows.begin(), rows_.size(), rows_.begin());
 }

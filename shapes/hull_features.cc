@@ -95,6 +95,7 @@ bool HullFeatures::add_edges(const HullGeometry& hull) {
     const Vector3d along = point(hull, there.second) - point(hull, there.first);
     const double length = along.stableNorm();
     if (!(length > 0)) return false;
+    if (length <= double{kSameCorner} * double{hull.size()}) continue;
     const Vector3d direction = along / length;
     edges_.push_back({Vector4d(direction.x(), direction.y(), direction.z(), 0).cast<float>(),
                       there.first, left, right});

@@ -40,10 +40,12 @@ class HullFeatures {
   std::span<const std::array<float, 4>> planes() const { return planes_; }
   // A ball of this radius around the middle of the hull surely lies inside it.
   float inner_radius() const { return inner_radius_; }
+  // Without those whose ends are one corner to float32: they have no direction.
   std::span<const Edge> edges() const { return edges_; }
   // The left faces (0) or the right faces (1) of all edges, padded to a multiple of 64. Only for
   // hulls of up to 256 faces.
-  const uint8_t* sides(size_t side) const { return sides_.data() + side * sides_.size() / 2; }
+  const uint8_t* sides(size_t side) const { return sides_.data() + side * side_bytes(); }
+  size_t side_bytes() const { return sides_.size() / 2; }
 
   size_t bytes() const;
 

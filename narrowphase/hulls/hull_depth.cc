@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/few_of.h"
 #include "narrowphase/doubles/convex.h"
 
 namespace carom {
@@ -20,6 +21,20 @@ struct Side {
 // Up to this product of points and groups of faces, trying all faces costs less than choosing among
 // them.
 constexpr size_t kFewFeatures = 64;
+
+// In how many groups lie the points that reach as far as the furthest: 1, 2, or 3 for more.
+size_t count_groups(const HullPoints& points, const Vector3f& way, const FurthestOfHull& furthest) {
+  FewOf<Vector3f, 3> groups{points[furthest.index]};
+  for (size_t i = 0; i < points.count && !groups.is_full(); ++i) {
+    const Vector3f p = points[i];
+    const bool is_new = std::none_of(groups.begin(), groups.end(), [&](const Vector3f& group) {
+      const Vector3f apart = p - group;
+      return dot(apart, apart) <= kOneCorner * kOneCorner;
+    });
+    if (is_new && furthest.height - dot(way, p) <= kFacingSlack) groups.push_back(p);
+  }
+  return groups.size();
+}
 
 // An edge in the frame of A.
 struct CrossedEdge {
@@ -164,11 +179,16 @@ class DepthSearch {
   // --- The contact ---
 
   Separation contact(const HullPoints& a, const HullPoints& b) const {
-    const auto [of_a, count_a] = steps_.facing(a, normal_);
-    const auto [of_b, count_b] = steps_.facing(b, -normal_);
+    auto [of_a, count_a] = steps_.facing(a, normal_);
+    auto [of_b, count_b] = steps_.facing(b, -normal_);
     const float gap = -(of_a.height + of_b.height);
     if (!(std::fabs(gap - gap_) <= kSameGapInFloat && gap_ < -kSureGap)) {
       return not_in_float<float>();
+    }
+    // Few hulls have corners so near to each other. k-DOPs have many.
+    if (count_a > 1 && count_b > 1 && !(has_crossing_ && count_a == 2 && count_b == 2)) {
+      count_a = count_groups(a, normal_, of_a);
+      count_b = count_groups(b, -normal_, of_b);
     }
     Vector3f on_a;
     if (count_b == 1) {

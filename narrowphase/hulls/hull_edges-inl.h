@@ -94,7 +94,9 @@ HWY_INLINE void find_open_edges(const Solid& solid, float gap, FaceBounds& bound
     uint64_t bits = open_bits(solid, bounds, e);
     if (const size_t left = solid.edges.size() - e; left < 64) bits &= (uint64_t{1} << left) - 1;
     for (; bits != 0; bits &= bits - 1) {
-      open.index[open.count++] = static_cast<uint16_t>(e + size_t(std::countr_zero(bits)));
+      const size_t found = e + size_t(std::countr_zero(bits));
+      __builtin_prefetch(&solid.edges[found]);
+      open.index[open.count++] = static_cast<uint16_t>(found);
     }
   }
 }

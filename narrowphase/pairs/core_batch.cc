@@ -8,6 +8,7 @@
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/stated_body.h"
 #include "narrowphase/doubles/furthest.h"
+#include "narrowphase/hulls/fetch_solid.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/pairs/all_pairs.h"
 #include "narrowphase/pairs/manifold_batch.h"
@@ -59,6 +60,17 @@ class RowTester {
   void run(size_t row, bool is_deep) const {
     if (is_deep && put_depth(row)) return;
     put_separation(row);
+  }
+
+  // Asks for the hulls of a row, which is deep.
+  [[gnu::always_inline]] void fetch(size_t row, size_t step) const {
+    const Pair pair = batch_.pairs[row];
+    if constexpr (std::is_same_v<A, Hull>) {
+      fetch_solid(*geometry_at<HullGeometry>(a_.row(pair.a, 0)), step);
+    }
+    if constexpr (std::is_same_v<B, Hull>) {
+      fetch_solid(*geometry_at<HullGeometry>(b_.row(pair.b, 0)), step);
+    }
   }
 
  private:
@@ -131,7 +143,15 @@ void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
     list[count] = static_cast<uint16_t>(row);
     count += left[row] != 0 ? 1 : 0;
   }
-  for (size_t i = 0; i < count; ++i) rows.run(list[i], left[list[i]] == kDeep);
+  // Hulls are mostly shared by many bodies, but k-DOPs have one each. Each step of fetching is a
+  // row further ahead than the next.
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t step = 0; batch.has_rounded_points && step < kFetchSteps; ++step) {
+      const size_t ahead = i + kFetchSteps - step;
+      if (ahead < count && left[list[ahead]] == kDeep) rows.fetch(list[ahead], step);
+    }
+    rows.run(list[i], left[list[i]] == kDeep);
+  }
 }
 
 template void run_core_batch<Sphere, Hull>(const Batch&, const CoreKernels&);

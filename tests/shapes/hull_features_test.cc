@@ -73,6 +73,25 @@ TEST(HullFeatures, EdgesLieBetweenTheirFaces) {
   }
 }
 
+// A cube, one corner of which is cut off just behind its tip.
+TEST(HullFeatures, LeaveOutEdgesWithoutADirection) {
+  for (const float cut : {0x1p-10f, 0x1p-18f, 0x1p-20f, 0x1p-22f}) {
+    SCOPED_TRACE(cut);
+    Points points = cube_corners();
+    points[7].x() -= cut;
+    points.push_back({1, 1 - cut, 1});
+    points.push_back({1, 1, 1 - cut});
+    const Faces faces = {{0, 4, 6, 2}, {1, 3, 9, 8, 5}, {0, 1, 5, 4}, {2, 6, 7, 9, 3},
+                         {0, 2, 3, 1}, {4, 5, 8, 7, 6}, {7, 8, 9}};
+    std::shared_ptr<const HullGeometry> hull;
+    const HullFeatures* const features = features_of(points, faces, hull);
+    ASSERT_TRUE(features);
+    EXPECT_EQ(features->face_count(), 7u);
+    // The three of the cut are its root of two long.
+    EXPECT_EQ(features->edges().size(), cut > 0x1p-21f ? 15u : 12u);
+  }
+}
+
 TEST(HullFeatures, NeedASolidWithAllPointsBehindItsFaces) {
   std::shared_ptr<const HullGeometry> hull;
   const Points cube = cube_corners();

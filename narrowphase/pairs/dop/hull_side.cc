@@ -19,6 +19,11 @@ class HullSide {
   explicit HullSide(PositionLayout layout)
       : record_size_(layout == PositionLayout::records64 ? 4 * sizeof(double) : sizeof(Row)) {}
 
+  // Asks for what put() reads of the k-DOP.
+  [[gnu::always_inline]] static void fetch(const BodyReader& reader, uint32_t body) {
+    if (const DopGeometry* known = reader.dop_geometry(body)) known->fetch();
+  }
+
   // Row `row` is body `body` of the side that `reader` reads.
   void put(size_t row, const BatchSide& side, const BodyReader& reader, uint32_t body) {
     if (side.records) {
@@ -65,8 +70,12 @@ void run_with_hulls(const Batch& batch, DopSides dops, void (*run)(const Batch&)
   const BodyReader a{view_a}, b{view_b};
   HullSide hulls_a(batch.layout), hulls_b(batch.layout);
   std::array<Pair, kPairsPerBlock> pairs;
+  constexpr uint32_t kAhead = 16;
+  const auto last = static_cast<uint32_t>(batch.count - 1);
   for (uint32_t row = 0; row < batch.count; ++row) {
-    const Pair pair = batch.pairs[row];
+    const Pair pair = batch.pairs[row], later = batch.pairs[std::min(row + kAhead, last)];
+    if (dops.a) HullSide::fetch(a, later.a);
+    if (dops.b) HullSide::fetch(b, later.b);
     if (dops.a) hulls_a.put(row, batch.a, a, pair.a);
     if (dops.b) hulls_b.put(row, batch.b, b, pair.b);
     pairs[row] = {dops.a ? row : pair.a, dops.b ? row : pair.b};

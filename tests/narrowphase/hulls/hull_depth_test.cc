@@ -8,6 +8,7 @@
 #include "narrowphase/hulls/gjk_scalar.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/hulls/hull_steps_scalar.h"
+#include "shapes/dop_geometry.h"
 #include "tests/support/hulls.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
@@ -157,6 +158,36 @@ TEST(HullDepth, IsTheWayOut) {
   EXPECT_GT(overlapping, count * 3 / 10);
   EXPECT_LT(overlapping, count * 7 / 10);
   EXPECT_GT(sure, overlapping * 95 / 100);
+}
+
+// Many corners of a k-DOP lie so near to each other that float32 cannot tell them apart.
+Hull random_hull_of_dop(Random& random) {
+  Points points(24);
+  for (Vector3f& p : points) {
+    p = (random.direction() * random.uniform(0.3, 1)).cast<float>();
+  }
+  return dop_geometry(Dop::of_points(points, DopKind::k26))->hull();
+}
+
+TEST(HullDepth, OfKDopsIsSeldomUnsure) {
+  Random random(8);
+  const uint32_t count = rounds(1200);
+  uint32_t overlapping = 0, sure = 0;
+  for (uint32_t round = 0; round < count; ++round) {
+    const Hull a = random_hull_of_dop(random), b = random_hull_of_dop(random);
+    const Vector3f d = (random.direction() * random.uniform(0, 1.9)).cast<float>();
+    const scalar::Quaternion<float> turn_a = random_turn(random), turn_b = random_turn(random);
+    const HullPair pair{a, b, {d, turn_a, turn_b}};
+    const auto exact = in_double(pair);
+    if (exact.separation > -1e-3) continue;
+    ++overlapping;
+    const Separation found =
+        shape_depth(float_hull(pair.a), float_hull(pair.b), pair.pose, scalar::kHullSteps);
+    sure += !found.is_unsure;
+    if (!found.is_unsure) expect_close(found, exact);
+  }
+  EXPECT_GT(overlapping, count * 3 / 10);
+  EXPECT_GT(sure, overlapping * 97 / 100);
 }
 
 // Hulls through each other: the penetration direction is across two edges, a face of A, or a face

@@ -1,0 +1,40 @@
+// Asks for what the search over separating axes reads of a hull. A hull's numbers lie in several
+// places of which each is known from the one before, and the search would wait for each in turn.
+// All is inlined: g++ leaves out calls of functions that do nothing but ask for memory.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "shapes/hull_features.h"
+
+namespace carom {
+
+[[gnu::always_inline]] inline void fetch_lines(const void* first, size_t bytes) {
+  constexpr size_t kLine = 64;
+  for (size_t i = 0; i < bytes; i += kLine) {
+    __builtin_prefetch(static_cast<const char*>(first) + i);
+  }
+}
+
+// Columns are padded.
+inline size_t padded(size_t count) { return (count + 15) / 16 * 16; }
+
+// The steps, in their order. Each reads what the one before asked for.
+inline constexpr size_t kFetchSteps = 3;
+
+[[gnu::always_inline]] inline void fetch_solid(const HullGeometry& hull, size_t step) {
+  if (step == 0) return fetch_lines(&hull, sizeof hull);
+  const HullFeatures* const features = hull.features();
+  if (!features) return;
+  if (step == 1) {
+    fetch_lines(features, sizeof *features);
+    fetch_lines(hull.column(0), 3 * padded(hull.points().size()) * sizeof(float));
+  } else {
+    fetch_lines(features->column(0), 4 * padded(features->face_count()) * sizeof(float));
+    fetch_lines(features->planes().data(), features->planes().size_bytes());
+    fetch_lines(features->sides(0), 2 * features->side_bytes());
+  }
+}
+
+}  // namespace carom
