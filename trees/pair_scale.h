@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/powers.h"
+#include "base/tolerances.h"
 #include "shapes/turn.h"
 
 namespace carom {
@@ -12,7 +13,7 @@ namespace carom {
 // at most 1. (Beyond the range of float32 they may be 100, and below it they are less.)
 struct PairScale {
   double down, up;  // units in a metre, metres in a unit
-  double slack;     // in units; turned points are wrong by far less
+  double slack;     // in units
   double grow;      // in units: the reach and the slack
 
   // `size_a`, `size_b`: the greatest coordinate of each tree. `reach` may be infinite.
@@ -22,7 +23,7 @@ struct PairScale {
     const int clamped = std::clamp(exponent, -kMostExponent, kMostExponent);
     down = power_of_two(-clamped);
     up = power_of_two(clamped);
-    slack = kSlack * lengths * down;
+    slack = kTreeSlack * lengths * down;
     grow = std::min(reach * down + slack, kEverything);
   }
 
@@ -32,7 +33,6 @@ struct PairScale {
   }
 
  private:
-  static constexpr double kSlack = 0x1p-18;
   static constexpr int kMostExponent = 125;
   static constexpr double kFarthest = 0x1p132;
   static constexpr double kEverything = 0x1p100;
