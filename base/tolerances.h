@@ -295,7 +295,7 @@ inline constexpr size_t kMostPartsOfManifold = 4096;
 inline constexpr double kSearchSlack = 0x1p-17;
 
 // Boxes of two trees are compared in float32 after they are widened by this share of all lengths.
-// Points that turn are wrong by far less.
+// Points that turn are wrong by less, and so are heights of triangles over each other.
 inline constexpr double kTreeSlack = 0x1p-18;
 
 // Parts share a manifold if the cosine between their normals and the deepest contact's is at least

@@ -73,7 +73,8 @@ class Approach {
     Nearest nearest({}, simplex.corner[0] + at);
     for (int round = 0; round < kMostApproachRounds; ++round) {
       const double distance = std::sqrt(nearest.squared);
-      is_over_ = nearest.is_around || distance - pair_.radii <= tolerance_;
+      // A distance that rounding decides proves no touch.
+      is_over_ = nearest.is_around || (!nearest.is_unclear && distance - pair_.radii <= tolerance_);
       if (is_over_ || nearest.is_unclear) return;
       const CoreVector n = nearest.point * (1 / distance), next = corner(n);
       const double gap = dot(n, next + at) - pair_.radii;

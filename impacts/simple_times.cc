@@ -154,6 +154,7 @@ class SimpleTimes {
       }
       gather_linear(a, b, chunk.size(), scratch_.rows, scratch_.valid.data());
       scratch_.rows.pad(columns, chunk.size());
+      if (b.kind == LinearKind::hull) scratch_.rows.pad_hulls(chunk.size());
       kernel(scratch_.rows, chunk.size());
       write_times(chunk);
     }

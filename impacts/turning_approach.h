@@ -101,7 +101,8 @@ class TurningApproach {
     PlainNearest nearest({}, core_vector(corner_[0].point));
     for (int round = 0; round < kMostTurningRounds; ++round) {
       const double distance = std::sqrt(nearest.squared);
-      is_over_ = nearest.is_around || distance - pair_.radii <= tolerance_;
+      is_over_ = nearest.is_around ||
+                 (!nearest.is_unclear && distance - pair_.radii <= tolerance_);  // see Approach
       if (is_over_ || nearest.is_unclear) return;
       const Vector3d n = eigen_vector(nearest.point) * (1 / distance);
       Ends next = lowest(n, now);

@@ -38,7 +38,7 @@ HWY_INLINE void put(const D3& v, LaneVector& out) {
 }
 
 // The points of a hull in each lane. A hull with fewer points repeats its last one.
-struct PointLanes {
+struct HullPointLanes {
   std::array<LaneVector, kMostApproachPoints> point;
   size_t count;
 
@@ -56,7 +56,7 @@ struct PointLanes {
     return best;
   }
 
-  void copy_lane(const PointLanes& from, size_t lane, size_t to) {
+  void copy_lane(const HullPointLanes& from, size_t lane, size_t to) {
     for (size_t i = 0; i < count; ++i) {
       const LaneVector& p = from.point[std::min(i, from.count - 1)];
       for (size_t axis = 0; axis < 3; ++axis) point[i][axis].lane[to] = p[axis].lane[lane];
@@ -66,7 +66,7 @@ struct PointLanes {
 
 // A search in each lane, between two rounds.
 struct ApproachLanes {
-  PointLanes a, b;
+  HullPointLanes a, b;
   LaneVector from, way;
   LaneNumber tolerance;
   LaneNumber time;
@@ -102,7 +102,7 @@ template <class Lanes>
 void copy_lane(const Lanes& source, size_t lane, Lanes& out, size_t to) {
   out.a.copy_lane(source.a, lane, to);
   out.b.copy_lane(source.b, lane, to);
-  std::array<double, 80> numbers;
+  std::array<double, (sizeof(Lanes) - sizeof(out.a) - sizeof(out.b)) / sizeof(LaneNumber)> numbers;
   size_t count = 0;
   Lanes::for_each_number(source, [&](const LaneNumber& n) { numbers[count++] = n.lane[lane]; });
   count = 0;
@@ -147,7 +147,7 @@ HWY_INLINE void go_on(size_t few, DoubleMask& is_open, ApproachLanes& lanes, Lan
     end(hn::Ge(rounds, splat_double(scalar::kMostApproachRounds)), unsure);
     const D distance = hn::Sqrt(squared);
     const D met = hn::IfThenElse(hn::Gt(time, splat_double(1)), never(), time);
-    end(hn::Or(is_around, hn::Le(distance, tolerance)), met);
+    end(hn::Or(is_around, hn::AndNot(is_unclear, hn::Le(distance, tolerance))), met);
     end(is_unclear, unsure);
     if (hn::CountTrue(tag, is_open) <= few) break;
 

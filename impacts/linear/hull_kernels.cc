@@ -1,7 +1,6 @@
 // Times of impact of two hulls (impacts/approach.h and impacts/turning_approach.h are the scalar
-// forms). Lanes that are still
-// open when most of a vector have ended leave it, and go on together with those of other vectors:
-// pairs that meet take three times as many rounds as others.
+// forms). Lanes that are still open when most of a vector have ended leave it, and go on together
+// with those of other vectors: pairs that meet take three times as many rounds as others.
 #include "simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -46,8 +45,9 @@ HWY_INLINE void set_motion(const LinearRows& rows, size_t row, HullPair& pair,
   put(pair.middle_a, lanes.on_a[0]);
   put(pair.middle_b, lanes.on_b[0]);
   const D most = max(dot(a, a), dot(b, b));
-  pair.is_left =
-      hn::Or(pair.is_left, hn::Not(hn::Le(most, splat_double(kMostTurning * kMostTurning))));
+  const DoubleMask turns =
+      hn::And(hn::Gt(most, zero()), hn::Le(most, splat_double(kMostTurning * kMostTurning)));
+  pair.is_left = hn::Or(pair.is_left, hn::Not(turns));
 }
 
 template <class Lanes>
@@ -83,7 +83,6 @@ class HullTimes {
   void run_vector(size_t row) {
     DoubleMask is_open = start(row);
     LaneNumber times{};
-    times.put(lanes_.time.get());
     const DoubleMask is_searched = is_open;
     begin_and_go_on(kFew, lanes_, is_open, times);
     const D time = hn::IfThenElse(is_searched, times.get(), unsearched_.get());
@@ -115,7 +114,7 @@ class HullTimes {
     a.scale(down);
     b.scale(down);
     const D3 from = apart * down, way = motion * down;
-    const HullPoints records_a(rows_.hull_a() + row), records_b(rows_.hull_b() + row);
+    const HullRecords records_a(rows_.hull_a() + row), records_b(rows_.hull_b() + row);
     HullPair pair{rotate(a.turn, a.middle), rotate(b.turn, b.middle), place(records_a, a, lanes_.a),
                   place(records_b, b, lanes_.b),
                   hn::Not(hn::And(records_a.has_space, records_b.has_space))};

@@ -18,13 +18,13 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
 // The records of the hulls of a vector.
-struct HullPoints {
+struct HullRecords {
   std::array<const float*, kDoubleLanes> first;
   std::array<size_t, kDoubleLanes> points;
   size_t most = 0;
   DoubleMask has_space;  // lanes of which the points fit
 
-  HWY_INLINE explicit HullPoints(const HullGeometry* const* hulls) {
+  HWY_INLINE explicit HullRecords(const HullGeometry* const* hulls) {
     static constexpr std::array<float, 4> kNothing{};
     HWY_ALIGN double counts[kDoubleLanes];
     for (size_t lane = 0; lane < kDoubleLanes; ++lane) {
@@ -95,7 +95,7 @@ struct LinearHull {
 };
 
 // Places the points; returns how far the furthest is from the hull's position.
-HWY_INLINE D place(const HullPoints& records, const LinearHull& hull, PointLanes& points) {
+HWY_INLINE D place(const HullRecords& records, const LinearHull& hull, HullPointLanes& points) {
   D greatest = zero();
   points.count = records.most;
   for (size_t i = 0; i < records.most; ++i) {

@@ -70,6 +70,9 @@ class LinearRows {
     for (size_t c = 0; c < columns; ++c) {
       std::fill(column(c) + count, column(c) + padded, column(c)[count - 1]);
     }
+  }
+  void pad_hulls(size_t count) {
+    const size_t padded = (count + 7) / 8 * 8;
     for (auto* hulls : {&hull_a_, &hull_b_}) {
       std::fill(hulls->begin() + count, hulls->begin() + padded, (*hulls)[count - 1]);
     }

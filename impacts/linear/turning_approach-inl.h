@@ -16,7 +16,7 @@ namespace carom::HWY_NAMESPACE {
 // Bodies that turn further than this over the interval are left to the scalar form.
 inline constexpr double kMostTurning = 12.5;
 
-// sin_cos() of at most half of kMostTurning,.
+// sin_cos() of at most half of kMostTurning.
 HWY_INLINE void sin_cos(D angle, D& sin, D& cos) {
   const D one = splat_double(1);
   const D x = hn::Mul(angle, splat_double(1.0 / 16));
@@ -58,7 +58,7 @@ struct TurningLanes {
 
 // A search in each lane, between two rounds.
 struct TurningApproachLanes {
-  PointLanes a, b;  // at the start
+  HullPointLanes a, b;  // at the start
   LaneVector from, way;
   LaneVector rotation_a, rotation_b;
   LaneNumber reach_a, reach_b;
@@ -195,7 +195,7 @@ HWY_INLINE void go_on(size_t few, DoubleMask& is_open, TurningApproachLanes& lan
   for (;;) {
     end(hn::Ge(rounds, splat_double(scalar::kMostTurningRounds)), unsure);
     const D distance = hn::Sqrt(squared);
-    end(hn::Or(is_around, hn::Le(distance, tolerance)), time);
+    end(hn::Or(is_around, hn::AndNot(is_unclear, hn::Le(distance, tolerance))), time);
     end(is_unclear, unsure);
     if (hn::CountTrue(tag, is_open) <= few) break;
 

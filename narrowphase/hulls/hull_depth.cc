@@ -186,7 +186,9 @@ class DepthSearch {
       return not_in_float<float>();
     }
     // Few hulls have corners so near to each other. k-DOPs have many.
-    if (count_a > 1 && count_b > 1 && !(has_crossing_ && count_a == 2 && count_b == 2)) {
+    const bool has_groups =
+        count_a > 1 && count_b > 1 && !(has_crossing_ && count_a == 2 && count_b == 2);
+    if (has_groups) {
       count_a = count_groups(a, normal_, of_a);
       count_b = count_groups(b, -normal_, of_b);
     }
@@ -206,6 +208,12 @@ class DepthSearch {
           dot(cross<float>(edge_b_.from - edge_a_.from, edge_b_.direction), across_) /
           dot(cross(edge_a_.direction, edge_b_.direction), across_);
       on_a = edge_a_.from + edge_a_.direction * along;
+      // The edges may lie within a group.
+      const Vector3f on_b = on_a + normal_ * gap_;
+      if (has_groups &&
+          !(is_inside(a_, on_a) && is_inside(b_, rotate_back(turn_, Vector3f(on_b - centre_))))) {
+        return not_in_float<float>();
+      }
     } else {
       return not_in_float<float>();
     }
