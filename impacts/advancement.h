@@ -1,8 +1,8 @@
-// The time of impact of two convex shapes that move and rotate: conservative advancement. Along a
-// fixed direction the gap between the shapes is never more than their distance. While the gap is
-// proven positive, the shapes do not touch. From the direction of the nearest points at one time,
-// the search goes to the time at which the gap along it closes, and finds the direction again
-// there.
+// The time of impact of two convex shapes that move and rotate, where the searches of approach.h
+// and turning_approach.h leave it: conservative advancement. Along a fixed direction the gap
+// between the shapes is never more than their distance. While the gap is proven positive, the
+// shapes do not touch. From the direction of the nearest points at one time, the search goes to the
+// time at which the gap along it closes, and finds the direction again there.
 //
 // Sources: B. Mirtich, "Timewarp Rigid Body Simulation", SIGGRAPH 2000, for advancement by a bound
 // of the motion along the direction; E. Catto, "Continuous Collision", GDC 2013, for going to the
