@@ -21,8 +21,8 @@ struct NearParts {
 
 using NearPartsFound = FunctionRef<void(const NearParts&)>;
 
-// What tells parts apart: their boxes, or also the planes of triangles where two meshes meet. Pairs
-// whose boxes touch are near, so that the nearest of them bounds a distance.
+// How parts are told apart: by their boxes, or also by the planes of triangles where two meshes
+// meet. Pairs whose boxes touch are near, so that the nearest of them bounds a distance.
 enum class Apart { by_boxes, by_planes };
 
 // Finds all pairs of parts that are at most `reach` metres apart, and some that are further. Every

@@ -21,7 +21,7 @@ namespace {
 constexpr size_t kFirstOfHullB = LinearRows::kPairColumns + number_count(LinearKind::hull);
 constexpr size_t kRotations = kFirstOfHullB + number_count(LinearKind::hull);
 
-// What a pair is before its search.
+// A pair before its search.
 struct HullPair {
   D3 middle_a, middle_b;
   D reach_a, reach_b;

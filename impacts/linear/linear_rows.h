@@ -100,7 +100,8 @@ LinearKernel rounded_kernel(LinearKind a, LinearKind b);
 LinearKernel box_kernel(LinearKind a, LinearKind b);
 LinearKernel plane_kernel(LinearKind a);
 LinearKernel hull_kernel();  // of two hulls
-// Of two hulls that may rotate: after their columns come the rotations over the interval (3 each).
+// The kernel for two hulls that may rotate: after their columns come the rotations over the
+// interval (3 each).
 LinearKernel turning_hull_kernel();
 
 // The kernel for A and B in this order; nullptr: there is none.

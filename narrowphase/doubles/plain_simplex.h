@@ -106,7 +106,7 @@ class PlainNearest {
       if (!side.is_used || !side.has_zero_beside()) continue;
       const double inverse = 1 / side.squared;
       const CoreVector beside = last_ + side.way * (side.along * inverse);
-      // What lies along the side is rounding: for a short vector it is most of the error.
+      // The part along the side is rounding: for a short vector it is most of the error.
       const CoreVector across = beside - side.way * (dot(beside, side.way) * inverse);
       return keep(across, dot(across, across), 1u << i, false);
     }

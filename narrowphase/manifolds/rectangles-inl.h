@@ -151,7 +151,7 @@ class SideClip {
 
   const Rectangle& face_;
   const SeenRectangle& seen_;
-  // Of the cross products of u with a point of the parallelogram, and of a point with v.
+  // Bounds of the cross product of u with a point of the parallelogram, and of a point with v.
   F least_u_, most_u_, least_v_, most_v_;
   F slope_x_, slope_y_;
   Mask turns_left_, is_open_;

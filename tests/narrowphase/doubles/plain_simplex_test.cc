@@ -60,7 +60,7 @@ TEST_P(PlainSimplexes, AreAsNearAsTheCarefulOnes) {
     if (plain.is_around) continue;
     const double distance = std::sqrt(plain.squared), least = std::sqrt(careful.squared());
     ASSERT_GE(distance, least - 0x1p-40) << i;
-    // Of slivers rounding may choose another side, which is further away.
+    // In a sliver rounding may choose another side, which is further away.
     if (GetParam() != Form::thin) {
       ASSERT_LE(distance, least + 0x1p-40) << i;
     }
