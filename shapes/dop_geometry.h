@@ -1,6 +1,7 @@
 // What a k-DOP's slabs imply, found once and kept with the shape.
 #pragma once
 
+#include "base/fetch_ahead.h"
 #include "carom/shapes/dop.h"
 #include "carom/shapes/hull.h"
 #include "shapes/body_reader.h"
@@ -26,12 +27,9 @@ class DopGeometry {
   // the unit of a test (scale_of()) the rounding is at most 2^-24, also of the smallest k-DOPs.
   const Hull& hull() const { return hull_; }
 
-  // Asks for what is_of() and hull() read. Inlined, since g++ may leave out calls of a function
-  // that does nothing else.
+  // Asks for what is_of() and hull() read.
   [[gnu::always_inline]] void fetch() const {
-    constexpr size_t kLine = 64;
-    const char* const first = reinterpret_cast<const char*>(&rows_);
-    for (size_t i = 0; i < sizeof rows_; i += kLine) __builtin_prefetch(first + i);
+    fetch_lines(&rows_, sizeof rows_);
     __builtin_prefetch(&hull_);
   }
 

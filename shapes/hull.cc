@@ -10,8 +10,7 @@ namespace carom {
 namespace {
 
 std::vector<float> columns_of(std::span<const Eigen::Vector3f> points) {
-  constexpr size_t kLanes = 16;
-  const size_t padded = (points.size() + kLanes - 1) / kLanes * kLanes;
+  const size_t padded = padded_count(points.size());
   std::vector<float> columns(3 * padded);
   for (size_t i = 0; i < padded; ++i) {
     const Eigen::Vector3f& point = points[i < points.size() ? i : 0];

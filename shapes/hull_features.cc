@@ -45,7 +45,7 @@ std::shared_ptr<const HullFeatures> HullFeatures::of(const HullGeometry& hull) {
 
 bool HullFeatures::add_faces(const HullGeometry& hull) {
   const double most_behind = kBehindFace * double{hull.size()};
-  const size_t padded = (hull.faces().size() + 15) / 16 * 16;
+  const size_t padded = padded_count(hull.faces().size());
   columns_.assign(4 * padded, 0);
   planes_.reserve(hull.faces().size());
   std::fill_n(columns_.begin() + static_cast<ptrdiff_t>(3 * padded), padded, HUGE_VALF);
@@ -115,7 +115,7 @@ size_t HullFeatures::bytes() const {
 }
 
 size_t bytes_of(const HullGeometry& hull) {
-  const size_t padded = (hull.points().size() + 15) / 16 * 16;
+  const size_t padded = padded_count(hull.points().size());
   return sizeof(hull) + hull.points().size_bytes() + hull.faces().size_bytes() +
          hull.corners().size_bytes() + 3 * padded * sizeof(float) + hull.records().size_bytes() +
          (hull.features() ? hull.features()->bytes() : 0);

@@ -12,6 +12,12 @@
 
 namespace carom {
 
+// Columns of points and of faces are padded to whole vectors of the widest target.
+constexpr size_t padded_count(size_t count) {
+  constexpr size_t kLanes = 16;
+  return (count + kLanes - 1) / kLanes * kLanes;
+}
+
 // All vectors are in the body's frame.
 class HullFeatures {
  public:

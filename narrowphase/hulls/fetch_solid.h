@@ -1,24 +1,13 @@
 // Asks for what the search over separating axes reads of a hull. A hull's numbers lie in several
 // places of which each is known from the one before, and the search would wait for each in turn.
-// All is inlined: g++ leaves out calls of functions that do nothing but ask for memory.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
+#include "base/fetch_ahead.h"
 #include "shapes/hull_features.h"
 
 namespace carom {
-
-[[gnu::always_inline]] inline void fetch_lines(const void* first, size_t bytes) {
-  constexpr size_t kLine = 64;
-  for (size_t i = 0; i < bytes; i += kLine) {
-    __builtin_prefetch(static_cast<const char*>(first) + i);
-  }
-}
-
-// Columns are padded.
-inline size_t padded(size_t count) { return (count + 15) / 16 * 16; }
 
 // The steps, in their order. Each reads what the one before asked for.
 inline constexpr size_t kFetchSteps = 3;
@@ -29,9 +18,9 @@ inline constexpr size_t kFetchSteps = 3;
   if (!features) return;
   if (step == 1) {
     fetch_lines(features, sizeof *features);
-    fetch_lines(hull.column(0), 3 * padded(hull.points().size()) * sizeof(float));
+    fetch_lines(hull.column(0), 3 * padded_count(hull.points().size()) * sizeof(float));
   } else {
-    fetch_lines(features->column(0), 4 * padded(features->face_count()) * sizeof(float));
+    fetch_lines(features->column(0), 4 * padded_count(features->face_count()) * sizeof(float));
     fetch_lines(features->planes().data(), features->planes().size_bytes());
     fetch_lines(features->sides(0), 2 * features->side_bytes());
   }
