@@ -14,8 +14,8 @@ struct CoreRows {
   static constexpr size_t kMost = 64;  // whole vectors of every width
 
   // The first column of each number: B - A in scaled units, both orientations, a point inside of
-  // each core, the radius of A in scaled units, and the powers of two that scale lengths to those
-  // units and back. B has no radius.
+  // each core (metres, before it is turned), the radius of A in scaled units, and the powers of two
+  // that scale metres to those units and back. B has no radius.
   enum Column : size_t {
     kOffset = 0,
     kTurnA = 3,
@@ -31,7 +31,7 @@ struct CoreRows {
   size_t count = 0;
   bool decides_only = false;
   alignas(64) std::array<std::array<double, kMost>, kColumns> column;
-  // Points of the cores: records of four floats, one to kMostPointsOfDoubles of them.
+  // Points of the cores, as the point inside: records of four floats, one to kMostPointsOfDoubles.
   std::array<const float*, kMost> points_a, points_b;
   std::array<uint32_t, kMost> count_a, count_b;
 
@@ -43,9 +43,9 @@ struct CoreRows {
   std::array<bool, kMost> is_found, is_unsure;
 };
 
-// Finds the answers. They have the bits of the scalar form (scalar::core_separation()) on every
-// instruction set, which finds more: of gaps find_plain_gap() alone, and of contact locations the
-// first round of scalar::meeting_point().
+// Finds the answers of up to kMost rows of valid bodies; on any thread. They have the bits of the
+// scalar form (scalar::core_separation()) on every instruction set, which finds more: of gaps
+// find_plain_gap() alone, and of contact locations the first round of scalar::meeting_point().
 using FindCoreGaps = void (*)(CoreRows& rows);
 FindCoreGaps find_core_gaps();
 

@@ -149,7 +149,7 @@ class PortalLanes {
 
   HWY_INLINE D squared_height() const { return squared_; }
 
-  // Of the lanes in `is_open`.
+  // Finds the gaps of the lanes in `is_open`.
   HWY_INLINE void find_gap(const CorePairLanes& cores, DoubleMask is_open, CoreGapLanes& out) {
     const DoubleTag tag;
     const D zero = hn::Zero(tag);

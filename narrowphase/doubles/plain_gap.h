@@ -77,7 +77,7 @@ class Portal {
     squared_ = least;
   }
 
-  // Of the nearest face.
+  // The height of the nearest face over zero, squared.
   double squared_height() const { return squared_; }
 
   // Moves the portal outwards. False if it does not get to the nearest face of B - A.

@@ -22,7 +22,7 @@ inline DoubleScale scale_of(double magnitude) {
   return {power_of_two(within), power_of_two(-within)};
 }
 
-// Of units in which the greatest coordinate of a pair lies between one and two.
+// The units in which the greatest coordinate of a pair lies between one and two.
 template <class Real, class A, class B>
 auto scale_of_pair(const A& a, const B& b, const Vector3<Real>& d) {
   return scale_of(max(largest_component(d), max(a.size(), b.size())));
