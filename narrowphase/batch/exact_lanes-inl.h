@@ -15,7 +15,6 @@
 #include <array>
 #include <bit>
 #include <cfloat>
-#include <limits>
 #include <utility>
 
 #include "base/tolerances.h"
@@ -23,6 +22,7 @@
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/single_pair.h"
+#include "narrowphase/batch/to_floats-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -322,24 +322,7 @@ class ExactLanes {
     b.scale(down);
   }
 
-  // As scalar::round_separation(), of finite numbers.
-  static HWY_INLINE D rounded_separation(D v) {
-    constexpr double kLeast = std::numeric_limits<float>::denorm_min();
-    const DoubleMask vanishes =
-        hn::And(hn::Gt(v, splat_double(0)), hn::Lt(v, splat_double(kLeast)));
-    const D kept = hn::IfThenElse(vanishes, splat_double(kLeast), v);
-    return min(max(kept, splat_double(-FLT_MAX)), splat_double(FLT_MAX));
-  }
-
-  HWY_INLINE void put(size_t c, D v) {
-#if HWY_TARGET == HWY_SCALAR
-    // DemoteTo() would make the greatest float of what is beyond floats; elsewhere it is infinite.
-    answers_[c][first_] = static_cast<float>(hn::GetLane(v));
-#else
-    const hn::Rebind<float, DoubleTag> half;
-    hn::Store(hn::DemoteTo(half, v), half, answers_[c] + first_);
-#endif
-  }
+  HWY_INLINE void put(size_t c, D v) { store_as_floats(v, answers_[c] + first_); }
   HWY_INLINE void put(size_t c, const D3& v) { put(c, v.x), put(c + 1, v.y), put(c + 2, v.z); }
 
   // Returns 1 if the status is degenerate.

@@ -11,6 +11,7 @@
 #include "narrowphase/hulls/fetch_solid.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/pairs/all_pairs.h"
+#include "narrowphase/pairs/core_row.h"
 #include "narrowphase/pairs/manifold_batch.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "narrowphase/scalar/scaled.h"
@@ -43,7 +44,8 @@ bool has_exact_points(const T& shape) {
   return true;
 }
 
-// Tests the deferred rows of a batch, one at a time.
+// Tests the deferred rows of a batch: depths one at a time, and the others as far as it goes in
+// lanes of doubles.
 template <class A, class B>
 class RowTester {
  public:
@@ -54,12 +56,31 @@ class RowTester {
         store_(batch, kind_a, kind_b),
         test_{furthest_point_in_lanes(), !has_contacts(batch.detail)},
         decides_separate_(has_contacts(batch.detail) && batch.pass == Pass::test &&
-                          kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {}
+                          kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {
+    waiting_.count = 0;
+  }
 
-  // Both bodies are valid.
-  void run(size_t row, bool is_deep) const {
+  // Both bodies are valid. Rows may wait until finish().
+  void run(size_t row, bool is_deep) {
     if (is_deep && put_depth(row)) return;
-    put_separation(row);
+    if (!gather(row)) return put_separation(row);
+    if (waiting_.count == CoreRows::kMost) finish();
+  }
+
+  void finish() {
+    if (waiting_.count == 0) return;
+    waiting_.decides_only = test_.decides_only;
+    find_gaps_(waiting_);
+    for (size_t place = 0; place < waiting_.count; ++place) {
+      if (waiting_.is_found[place]) {
+        std::array<float, CoreRows::kAnswers> numbers;
+        for (size_t c = 0; c < numbers.size(); ++c) numbers[c] = waiting_.answer[c][place];
+        put(row_of_[place], Status::ok, numbers, waiting_.is_unsure[place]);
+      } else {
+        put_separation(row_of_[place]);
+      }
+    }
+    waiting_.count = 0;
   }
 
   // Asks for the hulls of a row, which is deep.
@@ -90,25 +111,49 @@ class RowTester {
     return false;
   }
 
-  // Tests in double precision. Marks the row as unsure unless the test's error bound proves the
-  // decision.
-  void put_separation(size_t row) const {
-    const Pair pair = batch_.pairs[row];
+  // The pose in double precision.
+  [[gnu::always_inline]] scalar::PairPose<double> pose(Pair pair) const {
+    constexpr bool kTurns = !std::is_same_v<A, Sphere> && !std::is_same_v<A, Aabb>;
+    scalar::Quaternion<double> of_a{Eigen::Vector3d::Zero(), 1};
+    if constexpr (kTurns) of_a = orientation_of(a_, pair.a);
     const Position<double> p = a_.template position<double>(pair.a);
     const Position<double> q = b_.template position<double>(pair.b);
-    const auto shape_a = shape_at<A, double>(a_, pair.a);
-    const auto shape_b = shape_at<B, double>(b_, pair.b);
+    return {{q.x - p.x, q.y - p.y, q.z - p.z}, of_a, orientation_of(b_, pair.b)};
+  }
+
+  // False if lanes of doubles do not take the row.
+  bool gather(size_t row) {
+    if constexpr (std::is_same_v<B, Hull>) {
+      const Pair pair = batch_.pairs[row];
+      row_of_[waiting_.count] = static_cast<uint16_t>(row);
+      return add_core_row(shape_at<A, double>(a_, pair.a), shape_at<B, double>(b_, pair.b),
+                          pose(pair), waiting_);
+    } else {
+      return false;
+    }
+  }
+
+  // Tests in double precision.
+  void put_separation(size_t row) const {
+    const Pair pair = batch_.pairs[row];
     const scalar::SeparationAs<double> s = scalar::in_scaled_units<double>(
-        shape_a, shape_b,
-        {{q.x - p.x, q.y - p.y, q.z - p.z}, orientation_of(a_, pair.a), orientation_of(b_, pair.b)},
-        [&](const auto& x, const auto& y, const scalar::PairPose<double>& pose) {
-          return core_separation(x, y, pose, test_);
+        shape_at<A, double>(a_, pair.a), shape_at<B, double>(b_, pair.b), pose(pair),
+        [&](const auto& x, const auto& y, const scalar::PairPose<double>& its_pose) {
+          return core_separation(x, y, its_pose, test_);
         });
     const bool is_decided_alone = decides_separate_ && s.separation > 0;
-    store_.put(row, is_decided_alone ? Status::ok : s.status, numbers_of(scalar::rounded(s)));
-    const bool is_proven = !s.is_unsure && !batch_.has_rounded_points &&
-                           has_exact_points(shape_a) && has_exact_points(shape_b);
-    if (batch_.unsure && !is_proven) batch_.unsure[row] = 1;
+    put(row, is_decided_alone ? Status::ok : s.status, numbers_of(scalar::rounded(s)), s.is_unsure);
+  }
+
+  // Marks the row as unsure unless the test's error bound proves the decision.
+  void put(size_t row, Status status, const std::array<float, 10>& numbers, bool is_unsure) const {
+    store_.put(row, status, numbers);
+    if (!batch_.unsure) return;
+    const Pair pair = batch_.pairs[row];
+    const bool is_proven = !is_unsure && !batch_.has_rounded_points &&
+                           has_exact_points(shape_at<A, double>(a_, pair.a)) &&
+                           has_exact_points(shape_at<B, double>(b_, pair.b));
+    if (!is_proven) batch_.unsure[row] = 1;
   }
 
   const Batch& batch_;
@@ -120,6 +165,9 @@ class RowTester {
   // The test pass of a kind that has a distance pass only states that a pair is separate. The
   // distance pass finds how far, and the status.
   const bool decides_separate_;
+  const FindCoreGaps find_gaps_ = find_core_gaps();
+  CoreRowsWithPoints& waiting_ = core_rows_of_thread();
+  std::array<uint16_t, CoreRows::kMost> row_of_;
 };
 
 }  // namespace
@@ -130,7 +178,7 @@ void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
   if (batch.pass == Pass::manifold) return run_manifolds(batch, kind_a, kind_b, in_lanes);
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
-  const RowTester<A, B> rows(batch, kind_a, kind_b);
+  RowTester<A, B> rows(batch, kind_a, kind_b);
   std::array<uint8_t, kPairsPerBlock> left{};
   Batch lanes = batch;
   lanes.unsure = left.data();
@@ -152,6 +200,7 @@ void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
     }
     rows.run(list[i], left[list[i]] == kDeep);
   }
+  rows.finish();
 }
 
 template void run_core_batch<Sphere, Hull>(const Batch&, const CoreKernels&);

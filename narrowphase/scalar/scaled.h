@@ -22,17 +22,28 @@ inline DoubleScale scale_of(double magnitude) {
   return {power_of_two(within), power_of_two(-within)};
 }
 
+// The units in which the greatest coordinate of a pair lies between one and two.
+template <class Real, class A, class B>
+auto scale_of_pair(const A& a, const B& b, const Vector3<Real>& d) {
+  return scale_of(max(largest_component(d), max(a.size(), b.size())));
+}
+
+template <class Real, class PairScale>
+void put_in_metres(const PairScale& scale, SeparationAs<Real>& result) {
+  result.separation = finite(result.separation * scale.up);
+  result.arm_a *= scale.up;
+  result.arm_b *= scale.up;
+}
+
 // Returns separate(a, b, pose), run in units in which the greatest coordinate lies between one and
 // two; the result is in metres again.
 template <class Real, class A, class B, class Separate>
 SeparationAs<Real> in_scaled_units(const A& a, const B& b, const PairPose<Real>& pose,
                                    const Separate& separate) {
-  const auto scale = scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
+  const auto scale = scale_of_pair<Real>(a, b, pose.d);
   const PairPose<Real> scaled_pose{pose.d * scale.down, pose.a, pose.b};
   SeparationAs<Real> result = separate(a.scaled(scale.down), b.scaled(scale.down), scaled_pose);
-  result.separation = finite(result.separation * scale.up);
-  result.arm_a *= scale.up;
-  result.arm_b *= scale.up;
+  put_in_metres(scale, result);
   return result;
 }
 

@@ -80,6 +80,29 @@ TEST(UnsureLanes, OfAnyNumberAreThoseOfTheReference) {
   }
 }
 
+// Rows of hulls that float32 cannot decide are gathered, up to CoreRows::kMost at a time.
+TEST(UnsureLanes, OfHullsInAnyNumberAreThoseOfTheReference) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    if (kinds.a != ShapeKind::hull && kinds.b != ShapeKind::hull) continue;
+    SCOPED_TRACE(name(kinds));
+    const PositionType positions = PositionType::float32;
+    const auto draw = [&](const char* family, size_t count) {
+      return make_kind_pairs(family_named(family), kinds, positions, count);
+    };
+    const std::vector<TestPair> touching = draw("touch", 130), apart = draw("plain", 3);
+    Call call = call_with(positions);
+    for (const size_t count : {0, 1, 7, 8, 9, 63, 64, 65, 130}) {
+      std::vector<TestPair> pairs = apart;
+      pairs.insert(pairs.end(), touching.begin(), touching.begin() + static_cast<ptrdiff_t>(count));
+      for (const Detail detail : {Detail::overlap, Detail::contact}) {
+        call.detail = detail;
+        const std::vector<Row> expected = expected_rows(pairs, positions, detail, call.frame);
+        for_each_isa([&] { EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs)); });
+      }
+    }
+  }
+}
+
 BatchSide side_of(const LaidOut& bodies) {
   const Collidables& view = bodies.view();
   return {view.position.data, view.position.stride, view.boxes,
