@@ -12,6 +12,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
+#include "simd/compress-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -134,6 +135,12 @@ class HullRecords {
   // Point `places[lane]` of each hull, or its last point.
   HWY_INLINE F3 points_at(const std::array<uint8_t, kLanes>& places) const {
     return read([&](size_t lane) { return std::min<size_t>(places[lane], points_[lane] - 1); });
+  }
+  HWY_INLINE F3 points_at(Indices places) const {
+    const I last = hn::ConvertTo(IntTag(), hn::Sub(count_lanes(), splat(1)));
+    HWY_ALIGN uint32_t at[kLanes];
+    hn::Store(hn::Min(places, hn::BitCast(IndexTag(), last)), IndexTag(), at);
+    return read([&](size_t lane) { return at[lane]; });
   }
   HWY_INLINE F3 middle() const {
     return read([this](size_t lane) { return points_[lane]; });
