@@ -10,18 +10,12 @@ namespace {
 
 using namespace scalar;
 
-// The search over the faces of one solid: what is known of them, the best one so far, and the one
-// to try next.
-struct FaceSearch {
-  FaceBounds bounds;
-  BestFace best, next;
-};
-
 // One solid, in its own frame, and the points of the other one there.
 struct Side {
   const Solid& solid;
   const HullPoints& others;
   const Ball& inside;  // a ball inside the other solid
+  FaceBounds& bounds;
 };
 
 // Up to this product of points and groups of faces, trying all faces costs less than choosing among
@@ -91,16 +85,16 @@ class DepthSearch {
   }
 
   // Finds the best face, and the edges whose axes may be better, or as good up to rounding.
-  void find_faces(FaceSearch& a, FaceSearch& b) {
+  void find_faces(FaceBounds& bounds_a, FaceBounds& bounds_b) {
     if (is_doubtful_) return;
-    const Side side_a = {*a_, b_in_a_, in_b_}, side_b = {*b_, a_in_b_, in_a_};
-    begin_faces(side_a, a);
-    begin_faces(side_b, b);
-    try_faces(side_a, a, side_b, b);
+    const Side a = {*a_, b_in_a_, in_b_, bounds_a};
+    const Side b = {*b_, a_in_b_, in_a_, bounds_b};
+    BestFace best_a, best_b;
+    try_faces(a, best_a, b, best_b);
     if (is_doubtful_) return;
-    keep_faces(a.best, b.best);
-    steps_->find_open(*a_, least_crossing(), a.bounds, open_a_);
-    steps_->find_open(*b_, least_crossing(), b.bounds, open_b_);
+    keep_faces(best_a, best_b);
+    steps_->find_open(*a_, least_crossing(), bounds_a, open_a_);
+    steps_->find_open(*b_, least_crossing(), bounds_b, open_b_);
     is_doubtful_ = open_a_.count > kMostCrossed || open_b_.count > kMostCrossed;
   }
 
@@ -139,15 +133,27 @@ class DepthSearch {
  private:
   // --- Faces ---
 
-  // Where features are few, tries all faces, and none is next.
-  void begin_faces(const Side& side, FaceSearch& faces) const {
-    faces.best = faces.next = {};
-    faces.bounds.begin(side.solid);
-    if (has_few_features(side)) {
-      faces.best = steps_->try_all(side.solid, side.others, faces.bounds);
-    } else {
-      faces.next = steps_->bound(side.solid, side.inside, faces.bounds);
+  // The best faces of both solids. Of the one that is less than the other's, it only finds that.
+  // The two searches take turns, so that the processor works on both.
+  void try_faces(const Side& a, BestFace& best_a, const Side& b, BestFace& best_b) {
+    BestFace next_a = first_face(a, best_a), next_b = first_face(b, best_b);
+    while (!is_doubtful_) {
+      const float least = std::max(best_a.gap, best_b.gap);
+      const bool goes_on_a = next_a.gap > least, goes_on_b = next_b.gap > least;
+      if (!goes_on_a && !goes_on_b) return;
+      if (goes_on_a) try_next(a, next_a, best_a);
+      if (goes_on_b) try_next(b, next_b, best_b);
     }
+  }
+
+  // The face to try first. Where features are few, it tries all, and none is next.
+  BestFace first_face(const Side& side, BestFace& best) const {
+    side.bounds.begin(side.solid);
+    if (!has_few_features(side)) {
+      return steps_->bound(side.solid, side.inside, side.bounds);
+    }
+    best = steps_->try_all(side.solid, side.others, side.bounds);
+    return {};
   }
 
   static bool has_few_features(const Side& side) {
@@ -157,26 +163,13 @@ class DepthSearch {
            side.others.count * groups <= kFewFeatures;
   }
 
-  // Of the solid whose best face is less than the other's, it only finds that. The two searches
-  // take turns, so that the processor works on both.
-  void try_faces(const Side& side_a, FaceSearch& a, const Side& side_b, FaceSearch& b) {
-    while (!is_doubtful_) {
-      const float least = std::max(a.best.gap, b.best.gap);
-      const bool goes_on_a = a.next.gap > least, goes_on_b = b.next.gap > least;
-      if (!goes_on_a && !goes_on_b) return;
-      if (goes_on_a) try_next(side_a, a);
-      if (goes_on_b) try_next(side_b, b);
-    }
-  }
-
   // Tries the face with the greatest bound. The point it finds lowers the bounds of the others.
-  void try_next(const Side& side, FaceSearch& faces) {
-    is_doubtful_ = is_doubtful_ || faces.bounds.count == FaceBounds::kMostBalls;
+  void try_next(const Side& side, BestFace& next, BestFace& best) {
+    is_doubtful_ = is_doubtful_ || side.bounds.count == FaceBounds::kMostBalls;
     if (is_doubtful_) return;
-    const TriedFace tried =
-        steps_->try_face(side.solid, side.others, faces.next.face, faces.bounds);
-    if (tried.gap > faces.best.gap) faces.best = {tried.gap, faces.next.face};
-    faces.next = tried.next;
+    const TriedFace tried = steps_->try_face(side.solid, side.others, next.face, side.bounds);
+    if (tried.gap > best.gap) best = {tried.gap, next.face};
+    next = tried.next;
   }
 
   void keep_faces(const BestFace& best_a, const BestFace& best_b) {
@@ -274,7 +267,7 @@ class DepthSearch {
 struct Memory {
   DeepFrames frames;
   std::array<DepthSearch, kMostDeepPairs> searches;
-  FaceSearch faces_a, faces_b;
+  FaceBounds bounds_a, bounds_b;
 };
 
 // Not inlined, because every loop would look up its address again.
@@ -294,7 +287,7 @@ void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps, Separ
   steps.set_up(frames);
   for (size_t i = 0; i < pairs.size(); ++i) {
     searches[i].place_points(frames, i);
-    searches[i].find_faces(memory.faces_a, memory.faces_b);
+    searches[i].find_faces(memory.bounds_a, memory.bounds_b);
   }
   for (DepthSearch& search : searches) search.cross_edges();
   for (size_t i = 0; i < pairs.size(); ++i) searches[i].locate(frames, i);
