@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
 
 #include "narrowphase/batch/column_memory.h"
 #include "narrowphase/batch/row_store.h"
@@ -44,8 +46,8 @@ bool has_exact_points(const T& shape) {
   return true;
 }
 
-// Tests the deferred rows of a batch: depths one at a time, and the others as far as it goes in
-// lanes of doubles.
+// Tests the deferred rows of a batch: depths in groups, and the others as far as it goes in lanes
+// of doubles.
 template <class A, class B>
 class RowTester {
  public:
@@ -60,9 +62,19 @@ class RowTester {
     waiting_.count = 0;
   }
 
-  // Both bodies are valid. Rows may wait until finish().
-  void run(size_t row, bool is_deep) {
-    if (is_deep && put_depth(row)) return;
+  // Tests rows whose cores surely overlap, whose bodies are valid. Rows may wait until finish().
+  void run_deep(std::span<const uint16_t> rows) {
+    if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
+      for (size_t first = 0; first < rows.size(); first += kMostDeepPairs) {
+        run_deep_group(rows, first, std::min(rows.size(), first + kMostDeepPairs));
+      }
+    } else {
+      for (const uint16_t row : rows) run(row);
+    }
+  }
+
+  // Tests a row in double precision. Both bodies are valid. The row may wait until finish().
+  void run(size_t row) {
     if (!gather(row)) return put_separation(row);
     if (waiting_.count == CoreRows::kMost) finish();
   }
@@ -83,8 +95,62 @@ class RowTester {
     waiting_.count = 0;
   }
 
-  // Asks for the hulls of a row, which is deep.
-  [[gnu::always_inline]] void fetch(size_t row, size_t step) const {
+ private:
+  // A row in scaled units.
+  struct DeepRow {
+    scalar::ScaleOf<float> scale;
+    std::optional<FloatShape<A>> shape_a;
+    std::optional<SolidOf<FloatShape<A>>> a;
+    std::optional<SolidOf<FloatShape<B>>> b;
+  };
+
+  // Finds the depths of rows[begin] to rows[end - 1] in float32, and in double precision where
+  // that is unsure.
+  void run_deep_group(std::span<const uint16_t> rows, size_t begin, size_t end) {
+    std::array<DeepRow, kMostDeepPairs> placed;
+    std::array<DeepPair, kMostDeepPairs> pairs;
+    std::array<scalar::Separation, kMostDeepPairs> contacts;
+    const size_t count = end - begin;
+    for (size_t i = 0; i < count; ++i) {
+      if (batch_.has_rounded_points) fetch(rows, begin + i);
+      place(rows[begin + i], placed[i], pairs[i]);
+    }
+    solid_depths({pairs.data(), count}, steps_, contacts.data());
+    for (size_t i = 0; i < count; ++i) {
+      scalar::Separation& s = contacts[i];
+      if (s.is_unsure) {
+        run(rows[begin + i]);
+      } else {
+        grow(s, *placed[i].shape_a);
+        put_in_metres(s, placed[i].scale);
+        store_.put(rows[begin + i], s.status, numbers_of(s));
+      }
+    }
+  }
+
+  void place(size_t row, DeepRow& placed, DeepPair& deep) const {
+    const Pair pair = batch_.pairs[row];
+    const auto a = shape_at<A, float>(a_, pair.a);
+    const auto b = shape_at<B, float>(b_, pair.b);
+    const scalar::PairPose<float> pose = rounded_pose(a_, b_, pair);
+    placed.scale = scalar::scale_of_pair(a, b, pose);
+    placed.shape_a.emplace(a.scaled(placed.scale.down));
+    placed.a.emplace(*placed.shape_a);
+    placed.b.emplace(b.scaled(placed.scale.down));
+    deep = {&placed.a->view(), &placed.b->view(), scalar::scaled_pose(pose, placed.scale).d, pose.a,
+            pose.b};
+  }
+
+  // Asks for the hulls of the rows after row i of the list. Hulls are mostly shared by many bodies,
+  // but k-DOPs have one each. Each step of fetching is a row further ahead than the next.
+  [[gnu::always_inline]] void fetch(std::span<const uint16_t> rows, size_t i) const {
+    for (size_t step = 0; step < kFetchSteps; ++step) {
+      const size_t ahead = i + kFetchSteps - step;
+      if (ahead < rows.size()) fetch_hulls(rows[ahead], step);
+    }
+  }
+
+  [[gnu::always_inline]] void fetch_hulls(size_t row, size_t step) const {
     const Pair pair = batch_.pairs[row];
     if constexpr (std::is_same_v<A, Hull>) {
       fetch_solid(*geometry_at<HullGeometry>(a_.row(pair.a, 0)), step);
@@ -92,23 +158,6 @@ class RowTester {
     if constexpr (std::is_same_v<B, Hull>) {
       fetch_solid(*geometry_at<HullGeometry>(b_.row(pair.b, 0)), step);
     }
-  }
-
- private:
-  // Finds the depth of two solids in float32. Stores nothing and returns false if it is unsure.
-  bool put_depth(size_t row) const {
-    if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
-      const Pair pair = batch_.pairs[row];
-      const scalar::Separation s = scalar::in_scaled_units<float>(
-          shape_at<A, float>(a_, pair.a), shape_at<B, float>(b_, pair.b),
-          rounded_pose(a_, b_, pair),
-          [&](const auto& x, const auto& y, const scalar::PairPose<float>& pose) {
-            return shape_depth(x, y, pose, steps_);
-          });
-      if (!s.is_unsure) store_.put(row, s.status, numbers_of(s));
-      return !s.is_unsure;
-    }
-    return false;
   }
 
   // The pose in double precision.
@@ -185,21 +234,15 @@ void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
   in_lanes(lanes);
   // Lists the deferred rows first, without branches: they are as random as overlaps, and would be
   // predicted badly.
-  std::array<uint16_t, kPairsPerBlock + 1> list;
-  size_t count = 0;
+  std::array<uint16_t, kPairsPerBlock + 1> deep, unsure;
+  size_t deep_count = 0, unsure_count = 0;
   for (size_t row = 0; row < batch.count; ++row) {
-    list[count] = static_cast<uint16_t>(row);
-    count += left[row] != 0 ? 1 : 0;
+    deep[deep_count] = unsure[unsure_count] = static_cast<uint16_t>(row);
+    deep_count += left[row] == kDeep ? 1 : 0;
+    unsure_count += left[row] != 0 && left[row] != kDeep ? 1 : 0;
   }
-  // Hulls are mostly shared by many bodies, but k-DOPs have one each. Each step of fetching is a
-  // row further ahead than the next.
-  for (size_t i = 0; i < count; ++i) {
-    for (size_t step = 0; batch.has_rounded_points && step < kFetchSteps; ++step) {
-      const size_t ahead = i + kFetchSteps - step;
-      if (ahead < count && left[list[ahead]] == kDeep) rows.fetch(list[ahead], step);
-    }
-    rows.run(list[i], left[list[i]] == kDeep);
-  }
+  rows.run_deep({deep.data(), deep_count});
+  for (size_t i = 0; i < unsure_count; ++i) rows.run(unsure[i]);
   rows.finish();
 }
 

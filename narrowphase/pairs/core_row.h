@@ -69,7 +69,7 @@ bool add_core_row(const A& a, const scalar::HullShape<double>& b,
                   const scalar::PairPose<double>& pose, CoreRowsWithPoints& rows) {
   // Products of rotations and lengths vanish at no scale within these.
   constexpr double kMostScale = 0x1p200;
-  const auto scale = scalar::scale_of_pair<double>(a, b, pose.d);
+  const auto scale = scalar::scale_of_pair(a, b, pose);
   if (!(scale.up <= kMostScale && scale.down <= kMostScale)) return false;
   const size_t row = rows.count;
   const StatedCore core_a = stated_core(a, rows.own_points[row]);

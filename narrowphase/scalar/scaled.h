@@ -22,17 +22,26 @@ inline DoubleScale scale_of(double magnitude) {
   return {power_of_two(within), power_of_two(-within)};
 }
 
-// The units in which the greatest coordinate of a pair lies between one and two.
+template <class Real>
+using ScaleOf = decltype(scale_of(Real()));
+
+// The scale of the units in which the greatest coordinate of a pair lies between one and two.
 template <class Real, class A, class B>
-auto scale_of_pair(const A& a, const B& b, const Vector3<Real>& d) {
-  return scale_of(max(largest_component(d), max(a.size(), b.size())));
+ScaleOf<Real> scale_of_pair(const A& a, const B& b, const PairPose<Real>& pose) {
+  return scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
 }
 
-template <class Real, class PairScale>
-void put_in_metres(const PairScale& scale, SeparationAs<Real>& result) {
-  result.separation = finite(result.separation * scale.up);
-  result.arm_a *= scale.up;
-  result.arm_b *= scale.up;
+template <class Real>
+PairPose<Real> scaled_pose(const PairPose<Real>& pose, const ScaleOf<Real>& scale) {
+  return {pose.d * scale.down, pose.a, pose.b};
+}
+
+// In place: a copy made compilers write numbers in one size and read them in another, and wait.
+template <class Real>
+void put_in_metres(SeparationAs<Real>& s, const ScaleOf<Real>& scale) {
+  s.separation = finite(s.separation * scale.up);
+  s.arm_a *= scale.up;
+  s.arm_b *= scale.up;
 }
 
 // Returns separate(a, b, pose), run in units in which the greatest coordinate lies between one and
@@ -40,10 +49,10 @@ void put_in_metres(const PairScale& scale, SeparationAs<Real>& result) {
 template <class Real, class A, class B, class Separate>
 SeparationAs<Real> in_scaled_units(const A& a, const B& b, const PairPose<Real>& pose,
                                    const Separate& separate) {
-  const auto scale = scale_of_pair<Real>(a, b, pose.d);
-  const PairPose<Real> scaled_pose{pose.d * scale.down, pose.a, pose.b};
-  SeparationAs<Real> result = separate(a.scaled(scale.down), b.scaled(scale.down), scaled_pose);
-  put_in_metres(scale, result);
+  const ScaleOf<Real> scale = scale_of_pair(a, b, pose);
+  SeparationAs<Real> result =
+      separate(a.scaled(scale.down), b.scaled(scale.down), scaled_pose(pose, scale));
+  put_in_metres(result, scale);
   return result;
 }
 

@@ -124,7 +124,7 @@ void expect_scalar_form(const std::vector<A>& a, const std::vector<HullShape<dou
     auto expected =
         scalar::core_separation(core_a, core_b, gap, d, {.decides_only = rows.decides_only});
     EXPECT_EQ(rows.is_unsure[row], expected.is_unsure) << row;
-    scalar::put_in_metres(scalar::DoubleScale{1 / down, down}, expected);
+    scalar::put_in_metres(expected, scalar::DoubleScale{1 / down, down});
     const scalar::Separation s = scalar::rounded(expected);
     EXPECT_TRUE(has_same_bits(rows.answer[0][row], s.separation)) << row;
     if (rows.decides_only) continue;
