@@ -49,7 +49,8 @@ HullShape<double> draw_hull(Random& random, CoreForm form) {
 
 scalar::Quaternion<double> draw_turn(Random& random, bool is_upright) {
   if (is_upright) return {Vector3d::Zero(), 1};
-  const Eigen::AngleAxisd turn(random.uniform(0, 2 * std::numbers::pi), random.direction());
+  const double angle = random.uniform(0, 2 * std::numbers::pi);
+  const Eigen::AngleAxisd turn(angle, random.direction());
   const Eigen::Quaterniond q(turn);
   return {q.vec(), q.w()};
 }
