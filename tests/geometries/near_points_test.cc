@@ -24,14 +24,15 @@ struct SomeTriangles {
   std::vector<std::array<uint32_t, 3>> corners;
 
   // Triangles of about this size, at up to `spread` from the middle.
-  SomeTriangles(size_t count, const Vector3d& middle, double spread, double size, Random& random) {
+  SomeTriangles(size_t count, const Vector3d& middle, double spread, double size, bool has_slivers,
+                Random& random) {
     for (uint32_t i = 0; i < count; ++i) {
       const double distance = spread * random.uniform(0, 1);
       const Vector3d at = middle + distance * random.direction();
       for (uint32_t k = 0; k < 3; ++k) {
         const double arm = size * random.uniform(0, 1);
         Vector3d p = at + arm * random.direction();
-        if (k == 2 && i % 4 == 3) p = on_first_side(random.uniform(0, 1));  // a sliver
+        if (has_slivers && k == 2 && i % 4 == 3) p = on_first_side(random.uniform(0, 1));
         for (int axis = 0; axis < 3; ++axis) vertices.push_back(static_cast<float>(p[axis]));
       }
       corners.push_back({3 * i, 3 * i + 1, 3 * i + 2});
@@ -121,7 +122,7 @@ TEST(NearPoints, BoundsLieBelowSeparations) {
       for (uint32_t round = 0; round < rounds(4); ++round) {
         const Vector3d middle = unit * random.uniform(0, 30) * random.direction();
         const TurnedBox box(middle, unit, random);
-        const SomeTriangles triangles(count, middle, 2.5 * unit, 2 * unit, random);
+        const SomeTriangles triangles(count, middle, 2.5 * unit, 2 * unit, true, random);
         const double most = random.chance(0.5) ? 0 : 0.2 * unit;
         SeenPoints points;
         points.set(box.corners, Double3{middle.x(), middle.y(), middle.z()}, 2 * unit);
@@ -159,7 +160,7 @@ TEST(NearPoints, BoundsReachTheGapsOfPlanes) {
   for (uint32_t round = 0; round < rounds(200); ++round) {
     const Vector3d middle = random.uniform(0, 100) * random.direction();
     const TurnedBox box(middle, 1, random);
-    const SomeTriangles triangles(8, middle, 2, 2, random);
+    const SomeTriangles triangles(8, middle, 2, 2, false, random);
     SeenPoints points;
     points.set(box.corners, Double3{middle.x(), middle.y(), middle.z()}, 2);
     const NearPoints near = near_on_every_isa(triangles, points, 1e6f, numbers_below(8));
@@ -192,7 +193,7 @@ TEST(NearPoints, TrianglesWithoutAreaOrFarOffAreKept) {
   Random random(5);
   const Vector3d middle(1, 2, 3);
   const TurnedBox box(middle, 1, random);
-  SomeTriangles triangles(4, {100, 0, 0}, 1, 1, random);
+  SomeTriangles triangles(4, {100, 0, 0}, 1, 1, false, random);
   triangles.corners[0][1] = triangles.corners[0][2];
   triangles.corners[1] = {3, 3, 3};
   triangles.vertices[3 * 6] = 3e38f;
