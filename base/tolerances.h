@@ -300,6 +300,17 @@ inline constexpr size_t kMostPartsOfManifold = 4096;
 // error of the tests.
 inline constexpr double kSearchSlack = 0x1p-17;
 
+// Heights of points over the planes of triangles are wrong by less than this share of the lengths
+// between them.
+inline constexpr float kPlaneSlack = 0x1p-18f;
+
+// Bodies are placed beside the planes of triangles, and tested in double precision, with errors
+// below this share of all lengths.
+inline constexpr double kPlacedSlack = 0x1p-36;
+
+// Depths that tests find differ from the true ones by less than this share of all lengths.
+inline constexpr double kDepthSlack = 0x1p-16;
+
 // Boxes of two trees are compared in float32 after they are widened by this share of all lengths.
 // Points that turn are wrong by less, and so are heights of triangles over each other.
 inline constexpr double kTreeSlack = 0x1p-18;

@@ -127,11 +127,17 @@ class CompositeRun {
 
   // Every kind has a kernel with triangles.
   void add_triangles(size_t k, const NearParts& parts) {
+    // Where all contacts count, or their bounds, no part may be skipped.
+    const bool may_skip = !tests_.manifolds && !tests_.bounds;
+    std::span<const float> least = may_skip ? parts.least_separations : std::span<const float>();
     for (std::span<const uint32_t> left = parts.triangles; !left.empty();) {
       if (batch_.is_full()) flush();
       const size_t count = std::min(left.size(), batch_.room());
-      batch_.add_triangles(k, {parts.a, parts.b, left.first(count)}, reach(k));
+      const size_t bounded = std::min(count, least.size());
+      batch_.add_triangles(k, {parts.a, parts.b, left.first(count), {}, least.first(bounded)},
+                           reach(k));
       left = left.subspan(count);
+      least = least.subspan(bounded);
     }
   }
 
@@ -155,15 +161,34 @@ class CompositeRun {
     contacts_.forget_before(current_);
   }
 
+  // Parts that cannot be the deepest wait until it is known how deep another one is.
   void run_batch() {
+    constexpr size_t kTriesOfOne = 3;  // more would leave vectors empty
+    test_and_merge();
+    for (size_t tries = 0; batch_.has_waiting(); ++tries) {
+      const auto admits_all = [&](size_t k) { return tries == kTriesOfOne || has_deep_face(k); };
+      const auto may_be_best = [&](size_t k, float least_separation) {
+        return !has_deep_face(k) || least_separation <= outcomes_[k].separation;
+      };
+      batch_.admit_waiting(admits_all, may_be_best);
+      test_and_merge();
+    }
+    batch_.clear();
+  }
+
+  // Whether pair k has a contact that only deeper ones replace.
+  bool has_deep_face(size_t k) const {
+    return outcomes_[k].overlap == 1 && !outcomes_[k].is_over_edge();
+  }
+
+  void test_and_merge() {
     batch_.run(tests_);
-    for (size_t begin = 0; begin < batch_.count();) {
+    for (size_t begin = batch_.tested_before(); begin < batch_.count();) {
       size_t end = begin + 1;
       while (end < batch_.count() && batch_.owner(end) == batch_.owner(begin)) ++end;
       merge(begin, end);
       begin = end;
     }
-    batch_.clear();
   }
 
   // Merges the deepest pair of parts first, since that leaves less to compute for the others.

@@ -117,14 +117,13 @@ PlacedTriangle PartColumns::triangle(size_t body) const {
 }
 
 void PartBatch::clear() {
-  count_ = 0;
+  count_ = tested_ = tested_before_ = waiting_count_ = 0;
   for (PartColumns& side : sides_) side.clear();
 }
 
 void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach) {
-  reach_[count_] = reach;
-  owner_[count_] = static_cast<uint32_t>(owner);
-  pairs_[count_++] = {sides_[0].put(owner, a), sides_[1].put(owner, b)};
+  const uint32_t body_a = sides_[0].put(owner, a), body_b = sides_[1].put(owner, b);
+  put_pair({body_a, body_b}, owner, reach);
 }
 
 void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach) {
@@ -134,11 +133,16 @@ void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach)
       sides_[mesh_side].put_triangles(owner, mesh_side == 0 ? a : b, parts.triangles.size(),
                                       [&](size_t i) { return parts.triangles[i]; });
   const uint32_t other = sides_[1 - mesh_side].put(owner, mesh_side == 0 ? b : a);
-  for (uint32_t i = 0; i < parts.triangles.size(); ++i) {
-    reach_[count_] = reach;
-    owner_[count_] = static_cast<uint32_t>(owner);
-    pairs_[count_++] = mesh_side == 0 ? Pair{first + i, other} : Pair{other, first + i};
+  const auto pair = [&](size_t i) {
+    const uint32_t triangle = first + static_cast<uint32_t>(i);
+    return mesh_side == 0 ? Pair{triangle, other} : Pair{other, triangle};
+  };
+  const std::span<const float> least = parts.least_separations;
+  for (size_t i = 0; i < least.size(); ++i) {
+    waiting_[waiting_count_++] = {pair(i), static_cast<uint32_t>(owner), reach, least[i]};
   }
+  if (!least.empty()) return;
+  for (size_t i = 0; i < parts.triangles.size(); ++i) put_pair(pair(i), owner, reach);
 }
 
 void PartBatch::add_triangle_pairs(size_t owner, const NearParts& parts, float reach) {
@@ -162,20 +166,22 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, floa
 }
 
 void PartBatch::run(const PartTests& tests) {
-  if (count_ == 0) return;
-  ResultColumns asked = results_;
+  tested_before_ = tested_;
+  if (tested_ == count_) return;
+  ResultColumns asked = from_row(results_, tested_);
   if (!tests.bounds) asked.separation_bound = nullptr;
   run_pair_block({.a = sides_[0].view(),
                   .b = sides_[1].view(),
-                  .pairs = pairs_.data(),
+                  .pairs = pairs_.data() + tested_,
                   .first = 0,
-                  .count = count_,
+                  .count = count_ - tested_,
                   .detail = tests.manifolds ? Detail::manifold : Detail::contact,
                   .frame = WitnessFrame::body,
                   .measured = tests.measured,
-                  .reach = tests.reach ? reach_.data() : nullptr,
+                  .reach = tests.reach ? reach_.data() + tested_ : nullptr,
                   .accuracy = tests.accuracy,
                   .out = asked});
+  tested_ = count_;
 }
 
 // Half-spaces are skipped: they always push along their own normal.

@@ -93,13 +93,14 @@ struct PartTests {
 class PartBatch {
  public:
   size_t count() const { return count_; }
-  bool is_full() const { return count_ == kPairsPerBlock; }
+  bool is_full() const { return room() == 0; }
   // How many pairs may still be added.
-  size_t room() const { return kPairsPerBlock - count_; }
+  size_t room() const { return kPairsPerBlock - count_ - waiting_count_; }
   void clear();
   // Adds a pair for `owner`, with its contact distance. Its kinds must have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach);
   // Adds the pairs of one part with each of some triangles of a mesh; there must be room for them.
+  // Those with a least separation wait until they are admitted.
   void add_triangles(size_t owner, const NearParts& parts, float reach);
   // Adds pairs of triangles of two meshes; there must be room for them.
   void add_triangle_pairs(size_t owner, const NearParts& parts, float reach);
@@ -107,8 +108,17 @@ class PartBatch {
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
            const std::array<uint8_t, 2>& inner_edges);
 
-  // Tests all pairs.
+  bool has_waiting() const { return waiting_count_ > 0; }
+  // Adds waiting pairs, and forgets those that do not matter. may_matter(owner, least separation)
+  // is asked about each. Of owners that are_known(owner) it adds all others that may matter, of
+  // the others one pair, that of the least separation.
+  template <class IsKnown, class MayMatter>
+  void admit_waiting(const IsKnown& is_known, const MayMatter& may_matter);
+
+  // Tests all pairs that were added since the last run.
   void run(const PartTests& tests);
+  // How many pairs were tested in all runs but the last.
+  size_t tested_before() const { return tested_before_; }
 
   size_t owner(size_t i) const { return owner_[i]; }
   // The places of the parts of pair i in the order of sub-shapes.
@@ -117,20 +127,56 @@ class PartBatch {
   }
   const Double3& arm_a(size_t i) const { return sides_[0].arm(pairs_[i].a); }
   const Double3& arm_b(size_t i) const { return sides_[1].arm(pairs_[i].b); }
-  // The results of the last run, in the columns that were asked for.
+  // The results of all runs, in the columns that were asked for.
   const ResultColumns& results() const { return results_; }
   // For a pair with a contact, by side: all inner edges of the triangle if the contact came over
   // one of them; 0 otherwise.
   std::array<uint8_t, 2> edges_to_close(size_t i) const;
 
  private:
-  size_t count_ = 0;
+  struct WaitingPair {
+    Pair pair;
+    uint32_t owner;
+    float reach;
+    float least_separation;
+  };
+
+  void put_pair(Pair pair, size_t owner, float reach) {
+    reach_[count_] = reach;
+    owner_[count_] = static_cast<uint32_t>(owner);
+    pairs_[count_++] = pair;
+  }
+
+  size_t count_ = 0, tested_ = 0, tested_before_ = 0, waiting_count_ = 0;
   std::array<PartColumns, 2> sides_;
   std::array<Pair, kPairsPerBlock> pairs_;
   std::array<uint32_t, kPairsPerBlock> owner_;
   std::array<float, kPairsPerBlock> reach_;
+  std::array<WaitingPair, kPairsPerBlock> waiting_;
   ColumnMemory<kPairsPerBlock, ColumnRole::test, ColumnRole::manifold, ColumnRole::bound> memory_;
   const ResultColumns results_ = memory_.columns();
 };
+
+template <class IsKnown, class MayMatter>
+void PartBatch::admit_waiting(const IsKnown& is_known, const MayMatter& may_matter) {
+  size_t kept = 0;
+  for (size_t begin = 0, end = 0; begin < waiting_count_; begin = end) {
+    const uint32_t owner = waiting_[begin].owner;
+    size_t least = begin;
+    for (; end < waiting_count_ && waiting_[end].owner == owner; ++end) {
+      if (waiting_[end].least_separation < waiting_[least].least_separation) least = end;
+    }
+    const bool all = is_known(owner);
+    for (size_t i = begin; i < end; ++i) {
+      const WaitingPair waiting = waiting_[i];
+      if (all ? may_matter(owner, waiting.least_separation) : i == least) {
+        put_pair(waiting.pair, owner, waiting.reach);
+      } else if (!all) {
+        waiting_[kept++] = waiting;
+      }
+    }
+  }
+  waiting_count_ = kept;
+}
 
 }  // namespace carom

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "base/few_of.h"
-#include "geometries/near_triangles.h"
+#include "base/outward.h"
+#include "geometries/near_points.h"
 
 namespace carom {
 namespace {
@@ -46,9 +47,6 @@ TriangleArrays arrays_of(const MeshGeometry& mesh) {
 
 // A part in the frame of a tree.
 class SeenPart {
-  // Hulls with more points are seen as their box.
-  static constexpr size_t kMostSeenPoints = 64;
-
  public:
   SeenPart(const PlacedPart& tree, const PlacedPart& part)
       : change_(to_frame_of(tree, part)), size_(size_of(tree)) {
@@ -60,7 +58,7 @@ class SeenPart {
     } else if (part.kind() == ShapeKind::sphere) {
       see_points(std::array<Double3, 1>{}, part.part->radius);
     } else if (part.kind() == ShapeKind::hull) {
-      see_hull(*geometry_at<HullGeometry>(part.part->rows[0]), *part.part);
+      see_points_of(*geometry_at<HullGeometry>(part.part->rows[0]), *part.part);
     } else {
       see_box(box_of(*part.part));
     }
@@ -71,8 +69,16 @@ class SeenPart {
   }
   // The box, and all within `reach` of it.
   RoundedBox surroundings(double reach) const {
-    const double lengths = size_ + greatest(box_.middle) + greatest(box_.half) + radius_;
-    return rounded_outwards(box_.middle, box_.half, with_slack(radius_ + reach, lengths));
+    return rounded_outwards(box_.middle, box_.half, with_slack(radius_ + reach, lengths()));
+  }
+
+  // All lengths that go into a test with a part of the tree.
+  double lengths() const { return size_ + greatest(box_.middle) + greatest(box_.half) + radius_; }
+  double radius() const { return radius_; }
+  // The core of the part, or what contains it.
+  const SeenPoints& points() {
+    if (!points_.empty()) seen_points_.set(points_, box_.middle, greatest(box_.half) + radius_);
+    return seen_points_;
   }
 
  private:
@@ -94,18 +100,18 @@ class SeenPart {
   }
 
   // A box around the turned points has half the faces of a box around the turned box.
-  void see_hull(const HullGeometry& hull, const Part& part) {
-    if (hull.points().size() > kMostSeenPoints) return see_box(box_of(part));
-    FewOf<Double3, kMostSeenPoints> points;
-    for (const Eigen::Vector3f& p : hull.points()) points.push_back({p.x(), p.y(), p.z()});
-    see_points(points, 0);
+  void see_points_of(const HullGeometry& hull, const Part& part) {
+    if (hull.points().size() > SeenPoints::kMost) return see_box(box_of(part));
+    box_ = see_hull(hull, change_, seen_points_);
   }
 
   template <class Points>
   void see_points(const Points& points, double radius) {
     Double3 lower = seen(points[0]), upper = lower;
+    points_.push_back(lower);
     for (size_t i = 1; i < points.size(); ++i) {
       const Double3 point = seen(points[i]);
+      points_.push_back(point);
       for (size_t axis = 0; axis < 3; ++axis) {
         lower[axis] = std::min(lower[axis], point[axis]);
         upper[axis] = std::max(upper[axis], point[axis]);
@@ -125,12 +131,21 @@ class SeenPart {
       const Double3& r = change_.turn[axis];
       box_.half[axis] = dot({std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2])}, box.half);
     }
+    for (size_t i = 0; i < 8; ++i) {  // bit k of i: at the upper end of axis k
+      Double3 corner = box.middle;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        corner[axis] += (i >> axis & 1) != 0 ? box.half[axis] : -box.half[axis];
+      }
+      points_.push_back(seen(corner));
+    }
   }
 
   const FrameChange change_;
   const double size_;
   PartBox box_;
-  double radius_ = 0;  // around the box
+  double radius_ = 0;  // around the box, and around the points
+  FewOf<Double3, 8> points_;
+  SeenPoints seen_points_;  // of a hull, or once they are asked for
 };
 
 // A half-space in the frame of a tree: all x with normal . x <= limit.
@@ -202,15 +217,61 @@ class PartSearch {
   void take_apart(const PlacedPart& tree, const PlacedPart& other, const GoOn& go_on,
                   const NearParts& both) const {
     if (tree.kind() == ShapeKind::mesh && !other.has_parts()) {
-      for_each_near(tree, other, [&](std::span<const uint32_t> triangles) {
-        found_({both.a, both.b, triangles});
-      });
+      is_plane(other) ? find_triangles_below(tree, other, both)
+                      : find_triangles_near(tree, other, both);
     } else {
       PartOf part(tree);
       for_each_near(tree, other, [&](std::span<const uint32_t> items) {
         for (const uint32_t item : items) go_on(part.item(item));
       });
     }
+  }
+
+  void find_triangles_below(const PlacedPart& mesh, const PlacedPart& plane,
+                            const NearParts& both) const {
+    for_each_near(mesh, plane, [&](std::span<const uint32_t> triangles) {
+      found_({both.a, both.b, triangles});
+    });
+  }
+
+  // Triangles whose planes keep them apart are left out. Tests of triangles with rules may find
+  // greater depths than the planes say.
+  void find_triangles_near(const PlacedPart& mesh, const PlacedPart& other,
+                           const NearParts& both) const {
+    SeenPart seen(mesh, other);
+    const double lengths = seen.lengths();
+    const MeshRules& rules = mesh.mesh().rules();
+    const bool has_rules = rules.thickness > 0 || mesh.one_sided.value_or(rules.one_sided) ||
+                           other.kind() == ShapeKind::triangle;
+    // A sphere is tested sooner than bounded.
+    const bool is_bounded = other.kind() != ShapeKind::sphere && lengths < kBeyondSearch &&
+                            (!has_rules || apart_ == Apart::by_planes);
+    if (!is_bounded) {
+      return mesh.tree().find_touching(seen.surroundings(reach_),
+                                       [&](std::span<const uint32_t> triangles) {
+                                         found_({both.a, both.b, triangles});
+                                       });
+    }
+    const SeenPoints& points = seen.points();
+    const double radius = seen.radius() + rules.thickness;
+    constexpr float kEverything = 0x1p100f;
+    // Overlaps are sure to rounding in double precision, distances only as tests measure them.
+    const double slack = (reach_ > 0 ? kSearchSlack : kPlacedSlack) * lengths;
+    const double in_units = (radius + reach_ + slack) * points.down;
+    const float most = apart_ == Apart::by_planes && in_units < kEverything
+                           ? -round_downwards(-in_units)
+                           : kEverything;
+    mesh.tree().find_touching(seen.surroundings(reach_), [&](std::span<const uint32_t> triangles) {
+      NearPoints near;
+      keep_near_points(arrays_of(mesh.mesh()), points, most, triangles, near);
+      if (near.count == 0) return;
+      const double deeper = radius + kDepthSlack * lengths;
+      for (size_t i = 0; i < near.count; ++i) {
+        near.gap[i] = static_cast<float>(near.gap[i] * points.up - deeper);
+      }
+      const std::span<const float> least(near.gap.data(), has_rules ? 0 : near.count);
+      found_({both.a, both.b, {near.triangle.data(), near.count}, {}, least});
+    });
   }
 
   void take_apart_both(const PlacedPart& a, const PlacedPart& b) const {

@@ -17,6 +17,8 @@ struct NearParts {
   const PlacedPart& b;
   std::span<const uint32_t> triangles = {};
   std::span<const ItemPair> pairs = {};
+  // A lower bound of each separation that a test of `triangles` may find, metres; empty: not known.
+  std::span<const float> least_separations = {};
 };
 
 using NearPartsFound = FunctionRef<void(const NearParts&)>;

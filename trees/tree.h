@@ -71,6 +71,7 @@ class BoxTree {
   static constexpr size_t kChildren = 8;
   static constexpr uint32_t kItem = 0x80000000u;
   static constexpr size_t kMostItems = kItem;
+  static constexpr size_t kMostAtOnce = 128 + kChildren;  // items given to ItemsFound
 
   // A child is the index of a node, or kItem + the index of an item. A place without a child has an
   // empty box.

@@ -72,10 +72,10 @@ inline constexpr size_t kMostWaiting = kMostLevels * kVisits * BoxTree::kChildre
 // random as what touches, and would be predicted badly.
 template <class Box>
 HWY_INLINE void find_items(const BoxTree& tree, const Box& box, ItemsFound found) {
-  constexpr size_t kAtOnce = 128;
+  constexpr size_t kAtOnce = BoxTree::kMostAtOnce - BoxTree::kChildren;
   const hn::RebindToUnsigned<ChildTag> tag;
   const BoxTree::Node* const nodes = tree.nodes().data();
-  uint32_t waiting[kMostWaiting + kChildLanes], items[kAtOnce + BoxTree::kChildren];
+  uint32_t waiting[kMostWaiting + kChildLanes], items[BoxTree::kMostAtOnce];
   uint32_t visited[kVisits];
   size_t waiting_count = 1, item_count = 0;
   waiting[0] = 0;

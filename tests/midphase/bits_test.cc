@@ -42,10 +42,13 @@ TEST_P(CompositeKinds, EqualReferenceAtAllSizesAndDistances) {
   for (const double size : {1e-30, 1e-3, 1e6, 1e18}) {
     for (const double distance : {0.0, 1e4}) {
       SCOPED_TRACE(size);
-      Call call = call_with(PositionType::float64);
-      call.detail = Detail::manifold;
-      expect_reference(
-          make_pairs(GetParam(), PositionType::float64, rounds(8), size, distance * size, 2), call);
+      for (const Detail detail : {Detail::contact, Detail::manifold}) {
+        Call call = call_with(PositionType::float64);
+        call.detail = detail;
+        expect_reference(
+            make_pairs(GetParam(), PositionType::float64, rounds(8), size, distance * size, 2),
+            call);
+      }
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "base/tolerances.h"
 #include "tests/midphase/region_checks.h"
 #include "tests/support/composites.h"
+#include "tests/support/rounds.h"
 
 namespace carom::test {
 namespace {
@@ -60,6 +61,30 @@ TEST(ManyParts, EqualTheReference) {
     }
   }
   EXPECT_GT(counts.several, 20u);
+}
+
+// Bodies in bumpy ground, of which some meet more triangles than a batch holds. Most triangles
+// need no depth, since others are surely deeper.
+TEST(ManyParts, TheDeepestTriangleIsThatOfTheReference) {
+  oracle::Random random(33);
+  const auto bumps = [&](float, float) { return random.uniform(-0.05, 0.05); };
+  const Mesh wide = grid_mesh(48, 0.05f, bumps), coarse = grid_mesh(10, 0.4f, bumps);
+  oracle::ConvexRandom shapes({}, random);
+  std::vector<TestPair> pairs;
+  for (uint32_t i = 0; i < rounds(40, 10); ++i) {
+    for (const ShapeKind kind :
+         {ShapeKind::box, ShapeKind::hull, ShapeKind::capsule, ShapeKind::sphere}) {
+      const Shape shape = shapes.shape(kind, i % 5 == 0 ? 2 : 0.3);
+      const Eigen::Quaternionf turn = shapes.orientation();
+      const double x = random.uniform(-0.3, 0.3), y = random.uniform(-0.3, 0.3);
+      const double z = random.uniform(0, 0.5);
+      const PlacedShape body = {shape, {x, y, z}, turn}, ground = {i % 2 == 0 ? wide : coarse};
+      pairs.push_back(i % 3 == 0 ? TestPair{ground, body} : TestPair{body, ground});
+    }
+  }
+  Call call = call_with(PositionType::float64);
+  call.detail = Detail::contact;
+  expect_reference(pairs, call);
 }
 
 // All balls of two swarms touch, and all contacts are one region: then what is left out are the
