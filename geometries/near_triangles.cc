@@ -126,7 +126,7 @@ size_t keep_near(const TriangleArrays& a, const TriangleArrays& b, const FrameCh
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 
@@ -134,7 +134,7 @@ HWY_EXPORT(keep_near);
 
 size_t keep_near(const TriangleArrays& a, const TriangleArrays& b, const FrameChange& b_to_a,
                  const PairScale& scale, std::span<ItemPair> pairs) {
-  return CAROM_DISPATCH(keep_near)(a, b, b_to_a, scale, pairs);
+  return CAROM_DISPATCH_MEASURED(near_triangles, keep_near)(a, b, b_to_a, scale, pairs);
 }
 
 }  // namespace carom

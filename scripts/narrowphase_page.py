@@ -248,7 +248,8 @@ def streams_page(report):
            f"{build(context)}.\n")
     yield ("Nanoseconds of processor time a pair, median of the passes over a stream; all in one "
            "run, in turns, on one thread. `reference`: Carom's scalar reference, which always "
-           "finds everything; then Carom on every instruction set. `x Bullet`: how many times "
+           "finds everything; then Carom on every instruction set, all but the default one forced. "
+           "`x Bullet`: how many times "
            "faster than Bullet the strongest is. `must` and `aim` are targets for it, bold where "
            "reached.\n")
     yield from streams_table(streams, isas)

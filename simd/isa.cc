@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 #if HWY_ARCH_X86
 #include <cpuid.h>
@@ -60,26 +60,27 @@ bool runs_wide_vectors_in_halves() {
 #endif
 }
 
-Isa isa_for_searches(Isa best) {
+// For kernels that are faster with AVX2 there.
+Isa narrow_isa(Isa best) {
   static const bool are_halves = runs_wide_vectors_in_halves();
   return best == Isa::avx512 && are_halves && is_usable(Isa::avx2) ? Isa::avx2 : best;
 }
 
 struct ChosenTargets {
-  hwy::ChosenTarget all, searches;
+  hwy::ChosenTarget all, narrow;
 
   ChosenTargets() { choose_default(); }
 
-  void choose(Isa isa, Isa for_searches) {
+  void choose(Isa isa, Isa narrow_one) {
     all.Update(usable_bits() & target(isa).bits);
-    searches.Update(usable_bits() & target(for_searches).bits);
+    narrow.Update(usable_bits() & target(narrow_one).bits);
   }
   void choose_default() {
     const char* const name = std::getenv("CAROM_ISA");
     const std::optional<Isa> forced = name ? isa_from_name(name) : std::nullopt;
     if (forced && is_usable(*forced)) return choose(*forced, *forced);
     const Isa best = usable_isas().back();
-    choose(best, isa_for_searches(best));
+    choose(best, narrow_isa(best));
   }
 };
 
@@ -94,7 +95,10 @@ namespace simd {
 
 const hwy::ChosenTarget& chosen_target() { return chosen_targets().all; }
 
-const hwy::ChosenTarget& target_for_searches() { return chosen_targets().searches; }
+const hwy::ChosenTarget& target_for(MeasuredKernel kernel) {
+  const ChosenTargets& targets = chosen_targets();
+  return is_faster_with_avx2(kernel) ? targets.narrow : targets.all;
+}
 
 }  // namespace simd
 

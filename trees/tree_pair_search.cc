@@ -270,7 +270,7 @@ void touching_pairs(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 namespace {
@@ -297,7 +297,7 @@ void find_touching_items(const BoxTree& a, const BoxTree& b, const FrameChange& 
                          double reach, ItemPairsFound found) {
   if (a.is_empty() || b.is_empty()) return;
   const PairScale scale(greatest_of(a), greatest_of(b), b_to_a.offset, reach);
-  CAROM_DISPATCH(touching_pairs)(a, b, b_to_a, scale, found);
+  CAROM_DISPATCH_MEASURED(tree_pairs, touching_pairs)(a, b, b_to_a, scale, found);
 }
 
 }  // namespace carom

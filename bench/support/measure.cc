@@ -39,7 +39,8 @@ void fail(benchmark::State& state, const std::string& message) {
 }
 
 bool use_isa(benchmark::State& state, Isa isa) {
-  const bool used = force_isa(isa) && active_isa() == isa;
+  unforce_isa();
+  const bool used = active_isa() == isa || (force_isa(isa) && active_isa() == isa);
   if (!used) fail(state, std::string(name(isa)) + " cannot be used");
   return used;
 }

@@ -62,7 +62,8 @@ std::vector<Setup> strongest_setups();
 // 1k, 10k, ...
 std::string short_count(size_t count);
 
-// Uses that ISA from now on. Returns false and fails the benchmark if that is not possible.
+// Uses that ISA from now on: the default one as a program does that forces none. Returns false and
+// fails the benchmark if that is not possible.
 bool use_isa(benchmark::State& state, Isa isa);
 
 // Ends the benchmark with an error, and makes the program fail.

@@ -74,12 +74,23 @@ HWY_INLINE void fetch_side(const BatchSide& side, const Listed& near, const List
   }
 }
 
-// The same of both sides. Not of rows: processors see by themselves that one follows the other.
+// Of rows, one body in so many: records and orientations of 16 bytes then share a line of the
+// cache.
+constexpr size_t kRowsInLine = 4;
+
+// The same of both sides. Processors see by themselves that one row follows the other, but not
+// across pages of memory.
 template <class A, class B>
 HWY_INLINE void fetch_lanes(const Batch& batch, size_t row, LaneRange lanes) {
-  if (batch.pairs_are_rows || row + kPairsAhead + kLanes > batch.count) return;
-  const size_t last = batch.count - kLanes;
+  if (row + kPairsAhead + kLanes > batch.count) return;
   const Listed near{batch.pairs + row + kPairsAhead};
+  if (batch.pairs_are_rows) {
+    if (lanes.begin % kRowsInLine != 0) return;
+    fetch_body<A>(batch.a, near.template body<Role::a>(lanes.begin));
+    fetch_body<B>(batch.b, near.template body<Role::b>(lanes.begin));
+    return;
+  }
+  const size_t last = batch.count - kLanes;
   const Listed far{batch.pairs + std::min(row + 2 * kPairsAhead, last)};
   fetch_side<Role::a, A>(batch.a, near, far, lanes);
   fetch_side<Role::b, B>(batch.b, near, far, lanes);

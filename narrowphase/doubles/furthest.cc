@@ -52,7 +52,7 @@ size_t furthest_in_lanes(const Core& core, const CoreVector& way) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 namespace {
@@ -61,7 +61,9 @@ HWY_EXPORT(furthest_in_lanes);
 
 }  // namespace
 
-FurthestPoint furthest_point_in_lanes() { return &CAROM_DISPATCH(furthest_in_lanes); }
+FurthestPoint furthest_point_in_lanes() {
+  return &CAROM_DISPATCH_MEASURED(furthest_point, furthest_in_lanes);
+}
 
 }  // namespace carom
 #endif  // HWY_ONCE

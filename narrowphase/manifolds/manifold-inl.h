@@ -8,30 +8,41 @@
 #endif
 
 #include <algorithm>
-#include <cstring>
 #include <type_traits>
 
 #include "base/fetch_ahead.h"
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/manifolds/contact_points-inl.h"
+#include "narrowphase/manifolds/manifold_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-// The manifolds of one vector of rows.
-struct ManifoldRows {
-  uint8_t count[kLanes];
-  HWY_ALIGN float records[4][kLanes][4];  // quarters of ManifoldPoints
-
-  void copy_to(const ResultColumns& out, const uint16_t* rows, size_t row_count) const {
-    for (size_t i = 0; i < row_count; ++i) {
-      out.manifold_count[rows[i]] = count[i];
-      char* to = reinterpret_cast<char*>(out.manifold + rows[i]);
-      for (size_t k = 0; k < 4; ++k) {
-        std::memcpy(to + k * sizeof(records[k][i]), records[k][i], sizeof(records[k][i]));
-      }
+// Where the manifolds of one vector of rows go: places behind the last row to memory of no use.
+class ManifoldPlaces {
+ public:
+  HWY_INLINE ManifoldPlaces(const ResultColumns& out, const uint16_t* rows, size_t row_count)
+      : count_(out.manifold_count), rows_(rows), row_count_(row_count) {
+    for (size_t i = 0; i < kLanes; ++i) {
+      points_[i] = i < row_count ? reinterpret_cast<float*>(out.manifold + rows[i]) : unused_;
     }
   }
+  ManifoldPlaces(const ManifoldPlaces&) = delete;
+  ManifoldPlaces& operator=(const ManifoldPlaces&) = delete;
+
+  HWY_INLINE void put(I count, const F (&columns)[kManifoldColumns]) const {
+    uint8_t counts[kLanes];
+    store_bytes(count, counts, 0);
+    for (size_t i = 0; i < row_count_; ++i) count_[rows_[i]] = counts[i];
+    store_rows(columns, points_);
+  }
+
+ private:
+  uint8_t* const count_;
+  const uint16_t* const rows_;
+  const size_t row_count_;
+  float* points_[kLanes];
+  float unused_[kManifoldColumns];
 };
 
 template <class A, class B, class Records>
@@ -78,9 +89,8 @@ class ManifoldLoop {
     } else {
       contact_points(a, b, placed, contact, points);
     }
-    ManifoldRows rows;
-    put_records(points, contact, up, batch.frame, positions, rows);
-    rows.copy_to(batch.out, batch.manifold_row + row, row_count);
+    const ManifoldPlaces places(batch.out, batch.manifold_row + row, row_count);
+    put_records(points, contact, up, batch.frame, positions, places);
   }
 
   template <class Shape>
@@ -106,12 +116,11 @@ class ManifoldLoop {
   // and none is further than the reach. A single point is the witness point.
   static HWY_INLINE void put_records(PointLanes& points, const ContactLanes& contact, F up,
                                      WitnessFrame frame, const PositionLanes& positions,
-                                     ManifoldRows& rows) {
+                                     const ManifoldPlaces& places) {
     const Mask has_more = points.used[1];
     points.point[0] = select(has_more, points.point[0], contact.arm_a);
     points.s[0] = hn::IfThenElse(has_more, points.s[0], contact.separation);
     points.used[0] = hn::Not(no_lanes());
-    const FloatTag tag;
     F count = splat(0);
     F s[4];
     for (size_t k = 0; k < 4; ++k) {
@@ -123,11 +132,9 @@ class ManifoldLoop {
       s[k] = hn::IfThenElseZero(points.used[k], hn::Mul(s[k], up));
     }
     const F3(&p)[4] = points.point;
-    store_bytes(hn::ConvertTo(IntTag(), count), rows.count, 0);
-    hn::StoreInterleaved4(p[0].x, p[0].y, p[0].z, p[1].x, tag, rows.records[0][0]);
-    hn::StoreInterleaved4(p[1].y, p[1].z, p[2].x, p[2].y, tag, rows.records[1][0]);
-    hn::StoreInterleaved4(p[2].z, p[3].x, p[3].y, p[3].z, tag, rows.records[2][0]);
-    hn::StoreInterleaved4(s[0], s[1], s[2], s[3], tag, rows.records[3][0]);
+    places.put(hn::ConvertTo(IntTag(), count),
+               {p[0].x, p[0].y, p[0].z, p[1].x, p[1].y, p[1].z, p[2].x, p[2].y, p[2].z, p[3].x,
+                p[3].y, p[3].z, s[0], s[1], s[2], s[3]});
   }
 };
 

@@ -38,6 +38,10 @@ std::array<float, 10> numbers_of(const scalar::Separation& s) {
           s.arm_a.y(),  s.arm_a.z(),  s.arm_b.x(),  s.arm_b.y(),  s.arm_b.z()};
 }
 
+bool has_distance_pass(ShapeKind kind_a, ShapeKind kind_b) {
+  return kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass();
+}
+
 // The error bounds of the double test hold for points that only a rotation has rounded: not for
 // special triangles.
 template <class T>
@@ -58,7 +62,7 @@ class RowTester {
         store_(batch, kind_a, kind_b),
         test_{furthest_point_in_lanes(), !has_contacts(batch.detail)},
         decides_separate_(has_contacts(batch.detail) && batch.pass == Pass::test &&
-                          kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {
+                          has_distance_pass(kind_a, kind_b)) {
     waiting_.count = 0;
   }
 
@@ -220,8 +224,10 @@ class RowTester {
 
 template <class A, class B>
 void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
-  const auto in_lanes = batch.pass == Pass::test ? kernels.for_decisions : kernels.for_all_else;
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
+  const bool decides_only = batch.pass == Pass::test &&
+                            (!has_contacts(batch.detail) || has_distance_pass(kind_a, kind_b));
+  const auto in_lanes = decides_only ? kernels.for_decisions : kernels.for_all_else;
   if (batch.pass == Pass::manifold) return run_manifolds(batch, kind_a, kind_b, in_lanes);
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
   RowTester<A, B> rows(batch, kind_a, kind_b);

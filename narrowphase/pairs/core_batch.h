@@ -8,8 +8,8 @@
 namespace carom {
 
 // A kernel in lanes that tests the rows that float32 can decide and marks the others as unsure.
-// Decisions are searches (simd/dispatch.h); what follows from them takes longer, and gains from
-// wide vectors.
+// Decisions alone may be faster in narrower vectors (simd/measured_kernels.h); what follows from
+// them gains from wide ones.
 struct CoreKernels {
   void (*for_decisions)(const Batch&);
   void (*for_all_else)(const Batch&);

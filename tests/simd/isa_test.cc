@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <string>
 
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 namespace {
@@ -97,23 +98,43 @@ TEST(Isa, ForceBeatsTheEnvironment) {
   EXPECT_EQ(active_isa(), Isa::scalar);
 }
 
-// Searches may run on AVX2 in place of AVX-512, but only by default.
-TEST(Isa, SearchesRunOnTheForcedIsa) {
+constexpr simd::MeasuredKernel kMeasuredKernels[] = {
+    simd::MeasuredKernel::sphere_hull_decision, simd::MeasuredKernel::capsule_hull_decision,
+    simd::MeasuredKernel::aabb_hull_decision,   simd::MeasuredKernel::box_hull_decision,
+    simd::MeasuredKernel::hull_hull_decision,   simd::MeasuredKernel::hull_triangle_decision,
+    simd::MeasuredKernel::furthest_point,       simd::MeasuredKernel::tree_pairs,
+    simd::MeasuredKernel::near_triangles,
+};
+
+// Some kernels may run on AVX2 in place of AVX-512, but only by default.
+TEST(Isa, MeasuredKernelsRunOnTheForcedIsa) {
   const auto index = [] { return simd::chosen_target().GetIndex(); };
-  const auto index_for_searches = [] { return simd::target_for_searches().GetIndex(); };
-  for (const Isa isa : usable_isas()) {
-    ASSERT_TRUE(force_isa(isa));
-    EXPECT_EQ(index_for_searches(), index()) << name(isa);
+  for (const simd::MeasuredKernel kernel : kMeasuredKernels) {
+    const auto index_for_kernel = [&] { return simd::target_for(kernel).GetIndex(); };
+    for (const Isa isa : usable_isas()) {
+      ASSERT_TRUE(force_isa(isa));
+      EXPECT_EQ(index_for_kernel(), index()) << name(isa);
+      unforce_isa();
+      const ScopedEnvironment environment(name(isa));
+      EXPECT_EQ(index_for_kernel(), index()) << name(isa);
+    }
+    const ScopedEnvironment environment(nullptr);
+    const size_t by_default = index_for_kernel();
+    if (by_default == index()) continue;
+    EXPECT_TRUE(simd::is_faster_with_avx2(kernel));
+    EXPECT_EQ(active_isa(), Isa::avx512);
+    ASSERT_TRUE(force_isa(Isa::avx2));
+    EXPECT_EQ(by_default, index());
     unforce_isa();
-    const ScopedEnvironment environment(name(isa));
-    EXPECT_EQ(index_for_searches(), index()) << name(isa);
   }
-  const size_t by_default = index_for_searches();
-  if (by_default == index()) return;
-  EXPECT_EQ(active_isa(), Isa::avx512);
-  ASSERT_TRUE(force_isa(Isa::avx2));
-  EXPECT_EQ(by_default, index());
-  unforce_isa();
+}
+
+// Of both sorts there are some, so that the table decides.
+TEST(Isa, SomeMeasuredKernelsAreFasterWithAvx2) {
+  const auto faster = std::count_if(std::begin(kMeasuredKernels), std::end(kMeasuredKernels),
+                                    simd::is_faster_with_avx2);
+  EXPECT_GT(faster, 0);
+  EXPECT_LT(faster, std::ssize(kMeasuredKernels));
 }
 
 TEST(Isa, WhatTheEnvironmentCannotMeanIsIgnored) {

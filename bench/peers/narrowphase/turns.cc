@@ -23,7 +23,7 @@ Library ask(const char* name, std::unique_ptr<PairPeer> pairs, std::span<const T
 }
 
 void TimedRunner::take_turn(double seconds) {
-  if (isa_) force_isa(*isa_);
+  isa_ ? (void)force_isa(*isa_) : unforce_isa();
   pass_();
   const Stopwatch turn;
   do {
@@ -53,8 +53,11 @@ std::vector<TimedRunner> runners_of(std::vector<Library>& libraries) {
 
 void add_carom(std::vector<TimedRunner>& runners, size_t pairs,
                const std::function<std::function<void()>()>& make_pass) {
+  unforce_isa();
+  const Isa by_default = active_isa();
   for (const Isa isa : usable_isas()) {
-    runners.emplace_back(RunnerResult{.runner = name(isa), .pairs = pairs}, make_pass(), isa);
+    const auto forced = isa == by_default ? std::nullopt : std::optional(isa);
+    runners.emplace_back(RunnerResult{.runner = name(isa), .pairs = pairs}, make_pass(), forced);
   }
 }
 

@@ -44,7 +44,8 @@ class TimedRunner {
 // The libraries, in order.
 std::vector<TimedRunner> runners_of(std::vector<Library>& libraries);
 
-// Carom on every instruction set; make_pass() returns a pass over `pairs` pairs.
+// Carom on every instruction set; make_pass() returns a pass over `pairs` pairs. All but the
+// default one are forced: that runs as in a program that forces none (simd/measured_kernels.h).
 void add_carom(std::vector<TimedRunner>& runners, size_t pairs,
                const std::function<std::function<void()>()>& make_pass);
 

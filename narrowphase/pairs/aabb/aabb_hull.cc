@@ -35,14 +35,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "narrowphase/pairs/core_batch.h"
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 
 HWY_EXPORT(aabb_hull);
 
 void run_aabb_hull(const Batch& batch) {
-  run_core_batch<Aabb, Hull>(batch, {CAROM_DISPATCH_SEARCH(aabb_hull), CAROM_DISPATCH(aabb_hull)});
+  run_core_batch<Aabb, Hull>(
+      batch, {CAROM_DISPATCH_MEASURED(aabb_hull_decision, aabb_hull), CAROM_DISPATCH(aabb_hull)});
 }
 
 }  // namespace carom

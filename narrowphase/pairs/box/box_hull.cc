@@ -35,14 +35,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "narrowphase/pairs/core_batch.h"
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 
 HWY_EXPORT(box_hull);
 
 void run_box_hull(const Batch& batch) {
-  run_core_batch<Box, Hull>(batch, {CAROM_DISPATCH_SEARCH(box_hull), CAROM_DISPATCH(box_hull)});
+  run_core_batch<Box, Hull>(
+      batch, {CAROM_DISPATCH_MEASURED(box_hull_decision, box_hull), CAROM_DISPATCH(box_hull)});
 }
 
 }  // namespace carom

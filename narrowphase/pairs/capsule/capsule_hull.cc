@@ -29,7 +29,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "narrowphase/pairs/core_batch.h"
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 
@@ -37,7 +37,8 @@ HWY_EXPORT(capsule_hull);
 
 void run_capsule_hull(const Batch& batch) {
   run_core_batch<Capsule, Hull>(
-      batch, {CAROM_DISPATCH_SEARCH(capsule_hull), CAROM_DISPATCH(capsule_hull)});
+      batch,
+      {CAROM_DISPATCH_MEASURED(capsule_hull_decision, capsule_hull), CAROM_DISPATCH(capsule_hull)});
 }
 
 }  // namespace carom

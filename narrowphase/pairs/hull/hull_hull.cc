@@ -38,14 +38,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "narrowphase/pairs/core_batch.h"
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 
 HWY_EXPORT(hull_hull);
 
 void run_hull_hull(const Batch& batch) {
-  run_core_batch<Hull, Hull>(batch, {CAROM_DISPATCH_SEARCH(hull_hull), CAROM_DISPATCH(hull_hull)});
+  run_core_batch<Hull, Hull>(
+      batch, {CAROM_DISPATCH_MEASURED(hull_hull_decision, hull_hull), CAROM_DISPATCH(hull_hull)});
 }
 
 }  // namespace carom

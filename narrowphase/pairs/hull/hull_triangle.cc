@@ -36,15 +36,16 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "narrowphase/pairs/core_batch.h"
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 
 HWY_EXPORT(hull_triangle);
 
 void run_hull_triangle(const Batch& batch) {
-  run_core_batch<Hull, Triangle>(
-      batch, {CAROM_DISPATCH_SEARCH(hull_triangle), CAROM_DISPATCH(hull_triangle)});
+  run_core_batch<Hull, Triangle>(batch,
+                                 {CAROM_DISPATCH_MEASURED(hull_triangle_decision, hull_triangle),
+                                  CAROM_DISPATCH(hull_triangle)});
 }
 
 }  // namespace carom

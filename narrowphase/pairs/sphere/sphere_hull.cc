@@ -25,15 +25,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "narrowphase/pairs/core_batch.h"
-#include "simd/dispatch.h"
+#include "simd/measured_kernels.h"
 
 namespace carom {
 
 HWY_EXPORT(sphere_hull);
 
 void run_sphere_hull(const Batch& batch) {
-  run_core_batch<Sphere, Hull>(batch,
-                               {CAROM_DISPATCH_SEARCH(sphere_hull), CAROM_DISPATCH(sphere_hull)});
+  run_core_batch<Sphere, Hull>(batch, {CAROM_DISPATCH_MEASURED(sphere_hull_decision, sphere_hull),
+                                       CAROM_DISPATCH(sphere_hull)});
 }
 
 }  // namespace carom
