@@ -10,6 +10,7 @@
 #include <cfloat>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include <hwy/highway.h>
 
@@ -76,7 +77,9 @@ HWY_INLINE uint64_t bits_of(Tag tag, AnyMask mask) {
   uint8_t bits[8] = {};
   hn::StoreMaskBits(tag, mask, bits);
   if constexpr (kLanesOf<Tag> <= 8) return bits[0];
-  return uint64_t{bits[0]} | uint64_t{bits[1]} << 8;
+  uint16_t both;  // in one piece: g++ would take it apart
+  std::memcpy(&both, bits, sizeof(both));
+  return both;
 }
 
 HWY_INLINE F clamp_to_finite(F v) { return min(max(v, splat(-FLT_MAX)), splat(FLT_MAX)); }

@@ -36,8 +36,8 @@ HWY_INLINE Mask contact_points(const HullLanes& a, const HullLanes& b, const Pla
   const FacingFaces faces_b = faces_towards(-contact.normal, b, placed.b, contact);
   with_corners(std::max(faces_a.most(), faces_b.most()), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side_a, side_b;
-    hull_side(a, placed.a, faces_a, side_a);
-    hull_side(b, placed.b, faces_b, side_b);
+    hull_side(placed.a, faces_a, side_a);
+    hull_side(placed.b, faces_b, side_b);
     touch_faces(side_a, side_b, contact, out);
   });
   return hn::And(faces_a.is_known(), faces_b.is_known());
@@ -50,7 +50,7 @@ HWY_INLINE Mask contact_points(const CapsuleLanes& a, const HullLanes& b, const 
   line_towards(contact.normal, a, placed.a, line);
   with_corners(faces.most(), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side;
-    hull_side(b, placed.b, faces, side);
+    hull_side(placed.b, faces, side);
     touch_face(line, side.face, contact, out);
   });
   return faces.is_known();
@@ -64,7 +64,7 @@ HWY_INLINE Mask contact_points(const A& a, const HullLanes& b, const PlacedPair&
   face_towards(contact.normal, a, placed.a, face);
   with_corners(faces.most(), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side;
-    hull_side(b, placed.b, faces, side);
+    hull_side(placed.b, faces, side);
     touch_box(face, side, contact, out);
   });
   return faces.is_known();
@@ -78,7 +78,7 @@ HWY_INLINE Mask contact_points(const HullLanes& a, const TriangleLanes& b, const
   const Mask shown = shows_face(b, triangle.face.frame.n, -contact.normal);
   with_corners(faces.most(), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side_a, side_b;
-    hull_side(a, placed.a, faces, side_a);
+    hull_side(placed.a, faces, side_a);
     triangle_as_polygon(triangle, side_b);
     touch_faces(side_a, side_b, contact, out);
   });
@@ -97,7 +97,7 @@ HWY_INLINE Mask contact_points(const HullLanes& a, const HalfspaceLanes&, const 
   const F touching = contact.touching(size);
   with_corners(faces.most(), [&](auto most) HWY_ATTR {
     FaceSide<PolygonFace<most()>> side;
-    hull_side(a, placed.a, faces, side);
+    hull_side(placed.a, faces, side);
     ClipPoints<most()> all;
     for (size_t k = 0; k < most(); ++k) {
       const F3 r = side.corners[k] - plane.origin;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -136,6 +138,52 @@ TEST(HullManifoldsOfMixedKinds, EqualReference) {
     const std::vector<Row> expected = expected_rows(pairs, positions, Detail::manifold);
     for_each_isa([&] { EXPECT_TRUE(same_rows(expected, run_list(pairs, call), pairs)); });
   }
+}
+
+// --- Many faces ---
+
+// Pairs of round hulls, whose faces are triangles: up to 252 of them.
+std::vector<TestPair> make_round_pairs(size_t repeats) {
+  Random random(5);
+  std::vector<TestPair> pairs;
+  constexpr size_t kCounts[] = {9, 10, 18, 33, 34, 35, 66, 98, 127, 128};
+  for (size_t repeat = 0; repeat < repeats; ++repeat) {
+    for (const size_t a : kCounts) {
+      const size_t b = kCounts[random.below(std::size(kCounts))];
+      const Points points_a = round_points(a, {1, 1, 1}, random);
+      const Points points_b = round_points(b, {1, 1, 1}, random);
+      const Vector3d at = random.direction() * random.uniform(1.2, 1.9);
+      const Vector3f axis = random.direction().cast<float>();
+      const auto angle = static_cast<float>(random.uniform(0.1, 3));
+      pairs.push_back(
+          {placed_hull(points_a),
+           placed_hull(points_b, at, Eigen::Quaternionf(Eigen::AngleAxisf(angle, axis)))});
+    }
+  }
+  return pairs;
+}
+
+// The index of the face of A whose normal is nearest to the contact's, in groups of 64.
+size_t group_of_face(const TestPair& pair, const Row& row) {
+  const HullFeatures& features = *std::get<Hull>(pair.a.shape).geometry->features();
+  const Vector3f n(row.normal[0], row.normal[1], row.normal[2]);
+  size_t best = 0;
+  for (size_t f = 0; f < features.face_count(); ++f) {
+    if (features.normal(f).dot(n) > features.normal(best).dot(n)) best = f;
+  }
+  return best / 64;
+}
+
+TEST(HullManifoldsOfManyFaces, EqualReference) {
+  constexpr auto kPositions = PositionType::float32;
+  const std::vector<TestPair> pairs = make_round_pairs(rounds(40));
+  const std::vector<Row> expected = expected_rows(pairs, kPositions, Detail::manifold);
+  std::array<size_t, 4> groups{};
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (expected[i].overlap == 1) ++groups[group_of_face(pairs[i], expected[i])];
+  }
+  for (const size_t count : groups) EXPECT_GT(count, pairs.size() / 80);
+  for_each_isa([&] { EXPECT_TRUE(same_rows(expected, run_manifolds(pairs, kPositions), pairs)); });
 }
 
 // --- Against the oracle ---
