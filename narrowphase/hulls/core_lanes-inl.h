@@ -108,38 +108,59 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
-// Reads the records of each lane's hull: its points, then its middle.
-class HullRecords {
+// Reads the points of each lane's hull, and its middle.
+class HullsOfLanes {
  public:
-  explicit HWY_INLINE HullRecords(const HullLanes& hull) {
-    static constexpr std::array<float, 8> kNothing{};
+  explicit HWY_INLINE HullsOfLanes(const HullLanes& hull) {
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const HullGeometry* const geometry = hull.geometry[lane];
-      first_[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
-      points_[lane] = geometry ? geometry->records().size() - 1 : 1;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        column_[axis][lane] = geometry ? geometry->column(axis) : kNothing.data();
+      }
+      padded_[lane] = geometry ? geometry->column_stride() : kPointsAtOnce;
+      points_[lane] = geometry ? geometry->points().size() : 1;
+      middle_[lane] = geometry ? geometry->middle_record().data() : kNothing.data();
+      geometry_[lane] = geometry;
       most_ = std::max(most_, points_[lane]);
       least_ = std::min(least_, points_[lane]);
+      least_padded_ = std::min(least_padded_, padded_[lane]);
     }
   }
 
-  // Calls use(i, p) for i < count. p is point i of each hull, or its last point.
+  // Calls use(i, p) for i < count, and up to three times more. p is point i of each hull, or any
+  // point of it behind the last one.
   template <class Use>
   HWY_INLINE void for_each_point(size_t count, const Use& use) const {
     size_t i = 0;
-    for (; i < std::min(least_, count); ++i) use(i, read([i](size_t) { return i; }));
-    for (; i < count; ++i) {
-      use(i, read([i, this](size_t lane) { return std::min(i, points_[lane] - 1); }));
+    for (; i < std::min(least_padded_, count); i += kPointsAtOnce) {
+      use_points(
+          i, [i](size_t) { return i; }, use);
+    }
+    for (; i < count; i += kPointsAtOnce) {
+      use_points(
+          i, [i, this](size_t lane) { return std::min(i, padded_[lane] - kPointsAtOnce); }, use);
     }
   }
   // Point `places[lane]` of each hull, or its last point.
   HWY_INLINE F3 points_at(const std::array<uint8_t, kLanes>& places) const {
-    return read([&](size_t lane) { return std::min<size_t>(places[lane], points_[lane] - 1); });
+    F3 p;
+    F unused;
+    const auto record = [&](size_t lane) HWY_ATTR {
+      const size_t place = std::min<size_t>(places[lane], points_[lane] - 1);
+      return geometry_[lane] ? geometry_[lane]->records()[place].data() : kNothing.data();
+    };
+    transpose_records(Source<decltype(record)>{record}, p, unused);
+    return p;
   }
   HWY_INLINE F3 middle() const {
-    return read([this](size_t lane) { return points_[lane]; });
+    F3 p;
+    F unused;
+    const auto record = [&](size_t lane) HWY_ATTR { return middle_[lane]; };
+    transpose_records(Source<decltype(record)>{record}, p, unused);
+    return p;
   }
 
-  // Numbers of points, without the middle.
+  // Numbers of points.
   size_t most() const { return most_; }
   size_t least() const { return least_; }
   HWY_INLINE F count_lanes() const {
@@ -148,33 +169,48 @@ class HullRecords {
   }
 
  private:
-  // Reads record place(lane) of each lane.
-  template <class Place>
-  struct Source {
-    const HullRecords& hulls;
-    const Place& place;
+  static constexpr std::array<float, 4> kNothing{};
+  static constexpr size_t kPointsAtOnce = 4;
 
-    HWY_INLINE const float* record(size_t lane) const {
-      return hulls.first_[lane] + 4 * place(lane);
-    }
+  // Four floats of each lane.
+  template <class Record>
+  struct Source {
+    const Record& record;
 #if HWY_TARGET != HWY_SCALAR
     HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
 #endif
     HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
   };
 
+  // Calls use(i + k, p) for point place(lane) + k of each hull, k < 4.
+  template <class Place, class Use>
+  HWY_INLINE void use_points(size_t i, const Place& place, const Use& use) const {
+    F x[kPointsAtOnce], y[kPointsAtOnce], z[kPointsAtOnce];
+    read_column(0, place, x);
+    read_column(1, place, y);
+    read_column(2, place, z);
+    use(i, F3{x[0], y[0], z[0]});
+    use(i + 1, F3{x[1], y[1], z[1]});
+    use(i + 2, F3{x[2], y[2], z[2]});
+    use(i + 3, F3{x[3], y[3], z[3]});
+  }
   template <class Place>
-  HWY_INLINE F3 read(const Place& place) const {
-    F3 p;
-    F unused;
-    transpose_records(Source<Place>{*this, place}, p, unused);
-    return p;
+  HWY_INLINE void read_column(size_t axis, const Place& place, F* values) const {
+    F3 first;
+    const auto record = [&](size_t lane) HWY_ATTR { return column_[axis][lane] + place(lane); };
+    transpose_records(Source<decltype(record)>{record}, first, values[3]);
+    values[0] = first.x;
+    values[1] = first.y;
+    values[2] = first.z;
   }
 
-  std::array<const float*, kLanes> first_;
-  std::array<size_t, kLanes> points_;
+  std::array<std::array<const float*, kLanes>, 3> column_;
+  std::array<const float*, kLanes> middle_;
+  std::array<const HullGeometry*, kLanes> geometry_;
+  std::array<size_t, kLanes> padded_, points_;
   size_t most_ = 1;
   size_t least_ = kMostLanePoints;
+  size_t least_padded_ = kMostLanePoints;
 };
 
 // A rotation that also scales. The scale is a power of two, so rounding is the same whichever
@@ -187,13 +223,13 @@ HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
 
 HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
                           CoreLanes& core) {
-  const HullRecords records(hull);
-  const size_t count = std::min(records.most(), kMostLanePoints);
+  const HullsOfLanes points(hull);
+  const size_t count = std::min(points.most(), kMostLanePoints);
   const Rotation turn = placing_turn(hull, q);
-  core.begin(count, records.least(), records.count_lanes());
-  records.for_each_point(
+  core.begin(count, points.least(), points.count_lanes());
+  points.for_each_point(
       count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
-  core.middle = rotate(turn, records.middle()) + offset;
+  core.middle = rotate(turn, points.middle()) + offset;
 }
 
 }  // namespace carom::HWY_NAMESPACE

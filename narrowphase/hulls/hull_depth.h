@@ -83,6 +83,9 @@ struct CrossedEdges {
   const Solid& solid;
   const OpenEdges& open;  // up to kMostCrossed, and at least one
 
+  CrossedEdges(const Solid& of, const OpenEdges& edges) : solid(of), open(edges) {
+    solid.make_edges({open.index.data(), open.count});
+  }
   const Solid::Edge& edge(size_t k) const { return solid.edges[open.index[k]]; }
 };
 

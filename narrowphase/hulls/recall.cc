@@ -21,21 +21,21 @@ namespace {
 class StoredHull {
  public:
   HWY_INLINE StoredHull(const HullLanes& hull, const Quaternion& q, const F3& offset)
-      : records_(hull), turn_(placing_turn(hull, q)), offset_(offset) {}
+      : points_(hull), turn_(placing_turn(hull, q)), offset_(offset) {}
 
   HWY_INLINE F3 placed_point(const std::array<uint8_t, kLanes>& places) const {
-    return rotate(turn_, records_.points_at(places)) + offset_;
+    return rotate(turn_, points_.points_at(places)) + offset_;
   }
 
   HWY_INLINE FacingCount count_facing(const F3& way, F height) const {
     const F3 own_way = rotate_back(turn_, way);
     const F base = dot(way, offset_), limit = hn::Sub(height, splat(kFacingSlack)), one = splat(1);
-    const F each = records_.count_lanes();
+    const F each = points_.count_lanes();
     FacingCount facing{splat(-FLT_MAX), splat(0)};
-    records_.for_each_point(records_.most(), [&](size_t i, const F3& p) HWY_ATTR {
+    points_.for_each_point(points_.most(), [&](size_t i, const F3& p) HWY_ATTR {
       const F h = hn::Add(dot(own_way, p), base);
       Mask is_facing = hn::Ge(h, limit);
-      if (i >= records_.least()) {
+      if (i >= points_.least()) {
         is_facing = hn::And(is_facing, hn::Lt(splat(static_cast<float>(i)), each));
       }
       facing.most = max(facing.most, h);
@@ -45,7 +45,7 @@ class StoredHull {
   }
 
  private:
-  const HullRecords records_;
+  const HullsOfLanes points_;
   const Rotation turn_;
   const F3 offset_;
 };

@@ -9,20 +9,55 @@ namespace carom {
 
 SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
   const HullGeometry& geometry = *hull.geometry;
-  const HullFeatures* const features = geometry.features();
-  if (!features) return;
-  const std::array<float, 4>& middle = geometry.records()[geometry.points().size()];
-  view_.point_count = geometry.points().size();
-  view_.face_count = features->face_count();
-  for (size_t axis = 0; axis < 3; ++axis) view_.point[axis] = geometry.column(axis);
-  for (size_t i = 0; i < 4; ++i) view_.plane[i] = features->column(i);
-  view_.point_record = geometry.records().data();
-  view_.plane_record = features->planes().data();
-  view_.edges = features->edges();
-  view_.side = {features->sides(0), features->sides(1)};
-  view_.middle = {middle[0], middle[1], middle[2]};
-  view_.inner_radius = features->inner_radius();
   view_.scale = static_cast<float>(hull.scale);
+  if (const DopSolid* const dop = geometry.dop_solid()) {
+    view_dop(geometry, *dop);
+  } else if (const HullFeatures* const features = geometry.features()) {
+    view_features(geometry, *features);
+  }
+}
+
+void SolidHull::view_features(const HullGeometry& geometry, const HullFeatures& features) {
+  const std::array<float, 4>& middle = geometry.middle_record();
+  view_.point_count = geometry.points().size();
+  view_.face_count = features.face_count();
+  for (size_t axis = 0; axis < 3; ++axis) view_.point[axis] = geometry.column(axis);
+  for (size_t i = 0; i < 4; ++i) view_.plane[i] = features.column(i);
+  view_.point_record = geometry.records().data();
+  view_.plane_record = features.planes().data();
+  view_.edges = features.edges();
+  view_.side = {features.sides(0), features.sides(1)};
+  view_.middle = {middle[0], middle[1], middle[2]};
+  view_.inner_radius = features.inner_radius();
+}
+
+void SolidHull::view_dop(const HullGeometry& geometry, const DopSolid& dop) {
+  const DopDirections& directions = DopDirections::get();
+  const std::array<float, 4>& middle = geometry.middle_record();
+  view_.point_count = geometry.points().size();
+  view_.face_count = dop.plane_count();
+  for (size_t axis = 0; axis < 3; ++axis) {
+    view_.point[axis] = dop.column(axis);
+    view_.plane[axis] = directions.column(axis);
+  }
+  view_.plane[3] = dop.heights();
+  view_.point_record = made_.points.data();
+  view_.plane_record = directions.records();
+  view_.edges = {made_.edges.data(), dop.edge_count()};
+  view_.side = {dop.sides(0), dop.sides(1)};
+  view_.middle = {middle[0], middle[1], middle[2]};
+  view_.inner_radius = dop.inner_radius();
+  view_.dop = {&dop, &made_};
+}
+
+void DopEdgeMaker::make(std::span<const uint16_t> edges) const {
+  const DopDirections& directions = DopDirections::get();
+  for (const uint16_t e : edges) {
+    const auto [from, left, right] = solid->edge(e);
+    made->edges[e] = {directions.edge(left, right), from, left, right};
+    made->points[from] = {solid->column(0)[from], solid->column(1)[from], solid->column(2)[from],
+                          0};
+  }
 }
 
 SmallSolid::SmallSolid(const scalar::SphereShape<float>&) {

@@ -8,11 +8,25 @@
 #include "base/few_of.h"
 #include "base/tolerances.h"
 #include "narrowphase/scalar/shapes.h"
+#include "shapes/dop_solid.h"
 #include "shapes/hull_features.h"
 
 namespace carom {
 
 using Eigen::Vector3f;
+
+// Edges of a k-DOP, and the points that they start at; the others hold anything.
+struct DopEdges {
+  std::array<HullFeatures::Edge, DopSolid::kMostEdges> edges;
+  std::array<std::array<float, 4>, DopSolid::kMostPoints> points;
+};
+
+struct DopEdgeMaker {
+  const DopSolid* solid = nullptr;
+  DopEdges* made = nullptr;
+
+  void make(std::span<const uint16_t> edges) const;
+};
 
 // A view of columns. Multiply lengths by `scale` to get those of the pair. Columns are padded to a
 // multiple of sixteen.
@@ -28,16 +42,21 @@ struct Solid {
   // The same as records, for what needs few of them: coordinates, then anything; normal, height.
   const std::array<float, 4>* point_record;
   const std::array<float, 4>* plane_record;
-  std::span<const Edge> edges;
+  std::span<const Edge> edges;         // of k-DOPs, those that make_edges() has made
   std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
   Vector3f middle;                     // inside
   float inner_radius;                  // of a ball around `middle` inside the solid
   float scale = 1;
   bool is_turned = true;
+  DopEdgeMaker dop;  // of k-DOPs alone
 
   bool is_known() const {
     return point_count > 0 && point_count <= kMostLanePoints && face_count <= kMostFaces &&
            edges.size() <= kMostEdges;
+  }
+  // A search needs few of the edges of a k-DOP.
+  void make_edges(std::span<const uint16_t> indices) const {
+    if (dop.solid) dop.make(indices);
   }
   Vector3f corner(size_t i) const {
     return Vector3f(point[0][i], point[1][i], point[2][i]) * scale;
@@ -83,14 +102,22 @@ class SmallSolid {
   std::array<std::array<uint8_t, kMostSides>, 2> side_{};
 };
 
-// A hull stores its features; this only views them.
+// A hull stores its features; this only views them, but for the edges of k-DOPs.
 class SolidHull {
  public:
   explicit SolidHull(const scalar::HullShape<float>& hull);
+
+  SolidHull(const SolidHull&) = delete;
+  SolidHull& operator=(const SolidHull&) = delete;
+
   const Solid& view() const { return view_; }
 
  private:
+  void view_features(const HullGeometry& geometry, const HullFeatures& features);
+  void view_dop(const HullGeometry& geometry, const DopSolid& dop);
+
   Solid view_;
+  DopEdges made_;
 };
 
 // Whether the core of a shape is a solid; its depth is then found in float32.
