@@ -207,6 +207,9 @@ inline constexpr double kInFace = 0x1p-47;
 // for spheres, half-spaces and pairs of boxes in lanes of doubles (30 units of 2^-53).
 inline constexpr double kProvenGap = 0x1p-36;
 
+// Rounding of a volume of three differences of points, each below 2^5, stays below this.
+inline constexpr double kProvenVolume = 0x1p-34;
+
 // --- Cores in float32, in scaled units: what GJK in lanes may decide. Coordinates of a difference
 // reach nine; rotated points and their products round to 30 units of 2^-24 ---
 

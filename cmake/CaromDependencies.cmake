@@ -27,7 +27,10 @@ if(CAROM_BUILD_BENCH OR CAROM_BUILD_PEERS)
   find_package(benchmark CONFIG REQUIRED)
 endif()
 if(CAROM_BUILD_PEERS)
-  find_path(CGAL_INCLUDE_DIR CGAL/box_intersection_d.h REQUIRED)  # header only, as used here
+  find_path(CGAL_INCLUDE_DIR CGAL/box_intersection_d.h REQUIRED)
+  # The numbers of CGAL's exact kernel.
+  find_library(GMP_LIBRARY gmp REQUIRED)
+  find_library(MPFR_LIBRARY mpfr REQUIRED)
   pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet)
   pkg_check_modules(ode REQUIRED IMPORTED_TARGET ode)
   pkg_check_modules(ccd REQUIRED IMPORTED_TARGET ccd)

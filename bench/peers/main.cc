@@ -162,17 +162,22 @@ int check(const Comparisons& comparisons) {
   for (const StreamResult& result : comparisons.streams) {
     if (!result.agrees()) return fail({result.pair + ": decisions differ"});
   }
+  for (const ExactResult& result : comparisons.exact) {
+    if (result.different > 0) return fail({result.pair + ": exact decisions differ"});
+  }
   return 0;
 }
 
 int run(const Arguments& arguments) {
   const std::vector<PeerKind> kinds = kinds_named(arguments.peers);
   if (kinds.empty()) return fail({arguments.peers + ": no peer's name begins so"});
-  Comparisons comparisons = {arguments.limits, {}, {}};
+  Comparisons comparisons = {arguments.limits, {}, {}, {}};
   // First, since Bullet's narrow phase is four times as slow once its broadphases have run.
   if (arguments.pairs > 0) {
     comparisons.streams =
         compare_streams(arguments.streams, arguments.pairs, arguments.limits.budget);
+    comparisons.exact = compare_exact(arguments.streams, arguments.pairs, arguments.limits.budget);
+    for (const ExactResult& result : comparisons.exact) print(result);
   }
   BroadphaseComparison broadphase(arguments.limits, kinds);
   broadphase.run_generated(arguments.max_bodies);

@@ -48,7 +48,8 @@ ordered_json context_json(const TimeLimits& limits) {
 Result<void> write_json(const std::string& path, const Comparisons& comparisons) {
   const ordered_json json = {{"context", context_json(comparisons.limits)},
                              {"scenes", scenes_json(comparisons.scenes)},
-                             {"streams", streams_json(comparisons.streams)}};
+                             {"streams", streams_json(comparisons.streams)},
+                             {"exact", exact_json(comparisons.exact)}};
   return io::write_text_file(path, json.dump(2) + "\n");
 }
 

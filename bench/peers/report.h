@@ -1,4 +1,4 @@
-// Writes both comparisons into one JSON file.
+// Writes all comparisons into one JSON file.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 
 #include "bench/peers/broadphase/comparison.h"
 #include "bench/peers/narrowphase/comparison.h"
+#include "bench/peers/narrowphase/exact.h"
 #include "carom/base/result.h"
 
 namespace carom::bench {
@@ -14,6 +15,7 @@ struct Comparisons {
   TimeLimits limits;
   std::vector<SceneResult> scenes;
   std::vector<StreamResult> streams;
+  std::vector<ExactResult> exact;
 };
 
 Result<void> write_json(const std::string& path, const Comparisons& comparisons);

@@ -14,55 +14,11 @@
 #include "base/tolerances.h"
 #include "impacts/approach.h"
 #include "impacts/linear/crossing-inl.h"
-#include "impacts/linear/plain_simplex-inl.h"
+#include "narrowphase/doubles/plain_simplex-inl.h"
+#include "narrowphase/doubles/point_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
-
-inline constexpr size_t kMostApproachPoints = 64;
-
-// Numbers of every lane, in memory.
-struct alignas(64) LaneNumber {
-  double lane[kDoubleLanes];
-
-  HWY_INLINE D get() const { return hn::Load(DoubleTag(), lane); }
-  HWY_INLINE void put(D v) { hn::Store(v, DoubleTag(), lane); }
-};
-using LaneVector = std::array<LaneNumber, 3>;
-
-HWY_INLINE D3 get(const LaneVector& v) { return {v[0].get(), v[1].get(), v[2].get()}; }
-HWY_INLINE void put(const D3& v, LaneVector& out) {
-  out[0].put(v.x);
-  out[1].put(v.y);
-  out[2].put(v.z);
-}
-
-// The points of a hull in each lane. A hull with fewer points repeats its last one.
-struct HullPointLanes {
-  std::array<LaneVector, kMostApproachPoints> point;
-  size_t count;
-
-  // The point that is furthest along `way`; of equals the first.
-  HWY_INLINE D3 furthest(const D3& way) const {
-    D3 best = get(point[0]);
-    D most = dot(way, best);
-    for (size_t i = 1; i < count; ++i) {
-      const D3 p = get(point[i]);
-      const D height = dot(way, p);
-      const DoubleMask is_better = hn::Gt(height, most);
-      most = max(height, most);
-      best = select(is_better, p, best);
-    }
-    return best;
-  }
-
-  void copy_lane(const HullPointLanes& from, size_t lane, size_t to) {
-    for (size_t i = 0; i < count; ++i) {
-      const LaneVector& p = from.point[std::min(i, from.count - 1)];
-      for (size_t axis = 0; axis < 3; ++axis) point[i][axis].lane[to] = p[axis].lane[lane];
-    }
-  }
-};
 
 // A search in each lane, between two rounds.
 struct ApproachLanes {

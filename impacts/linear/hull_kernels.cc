@@ -75,7 +75,7 @@ class HullTimes {
     size_t most = 1;
     for (size_t row = 0; row < count_; ++row) {
       const size_t points = hulls[row] ? hulls[row]->points().size() : 1;
-      if (points <= kMostApproachPoints) most = std::max(most, points);
+      if (points <= kMostPointsOfDoubles) most = std::max(most, points);
     }
     return most;
   }
@@ -114,7 +114,7 @@ class HullTimes {
     a.scale(down);
     b.scale(down);
     const D3 from = apart * down, way = motion * down;
-    const HullRecords records_a(rows_.hull_a() + row), records_b(rows_.hull_b() + row);
+    const LinearHullRecords records_a(rows_.hull_a() + row), records_b(rows_.hull_b() + row);
     HullPair pair{rotate(a.turn, a.middle), rotate(b.turn, b.middle), place(records_a, a, lanes_.a),
                   place(records_b, b, lanes_.b),
                   hn::Not(hn::And(records_a.has_space, records_b.has_space))};

@@ -15,13 +15,14 @@
 #include <array>
 #include <bit>
 #include <cfloat>
-#include <limits>
 #include <utility>
 
 #include "base/tolerances.h"
+#include "narrowphase/batch/certificate-inl.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/single_pair.h"
+#include "narrowphase/batch/to_floats-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -91,6 +92,8 @@ template <class Kernel, bool kContacts>
 class ExactLanes {
   using A = typename Kernel::A;
   using B = typename Kernel::B;
+  using ShapeA = typename A::template Of<D>;
+  using ShapeB = typename B::template Of<D>;
   static constexpr bool kIsTest = Kernel::kUnsure == Unsure::test;
   static constexpr bool kSeparationOnly = Kernel::kUnsure == Unsure::separation;
 
@@ -98,8 +101,8 @@ class ExactLanes {
   static constexpr bool is_box(ShapeKind kind) {
     return kind == ShapeKind::aabb || kind == ShapeKind::box;
   }
-  // Whether a gap wider than rounding proves the decision. Not where nearly parallel edges make a
-  // kernel skip an axis, or take another feature for the nearest: that may matter by more.
+  // Whether a gap wider than rounding proves the decision. Where nearly parallel edges may make a
+  // kernel skip an axis, or take another feature for the nearest, a certificate is sought.
   static constexpr bool kProves = is_one_of(ShapeKind::sphere) || is_one_of(ShapeKind::halfspace) ||
                                   (is_box(A::kKind) && is_box(B::kKind));
 
@@ -107,6 +110,8 @@ class ExactLanes {
   // For test_boxes().
   static constexpr bool kHasContact = kContacts;
   static constexpr bool faces_only() { return false; }
+  // Whether the caller wants to know which decisions are proven.
+  bool marks_unsure() const { return batch_.unsure != nullptr; }
   template <size_t kPart>
   static HWY_INLINE void fetch() {}
 
@@ -146,6 +151,8 @@ class ExactLanes {
     if constexpr (kProves) {
       const DoubleMask is_wide = hn::Gt(hn::Abs(separation), splat_double(kProvenGap));
       proven_ |= (bits_of(DoubleTag(), is_wide) & answered_) << first_;
+    } else if (HWY_UNLIKELY(marks_unsure())) {
+      reason_ = {separation, normal, arm_a, arm_b};
     }
     put(0, rounded_separation(gap));
     if constexpr (kNumbers > 1) {
@@ -254,35 +261,59 @@ class ExactLanes {
   // that is answered.
   HWY_NOINLINE uint64_t run(size_t first) {
     first_ = first;
-    const DoubleTag tag;
     PoseOf<D> pose;
+    ShapeA a;
+    ShapeB b;
+    read(pose, a, b);
+    if constexpr (kSeparationOnly) {
+      DoubleMask is_proven;
+      put(0, rounded_separation(Kernel::exact_separation(pose.d, a, b, is_proven)));
+      proven_ |= bits_of(DoubleTag(), is_proven) << first;
+      return ~uint64_t{0};
+    } else {
+      scale(pose, a, b);
+      Kernel::test(pose, a, b, *this);
+      if constexpr (!kProves) {
+        if (HWY_UNLIKELY(marks_unsure())) proven_ |= (certified() & answered_) << first_;
+      }
+      return answered_;
+    }
+  }
+
+  // The bodies of the lanes from first_ on.
+  HWY_INLINE void read(PoseOf<D>& pose, ShapeA& a, ShapeB& b) const {
+    const DoubleTag tag;
     D3 at_a, at_b;
-    typename A::template Of<D> a;
-    typename B::template Of<D> b;
-    DoubleReader read{numbers_, first};
+    DoubleReader read{numbers_, first_};
     visit_numbers(at_a, read);
     visit_numbers(at_b, read);
     read_shape<A>(a, pose.a, read);
     read_shape<B>(b, pose.b, read);
     pose.d = at_b - at_a;
     if (batch_.layout == PositionLayout::records64) {
-      pose.d = {hn::Load(tag, relative_[0] + first), hn::Load(tag, relative_[1] + first),
-                hn::Load(tag, relative_[2] + first)};
-    }
-    if constexpr (kSeparationOnly) {
-      DoubleMask is_proven;
-      put(0, rounded_separation(Kernel::exact_separation(pose.d, a, b, is_proven)));
-      proven_ |= bits_of(tag, is_proven) << first;
-      return ~uint64_t{0};
-    } else {
-      scale(pose, a, b);
-      Kernel::test(pose, a, b, *this);
-      return answered_;
+      pose.d = {hn::Load(tag, relative_[0] + first_), hn::Load(tag, relative_[1] + first_),
+                hn::Load(tag, relative_[2] + first_)};
     }
   }
 
+  // A bit for each lane whose decision has a certificate. Reads the bodies again: what run() has in
+  // registers would else have to be in memory in every call.
+  HWY_NOINLINE uint64_t certified() {
+    PoseOf<D> pose;
+    ShapeA shape_a;
+    ShapeB shape_b;
+    read(pose, shape_a, shape_b);
+    scale(pose, shape_a, shape_b);
+    const D zero = splat_double(0);
+    const auto a = placed(shape_a, pose.a, {zero, zero, zero});
+    const auto b = placed(shape_b, pose.b, pose.d);
+    const DoubleMask overlap = hn::Le(reason_.separation, zero);
+    const DoubleMask is_common = have_common_point(a, b, reason_.arm_a, pose.d + reason_.arm_b);
+    return bits_of(DoubleTag(), hn::Or(hn::And(overlap, is_common),
+                                       hn::AndNot(overlap, are_apart(a, b, reason_.normal))));
+  }
+
   // As scalar::in_scaled_units() does.
-  template <class ShapeA, class ShapeB>
   HWY_INLINE void scale(PoseOf<D>& pose, ShapeA& a, ShapeB& b) {
     D down;
     power_of_two(max(largest_component(pose.d), max(a.extent(), b.extent())), up_, down);
@@ -291,24 +322,7 @@ class ExactLanes {
     b.scale(down);
   }
 
-  // As scalar::round_separation(), of finite numbers.
-  static HWY_INLINE D rounded_separation(D v) {
-    constexpr double kLeast = std::numeric_limits<float>::denorm_min();
-    const DoubleMask vanishes =
-        hn::And(hn::Gt(v, splat_double(0)), hn::Lt(v, splat_double(kLeast)));
-    const D kept = hn::IfThenElse(vanishes, splat_double(kLeast), v);
-    return min(max(kept, splat_double(-FLT_MAX)), splat_double(FLT_MAX));
-  }
-
-  HWY_INLINE void put(size_t c, D v) {
-#if HWY_TARGET == HWY_SCALAR
-    // DemoteTo() would make the greatest float of what is beyond floats; elsewhere it is infinite.
-    answers_[c][first_] = static_cast<float>(hn::GetLane(v));
-#else
-    const hn::Rebind<float, DoubleTag> half;
-    hn::Store(hn::DemoteTo(half, v), half, answers_[c] + first_);
-#endif
-  }
+  HWY_INLINE void put(size_t c, D v) { store_as_floats(v, answers_[c] + first_); }
   HWY_INLINE void put(size_t c, const D3& v) { put(c, v.x), put(c + 1, v.y), put(c + 2, v.z); }
 
   // Returns 1 if the status is degenerate.
@@ -331,6 +345,10 @@ class ExactLanes {
   uint64_t answered_ = 0;
   uint64_t proven_ = 0;
   D up_;
+  struct {
+    D separation;
+    D3 normal, arm_a, arm_b;
+  } reason_;  // in scaled units
   HWY_ALIGN float numbers_[kMostNumbers][kLanes];
   HWY_ALIGN double relative_[3][kLanes];
   HWY_ALIGN float answers_[kNumbers][kLanes] = {};

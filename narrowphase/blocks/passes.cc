@@ -65,18 +65,28 @@ void remember_directions(const Batch& batch, const RowFlags& tested, uint32_t* d
 }
 
 // Writes to `open` which rows still need a test, and the results of the others. `finds_depths`:
-// overlapping pairs need a depth, which a recall cannot find.
+// overlapping pairs need a depth, which a recall cannot find. Where nearly all rows have features
+// it takes all of them, since copying results back takes longer.
 void run_recall(const PairKind& kind, const Batch& batch, bool finds_depths, RowFlags& open) {
-  open.fill(1);
+  constexpr size_t kFewest = 8;  // fewer than one row in so many are few
   const size_t most = finds_depths ? kMostFeatures - 1 : kMostFeatures;
   RowSelection known(batch);
   known.select([&](size_t row) {
-    return batch.features[row] != kNoFeatures && feature_count(batch.features[row]) <= most;
+    open[row] = batch.features[row] == kNoFeatures || feature_count(batch.features[row]) > most;
+    return open[row] == 0;
   });
   if (known.count() == 0) return;
+  RowFlags unsure{};
+  if (kFewest * (batch.count - known.count()) < batch.count) {
+    Batch recall = batch;
+    recall.pass = Pass::recall;
+    recall.unsure = unsure.data();
+    kind.run(recall);
+    for (size_t row = 0; row < batch.count; ++row) open[row] |= unsure[row];
+    return;
+  }
   TestColumns scratch;
   std::array<uint64_t, kPairsPerBlock> features;
-  RowFlags unsure{};
   known.gather(batch.features, features.data());
   Batch recall = known.batch(Pass::recall);
   recall.features = features.data();

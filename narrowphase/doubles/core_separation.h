@@ -6,6 +6,7 @@
 #include "narrowphase/doubles/furthest_scalar.h"
 #include "narrowphase/doubles/make_core.h"
 #include "narrowphase/doubles/penetration_search.h"
+#include "narrowphase/doubles/plain_gap.h"
 #include "narrowphase/features/contact_location.h"
 #include "narrowphase/scalar/separation.h"
 
@@ -15,16 +16,6 @@ namespace carom::scalar {
 struct CoreTest {
   FurthestPoint furthest = &furthest_point;
   bool decides_only = false;
-};
-
-// The gap between the cores along a unit vector from A to B, without radii.
-struct CoreGap {
-  double size;
-  CoreVector normal;
-  bool is_flat = false;
-  bool is_proven = false;  // separate, or overlapping by more than rounding
-  bool has_ended = true;
-  bool is_at_corners = false;  // the witness points face each other within far less than kFacing
 };
 
 // The distance of zero from the faces of the tetrahedron; negative outside.
@@ -48,7 +39,9 @@ inline bool is_plain_face(const NearestPoint::Corners& corners) {
 
 inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
   const FurthestPoint furthest = test.furthest;
-  const NearestWay nearest = nearest_way(a, b, furthest);
+  const PlainGjk plain(a, b, furthest);
+  if (CoreGap gap; find_plain_gap(a, b, plain, furthest, test.decides_only, gap)) return gap;
+  const NearestWay nearest = nearest_way(a, b, plain.simplex, furthest);
   if (test.decides_only && nearest.corners.size() == 4) {
     const double depth = depth_of_zero(nearest.corners);
     if (depth > kProvenGap) return {.size = -depth, .normal = {1, 0, 0}, .is_proven = true};
@@ -113,8 +106,8 @@ inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, co
   const Vector3d u = a[1] - a[0], v = b[1] - b[0], between = b[0] - a[0];
   const double slope = dot(n, cross(u, v));
   const double t = dot(n, cross(between, v)) / slope, s = dot(n, cross(between, u)) / slope;
-  constexpr double kInside = 0x1p-20;
-  if (!(t > kInside && t < 1 - kInside && s > kInside && s < 1 - kInside)) return false;
+  if (!(t > kWellInside && t < 1 - kWellInside && s > kWellInside && s < 1 - kWellInside))
+    return false;
   point = a[0] + u * t;
   return slope * slope > kParallelEdges * (dot(u, u) * dot(v, v));
 }
@@ -122,12 +115,11 @@ inline bool find_crossing(const Meeting::Points& a, const Meeting::Points& b, co
 // Whether the point lies well inside the triangle, seen along n.
 inline bool is_over_triangle(const Vector3d& point, const Meeting::Points& triangle,
                              const Vector3d& n) {
-  constexpr double kInside = 0x1p-20;
   const Vector3d u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
   const Vector3d way = point - triangle[0];
   const double area = dot(n, cross(u, v));
   const double of_u = dot(n, cross(way, v)) / area, of_v = dot(n, cross(u, way)) / area;
-  const bool is_inside = of_u > kInside && of_v > kInside && of_u + of_v < 1 - kInside;
+  const bool is_inside = of_u > kWellInside && of_v > kWellInside && of_u + of_v < 1 - kWellInside;
   return is_inside && area * area > kParallelEdges * (dot(u, u) * dot(v, v));
 }
 
@@ -161,22 +153,26 @@ inline Vector3d meeting_point(const Core& a, const Core& b, const CoreGap& gap,
   return best;
 }
 
-// `d` is the position of B relative to A.
-inline SeparationAs<double> core_separation(const Core& a, const Core& b, const CoreGap& gap,
-                                            const Vector3d& d, const CoreTest& test) {
+// `d` is the position of B relative to A, `on_a` the contact location on A without its radius.
+inline SeparationAs<double> separation_at(const CoreGap& gap, const Vector3d& on_a, double radius_a,
+                                          double radius_b, const Vector3d& d) {
   const Vector3d n = eigen_vector(gap.normal);
   SeparationAs<double> result;
-  result.separation = gap.size - (a.radius + b.radius);
+  result.separation = gap.size - (radius_a + radius_b);
   result.normal = n;
   result.status = !gap.has_ended ? Status::budget : gap.is_flat ? Status::degenerate : Status::ok;
   result.is_unsure = !gap.is_proven || std::fabs(result.separation) <= kProvenGap;
-  if (test.decides_only) {
-    result.arm_a = result.arm_b = Vector3d::Zero();
-    return result;
-  }
-  result.arm_a = meeting_point(a, b, gap, test.furthest) + n * a.radius;
+  result.arm_a = on_a + n * radius_a;
   result.arm_b = (result.arm_a + n * result.separation) - d;
   return result;
+}
+
+// Without a location where the decision alone is wanted.
+inline SeparationAs<double> core_separation(const Core& a, const Core& b, const CoreGap& gap,
+                                            const Vector3d& d, const CoreTest& test) {
+  const Vector3d on_a =
+      test.decides_only ? Vector3d(Vector3d::Zero()) : meeting_point(a, b, gap, test.furthest);
+  return separation_at(gap, on_a, a.radius, b.radius, d);
 }
 
 template <class A, class B>

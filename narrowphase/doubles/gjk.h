@@ -11,16 +11,10 @@
 #include "base/few_of.h"
 #include "base/tolerances.h"
 #include "narrowphase/doubles/core.h"
-#include "narrowphase/doubles/plain_simplex.h"
+#include "narrowphase/doubles/plain_gjk.h"
 #include "narrowphase/doubles/sliver_cross.h"
 
 namespace carom {
-
-// A point of the difference B - A of two cores.
-inline CoreVector difference_point(const Core& a, const Core& b, const CoreVector& way,
-                                   FurthestPoint furthest) {
-  return b.point(furthest(b, -way)) - a.point(furthest(a, way));
-}
 
 // The point of a simplex that is nearest to zero, and the corners that span it. The last corner is
 // always one of them: without it no point would be nearer than before.
@@ -139,35 +133,15 @@ struct NearestWay {
   double gap = 0;  // between the projections on `way`, times its length; 0 if the cores touch
 };
 
-// About the corners of B - A that are nearest to zero, or that have it inside: the plain search as
-// far as it goes.
-inline NearestPoint::Corners corners_about_nearest(const Core& a, const Core& b,
-                                                   FurthestPoint furthest) {
-  constexpr int kMostRounds = 32;  // six are usual
-  const CoreVector first = difference_point(a, b, b.middle - a.middle, furthest);
-  scalar::PlainSimplex simplex;
-  simplex.replace(0, first);
-  scalar::PlainNearest nearest({}, first);
-  for (int round = 0; round < kMostRounds && nearest.squared > kTouchingSquared; ++round) {
-    const CoreVector next = difference_point(a, b, nearest.point, furthest);
-    const bool has_ended = dot(nearest.point, next) >= nearest.squared || simplex.holds(next);
-    if (has_ended) break;
-    const scalar::PlainNearest nearer(simplex, next);
-    const bool is_careful = nearer.is_around || nearer.is_unclear;
-    if (is_careful || !(nearer.squared < nearest.squared)) break;
-    simplex.replace(nearer.kept, next);
-    nearest = nearer;
-  }
-  NearestPoint::Corners corners;
-  for (size_t i = 0; i < 3; ++i) {
-    if (simplex.used >> i & 1) corners.push_back(simplex.corner[i]);
-  }
-  return corners;
-}
-
-inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
+// Goes on from what plain GJK found.
+inline NearestWay nearest_way(const Core& a, const Core& b, const scalar::PlainSimplex& plain,
+                              FurthestPoint furthest) {
   constexpr int kMostRounds = 128;  // one or two are usual
-  NearestPoint nearest(corners_about_nearest(a, b, furthest));
+  NearestPoint::Corners known;
+  for (size_t i = 0; i < 3; ++i) {
+    if (plain.used >> i & 1) known.push_back(plain.corner[i]);
+  }
+  NearestPoint nearest(known);
   for (int round = 0;; ++round) {
     const CoreVector& way = nearest.point();
     if (nearest.squared() <= kTouchingSquared || nearest.is_around_zero()) {
@@ -184,6 +158,10 @@ inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthe
     if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners(), gap};
     nearest = nearer;
   }
+}
+
+inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
+  return nearest_way(a, b, scalar::PlainGjk(a, b, furthest).simplex, furthest);
 }
 
 }  // namespace carom

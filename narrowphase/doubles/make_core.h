@@ -28,7 +28,7 @@ inline void make_core(const CapsuleShape<double>& capsule, const Quaternion<doub
   core.set(1, core_vector(b));
   core.pad();
   core.radius = capsule.radius;
-  core.middle = core_vector((a + b) / 2);
+  core.middle = core_vector(rotate(turn, Vector3d((capsule.a + capsule.b) / 2)) + offset);
 }
 
 inline void make_core_of_box(const Vector3d& lower, const Vector3d& upper,

@@ -1,7 +1,7 @@
 // The point of a simplex that is nearest to zero, by the plain way: the first side or face at the
 // last corner that has zero over it. It says where rounding could decide, and nearest_way() or
 // another careful search has to. It takes a third of the time of NearestPoint, and runs in lanes as
-// well (impacts/linear/plain_simplex-inl.h).
+// well (plain_simplex-inl.h).
 //
 // Source: C. Ericson, Real-Time Collision Detection, 2005, section 9.5.2 (which parts of a simplex
 // can be nearest).

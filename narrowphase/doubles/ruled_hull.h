@@ -27,9 +27,22 @@ class OpenWays {
 
  private:
   void keep(const CoreVector& n) {
+    const double of_b = least_height(b_, n);
+    // Any point of A bounds the gap. That of the best direction so far rules most others out.
+    if (of_b - dot(n, on_a_) <= best_.size + kTieOfGaps) return;
     if (!allows(rules_, -eigen_vector(n))) return;
-    const double gap = dot(n, b_.point(furthest_(b_, -n))) - dot(n, a_.point(furthest_(a_, n)));
-    if (gap > best_.size + kTieOfGaps) best_ = {.size = gap, .normal = n};
+    const CoreVector on_a = a_.point(furthest_(a_, n));
+    const double gap = of_b - dot(n, on_a);
+    if (!(gap > best_.size + kTieOfGaps)) return;
+    best_ = {.size = gap, .normal = n};
+    on_a_ = on_a;
+  }
+
+  // The triangle has few points.
+  static double least_height(const Core& core, const CoreVector& n) {
+    double least = dot(n, core.point(0));
+    for (size_t i = 1; i < core.size(); ++i) least = min(least, dot(n, core.point(i)));
+    return least;
   }
 
   const Core& a_;
@@ -37,6 +50,7 @@ class OpenWays {
   const FrontRules& rules_;
   const FurthestPoint furthest_;
   CoreGap best_{.size = -HUGE_VAL, .normal = {1, 0, 0}};
+  CoreVector on_a_{0, 0, 0};  // A's furthest point along the normal of `best_`
 };
 
 // Tries the normals of all faces, and the cross products of the hull's and the triangle's edges.

@@ -12,6 +12,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
+#include "simd/compress-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -108,19 +109,92 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
-// Reads the points of each lane's hull, and its middle.
-class HullsOfLanes {
+// What lanes without a hull read in place of a point.
+inline constexpr std::array<float, 4> kNoRecord{};
+
+// Reads the points of each lane's hull as records.
+class HullRecords {
  public:
-  explicit HWY_INLINE HullsOfLanes(const HullLanes& hull) {
+  explicit HWY_INLINE HullRecords(const HullLanes& hull) {
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const HullGeometry* const geometry = hull.geometry[lane];
+      first_[lane] = geometry ? geometry->records()[0].data() : kNoRecord.data();
+      points_[lane] = geometry ? geometry->records().size() : 1;
+      most_ = std::max(most_, points_[lane]);
+      least_ = std::min(least_, points_[lane]);
+    }
+  }
+
+  // Calls use(i, p) for i < count. p is point i of each hull, or its last point.
+  template <class Use>
+  HWY_INLINE void for_each_point(size_t count, const Use& use) const {
+    size_t i = 0;
+    for (; i < std::min(least_, count); ++i) use(i, read([i](size_t) { return i; }));
+    for (; i < count; ++i) {
+      use(i, read([i, this](size_t lane) { return std::min(i, points_[lane] - 1); }));
+    }
+  }
+  // Point `places[lane]` of each hull, or its last point.
+  HWY_INLINE F3 points_at(const std::array<uint8_t, kLanes>& places) const {
+    return read([&](size_t lane) { return std::min<size_t>(places[lane], points_[lane] - 1); });
+  }
+  HWY_INLINE F3 points_at(Indices places) const {
+    const I last = hn::ConvertTo(IntTag(), hn::Sub(count_lanes(), splat(1)));
+    HWY_ALIGN uint32_t at[kLanes];
+    hn::Store(hn::Min(places, hn::BitCast(IndexTag(), last)), IndexTag(), at);
+    return read([&](size_t lane) { return at[lane]; });
+  }
+
+  // Numbers of points.
+  size_t most() const { return most_; }
+  size_t least() const { return least_; }
+  HWY_INLINE F count_lanes() const {
+    if (least_ == most_) return splat(static_cast<float>(most_));  // the usual case
+    return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
+  }
+
+ private:
+  // Reads record place(lane) of each lane.
+  template <class Place>
+  struct Source {
+    const HullRecords& hulls;
+    const Place& place;
+
+    HWY_INLINE const float* record(size_t lane) const {
+      return hulls.first_[lane] + 4 * place(lane);
+    }
+#if HWY_TARGET != HWY_SCALAR
+    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
+#endif
+    HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
+  };
+
+  template <class Place>
+  HWY_INLINE F3 read(const Place& place) const {
+    F3 p;
+    F unused;
+    transpose_records(Source<Place>{*this, place}, p, unused);
+    return p;
+  }
+
+  std::array<const float*, kLanes> first_;
+  std::array<size_t, kLanes> points_;
+  size_t most_ = 1;
+  size_t least_ = kMostLanePoints;
+};
+
+// Reads the points of each lane's hull as columns, four at a time: of k-DOPs these lie with all
+// that a search for depths reads.
+class HullColumns {
+ public:
+  explicit HWY_INLINE HullColumns(const HullLanes& hull) {
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const HullGeometry* const geometry = hull.geometry[lane];
       for (size_t axis = 0; axis < 3; ++axis) {
-        column_[axis][lane] = geometry ? geometry->column(axis) : kNothing.data();
+        column_[axis][lane] = geometry ? geometry->column(axis) : kNoRecord.data();
       }
       padded_[lane] = geometry ? geometry->column_stride() : kPointsAtOnce;
       points_[lane] = geometry ? geometry->points().size() : 1;
-      middle_[lane] = geometry ? geometry->middle_record().data() : kNothing.data();
-      geometry_[lane] = geometry;
       most_ = std::max(most_, points_[lane]);
       least_ = std::min(least_, points_[lane]);
       least_padded_ = std::min(least_padded_, padded_[lane]);
@@ -141,45 +215,28 @@ class HullsOfLanes {
           i, [i, this](size_t lane) { return std::min(i, padded_[lane] - kPointsAtOnce); }, use);
     }
   }
-  // Point `places[lane]` of each hull, or its last point.
-  HWY_INLINE F3 points_at(const std::array<uint8_t, kLanes>& places) const {
-    F3 p;
-    F unused;
-    const auto record = [&](size_t lane) HWY_ATTR {
-      const size_t place = std::min<size_t>(places[lane], points_[lane] - 1);
-      return geometry_[lane] ? geometry_[lane]->records()[place].data() : kNothing.data();
-    };
-    transpose_records(Source<decltype(record)>{record}, p, unused);
-    return p;
-  }
-  HWY_INLINE F3 middle() const {
-    F3 p;
-    F unused;
-    const auto record = [&](size_t lane) HWY_ATTR { return middle_[lane]; };
-    transpose_records(Source<decltype(record)>{record}, p, unused);
-    return p;
-  }
 
   // Numbers of points.
   size_t most() const { return most_; }
   size_t least() const { return least_; }
   HWY_INLINE F count_lanes() const {
-    if (least_ == most_) return splat(static_cast<float>(most_));  // the usual case
     return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
   }
 
  private:
-  static constexpr std::array<float, 4> kNothing{};
   static constexpr size_t kPointsAtOnce = 4;
 
-  // Four floats of each lane.
-  template <class Record>
+  // Four entries of a column of each lane.
+  template <class Place>
   struct Source {
-    const Record& record;
+    const std::array<const float*, kLanes>& column;
+    const Place& place;
+
+    HWY_INLINE const float* entries(size_t lane) const { return column[lane] + place(lane); }
 #if HWY_TARGET != HWY_SCALAR
-    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
+    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), entries(lane)); }
 #endif
-    HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
+    HWY_INLINE float component(size_t lane, size_t c) const { return entries(lane)[c]; }
   };
 
   // Calls use(i + k, p) for point place(lane) + k of each hull, k < 4.
@@ -197,20 +254,31 @@ class HullsOfLanes {
   template <class Place>
   HWY_INLINE void read_column(size_t axis, const Place& place, F* values) const {
     F3 first;
-    const auto record = [&](size_t lane) HWY_ATTR { return column_[axis][lane] + place(lane); };
-    transpose_records(Source<decltype(record)>{record}, first, values[3]);
+    transpose_records(Source<Place>{column_[axis], place}, first, values[3]);
     values[0] = first.x;
     values[1] = first.y;
     values[2] = first.z;
   }
 
   std::array<std::array<const float*, kLanes>, 3> column_;
-  std::array<const float*, kLanes> middle_;
-  std::array<const HullGeometry*, kLanes> geometry_;
   std::array<size_t, kLanes> padded_, points_;
   size_t most_ = 1;
   size_t least_ = kMostLanePoints;
   size_t least_padded_ = kMostLanePoints;
+};
+
+// The middles of hulls, as records.
+struct HullMiddles {
+  const HullLanes& hull;
+
+  HWY_INLINE const float* record(size_t lane) const {
+    const HullGeometry* const geometry = hull.geometry[lane];
+    return geometry ? geometry->middle_record().data() : kNoRecord.data();
+  }
+#if HWY_TARGET != HWY_SCALAR
+  HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
+#endif
+  HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
 };
 
 // A rotation that also scales. The scale is a power of two, so rounding is the same whichever
@@ -221,15 +289,33 @@ HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
   return turn;
 }
 
-HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
-                          CoreLanes& core) {
-  const HullsOfLanes points(hull);
+template <class Points>
+HWY_INLINE void put_points(const Points& points, const Rotation& turn, const F3& offset,
+                           CoreLanes& core) {
   const size_t count = std::min(points.most(), kMostLanePoints);
-  const Rotation turn = placing_turn(hull, q);
   core.begin(count, points.least(), points.count_lanes());
   points.for_each_point(
       count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
-  core.middle = rotate(turn, points.middle()) + offset;
+}
+
+inline HWY_NOINLINE void put_points_of_dops(const HullLanes& hull, const Rotation& turn,
+                                            const F3& offset, CoreLanes& core) {
+  put_points(HullColumns(hull), turn, offset, core);
+}
+
+HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
+                          CoreLanes& core) {
+  const Rotation turn = placing_turn(hull, q);
+  // The hulls of a batch are those of k-DOPs, or none is.
+  if (hull.geometry[0] && hull.geometry[0]->dop_solid()) {
+    put_points_of_dops(hull, turn, offset, core);
+  } else {
+    put_points(HullRecords(hull), turn, offset, core);
+  }
+  F3 middle;
+  F unused;
+  transpose_records(HullMiddles{hull}, middle, unused);
+  core.middle = rotate(turn, middle) + offset;
 }
 
 }  // namespace carom::HWY_NAMESPACE

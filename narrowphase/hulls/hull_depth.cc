@@ -14,7 +14,7 @@ using namespace scalar;
 struct Side {
   const Solid& solid;
   const HullPoints& others;
-  Ball inside;  // a ball inside the other solid
+  const Ball& inside;  // a ball inside the other solid
   FaceBounds& bounds;
 };
 
@@ -41,60 +41,96 @@ struct CrossedEdge {
   Vector3f direction, from;
 };
 
+// The search for the depth of one pair, step by step.
 class DepthSearch {
  public:
-  DepthSearch(const Solid& a, const Solid& b, const PairPose<float>& pose, const HullSteps& steps)
-      : a_(a), b_(b), pose_(pose), steps_(steps) {}
-
-  Separation run() {
+  // Writes place i of the frames.
+  void begin(const DeepPair& pair, const HullSteps& steps, DeepFrames& frames, size_t i) {
+    a_ = pair.a;
+    b_ = pair.b;
+    steps_ = &steps;
+    is_doubtful_ = !a_->is_known() || !b_->is_known();
+    may_cross_ = has_crossing_ = false;
     const Quaternion<float> unturned{Vector3f::Zero(), 1};
-    const Quaternion<float>& q = a_.is_turned ? pose_.a : unturned;
-    turn_a_ = rotation_of(q);
-    turn_ = rotation_of(relative_rotation(q, b_.is_turned ? pose_.b : unturned));
-    centre_ = rotate_back(turn_a_, pose_.d);
-    Memory& memory = memory_of_thread();
-    place_points(memory);
-    const Side a = {a_, memory.b_in_a, inside(b_, rotate(turn_, middle_of(b_)) + centre_),
-                    memory.bounds_a};
-    const Side b = {b_, memory.a_in_b,
-                    inside(a_, rotate_back(turn_, Vector3f(middle_of(a_) - centre_))),
-                    memory.bounds_b};
+    DeepFrames::put(pair.d, frames.d, i);
+    DeepFrames::put(a_->is_turned ? pair.turn_a : unturned, frames.turn_a, i);
+    DeepFrames::put(b_->is_turned ? pair.turn_b : unturned, frames.turn_b, i);
+    if (is_doubtful_) return;
+    DeepFrames::put(a_->middle * a_->scale, frames.middle_a, i);
+    DeepFrames::put(b_->middle * b_->scale, frames.middle_b, i);
+  }
+
+  // After the set-up of the frames.
+  void place_points(const DeepFrames& frames, size_t i) {
+    if (is_doubtful_) return;
+    DeepFrames::get(frames.b_to_a, i, turn_);
+    DeepFrames::get(frames.b_from_a, i, centre_);
+    DeepFrames::get(frames.middle_a_in_b, i, in_a_.middle);
+    DeepFrames::get(frames.middle_b_in_a, i, in_b_.middle);
+    in_a_.radius = a_->inner_radius * a_->scale;
+    in_b_.radius = b_->inner_radius * b_->scale;
+    Rotation<float> back;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<int>(axis);
+      back.x[k] = frames.b_to_a[axis][0][i];
+      back.y[k] = frames.b_to_a[axis][1][i];
+      back.z[k] = frames.b_to_a[axis][2][i];
+    }
+    Vector3f a_from_b;
+    DeepFrames::get(frames.a_from_b, i, a_from_b);
+    const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
+    steps_->place(*a_, unturned, Vector3f::Zero(), own_a_);
+    steps_->place(*b_, turn_, centre_, b_in_a_);
+    steps_->place(*a_, back, a_from_b, a_in_b_);
+  }
+
+  // Finds the best face, and the edges whose axes may be better, or as good up to rounding.
+  void find_faces(FaceBounds& bounds_a, FaceBounds& bounds_b) {
+    if (is_doubtful_) return;
+    const Side a = {*a_, b_in_a_, in_b_, bounds_a};
+    const Side b = {*b_, a_in_b_, in_a_, bounds_b};
     BestFace best_a, best_b;
     try_faces(a, best_a, b, best_b);
+    if (is_doubtful_) return;
+    keep_faces(best_a, best_b);
+    steps_->find_open(*a_, least_crossing(), bounds_a, open_a_);
+    steps_->find_open(*b_, least_crossing(), bounds_b, open_b_);
+    is_doubtful_ = open_a_.count > kMostCrossed || open_b_.count > kMostCrossed;
+  }
+
+  void cross_edges() {
+    if (is_doubtful_ || open_a_.count == 0 || open_b_.count == 0) return;
+    const CrossedEdges a{*a_, open_a_}, b{*b_, open_b_};
+    const Crossing crossing = steps_->cross(a, b, turn_, centre_, least_crossing());
+    is_doubtful_ = crossing.is_doubtful;
+    may_cross_ = crossing.exists;
+    if (crossing.exists && crossing.gap > gap_) {
+      take_crossing(crossing.gap, a.edge(crossing.of_a), b.edge(crossing.of_b));
+    }
+  }
+
+  // Locates the contact, and writes place i of the frames unless the result is unsure.
+  void locate(DeepFrames& frames, size_t i) {
+    Vector3f on_a;
+    is_doubtful_ = is_doubtful_ || !find_location(on_a);
+    if (is_doubtful_) return;
+    DeepFrames::put(normal_, frames.normal, i);
+    DeepFrames::put(on_a, frames.arm_a, i);
+    frames.gap[i] = gap_;
+  }
+
+  // After the frames are finished.
+  Separation contact(const DeepFrames& frames, size_t i) const {
     if (is_doubtful_) return not_in_float<float>();
-    keep_faces(a, best_a, b, best_b);
-    cross_edges(a, b, memory);
-    return is_doubtful_ ? not_in_float<float>() : contact(memory.a, memory.b_in_a);
+    Separation s;
+    s.separation = gap_;
+    DeepFrames::get(frames.normal, i, s.normal);
+    DeepFrames::get(frames.arm_a, i, s.arm_a);
+    DeepFrames::get(frames.arm_b, i, s.arm_b);
+    return s;
   }
 
  private:
-  struct Memory {
-    HullPoints a, b_in_a, a_in_b;
-    FaceBounds bounds_a, bounds_b;
-    OpenEdges open_a, open_b;
-  };
-
-  // Not inlined, because every loop would look up its address again.
-  [[gnu::noinline]] static Memory& memory_of_thread() {
-    thread_local Memory memory;
-    return memory;
-  }
-
-  void place_points(Memory& memory) const {
-    const Rotation<float> back = {{turn_.x.x(), turn_.y.x(), turn_.z.x()},
-                                  {turn_.x.y(), turn_.y.y(), turn_.z.y()},
-                                  {turn_.x.z(), turn_.y.z(), turn_.z.z()}};
-    const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
-    steps_.place(a_, unturned, Vector3f::Zero(), memory.a);
-    steps_.place(b_, turn_, centre_, memory.b_in_a);
-    steps_.place(a_, back, -rotate_back(turn_, centre_), memory.a_in_b);
-  }
-
-  static Vector3f middle_of(const Solid& solid) { return solid.middle * solid.scale; }
-  static Ball inside(const Solid& solid, const Vector3f& middle) {
-    return {middle, solid.inner_radius * solid.scale};
-  }
-
   // --- Faces ---
 
   // The best faces of both solids. Of the one that is less than the other's, it only finds that.
@@ -112,11 +148,11 @@ class DepthSearch {
 
   // The face to try first. Where features are few, it tries all, and none is next.
   BestFace first_face(const Side& side, BestFace& best) const {
+    side.bounds.begin(side.solid);
     if (!has_few_features(side)) {
-      side.bounds.count = 0;
-      return steps_.bound(side.solid, side.inside, side.bounds);
+      return steps_->bound(side.solid, side.inside, side.bounds);
     }
-    best = steps_.try_all(side.solid, side.others, side.bounds);
+    best = steps_->try_all(side.solid, side.others, side.bounds);
     return {};
   }
 
@@ -131,59 +167,47 @@ class DepthSearch {
   void try_next(const Side& side, BestFace& next, BestFace& best) {
     is_doubtful_ = is_doubtful_ || side.bounds.count == FaceBounds::kMostBalls;
     if (is_doubtful_) return;
-    const TriedFace tried = steps_.try_face(side.solid, side.others, next.face, side.bounds);
+    const TriedFace tried = steps_->try_face(side.solid, side.others, next.face, side.bounds);
     if (tried.gap > best.gap) best = {tried.gap, next.face};
     next = tried.next;
   }
 
-  void keep_faces(const Side& a, const BestFace& best_a, const Side& b, const BestFace& best_b) {
+  void keep_faces(const BestFace& best_a, const BestFace& best_b) {
     if (!(best_b.gap > best_a.gap)) {
       gap_ = best_a.gap;
-      normal_ = a.solid.normal(best_a.face);
+      normal_ = a_->normal(best_a.face);
     } else {
       gap_ = best_b.gap;
-      normal_ = -rotate(turn_, b.solid.normal(best_b.face));
+      normal_ = -rotate(turn_, b_->normal(best_b.face));
     }
   }
 
   // --- Edges ---
 
-  // Crosses the edges whose axes may be better than the best face, or as good up to rounding.
-  void cross_edges(const Side& a, const Side& b, Memory& memory) {
-    const float gap = gap_ - kSameGapInFloat;
-    steps_.find_open(a_, gap, a.bounds, memory.open_a);
-    steps_.find_open(b_, gap, b.bounds, memory.open_b);
-    const size_t count_a = memory.open_a.count, count_b = memory.open_b.count;
-    is_doubtful_ = count_a > kMostCrossed || count_b > kMostCrossed;
-    if (is_doubtful_ || count_a == 0 || count_b == 0) return;
-    const CrossedEdges edges_a{a_, memory.open_a}, edges_b{b_, memory.open_b};
-    const Crossing crossing = steps_.cross(edges_a, edges_b, turn_, centre_, gap);
-    is_doubtful_ = crossing.is_doubtful;
-    may_cross_ = crossing.exists;
-    if (crossing.exists && crossing.gap > gap_) {
-      take_crossing(crossing.gap, edges_a.edge(crossing.of_a), edges_b.edge(crossing.of_b));
-    }
-  }
+  // An axis of two edges matters from this gap on.
+  float least_crossing() const { return gap_ - kSameGapInFloat; }
 
   void take_crossing(float gap, const Solid::Edge& a, const Solid::Edge& b) {
     has_crossing_ = true;
     gap_ = gap;
-    edge_a_ = {a.direction.head<3>(), a_.corner(a.from)};
+    edge_a_ = {a.direction.head<3>(), a_->corner(a.from)};
     edge_b_ = {rotate<float>(turn_, b.direction.head<3>()),
-               rotate(turn_, b_.corner(b.from)) + centre_};
+               rotate(turn_, b_->corner(b.from)) + centre_};
     across_ = cross(edge_a_.direction, edge_b_.direction);
-    if (dot(across_, Vector3f(a_.normal(a.left) + a_.normal(a.right))) < 0) across_ = -across_;
+    if (dot(across_, Vector3f(a_->normal(a.left) + a_->normal(a.right))) < 0) across_ = -across_;
     normal_ = across_ * (1 / std::sqrt(dot(across_, across_)));
   }
 
   // --- The contact ---
 
-  Separation contact(const HullPoints& a, const HullPoints& b) const {
-    auto [of_a, count_a] = steps_.facing(a, normal_);
-    auto [of_b, count_b] = steps_.facing(b, -normal_);
+  // A point of A where the solids face each other. Returns false if it is unsure.
+  bool find_location(Vector3f& on_a) const {
+    const HullPoints &a = own_a_, &b = b_in_a_;
+    auto [of_a, count_a] = steps_->facing(a, normal_);
+    auto [of_b, count_b] = steps_->facing(b, -normal_);
     const float gap = -(of_a.height + of_b.height);
     if (!(std::fabs(gap - gap_) <= kSameGapInFloat && gap_ < -kSureGap)) {
-      return not_in_float<float>();
+      return false;
     }
     // Few hulls have corners so near to each other. k-DOPs have many.
     const bool has_groups =
@@ -192,15 +216,14 @@ class DepthSearch {
       count_a = count_groups(a, normal_, of_a);
       count_b = count_groups(b, -normal_, of_b);
     }
-    Vector3f on_a;
     if (count_b == 1) {
       on_a = b[of_b.index] - normal_ * gap_;
-      if (may_cross_ && !is_inside(a_, on_a)) return not_in_float<float>();
+      if (may_cross_ && !steps_->is_inside(*a_, on_a)) return false;
     } else if (count_a == 1) {
       on_a = a[of_a.index];
       const Vector3f on_b = on_a + normal_ * gap_;
-      if (may_cross_ && !is_inside(b_, rotate_back(turn_, Vector3f(on_b - centre_)))) {
-        return not_in_float<float>();
+      if (may_cross_ && !steps_->is_inside(*b_, rotate_back(turn_, Vector3f(on_b - centre_)))) {
+        return false;
       }
     } else if (has_crossing_ && count_a == 2 && count_b == 2 &&
                dot(across_, across_) > kSmallCrossing) {
@@ -210,54 +233,66 @@ class DepthSearch {
       on_a = edge_a_.from + edge_a_.direction * along;
       // The edges may lie within a group.
       const Vector3f on_b = on_a + normal_ * gap_;
-      if (has_groups &&
-          !(is_inside(a_, on_a) && is_inside(b_, rotate_back(turn_, Vector3f(on_b - centre_))))) {
-        return not_in_float<float>();
+      if (has_groups && !(steps_->is_inside(*a_, on_a) &&
+                          steps_->is_inside(*b_, rotate_back(turn_, Vector3f(on_b - centre_))))) {
+        return false;
       }
     } else {
-      return not_in_float<float>();
-    }
-    Separation result;
-    result.separation = gap_;
-    result.normal = rotate(turn_a_, normal_);
-    result.arm_a = rotate(turn_a_, on_a);
-    result.arm_b = (result.arm_a + result.normal * gap_) - pose_.d;
-    return result;
-  }
-
-  // Whether the point is inside, up to rounding; in the frame of the solid.
-  static bool is_inside(const Solid& solid, const Vector3f& point) {
-    for (size_t f = 0; f < solid.face_count; ++f) {
-      if (dot(solid.normal(f), point) - solid.height(f) > kSameGapInFloat) return false;
+      return false;
     }
     return true;
   }
 
-  const Solid &a_, &b_;
-  const PairPose<float>& pose_;
-  const HullSteps& steps_;
-  Rotation<float> turn_a_, turn_;  // from A to the world, from B to A
-  Vector3f centre_;                // position of B in the frame of A
-  bool is_doubtful_ = false;
+  const Solid *a_, *b_;
+  const HullSteps* steps_;
+  Rotation<float> turn_;  // from B to A
+  Vector3f centre_;       // position of B in the frame of A
+  Ball in_a_, in_b_;      // inside A in the frame of B, and inside B in that of A
+  bool is_doubtful_;
   // The best axis, in the frame of A.
-  float gap_ = 0;
+  float gap_;
   Vector3f normal_;
   // An axis of two edges is as good as that of a face up to rounding, or better. The point that
   // faces the other solid may then lie beside that face, the further the more parallel the edges
   // are.
-  bool may_cross_ = false;
+  bool may_cross_;
   // The best axis of two edges.
-  bool has_crossing_ = false;
+  bool has_crossing_;
   CrossedEdge edge_a_, edge_b_;
   Vector3f across_;
+  HullPoints own_a_, b_in_a_, a_in_b_;
+  OpenEdges open_a_, open_b_;
 };
+
+struct Memory {
+  DeepFrames frames;
+  std::array<DepthSearch, kMostDeepPairs> searches;
+  FaceBounds bounds_a, bounds_b;
+};
+
+// Not inlined, because every loop would look up its address again.
+[[gnu::noinline]] Memory& memory_of_thread() {
+  thread_local Memory memory;
+  return memory;
+}
 
 }  // namespace
 
-Separation solid_depth(const Solid& a, const Solid& b, const PairPose<float>& pose,
-                       const HullSteps& steps) {
-  if (!a.is_known() || !b.is_known()) return not_in_float<float>();
-  return DepthSearch(a, b, pose, steps).run();
+void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps, Separation* contacts) {
+  Memory& memory = memory_of_thread();
+  DeepFrames& frames = memory.frames;
+  const std::span<DepthSearch> searches(memory.searches.data(), pairs.size());
+  frames.count = pairs.size();
+  for (size_t i = 0; i < pairs.size(); ++i) searches[i].begin(pairs[i], steps, frames, i);
+  steps.set_up(frames);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    searches[i].place_points(frames, i);
+    searches[i].find_faces(memory.bounds_a, memory.bounds_b);
+  }
+  for (DepthSearch& search : searches) search.cross_edges();
+  for (size_t i = 0; i < pairs.size(); ++i) searches[i].locate(frames, i);
+  steps.finish(frames);
+  for (size_t i = 0; i < pairs.size(); ++i) contacts[i] = searches[i].contact(frames, i);
 }
 
 }  // namespace carom

@@ -11,7 +11,9 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
+#include "narrowphase/hulls/deep_frames.h"
 #include "narrowphase/hulls/solid.h"
 #include "narrowphase/scalar/separation.h"
 
@@ -20,10 +22,12 @@ namespace carom {
 // Points of one solid in the frame of another, in columns. Whole vectors are filled: the places
 // after the last point repeat the first.
 struct HullPoints {
+  alignas(64) std::array<float, 3 * kMostLanePoints> numbers;  // a column follows the other
   size_t count, padded;
-  std::array<float, kMostLanePoints> x, y, z;
 
-  Vector3f operator[](size_t i) const { return {x[i], y[i], z[i]}; }
+  const float* column(size_t axis) const { return numbers.data() + axis * padded; }
+  float* column(size_t axis) { return numbers.data() + axis * padded; }
+  Vector3f operator[](size_t i) const { return {column(0)[i], column(1)[i], column(2)[i]}; }
 };
 
 // The first of the furthest points along a direction.
@@ -46,17 +50,30 @@ struct Ball {
 // Upper bounds of the gaps of the face axes of one solid, from balls in the other solid. If the
 // middle of a ball is below both faces of an edge, no axis between the two has a greater gap than
 // the greater of the two bounds.
-struct FaceBounds {
+class FaceBounds {
+ public:
   static constexpr size_t kMost = Solid::kMostFaces;
   static constexpr size_t kMostBalls = 32;
 
-  size_t count;                                              // of balls so far
-  std::array<std::array<float, kMost>, kMostBalls> between;  // above zero: middle above the face
-  std::array<float, kMost> gap;                              // least bound of all balls
+  size_t count;  // of balls so far
+  // The least bound of all balls.
+  alignas(64) std::array<float, kMost> gap;
   // A bit per ball, in rows of eight balls: `between` is low enough.
-  std::array<std::array<uint8_t, kMost>, kMostBalls / 8> settled;
+  alignas(64) std::array<std::array<uint8_t, kMost>, kMostBalls / 8> settled;
 
+  void begin(const Solid& solid) {
+    count = 0;
+    padded_ = padded_count(solid.face_count);
+  }
+  // The bounds of one ball for axes between faces. Above zero: its middle is above the face.
+  float* between(size_t ball) { return between_.data() + ball * padded_; }
+  const float* between(size_t ball) const { return between_.data() + ball * padded_; }
   size_t settled_rows() const { return (count + 7) / 8; }
+
+ private:
+  size_t padded_;
+  // A row follows the other: rows a power of two apart would share few lines of the nearest cache.
+  alignas(64) std::array<float, kMostBalls * kMost> between_;
 };
 
 struct BestFace {
@@ -75,8 +92,10 @@ inline constexpr size_t kMostCrossed = 64;
 
 // The edges of a solid that may have an axis better than those of the faces.
 struct OpenEdges {
+  static constexpr size_t kAtOnce = 4;  // so many are written at a time
+
   size_t count;
-  std::array<uint16_t, Solid::kMostEdges> index;
+  std::array<uint16_t, Solid::kMostEdges + kAtOnce> index;
 };
 
 struct CrossedEdges {
@@ -99,6 +118,9 @@ struct Crossing {
 
 // The steps of the search that run in lanes; scalar::kHullSteps holds their scalar forms.
 struct HullSteps {
+  // Finds what the search needs of all poses, and at its end turns all contacts to world axes.
+  void (*set_up)(DeepFrames& frames);
+  void (*finish)(DeepFrames& frames);
   // Computes turn * (point * scale) + offset of all points.
   void (*place)(const Solid& solid, const scalar::Rotation<float>& turn, const Vector3f& offset,
                 HullPoints& out);
@@ -119,24 +141,43 @@ struct HullSteps {
                     const scalar::Rotation<float>& turn, const Vector3f& offset, float gap);
   // The furthest point, and the number of points that reach as far up to kFacingSlack.
   FacingPoints (*facing)(const HullPoints& points, const Vector3f& way);
+  // Whether a point is inside, up to rounding; in the frame of the solid.
+  bool (*is_inside)(const Solid& solid, const Vector3f& point);
 };
 
-// The contact of two solids that surely overlap. Unsure if their features do not give it, or if the
-// witness points are not unique.
-scalar::Separation solid_depth(const Solid& a, const Solid& b, const scalar::PairPose<float>& pose,
-                               const HullSteps& steps);
+// Two solids that surely overlap, in scaled units.
+struct DeepPair {
+  const Solid* a;
+  const Solid* b;
+  Vector3f d;  // position of B relative to A
+  scalar::Quaternion<float> turn_a, turn_b;
+};
 
-// The same for shapes whose cores overlap.
-template <class A, class B>
-scalar::Separation shape_depth(const A& a, const B& b, const scalar::PairPose<float>& pose,
-                               const HullSteps& steps) {
-  const auto solid_a = solid_of(a);
-  const auto solid_b = solid_of(b);
-  scalar::Separation s = solid_depth(solid_a.view(), solid_b.view(), pose, steps);
+// The contacts of up to kMostDeepPairs pairs. Unsure if the features of two solids do not give it,
+// or if the witness points are not unique. Poses are turned a pair a lane. Each step of the search
+// is taken for all pairs before the next one.
+void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps,
+                  scalar::Separation* contacts);
+
+// Makes the contact of the cores of two shapes that of the shapes.
+template <class A>
+void grow(scalar::Separation& s, const A& a) {
   if constexpr (requires { a.radius; }) {
     s.separation -= a.radius;
     s.arm_a += s.normal * a.radius;
   }
+}
+
+// The contact of two shapes whose cores overlap.
+template <class A, class B>
+scalar::Separation shape_depth(const A& a, const B& b, const scalar::PairPose<float>& pose,
+                               const HullSteps& steps) {
+  const SolidOf<A> solid_a(a);
+  const SolidOf<B> solid_b(b);
+  const DeepPair pair{&solid_a.view(), &solid_b.view(), pose.d, pose.a, pose.b};
+  scalar::Separation s;
+  solid_depths({&pair, 1}, steps, &s);
+  grow(s, a);
   return s;
 }
 

@@ -21,8 +21,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
-HWY_INLINE F3 in_all_lanes(const Eigen::Vector3f& v) {
-  return {splat(v.x()), splat(v.y()), splat(v.z())};
+template <class V = F>
+HWY_INLINE Lanes3<V> in_all_lanes(const Eigen::Vector3f& v) {
+  return {splat_as<V>(v.x()), splat_as<V>(v.y()), splat_as<V>(v.z())};
 }
 
 // --- Open edges ---
@@ -31,17 +32,20 @@ HWY_INLINE void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) 
   const FloatTag tag;
   const hn::Rebind<uint8_t, FloatTag> bytes;
   const F most = splat(gap);
+  const size_t padded = padded_count(solid.face_count);
   for (size_t row = 0; row < bounds.settled_rows(); ++row) {
-    const size_t first = 8 * row, end = std::min(bounds.count, first + 8);
+    const size_t count = std::min<size_t>(bounds.count - 8 * row, 8);
+    uint8_t* const faces = bounds.settled[row].data();
     for (size_t i = 0; i < solid.face_count; i += kLanes) {
+      const float* between = bounds.between(8 * row) + i;
       I settled = hn::Zero(IntTag());
-      I bit = hn::Set(IntTag(), 1);
-      for (size_t ball = first; ball < end; ++ball) {
-        const Mask is_low = hn::Le(hn::LoadU(tag, bounds.between[ball].data() + i), most);
-        settled = hn::Or(settled, hn::IfThenElseZero(hn::RebindMask(IntTag(), is_low), bit));
-        bit = hn::Add(bit, bit);
+      // Unrolled, so that the bits are constants.
+      for (size_t ball = 0; ball < 8; ++ball, between += padded) {
+        if (ball == count) break;
+        const auto is_low = hn::RebindMask(IntTag(), hn::Le(hn::LoadU(tag, between), most));
+        settled = hn::IfThenElse(is_low, hn::Or(settled, hn::Set(IntTag(), 1 << ball)), settled);
       }
-      hn::StoreU(hn::DemoteTo(bytes, settled), bytes, bounds.settled[row].data() + i);
+      hn::StoreU(hn::DemoteTo(bytes, settled), bytes, faces + i);
     }
   }
 }
@@ -93,10 +97,15 @@ HWY_INLINE void find_open_edges(const Solid& solid, float gap, FaceBounds& bound
   for (size_t e = 0; e < solid.edges.size(); e += kByteLanes) {
     uint64_t bits = open_bits(solid, bounds, e);
     if (const size_t left = solid.edges.size() - e; left < 64) bits &= (uint64_t{1} << left) - 1;
-    for (; bits != 0; bits &= bits - 1) {
-      const size_t found = e + size_t(std::countr_zero(bits));
-      __builtin_prefetch(&solid.edges[found]);
-      open.index[open.count++] = static_cast<uint16_t>(found);
+    // Several at a time, because nobody can predict how many there are.
+    while (bits != 0) {
+      const auto left = static_cast<size_t>(std::popcount(bits));
+      for (size_t k = 0; k < OpenEdges::kAtOnce; ++k, bits &= bits - 1) {
+        const size_t found = std::min(e + size_t(std::countr_zero(bits)), solid.edges.size() - 1);
+        __builtin_prefetch(&solid.edges[found]);
+        open.index[open.count + k] = static_cast<uint16_t>(found);
+      }
+      open.count += std::min(left, OpenEdges::kAtOnce);
     }
   }
 }
@@ -143,18 +152,29 @@ HWY_INLINE F3 lanes_of_a(const Record& record) {
   return {hn::Broadcast<0>(row), hn::Broadcast<1>(row), hn::Broadcast<2>(row)};
 }
 
-HWY_INLINE F in_all_blocks(const float* record) {
-  if constexpr (kLanes == 4) return hn::LoadU(FloatTag(), record);
-  return hn::LoadDup128(FloatTag(), record);
+// Edges of B are turned once, before they are repeated for the edges of A.
+using OfB = hn::Vec<Quad>;
+
+// The first three numbers of four records.
+template <class Record>
+HWY_INLINE Lanes3<OfB> lanes_of_b(const Record& record) {
+  const Quad tag;
+  const auto r0 = hn::LoadU(tag, record(0)), r1 = hn::LoadU(tag, record(1));
+  const auto r2 = hn::LoadU(tag, record(2)), r3 = hn::LoadU(tag, record(3));
+  const auto xy02 = hn::InterleaveLower(tag, r0, r2), xy13 = hn::InterleaveLower(tag, r1, r3);
+  const auto zw02 = hn::InterleaveUpper(tag, r0, r2), zw13 = hn::InterleaveUpper(tag, r1, r3);
+  return {hn::InterleaveLower(tag, xy02, xy13), hn::InterleaveUpper(tag, xy02, xy13),
+          hn::InterleaveLower(tag, zw02, zw13)};
 }
 
-template <class Record>
-HWY_INLINE F3 lanes_of_b(const Record& record) {
-  F3 xyz;
-  F unused;
-  transpose_rows(in_all_blocks(record(0)), in_all_blocks(record(1)), in_all_blocks(record(2)),
-                 in_all_blocks(record(3)), xyz, unused);
-  return xyz;
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> in_all_blocks(Tag tag, OfB v) {
+  if constexpr (kLanesOf<Tag> == 4) {
+    return v;
+  } else {
+    const auto half = in_all_blocks(hn::Half<Tag>(), v);
+    return hn::Combine(tag, half, half);
+  }
 }
 
 #else
@@ -165,21 +185,31 @@ HWY_INLINE F3 lanes_of_a(const Record& record) {
   return {splat(p[0]), splat(p[1]), splat(p[2])};
 }
 
+using OfB = F;
+
 template <class Record>
 HWY_INLINE F3 lanes_of_b(const Record& record) {
   return lanes_of_a(record);
 }
+HWY_INLINE F in_all_blocks(FloatTag, F v) { return v; }
 
 #endif
 
-struct EdgeLanes {
-  F3 direction, left, right, from;
+HWY_INLINE F3 in_all_blocks(const Lanes3<OfB>& v) {
+  const FloatTag tag;
+  return {in_all_blocks(tag, v.x), in_all_blocks(tag, v.y), in_all_blocks(tag, v.z)};
+}
+
+template <class V>
+struct EdgesOf {
+  Lanes3<V> direction, left, right, from;
 };
+using EdgeLanes = EdgesOf<F>;
 
 // Edges from `first` on. The lanes behind the last edge repeat it; they find nothing better.
-template <class ToLanes>
+template <class ToLanes, class V>
 HWY_INLINE void load_edges(const CrossedEdges& edges, size_t first, const ToLanes& to_lanes,
-                           EdgeLanes& out) {
+                           EdgesOf<V>& out) {
   const Solid& solid = edges.solid;
   const auto edge = [&](size_t i) HWY_ATTR -> const Solid::Edge& {
     return edges.edge(std::min(first + i, edges.open.count - 1));
@@ -188,7 +218,7 @@ HWY_INLINE void load_edges(const CrossedEdges& edges, size_t first, const ToLane
   out.left = to_lanes([&](size_t i) HWY_ATTR { return solid.plane_record[edge(i).left].data(); });
   out.right = to_lanes([&](size_t i) HWY_ATTR { return solid.plane_record[edge(i).right].data(); });
   out.from = to_lanes([&](size_t i) HWY_ATTR { return solid.point_record[edge(i).from].data(); }) *
-             splat(solid.scale);
+             splat_as<V>(solid.scale);
 }
 
 // Without branches, because whether two edges cross cannot be predicted.
@@ -213,20 +243,20 @@ HWY_INLINE Crossing cross_edges(const CrossedEdges& a, const CrossedEdges& b,
                                 float gap) {
   const auto load_a = [](const auto& record) HWY_ATTR { return lanes_of_a(record); };
   const auto load_b = [](const auto& record) HWY_ATTR { return lanes_of_b(record); };
-  const Rotation r{in_all_lanes(turn.x), in_all_lanes(turn.y), in_all_lanes(turn.z)};
-  const F3 d = in_all_lanes(offset);
+  const RotationOf<OfB> r{in_all_lanes<OfB>(turn.x), in_all_lanes<OfB>(turn.y),
+                          in_all_lanes<OfB>(turn.z)};
+  const Lanes3<OfB> d = in_all_lanes<OfB>(offset);
   const F lane_of_a = lanes_from([](size_t i) { return static_cast<float>(i / kOfB); });
   const F lane_of_b = lanes_from([](size_t i) { return static_cast<float>(i % kOfB); });
   const F most = splat(kMostCrossed);
   Mask doubtful = no_lanes();
   FirstOfMost best{splat(gap), splat(-1)};
   for (size_t k = 0; k < b.open.count; k += kOfB) {
-    EdgeLanes of_b;
-    load_edges(b, k, load_b, of_b);
-    of_b.direction = rotate(r, of_b.direction);
-    of_b.left = rotate(r, of_b.left);
-    of_b.right = rotate(r, of_b.right);
-    of_b.from = rotate(r, of_b.from) + d;
+    EdgesOf<OfB> few_of_b;
+    load_edges(b, k, load_b, few_of_b);
+    const EdgeLanes of_b = {
+        in_all_blocks(rotate(r, few_of_b.direction)), in_all_blocks(rotate(r, few_of_b.left)),
+        in_all_blocks(rotate(r, few_of_b.right)), in_all_blocks(rotate(r, few_of_b.from) + d)};
     const F index_b = hn::Add(lane_of_b, splat(static_cast<float>(k)));
     for (size_t i = 0; i < a.open.count; i += kOfA) {
       EdgeLanes of_a;

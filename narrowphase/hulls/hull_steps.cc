@@ -5,6 +5,7 @@
 #define HWY_TARGET_INCLUDE "narrowphase/hulls/hull_steps.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
+#include "narrowphase/hulls/deep_frames-inl.h"
 #include "narrowphase/hulls/hull_edges-inl.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "simd/first_of_most-inl.h"
@@ -28,9 +29,9 @@ void place_points(const Solid& solid, const scalar::Rotation<float>& turn, const
     const F3 p = {hn::LoadU(tag, solid.point[0] + i), hn::LoadU(tag, solid.point[1] + i),
                   hn::LoadU(tag, solid.point[2] + i)};
     const F3 placed = rotate(r, p * s) + d;
-    hn::StoreU(placed.x, tag, out.x.data() + i);
-    hn::StoreU(placed.y, tag, out.y.data() + i);
-    hn::StoreU(placed.z, tag, out.z.data() + i);
+    hn::StoreU(placed.x, tag, out.column(0) + i);
+    hn::StoreU(placed.y, tag, out.column(1) + i);
+    hn::StoreU(placed.z, tag, out.column(2) + i);
   }
 }
 
@@ -72,7 +73,7 @@ BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
   F index = lane_indices();
   for (size_t i = 0; i < solid.face_count; i += kLanes) {
     const BoundLanes found = bound(FaceLanes(solid, i), middle, radius);
-    hn::StoreU(found.between, tag, bounds.between[last].data() + i);
+    hn::StoreU(found.between, tag, bounds.between(last) + i);
     float* const gaps = bounds.gap.data() + i;
     const F least = last == 0 ? found.gap : min(hn::LoadU(tag, gaps), found.gap);
     hn::StoreU(least, tag, gaps);
@@ -84,8 +85,8 @@ BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
 
 HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
   const FloatTag tag;
-  return dot(way, {hn::LoadU(tag, points.x.data() + i), hn::LoadU(tag, points.y.data() + i),
-                   hn::LoadU(tag, points.z.data() + i)});
+  return dot(way, {hn::LoadU(tag, points.column(0) + i), hn::LoadU(tag, points.column(1) + i),
+                   hn::LoadU(tag, points.column(2) + i)});
 }
 
 FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
@@ -112,13 +113,16 @@ BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds&
   const Mask all = hn::Not(no_lanes());
   FirstOfMost best = FirstOfMost::none();
   F index = lane_indices();
+  // Copies, because the compiler would read them again after every store.
+  const size_t count = points.count, padded = padded_count(solid.face_count);
+  const float *const x = points.column(0), *const y = points.column(1), *const z = points.column(2);
   for (size_t i = 0; i < solid.face_count; i += kLanes) {
     const FaceLanes faces(solid, i);
+    float* between = bounds.between(0) + i;
     F least = splat(FLT_MAX);
-    for (size_t p = 0; p < points.count; ++p) {
-      const F3 point = {splat(points.x[p]), splat(points.y[p]), splat(points.z[p])};
-      const F gap = above(faces, point);
-      hn::StoreU(gap, tag, bounds.between[p].data() + i);
+    for (size_t p = 0; p < count; ++p, between += padded) {
+      const F gap = above(faces, {splat(x[p]), splat(y[p]), splat(z[p])});
+      hn::StoreU(gap, tag, between);
       least = min(least, gap);
     }
     best.keep(all, least, index);
@@ -142,10 +146,20 @@ FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   return {furthest, found};
 }
 
+bool is_inside(const Solid& solid, const Vector3f& point) {
+  const F3 p = in_all_lanes(point);
+  Mask is_outside = no_lanes();
+  for (size_t i = 0; i < solid.face_count; i += kLanes) {
+    const Mask is_above = hn::Gt(above(FaceLanes(solid, i), p), splat(kSameGapInFloat));
+    is_outside = hn::Or(is_outside, is_above);
+  }
+  return hn::AllFalse(FloatTag(), is_outside);
+}
+
 const HullSteps& hull_steps() {
-  static constexpr HullSteps kSteps = {&place_points,  &bound_faces,     &try_face,
-                                       &try_all_faces, &find_open_edges, &cross_edges,
-                                       &facing_points};
+  static constexpr HullSteps kSteps = {
+      &set_up_frames, &finish_frames,   &place_points, &bound_faces,   &try_face,
+      &try_all_faces, &find_open_edges, &cross_edges,  &facing_points, &is_inside};
   return kSteps;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "narrowphase/hulls/deep_frames_scalar.h"
 #include "narrowphase/hulls/hull_depth.h"
 
 namespace carom::scalar {
@@ -12,9 +13,9 @@ inline void place_points(const Solid& solid, const Rotation<float>& turn, const 
   out.count = out.padded = solid.point_count;
   for (size_t i = 0; i < out.count; ++i) {
     const Vector3f p = rotate(turn, solid.corner(i)) + offset;
-    out.x[i] = p.x();
-    out.y[i] = p.y();
-    out.z[i] = p.z();
+    out.column(0)[i] = p.x();
+    out.column(1)[i] = p.y();
+    out.column(2)[i] = p.z();
   }
 }
 
@@ -24,7 +25,7 @@ inline BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bo
   for (size_t f = 0; f < solid.face_count; ++f) {
     const float above = dot(solid.normal(f), ball.middle) - solid.height(f);
     const float gap = above - ball.radius;
-    bounds.between[last][f] = above > 0 ? kLargest : gap;
+    bounds.between(last)[f] = above > 0 ? kLargest : gap;
     bounds.gap[f] = last == 0 ? gap : min(bounds.gap[f], gap);
     if (bounds.gap[f] > best.gap) best = {bounds.gap[f], f};
   }
@@ -54,7 +55,7 @@ inline BestFace try_all_faces(const Solid& solid, const HullPoints& points, Face
     float least = kLargest;
     for (size_t i = 0; i < points.count; ++i) {
       const float gap = dot(solid.normal(f), points[i]) - solid.height(f);
-      bounds.between[i][f] = gap;
+      bounds.between(i)[f] = gap;
       least = min(least, gap);
     }
     if (least > best.gap) best = {least, f};
@@ -68,7 +69,7 @@ inline void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
     for (size_t f = 0; f < solid.face_count; ++f) {
       uint32_t settled = 0;
       for (size_t i = 0; i < count; ++i) {
-        settled |= uint32_t{bounds.between[first + i][f] <= gap} << i;
+        settled |= uint32_t{bounds.between(first + i)[f] <= gap} << i;
       }
       bounds.settled[row][f] = static_cast<uint8_t>(settled);
     }
@@ -125,8 +126,15 @@ inline FacingPoints facing_points(const HullPoints& points, const Vector3f& way)
   return facing;
 }
 
-inline constexpr HullSteps kHullSteps = {&place_points,  &bound_faces,     &try_face,
-                                         &try_all_faces, &find_open_edges, &cross_edges,
-                                         &facing_points};
+inline bool is_inside(const Solid& solid, const Vector3f& point) {
+  for (size_t f = 0; f < solid.face_count; ++f) {
+    if (dot(solid.normal(f), point) - solid.height(f) > kSameGapInFloat) return false;
+  }
+  return true;
+}
+
+inline constexpr HullSteps kHullSteps = {
+    &set_up_frames, &finish_frames,   &place_points, &bound_faces,   &try_face,
+    &try_all_faces, &find_open_edges, &cross_edges,  &facing_points, &is_inside};
 
 }  // namespace carom::scalar

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include <array>
+#include <bit>
 
 #include "narrowphase/batch/batch-inl.h"
 #include "narrowphase/hulls/core_kernel-inl.h"
@@ -21,21 +22,21 @@ namespace {
 class StoredHull {
  public:
   HWY_INLINE StoredHull(const HullLanes& hull, const Quaternion& q, const F3& offset)
-      : points_(hull), turn_(placing_turn(hull, q)), offset_(offset) {}
+      : records_(hull), turn_(placing_turn(hull, q)), offset_(offset) {}
 
-  HWY_INLINE F3 placed_point(const std::array<uint8_t, kLanes>& places) const {
-    return rotate(turn_, points_.points_at(places)) + offset_;
+  HWY_INLINE F3 placed_point(Indices places) const {
+    return rotate(turn_, records_.points_at(places)) + offset_;
   }
 
   HWY_INLINE FacingCount count_facing(const F3& way, F height) const {
     const F3 own_way = rotate_back(turn_, way);
     const F base = dot(way, offset_), limit = hn::Sub(height, splat(kFacingSlack)), one = splat(1);
-    const F each = points_.count_lanes();
+    const F each = records_.count_lanes();
     FacingCount facing{splat(-FLT_MAX), splat(0)};
-    points_.for_each_point(points_.most(), [&](size_t i, const F3& p) HWY_ATTR {
+    records_.for_each_point(records_.most(), [&](size_t i, const F3& p) HWY_ATTR {
       const F h = hn::Add(dot(own_way, p), base);
       Mask is_facing = hn::Ge(h, limit);
-      if (i >= points_.least()) {
+      if (i >= records_.least()) {
         is_facing = hn::And(is_facing, hn::Lt(splat(static_cast<float>(i)), each));
       }
       facing.most = max(facing.most, h);
@@ -45,34 +46,44 @@ class StoredHull {
   }
 
  private:
-  const HullsOfLanes points_;
+  const HullRecords records_;
   const Rotation turn_;
   const F3 offset_;
 };
 
-// The features of each lane.
+// The features of each lane (features.h), as the two halves of their words.
 class FeatureLanes {
  public:
   explicit HWY_INLINE FeatureLanes(const uint64_t* packed) {
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      const Features features = unpack_features(packed[lane]);
-      count_[lane] = static_cast<float>(features.count);
-      for (size_t i = 0; i < kMostFeatures; ++i) {
-        of_a_[i][lane] = features.of_a[i];
-        of_b_[i][lane] = features.of_b[i];
-      }
-    }
+    static_assert(std::endian::native == std::endian::little);
+    hn::LoadInterleaved2(IndexTag(), reinterpret_cast<const uint32_t*>(packed), low_, high_);
   }
 
-  HWY_INLINE F count() const { return hn::LoadU(FloatTag(), count_); }
-  HWY_INLINE CornerLanes corner(size_t i, const StoredHull& a, const StoredHull& b) const {
-    const F3 on_a = a.placed_point(of_a_[i]);
-    return {b.placed_point(of_b_[i]) - on_a, on_a};
+  HWY_INLINE F count() const {
+    const hn::RebindToSigned<IndexTag> integers;
+    return hn::ConvertTo(FloatTag(), hn::BitCast(integers, hn::ShiftRight<24>(high_)));
+  }
+  template <size_t kCorner>
+  HWY_INLINE CornerLanes corner(const StoredHull& a, const StoredHull& b) const {
+    const F3 on_a = a.placed_point(index<2 * kCorner>());
+    return {b.placed_point(index<2 * kCorner + 1>()) - on_a, on_a};
   }
 
  private:
-  float count_[kLanes];
-  std::array<std::array<uint8_t, kLanes>, kMostFeatures> of_a_, of_b_;
+  template <size_t kPlace>
+  HWY_INLINE Indices index() const {
+    constexpr int kFirst = kPlace * kFeatureBits;
+    const Indices mask = hn::Set(IndexTag(), (1 << kFeatureBits) - 1);
+    if constexpr (kFirst >= 32) {
+      return hn::And(hn::ShiftRight<kFirst - 32>(high_), mask);
+    } else if constexpr (kFirst + kFeatureBits <= 32) {
+      return hn::And(hn::ShiftRight<kFirst>(low_), mask);
+    } else {
+      return hn::And(hn::Or(hn::ShiftRight<kFirst>(low_), hn::ShiftLeft<32 - kFirst>(high_)), mask);
+    }
+  }
+
+  Indices low_, high_;
 };
 
 HWY_INLINE ZeroInside zero_inside(const std::array<F3, 4>& corner) {
@@ -97,10 +108,10 @@ struct RecallKernel {
     const StoredHull hull_a(a, pose.a, splat3(0)), hull_b(b, pose.b, pose.d);
     const FeatureLanes features(report.batch.features + report.row);
     const F count = features.count();
-    const CornerLanes p = features.corner(0, hull_a, hull_b),
-                      q = features.corner(1, hull_a, hull_b),
-                      r = features.corner(2, hull_a, hull_b),
-                      last = features.corner(3, hull_a, hull_b);
+    const CornerLanes p = features.corner<0>(hull_a, hull_b),
+                      q = features.corner<1>(hull_a, hull_b),
+                      r = features.corner<2>(hull_a, hull_b),
+                      last = features.corner<3>(hull_a, hull_b);
     const Mask is_known = hn::And(is_usual_scale(report.up), report.valid);
     const Mask is_around = hn::And(hn::And(is_known, hn::Eq(count, splat(4))),
                                    zero_inside({p.point, q.point, r.point, last.point}).is_sure);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "base/few_of.h"
 #include "base/tolerances.h"
@@ -136,10 +137,9 @@ inline constexpr bool kIsSolid<scalar::AabbShape<float>> = true;
 template <>
 inline constexpr bool kIsSolid<scalar::TriangleShape<float>> = true;
 
-inline SolidHull solid_of(const scalar::HullShape<float>& hull) { return SolidHull(hull); }
+// The solid of the core of a shape.
 template <class S>
-SmallSolid solid_of(const S& shape) {
-  return SmallSolid(shape);
-}
+using SolidOf =
+    std::conditional_t<std::is_same_v<S, scalar::HullShape<float>>, SolidHull, SmallSolid>;
 
 }  // namespace carom

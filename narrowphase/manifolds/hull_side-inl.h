@@ -167,12 +167,12 @@ class FacingFaces {
 template <size_t kMost>
 HWY_INLINE void hull_side(const HullLanes& hull, const Placed& placed, const FacingFaces& found,
                           FaceSide<PolygonFace<kMost>>& side) {
-  const HullsOfLanes points(hull);
+  const HullRecords records(hull);
   const F3 n = found.normal(), u = any_perpendicular(n), v = cross(n, u);
-  const F3 first = points.points_at(found.place(0)) * hull.scaling;
+  const F3 first = records.points_at(found.place(0)) * hull.scaling;
   PolygonFace<kMost>& face = side.face;
   for (size_t k = 0; k < kMost; ++k) {
-    const F3 p = points.points_at(found.place(k)) * hull.scaling, r = p - first;
+    const F3 p = records.points_at(found.place(k)) * hull.scaling, r = p - first;
     side.corners[k] = rotate(placed.turn, p) + placed.origin;
     face.x[k] = dot(u, r);
     face.y[k] = dot(v, r);

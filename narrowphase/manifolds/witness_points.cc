@@ -35,6 +35,35 @@ constexpr size_t kManifoldsAhead = 64;
 
 static_assert(offsetof(ManifoldPoints, separation) == 12 * sizeof(float));
 
+// Stores a manifold of one point (x, y, z, separation), a line of the cache, in as few pieces as
+// vectors allow.
+HWY_INLINE void store_point(RowOfFour point, float* numbers) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
+  const FloatTag tag;
+  // Of each number, which of the four it is; those behind them are zeros.
+  alignas(64) static constexpr int32_t kSource[16] = {0, 1, 2, 4, 4, 4, 4, 4,
+                                                      4, 4, 4, 4, 3, 4, 4, 4};
+#if HWY_TARGET == HWY_AVX3
+  const F source = hn::ZeroExtendVector(tag, hn::ZeroExtendVector(hn::Half<FloatTag>(), point));
+#else
+  const F source = hn::ZeroExtendVector(tag, point);
+#endif
+  for (size_t i = 0; i < 16; i += kLanes) {
+    const auto from = hn::SetTableIndices(tag, kSource + i);
+    hn::StoreU(hn::TableLookupLanes(source, from), tag, numbers + i);
+  }
+#else
+  const Quad tag;
+  const QuadOfInts ints;
+  const RowOfFour separation =
+      hn::BitCast(tag, hn::ShiftRightLanes<3>(ints, hn::BitCast(ints, point)));
+  hn::StoreU(hn::IfThenElseZero(hn::FirstN(tag, 3), point), tag, numbers);
+  hn::StoreU(hn::Zero(tag), tag, numbers + 4);
+  hn::StoreU(hn::Zero(tag), tag, numbers + 8);
+  hn::StoreU(separation, tag, numbers + 12);
+#endif
+}
+
 HWY_INLINE void copy_four(const Batch& batch, size_t row) {
   const ResultColumns& out = batch.out;
   const Quad tag;
@@ -51,21 +80,15 @@ HWY_INLINE void copy_four(const Batch& batch, size_t row) {
   const auto if_has_point = [&](RowOfFour v) HWY_ATTR {
     return hn::IfThenElseZero(hn::RebindMask(tag, has_point), v);
   };
-  RowOfFour point[4];  // first columns, then x, y, z, 0 of each row
+  RowOfFour point[4];  // first columns, then x, y, z and separation of each row
   for (size_t axis = 0; axis < 3; ++axis) {
     point[axis] = if_has_point(hn::LoadU(tag, out.point_a[axis] + row));
   }
-  point[3] = hn::Zero(tag);
+  point[3] = if_has_point(separation);
   transpose(point);
-  RowOfFour depth[4] = {if_has_point(separation), hn::Zero(tag), hn::Zero(tag), hn::Zero(tag)};
-  transpose(depth);
   for (size_t k = 0; k < 4; ++k) {
-    auto* const numbers = reinterpret_cast<float*>(out.manifold + row + k);
     fetch_to_write(out.manifold + row + k, kManifoldsAhead);
-    hn::StoreU(point[k], tag, numbers);
-    hn::StoreU(hn::Zero(tag), tag, numbers + 4);
-    hn::StoreU(hn::Zero(tag), tag, numbers + 8);
-    hn::StoreU(depth[k], tag, numbers + 12);
+    store_point(point[k], reinterpret_cast<float*>(out.manifold + row + k));
   }
   const auto counts = hn::And(hn::VecFromMask(ints, has_point), hn::Set(ints, 1));
   hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::FixedTag<int32_t, 4>(), counts)), bytes,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
 
 #include "narrowphase/batch/column_memory.h"
 #include "narrowphase/batch/row_store.h"
@@ -11,6 +13,7 @@
 #include "narrowphase/hulls/fetch_solid.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/pairs/all_pairs.h"
+#include "narrowphase/pairs/core_row.h"
 #include "narrowphase/pairs/manifold_batch.h"
 #include "narrowphase/pairs/pair_kinds.h"
 #include "narrowphase/scalar/scaled.h"
@@ -43,7 +46,8 @@ bool has_exact_points(const T& shape) {
   return true;
 }
 
-// Tests the deferred rows of a batch, one at a time.
+// Tests the deferred rows of a batch: depths in groups, and the others as far as it goes in lanes
+// of doubles.
 template <class A, class B>
 class RowTester {
  public:
@@ -54,16 +58,99 @@ class RowTester {
         store_(batch, kind_a, kind_b),
         test_{furthest_point_in_lanes(), !has_contacts(batch.detail)},
         decides_separate_(has_contacts(batch.detail) && batch.pass == Pass::test &&
-                          kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {}
-
-  // Both bodies are valid.
-  void run(size_t row, bool is_deep) const {
-    if (is_deep && put_depth(row)) return;
-    put_separation(row);
+                          kPairKinds[find_pair_kind(kind_a, kind_b).index].has_distance_pass()) {
+    waiting_.count = 0;
   }
 
-  // Asks for the hulls of a row, which is deep.
-  [[gnu::always_inline]] void fetch(size_t row, size_t step) const {
+  // Tests rows whose cores surely overlap, whose bodies are valid. Rows may wait until finish().
+  void run_deep(std::span<const uint16_t> rows) {
+    if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
+      for (size_t first = 0; first < rows.size(); first += kMostDeepPairs) {
+        run_deep_group(rows, first, std::min(rows.size(), first + kMostDeepPairs));
+      }
+    } else {
+      for (const uint16_t row : rows) run(row);
+    }
+  }
+
+  // Tests a row in double precision. Both bodies are valid. The row may wait until finish().
+  void run(size_t row) {
+    if (!gather(row)) return put_separation(row);
+    if (waiting_.count == CoreRows::kMost) finish();
+  }
+
+  void finish() {
+    if (waiting_.count == 0) return;
+    waiting_.decides_only = test_.decides_only;
+    find_gaps_(waiting_);
+    for (size_t place = 0; place < waiting_.count; ++place) {
+      if (waiting_.is_found[place]) {
+        std::array<float, CoreRows::kAnswers> numbers;
+        for (size_t c = 0; c < numbers.size(); ++c) numbers[c] = waiting_.answer[c][place];
+        put(row_of_[place], Status::ok, numbers, waiting_.is_unsure[place]);
+      } else {
+        put_separation(row_of_[place]);
+      }
+    }
+    waiting_.count = 0;
+  }
+
+ private:
+  // A row in scaled units.
+  struct DeepRow {
+    scalar::ScaleOf<float> scale;
+    std::optional<FloatShape<A>> shape_a;
+    std::optional<SolidOf<FloatShape<A>>> a;
+    std::optional<SolidOf<FloatShape<B>>> b;
+  };
+
+  // Finds the depths of rows[begin] to rows[end - 1] in float32, and in double precision where
+  // that is unsure.
+  void run_deep_group(std::span<const uint16_t> rows, size_t begin, size_t end) {
+    std::array<DeepRow, kMostDeepPairs> placed;
+    std::array<DeepPair, kMostDeepPairs> pairs;
+    std::array<scalar::Separation, kMostDeepPairs> contacts;
+    const size_t count = end - begin;
+    for (size_t i = 0; i < count; ++i) {
+      if (batch_.has_rounded_points) fetch(rows, begin + i);
+      place(rows[begin + i], placed[i], pairs[i]);
+    }
+    solid_depths({pairs.data(), count}, steps_, contacts.data());
+    for (size_t i = 0; i < count; ++i) {
+      scalar::Separation& s = contacts[i];
+      if (s.is_unsure) {
+        run(rows[begin + i]);
+      } else {
+        grow(s, *placed[i].shape_a);
+        put_in_metres(s, placed[i].scale);
+        store_.put(rows[begin + i], s.status, numbers_of(s));
+      }
+    }
+  }
+
+  void place(size_t row, DeepRow& placed, DeepPair& deep) const {
+    const Pair pair = batch_.pairs[row];
+    const auto a = shape_at<A, float>(a_, pair.a);
+    const auto b = shape_at<B, float>(b_, pair.b);
+    const scalar::PairPose<float> pose = rounded_pose(a_, b_, pair);
+    placed.scale = scalar::scale_of_pair(a, b, pose);
+    placed.shape_a.emplace(a.scaled(placed.scale.down));
+    placed.a.emplace(*placed.shape_a);
+    placed.b.emplace(b.scaled(placed.scale.down));
+    deep = {&placed.a->view(), &placed.b->view(), scalar::scaled_pose(pose, placed.scale).d, pose.a,
+            pose.b};
+  }
+
+  // Asks for the hulls of the rows after row i of the list. Hulls are mostly shared by many bodies,
+  // but k-DOPs have one each. Each step of fetching is a row further ahead than the next.
+  [[gnu::always_inline]] void fetch(std::span<const uint16_t> rows, size_t i) const {
+    for (size_t step = 0; step < kFetchSteps; ++step) {
+      const size_t ahead = i + kFetchSteps - step;
+      if (ahead < rows.size()) fetch_hulls(rows[ahead], step);
+    }
+  }
+
+  [[gnu::always_inline]] void fetch_hulls(size_t row, size_t step) const {
     const Pair pair = batch_.pairs[row];
     if constexpr (std::is_same_v<A, Hull>) {
       fetch_solid(*geometry_at<HullGeometry>(a_.row(pair.a, 0)), step);
@@ -73,42 +160,49 @@ class RowTester {
     }
   }
 
- private:
-  // Finds the depth of two solids in float32. Stores nothing and returns false if it is unsure.
-  bool put_depth(size_t row) const {
-    if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
-      const Pair pair = batch_.pairs[row];
-      const scalar::Separation s = scalar::in_scaled_units<float>(
-          shape_at<A, float>(a_, pair.a), shape_at<B, float>(b_, pair.b),
-          rounded_pose(a_, b_, pair),
-          [&](const auto& x, const auto& y, const scalar::PairPose<float>& pose) {
-            return shape_depth(x, y, pose, steps_);
-          });
-      if (!s.is_unsure) store_.put(row, s.status, numbers_of(s));
-      return !s.is_unsure;
-    }
-    return false;
-  }
-
-  // Tests in double precision. Marks the row as unsure unless the test's error bound proves the
-  // decision.
-  void put_separation(size_t row) const {
-    const Pair pair = batch_.pairs[row];
+  // The pose in double precision.
+  [[gnu::always_inline]] scalar::PairPose<double> pose(Pair pair) const {
+    constexpr bool kTurns = !std::is_same_v<A, Sphere> && !std::is_same_v<A, Aabb>;
+    scalar::Quaternion<double> of_a{Eigen::Vector3d::Zero(), 1};
+    if constexpr (kTurns) of_a = orientation_of(a_, pair.a);
     const Position<double> p = a_.template position<double>(pair.a);
     const Position<double> q = b_.template position<double>(pair.b);
-    const auto shape_a = shape_at<A, double>(a_, pair.a);
-    const auto shape_b = shape_at<B, double>(b_, pair.b);
+    return {{q.x - p.x, q.y - p.y, q.z - p.z}, of_a, orientation_of(b_, pair.b)};
+  }
+
+  // False if lanes of doubles do not take the row.
+  bool gather(size_t row) {
+    if constexpr (std::is_same_v<B, Hull>) {
+      const Pair pair = batch_.pairs[row];
+      row_of_[waiting_.count] = static_cast<uint16_t>(row);
+      return add_core_row(shape_at<A, double>(a_, pair.a), shape_at<B, double>(b_, pair.b),
+                          pose(pair), waiting_);
+    } else {
+      return false;
+    }
+  }
+
+  // Tests in double precision.
+  void put_separation(size_t row) const {
+    const Pair pair = batch_.pairs[row];
     const scalar::SeparationAs<double> s = scalar::in_scaled_units<double>(
-        shape_a, shape_b,
-        {{q.x - p.x, q.y - p.y, q.z - p.z}, orientation_of(a_, pair.a), orientation_of(b_, pair.b)},
-        [&](const auto& x, const auto& y, const scalar::PairPose<double>& pose) {
-          return core_separation(x, y, pose, test_);
+        shape_at<A, double>(a_, pair.a), shape_at<B, double>(b_, pair.b), pose(pair),
+        [&](const auto& x, const auto& y, const scalar::PairPose<double>& its_pose) {
+          return core_separation(x, y, its_pose, test_);
         });
     const bool is_decided_alone = decides_separate_ && s.separation > 0;
-    store_.put(row, is_decided_alone ? Status::ok : s.status, numbers_of(scalar::rounded(s)));
-    const bool is_proven = !s.is_unsure && !batch_.has_rounded_points &&
-                           has_exact_points(shape_a) && has_exact_points(shape_b);
-    if (batch_.unsure && !is_proven) batch_.unsure[row] = 1;
+    put(row, is_decided_alone ? Status::ok : s.status, numbers_of(scalar::rounded(s)), s.is_unsure);
+  }
+
+  // Marks the row as unsure unless the test's error bound proves the decision.
+  void put(size_t row, Status status, const std::array<float, 10>& numbers, bool is_unsure) const {
+    store_.put(row, status, numbers);
+    if (!batch_.unsure) return;
+    const Pair pair = batch_.pairs[row];
+    const bool is_proven = !is_unsure && !batch_.has_rounded_points &&
+                           has_exact_points(shape_at<A, double>(a_, pair.a)) &&
+                           has_exact_points(shape_at<B, double>(b_, pair.b));
+    if (!is_proven) batch_.unsure[row] = 1;
   }
 
   const Batch& batch_;
@@ -120,6 +214,9 @@ class RowTester {
   // The test pass of a kind that has a distance pass only states that a pair is separate. The
   // distance pass finds how far, and the status.
   const bool decides_separate_;
+  const FindCoreGaps find_gaps_ = find_core_gaps();
+  CoreRowsWithPoints& waiting_ = core_rows_of_thread();
+  std::array<uint16_t, CoreRows::kMost> row_of_;
 };
 
 }  // namespace
@@ -130,28 +227,23 @@ void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
   if (batch.pass == Pass::manifold) return run_manifolds(batch, kind_a, kind_b, in_lanes);
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
-  const RowTester<A, B> rows(batch, kind_a, kind_b);
+  RowTester<A, B> rows(batch, kind_a, kind_b);
   std::array<uint8_t, kPairsPerBlock> left{};
   Batch lanes = batch;
   lanes.unsure = left.data();
   in_lanes(lanes);
   // Lists the deferred rows first, without branches: they are as random as overlaps, and would be
   // predicted badly.
-  std::array<uint16_t, kPairsPerBlock + 1> list;
-  size_t count = 0;
+  std::array<uint16_t, kPairsPerBlock + 1> deep, unsure;
+  size_t deep_count = 0, unsure_count = 0;
   for (size_t row = 0; row < batch.count; ++row) {
-    list[count] = static_cast<uint16_t>(row);
-    count += left[row] != 0 ? 1 : 0;
+    deep[deep_count] = unsure[unsure_count] = static_cast<uint16_t>(row);
+    deep_count += left[row] == kDeep ? 1 : 0;
+    unsure_count += left[row] != 0 && left[row] != kDeep ? 1 : 0;
   }
-  // Hulls are mostly shared by many bodies, but k-DOPs have one each. Each step of fetching is a
-  // row further ahead than the next.
-  for (size_t i = 0; i < count; ++i) {
-    for (size_t step = 0; batch.has_rounded_points && step < kFetchSteps; ++step) {
-      const size_t ahead = i + kFetchSteps - step;
-      if (ahead < count && left[list[ahead]] == kDeep) rows.fetch(list[ahead], step);
-    }
-    rows.run(list[i], left[list[i]] == kDeep);
-  }
+  rows.run_deep({deep.data(), deep_count});
+  for (size_t i = 0; i < unsure_count; ++i) rows.run(unsure[i]);
+  rows.finish();
 }
 
 template void run_core_batch<Sphere, Hull>(const Batch&, const CoreKernels&);

@@ -52,10 +52,10 @@ HWY_INLINE F reach_along(const TriangleLanes& triangle, const Quaternion& q, con
 
 HWY_INLINE F reach_along(const HullLanes& hull, const Quaternion& q, const F3& n) {
   const F3 m = rotate_back(q, n);
-  const HullsOfLanes points(hull);
+  const HullRecords records(hull);
   F reach = splat(-FLT_MAX);
-  points.for_each_point(points.most(),
-                        [&](size_t, const F3& p) HWY_ATTR { reach = max(reach, dot(m, p)); });
+  records.for_each_point(records.most(),
+                         [&](size_t, const F3& p) HWY_ATTR { reach = max(reach, dot(m, p)); });
   return hn::Mul(reach, hull.scaling);
 }
 

@@ -36,9 +36,6 @@ constexpr double kLeastDop = 0x1p-20;
 constexpr double kRoundingOfFronts = 0x1p-30;
 constexpr double kLeastSine = 0x1p-16;
 
-// Rounding of a volume of three differences of points, each below 2^5, stays below this.
-constexpr double kRoundingOfVolumes = 0x1p-34;
-
 // Sizes that can be scaled: all floats, and squared distances of them.
 constexpr double kLeastSize = 0x1p-400;
 constexpr double kGreatestSize = 0x1p400;
@@ -187,7 +184,7 @@ bool holds_origin(const FewOf<Vector, 4>& y, double rounding) {
     const Vector n = cross(b - a, c - a);
     const double to_apex = dot(n, apex - a);
     const double to_origin = to_apex < 0 ? dot(n, a) : -dot(n, a);
-    if (!(to_origin > length(n) * (4 * rounding) + kRoundingOfVolumes)) return false;
+    if (!(to_origin > length(n) * (4 * rounding) + kProvenVolume)) return false;
   }
   return true;
 }

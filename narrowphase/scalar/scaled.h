@@ -22,17 +22,37 @@ inline DoubleScale scale_of(double magnitude) {
   return {power_of_two(within), power_of_two(-within)};
 }
 
+template <class Real>
+using ScaleOf = decltype(scale_of(Real()));
+
+// The scale of the units in which the greatest coordinate of a pair lies between one and two.
+template <class Real, class A, class B>
+ScaleOf<Real> scale_of_pair(const A& a, const B& b, const PairPose<Real>& pose) {
+  return scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
+}
+
+template <class Real>
+PairPose<Real> scaled_pose(const PairPose<Real>& pose, const ScaleOf<Real>& scale) {
+  return {pose.d * scale.down, pose.a, pose.b};
+}
+
+// In place: a copy made compilers write numbers in one size and read them in another, and wait.
+template <class Real>
+void put_in_metres(SeparationAs<Real>& s, const ScaleOf<Real>& scale) {
+  s.separation = finite(s.separation * scale.up);
+  s.arm_a *= scale.up;
+  s.arm_b *= scale.up;
+}
+
 // Returns separate(a, b, pose), run in units in which the greatest coordinate lies between one and
 // two; the result is in metres again.
 template <class Real, class A, class B, class Separate>
 SeparationAs<Real> in_scaled_units(const A& a, const B& b, const PairPose<Real>& pose,
                                    const Separate& separate) {
-  const auto scale = scale_of(max(largest_component(pose.d), max(a.size(), b.size())));
-  const PairPose<Real> scaled_pose{pose.d * scale.down, pose.a, pose.b};
-  SeparationAs<Real> result = separate(a.scaled(scale.down), b.scaled(scale.down), scaled_pose);
-  result.separation = finite(result.separation * scale.up);
-  result.arm_a *= scale.up;
-  result.arm_b *= scale.up;
+  const ScaleOf<Real> scale = scale_of_pair(a, b, pose);
+  SeparationAs<Real> result =
+      separate(a.scaled(scale.down), b.scaled(scale.down), scaled_pose(pose, scale));
+  put_in_metres(result, scale);
   return result;
 }
 

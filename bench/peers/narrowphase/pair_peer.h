@@ -62,6 +62,8 @@ using MakePairPeer = std::unique_ptr<PairPeer>(const PeerBodies& a, const PeerBo
 MakePairPeer make_bullet_pairs, make_fcl_pairs, make_ode_pairs;
 // libccd alone: GJK and EPA, or the refinement of portals (MPR).
 MakePairPeer make_ccd_gjk_pairs, make_ccd_mpr_pairs;
+// Exact decisions alone.
+MakePairPeer make_cgal_pairs;
 // Returns nullptr where Carom was built without MuJoCo.
 MakePairPeer make_mujoco_pairs;
 // Two meshes: FCL with all contacts, or with the first that it finds.

@@ -73,9 +73,37 @@ void print(const StreamResult& result) {
   std::fflush(stdout);
 }
 
+void print(const ExactResult& result) {
+  std::printf(
+      "\n%s, exact decisions of %s pairs: %zu pairs, %.1f %% overlap; CGAL: %zu otherwise\n",
+      result.pair.c_str(), result.touching ? "touching" : "random", result.pairs,
+      result.hit_percent, result.different);
+  for (const RunnerResult& runner : result.runners) {
+    std::printf("  %-24s %10.2f %18zu\n", runner.runner.c_str(), 1e9 * runner.seconds_per_pair(),
+                runner.passes);
+  }
+  std::fflush(stdout);
+}
+
 ordered_json streams_json(const std::vector<StreamResult>& results) {
   ordered_json json = ordered_json::array();
   for (const StreamResult& result : results) json.push_back(stream_json(result));
+  return json;
+}
+
+ordered_json exact_json(const std::vector<ExactResult>& results) {
+  ordered_json json = ordered_json::array();
+  for (const ExactResult& result : results) {
+    ordered_json entry = {{"pair", result.pair},
+                          {"touching", result.touching},
+                          {"pairs", result.pairs},
+                          {"hit_percent", result.hit_percent},
+                          {"different", result.different}};
+    for (const RunnerResult& runner : result.runners) {
+      entry["ns"][runner.runner] = 1e9 * runner.seconds_per_pair();
+    }
+    json.push_back(entry);
+  }
   return json;
 }
 

@@ -56,6 +56,9 @@ struct AabbTriangleDecision : AabbTriangleBase {
   template <class V, class Report>
   static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& box,
                               const TriangleOf<V>& triangle, Report& report) {
+    if constexpr (std::is_same_v<V, D>) {
+      if (report.marks_unsure()) return AabbTriangle::test(pose, box, triangle, report);
+    }
     const PlacedTriangleOf<V> placed =
         place_triangle(triangle, rotation_of(pose.b), position_of(pose, box));
     report_decision(gap_of(placed, half_of(box)), triangle.is_special, report);

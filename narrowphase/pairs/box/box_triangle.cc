@@ -51,6 +51,9 @@ struct BoxTriangleDecision : BoxTriangleBase {
   template <class V, class Report>
   static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& box,
                               const TriangleOf<V>& triangle, Report& report) {
+    if constexpr (std::is_same_v<V, D>) {
+      if (report.marks_unsure()) return BoxTriangle::test(pose, box, triangle, report);
+    }
     const PlacedTriangleOf<V> placed = place(pose, rotation_of(pose.a), triangle);
     report_decision(gap_of(placed, box.half), triangle.is_special, report);
   }

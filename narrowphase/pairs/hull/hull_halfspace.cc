@@ -29,18 +29,18 @@ struct HullHalfspace {
     place_plane(halfspace, pose.b, pose.d, normal, height, plane_size);
     const Rotation turn = rotation_of(pose.a);
     const F3 slope = rotate_back(turn, normal);
-    const HullsOfLanes points(hull);
-    const F each = points.count_lanes();
+    const HullRecords records(hull);
+    const F each = records.count_lanes();
 
     F least = splat(FLT_MAX);
-    points.for_each_point(points.most(), [&](size_t, const F3& p) HWY_ATTR {
+    records.for_each_point(records.most(), [&](size_t, const F3& p) HWY_ATTR {
       least = min(least, dot(slope, p * hull.scaling));
     });
     const F size = hull.extent();
     const F low = hn::Add(least, hn::Mul(splat(kLyingFlat), size));
     F weight = splat(0);
     F3 sum = splat3(0);
-    points.for_each_point(points.most(), [&](size_t i, const F3& p) HWY_ATTR {
+    records.for_each_point(records.most(), [&](size_t i, const F3& p) HWY_ATTR {
       const F3 point = p * hull.scaling;
       const Mask has_point = hn::Lt(splat(static_cast<float>(i)), each);
       const Mask is_low = hn::And(has_point, hn::Le(dot(slope, point), low));

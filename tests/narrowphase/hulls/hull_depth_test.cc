@@ -348,7 +348,7 @@ std::vector<uint16_t> open_edges(const Solid& solid, float gap, const FaceBounds
   for (size_t e = 0; e < solid.edges.size(); ++e) {
     bool is_open = true;
     for (size_t ball = 0; ball < bounds.count; ++ball) {
-      const auto& between = bounds.between[ball];
+      const float* const between = bounds.between(ball);
       is_open &= !(between[solid.edges[e].left] <= gap && between[solid.edges[e].right] <= gap);
     }
     if (is_open) open.push_back(static_cast<uint16_t>(e));
@@ -389,7 +389,8 @@ TEST(HullSteps, OfFacesAreThoseOfTheReferenceOnEveryIsa) {
       const Solid& solid = hull_solid.view();
       ASSERT_TRUE(solid.is_known());
       FaceBounds expected, found;
-      expected.count = found.count = 0;
+      expected.begin(solid);
+      found.begin(solid);
       for (size_t i = 0; i < 4; ++i) {
         const Ball ball{random.direction().cast<float>(), i == 0 ? 0.25f : 0};
         const BestFace best = scalar::bound_faces(solid, ball, expected);
@@ -397,7 +398,7 @@ TEST(HullSteps, OfFacesAreThoseOfTheReferenceOnEveryIsa) {
         ASSERT_EQ(expected.count, found.count);
         for (size_t f = 0; f < solid.face_count; ++f) {
           expect_same_bits(expected.gap[f], found.gap[f]);
-          expect_same_bits(expected.between[i][f], found.between[i][f]);
+          expect_same_bits(expected.between(i)[f], found.between(i)[f]);
         }
       }
       expect_open_alike(solid, expected, found, counts);
@@ -427,6 +428,78 @@ TEST(HullSteps, OfFacesAreThoseOfTheReferenceOnEveryIsa) {
     }
     EXPECT_GT(counts.open, counts.all / 20);
     EXPECT_LT(counts.open, counts.all / 20 * 19);
+  });
+}
+
+// Counts around the lanes of all targets.
+constexpr size_t kPairCounts[] = {0, 1, 3, 4, 5, 7, 8, 9, 15, kMostDeepPairs};
+
+TEST(HullSteps, OfPointsInsideAreThoseOfTheReferenceOnEveryIsa) {
+  for_each_isa([] {
+    Random random(11);
+    size_t inside = 0, all = 0;
+    for (size_t count = 4; count <= 20; ++count) {
+      const Hull hull = oracle::hull_of(round_points(count, {1, 1, 1}, random));
+      const SolidHull hull_solid(HullShape<float>{hull.geometry.get(), 0.5});
+      const Solid& solid = hull_solid.view();
+      // About the plane of each face, so that the last face has to be looked at.
+      for (size_t f = 0; f < solid.face_count; ++f) {
+        for (const float above : {-0x1p-18f, 0.0f, 0x1p-20f, 0x1p-18f, 0.5f}) {
+          const Vector3f corner =
+              solid.corner(hull.geometry->corners(hull.geometry->faces()[f])[0]);
+          const Vector3f point =
+              corner + (solid.middle * solid.scale - corner) * 0x1p-10f + solid.normal(f) * above;
+          const bool expected = scalar::is_inside(solid, point);
+          EXPECT_EQ(hull_steps_in_lanes().is_inside(solid, point), expected);
+          inside += expected;
+          ++all;
+        }
+      }
+    }
+    EXPECT_GT(inside, all / 10);
+    EXPECT_LT(inside, all / 10 * 9);
+  });
+}
+
+// Pairs searched together, some of which have no features, are as each by itself.
+TEST(SolidDepth, OfManyPairsIsThatOfEachOnEveryIsa) {
+  for_each_isa([] {
+    Random random(12);
+    size_t sure = 0, all = 0;
+    for (const size_t count : kPairCounts) {
+      SCOPED_TRACE(count);
+      std::vector<HullPair> pairs;
+      std::vector<SolidHull> a, b;
+      for (size_t i = 0; i < count; ++i) {
+        HullPair pair = random_pair(random, 4 + random.below(30));
+        pair.pose.d *= 0.3f;
+        if (i % 5 == 3) pair.b = Hull{*make_hull(round_points(9, {1, 1, 1}, random), {})};
+        a.emplace_back(float_hull(pair.a));
+        b.emplace_back(float_hull(pair.b));
+        pairs.push_back(pair);
+      }
+      std::vector<DeepPair> deep;
+      for (size_t i = 0; i < count; ++i) {
+        const PairPose<float>& pose = pairs[i].pose;
+        deep.push_back({&a[i].view(), &b[i].view(), pose.d, pose.a, pose.b});
+      }
+      std::vector<Separation> found(count);
+      solid_depths(deep, hull_steps_in_lanes(), found.data());
+      for (size_t i = 0; i < count; ++i) {
+        const Separation expected = shape_depth(float_hull(pairs[i].a), float_hull(pairs[i].b),
+                                                pairs[i].pose, scalar::kHullSteps);
+        ASSERT_EQ(expected.is_unsure, found[i].is_unsure);
+        ++all;
+        if (expected.is_unsure) continue;
+        ++sure;
+        EXPECT_EQ(expected.separation, found[i].separation);
+        EXPECT_EQ(expected.normal, found[i].normal);
+        EXPECT_EQ(expected.arm_a, found[i].arm_a);
+        EXPECT_EQ(expected.arm_b, found[i].arm_b);
+      }
+    }
+    EXPECT_GT(sure, all / 2);
+    EXPECT_LT(sure, all);
   });
 }
 

@@ -199,6 +199,37 @@ TEST(Recall, OfAnyNumberOfPairs) {
   }
 }
 
+// Where nearly all rows have features, those that overlap still get their depths.
+TEST(Recall, OfMostlySeparatePairsFindsDepthsOfTheOthers) {
+  std::vector<TestPair> pairs = random_pairs(rounds(400, 100), 1, 7);
+  const Call call = call_of(Measured::all);
+  Random random(8);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (i % 20 == 7) {
+      pairs[i].b.position = pairs[i].a.position;  // surely overlap
+    } else {
+      const Eigen::Vector3d way = random.direction() * random.uniform(2.5, 4);
+      pairs[i].b.position = stored(pairs[i].a.position + way, PositionType::float32);
+    }
+  }
+  std::vector<uint64_t> known(pairs.size());
+  run(pairs, call, &known);
+  move(pairs, 1, 0.005, random);
+  const std::vector<Row> cold = run(pairs, call, nullptr);
+  for_each_isa([&] {
+    std::vector<uint64_t> features = known;
+    const std::vector<Row> warm = run(pairs, call, &features);
+    size_t depths = 0;
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      ASSERT_EQ(warm[i].overlap, cold[i].overlap) << i;
+      if (!warm[i].overlap) continue;
+      ASSERT_TRUE(same_bits(warm[i], cold[i])) << i;
+      depths += feature_count(known[i]) == kMostFeatures ? 1 : 0;
+    }
+    EXPECT_GT(depths, pairs.size() / 40);
+  });
+}
+
 TEST(Recall, LeavesWhatItDoesNotKnow) {
   std::vector<TestPair> pairs = random_pairs(6, 1, 6);
   for (TestPair& pair : pairs) pair.b.position = pair.a.position + Eigen::Vector3d(3, 0, 0);

@@ -1,10 +1,10 @@
 // Simplices of B - A in lanes of doubles, and their point nearest to zero
 // (narrowphase/doubles/plain_simplex.h is the scalar form and has the source).
-#if defined(CAROM_IMPACTS_LINEAR_PLAIN_SIMPLEX_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CAROM_IMPACTS_LINEAR_PLAIN_SIMPLEX_INL_H_
-#undef CAROM_IMPACTS_LINEAR_PLAIN_SIMPLEX_INL_H_
+#if defined(CAROM_NARROWPHASE_DOUBLES_PLAIN_SIMPLEX_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAROM_NARROWPHASE_DOUBLES_PLAIN_SIMPLEX_INL_H_
+#undef CAROM_NARROWPHASE_DOUBLES_PLAIN_SIMPLEX_INL_H_
 #else
-#define CAROM_IMPACTS_LINEAR_PLAIN_SIMPLEX_INL_H_
+#define CAROM_NARROWPHASE_DOUBLES_PLAIN_SIMPLEX_INL_H_
 #endif
 
 #include <array>
@@ -35,22 +35,14 @@ struct PlainNearestLanes {
   DoubleMask is_around, is_unclear;
 };
 
+// The used corners are in the first `kPlaces` places.
+template <size_t kPlaces = 3>
 class PlainSearch {
  public:
   HWY_INLINE PlainSearch(const std::array<D3, 3>& corner, Places used, const D3& last)
       : last_(last), zero_(hn::Zero(DoubleTag())) {
     best_ = {last, dot(last, last), places(0), no_lanes_of<D>(), no_lanes_of<D>()};
-    Side p = side_to(corner[0], has_place(used, 0));
-    Side q = side_to(corner[1], has_place(used, 1));
-    Side r = side_to(corner[2], has_place(used, 2));
-    const Plane pq = try_triangle(p, q, 0b011);
-    const Plane pr = try_triangle(p, r, 0b101);
-    const Plane qr = try_triangle(q, r, 0b110);
-    try_sides(p, q, r);
-    const DoubleMask has_four = hn::RebindMask(DoubleTag(), hn::Eq(used, places(0b111)));
-    if (hn::AllFalse(DoubleTag(), has_four)) return;
-    look_inside(corner, has_four, dot(pq.normal, r.way),
-                {qr.height, hn::Neg(pr.height), pq.height});
+    search(corner, used);
   }
 
   HWY_INLINE const PlainNearestLanes& nearest() const { return best_; }
@@ -71,6 +63,22 @@ class PlainSearch {
     D3 normal;
     D height;
   };
+
+  HWY_INLINE void search(const std::array<D3, 3>& corner, Places used) {
+    Side p = side_to(corner[0], has_place(used, 0));
+    if constexpr (kPlaces == 1) return try_side(p, places(0b001));
+    Side q = side_to(corner[1], has_place(used, 1));
+    const Plane pq = try_triangle(p, q, 0b011);
+    if constexpr (kPlaces == 2) return try_sides(p, q);
+    Side r = side_to(corner[2], has_place(used, 2));
+    const Plane pr = try_triangle(p, r, 0b101);
+    const Plane qr = try_triangle(q, r, 0b110);
+    try_sides(p, q, r);
+    const DoubleMask has_four = hn::RebindMask(DoubleTag(), hn::Eq(used, places(0b111)));
+    if (hn::AllFalse(DoubleTag(), has_four)) return;
+    look_inside(corner, has_four, dot(pq.normal, r.way),
+                {qr.height, hn::Neg(pr.height), pq.height});
+  }
 
   HWY_INLINE Side side_to(const D3& corner, DoubleMask is_used) const {
     const D3 way = zero_unless(is_used, corner - last_);
@@ -93,7 +101,9 @@ class PlainSearch {
     return {normal, height};
   }
 
-  HWY_INLINE void try_sides(const Side& p, const Side& q, const Side& r) {
+  // The first side that has zero beside it.
+  template <class... Sides>
+  HWY_INLINE void try_sides(const Side& p, const Side& q, const Sides&... r) {
     Side side = p;
     Places kept = places(0b001);
     const auto put = [&](const Side& other, int64_t bit) HWY_ATTR {
@@ -104,9 +114,13 @@ class PlainSearch {
       side.towards = hn::IfThenElse(is_beside, other.towards, side.towards);
       kept = select(is_beside, places(bit), kept);
     };
-    put(r, 0b100);
+    (put(r, 0b100), ...);
     put(q, 0b010);
     put(p, 0b001);
+    try_side(side, kept);
+  }
+
+  HWY_INLINE void try_side(const Side& side, Places kept) {
     const D inverse = hn::Div(splat_double(1), side.squared);
     const D3 beside = last_ + side.way * hn::Mul(side.along, inverse);
     const D3 across = beside - side.way * hn::Mul(dot(beside, side.way), inverse);
@@ -144,4 +158,4 @@ class PlainSearch {
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // CAROM_IMPACTS_LINEAR_PLAIN_SIMPLEX_INL_H_
+#endif  // CAROM_NARROWPHASE_DOUBLES_PLAIN_SIMPLEX_INL_H_

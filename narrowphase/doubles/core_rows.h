@@ -1,0 +1,52 @@
+// Pairs of cores whose gaps are found in lanes of doubles, and the answers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace carom {
+
+// Lanes of doubles hold no hulls with more points than this.
+inline constexpr size_t kMostPointsOfDoubles = 64;
+
+struct CoreRows {
+  static constexpr size_t kMost = 64;  // whole vectors of every width
+
+  // The first column of each number: B - A in scaled units, both orientations, a point inside of
+  // each core (metres, before it is turned), the radius of A in scaled units, and the powers of two
+  // that scale metres to those units and back. B has no radius.
+  enum Column : size_t {
+    kOffset = 0,
+    kTurnA = 3,
+    kTurnB = 7,
+    kMiddleA = 11,
+    kMiddleB = 14,
+    kRadius = 17,
+    kDown = 18,
+    kUp = 19,
+    kColumns = 20,
+  };
+
+  size_t count = 0;
+  bool decides_only = false;
+  alignas(64) std::array<std::array<double, kMost>, kColumns> column;
+  // Points of the cores, as the point inside: records of four floats, one to kMostPointsOfDoubles.
+  std::array<const float*, kMost> points_a, points_b;
+  std::array<uint32_t, kMost> count_a, count_b;
+
+  // Separation, normal, arm_a and arm_b in metres, rounded once; the separation alone where the
+  // decision alone is wanted.
+  static constexpr size_t kAnswers = 10;
+  alignas(64) std::array<std::array<float, kMost>, kAnswers> answer;
+  // Whether lanes found the answer, and whether the decision is within rounding.
+  std::array<bool, kMost> is_found, is_unsure;
+};
+
+// Finds the answers of up to kMost rows of valid bodies; on any thread. They have the bits of the
+// scalar form (scalar::core_separation()) on every instruction set, which finds more: of gaps
+// find_plain_gap() alone, and of contact locations the first round of scalar::meeting_point().
+using FindCoreGaps = void (*)(CoreRows& rows);
+FindCoreGaps find_core_gaps();
+
+}  // namespace carom
