@@ -45,7 +45,9 @@ DopDirections::DopDirections() {
 
 DopSolid::DopSolid(const HullGeometry& hull, float inner_radius,
                    const std::array<float, kDopPlanes>& heights, std::span<const Edge> edges)
-    : inner_radius_(inner_radius), edge_count_(static_cast<uint16_t>(edges.size())) {
+    : middle_(hull.records()[hull.points().size()]),
+      inner_radius_(inner_radius),
+      edge_count_(static_cast<uint16_t>(edges.size())) {
   const auto points = hull.points();
   for (size_t i = 0; i < kMostPoints; ++i) {
     const Eigen::Vector3f& point = points[i < points.size() ? i : 0];

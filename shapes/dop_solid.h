@@ -66,6 +66,8 @@ class alignas(64) DopSolid {
            const std::array<float, kDopPlanes>& heights, std::span<const Edge> edges);
 
   float inner_radius() const { return inner_radius_; }
+  // The mean of the points, then 0.
+  const std::array<float, 4>& middle() const { return middle_; }
   size_t edge_count() const { return edge_count_; }
   Edge edge(size_t e) const { return {ends_[2 * kMostEdges + e], sides(0)[e], sides(1)[e]}; }
   // The left planes (0) or the right planes (1) of all edges. 64 bytes may be read from any edge
@@ -82,6 +84,7 @@ class alignas(64) DopSolid {
   std::array<std::array<float, kMostPoints>, 3> points_;
   std::array<float, 32> heights_;
   std::array<uint8_t, 3 * kMostEdges> ends_{};  // left planes, right planes, points
+  std::array<float, 4> middle_;
   float inner_radius_;
   uint16_t edge_count_;
   uint16_t plane_count_;

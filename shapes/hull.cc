@@ -23,10 +23,12 @@ std::shared_ptr<const float> columns_of(std::span<const Eigen::Vector3f> points)
   return {columns, columns.get()};
 }
 
-std::vector<std::array<float, 4>> records_of(std::span<const Eigen::Vector3f> points) {
+std::vector<std::array<float, 4>> records_of(std::span<const Eigen::Vector3f> points,
+                                             const Eigen::Vector3f& middle) {
   std::vector<std::array<float, 4>> records;
-  records.reserve(points.size());
+  records.reserve(points.size() + 1);
   for (const Eigen::Vector3f& p : points) records.push_back({p.x(), p.y(), p.z(), 0});
+  records.push_back({middle.x(), middle.y(), middle.z(), 0});
   return records;
 }
 
@@ -74,9 +76,7 @@ struct HullBuilder {
     hull.columns_ = columns_of(points);
     hull.column_stride_ = static_cast<uint32_t>(padded_count(points.size()));
     hull.middle_ = mean_of(points);
-    const Eigen::Vector3f middle = hull.middle_.cast<float>();
-    hull.middle_record_ = {middle.x(), middle.y(), middle.z(), 0};
-    hull.records_ = records_of(points);
+    hull.records_ = records_of(points, hull.middle_.cast<float>());
     for (size_t i = 0; i < faces.size(); ++i) {
       const std::vector<uint32_t>& face = faces[i];
       if (face.size() < 3) {

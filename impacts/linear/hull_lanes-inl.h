@@ -25,7 +25,7 @@ struct LinearHullRecords : PointRecords {
     HWY_ALIGN double counts[kDoubleLanes];
     for (size_t lane = 0; lane < kDoubleLanes; ++lane) {
       const HullGeometry* const hull = hulls[lane];
-      const size_t count = hull ? hull->records().size() : kMostPointsOfDoubles + 1;
+      const size_t count = hull ? hull->records().size() - 1 : kMostPointsOfDoubles + 1;
       const bool fits = count <= kMostPointsOfDoubles;
       first[lane] = fits ? hull->records()[0].data() : kNothing.data();
       points[lane] = fits ? count : 1;

@@ -12,6 +12,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
+#include "shapes/dop_solid.h"
 #include "simd/compress-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -109,17 +110,17 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
-// What lanes without a hull read in place of a point.
-inline constexpr std::array<float, 4> kNoRecord{};
+// What lanes without a hull read: a point, and the middle.
+inline constexpr std::array<float, 8> kNoRecords{};
 
-// Reads the points of each lane's hull as records.
+// Reads the records of each lane's hull: its points, then its middle.
 class HullRecords {
  public:
   explicit HWY_INLINE HullRecords(const HullLanes& hull) {
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const HullGeometry* const geometry = hull.geometry[lane];
-      first_[lane] = geometry ? geometry->records()[0].data() : kNoRecord.data();
-      points_[lane] = geometry ? geometry->records().size() : 1;
+      first_[lane] = geometry ? geometry->records()[0].data() : kNoRecords.data();
+      points_[lane] = geometry ? geometry->records().size() - 1 : 1;
       most_ = std::max(most_, points_[lane]);
       least_ = std::min(least_, points_[lane]);
     }
@@ -144,8 +145,11 @@ class HullRecords {
     hn::Store(hn::Min(places, hn::BitCast(IndexTag(), last)), IndexTag(), at);
     return read([&](size_t lane) { return at[lane]; });
   }
+  HWY_INLINE F3 middle() const {
+    return read([this](size_t lane) { return points_[lane]; });
+  }
 
-  // Numbers of points.
+  // Numbers of points, without the middle.
   size_t most() const { return most_; }
   size_t least() const { return least_; }
   HWY_INLINE F count_lanes() const {
@@ -191,8 +195,9 @@ class HullColumns {
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const HullGeometry* const geometry = hull.geometry[lane];
       for (size_t axis = 0; axis < 3; ++axis) {
-        column_[axis][lane] = geometry ? geometry->column(axis) : kNoRecord.data();
+        column_[axis][lane] = geometry ? geometry->column(axis) : kNoRecords.data();
       }
+      middle_[lane] = middle_of(geometry);
       padded_[lane] = geometry ? geometry->column_stride() : kPointsAtOnce;
       points_[lane] = geometry ? geometry->points().size() : 1;
       most_ = std::max(most_, points_[lane]);
@@ -215,6 +220,13 @@ class HullColumns {
           i, [i, this](size_t lane) { return std::min(i, padded_[lane] - kPointsAtOnce); }, use);
     }
   }
+  HWY_INLINE F3 middle() const {
+    F3 p;
+    F unused;
+    const auto first = [](size_t) { return size_t{0}; };
+    transpose_records(Source<decltype(first)>{middle_, first}, p, unused);
+    return p;
+  }
 
   // Numbers of points.
   size_t most() const { return most_; }
@@ -225,6 +237,12 @@ class HullColumns {
 
  private:
   static constexpr size_t kPointsAtOnce = 4;
+
+  static const float* middle_of(const HullGeometry* geometry) {
+    if (!geometry) return kNoRecords.data();
+    const DopSolid* const solid = geometry->dop_solid();
+    return (solid ? solid->middle() : geometry->records().back()).data();
+  }
 
   // Four entries of a column of each lane.
   template <class Place>
@@ -261,24 +279,11 @@ class HullColumns {
   }
 
   std::array<std::array<const float*, kLanes>, 3> column_;
+  std::array<const float*, kLanes> middle_;
   std::array<size_t, kLanes> padded_, points_;
   size_t most_ = 1;
   size_t least_ = kMostLanePoints;
   size_t least_padded_ = kMostLanePoints;
-};
-
-// The middles of hulls, as records.
-struct HullMiddles {
-  const HullLanes& hull;
-
-  HWY_INLINE const float* record(size_t lane) const {
-    const HullGeometry* const geometry = hull.geometry[lane];
-    return geometry ? geometry->middle_record().data() : kNoRecord.data();
-  }
-#if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }
-#endif
-  HWY_INLINE float component(size_t lane, size_t c) const { return record(lane)[c]; }
 };
 
 // A rotation that also scales. The scale is a power of two, so rounding is the same whichever
@@ -296,6 +301,7 @@ HWY_INLINE void put_points(const Points& points, const Rotation& turn, const F3&
   core.begin(count, points.least(), points.count_lanes());
   points.for_each_point(
       count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
+  core.middle = rotate(turn, points.middle()) + offset;
 }
 
 inline HWY_NOINLINE void put_points_of_dops(const HullLanes& hull, const Rotation& turn,
@@ -312,10 +318,6 @@ HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& 
   } else {
     put_points(HullRecords(hull), turn, offset, core);
   }
-  F3 middle;
-  F unused;
-  transpose_records(HullMiddles{hull}, middle, unused);
-  core.middle = rotate(turn, middle) + offset;
 }
 
 }  // namespace carom::HWY_NAMESPACE

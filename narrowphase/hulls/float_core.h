@@ -85,7 +85,7 @@ inline FloatCore float_core(const HullShape<float>& hull, const Quaternion<float
   for (size_t i = 0; core.has_space && i < count; ++i) {
     core.points.push_back(placed(hull.geometry->records()[i]));
   }
-  core.middle = placed(hull.geometry->middle_record());
+  core.middle = placed(hull.geometry->records()[count]);
   return core;
 }
 

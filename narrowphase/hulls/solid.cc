@@ -18,7 +18,7 @@ SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
 }
 
 void SolidHull::view_features(const HullGeometry& geometry, const HullFeatures& features) {
-  const std::array<float, 4>& middle = geometry.middle_record();
+  const std::array<float, 4>& middle = geometry.records()[geometry.points().size()];
   view_.point_count = geometry.points().size();
   view_.face_count = features.face_count();
   for (size_t axis = 0; axis < 3; ++axis) view_.point[axis] = geometry.column(axis);
@@ -33,7 +33,7 @@ void SolidHull::view_features(const HullGeometry& geometry, const HullFeatures& 
 
 void SolidHull::view_dop(const HullGeometry& geometry, const DopSolid& dop) {
   const DopDirections& directions = DopDirections::get();
-  const std::array<float, 4>& middle = geometry.middle_record();
+  const std::array<float, 4>& middle = dop.middle();
   view_.point_count = geometry.points().size();
   view_.face_count = dop.plane_count();
   for (size_t axis = 0; axis < 3; ++axis) {

@@ -43,14 +43,12 @@ class CAROM_EXPORT HullGeometry {
   float size() const { return size_; }
   /// The mean of the points.
   const Eigen::Vector3d& middle() const { return middle_; }
-  /// middle(), rounded to float32, then 0.
-  const std::array<float, 4>& middle_record() const { return middle_record_; }
   /// The coordinates of all points along one axis (0, 1, 2), padded to a multiple of sixteen with
   /// that of the first point.
   const float* column(size_t axis) const { return columns_.get() + axis * column_stride_; }
   /// Entries from one column to the next: the number of points, padded.
   size_t column_stride() const { return column_stride_; }
-  /// Records x, y, z, 0 of every point.
+  /// Records x, y, z, 0 of every point, and after them of middle(), rounded to float32.
   std::span<const std::array<float, 4>> records() const { return records_; }
   /// Faces, edges and neighbours, if the faces close a solid with all points behind them; nullptr
   /// otherwise: then overlapping pairs of such a hull take longer. For Carom's own use.
@@ -64,17 +62,16 @@ class CAROM_EXPORT HullGeometry {
   friend class DopGeometry;
 
   // What tests in lanes read of every hull, side by side.
-  static constexpr size_t kBytesOfLanes = 80;
+  static constexpr size_t kBytesOfLanes = 88;
   float size_ = 0;
   uint32_t column_stride_ = 0;
-  std::array<float, 4> middle_record_{};
+  const DopSolid* dop_solid_ = nullptr;
+  std::vector<std::array<float, 4>> records_;
   std::vector<Eigen::Vector3f> points_;
   std::shared_ptr<const float> columns_;
-  const DopSolid* dop_solid_ = nullptr;
 
   std::vector<Face> faces_;
   std::vector<uint32_t> corners_;
-  std::vector<std::array<float, 4>> records_;
   std::shared_ptr<const HullFeatures> features_;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
 };
