@@ -210,6 +210,9 @@ inline constexpr double kProvenGap = 0x1p-36;
 // Rounding of a volume of three differences of points, each below 2^5, stays below this.
 inline constexpr double kProvenVolume = 0x1p-34;
 
+// The square of a unit vector of doubles is no further than this from one.
+inline constexpr double kUnitSquare = 0x1p-40;
+
 // --- Cores in float32, in scaled units: what GJK in lanes may decide. Coordinates of a difference
 // reach nine; rotated points and their products round to 30 units of 2^-24 ---
 

@@ -211,7 +211,8 @@ def exact_table(results, version):
            "`Exact_predicates_exact_constructions_kernel`, which computes with intervals and, where "
            "these do not decide, in rationals: `compare_squared_distance()` of spheres, "
            "`squared_distance()` of a point and a triangle, `do_intersect()` of triangles and of "
-           "closed surface meshes. Bodies stand in their places before the time begins. `touching`: "
+           "closed surface meshes. Bodies stand in their places, and coordinates that CGAL needs exactly have been found "
+           "so, before the time begins. `touching`: "
            "pairs that touch to within the rounding of their positions. CGAL decides the first "
            "2,000 pairs. `otherwise`: pairs that it decides otherwise than the exact tier, with "
            "none left out.\n")

@@ -1,4 +1,4 @@
-// What proves the decision about a pair, in lanes of doubles: a direction along which the shapes
+// Proofs of the decision about a pair, in lanes of doubles: a direction along which the shapes
 // are apart, or a point that lies in both, by more than rounding. Neither trusts the kernel that
 // found it. narrowphase/proof/proof.h does the same one pair at a time.
 #if defined(CAROM_NARROWPHASE_BATCH_CERTIFICATE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -160,11 +160,13 @@ HWY_INLINE PlacedTriangle placed(const TriangleOf<D>& shape, const QuaternionOf<
   return {shape, q, at};
 }
 
-// Whether the direction, of about unit length, keeps B above A.
+// Whether B is above A along a direction of unit length. Radii count in full, so the length may be
+// off by less than the room for rounding.
 template <class A, class B>
 HWY_INLINE DoubleMask are_apart(const A& a, const B& b, const D3& n) {
   const D gap = hn::Neg(hn::Add(a.highest(n), b.highest(-n)));
-  return hn::And(hn::Gt(gap, splat_double(kProvenGap)), hn::Lt(dot(n, n), splat_double(2)));
+  const D off = hn::Abs(hn::Sub(dot(n, n), splat_double(1)));
+  return hn::And(hn::Gt(gap, splat_double(kProvenGap)), hn::Lt(off, splat_double(kUnitSquare)));
 }
 
 // Whether there is a common point near two points, on A and on B.

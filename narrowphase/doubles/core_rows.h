@@ -13,9 +13,9 @@ inline constexpr size_t kMostPointsOfDoubles = 64;
 struct CoreRows {
   static constexpr size_t kMost = 64;  // whole vectors of every width
 
-  // The first column of each number: B - A in scaled units, both orientations, a point inside of
-  // each core (metres, before it is turned), the radius of A in scaled units, and the powers of two
-  // that scale metres to those units and back. B has no radius.
+  // The first column of each number: B - A in scaled units and world axes, both orientations, a
+  // point inside of each core (metres, before it is turned), the radius of A in scaled units, and
+  // the powers of two that scale metres to those units and back. B has no radius.
   enum Column : size_t {
     kOffset = 0,
     kTurnA = 3,
@@ -35,11 +35,11 @@ struct CoreRows {
   std::array<const float*, kMost> points_a, points_b;
   std::array<uint32_t, kMost> count_a, count_b;
 
-  // Separation, normal, arm_a and arm_b in metres, rounded once; the separation alone where the
-  // decision alone is wanted.
+  // Separation, normal from A to B, arm_a and arm_b from the bodies' positions, in metres and world
+  // axes, rounded once; the separation alone where the decision alone is wanted.
   static constexpr size_t kAnswers = 10;
   alignas(64) std::array<std::array<float, kMost>, kAnswers> answer;
-  // Whether lanes found the answer, and whether the decision is within rounding.
+  // Whether lanes found the answer, and if so, whether the decision is within rounding.
   std::array<bool, kMost> is_found, is_unsure;
 };
 

@@ -1,4 +1,4 @@
-// What the penetration search needs of the poses of its pairs, a pair a lane.
+// The frames of the penetration search from the poses of its pairs, a pair a lane.
 // deep_frames_scalar.h is the scalar form.
 #if defined(CAROM_NARROWPHASE_HULLS_DEEP_FRAMES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_HULLS_DEEP_FRAMES_INL_H_

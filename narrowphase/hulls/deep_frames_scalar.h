@@ -1,4 +1,4 @@
-// What the penetration search needs of the poses of its pairs: the scalar form of
+// The frames of the penetration search from the poses of its pairs: the scalar form of
 // deep_frames-inl.h.
 #pragma once
 

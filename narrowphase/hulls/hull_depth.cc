@@ -1,6 +1,7 @@
 #include "narrowphase/hulls/hull_depth.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "base/few_of.h"
 #include "narrowphase/doubles/convex.h"
@@ -270,10 +271,11 @@ struct Memory {
   FaceBounds bounds_a, bounds_b;
 };
 
-// Not inlined, because every loop would look up its address again.
+// Not in the thread's own memory, which every thread of the program would get. Not inlined, because
+// every loop would look up the address again.
 [[gnu::noinline]] Memory& memory_of_thread() {
-  thread_local Memory memory;
-  return memory;
+  thread_local const auto memory = std::make_unique<Memory>();
+  return *memory;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ static_assert(offsetof(ManifoldPoints, separation) == 12 * sizeof(float));
 HWY_INLINE void store_point(RowOfFour point, float* numbers) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3
   const FloatTag tag;
-  // Of each number, which of the four it is; those behind them are zeros.
+  // Which of the four each number is; those behind them are zeros.
   alignas(64) static constexpr int32_t kSource[16] = {0, 1, 2, 4, 4, 4, 4, 4,
                                                       4, 4, 4, 4, 3, 4, 4, 4};
 #if HWY_TARGET == HWY_AVX3

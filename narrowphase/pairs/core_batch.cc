@@ -64,12 +64,9 @@ class RowTester {
 
   // Tests rows whose cores surely overlap, whose bodies are valid. Rows may wait until finish().
   void run_deep(std::span<const uint16_t> rows) {
-    if constexpr (kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>) {
-      for (size_t first = 0; first < rows.size(); first += kMostDeepPairs) {
-        run_deep_group(rows, first, std::min(rows.size(), first + kMostDeepPairs));
-      }
-    } else {
-      for (const uint16_t row : rows) run(row);
+    static_assert(kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>);
+    for (size_t first = 0; first < rows.size(); first += kMostDeepPairs) {
+      run_deep_group(rows, first, std::min(rows.size(), first + kMostDeepPairs));
     }
   }
 

@@ -62,8 +62,8 @@ inline StatedCore stated_core(const scalar::HullShape<double>& hull, OwnPoints&)
   return {geometry.records()[0].data(), geometry.points().size(), geometry.middle()};
 }
 
-// Adds a row unless lanes of doubles do not take it. Shapes and pose are in metres; an aabb has the
-// identity for an orientation.
+// Adds a row unless lanes of doubles do not take it. Shapes, hulls at scale 1, and pose are in
+// metres; an aabb has the identity for an orientation.
 template <class A>
 bool add_core_row(const A& a, const scalar::HullShape<double>& b,
                   const scalar::PairPose<double>& pose, CoreRowsWithPoints& rows) {

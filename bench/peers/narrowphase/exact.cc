@@ -77,11 +77,14 @@ ExactResult compare_exact(const ExactSpec& spec, bool touching, size_t pairs, do
   CgalPass cgal(spec, stream);
   const std::vector<uint8_t>& decided = cgal.run();
   const uint8_t* const exact = carom.run(Tier::exact).overlap;
-  ExactResult result = {.pair = spec.pair,
-                        .touching = touching,
-                        .pairs = decided.size(),
-                        .hit_percent = stream.hit_percent(),
-                        .runners = {}};
+  ExactResult result = {
+      .pair = spec.pair,
+      .touching = touching,
+      .pairs = decided.size(),
+      .hit_percent = 100.0 *
+                     static_cast<double>(std::count(exact, exact + decided.size(), uint8_t{1})) /
+                     static_cast<double>(decided.size()),
+      .runners = {}};
   for (size_t i = 0; i < decided.size(); ++i) result.different += decided[i] != exact[i] ? 1 : 0;
 
   const auto pass = [&](Tier tier) { return [&carom, tier] { (void)carom.run(tier); }; };

@@ -56,6 +56,7 @@ struct AabbTriangleDecision : AabbTriangleBase {
   template <class V, class Report>
   static HWY_INLINE void test(const PoseOf<V>& pose, const AabbOf<V>& box,
                               const TriangleOf<V>& triangle, Report& report) {
+    // A certificate needs the normal and the witness points.
     if constexpr (std::is_same_v<V, D>) {
       if (report.marks_unsure()) return AabbTriangle::test(pose, box, triangle, report);
     }

@@ -51,6 +51,7 @@ struct BoxTriangleDecision : BoxTriangleBase {
   template <class V, class Report>
   static HWY_INLINE void test(const PoseOf<V>& pose, const BoxOf<V>& box,
                               const TriangleOf<V>& triangle, Report& report) {
+    // A certificate needs the normal and the witness points.
     if constexpr (std::is_same_v<V, D>) {
       if (report.marks_unsure()) return BoxTriangle::test(pose, box, triangle, report);
     }

@@ -208,7 +208,8 @@ TEST(Recall, OfMostlySeparatePairsFindsDepthsOfTheOthers) {
     if (i % 20 == 7) {
       pairs[i].b.position = pairs[i].a.position;  // surely overlap
     } else {
-      const Eigen::Vector3d way = random.direction() * random.uniform(2.5, 4);
+      const double length = random.uniform(2.5, 4);
+      const Eigen::Vector3d way = length * random.direction();
       pairs[i].b.position = stored(pairs[i].a.position + way, PositionType::float32);
     }
   }

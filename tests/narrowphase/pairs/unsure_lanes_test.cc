@@ -147,9 +147,8 @@ bool is_special(const PlacedShape& body) {
          (triangle->thickness != 0 || triangle->one_sided || triangle->inner_edges != 0);
 }
 
-// Of pairs that touch to within the rounding of their positions, hardly any is left to the proofs
-// one pair at a time; and what is not left to them is right. Boxes along the axes have no lanes of
-// doubles.
+// Hardly any pair that touches to within the rounding of positions is left to the proofs one pair
+// at a time; and what is not left to them is right. Boxes along the axes have no lanes of doubles.
 TEST(UnsureLanes, AreProven) {
   for (const KindPair& kinds : kinds_in_doubles()) {
     if (kinds.a == ShapeKind::aabb && kinds.b == ShapeKind::aabb) continue;
