@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/float_environment.h"
+#include "shapes/dop_memory.h"
 #include "shapes/dop_solid.h"
 #include "shapes/hull_features.h"
 
@@ -30,6 +31,11 @@ void make_hull_of_corners(const DopPolytope& polytope, DopKind kind, DopHull& hu
   hull.make(points, faces, planes);
 }
 
+// The k-DOP is valid.
+std::shared_ptr<const DopGeometry> new_geometry(const Dop& dop) {
+  return std::allocate_shared<DopGeometry>(SideBySide<DopGeometry>(), dop);
+}
+
 }  // namespace
 
 DopGeometry::DopGeometry(const Dop& dop)
@@ -44,15 +50,14 @@ size_t DopGeometry::bytes() const {
 }
 
 Hull hull_of(const Dop& dop) {
-  const auto geometry =
-      known_geometry(dop) ? dop.geometry : std::make_shared<const DopGeometry>(dop);
+  const auto geometry = known_geometry(dop) ? dop.geometry : new_geometry(dop);
   return {{geometry, geometry->hull()}};
 }
 
 std::shared_ptr<const DopGeometry> dop_geometry(const Dop& dop) {
   const FloatEnvironment environment;
   if (known_geometry(dop)) return dop.geometry;
-  return is_valid_dop(dop) ? std::make_shared<const DopGeometry>(dop) : nullptr;
+  return is_valid_dop(dop) ? new_geometry(dop) : nullptr;
 }
 
 const DopGeometry* known_geometry(const Dop& dop) {

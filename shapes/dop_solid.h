@@ -52,8 +52,8 @@ class alignas(64) DopSolid {
   // 26 faces have at most 72 edges and 48 corners (Euler).
   static constexpr size_t kMostPoints = 48;
   static constexpr size_t kMostEdges = 72;
-  // The points come first.
-  static constexpr size_t kBytesOfPoints = 3 * kMostPoints * sizeof(float);
+  // The points and their middle come first.
+  static constexpr size_t kBytesOfPoints = (3 * kMostPoints + 4) * sizeof(float);
 
   struct Edge {
     uint32_t from;         // point
@@ -82,12 +82,12 @@ class alignas(64) DopSolid {
 
  private:
   std::array<std::array<float, kMostPoints>, 3> points_;
-  std::array<float, 32> heights_;
-  std::array<uint8_t, 3 * kMostEdges> ends_{};  // left planes, right planes, points
   std::array<float, 4> middle_;
   float inner_radius_;
   uint16_t edge_count_;
   uint16_t plane_count_;
+  std::array<uint8_t, 3 * kMostEdges> ends_{};  // left planes, right planes, points
+  alignas(64) std::array<float, 32> heights_;
 };
 static_assert(sizeof(DopSolid) == 15 * 64);
 

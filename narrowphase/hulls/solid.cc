@@ -25,7 +25,8 @@ void SolidHull::view_features(const HullGeometry& geometry, const HullFeatures& 
   for (size_t i = 0; i < 4; ++i) view_.plane[i] = features.column(i);
   view_.point_record = geometry.records().data();
   view_.plane_record = features.planes().data();
-  view_.edges = features.edges();
+  view_.edge_count = features.edges().size();
+  view_.edges = features.edges().data();
   view_.side = {features.sides(0), features.sides(1)};
   view_.middle = {middle[0], middle[1], middle[2]};
   view_.inner_radius = features.inner_radius();
@@ -41,22 +42,20 @@ void SolidHull::view_dop(const HullGeometry& geometry, const DopSolid& dop) {
     view_.plane[axis] = directions.column(axis);
   }
   view_.plane[3] = dop.heights();
-  view_.point_record = made_.points.data();
   view_.plane_record = directions.records();
-  view_.edges = {made_.edges.data(), dop.edge_count()};
+  view_.edge_count = dop.edge_count();
   view_.side = {dop.sides(0), dop.sides(1)};
   view_.middle = {middle[0], middle[1], middle[2]};
   view_.inner_radius = dop.inner_radius();
-  view_.dop = {&dop, &made_};
+  view_.dop = &dop;
 }
 
-void DopEdgeMaker::make(std::span<const uint16_t> edges) const {
+void DopEdges::put(const DopSolid& solid, std::span<const uint16_t> indices) {
   const DopDirections& directions = DopDirections::get();
-  for (const uint16_t e : edges) {
-    const auto [from, left, right] = solid->edge(e);
-    made->edges[e] = {directions.edge(left, right), from, left, right};
-    made->points[from] = {solid->column(0)[from], solid->column(1)[from], solid->column(2)[from],
-                          0};
+  for (const uint16_t e : indices) {
+    const auto [from, left, right] = solid.edge(e);
+    edges[e] = {directions.edge(left, right), from, left, right};
+    points[from] = {solid.column(0)[from], solid.column(1)[from], solid.column(2)[from], 0};
   }
 }
 
@@ -192,7 +191,8 @@ void SmallSolid::close() {
   view_.plane[3] = plane_[3].data();
   view_.point_record = point_records_.begin();
   view_.plane_record = plane_records_.begin();
-  view_.edges = {edges_.begin(), edges_.size()};
+  view_.edge_count = edges_.size();
+  view_.edges = edges_.begin();
   view_.side = {side_[0].data(), side_[1].data()};
 }
 

@@ -16,17 +16,13 @@ namespace carom {
 
 using Eigen::Vector3f;
 
-// Edges of a k-DOP, and the points that they start at; the others hold anything.
+// Edges of a k-DOP, and the points that they start at. A search needs few of them.
 struct DopEdges {
   std::array<HullFeatures::Edge, DopSolid::kMostEdges> edges;
   std::array<std::array<float, 4>, DopSolid::kMostPoints> points;
-};
 
-struct DopEdgeMaker {
-  const DopSolid* solid = nullptr;
-  DopEdges* made = nullptr;
-
-  void make(std::span<const uint16_t> edges) const;
+  // Writes these edges and their points; the others keep what they held.
+  void put(const DopSolid& solid, std::span<const uint16_t> indices);
 };
 
 // A view of columns. Multiply lengths by `scale` to get those of the pair. Columns are padded to a
@@ -41,23 +37,20 @@ struct Solid {
   std::array<const float*, 3> point;  // padded with the first point
   std::array<const float*, 4> plane;  // normal, height; padded with faces out of reach
   // The same as records, for what needs few of them: coordinates, then anything; normal, height.
-  const std::array<float, 4>* point_record;
+  const std::array<float, 4>* point_record;  // not of k-DOPs
   const std::array<float, 4>* plane_record;
-  std::span<const Edge> edges;         // of k-DOPs, those that make_edges() has made
+  size_t edge_count = 0;
+  const Edge* edges;                   // not of k-DOPs
   std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
   Vector3f middle;                     // inside
   float inner_radius;                  // of a ball around `middle` inside the solid
   float scale = 1;
   bool is_turned = true;
-  DopEdgeMaker dop;  // of k-DOPs alone
+  const DopSolid* dop = nullptr;  // of k-DOPs alone: their edges and points
 
   bool is_known() const {
     return point_count > 0 && point_count <= kMostLanePoints && face_count <= kMostFaces &&
-           edges.size() <= kMostEdges;
-  }
-  // A search needs few of the edges of a k-DOP.
-  void make_edges(std::span<const uint16_t> indices) const {
-    if (dop.solid) dop.make(indices);
+           edge_count <= kMostEdges;
   }
   Vector3f corner(size_t i) const {
     return Vector3f(point[0][i], point[1][i], point[2][i]) * scale;
@@ -103,13 +96,10 @@ class SmallSolid {
   std::array<std::array<uint8_t, kMostSides>, 2> side_{};
 };
 
-// A hull stores its features; this only views them, but for the edges of k-DOPs.
+// A hull stores its features; this only views them.
 class SolidHull {
  public:
   explicit SolidHull(const scalar::HullShape<float>& hull);
-
-  SolidHull(const SolidHull&) = delete;
-  SolidHull& operator=(const SolidHull&) = delete;
 
   const Solid& view() const { return view_; }
 
@@ -118,7 +108,6 @@ class SolidHull {
   void view_dop(const HullGeometry& geometry, const DopSolid& dop);
 
   Solid view_;
-  DopEdges made_;
 };
 
 // Whether the core of a shape is a solid; its depth is then found in float32.
