@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <set>
@@ -75,20 +76,24 @@ TEST(PlacesInBlocks, AreTakenAgain) {
 TEST(PlacesInBlocks, MayBeTakenByAnyThread) {
   PlacesInBlocks places(200);
   std::vector<std::vector<unsigned char*>> taken(4);
+  std::atomic<size_t> shared = 0;  // places that two threads had at a time
   std::vector<std::thread> threads;
   for (size_t t = 0; t < taken.size(); ++t) {
     threads.emplace_back([&, t] {
-      for (int round = 0; round < 2000; ++round) {
+      for (int round = 0; round < 100'000; ++round) {
         auto* const place = static_cast<unsigned char*>(places.take());
         std::memset(place, static_cast<int>(t), 200);
         taken[t].push_back(place);
-        if (round % 3 != 0) continue;
-        places.give_back(taken[t].front());
-        taken[t].erase(taken[t].begin());
+        if (taken[t].size() < 300) continue;
+        std::swap(taken[t].front(), taken[t].back());
+        shared += taken[t].back()[0] == t && taken[t].back()[199] == t ? 0 : 1;
+        places.give_back(taken[t].back());
+        taken[t].pop_back();
       }
     });
   }
   for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(shared, 0u);
   for (size_t t = 0; t < taken.size(); ++t) {
     for (unsigned char* place : taken[t]) {
       EXPECT_TRUE(std::all_of(place, place + 200, [t](unsigned char c) { return c == t; }));
