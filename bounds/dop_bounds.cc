@@ -32,7 +32,7 @@ HWY_INLINE Slabs all_slabs(double value) { return hn::Set(SlabTag(), value); }
 struct SlabDirections {
   Slabs x, y, z;
 
-  HWY_INLINE SlabDirections(const DopDirections& all, size_t s)
+  HWY_INLINE SlabDirections(const SlabColumns& all, size_t s)
       : x(hn::Load(SlabTag(), all.x + s)),
         y(hn::Load(SlabTag(), all.y + s)),
         z(hn::Load(SlabTag(), all.z + s)) {}
@@ -60,7 +60,7 @@ HWY_INLINE Slabs float_rounding(Slabs v) {
   return hn::Add(hn::Mul(hn::Abs(v), all_slabs(kFloatRounding)), all_slabs(kLeastFloat));
 }
 
-void write_record(const DopDirections& directions, const DopCore& core, const Double3& position,
+void write_record(const SlabColumns& directions, const DopCore& core, const Double3& position,
                   float* record) {
   const Slabs slack = all_slabs(slack_of(core, position));
   const Slabs radius = all_slabs(core.radius);
@@ -89,7 +89,7 @@ void fill_record(float lower, float upper, size_t size, float* record) {
 }
 
 // Writes the record of a body of any kind.
-void write_single(const BodyReader& reader, const DopDirections& directions, size_t i,
+void write_single(const BodyReader& reader, const SlabColumns& directions, size_t i,
                   float* record) {
   constexpr float kUnbounded = std::numeric_limits<float>::infinity();
   const size_t size = 2 * directions.count;
@@ -112,7 +112,7 @@ struct BodyList {
 };
 
 template <class ShapeLanes>
-void write_listed(const BodyReader& reader, const DopDirections& directions, BodyList& list,
+void write_listed(const BodyReader& reader, const SlabColumns& directions, BodyList& list,
                   float* records) {
   if (list.count == 0) return;
   const size_t size = 2 * directions.count;
@@ -133,7 +133,7 @@ void write_listed(const BodyReader& reader, const DopDirections& directions, Bod
 }
 
 // The path that a body takes must depend on that body alone, or results would depend on the ISA.
-void lane_dops(const Collidables& bodies, const DopDirections& directions, const uint8_t* which,
+void lane_dops(const Collidables& bodies, const SlabColumns& directions, const uint8_t* which,
                float* records, size_t begin, size_t end) {
   const BodyReader reader{bodies};
   BodyList boxes, capsules;
@@ -217,7 +217,7 @@ constexpr size_t kPairsPerBlock = 4096;
 
 void compute_dops(const Collidables& bodies, const DopRecords& out, Parallelism parallelism,
                   std::span<const uint8_t> which) {
-  const DopDirections directions(out.kind);
+  const SlabColumns directions(out.kind);
   if (directions.count == 0) return;
   const uint8_t* flags = which.empty() ? nullptr : which.data();
   for_each_block(bodies.count, kBodiesPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {

@@ -29,14 +29,14 @@ inline constexpr float kGreatestPlain = 0x1p100f;
 inline constexpr size_t kMostRecordSize = dop_record_size(DopKind::k26);
 
 // The extra slabs of a kind, padded with zeros to a multiple of four.
-struct DopDirections {
+struct SlabColumns {
   size_t count;
   alignas(32) double x[12] = {};
   alignas(32) double y[12] = {};
   alignas(32) double z[12] = {};
   alignas(32) double length[12] = {};
 
-  explicit DopDirections(DopKind kind) : count(dop_record_size(kind) / 2) {
+  explicit SlabColumns(DopKind kind) : count(dop_record_size(kind) / 2) {
     const auto directions = slab_directions(kind);
     for (size_t s = kBoundsSlabs; s < directions.size(); ++s) {
       const auto& d = directions[s];

@@ -80,7 +80,7 @@ HWY_INLINE Mask is_finite_lane(F v) { return hn::Le(hn::Abs(v), splat(FLT_MAX));
 struct SlabLanes {
   F x, y, z, length;
 
-  HWY_INLINE SlabLanes(const DopDirections& all, size_t s)
+  HWY_INLINE SlabLanes(const SlabColumns& all, size_t s)
       : x(splat(static_cast<float>(all.x[s]))),
         y(splat(static_cast<float>(all.y[s]))),
         z(splat(static_cast<float>(all.z[s]))),
@@ -154,7 +154,7 @@ struct RecordLanes {
 
 template <class ShapeLanes>
 HWY_INLINE void find_records(const BodyReader& reader, const uint32_t* bodies,
-                             const DopDirections& directions, RecordLanes& out) {
+                             const SlabColumns& directions, RecordLanes& out) {
   const FloatTag tag;
   const F3 position = load_positions(reader, bodies);
   const Quaternion q = load_quaternions(reader, bodies);

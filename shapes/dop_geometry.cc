@@ -5,49 +5,59 @@
 #include <vector>
 
 #include "base/float_environment.h"
+#include "shapes/dop_memory.h"
+#include "shapes/dop_solid.h"
 #include "shapes/hull_features.h"
 
 namespace carom {
 namespace {
 
 // A face with fewer than three corners only touches the polytope.
-Hull hull_of_corners(const DopPolytope& polytope) {
-  if (polytope.is_empty()) return {};
+void make_hull_of_corners(const DopPolytope& polytope, DopKind kind, DopHull& hull) {
+  if (polytope.is_empty()) return;
   std::vector<Eigen::Vector3f> points;
   for (size_t i = 0; i < polytope.point_count(); ++i) {
     const Double3 p = polytope.point(i);
     points.push_back(Eigen::Vector3d(p[0], p[1], p[2]).cast<float>());
   }
   std::vector<std::vector<uint32_t>> faces;
+  std::vector<uint8_t> planes;
   for (const DopFace& face : polytope.faces()) {
     if (face.count < 3) continue;
+    planes.push_back(common_plane(kind, face.plane));
     std::vector<uint32_t>& outline = faces.emplace_back();
     for (const DopCorner& corner : polytope.corners(face)) outline.push_back(corner.point);
   }
-  return {*make_hull(points, faces)};
+  hull.make(points, faces, planes);
+}
+
+// The k-DOP is valid.
+std::shared_ptr<const DopGeometry> new_geometry(const Dop& dop) {
+  return std::allocate_shared<DopGeometry>(SideBySide<DopGeometry>(), dop);
 }
 
 }  // namespace
 
 DopGeometry::DopGeometry(const Dop& dop)
     : size_(DopSlabs(dop).with_tight_axes().size()), polytope_(DopSlabs(dop)) {
-  hull_ = hull_of_corners(polytope_);
+  make_hull_of_corners(polytope_, dop.kind, hull_);
   const auto rows = shape_rows(dop);
   std::copy_n(rows.begin(), rows_.size(), rows_.begin());
 }
 
 size_t DopGeometry::bytes() const {
-  return sizeof(*this) + polytope_.bytes() + bytes_of(*hull_.geometry);
+  return sizeof(*this) - sizeof hull_.geometry + polytope_.bytes() + bytes_of(hull_.geometry);
 }
 
 Hull hull_of(const Dop& dop) {
-  return with_geometry(dop, [](const DopGeometry& geometry) { return geometry.hull(); });
+  const auto geometry = known_geometry(dop) ? dop.geometry : new_geometry(dop);
+  return {{geometry, geometry->hull()}};
 }
 
 std::shared_ptr<const DopGeometry> dop_geometry(const Dop& dop) {
   const FloatEnvironment environment;
   if (known_geometry(dop)) return dop.geometry;
-  return is_valid_dop(dop) ? std::make_shared<const DopGeometry>(dop) : nullptr;
+  return is_valid_dop(dop) ? new_geometry(dop) : nullptr;
 }
 
 const DopGeometry* known_geometry(const Dop& dop) {

@@ -6,6 +6,7 @@
 #include "carom/shapes/hull.h"
 #include "shapes/body_reader.h"
 #include "shapes/dop_polytope.h"
+#include "shapes/dop_solid.h"
 
 namespace carom {
 
@@ -13,6 +14,9 @@ class DopGeometry {
  public:
   // The k-DOP is valid.
   explicit DopGeometry(const Dop& dop);
+
+  DopGeometry(const DopGeometry&) = delete;
+  DopGeometry& operator=(const DopGeometry&) = delete;
 
   // Whether it was found from these slabs, bit for bit.
   bool is_of(const Dop& dop) const { return is_of(shape_rows(dop).data()); }
@@ -25,20 +29,24 @@ class DopGeometry {
   const DopPolytope& polytope() const { return polytope_; }
   // The polytope with its corners rounded to float32. The narrow phase tests it in its place. In
   // the unit of a test (scale_of()) the rounding is at most 2^-24, also of the smallest k-DOPs.
-  const Hull& hull() const { return hull_; }
+  // nullptr if no corner is left.
+  const HullGeometry* hull() const {
+    return hull_.geometry.points().empty() ? nullptr : &hull_.geometry;
+  }
 
-  // Asks for what is_of() and hull() read.
+  // Asks for what is_of() and the tests in lanes read.
   [[gnu::always_inline]] void fetch() const {
     fetch_lines(&rows_, sizeof rows_);
-    __builtin_prefetch(&hull_);
+    fetch_lines(&hull_.geometry, HullGeometry::kBytesOfLanes);
+    fetch_lines(&hull_.solid, DopSolid::kBytesOfPoints);
   }
 
   size_t bytes() const;
 
  private:
-  // Side by side, since tests read both.
+  // Side by side, so that tests find them in few lines of the cache and few pages.
   std::array<Row, row_count(ShapeKind::dop)> rows_;
-  Hull hull_;
+  DopHull hull_;
   double size_;
   DopPolytope polytope_;
 };

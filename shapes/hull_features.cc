@@ -27,6 +27,23 @@ Vector3d area_vector(const HullGeometry& hull, std::span<const uint32_t> corners
   return sum;
 }
 
+// Unit normals of all faces; nothing if one has no area.
+std::optional<std::vector<Vector3d>> normals_of(const HullGeometry& hull) {
+  std::vector<Vector3d> normals;
+  normals.reserve(hull.faces().size());
+  for (const HullGeometry::Face& face : hull.faces()) {
+    const Vector3d area = area_vector(hull, hull.corners(face));
+    const double twice_area = area.stableNorm();
+    if (!(twice_area > 0)) return std::nullopt;
+    normals.push_back(area / twice_area);
+  }
+  return normals;
+}
+
+bool has_few_faces(const HullGeometry& hull) {
+  return hull.faces().size() >= 4 && hull.faces().size() <= std::numeric_limits<uint16_t>::max();
+}
+
 // The face whose outline runs from one point to another.
 struct Way {
   std::pair<uint32_t, uint32_t> ends;
@@ -36,14 +53,22 @@ struct Way {
 }  // namespace
 
 std::shared_ptr<const HullFeatures> HullFeatures::of(const HullGeometry& hull) {
-  constexpr size_t kMostFaces = std::numeric_limits<uint16_t>::max();
-  if (hull.faces().size() < 4 || hull.faces().size() > kMostFaces) return nullptr;
+  if (!has_few_faces(hull)) return nullptr;
+  const auto normals = normals_of(hull);
+  const auto edges = edges_of(hull);
   auto features = std::make_shared<HullFeatures>();
-  const bool is_solid = features->add_faces(hull) && features->add_edges(hull);
-  return is_solid ? features : nullptr;
+  if (!normals || !edges || !features->add_faces(hull, *normals)) return nullptr;
+  features->add_edges(hull, *edges);
+  return features;
 }
 
-bool HullFeatures::add_faces(const HullGeometry& hull) {
+std::shared_ptr<const HullFeatures> HullFeatures::of(const HullGeometry& hull,
+                                                     std::span<const Vector3d> normals) {
+  auto features = std::make_shared<HullFeatures>();
+  return has_few_faces(hull) && features->add_faces(hull, normals) ? features : nullptr;
+}
+
+bool HullFeatures::add_faces(const HullGeometry& hull, std::span<const Vector3d> normals) {
   const double most_behind = kBehindFace * double{hull.size()};
   const size_t padded = padded_count(hull.faces().size());
   columns_.assign(4 * padded, 0);
@@ -52,10 +77,7 @@ bool HullFeatures::add_faces(const HullGeometry& hull) {
   double inner_radius = HUGE_VAL;
   for (const HullGeometry::Face& face : hull.faces()) {
     const auto corners = hull.corners(face);
-    const Vector3d area = area_vector(hull, corners);
-    const double twice_area = area.stableNorm();
-    if (!(twice_area > 0)) return false;
-    const Vector3d normal = area / twice_area;
+    const Vector3d& normal = normals[planes_.size()];
     double height = normal.dot(point(hull, corners[0]));
     for (uint32_t i = 0; i < hull.points().size(); ++i) {
       height = std::max(height, normal.dot(point(hull, i)));
@@ -72,7 +94,7 @@ bool HullFeatures::add_faces(const HullGeometry& hull) {
   return true;
 }
 
-bool HullFeatures::add_edges(const HullGeometry& hull) {
+std::optional<std::vector<HullEdge>> edges_of(const HullGeometry& hull) {
   std::vector<Way> ways;
   ways.reserve(hull.corners().size());
   for (uint32_t f = 0; f < hull.faces().size(); ++f) {
@@ -83,22 +105,32 @@ bool HullFeatures::add_edges(const HullGeometry& hull) {
   }
   const auto is_before = [](const Way& a, const Way& b) { return a.ends < b.ends; };
   std::sort(ways.begin(), ways.end(), is_before);
-  edges_.reserve(ways.size() / 2);
+  std::vector<HullEdge> edges;
+  edges.reserve(ways.size() / 2);
   const auto is_same = [](const Way& a, const Way& b) { return a.ends == b.ends; };
-  if (std::adjacent_find(ways.begin(), ways.end(), is_same) != ways.end()) return false;
+  if (std::adjacent_find(ways.begin(), ways.end(), is_same) != ways.end()) {
+    return std::nullopt;
+  }
   for (const auto& [there, left] : ways) {
     const Way opposite{{there.second, there.first}, 0};
     const auto back = std::lower_bound(ways.begin(), ways.end(), opposite, is_before);
-    if (back == ways.end() || !is_same(*back, opposite)) return false;
+    if (back == ways.end() || !is_same(*back, opposite)) return std::nullopt;
     if (there.first > there.second) continue;
-    const uint32_t right = back->face;
-    const Vector3d along = point(hull, there.second) - point(hull, there.first);
-    const double length = along.stableNorm();
-    if (!(length > 0)) return false;
+    const double length = (point(hull, there.second) - point(hull, there.first)).stableNorm();
+    if (!(length > 0)) return std::nullopt;
     if (length <= double{kSameCorner} * double{hull.size()}) continue;
-    const Vector3d direction = along / length;
+    edges.push_back({there.first, there.second, left, back->face});
+  }
+  return edges;
+}
+
+void HullFeatures::add_edges(const HullGeometry& hull, std::span<const HullEdge> edges) {
+  edges_.reserve(edges.size());
+  for (const HullEdge& edge : edges) {
+    const Vector3d along = point(hull, edge.to) - point(hull, edge.from);
+    const Vector3d direction = along / along.stableNorm();
     edges_.push_back({Vector4d(direction.x(), direction.y(), direction.z(), 0).cast<float>(),
-                      there.first, left, right});
+                      edge.from, edge.left, edge.right});
   }
   const size_t padded = (edges_.size() + 63) / 64 * 64;
   sides_.assign(2 * padded, 0);
@@ -106,7 +138,6 @@ bool HullFeatures::add_edges(const HullGeometry& hull) {
     sides_[e] = static_cast<uint8_t>(edges_[e].left);
     sides_[padded + e] = static_cast<uint8_t>(edges_[e].right);
   }
-  return true;
 }
 
 size_t HullFeatures::bytes() const {
@@ -115,9 +146,9 @@ size_t HullFeatures::bytes() const {
 }
 
 size_t bytes_of(const HullGeometry& hull) {
-  const size_t padded = padded_count(hull.points().size());
+  const size_t columns = hull.dop_solid() ? 0 : 3 * hull.column_stride() * sizeof(float);
   return sizeof(hull) + hull.points().size_bytes() + hull.faces().size_bytes() +
-         hull.corners().size_bytes() + 3 * padded * sizeof(float) + hull.records().size_bytes() +
+         hull.corners().size_bytes() + columns + hull.records().size_bytes() +
          (hull.features() ? hull.features()->bytes() : 0);
 }
 

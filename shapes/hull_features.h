@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,10 +19,20 @@ constexpr size_t padded_count(size_t count) {
   return (count + kLanes - 1) / kLanes * kLanes;
 }
 
+// An edge from one point to the next, with the faces on either side as seen from outside.
+struct HullEdge {
+  uint32_t from, to;     // points
+  uint32_t left, right;  // faces
+};
+
+// The edges of a hull, without those whose ends are one corner to float32: they have no direction.
+// Nothing unless the faces close a solid.
+std::optional<std::vector<HullEdge>> edges_of(const HullGeometry& hull);
+
 // All vectors are in the body's frame.
 class HullFeatures {
  public:
-  // An edge from one point to the next, with the faces on either side as seen from outside.
+  // As HullEdge.
   struct Edge {
     Eigen::Vector4f direction;  // unit, along left normal x right normal; then 0
     uint32_t from;              // point
@@ -31,6 +42,9 @@ class HullFeatures {
   // nullptr unless the faces bound a solid: all points lie behind every face, and each edge lies
   // between two faces that run along it in opposite directions.
   static std::shared_ptr<const HullFeatures> of(const HullGeometry& hull);
+  // The same with these unit normals, one a face, and without edges.
+  static std::shared_ptr<const HullFeatures> of(const HullGeometry& hull,
+                                                std::span<const Eigen::Vector3d> normals);
 
   size_t face_count() const { return planes_.size(); }
   Eigen::Vector3f normal(size_t face) const {  // unit, outwards
@@ -46,7 +60,7 @@ class HullFeatures {
   std::span<const std::array<float, 4>> planes() const { return planes_; }
   // A ball of this radius around the middle of the hull surely lies inside it.
   float inner_radius() const { return inner_radius_; }
-  // Without those whose ends are one corner to float32: they have no direction.
+  // Those of edges_of().
   std::span<const Edge> edges() const { return edges_; }
   // The left faces (0) or the right faces (1) of all edges, padded to a multiple of 64. Only for
   // hulls of up to 256 faces.
@@ -56,8 +70,8 @@ class HullFeatures {
   size_t bytes() const;
 
  private:
-  bool add_faces(const HullGeometry& hull);
-  bool add_edges(const HullGeometry& hull);
+  bool add_faces(const HullGeometry& hull, std::span<const Eigen::Vector3d> normals);
+  void add_edges(const HullGeometry& hull, std::span<const HullEdge> edges);
 
   std::vector<Edge> edges_;
   std::vector<uint8_t> sides_;
@@ -66,7 +80,7 @@ class HullFeatures {
   float inner_radius_ = 0;
 };
 
-// The memory of a hull and its features.
+// The memory of a hull and its features, without a DopSolid.
 size_t bytes_of(const HullGeometry& hull);
 
 }  // namespace carom

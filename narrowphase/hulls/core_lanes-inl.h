@@ -12,6 +12,7 @@
 
 #include "base/tolerances.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
+#include "shapes/dop_solid.h"
 #include "simd/compress-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -109,14 +110,16 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
+// What lanes without a hull read: a point, and the middle.
+inline constexpr std::array<float, 8> kNoRecords{};
+
 // Reads the records of each lane's hull: its points, then its middle.
 class HullRecords {
  public:
   explicit HWY_INLINE HullRecords(const HullLanes& hull) {
-    static constexpr std::array<float, 8> kNothing{};
     for (size_t lane = 0; lane < kLanes; ++lane) {
       const HullGeometry* const geometry = hull.geometry[lane];
-      first_[lane] = geometry ? geometry->records()[0].data() : kNothing.data();
+      first_[lane] = geometry ? geometry->records()[0].data() : kNoRecords.data();
       points_[lane] = geometry ? geometry->records().size() - 1 : 1;
       most_ = std::max(most_, points_[lane]);
       least_ = std::min(least_, points_[lane]);
@@ -184,6 +187,105 @@ class HullRecords {
   size_t least_ = kMostLanePoints;
 };
 
+// Reads the points of each lane's hull as columns, four at a time: of k-DOPs these lie with all
+// that a search for depths reads.
+class HullColumns {
+ public:
+  explicit HWY_INLINE HullColumns(const HullLanes& hull) {
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      const HullGeometry* const geometry = hull.geometry[lane];
+      for (size_t axis = 0; axis < 3; ++axis) {
+        column_[axis][lane] = geometry ? geometry->column(axis) : kNoRecords.data();
+      }
+      middle_[lane] = middle_of(geometry);
+      padded_[lane] = geometry ? geometry->column_stride() : kPointsAtOnce;
+      points_[lane] = geometry ? geometry->points().size() : 1;
+      most_ = std::max(most_, points_[lane]);
+      least_ = std::min(least_, points_[lane]);
+      least_padded_ = std::min(least_padded_, padded_[lane]);
+    }
+  }
+
+  // Calls use(i, p) for i < count, and up to three times more. p is point i of each hull, or any
+  // point of it behind the last one.
+  template <class Use>
+  HWY_INLINE void for_each_point(size_t count, const Use& use) const {
+    size_t i = 0;
+    for (; i < std::min(least_padded_, count); i += kPointsAtOnce) {
+      use_points(
+          i, [i](size_t) { return i; }, use);
+    }
+    for (; i < count; i += kPointsAtOnce) {
+      use_points(
+          i, [i, this](size_t lane) { return std::min(i, padded_[lane] - kPointsAtOnce); }, use);
+    }
+  }
+  HWY_INLINE F3 middle() const {
+    F3 p;
+    F unused;
+    const auto first = [](size_t) { return size_t{0}; };
+    transpose_records(Source<decltype(first)>{middle_, first}, p, unused);
+    return p;
+  }
+
+  // Numbers of points.
+  size_t most() const { return most_; }
+  size_t least() const { return least_; }
+  HWY_INLINE F count_lanes() const {
+    return lanes_from([&](size_t lane) { return static_cast<float>(points_[lane]); });
+  }
+
+ private:
+  static constexpr size_t kPointsAtOnce = 4;
+
+  static const float* middle_of(const HullGeometry* geometry) {
+    if (!geometry) return kNoRecords.data();
+    const DopSolid* const solid = geometry->dop_solid();
+    return (solid ? solid->middle() : geometry->records().back()).data();
+  }
+
+  // Four entries of a column of each lane.
+  template <class Place>
+  struct Source {
+    const std::array<const float*, kLanes>& column;
+    const Place& place;
+
+    HWY_INLINE const float* entries(size_t lane) const { return column[lane] + place(lane); }
+#if HWY_TARGET != HWY_SCALAR
+    HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), entries(lane)); }
+#endif
+    HWY_INLINE float component(size_t lane, size_t c) const { return entries(lane)[c]; }
+  };
+
+  // Calls use(i + k, p) for point place(lane) + k of each hull, k < 4.
+  template <class Place, class Use>
+  HWY_INLINE void use_points(size_t i, const Place& place, const Use& use) const {
+    F x[kPointsAtOnce], y[kPointsAtOnce], z[kPointsAtOnce];
+    read_column(0, place, x);
+    read_column(1, place, y);
+    read_column(2, place, z);
+    use(i, F3{x[0], y[0], z[0]});
+    use(i + 1, F3{x[1], y[1], z[1]});
+    use(i + 2, F3{x[2], y[2], z[2]});
+    use(i + 3, F3{x[3], y[3], z[3]});
+  }
+  template <class Place>
+  HWY_INLINE void read_column(size_t axis, const Place& place, F* values) const {
+    F3 first;
+    transpose_records(Source<Place>{column_[axis], place}, first, values[3]);
+    values[0] = first.x;
+    values[1] = first.y;
+    values[2] = first.z;
+  }
+
+  std::array<std::array<const float*, kLanes>, 3> column_;
+  std::array<const float*, kLanes> middle_;
+  std::array<size_t, kLanes> padded_, points_;
+  size_t most_ = 1;
+  size_t least_ = kMostLanePoints;
+  size_t least_padded_ = kMostLanePoints;
+};
+
 // A rotation that also scales. The scale is a power of two, so rounding is the same whichever
 // factor takes it.
 HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
@@ -192,15 +294,30 @@ HWY_INLINE Rotation placing_turn(const HullLanes& hull, const Quaternion& q) {
   return turn;
 }
 
+template <class Points>
+HWY_INLINE void put_points(const Points& points, const Rotation& turn, const F3& offset,
+                           CoreLanes& core) {
+  const size_t count = std::min(points.most(), kMostLanePoints);
+  core.begin(count, points.least(), points.count_lanes());
+  points.for_each_point(
+      count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
+  core.middle = rotate(turn, points.middle()) + offset;
+}
+
+inline HWY_NOINLINE void put_points_of_dops(const HullLanes& hull, const Rotation& turn,
+                                            const F3& offset, CoreLanes& core) {
+  put_points(HullColumns(hull), turn, offset, core);
+}
+
 HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& offset,
                           CoreLanes& core) {
-  const HullRecords records(hull);
-  const size_t count = std::min(records.most(), kMostLanePoints);
   const Rotation turn = placing_turn(hull, q);
-  core.begin(count, records.least(), records.count_lanes());
-  records.for_each_point(
-      count, [&](size_t i, const F3& p) HWY_ATTR { core.set(i, rotate(turn, p) + offset); });
-  core.middle = rotate(turn, records.middle()) + offset;
+  // The hulls of a batch are those of k-DOPs, or none is.
+  if (hull.geometry[0] && hull.geometry[0]->dop_solid()) {
+    put_points_of_dops(hull, turn, offset, core);
+  } else {
+    put_points(HullRecords(hull), turn, offset, core);
+  }
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -99,9 +99,9 @@ class DepthSearch {
     is_doubtful_ = open_a_.count > kMostCrossed || open_b_.count > kMostCrossed;
   }
 
-  void cross_edges() {
+  void cross_edges(DopEdges& dop_a, DopEdges& dop_b) {
     if (is_doubtful_ || open_a_.count == 0 || open_b_.count == 0) return;
-    const CrossedEdges a{*a_, open_a_}, b{*b_, open_b_};
+    const CrossedEdges a(*a_, open_a_, dop_a), b(*b_, open_b_, dop_b);
     const Crossing crossing = steps_->cross(a, b, turn_, centre_, least_crossing());
     is_doubtful_ = crossing.is_doubtful;
     may_cross_ = crossing.exists;
@@ -269,6 +269,7 @@ struct Memory {
   DeepFrames frames;
   std::array<DepthSearch, kMostDeepPairs> searches;
   FaceBounds bounds_a, bounds_b;
+  DopEdges dop_a, dop_b;
 };
 
 // Not in the thread's own memory, which every thread of the program would get. Not inlined, because
@@ -291,7 +292,7 @@ void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps, Separ
     searches[i].place_points(frames, i);
     searches[i].find_faces(memory.bounds_a, memory.bounds_b);
   }
-  for (DepthSearch& search : searches) search.cross_edges();
+  for (DepthSearch& search : searches) search.cross_edges(memory.dop_a, memory.dop_b);
   for (size_t i = 0; i < pairs.size(); ++i) searches[i].locate(frames, i);
   steps.finish(frames);
   for (size_t i = 0; i < pairs.size(); ++i) contacts[i] = searches[i].contact(frames, i);

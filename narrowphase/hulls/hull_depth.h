@@ -101,8 +101,18 @@ struct OpenEdges {
 struct CrossedEdges {
   const Solid& solid;
   const OpenEdges& open;  // up to kMostCrossed, and at least one
+  const Solid::Edge* edges;
+  const std::array<float, 4>* points;
 
-  const Solid::Edge& edge(size_t k) const { return solid.edges[open.index[k]]; }
+  // `of_dop` takes the edges of a k-DOP.
+  CrossedEdges(const Solid& of, const OpenEdges& which, DopEdges& of_dop)
+      : solid(of), open(which), edges(of.edges), points(of.point_record) {
+    if (!of.dop) return;
+    of_dop.put(*of.dop, {open.index.data(), open.count});
+    edges = of_dop.edges.data();
+    points = of_dop.points.data();
+  }
+  const Solid::Edge& edge(size_t k) const { return edges[open.index[k]]; }
 };
 
 // The best axis perpendicular to an edge of each solid, if it `exists`. `gap` is measured along it.

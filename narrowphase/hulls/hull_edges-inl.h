@@ -94,15 +94,15 @@ HWY_INLINE void find_open_edges(const Solid& solid, float gap, FaceBounds& bound
                                 OpenEdges& open) {
   settle_faces(solid, gap, bounds);
   open.count = 0;
-  for (size_t e = 0; e < solid.edges.size(); e += kByteLanes) {
+  for (size_t e = 0; e < solid.edge_count; e += kByteLanes) {
     uint64_t bits = open_bits(solid, bounds, e);
-    if (const size_t left = solid.edges.size() - e; left < 64) bits &= (uint64_t{1} << left) - 1;
+    if (const size_t left = solid.edge_count - e; left < 64) bits &= (uint64_t{1} << left) - 1;
     // Several at a time, because nobody can predict how many there are.
     while (bits != 0) {
       const auto left = static_cast<size_t>(std::popcount(bits));
       for (size_t k = 0; k < OpenEdges::kAtOnce; ++k, bits &= bits - 1) {
-        const size_t found = std::min(e + size_t(std::countr_zero(bits)), solid.edges.size() - 1);
-        __builtin_prefetch(&solid.edges[found]);
+        const size_t found = std::min(e + size_t(std::countr_zero(bits)), solid.edge_count - 1);
+        if (solid.edges) __builtin_prefetch(&solid.edges[found]);
         open.index[open.count + k] = static_cast<uint16_t>(found);
       }
       open.count += std::min(left, OpenEdges::kAtOnce);
@@ -116,7 +116,7 @@ HWY_INLINE void find_open_edges(const Solid& solid, float gap, FaceBounds& bound
                                 OpenEdges& open) {
   settle_faces(solid, gap, bounds);
   open.count = 0;
-  for (size_t e = 0; e < solid.edges.size(); ++e) {
+  for (size_t e = 0; e < solid.edge_count; ++e) {
     int settled = 0;
     for (size_t row = 0; row < bounds.settled_rows(); ++row) {
       settled |= bounds.settled[row][solid.side[0][e]] & bounds.settled[row][solid.side[1][e]];
@@ -217,7 +217,7 @@ HWY_INLINE void load_edges(const CrossedEdges& edges, size_t first, const ToLane
   out.direction = to_lanes([&](size_t i) HWY_ATTR { return edge(i).direction.data(); });
   out.left = to_lanes([&](size_t i) HWY_ATTR { return solid.plane_record[edge(i).left].data(); });
   out.right = to_lanes([&](size_t i) HWY_ATTR { return solid.plane_record[edge(i).right].data(); });
-  out.from = to_lanes([&](size_t i) HWY_ATTR { return solid.point_record[edge(i).from].data(); }) *
+  out.from = to_lanes([&](size_t i) HWY_ATTR { return edges.points[edge(i).from].data(); }) *
              splat_as<V>(solid.scale);
 }
 

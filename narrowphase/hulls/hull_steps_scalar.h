@@ -79,7 +79,7 @@ inline void settle_faces(const Solid& solid, float gap, FaceBounds& bounds) {
 inline void find_open_edges(const Solid& solid, float gap, FaceBounds& bounds, OpenEdges& open) {
   settle_faces(solid, gap, bounds);
   open.count = 0;
-  for (size_t e = 0; e < solid.edges.size(); ++e) {
+  for (size_t e = 0; e < solid.edge_count; ++e) {
     uint32_t settled = 0;
     for (size_t row = 0; row < bounds.settled_rows(); ++row) {
       const auto& faces = bounds.settled[row];

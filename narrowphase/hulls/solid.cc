@@ -9,20 +9,54 @@ namespace carom {
 
 SolidHull::SolidHull(const scalar::HullShape<float>& hull) {
   const HullGeometry& geometry = *hull.geometry;
-  const HullFeatures* const features = geometry.features();
-  if (!features) return;
+  view_.scale = static_cast<float>(hull.scale);
+  if (const DopSolid* const dop = geometry.dop_solid()) {
+    view_dop(geometry, *dop);
+  } else if (const HullFeatures* const features = geometry.features()) {
+    view_features(geometry, *features);
+  }
+}
+
+void SolidHull::view_features(const HullGeometry& geometry, const HullFeatures& features) {
   const std::array<float, 4>& middle = geometry.records()[geometry.points().size()];
   view_.point_count = geometry.points().size();
-  view_.face_count = features->face_count();
+  view_.face_count = features.face_count();
   for (size_t axis = 0; axis < 3; ++axis) view_.point[axis] = geometry.column(axis);
-  for (size_t i = 0; i < 4; ++i) view_.plane[i] = features->column(i);
+  for (size_t i = 0; i < 4; ++i) view_.plane[i] = features.column(i);
   view_.point_record = geometry.records().data();
-  view_.plane_record = features->planes().data();
-  view_.edges = features->edges();
-  view_.side = {features->sides(0), features->sides(1)};
+  view_.plane_record = features.planes().data();
+  view_.edge_count = features.edges().size();
+  view_.edges = features.edges().data();
+  view_.side = {features.sides(0), features.sides(1)};
   view_.middle = {middle[0], middle[1], middle[2]};
-  view_.inner_radius = features->inner_radius();
-  view_.scale = static_cast<float>(hull.scale);
+  view_.inner_radius = features.inner_radius();
+}
+
+void SolidHull::view_dop(const HullGeometry& geometry, const DopSolid& dop) {
+  const DopDirections& directions = DopDirections::get();
+  const std::array<float, 4>& middle = dop.middle();
+  view_.point_count = geometry.points().size();
+  view_.face_count = dop.plane_count();
+  for (size_t axis = 0; axis < 3; ++axis) {
+    view_.point[axis] = dop.column(axis);
+    view_.plane[axis] = directions.column(axis);
+  }
+  view_.plane[3] = dop.heights();
+  view_.plane_record = directions.records();
+  view_.edge_count = dop.edge_count();
+  view_.side = {dop.sides(0), dop.sides(1)};
+  view_.middle = {middle[0], middle[1], middle[2]};
+  view_.inner_radius = dop.inner_radius();
+  view_.dop = &dop;
+}
+
+void DopEdges::put(const DopSolid& solid, std::span<const uint16_t> indices) {
+  const DopDirections& directions = DopDirections::get();
+  for (const uint16_t e : indices) {
+    const auto [from, left, right] = solid.edge(e);
+    edges[e] = {directions.edge(left, right), from, left, right};
+    points[from] = {solid.column(0)[from], solid.column(1)[from], solid.column(2)[from], 0};
+  }
 }
 
 SmallSolid::SmallSolid(const scalar::SphereShape<float>&) {
@@ -157,7 +191,8 @@ void SmallSolid::close() {
   view_.plane[3] = plane_[3].data();
   view_.point_record = point_records_.begin();
   view_.plane_record = plane_records_.begin();
-  view_.edges = {edges_.begin(), edges_.size()};
+  view_.edge_count = edges_.size();
+  view_.edges = edges_.begin();
   view_.side = {side_[0].data(), side_[1].data()};
 }
 

@@ -9,11 +9,21 @@
 #include "base/few_of.h"
 #include "base/tolerances.h"
 #include "narrowphase/scalar/shapes.h"
+#include "shapes/dop_solid.h"
 #include "shapes/hull_features.h"
 
 namespace carom {
 
 using Eigen::Vector3f;
+
+// Edges of a k-DOP, and the points that they start at. A search needs few of them.
+struct DopEdges {
+  std::array<HullFeatures::Edge, DopSolid::kMostEdges> edges;
+  std::array<std::array<float, 4>, DopSolid::kMostPoints> points;
+
+  // Writes these edges and their points; the others keep what they held.
+  void put(const DopSolid& solid, std::span<const uint16_t> indices);
+};
 
 // A view of columns. Multiply lengths by `scale` to get those of the pair. Columns are padded to a
 // multiple of sixteen.
@@ -27,18 +37,20 @@ struct Solid {
   std::array<const float*, 3> point;  // padded with the first point
   std::array<const float*, 4> plane;  // normal, height; padded with faces out of reach
   // The same as records, for what needs few of them: coordinates, then anything; normal, height.
-  const std::array<float, 4>* point_record;
+  const std::array<float, 4>* point_record;  // not of k-DOPs
   const std::array<float, 4>* plane_record;
-  std::span<const Edge> edges;
+  size_t edge_count = 0;
+  const Edge* edges;                   // not of k-DOPs
   std::array<const uint8_t*, 2> side;  // left and right face of each edge; padded to 64 edges
   Vector3f middle;                     // inside
   float inner_radius;                  // of a ball around `middle` inside the solid
   float scale = 1;
   bool is_turned = true;
+  const DopSolid* dop = nullptr;  // of k-DOPs alone: their edges and points
 
   bool is_known() const {
     return point_count > 0 && point_count <= kMostLanePoints && face_count <= kMostFaces &&
-           edges.size() <= kMostEdges;
+           edge_count <= kMostEdges;
   }
   Vector3f corner(size_t i) const {
     return Vector3f(point[0][i], point[1][i], point[2][i]) * scale;
@@ -88,9 +100,13 @@ class SmallSolid {
 class SolidHull {
  public:
   explicit SolidHull(const scalar::HullShape<float>& hull);
+
   const Solid& view() const { return view_; }
 
  private:
+  void view_features(const HullGeometry& geometry, const HullFeatures& features);
+  void view_dop(const HullGeometry& geometry, const DopSolid& dop);
+
   Solid view_;
 };
 

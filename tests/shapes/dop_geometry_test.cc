@@ -42,7 +42,7 @@ TEST(DopGeometry, HasTheHullOfTheCorners) {
     for (int round = 0; round < 50; ++round) {
       const auto geometry = dop_geometry(random_dop(random, kind));
       const DopPolytope& polytope = geometry->polytope();
-      const HullGeometry& hull = *geometry->hull().geometry;
+      const HullGeometry& hull = *geometry->hull();
       ASSERT_EQ(hull.points().size(), polytope.point_count());
       for (size_t i = 0; i < polytope.point_count(); ++i) {
         for (size_t axis = 0; axis < 3; ++axis) {

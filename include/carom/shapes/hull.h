@@ -16,6 +16,7 @@
 
 namespace carom {
 
+class DopSolid;
 class HullFeatures;
 
 /// The points and faces of a hull in the body's frame, metres. A hull may be a point, a segment or
@@ -44,24 +45,34 @@ class CAROM_EXPORT HullGeometry {
   const Eigen::Vector3d& middle() const { return middle_; }
   /// The coordinates of all points along one axis (0, 1, 2), padded to a multiple of sixteen with
   /// that of the first point.
-  const float* column(size_t axis) const { return columns_.data() + axis * columns_.size() / 3; }
+  const float* column(size_t axis) const { return columns_.get() + axis * column_stride_; }
+  /// Entries from one column to the next: the number of points, padded.
+  size_t column_stride() const { return column_stride_; }
   /// Records x, y, z, 0 of every point, and after them of middle(), rounded to float32.
   std::span<const std::array<float, 4>> records() const { return records_; }
   /// Faces, edges and neighbours, if the faces close a solid with all points behind them; nullptr
   /// otherwise: then overlapping pairs of such a hull take longer. For Carom's own use.
   const HullFeatures* features() const { return features_.get(); }
+  /// What a search for depths reads of the hull of a k-DOP, if it has features; nullptr for other
+  /// hulls. The columns are part of it. For Carom's own use.
+  const DopSolid* dop_solid() const { return dop_solid_; }
 
  private:
-  friend CAROM_EXPORT Result<std::shared_ptr<const HullGeometry>> make_hull(
-      std::span<const Eigen::Vector3f> points, std::span<const std::vector<uint32_t>> faces);
+  friend struct HullBuilder;
+  friend class DopGeometry;
 
+  // What tests in lanes read of every hull, side by side.
+  static constexpr size_t kBytesOfLanes = 88;
+  float size_ = 0;
+  uint32_t column_stride_ = 0;
+  const DopSolid* dop_solid_ = nullptr;
+  std::vector<std::array<float, 4>> records_;
   std::vector<Eigen::Vector3f> points_;
+  std::shared_ptr<const float> columns_;
+
   std::vector<Face> faces_;
   std::vector<uint32_t> corners_;
-  std::vector<float> columns_;
-  std::vector<std::array<float, 4>> records_;
   std::shared_ptr<const HullFeatures> features_;
-  float size_ = 0;
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
 };
 

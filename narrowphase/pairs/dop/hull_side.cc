@@ -13,7 +13,10 @@
 namespace carom {
 namespace {
 
-// The k-DOPs of one side, in the order of the rows of the batch, as hulls.
+// So many rows that the points of their hulls stay in L2 until the depths are found.
+constexpr size_t kRowsAtOnce = 256;
+
+// The k-DOPs of one side, in the order of the rows of a part of the batch, as hulls.
 class HullSide {
  public:
   explicit HullSide(PositionLayout layout)
@@ -48,28 +51,45 @@ class HullSide {
   const HullGeometry* hull_at(const BodyReader& reader, uint32_t body) {
     const DopGeometry* known = reader.dop_geometry(body);
     const float* rows = reader.bodies.rows.data + 4 * reader.first_row(body);
-    if (known && known->is_of(rows)) return known->hull().geometry.get();
+    if (known && known->is_of(rows)) return known->hull();
     const auto found = dop_geometry(read_dop(reader, body));
     if (!found) return nullptr;
     found_.push_back(found);
-    return found->hull().geometry.get();
+    return found->hull();
   }
 
   const size_t record_size_;
-  alignas(double) std::array<char, 4 * sizeof(double) * kPairsPerBlock> records_;
-  std::array<Row, kPairsPerBlock> orientation_;
-  std::array<Row, kPairsPerBlock> hull_;
+  alignas(double) std::array<char, 4 * sizeof(double) * kRowsAtOnce> records_;
+  std::array<Row, kRowsAtOnce> orientation_;
+  std::array<Row, kRowsAtOnce> hull_;
   std::vector<std::shared_ptr<const DopGeometry>> found_;
 };
 
-}  // namespace
+// The rows from `first` on, `count` of them.
+Batch part_of(const Batch& batch, size_t first, size_t count) {
+  const auto move = [first](auto*& column) {
+    if (column) column += first;
+  };
+  Batch part = batch;
+  part.count = count;
+  move(part.pairs);
+  for (ResultColumns* columns : {&part.out, &part.tested}) {
+    // At Pass::manifold rows of `out` are those in `manifold_row`.
+    if (columns == &part.out && batch.manifold_row) continue;
+    for_each_column([&](const ColumnInfo&, auto*& column) { move(column); }, *columns);
+  }
+  move(part.unsure);
+  move(part.direction);
+  move(part.features);
+  move(part.reach);
+  move(part.manifold_row);
+  return part;
+}
 
-void run_with_hulls(const Batch& batch, DopSides dops, void (*run)(const Batch&)) {
-  const Collidables view_a = view_of(batch.a, batch.layout, ShapeKind::dop);
-  const Collidables view_b = view_of(batch.b, batch.layout, ShapeKind::dop);
-  const BodyReader a{view_a}, b{view_b};
+void run_part(const Batch& batch, DopSides dops, const BodyReader& a, const BodyReader& b,
+              void (*run)(const Batch&)) {
   HullSide hulls_a(batch.layout), hulls_b(batch.layout);
-  std::array<Pair, kPairsPerBlock> pairs;
+  std::array<Pair, kRowsAtOnce> pairs;
   constexpr uint32_t kAhead = 16;
   const auto last = static_cast<uint32_t>(batch.count - 1);
   for (uint32_t row = 0; row < batch.count; ++row) {
@@ -90,6 +110,18 @@ void run_with_hulls(const Batch& batch, DopSides dops, void (*run)(const Batch&)
   hulls.pairs_are_rows = false;
   hulls.has_rounded_points = true;
   run(hulls);
+}
+
+}  // namespace
+
+void run_with_hulls(const Batch& batch, DopSides dops, void (*run)(const Batch&)) {
+  const Collidables view_a = view_of(batch.a, batch.layout, ShapeKind::dop);
+  const Collidables view_b = view_of(batch.b, batch.layout, ShapeKind::dop);
+  const BodyReader a{view_a}, b{view_b};
+  for (size_t first = 0; first < batch.count; first += kRowsAtOnce) {
+    const size_t count = std::min(kRowsAtOnce, batch.count - first);
+    run_part(part_of(batch, first, count), dops, a, b, run);
+  }
 }
 
 }  // namespace carom

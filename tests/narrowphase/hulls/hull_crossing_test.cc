@@ -72,12 +72,13 @@ class EdgeSolid {
     }
     solid_.point_record = points_.data();
     solid_.plane_record = planes_.data();
-    solid_.edges = edges_;
+    solid_.edge_count = edges_.size();
+    solid_.edges = edges_.data();
   }
   EdgeSolid(const EdgeSolid&) = delete;
   EdgeSolid& operator=(const EdgeSolid&) = delete;
 
-  CrossedEdges edges() const { return {solid_, open_}; }
+  CrossedEdges edges() { return {solid_, open_, of_dop_}; }
 
  private:
   std::vector<std::array<float, 4>> points_, planes_;
@@ -85,6 +86,7 @@ class EdgeSolid {
   std::vector<Solid::Edge> edges_;
   Solid solid_;
   OpenEdges open_;
+  DopEdges of_dop_;  // not written
 };
 
 struct Crossed {
@@ -95,7 +97,7 @@ struct Crossed {
 };
 
 Crossing cross(const HullSteps& steps, const Crossed& edges) {
-  const EdgeSolid a(edges.a), b(edges.b);
+  EdgeSolid a(edges.a), b(edges.b);
   return steps.cross(a.edges(), b.edges(), edges.turn, edges.offset, edges.gap);
 }
 

@@ -164,7 +164,7 @@ Hull random_hull_of_dop(Random& random) {
   for (Vector3f& p : points) {
     p = (random.direction() * random.uniform(0.3, 1)).cast<float>();
   }
-  return dop_geometry(Dop::of_points(points, DopKind::k26))->hull();
+  return hull_of(Dop::of_points(points, DopKind::k26));
 }
 
 TEST(HullDepth, OfKDopsIsSeldomUnsure) {

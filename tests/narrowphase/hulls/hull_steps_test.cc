@@ -63,11 +63,11 @@ void expect_same(const BestFace& expected, const BestFace& found) {
 // By definition: no ball is low enough over both faces of an open edge.
 std::vector<uint16_t> open_edges(const Solid& solid, float gap, const FaceBounds& bounds) {
   std::vector<uint16_t> open;
-  for (size_t e = 0; e < solid.edges.size(); ++e) {
+  for (size_t e = 0; e < solid.edge_count; ++e) {
     bool is_open = true;
     for (size_t ball = 0; ball < bounds.count; ++ball) {
       const float* const between = bounds.between(ball);
-      is_open &= !(between[solid.edges[e].left] <= gap && between[solid.edges[e].right] <= gap);
+      is_open &= !(between[solid.side[0][e]] <= gap && between[solid.side[1][e]] <= gap);
     }
     if (is_open) open.push_back(static_cast<uint16_t>(e));
   }
@@ -91,7 +91,7 @@ void expect_open_alike(const Solid& solid, FaceBounds& expected, FaceBounds& fou
     EXPECT_EQ(listed(edges), by_definition);
     EXPECT_EQ(listed(edges_in_lanes), by_definition);
     counts.open += by_definition.size();
-    counts.all += solid.edges.size();
+    counts.all += solid.edge_count;
   }
 }
 

@@ -98,6 +98,30 @@ TEST(KindsBits, DopsWithTheirCorners) {
   EXPECT_GT(kept, 500u);
 }
 
+// Batches with k-DOPs run in parts of 256 rows.
+TEST(KindsBits, DopsInSeveralParts) {
+  for (const KindPair& kinds : supported_kind_pairs()) {
+    if (kinds.a != ShapeKind::dop && kinds.b != ShapeKind::dop) continue;
+    SCOPED_TRACE(name(kinds));
+    std::vector<TestPair> few =
+        make_kind_pairs(convex_families().front(), kinds, PositionType::float32, 7);
+    const auto results_of_few = reference_results(few, PositionType::float32);
+    for (TestPair& pair : few) {
+      keep_corners(pair.a.shape);
+      keep_corners(pair.b.shape);
+    }
+    for (const size_t count : {255u, 256u, 257u, 600u}) {
+      std::vector<TestPair> pairs;
+      std::vector<reference::PairResult> results;
+      for (size_t i = 0; i < count; ++i) {
+        pairs.push_back(few[i % few.size()]);
+        results.push_back(results_of_few[i % few.size()]);
+      }
+      expect_reference_bits(pairs, results, call_with(PositionType::float32));
+    }
+  }
+}
+
 // Found by kinds_fuzz: a quaternion of ordinary length with a tiny component was scaled, and lost
 // bits of it, because its neighbour in the vector needed scaling.
 TEST(KindsBits, OrientationsAreScaledEachByItself) {
