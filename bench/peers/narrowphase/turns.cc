@@ -23,7 +23,11 @@ Library ask(const char* name, std::unique_ptr<PairPeer> pairs, std::span<const T
 }
 
 void TimedRunner::take_turn(double seconds) {
-  isa_ ? (void)force_isa(*isa_) : unforce_isa();
+  if (isa_) {
+    force_isa(*isa_);
+  } else {
+    unforce_isa();
+  }
   pass_();
   const Stopwatch turn;
   do {
