@@ -313,7 +313,7 @@ HWY_INLINE void make_core(const HullLanes& hull, const Quaternion& q, const F3& 
                           CoreLanes& core) {
   const Rotation turn = placing_turn(hull, q);
   // The hulls of a batch are those of k-DOPs, or none is.
-  if (hull.geometry[0] && hull.geometry[0]->dop_solid()) {
+  if (HWY_UNLIKELY(hull.geometry[0] && hull.geometry[0]->dop_solid())) {
     put_points_of_dops(hull, turn, offset, core);
   } else {
     put_points(HullRecords(hull), turn, offset, core);
