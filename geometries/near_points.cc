@@ -28,6 +28,10 @@ inline constexpr size_t kFewLanes = hn::MaxLanes(FewTag());
 constexpr float kLeastNormal = 0x1p-100f;
 constexpr float kFurthestCorner = 0x1p16f;
 
+// Squared sine between a unit normal and a side, from which on rounding leaves the way across both
+// perpendicular to the normal.
+constexpr float kLeastSine = 0x1p-6f;
+
 // Directions between the normals of a triangle and of a side: 22.5, 45 and 67.5 degrees.
 constexpr size_t kTilts = 3;
 constexpr float kTangent[kTilts] = {0.41421356f, 1, 2.4142136f};
@@ -74,7 +78,8 @@ HWY_INLINE Few3 point_of_few(const SeenPoints& points, size_t i) {
 // triangle.
 HWY_INLINE Few gap_beside(const SeenPoints& points, const Few3& side, const Few3& normal,
                           const Few* heights, Few own_height, const Few3* corners) {
-  // Of a sliver, the normal may be far from perpendicular to the side.
+  // The normal of a sliver may be far from perpendicular to the side. Near the side it gives no
+  // direction.
   const Few3 beside = cross(side, normal);
   const Few squared = dot(beside, beside);
   const Few3 way = beside * hn::Div(splat_few(1), hn::Sqrt(squared));
@@ -93,7 +98,8 @@ HWY_INLINE Few gap_beside(const SeenPoints& points, const Few3& side, const Few3
     const Few own_tilted = hn::Add(own_height, hn::Mul(splat_few(kTangent[k]), own));
     gap = max(gap, hn::Mul(hn::Sub(tilted[k], own_tilted), splat_few(kCosine[k])));
   }
-  return hn::IfThenElse(hn::Ge(squared, splat_few(kLeastNormal)), gap, splat_few(-HUGE_VALF));
+  const Few least = max(splat_few(kLeastNormal), hn::Mul(splat_few(kLeastSine), dot(side, side)));
+  return hn::IfThenElse(hn::Ge(squared, least), gap, splat_few(-HUGE_VALF));
 }
 
 // A lower bound of the gap of each triangle.

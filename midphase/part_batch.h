@@ -111,7 +111,7 @@ class PartBatch {
   bool has_waiting() const { return waiting_count_ > 0; }
   // Adds waiting pairs, and forgets those that do not matter. may_matter(owner, least separation)
   // is asked about each. Of owners that are_known(owner) it adds all others that may matter, of
-  // the others one pair, that of the least separation.
+  // the others one pair, that of the least separation. Nothing is added after it until clear().
   template <class IsKnown, class MayMatter>
   void admit_waiting(const IsKnown& is_known, const MayMatter& may_matter);
 

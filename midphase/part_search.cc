@@ -72,8 +72,11 @@ class SeenPart {
     return rounded_outwards(box_.middle, box_.half, with_slack(radius_ + reach, lengths()));
   }
 
-  // All lengths that go into a test with a part of the tree.
-  double lengths() const { return size_ + greatest(box_.middle) + greatest(box_.half) + radius_; }
+  // All lengths that go into a test with a part of the tree. Points far from the part's own origin
+  // are about as far from there as that is from the tree's.
+  double lengths() const {
+    return size_ + greatest(change_.offset) + greatest(box_.middle) + greatest(box_.half) + radius_;
+  }
   double radius() const { return radius_; }
   // The core of the part, or what contains it.
   const SeenPoints& points() {

@@ -13,7 +13,7 @@ struct alignas(PlacesInBlocks::kAlignment) PlacesInBlocks::Block {
     Free* next;
   };
 
-  // Of those with room.
+  // In the list of blocks with room.
   Block* next = nullptr;
   Block* last = nullptr;
   Free* free = nullptr;

@@ -22,7 +22,7 @@ inline constexpr size_t kDopPlanes = 2 * kMostSlabs;
 // The plane of the largest k-DOP that is plane `plane` of a k-DOP of this kind.
 uint8_t common_plane(DopKind kind, size_t plane);
 
-// What all k-DOPs share, in float32.
+// The directions that all k-DOPs share, in float32.
 class DopDirections {
  public:
   static const DopDirections& get();
@@ -46,7 +46,8 @@ class DopDirections {
 
 Eigen::Vector3d normal_of_dop_plane(size_t plane);
 
-// What a search for depths reads of one k-DOP: one run of memory, which can be asked for at once.
+// All that a search for depths reads of one k-DOP: one run of memory, which can be asked for at
+// once.
 class alignas(64) DopSolid {
  public:
   // 26 faces have at most 72 edges and 48 corners (Euler).

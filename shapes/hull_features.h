@@ -60,7 +60,7 @@ class HullFeatures {
   std::span<const std::array<float, 4>> planes() const { return planes_; }
   // A ball of this radius around the middle of the hull surely lies inside it.
   float inner_radius() const { return inner_radius_; }
-  // Those of edges_of().
+  // Those of edges_of(); none for k-DOPs, which make theirs where they are needed.
   std::span<const Edge> edges() const { return edges_; }
   // The left faces (0) or the right faces (1) of all edges, padded to a multiple of 64. Only for
   // hulls of up to 256 faces.

@@ -74,8 +74,8 @@ HWY_INLINE void fetch_side(const BatchSide& side, const Listed& near, const List
   }
 }
 
-// Of rows, one body in so many: records and orientations of 16 bytes then share a line of the
-// cache.
+// One body in so many is asked for, where rows follow one another: records and orientations of 16
+// bytes then share a line of the cache.
 constexpr size_t kRowsInLine = 4;
 
 // The same of both sides. Processors see by themselves that one row follows the other, but not

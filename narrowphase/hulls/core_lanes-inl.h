@@ -110,7 +110,7 @@ HWY_INLINE void make_core(const TriangleLanes& triangle, const Quaternion& q, co
   core.has_space = hn::Not(triangle.is_special);
 }
 
-// What lanes without a hull read: a point, and the middle.
+// Lanes without a hull read this: a point, and the middle.
 inline constexpr std::array<float, 8> kNoRecords{};
 
 // Reads the records of each lane's hull: its points, then its middle.

@@ -87,6 +87,28 @@ TEST(ManyParts, TheDeepestTriangleIsThatOfTheReference) {
   expect_reference(pairs, call);
 }
 
+// Bodies whose points lie far from their own origins, so that tests round by more than their sizes.
+TEST(ManyParts, TheDeepestTriangleIsThatOfTheReferenceFarFromTheOrigin) {
+  oracle::Random random(34);
+  const auto bumps = [&](float, float) { return random.uniform(-0.001, 0.001); };
+  const Mesh ground = grid_mesh(24, 0.05f, bumps);
+  std::vector<TestPair> pairs;
+  for (uint32_t i = 0; i < rounds(200, 50); ++i) {
+    const auto draw = [&](double most) {
+      const double x = random.uniform(-most, most), y = random.uniform(-most, most);
+      return Eigen::Vector3d(x, y, random.uniform(-most, most));
+    };
+    const Eigen::Vector3f off = draw(i % 2 == 0 ? 3e3 : 1e4).cast<float>();
+    const Eigen::Vector3f half = Eigen::Vector3f::Constant(0.2f) + 0.1f * draw(1).cast<float>();
+    const Eigen::Vector3d position = draw(0.2) - off.cast<double>();
+    pairs.push_back({{Aabb{off - half, off + half}, position}, {ground}});
+    pairs.push_back({{Capsule{off - half, off + half, 0.1f}, position}, {ground}});
+  }
+  Call call = call_with(PositionType::float64);
+  call.detail = Detail::contact;
+  expect_reference(pairs, call);
+}
+
 // All balls of two swarms touch, and all contacts are one region: then what is left out are the
 // pairs of balls beyond 4,096, as many as a Contact can say.
 TEST(ManyParts, CountWhatIsLeftOut) {

@@ -102,7 +102,7 @@ TEST(PlacesInBlocks, MayBeTakenByAnyThread) {
   }
 }
 
-// What a k-DOP allocates beside its geometry does not lie between geometries.
+// All else that a k-DOP allocates does not lie between geometries.
 TEST(DopGeometry, LiesBesideTheOneMadeBefore) {
   oracle::Random random(92);
   std::vector<std::shared_ptr<const DopGeometry>> geometries;

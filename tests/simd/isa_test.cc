@@ -129,7 +129,7 @@ TEST(Isa, MeasuredKernelsRunOnTheForcedIsa) {
   }
 }
 
-// Of both sorts there are some, so that the table decides.
+// There are some of both sorts, so that the table decides.
 TEST(Isa, SomeMeasuredKernelsAreFasterWithAvx2) {
   const auto faster = std::count_if(std::begin(kMeasuredKernels), std::end(kMeasuredKernels),
                                     simd::is_faster_with_avx2);

@@ -50,8 +50,9 @@ class CAROM_EXPORT HullGeometry {
   size_t column_stride() const { return column_stride_; }
   /// Records x, y, z, 0 of every point, and after them of middle(), rounded to float32.
   std::span<const std::array<float, 4>> records() const { return records_; }
-  /// Faces, edges and neighbours, if the faces close a solid with all points behind them; nullptr
-  /// otherwise: then overlapping pairs of such a hull take longer. For Carom's own use.
+  /// Faces, edges (none for k-DOPs) and neighbours, if the faces close a solid with all points
+  /// behind them; nullptr otherwise: then overlapping pairs of such a hull take longer. For Carom's
+  /// own use.
   const HullFeatures* features() const { return features_.get(); }
   /// What a search for depths reads of the hull of a k-DOP, if it has features; nullptr for other
   /// hulls. The columns are part of it. For Carom's own use.
@@ -61,8 +62,8 @@ class CAROM_EXPORT HullGeometry {
   friend struct HullBuilder;
   friend class DopGeometry;
 
-  // What tests in lanes read of every hull, side by side.
-  static constexpr size_t kBytesOfLanes = 88;
+  // Tests in lanes read these of every hull, so they lie side by side.
+  static constexpr size_t kBytesOfLanes = 80;
   float size_ = 0;
   uint32_t column_stride_ = 0;
   const DopSolid* dop_solid_ = nullptr;

@@ -286,8 +286,8 @@ TEST(HullManifoldsOfBlades, AreTheEndsOfTheRidge) {
   for (const float angle : {1e-5f, 1e-3f, 1e-2f}) expect_ends_of_ridges(-angle);
 }
 
-// Only one point of the flat end touches, so that it is not the touching face although its normal is
-// nearest.
+// Only one point of the flat end touches, so that it is not the touching face although its normal
+// is nearest.
 TEST(HullManifoldsOfBlades, AreTheEndsOfTheRidgeWhateverIsBesideIt) {
   for (const float angle : {0.0f, 1e-3f}) expect_ends_of_ridges(angle);
 }
