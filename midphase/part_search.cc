@@ -15,8 +15,10 @@ namespace {
 constexpr double kGreatestOffset = 0x1p1000;
 
 FrameChange to_frame_of(const PlacedPart& frame, const PlacedPart& part) {
-  FrameChange change;
-  for (size_t i = 0; i < 3; ++i) {
+  FrameChange change{};
+  // A sphere looks the same however it is turned.
+  const size_t axes = part.kind() == ShapeKind::sphere ? 0 : 3;
+  for (size_t i = 0; i < axes; ++i) {
     const Double3 axis = {part.turn[0][i], part.turn[1][i], part.turn[2][i]};
     const Double3 seen = turned_back(frame.turn, axis);
     for (size_t k = 0; k < 3; ++k) change.turn[k][i] = seen[k];
@@ -220,8 +222,10 @@ class PartSearch {
   void take_apart(const PlacedPart& tree, const PlacedPart& other, const GoOn& go_on,
                   const NearParts& both) const {
     if (tree.kind() == ShapeKind::mesh && !other.has_parts()) {
-      is_plane(other) ? find_triangles_below(tree, other, both)
-                      : find_triangles_near(tree, other, both);
+      // A sphere is tested sooner than bounded.
+      is_plane(other) || other.kind() == ShapeKind::sphere
+          ? find_triangles_touching(tree, other, both)
+          : find_triangles_near(tree, other, both);
     } else {
       PartOf part(tree);
       for_each_near(tree, other, [&](std::span<const uint32_t> items) {
@@ -230,9 +234,10 @@ class PartSearch {
     }
   }
 
-  void find_triangles_below(const PlacedPart& mesh, const PlacedPart& plane,
-                            const NearParts& both) const {
-    for_each_near(mesh, plane, [&](std::span<const uint32_t> triangles) {
+  // Triangles whose boxes are near the other part.
+  void find_triangles_touching(const PlacedPart& mesh, const PlacedPart& other,
+                               const NearParts& both) const {
+    for_each_near(mesh, other, [&](std::span<const uint32_t> triangles) {
       found_({both.a, both.b, triangles});
     });
   }
@@ -246,9 +251,8 @@ class PartSearch {
     const MeshRules& rules = mesh.mesh().rules();
     const bool has_rules = rules.thickness > 0 || mesh.one_sided.value_or(rules.one_sided) ||
                            other.kind() == ShapeKind::triangle;
-    // A sphere is tested sooner than bounded.
-    const bool is_bounded = other.kind() != ShapeKind::sphere && lengths < kBeyondSearch &&
-                            (!has_rules || apart_ == Apart::by_planes);
+    const bool is_bounded =
+        lengths < kBeyondSearch && (!has_rules || apart_ == Apart::by_planes);
     if (!is_bounded) {
       return mesh.tree().find_touching(seen.surroundings(reach_),
                                        [&](std::span<const uint32_t> triangles) {
