@@ -14,19 +14,21 @@ namespace {
 
 constexpr double kGreatestOffset = 0x1p1000;
 
+// Beyond the range of the search every part is near. The clamp keeps sums finite.
+Double3 place_in_frame(const PlacedPart& frame, const PlacedPart& part) {
+  Double3 way = minus(part.position, frame.position);
+  for (double& x : way) x = std::clamp(x, -kGreatestOffset, kGreatestOffset);
+  return turned_back(frame.turn, way);
+}
+
 FrameChange to_frame_of(const PlacedPart& frame, const PlacedPart& part) {
-  FrameChange change{};
-  // A sphere looks the same however it is turned.
-  const size_t axes = part.kind() == ShapeKind::sphere ? 0 : 3;
-  for (size_t i = 0; i < axes; ++i) {
+  FrameChange change;
+  for (size_t i = 0; i < 3; ++i) {
     const Double3 axis = {part.turn[0][i], part.turn[1][i], part.turn[2][i]};
     const Double3 seen = turned_back(frame.turn, axis);
     for (size_t k = 0; k < 3; ++k) change.turn[k][i] = seen[k];
   }
-  // Beyond the range of the search every part is near. The clamp keeps sums finite.
-  Double3 way = minus(part.position, frame.position);
-  for (double& x : way) x = std::clamp(x, -kGreatestOffset, kGreatestOffset);
-  change.offset = turned_back(frame.turn, way);
+  change.offset = place_in_frame(frame, part);
   return change;
 }
 
@@ -57,8 +59,6 @@ class SeenPart {
     } else if (part.kind() == ShapeKind::capsule) {
       const std::array<Row, kMostRows>& rows = part.part->rows;
       see_points(std::array{vector_of(rows[0]), vector_of(rows[1])}, rows[0][3]);
-    } else if (part.kind() == ShapeKind::sphere) {
-      see_points(std::array<Double3, 1>{}, part.part->radius);
     } else if (part.kind() == ShapeKind::hull) {
       see_points_of(*geometry_at<HullGeometry>(part.part->rows[0]), *part.part);
     } else {
@@ -151,6 +151,24 @@ class SeenPart {
   double radius_ = 0;  // around the box, and around the points
   FewOf<Double3, 8> points_;
   SeenPoints seen_points_;  // of a hull, or once they are asked for
+};
+
+// A sphere in the frame of a tree. Many are asked about, and it has no orientation.
+struct SeenSphere {
+  Double3 middle;
+  double radius;
+  double lengths;  // all that go into a test with a part of the tree
+
+  SeenSphere(const PlacedPart& tree, const PlacedPart& sphere)
+      : middle(place_in_frame(tree, sphere)),
+        radius(sphere.part->radius),
+        lengths(size_of(tree) + 2 * greatest(middle) + radius) {}
+
+  TreeBox box() const { return rounded_outwards(middle, {radius, radius, radius}); }
+  // The box around all within `reach` of it.
+  RoundedBox surroundings(double reach) const {
+    return rounded_outwards(middle, {}, with_slack(radius + reach, lengths));
+  }
 };
 
 // A half-space in the frame of a tree: all x with normal . x <= limit.
@@ -251,8 +269,7 @@ class PartSearch {
     const MeshRules& rules = mesh.mesh().rules();
     const bool has_rules = rules.thickness > 0 || mesh.one_sided.value_or(rules.one_sided) ||
                            other.kind() == ShapeKind::triangle;
-    const bool is_bounded =
-        lengths < kBeyondSearch && (!has_rules || apart_ == Apart::by_planes);
+    const bool is_bounded = lengths < kBeyondSearch && (!has_rules || apart_ == Apart::by_planes);
     if (!is_bounded) {
       return mesh.tree().find_touching(seen.surroundings(reach_),
                                        [&](std::span<const uint32_t> triangles) {
@@ -314,6 +331,8 @@ class PartSearch {
                              [&](uint32_t item) {
                                use({&item, 1});
                              });
+    } else if (other.kind() == ShapeKind::sphere) {
+      tree.tree().find_touching(SeenSphere(tree, other).surroundings(reach_), use);
     } else {
       tree.tree().find_touching(SeenPart(tree, other).surroundings(reach_), use);
     }
@@ -326,6 +345,9 @@ class PartSearch {
 
 uint32_t near_item(const PlacedPart& tree, const PlacedPart& other) {
   if (is_plane(other)) return tree.tree().low_item(SeenPlane(tree, other).normal);
+  if (other.kind() == ShapeKind::sphere) {
+    return tree.tree().near_item(SeenSphere(tree, other).box());
+  }
   return tree.tree().near_item(SeenPart(tree, other).box());
 }
 
