@@ -119,7 +119,7 @@ TEST(NearPoints, BoundsLieBelowSeparations) {
     SCOPED_TRACE(unit);
     Random random(3);
     for (const size_t count : {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 130}) {
-      for (uint32_t round = 0; round < rounds(4); ++round) {
+      for (int round = 0; round < 4; ++round) {
         const Vector3d middle = unit * random.uniform(0, 30) * random.direction();
         const TurnedBox box(middle, unit, random);
         const SomeTriangles triangles(count, middle, 2.5 * unit, 2 * unit, true, random);
