@@ -42,12 +42,16 @@ PlacesInBlocks::PlacesInBlocks(size_t bytes)
   assert(places_of_block_ > 1);
 }
 
-PlacesInBlocks::~PlacesInBlocks() { assert(!with_room_); }
+PlacesInBlocks::~PlacesInBlocks() {
+  free_spare();
+  assert(!with_room_);
+}
 
 void* PlacesInBlocks::take() {
   const std::lock_guard lock(mutex_);
   if (!with_room_) add(new (::operator new(kBytesOfBlock, kAlignedToBlocks)) Block);
   Block* const block = with_room_;
+  if (block == spare_) spare_ = nullptr;
   void* place = block->free;
   if (place) {
     block->free = block->free->next;
@@ -64,8 +68,15 @@ void PlacesInBlocks::give_back(void* place) {
   block->free = new (place) Block::Free{block->free};
   if (block->taken-- == places_of_block_) add(block);
   if (block->taken > 0) return;
-  remove(block);
-  ::operator delete(block, kAlignedToBlocks);
+  free_spare();
+  spare_ = block;
+}
+
+void PlacesInBlocks::free_spare() {
+  if (!spare_) return;
+  remove(spare_);
+  ::operator delete(spare_, kAlignedToBlocks);
+  spare_ = nullptr;
 }
 
 void PlacesInBlocks::add(Block* block) {

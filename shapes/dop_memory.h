@@ -7,7 +7,8 @@
 
 namespace carom {
 
-// Places of one size in large blocks. Any thread may call it. A block that is empty is freed.
+// Places of one size in large blocks. Any thread may call it. Empty blocks are freed but for one,
+// since whoever makes and drops single objects would have a block made for each.
 class PlacesInBlocks {
  public:
   static constexpr size_t kBytesOfBlock = size_t{1} << 17;
@@ -30,10 +31,12 @@ class PlacesInBlocks {
 
   void add(Block* block);
   void remove(Block* block);
+  void free_spare();
 
   const size_t bytes_, places_of_block_;
   std::mutex mutex_;
   Block* with_room_ = nullptr;  // the first of them
+  Block* spare_ = nullptr;      // of these, the empty one
 };
 
 // An allocator for std::allocate_shared().

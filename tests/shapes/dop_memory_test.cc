@@ -73,6 +73,30 @@ TEST(PlacesInBlocks, AreTakenAgain) {
   for (void* place : taken) places.give_back(place);
 }
 
+// One empty block is kept, and taken from before another one is made.
+TEST(PlacesInBlocks, AreTakenFromTheEmptyBlockThatIsKept) {
+  PlacesInBlocks places(1000);
+  void* const first = places.take();
+  places.give_back(first);
+  for (int round = 0; round < 100; ++round) {
+    void* const place = places.take();
+    EXPECT_EQ(place, first);
+    places.give_back(place);
+  }
+  // Two blocks that become empty one after the other: one stays.
+  std::vector<void*> taken;
+  for (size_t i = 0; i < 2 * places.places_of_block(); ++i) taken.push_back(places.take());
+  std::set<uintptr_t> blocks;
+  for (void* place : taken) {
+    blocks.insert(block_of(place));
+    places.give_back(place);
+  }
+  EXPECT_EQ(blocks.size(), 2u);
+  void* const place = places.take();
+  EXPECT_EQ(block_of(place), block_of(taken.back()));
+  places.give_back(place);
+}
+
 TEST(PlacesInBlocks, MayBeTakenByAnyThread) {
   PlacesInBlocks places(200);
   std::vector<std::vector<unsigned char*>> taken(4);
