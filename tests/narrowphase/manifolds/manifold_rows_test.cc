@@ -8,12 +8,11 @@
 #include "carom/results/result_arrays.h"
 #include "tests/support/isas.h"
 #include "tests/support/kind_pairs.h"
+#include "tests/support/results.h"
 #include "tests/support/run.h"
 
 namespace carom::test {
 namespace {
-
-constexpr uint8_t kUntouched = 0x5a;
 
 bool is_untouched(const ManifoldPoints& points) {
   ManifoldPoints untouched;

@@ -11,6 +11,7 @@
 #include "carom/results/result_arrays.h"
 #include "oracle/random.h"
 #include "tests/support/isas.h"
+#include "tests/support/results.h"
 
 namespace carom::test {
 namespace {
@@ -51,7 +52,6 @@ TEST(WitnessPoints, AreTheManifoldsOfRowsThatTouch) {
       batch.out = rows;
       if (has_reach) batch.reach = reach.data();
       for_each_isa([&] {
-        constexpr uint8_t kUntouched = 0x5a;
         for (size_t row = 0; row <= count; ++row) {
           std::memset(static_cast<void*>(&rows.manifold[row]), kUntouched, sizeof(ManifoldPoints));
           rows.manifold_count[row] = kUntouched;
