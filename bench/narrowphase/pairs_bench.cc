@@ -1,5 +1,5 @@
-// Every pair of kinds that has a kernel: NAME/DETAIL/STORAGE/hitPERCENT/ACCESS/RUNNER. `touch` in
-// place of hitPERCENT: all pairs touch to within rounding.
+// Every pair of kinds that has a kernel: NAME/DETAIL/STORAGE/hitPERCENT/ACCESS/RUNNER. In place of
+// hitPERCENT, `touch`: all pairs touch to within rounding; `parallel`: boxes lie nearly parallel.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,7 +21,7 @@ constexpr const char* kInDepth[] = {"sphere_sphere", "sphere_aabb", "aabb_aabb",
 // well.
 std::optional<std::string> problem(const PairStream& stream, Detail detail, ResultArrays& results) {
   const StreamSpec& spec = stream.spec();
-  if (!spec.touching && std::abs(stream.hit_percent() - spec.hit_percent) > 2) {
+  if (spec.placing == Placing::freely && std::abs(stream.hit_percent() - spec.hit_percent) > 2) {
     return "the hit rate is " + std::to_string(stream.hit_percent()) + " %";
   }
   spoil(results);
@@ -73,7 +73,9 @@ void measure_reference(benchmark::State& state, const PairStream& stream) {
 }
 
 std::string share_of(const StreamSpec& spec) {
-  return spec.touching ? "touch" : "hit" + std::to_string(spec.hit_percent);
+  if (spec.placing == Placing::touching) return "touch";
+  if (spec.placing == Placing::parallel) return "parallel";
+  return "hit" + std::to_string(spec.hit_percent);
 }
 
 // Registers a stream on every runner. `access` is part of the name.
@@ -139,10 +141,11 @@ void register_in_depth(const KindPair& kinds, size_t count) {
   }
 }
 
-// Pairs that float32 cannot decide, as rows.
-void register_touching(const KindPair& kinds, size_t count) {
+// Pairs of which float32 cannot decide many, as rows.
+void register_placed(const KindPair& kinds, Placing placing, size_t count) {
   for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
-    register_stream(kinds, {.kind_a = kinds.a, .kind_b = kinds.b, .touching = true, .count = count},
+    register_stream(kinds,
+                    {.kind_a = kinds.a, .kind_b = kinds.b, .placing = placing, .count = count},
                     detail, "rows");
   }
 }
@@ -208,7 +211,10 @@ void register_narrowphase(const Options& options) {
       register_streams(kinds, Storage::f32, 50, pair_count(kinds, options));
     }
     if (kinds.a == ShapeKind::aabb && kinds.b == ShapeKind::aabb) register_in_l2(kinds);
-    register_touching(kinds, pair_count(kinds, options) / 4);
+    register_placed(kinds, Placing::touching, pair_count(kinds, options) / 4);
+    if (kinds.a == ShapeKind::box && kinds.b == ShapeKind::box) {
+      register_placed(kinds, Placing::parallel, options.pairs);
+    }
   }
   register_terrain(options.pairs / 10);
 }

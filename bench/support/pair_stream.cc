@@ -61,8 +61,8 @@ Eigen::Vector3d draw_exit(const StreamSpec& spec, const PlacedShape& a, oracle::
 }
 
 // A pair with B near A that overlaps or not, as `overlap` says.
-test::TestPair draw_pair(const StreamSpec& spec, std::span<const Hull> hulls, bool overlap,
-                         oracle::Random& random) {
+test::TestPair draw_free_pair(const StreamSpec& spec, std::span<const Hull> hulls, bool overlap,
+                              oracle::Random& random) {
   const PlacedShape a = draw_body(spec.kind_a, random, hulls);
   PlacedShape b = draw_body(spec.kind_b, random, hulls);
   const PlacedShape stored_a = as_stored(a, spec.storage);
@@ -80,7 +80,7 @@ test::TestPair draw_pair(const StreamSpec& spec, std::span<const Hull> hulls, bo
 test::TestPair draw_touching_pair(const StreamSpec& spec, std::span<const Hull> hulls,
                                   oracle::Random& random) {
   for (;;) {
-    const test::TestPair inside = draw_pair(spec, hulls, true, random);
+    const test::TestPair inside = draw_free_pair(spec, hulls, true, random);
     const test::TestPair outside = {inside.a, [&] {
                                       PlacedShape b = inside.b;
                                       b.position += draw_exit(spec, inside.a, random);
@@ -96,6 +96,38 @@ test::TestPair draw_touching_pair(const StreamSpec& spec, std::span<const Hull> 
     }
     return {inside.a, as_stored(random.chance(0.5) ? low : high, spec.storage)};
   }
+}
+
+// Two boxes face to face, as boxes of a stack lie.
+test::TestPair draw_parallel_pair(const StreamSpec& spec, oracle::Random& random) {
+  constexpr double kMostAngle = 1e-2, kLeastAngle = 1e-8, kMostGap = 1.0 / 3, kLeastGap = 1e-8;
+  const PlacedShape a = draw_body(ShapeKind::box, random, {});
+  PlacedShape b = draw_body(ShapeKind::box, random, {});
+  const Eigen::Vector3d half_a = std::get<Box>(a.shape).half.cast<double>();
+  const Eigen::Vector3d half_b = std::get<Box>(b.shape).half.cast<double>();
+  const double angle = random.chance(0.2) ? 0 : random.log_uniform(kLeastAngle, kMostAngle);
+  const Eigen::Vector3f axis = random.direction().cast<float>();
+  b.orientation = a.orientation * Eigen::AngleAxisf(static_cast<float>(angle), axis);
+  const double gap = random.log_uniform(kLeastGap, kMostGap);
+  const bool is_apart = random.chance(0.5);
+  const auto side = static_cast<Eigen::Index>(random.below(3));
+  Eigen::Vector3d way = random.direction() / 2;
+  way[side] = half_a[side] + half_b[side] + (is_apart ? gap : -gap);
+  b.position = a.position + a.orientation.cast<double>() * way;
+  return {as_stored(a, spec.storage), as_stored(b, spec.storage)};
+}
+
+test::TestPair draw_pair(const StreamSpec& spec, std::span<const Hull> hulls, bool overlap,
+                         oracle::Random& random) {
+  switch (spec.placing) {
+    case Placing::touching:
+      return draw_touching_pair(spec, hulls, random);
+    case Placing::parallel:
+      return draw_parallel_pair(spec, random);
+    case Placing::freely:
+      break;
+  }
+  return draw_free_pair(spec, hulls, overlap, random);
 }
 
 std::vector<uint32_t> shuffled(size_t count, oracle::Random& random) {
@@ -179,8 +211,7 @@ void PairStream::draw() {
   const size_t hits = spec_.count * static_cast<size_t>(spec_.hit_percent) / 100;
   const std::vector<uint32_t> ranks = shuffled(spec_.count, random);
   for (uint32_t row = 0; row < spec_.count; ++row) {
-    const test::TestPair pair = spec_.touching ? draw_touching_pair(spec_, hulls, random)
-                                               : draw_pair(spec_, hulls, ranks[row] < hits, random);
+    const test::TestPair pair = draw_pair(spec_, hulls, ranks[row] < hits, random);
     bodies_a_.push_back(pair.a);
     bodies_b_[places[row]] = pair.b;
     pairs_.push_back({row, places[row]});

@@ -23,12 +23,20 @@ enum class Access {
 
 const char* name(Detail detail);
 
+// How the bodies of a pair lie. Pairs that are not drawn `freely` overlap about half of the time,
+// whatever hit_percent says.
+enum class Placing {
+  freely,
+  touching,  // to within rounding
+  parallel,  // boxes face to face, turned by up to a hundredth, apart or deep by 1e-8 to 1/3
+};
+
 struct StreamSpec {
   ShapeKind kind_a;
   ShapeKind kind_b;
   Storage storage = Storage::f32;
   int hit_percent = 50;
-  bool touching = false;  // to within rounding; about half overlap, whatever hit_percent says
+  Placing placing = Placing::freely;
   Access access = Access::rows;
   size_t count = 0;
   size_t vertices = 16;  // of hulls; few hulls, shared by the bodies

@@ -88,14 +88,19 @@ struct BatchLoop {
     // change `batch`, and reads every field again.
     const Batch local = batch;
     bool is_done = false;
+    UnsureRows unsure;
+    UnsureRows* const later = whole > kLanes ? &unsure : nullptr;
     if constexpr (Records::kHasDenseLoop) {
       is_done = has_dense_rows(batch);
       for (size_t row = 0; is_done && row < whole; row += kLanes) {
-        run_vector(local, batch, row, DenseRows{row});
+        run_vector(local, batch, row, DenseRows{row}, later);
       }
     }
     for (size_t row = 0; !is_done && row < whole; row += kLanes) {
-      run_vector(local, batch, row, Listed{local.pairs + row});
+      run_vector(local, batch, row, Listed{local.pairs + row}, later);
+    }
+    if constexpr (Report::kSettlesRows) {
+      if (unsure.count > 0) settle(batch, unsure);
     }
     if (whole < batch.count) run_tail(batch, whole, &run);
   }
@@ -111,7 +116,7 @@ struct BatchLoop {
   // `batch` is a private copy of `source`.
   template <class Bodies>
   static HWY_INLINE void run_vector(const Batch& batch, const Batch& source, size_t row,
-                                    const Bodies& bodies) {
+                                    const Bodies& bodies, UnsureRows* later) {
     PositionLanes positions;
     PoseLanes pose;
     A a;
@@ -130,10 +135,34 @@ struct BatchLoop {
       clear_unless(valid, positions, pose, a, b);
     }
     const F up = to_units<Kernel::kUnits>(pose, a, b);
-    Report report{batch, source, row, positions, up, plain, valid, is_odd};
+    Report report{batch, source, row, positions, up, plain, valid, is_odd, later};
     if constexpr (kLoopFetches) fetch_part<A, B, 2>(batch, row);
     Kernel::test(pose, a, b, report);
     if constexpr (kLoopFetches) fetch_part<A, B, 3>(batch, row);
+  }
+
+  // Computes rows in double precision, a vector of them at a time. Their bodies are valid.
+  static HWY_NOINLINE void settle(const Batch& batch, const UnsureRows& rows) {
+    for (size_t first = 0; first < rows.count; first += kLanes) {
+      const uint32_t* const row = rows.row.data() + first;
+      const size_t count = std::min(kLanes, rows.count - first);
+      Pair pairs[kLanes];
+      for (size_t i = 0; i < kLanes; ++i) pairs[i] = batch.pairs[row[std::min(i, count - 1)]];
+      ColumnMemory<kLanes, ColumnRole::test> results;
+      uint8_t unsure[kLanes] = {};
+      Batch part = batch;
+      part.pairs = pairs;
+      part.pairs_are_rows = false;
+      part.unsure = batch.unsure ? unsure : nullptr;
+      part.out = results.columns();
+      PositionLanes positions;
+      Records::load(part, Listed{pairs}, positions);
+      const Mask all = hn::Not(no_lanes());
+      Report{part, part, 0, positions, splat(1), all, all, false}.settle(count);
+      copy_rows(part.out, batch.out, Report::kHasContact ? batch.detail : Detail::overlap, count,
+                [row](size_t i) { return row[i]; });
+      for (size_t i = 0; batch.unsure && i < count; ++i) batch.unsure[row[i]] = unsure[i];
+    }
   }
 
   static HWY_INLINE void clear_unless(Mask valid, PositionLanes& positions, PoseLanes& pose, A& a,

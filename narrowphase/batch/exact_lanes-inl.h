@@ -86,6 +86,8 @@ struct DoubleReader {
   }
 };
 
+constexpr bool is_box(ShapeKind kind) { return kind == ShapeKind::aabb || kind == ShapeKind::box; }
+
 // The answers of kLanes rows, in doubles rounded to floats. `kContacts`: whether more than the
 // decision is wanted.
 template <class Kernel, bool kContacts>
@@ -98,9 +100,6 @@ class ExactLanes {
   static constexpr bool kSeparationOnly = Kernel::kUnsure == Unsure::separation;
 
   static constexpr bool is_one_of(ShapeKind kind) { return A::kKind == kind || B::kKind == kind; }
-  static constexpr bool is_box(ShapeKind kind) {
-    return kind == ShapeKind::aabb || kind == ShapeKind::box;
-  }
   // Whether a gap wider than rounding proves the decision. Where nearly parallel edges may make a
   // kernel skip an axis, or take another feature for the nearest, a certificate is sought.
   static constexpr bool kProves = is_one_of(ShapeKind::sphere) || is_one_of(ShapeKind::halfspace) ||

@@ -10,12 +10,14 @@
 #include <array>
 #include <limits>
 
+#include "narrowphase/batch/column_memory.h"
 #include "narrowphase/batch/exact_lanes-inl.h"
 #include "narrowphase/batch/fetch-inl.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/shape_lanes-inl.h"
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/store-inl.h"
+#include "simd/compress-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
@@ -23,6 +25,24 @@ namespace carom::HWY_NAMESPACE {
 struct AnswerLanes {
   F separation;
   F3 normal, arm_a, arm_b;
+};
+
+// Rows of a batch with lanes that float32 cannot decide, to be computed again together: few are so
+// in one vector.
+struct UnsureRows {
+  static constexpr size_t kMost = kPairsPerBlock;
+
+  size_t count = 0;
+  std::array<uint32_t, kMost + kMostLanes> row;  // with room for a whole vector after them
+
+  // Adds lanes of a vector, unless they fill a vector of doubles by themselves. `first`: the row of
+  // the first lane. Not inlined: the loops that call it seldom do.
+  HWY_NOINLINE bool add_few(Mask lanes, size_t first) {
+    if (count + kLanes > kMost || hn::CountTrue(FloatTag(), lanes) > kDoubleLanes) return false;
+    const Indices rows = hn::Iota(IndexTag(), static_cast<uint32_t>(first));
+    count += compress_store(rows, lanes, row.data() + count);
+    return true;
+  }
 };
 
 // Writes columns at Detail::overlap or Detail::contact. Kernels may report in other units than
@@ -33,6 +53,11 @@ struct LaneReport {
   using B = typename Kernel::B;
   // Whether more is stored than the decision.
   static constexpr bool kHasContact = kColumns != Columns::decision;
+  // Whether unsure rows of a batch are computed together: of boxes, whose tests in doubles take
+  // longer than putting the answers back. Lanes of doubles find all that is stored of a row.
+  static constexpr bool kSettlesRows =
+      (Kernel::kUnsure == Unsure::in_lanes || Kernel::kUnsure == Unsure::test) &&
+      is_box(A::kKind) && is_box(B::kKind);
 
   const Batch& batch;   // a private copy of `source`
   const Batch& source;  // the batch it is a copy of
@@ -41,7 +66,8 @@ struct LaneReport {
   F up;        // metres in a unit
   Mask plain;  // finite and of usual size
   Mask valid;
-  bool is_odd;  // not all lanes are plain
+  bool is_odd;                  // not all lanes are plain
+  UnsureRows* later = nullptr;  // nullptr: unsure lanes are settled at once
 
   HWY_INLINE bool faces_only() const { return batch.faces_only; }
   // Asks for a part of the bodies of pairs to come. Only for kernels with kTestFetches, each part
@@ -71,6 +97,18 @@ struct LaneReport {
     store_answer(overlap, answer);
   }
 
+  // Computes the first `count` lanes in double precision, and stores them.
+  HWY_INLINE void settle(size_t count) const {
+    const Mask unsure = hn::FirstN(FloatTag(), count);
+    AnswerLanes answer = {splat(0), splat3(0), splat3(0), splat3(0)};
+    Mask degenerate = no_lanes();
+    const Mask proven = refine_lanes(unsure, answer, degenerate);
+    if (marks_unsure()) store_bytes(bytes_where(hn::AndNot(proven, unsure), 1), batch.unsure, row);
+    store_bytes(bytes_where(degenerate, static_cast<int32_t>(Status::degenerate)), batch.out.status,
+                row);
+    store_answer(hn::Le(answer.separation, splat(0)), answer);
+  }
+
  private:
   static HWY_INLINE F scaled(F v, F up) { return clamp_to_finite(hn::Mul(v, up)); }
 
@@ -98,6 +136,9 @@ struct LaneReport {
     if (HWY_UNLIKELY(batch.single_precision)) {
       unsure = hn::AndNot(is_good_enough(answer), unsure);
       if (hn::AllFalse(FloatTag(), unsure)) return proven;
+    }
+    if constexpr (kSettlesRows) {
+      if (later && later->add_few(unsure, row)) return proven;
     }
     AnswerLanes in_memory = answer;  // `answer` itself stays in registers
     if constexpr (Kernel::kUnsure == Unsure::everything) {

@@ -71,7 +71,7 @@ class CgalPass {
 ExactResult compare_exact(const ExactSpec& spec, bool touching, size_t pairs, double budget) {
   const PairStream stream({.kind_a = spec.a,
                            .kind_b = spec.b,
-                           .touching = touching,
+                           .placing = touching ? Placing::touching : Placing::freely,
                            .count = std::min(pairs, kMostPairs)});
   TierPass carom(spec, stream);
   CgalPass cgal(spec, stream);

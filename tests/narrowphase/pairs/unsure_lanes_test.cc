@@ -80,6 +80,47 @@ TEST(UnsureLanes, OfAnyNumberAreThoseOfTheReference) {
   }
 }
 
+// `count` pairs that touch, with four that are apart after each of them.
+std::vector<TestPair> spread(std::span<const TestPair> touching, std::span<const TestPair> apart,
+                             size_t count) {
+  std::vector<TestPair> pairs(apart.begin(), apart.begin() + 2);
+  for (size_t i = 0; i < count; ++i) {
+    pairs.push_back(touching[i % touching.size()]);
+    for (size_t k = 0; k < 4; ++k) pairs.push_back(apart[(4 * i + k) % apart.size()]);
+  }
+  return pairs;
+}
+
+// Where few lanes of a vector are unsure, those of a whole batch are computed together.
+constexpr size_t kSpreadCounts[] = {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 230};
+
+TEST(UnsureLanes, SpreadOverABatchAreThoseOfTheReference) {
+  const PositionType positions = PositionType::float64;
+  for (const KindPair& kinds : kinds_in_doubles()) {
+    SCOPED_TRACE(name(kinds));
+    const auto draw = [&](const char* family, size_t count) {
+      return make_kind_pairs(family_named(family), kinds, positions, count);
+    };
+    const std::vector<TestPair> touching = draw("touch", 40), apart = draw("plain", 9);
+    Call call = call_with(positions);
+    for (const Detail detail : {Detail::overlap, Detail::contact}) {
+      call.detail = detail;
+      const std::vector<Row> of_touching = expected_rows(touching, positions, detail, call.frame);
+      const std::vector<Row> of_apart = expected_rows(apart, positions, detail, call.frame);
+      for (const size_t count : kSpreadCounts) {
+        SCOPED_TRACE(count);
+        const std::vector<TestPair> pairs = spread(touching, apart, count);
+        std::vector<Row> expected(of_apart.begin(), of_apart.begin() + 2);
+        for (size_t i = 0; i < count; ++i) {
+          expected.push_back(of_touching[i % touching.size()]);
+          for (size_t k = 0; k < 4; ++k) expected.push_back(of_apart[(4 * i + k) % apart.size()]);
+        }
+        for_each_isa([&] { EXPECT_TRUE(same_rows(expected, run_rows(pairs, call), pairs)); });
+      }
+    }
+  }
+}
+
 // Rows of hulls that float32 cannot decide are gathered, up to CoreRows::kMost at a time.
 TEST(UnsureLanes, OfHullsInAnyNumberAreThoseOfTheReference) {
   for (const KindPair& kinds : supported_kind_pairs()) {
@@ -171,6 +212,33 @@ TEST(UnsureLanes, AreProven) {
       });
     }
   }
+}
+
+// A row has the same mark, whatever rows are computed with it.
+TEST(UnsureLanes, SpreadOverABatchAreMarkedAsAlone) {
+  size_t marked = 0, all = 0;
+  for (const KindPair& kinds : kinds_in_doubles()) {
+    SCOPED_TRACE(name(kinds));
+    const auto draw = [&](const char* family, size_t count) {
+      return make_kind_pairs(family_named(family), kinds, PositionType::float32, count);
+    };
+    const std::vector<TestPair> pairs = spread(draw("touch", 100), draw("plain", 9), 100);
+    for (const Detail detail : {Detail::overlap, Detail::contact}) {
+      for_each_isa([&] {
+        std::vector<uint8_t> together, alone;
+        ResultArrays results(pairs.size(), Detail::contact);
+        run_marking(kinds, pairs, detail, together, results);
+        for (size_t i = 0; i < pairs.size(); ++i) {
+          run_marking(kinds, {&pairs[i], 1}, detail, alone, results);
+          ASSERT_EQ(together[i], alone[0]) << show(pairs[i]);
+          marked += together[i];
+          ++all;
+        }
+      });
+    }
+  }
+  EXPECT_GT(marked, 0u);
+  EXPECT_LT(marked, all / 5);
 }
 
 void expect_the_reference(const TestPair& pair, PositionType positions) {
