@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <limits>
 #include <numeric>
@@ -100,6 +101,7 @@ test::TestPair draw_touching_pair(const StreamSpec& spec, std::span<const Hull> 
 
 // Two boxes face to face, as boxes of a stack lie.
 test::TestPair draw_parallel_pair(const StreamSpec& spec, oracle::Random& random) {
+  assert(spec.kind_a == ShapeKind::box && spec.kind_b == ShapeKind::box);
   constexpr double kMostAngle = 1e-2, kLeastAngle = 1e-8, kMostGap = 1.0 / 3, kLeastGap = 1e-8;
   const PlacedShape a = draw_body(ShapeKind::box, random, {});
   PlacedShape b = draw_body(ShapeKind::box, random, {});

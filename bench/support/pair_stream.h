@@ -28,7 +28,7 @@ const char* name(Detail detail);
 enum class Placing {
   freely,
   touching,  // to within rounding
-  parallel,  // boxes face to face, turned by up to a hundredth, apart or deep by 1e-8 to 1/3
+  parallel,  // two boxes face to face, turned by up to 0.01 radians, apart or deep by 1e-8 to 1/3 m
 };
 
 struct StreamSpec {

@@ -1,4 +1,4 @@
-// The loop over a batch, written once: loads, validity, the kernel, stores, the tail.
+// The loop over a batch, written once: loads, validity, the kernel, stores, unsure rows, the tail.
 //
 // A kernel is a policy:
 //   using A, using B   shape lanes of the two sides
@@ -22,9 +22,11 @@
 #define CAROM_NARROWPHASE_BATCH_BATCH_INL_H_
 #endif
 
+#include <algorithm>
 #include <type_traits>
 
 #include "base/tolerances.h"
+#include "narrowphase/batch/column_memory.h"
 #include "narrowphase/batch/fetch-inl.h"
 #include "narrowphase/batch/kernel_policy.h"
 #include "narrowphase/batch/report-inl.h"
@@ -87,20 +89,13 @@ struct BatchLoop {
     // A copy that nothing else can see: otherwise the compiler must assume that stores of bytes
     // change `batch`, and reads every field again.
     const Batch local = batch;
-    bool is_done = false;
-    UnsureRows unsure;
-    UnsureRows* const later = whole > kLanes ? &unsure : nullptr;
-    if constexpr (Records::kHasDenseLoop) {
-      is_done = has_dense_rows(batch);
-      for (size_t row = 0; is_done && row < whole; row += kLanes) {
-        run_vector(local, batch, row, DenseRows{row}, later);
-      }
-    }
-    for (size_t row = 0; !is_done && row < whole; row += kLanes) {
-      run_vector(local, batch, row, Listed{local.pairs + row}, later);
-    }
-    if constexpr (Report::kSettlesRows) {
-      if (unsure.count > 0) settle(batch, unsure);
+    if constexpr (Report::kGathersUnsure) {
+      UnsureRows unsure;
+      // A single vector, as of a tail, has nothing to gather.
+      run_vectors(local, batch, whole, whole > kLanes ? &unsure : nullptr);
+      if (unsure.count > 0) compute_unsure(batch, unsure);
+    } else {
+      run_vectors(local, batch, whole, nullptr);
     }
     if (whole < batch.count) run_tail(batch, whole, &run);
   }
@@ -113,10 +108,24 @@ struct BatchLoop {
     return batch.pairs_are_rows && dense_records && A::is_dense(batch.a) && B::is_dense(batch.b);
   }
 
-  // `batch` is a private copy of `source`.
+  // The first `whole` rows. `batch` is a private copy of `source`.
+  static HWY_INLINE void run_vectors(const Batch& batch, const Batch& source, size_t whole,
+                                     UnsureRows* gathered) {
+    bool is_done = false;
+    if constexpr (Records::kHasDenseLoop) {
+      is_done = has_dense_rows(source);
+      for (size_t row = 0; is_done && row < whole; row += kLanes) {
+        run_vector(batch, source, row, DenseRows{row}, gathered);
+      }
+    }
+    for (size_t row = 0; !is_done && row < whole; row += kLanes) {
+      run_vector(batch, source, row, Listed{batch.pairs + row}, gathered);
+    }
+  }
+
   template <class Bodies>
   static HWY_INLINE void run_vector(const Batch& batch, const Batch& source, size_t row,
-                                    const Bodies& bodies, UnsureRows* later) {
+                                    const Bodies& bodies, UnsureRows* gathered) {
     PositionLanes positions;
     PoseLanes pose;
     A a;
@@ -135,14 +144,14 @@ struct BatchLoop {
       clear_unless(valid, positions, pose, a, b);
     }
     const F up = to_units<Kernel::kUnits>(pose, a, b);
-    Report report{batch, source, row, positions, up, plain, valid, is_odd, later};
+    Report report{batch, source, row, positions, up, plain, valid, is_odd, gathered};
     if constexpr (kLoopFetches) fetch_part<A, B, 2>(batch, row);
     Kernel::test(pose, a, b, report);
     if constexpr (kLoopFetches) fetch_part<A, B, 3>(batch, row);
   }
 
   // Computes rows in double precision, a vector of them at a time. Their bodies are valid.
-  static HWY_NOINLINE void settle(const Batch& batch, const UnsureRows& rows) {
+  static HWY_NOINLINE void compute_unsure(const Batch& batch, const UnsureRows& rows) {
     for (size_t first = 0; first < rows.count; first += kLanes) {
       const uint32_t* const row = rows.row.data() + first;
       const size_t count = std::min(kLanes, rows.count - first);
@@ -158,7 +167,8 @@ struct BatchLoop {
       PositionLanes positions;
       Records::load(part, Listed{pairs}, positions);
       const Mask all = hn::Not(no_lanes());
-      Report{part, part, 0, positions, splat(1), all, all, false}.settle(count);
+      const Report report{part, part, 0, positions, splat(1), all, all, false, nullptr};
+      report.compute_in_doubles(count);
       copy_rows(part.out, batch.out, Report::kHasContact ? batch.detail : Detail::overlap, count,
                 [row](size_t i) { return row[i]; });
       for (size_t i = 0; batch.unsure && i < count; ++i) batch.unsure[row[i]] = unsure[i];

@@ -3,7 +3,7 @@
 // exact_box_test() that of the test pass of boxes.
 //
 // Reads the rows again instead of keeping what the kernel had in registers: that would cost every
-// vector, and the rows are still in the nearest cache.
+// vector, and the rows are still in a near cache.
 #if defined(CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_EXACT_LANES_INL_H_

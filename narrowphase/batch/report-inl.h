@@ -1,5 +1,5 @@
-// Writes what a kernel reports for its lanes to columns of results, after it has settled unsure
-// lanes in double precision.
+// Writes what a kernel reports for its lanes to columns of results, after it has computed unsure
+// lanes in double precision, or gathered them for the end of the batch.
 #if defined(CAROM_NARROWPHASE_BATCH_REPORT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
 #undef CAROM_NARROWPHASE_BATCH_REPORT_INL_H_
@@ -27,18 +27,17 @@ struct AnswerLanes {
   F3 normal, arm_a, arm_b;
 };
 
-// Rows of a batch with lanes that float32 cannot decide, to be computed again together: few are so
-// in one vector.
+// Rows that float32 cannot decide. One vector has few of them, so they are gathered, and computed
+// together at the end of the batch.
 struct UnsureRows {
-  static constexpr size_t kMost = kPairsPerBlock;
-
   size_t count = 0;
-  std::array<uint32_t, kMost + kMostLanes> row;  // with room for a whole vector after them
+  std::array<uint32_t, kPairsPerBlock> row;
 
-  // Adds lanes of a vector, unless they fill a vector of doubles by themselves. `first`: the row of
-  // the first lane. Not inlined: the loops that call it seldom do.
+  // Adds lanes of a vector, unless they are more than a vector of doubles holds, or have no room.
+  // `first`: the row of the first lane. Not inlined: the loops that call it seldom do.
   HWY_NOINLINE bool add_few(Mask lanes, size_t first) {
-    if (count + kLanes > kMost || hn::CountTrue(FloatTag(), lanes) > kDoubleLanes) return false;
+    if (count + kLanes > row.size() || hn::CountTrue(FloatTag(), lanes) > kDoubleLanes)
+      return false;
     const Indices rows = hn::Iota(IndexTag(), static_cast<uint32_t>(first));
     count += compress_store(rows, lanes, row.data() + count);
     return true;
@@ -53,11 +52,12 @@ struct LaneReport {
   using B = typename Kernel::B;
   // Whether more is stored than the decision.
   static constexpr bool kHasContact = kColumns != Columns::decision;
-  // Whether unsure rows of a batch are computed together: of boxes, whose tests in doubles take
-  // longer than putting the answers back. Lanes of doubles find all that is stored of a row.
-  static constexpr bool kSettlesRows =
-      (Kernel::kUnsure == Unsure::in_lanes || Kernel::kUnsure == Unsure::test) &&
-      is_box(A::kKind) && is_box(B::kKind);
+  // Whether unsure rows of a batch are computed together. Only boxes do so: their tests in doubles
+  // take longer than putting the answers back.
+  static constexpr bool kGathersUnsure = kLanes > 1 &&
+                                         (Kernel::kUnsure == Unsure::in_lanes ||
+                                          Kernel::kUnsure == Unsure::test) &&
+                                         is_box(A::kKind) && is_box(B::kKind);
 
   const Batch& batch;   // a private copy of `source`
   const Batch& source;  // the batch it is a copy of
@@ -66,8 +66,8 @@ struct LaneReport {
   F up;        // metres in a unit
   Mask plain;  // finite and of usual size
   Mask valid;
-  bool is_odd;                  // not all lanes are plain
-  UnsureRows* later = nullptr;  // nullptr: unsure lanes are settled at once
+  bool is_odd;           // not all lanes are plain
+  UnsureRows* gathered;  // nullptr: unsure lanes are computed at once
 
   HWY_INLINE bool faces_only() const { return batch.faces_only; }
   // Asks for a part of the bodies of pairs to come. Only for kernels with kTestFetches, each part
@@ -98,7 +98,7 @@ struct LaneReport {
   }
 
   // Computes the first `count` lanes in double precision, and stores them.
-  HWY_INLINE void settle(size_t count) const {
+  HWY_INLINE void compute_in_doubles(size_t count) const {
     const Mask unsure = hn::FirstN(FloatTag(), count);
     AnswerLanes answer = {splat(0), splat3(0), splat3(0), splat3(0)};
     Mask degenerate = no_lanes();
@@ -129,7 +129,8 @@ struct LaneReport {
     store_bytes(bytes_where(unsure, 1), batch.unsure, row);
   }
 
-  // Returns the lanes whose decisions are proven by that.
+  // Returns the lanes whose decisions are proven by that. Lanes that are gathered keep the answer
+  // of float32 until the end of the batch.
   HWY_INLINE Mask refine(Mask unsure, AnswerLanes& answer, Mask& overlap, Mask& degenerate) const {
     Mask proven = no_lanes();
     if (HWY_LIKELY(hn::AllFalse(FloatTag(), unsure))) return proven;
@@ -137,8 +138,8 @@ struct LaneReport {
       unsure = hn::AndNot(is_good_enough(answer), unsure);
       if (hn::AllFalse(FloatTag(), unsure)) return proven;
     }
-    if constexpr (kSettlesRows) {
-      if (later && later->add_few(unsure, row)) return proven;
+    if constexpr (kGathersUnsure) {
+      if (gathered && gathered->add_few(unsure, row)) return proven;
     }
     AnswerLanes in_memory = answer;  // `answer` itself stays in registers
     if constexpr (Kernel::kUnsure == Unsure::everything) {
