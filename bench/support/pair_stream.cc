@@ -99,7 +99,7 @@ test::TestPair draw_touching_pair(const StreamSpec& spec, std::span<const Hull> 
   }
 }
 
-// Two boxes face to face, as boxes of a stack lie.
+// Two boxes face to face.
 test::TestPair draw_parallel_pair(const StreamSpec& spec, oracle::Random& random) {
   assert(spec.kind_a == ShapeKind::box && spec.kind_b == ShapeKind::box);
   constexpr double kMostAngle = 1e-2, kLeastAngle = 1e-8, kMostGap = 1.0 / 3, kLeastGap = 1e-8;
