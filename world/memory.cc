@@ -5,16 +5,17 @@ namespace carom {
 
 WorldMemory World::State::memory() const {
   WorldMemory memory;
-  memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + proxies.bytes() +
-                  motion_tolerance.bytes() + sweeps.bytes() + bytes_of(bounds.quarantined());
+  memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + drift.bytes() +
+                  proxies.bytes() + sweeps.bytes() + bytes_of(bounds.quarantined());
   memory.bounds = bounds.bytes() + swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
                   bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
                   wide_swept_bounds.bytes();
   memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
-                             dops.pair_bytes() + directions.bytes() + results.bytes() +
-                             contact_stage.bytes() + sieve.bytes() + impacts.bytes() +
-                             speculative.bytes() + event_stage.bytes() + bytes_of(events);
+                             hold.bytes() + refresh.bytes() + dops.pair_bytes() +
+                             directions.bytes() + results.bytes() + contact_stage.bytes() +
+                             sieve.bytes() + impacts.bytes() + speculative.bytes() +
+                             event_stage.bytes() + bytes_of(events);
   return memory;
 }
 
@@ -24,8 +25,10 @@ void World::State::give_back_memory() {
   bodies.give_back();
   excluded.give_back();
   changes.give_back();
+  drift.give_back();
+  hold.give_back();
+  refresh.give_back();
   proxies.give_back();
-  motion_tolerance.give_back();
   sweeps.give_back();
   give_back(events);
   bounds.give_back();

@@ -50,9 +50,11 @@ const StepReport& World::State::step() {
   report = {.step = report.step + 1, .search = {}};
   last_stage_end = std::chrono::steady_clock::now();
   bodies.find_geometries();
+  const bool drifted = drifts;
 
   const bool still = is_still();
-  if (still) {
+  const bool keeps_list = still || only_refreshes();
+  if (keeps_list) {
     plan.carry_all();
     last.clear();
     pair_changes.clear();
@@ -61,18 +63,27 @@ const StepReport& World::State::step() {
     if (needs_last()) std::swap(last, now);
     find_all();
   }
-  if (still && has_velocities()) {
+  const bool refreshed = !still && refreshes();
+  refresh.clear();
+  if (refreshed) refresh_due();
+  if (!keeps_list && has_identities()) {
+    run(Stage::results, [&] { find_previous(last, bodies, parallelism, now); });
+  }
+  if ((keeps_list || refreshes()) && has_velocities()) {
     run(Stage::velocities, [&] { NormalVelocities(bodies).set_all(now.contacts, parallelism); });
   }
   // After two still steps no event is a begin or an end; keep them.
   if (has_events() && !(still && was_still)) {
     run(Stage::events, [&] {
-      if (still && !settings.persist_events) {
+      if (keeps_list && !settings.persist_events) {
         events.clear();
       } else {
         event_stage.run({still ? now : last, now, still ? nullptr : &plan, bodies,
-                         bounds.quarantined(), settings.persist_events},
+                         bounds.quarantined(), settings.persist_events, refreshes()},
                         parallelism, events);
+      }
+      if (refreshed && !settings.persist_events) {
+        refresh.add_events(bodies, now, events);
       }
       EventStage::add_impacts(impacts.impacts(), bodies, events);
       event_stage.remember(bodies);
@@ -83,6 +94,7 @@ const StepReport& World::State::step() {
   was_still = still;
   if (watches_rest()) watch_rest(still);
   fill_report();
+  if (has_tolerance() && !still) hold_watch.saw(report.kept, report.pairs, drifted);
   return report;
 }
 
@@ -99,6 +111,13 @@ std::unique_ptr<World::State> World::State::without_results(State& broken) {
 
 // Whether the step repeats the last one.
 bool World::State::is_still() {
+  const bool drifted = std::exchange(
+      drifts, has_tolerance() && !bodies.has_detections() && hold_watch.starts_step());
+  if (drifts) {
+    if (!drifted) drift.forget();
+    return is_still_within_tolerance();
+  }
+  if (drifted) changes.forget();
   const bool compares = compares_bodies();
   if (compares || bodies.has_detections()) {
     run(Stage::changes, [&] {
@@ -107,8 +126,40 @@ bool World::State::is_still() {
     });
   }
   if (!bodies.has_detections()) stop_looking_ahead();
-  const bool same_filters = !excluded.has_changes() && !predicate_changed;
-  return compares && changes.all_unchanged() && !sweeps.changed() && same_filters;
+  return compares && changes.all_unchanged() && !sweeps.changed() && has_same_filters();
+}
+
+// The same where all results hold within the tolerance.
+bool World::State::is_still_within_tolerance() {
+  stop_looking_ahead();
+  run(Stage::changes, [&] {
+    changes.update_shapes(bodies, settings.parallelism);
+    update_proxies(&changes);
+    drift.update(bodies, changes, settings.accuracy.tolerance, settings.parallelism);
+  });
+  size_t due = 0;
+  run(Stage::pairs, [&] { due = hold.find_due(now, drift, settings.parallelism); });
+  return due == 0 && keeps_pairs();
+}
+
+// Whether this step has the pairs of the last one, for certain.
+bool World::State::keeps_pairs() const {
+  return drifts && drift.outgrown().empty() && has_same_filters() && !bodies.any_touched();
+}
+
+// Tests the pairs that are due and are not tested otherwise.
+void World::State::refresh_due() {
+  const RefreshStage::Input found = {results,         bodies,           drift,
+                                     settings.detail, has_identities(), settings.parallelism};
+  run(Stage::pairs, [&] { refresh.start(hold.due_pairs(), now, settings.parallelism); });
+  const size_t blocks = uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread;
+  const size_t at_once = blocks * kPairsPerMergeBlock, due = refresh.renewed();
+  for (size_t begin = 0; begin < due; begin += at_once) {
+    const PairRange range{0, 0, begin, std::min(at_once, due - begin)};
+    run(Stage::narrowphase, [&] { test_pairs(refresh.pairs(), range, nullptr); });
+    run(Stage::results, [&] { refresh.take(range, found, now); });
+  }
+  run(Stage::results, [&] { contact_stage.add_overlaps(refresh.finish(found, now)); });
 }
 
 void World::State::find_sweeps() {
@@ -117,21 +168,21 @@ void World::State::find_sweeps() {
 
 void World::State::find_changes() {
   changes.update_shapes(bodies, settings.parallelism);
-  update_radii(&changes);
+  update_proxies(&changes);
   changes.update_bodies(bodies, settings.parallelism);
 }
 
-// Updates the radii that the knobs of the fast tier need. `reshaped` nullptr: of all bodies.
-void World::State::update_radii(const ChangeTracker* reshaped) {
-  if (!has_proxies() && !has_motion_tolerance()) return;
+// Updates the balls that stand for bodies. `reshaped` nullptr: of all bodies.
+void World::State::update_proxies(const ChangeTracker* reshaped) {
+  if (!has_proxies()) return;
   bounding_radii.update(bodies, reshaped, settings.parallelism);
-  if (has_proxies()) proxies.update(bodies, bounding_radii.radii(), settings.parallelism);
+  proxies.update(bodies, bounding_radii.radii(), settings.parallelism);
 }
 
 void World::State::find_all() {
   run(Stage::bounds, [&] {
     find_bounds();
-    if (!carries()) update_radii(nullptr);
+    if (!carries()) update_proxies(nullptr);
   });
   if (looks_ahead()) {
     run(Stage::sweeps, [&] { sweep_bounds(); });
@@ -166,7 +217,7 @@ void World::State::fill_report() {
   report.bodies = bodies.size();
   report.quarantined = bounds.quarantined().size();
   report.pairs = now.pairs.size();
-  report.tested = has_narrowphase() ? plan.tested() : 0;
+  report.tested = has_narrowphase() ? plan.tested() + refresh.renewed() : 0;
   report.dropped = has_narrowphase() ? plan.dropped() : 0;
   report.kept = has_narrowphase() ? report.pairs - report.tested - report.dropped : 0;
   report.overlaps = has_narrowphase() ? contact_stage.overlaps() : 0;
@@ -181,7 +232,14 @@ void World::State::fill_report() {
 }
 
 void World::State::find_bounds() {
-  if (carries() && changes.are_few()) {
+  if (drifts) {
+    if (drift.all_outgrown()) {
+      bounds.update_all(bodies, settings.parallelism, halfspaces);
+    } else if (!drift.outgrown().empty()) {
+      bounds.update(bodies, drift.outgrown(), halfspaces);
+    }
+    bounds.grow(drift.outgrown(), drift.growth(), settings.parallelism);
+  } else if (carries() && changes.are_few()) {
     bounds.update(bodies, changes.few(), halfspaces);
   } else {
     bounds.update_all(bodies, settings.parallelism, halfspaces);
@@ -202,6 +260,10 @@ void World::State::widen_bounds() {
 }
 
 void World::State::find_pairs() {
+  if (keeps_pairs()) {
+    now.pairs = last.pairs;
+    return;
+  }
   if (!settings.carry_results) finder.forget();
   finder.set_most_pairs(settings.most_pairs);
   excluded.update();
@@ -213,11 +275,12 @@ void World::State::find_pairs() {
   // Bounds that are swept or grown may differ where bodies do not.
   const bool plain = !looks_ahead() && !has_distances() && !has_margin();
   const bool knows_changes = std::exchange(searched_plain, plain) && plain && carries();
+  const bool few_changed = knows_changes && (drifts ? !drift.all_outgrown() : changes.are_few());
+  const std::span<const uint32_t> changed = drifts ? drift.outgrown() : changes.few();
   const BroadphaseMethod method = settings.broadphase;
   const Parallelism parallelism = settings.parallelism;
-  search = knows_changes && changes.are_few()
-               ? finder.find_changed(searched, filter, changes.few(), found, method, parallelism)
-               : finder.find(searched, filter, found, method, parallelism);
+  search = few_changed ? finder.find_changed(searched, filter, changed, found, method, parallelism)
+                       : finder.find(searched, filter, found, method, parallelism);
   if (halfspaces.has_any()) {
     halfspaces.add_pairs(reach_view(), filter, settings.most_pairs, settings.parallelism, now.pairs,
                          search);
@@ -233,23 +296,25 @@ void World::State::select_pairs() {
                 settings.parallelism, now.pairs);
 }
 
-// The bodies whose pairs are tested again: one byte an index.
-std::span<const uint8_t> World::State::changed_for_tests() {
-  if (!has_motion_tolerance()) return changes.changed();
-  return motion_tolerance.update(bodies, changes, bounding_radii.radii(),
-                                 settings.accuracy.knobs.motion_tolerance, settings.parallelism);
-}
-
 // Finds the pairs that appeared and vanished, and those to test.
 void World::State::compare_pairs() {
   if (settings.pair_changes) {
     pair_changes.run(last.pairs, now.pairs, bodies, settings.parallelism);
   }
   if (!has_narrowphase()) return;
+  if (refreshes()) {
+    plan.match(last.pairs, now.pairs, drift.replaced(), settings.parallelism);
+    hold.follow(plan, now, settings.parallelism);
+    return;
+  }
+  if (drifts) {
+    plan.match_undue(last.pairs, now.pairs, hold.due(), settings.parallelism);
+    return;
+  }
   // If all bodies changed, nothing is carried.
-  const bool all_changed = !has_motion_tolerance() && changes.changed_count() == bodies.rows();
+  const bool all_changed = changes.changed_count() == bodies.rows();
   if (carries() && !all_changed) {
-    plan.match(last.pairs, now.pairs, changed_for_tests(), settings.parallelism);
+    plan.match(last.pairs, now.pairs, changes.changed(), settings.parallelism);
   } else {
     plan.test_all(now.pairs.size());
   }
@@ -258,7 +323,7 @@ void World::State::compare_pairs() {
 // Drops pairs whose k-DOPs are separate: they need no test.
 void World::State::drop_pairs() {
   const std::span<const uint8_t> changed =
-      carries() ? changes.changed() : std::span<const uint8_t>();
+      carries() && !drifts ? changes.changed() : std::span<const uint8_t>();
   dops.update(bodies.view(), *settings.dop_bounds, changed, settings.parallelism);
   const std::vector<Pair>& pairs = plan.pairs_to_test(now.pairs);
   if (pairs.empty()) return;
@@ -308,16 +373,23 @@ void World::State::find_results() {
   const size_t at_once = blocks * kPairsPerMergeBlock;
   contact_stage.start(use_of_last_contacts(at_once >= pairs), last, now);
   std::optional<NormalVelocities> velocities;
-  if (has_velocities()) velocities.emplace(bodies);
+  if (has_velocities() && !refreshes()) velocities.emplace(bodies);
   for (size_t begin = 0; begin == 0 || begin < pairs; begin += at_once) {
     const size_t end = std::min(begin + at_once, pairs);
     const size_t first_row = plan.rows_before(begin);
     const PairRange range{begin, end, first_row, plan.rows_before(end) - first_row};
     run(Stage::narrowphase, [&] {
-      test_pairs(range, directions_of_tests ? directions_of_tests + first_row : nullptr);
+      test_pairs(plan.pairs_to_test(now.pairs), range,
+                 directions_of_tests ? directions_of_tests + first_row : nullptr);
     });
     const ContactStage::Input found = {plan, last, results, bodies, settings};
     run(Stage::results, [&] { contact_stage.add_results(range, found, now); });
+    if (drifts) {
+      run(Stage::pairs, [&] {
+        hold.set_terms(range, plan, results, has_contacts(settings.detail), drift, last,
+                       settings.parallelism, now);
+      });
+    }
     if (has_contacts(settings.detail)) {
       write_contacts(range, found, velocities ? &*velocities : nullptr);
     }
@@ -326,9 +398,6 @@ void World::State::find_results() {
     run(Stage::narrowphase, [&] { directions.keep(plan, settings.parallelism, now); });
   } else {
     now.direction.clear();
-  }
-  if (has_identities()) {
-    run(Stage::results, [&] { find_previous(last, bodies, settings.parallelism, now); });
   }
 }
 
@@ -342,12 +411,13 @@ void World::State::write_contacts(const PairRange& range, const ContactStage::In
   if (velocities) count(Stage::velocities, time.part(part));
 }
 
-void World::State::test_pairs(const PairRange& range, uint32_t* direction) {
+// Tests the rows of a range; `all`: the pairs of all rows.
+void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
+                              uint32_t* direction) {
   const Collidables view = tested_shapes();
   const bool composites =
       !has_proxies() && (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
-  const std::span<const Pair> pairs =
-      std::span(plan.pairs_to_test(now.pairs)).subspan(range.first_row, range.rows);
+  const std::span<const Pair> pairs = all.subspan(range.first_row, range.rows);
   FewOf<ColumnRole, 2> wanted;
   if (composites) wanted.push_back(ColumnRole::sub_shape);
   if (has_identities()) wanted.push_back(ColumnRole::name);
@@ -355,7 +425,7 @@ void World::State::test_pairs(const PairRange& range, uint32_t* direction) {
       results.prepare(range, settings.detail, {wanted.begin(), wanted.size()});
   CollideOptions options = {.frame = WitnessFrame::body,
                             .parallelism = settings.parallelism,
-                            .measured = Measured::overlapping,
+                            .measured = drifts ? Measured::all : Measured::overlapping,
                             .accuracy = settings.accuracy,
                             .region_limits = settings.region_limits};
   if (has_distances()) {

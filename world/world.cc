@@ -17,12 +17,19 @@ const char* name(Stage stage) {
   return kNames[static_cast<size_t>(stage)];
 }
 
+namespace {
+
+[[maybe_unused]] bool is_tolerance(std::optional<float> metres) {
+  return !metres || (std::isfinite(*metres) && *metres >= 0);
+}
+
+}  // namespace
+
 World::World(const WorldSettings& settings) : state_(std::make_unique<State>(settings)) {
   assert(std::isfinite(settings.margin) && settings.margin >= 0);
-  [[maybe_unused]] const float tolerance = settings.accuracy.knobs.motion_tolerance;
-  assert(std::isfinite(tolerance) && tolerance >= 0);
   assert(std::isfinite(settings.dt) && settings.dt >= 0);
   assert(std::isfinite(settings.contact_distance) && settings.contact_distance >= 0);
+  assert(is_tolerance(settings.accuracy.tolerance));
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -31,6 +38,7 @@ World& World::operator=(World&&) noexcept = default;
 const WorldSettings& World::settings() const { return state_->settings; }
 
 BodyId World::add(const BodyDesc& body) {
+  assert(is_tolerance(body.tolerance));
   const FloatEnvironment environment;
   return state_->bodies.add(body);
 }
@@ -166,6 +174,17 @@ void World::set_sensor(BodyId id, bool sensor) {
 float World::contact_distance(BodyId id) const {
   assert(contains(id));
   return state_->bodies.contact_distance(id.index);
+}
+
+std::optional<float> World::tolerance(BodyId id) const {
+  assert(contains(id));
+  return state_->bodies.tolerance(id.index);
+}
+
+void World::set_tolerance(BodyId id, std::optional<float> tolerance) {
+  assert(contains(id));
+  assert(is_tolerance(tolerance));
+  state_->bodies.set_tolerance(id.index, tolerance);
 }
 
 void World::set_contact_distance(BodyId id, float distance) {

@@ -11,7 +11,7 @@
 #include "broadphase/sort/pair_selection.h"
 #include "carom/world/world.h"
 #include "world/changes/change_tracker.h"
-#include "world/changes/motion_tolerance.h"
+#include "world/changes/drift.h"
 #include "world/changes/rest_watch.h"
 #include "world/motion/body_bounds.h"
 #include "world/motion/bounding_radii.h"
@@ -29,11 +29,13 @@
 #include "world/pairs/pair_changes.h"
 #include "world/pairs/pair_history.h"
 #include "world/pairs/pair_sieve.h"
+#include "world/pairs/result_hold.h"
 #include "world/query_index.h"
 #include "world/results/contact_stage.h"
 #include "world/results/event_stage.h"
 #include "world/results/identity_stage.h"
 #include "world/results/impact_stage.h"
+#include "world/results/refresh_stage.h"
 #include "world/results/speculative_stage.h"
 #include "world/store/body_store.h"
 #include "world/store/excluded_pairs.h"
@@ -76,10 +78,12 @@ struct World::State {
   bool has_margin() const { return settings.margin > 0; }
   bool is_fast() const { return settings.accuracy.tier == Tier::fast && has_narrowphase(); }
   bool has_proxies() const { return is_fast() && settings.accuracy.knobs.proxy_spheres; }
-  // Only a world that carries results can keep them.
-  bool has_motion_tolerance() const {
-    return is_fast() && carries() && settings.accuracy.knobs.motion_tolerance > 0;
+  // Only a world that carries results can hold on to them, and not one that proves them.
+  bool has_tolerance() const {
+    return carries() && !has_proofs(settings.accuracy.tier) &&
+           (is_tolerance(settings.accuracy.tolerance) || !bodies.tolerances().empty());
   }
+  static bool is_tolerance(float metres) { return metres > 0 && std::isfinite(metres); }
   // No k-DOPs with proxy spheres: testing balls is faster than testing their k-DOPs. None with
   // contact distances either, since pairs with separate k-DOPs may have contacts.
   bool has_dops() const {
@@ -137,9 +141,20 @@ struct World::State {
   template <class Work>
   void run(Stage stage, const Work& work);
   bool is_still();
+  bool is_still_within_tolerance();
+  bool has_same_filters() const { return !excluded.has_changes() && !predicate_changed; }
+  bool keeps_pairs() const;
+  // Whether results of pairs that stay are renewed where they are. At detail regions a pair has any
+  // number of contacts.
+  bool refreshes() const { return drifts && settings.detail != Detail::regions; }
+  // Whether a step may differ from the last one by such results alone.
+  bool only_refreshes() const {
+    return refreshes() && keeps_pairs() && !settings.identities && !settings.persist_events;
+  }
+  void refresh_due();
   void find_changes();
   void find_sweeps();
-  void update_radii(const ChangeTracker* reshaped);
+  void update_proxies(const ChangeTracker* reshaped);
   void find_all();
   void watch_rest(bool still);
   void fill_report();
@@ -148,14 +163,13 @@ struct World::State {
   void widen_bounds();
   void find_pairs();
   void select_pairs();
-  std::span<const uint8_t> changed_for_tests();
   void compare_pairs();
   void drop_pairs();
   ContactStage::Last use_of_last_contacts(bool in_one_range) const;
   void find_results();
   void write_contacts(const PairRange& range, const ContactStage::Input& found,
                       const NormalVelocities* velocities);
-  void test_pairs(const PairRange& range, uint32_t* direction);
+  void test_pairs(std::span<const Pair> pairs, const PairRange& range, uint32_t* direction);
   void find_impacts();
   void forget_ahead();
   void stop_looking_ahead();
@@ -163,11 +177,15 @@ struct World::State {
   std::chrono::steady_clock::time_point last_stage_end;
   bool was_still = false;  // the last step repeated its predecessor
   ChangeTracker changes;
+  HoldWatch hold_watch;
+  bool drifts = false;  // this step holds on to results within the tolerance
+  Drift drift;
+  ResultHold hold;
+  RefreshStage refresh;
   RestWatch rest_watch;
   BoxSample sample;
   BoundingRadii bounding_radii;
   ProxySpheres proxies;
-  MotionTolerance motion_tolerance;
   Sweeps sweeps;
   SweptBounds swept_bounds;
   WideBounds wide_bounds, wide_swept_bounds;  // of bodies now, and over the interval ahead

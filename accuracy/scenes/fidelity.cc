@@ -18,6 +18,12 @@ Trial fast_trial(const std::string& name, const FastKnobs& knobs) {
   return trial;
 }
 
+Trial tolerant_trial(float tolerance) {
+  Trial trial{.name = "tolerance", .settings = {}};
+  trial.settings.accuracy.tolerance = tolerance;
+  return trial;
+}
+
 std::vector<Trial> knob_trials() {
   return {fast_trial("single precision", {.single_precision = true}),
           fast_trial("faces only", {.faces_only = true}),
@@ -39,7 +45,7 @@ std::vector<Trial> reuse_trials(double radius) {
   std::vector<Trial> trials;
   for (const double part : kTolerances) {
     const auto tolerance = static_cast<float>(part * radius);
-    if (tolerance > 0) trials.push_back(fast_trial("motion", {.motion_tolerance = tolerance}));
+    if (tolerance > 0) trials.push_back(tolerant_trial(tolerance));
   }
   return trials;
 }
@@ -61,13 +67,13 @@ FidelityEntry fidelity_entry(const Playback& scene, const Trial& trial, const Tr
 
 ReuseEntry reuse_entry(const Playback& scene, const Trial& trial, const TrialResult& result,
                        double frame_ms_standard) {
-  const double tolerance = trial.settings.accuracy.knobs.motion_tolerance;
+  const double tolerance = trial.settings.accuracy.tolerance;
   const Deviation& deviation = result.deviation;
   return {.scene = scene.name(),
           .tolerance = tolerance,
           .frame_ms = result.frame_ms,
           .frame_ms_standard = frame_ms_standard,
-          .error_bound = 2 * tolerance,
+          .error_bound = tolerance,
           .error_worst = deviation.worst(),
           .lost = deviation.lost,
           .gained = deviation.gained,

@@ -25,13 +25,13 @@ struct FidelityEntry {
   double frame_ms_standard = 0;
 };
 
-// The same for FastKnobs::motion_tolerance.
+// The same for Accuracy::tolerance.
 struct ReuseEntry {
   std::string scene;
   double tolerance = 0;
   double frame_ms = 0;
   double frame_ms_standard = 0;
-  double error_bound = 0;  // the knob's promise: twice the tolerance
+  double error_bound = 0;  // the promise: the tolerance
   double error_worst = 0;  // of separations, including lost and gained overlaps
   uint64_t lost = 0;
   uint64_t gained = 0;

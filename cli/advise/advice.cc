@@ -67,14 +67,16 @@ AdviceRow tier_row(const Advice& advice) {
 AdviceRow knobs_row(const Advice& advice) {
   const FastKnobs& knobs = advice.choice.chosen.settings.accuracy.knobs;
   std::vector<std::string> names = names_of(knobs);
-  if (knobs.motion_tolerance > 0) {
-    names.push_back("motion-tolerance " + shortest(knobs.motion_tolerance) + " m");
-  }
-  std::string reason = outcomes(advice.choice, SettingGroup::knob);
-  const std::string motion = outcomes(advice.choice, SettingGroup::motion);
-  reason += (reason.empty() || motion.empty() ? "" : "; ") + motion;
+  const std::string reason = outcomes(advice.choice, SettingGroup::knob);
   return {"knobs", names.empty() ? "none" : joined(names, ", "),
           reason.empty() ? "nothing to loosen" : reason};
+}
+
+AdviceRow tolerance_row(const Advice& advice) {
+  const float metres = advice.choice.chosen.settings.accuracy.tolerance;
+  const std::string reason = outcomes(advice.choice, SettingGroup::tolerance);
+  return {"tolerance", metres > 0 ? shortest(metres) + " m" : "none",
+          reason.empty() ? "nothing moves" : reason};
 }
 
 AdviceRow broadphase_row(const Advice& advice) {
@@ -138,8 +140,9 @@ AdviceRow positions_row(const Advice& advice) {
 }
 
 std::vector<AdviceRow> settings_of(const Advice& advice) {
-  return {tier_row(advice), knobs_row(advice), broadphase_row(advice), margin_row(advice),
-          dops_row(advice), cache_row(advice), threads_row(advice),    positions_row(advice)};
+  return {tier_row(advice),       knobs_row(advice),   tolerance_row(advice),
+          broadphase_row(advice), margin_row(advice),  dops_row(advice),
+          cache_row(advice),      threads_row(advice), positions_row(advice)};
 }
 
 bool spheres_alone(const BodiesOfKind& kinds) {

@@ -124,14 +124,12 @@ std::vector<Candidate> tier_candidates(const SceneSurvey& survey, double toleran
     candidates.push_back(
         knob("proxy spheres", [](FastKnobs& knobs) { knobs.proxy_spheres = true; }));
   }
-  // The knob's error of separations is up to twice its motion tolerance.
-  const auto motion = static_cast<float>(tolerance / 2);
-  if (moves(survey) && motion > 0 && std::isfinite(motion)) {
+  const auto metres = static_cast<float>(tolerance);
+  if (moves(survey) && metres > 0 && std::isfinite(metres)) {
     candidates.push_back(
-        {SettingGroup::motion, text("motion tolerance %.3g", motion), [=](Trial& trial) {
+        {SettingGroup::tolerance, text("tolerance %.3g", metres), [=](Trial& trial) {
            trial.settings.carry_results = true;  // otherwise there are no results to keep
-           trial.settings.accuracy.tier = Tier::fast;
-           trial.settings.accuracy.knobs.motion_tolerance = motion;
+           trial.settings.accuracy.tolerance = metres;
          }});
   }
   candidates.push_back(tier("certified", Tier::certified));
@@ -203,7 +201,7 @@ class SettingsSearch {
   static bool pays(const TriedSettings& tried) {
     if (tried.group == SettingGroup::tier || !tried.result || !tried.meets) return false;
     const bool keeps_nothing = tried.result->tested >= tried.tested_beside;
-    if (tried.group == SettingGroup::motion && keeps_nothing) return false;
+    if (tried.group == SettingGroup::tolerance && keeps_nothing) return false;
     const double saved = tried.frame_ms_beside - tried.result->frame_ms;
     return saved > kWorthwhile * tried.frame_ms_beside && saved > kWorthwhileMs;
   }

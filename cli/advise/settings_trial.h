@@ -21,7 +21,7 @@ enum class SettingGroup : uint8_t {
   dops,
   threads,
   knob,
-  motion,  // motion tolerance, the knob with a number
+  tolerance,
   tier,
   together,  // a combination of others
 };

@@ -37,14 +37,14 @@ constexpr NamedDetail kDetails[] = {{"pairs", Detail::pairs},
                                     {"manifold", Detail::manifold},
                                     {"regions", Detail::regions}};
 
-// Tier, knobs and motion tolerance: knobs need the fast tier.
+// Tier, knobs and tolerance: knobs need the fast tier.
 class AccuracyOption : public WorldOption {
  public:
   void add_to(Command& command) override {
     add_tier_options(command, options_);
     command
-        .add_option("--motion-tolerance", options_.motion_tolerance,
-                    "Metres that bodies may move before they are tested again; fast tier only")
+        .add_option("--tolerance", options_.tolerance,
+                    "Metres by which results may be wrong at most; 0: the standard tier")
         .show_default();
   }
 
@@ -57,13 +57,14 @@ class AccuracyOption : public WorldOption {
 
   std::string text_of(const RunSettings& settings) const override {
     const Accuracy& accuracy = settings.world.accuracy;
-    if (accuracy.tier == Tier::standard) return "";
-    std::string text = std::string(" --tier ") + name_of(accuracy.tier);
-    if (accuracy.tier != Tier::fast) return text;
-    const std::vector<std::string> names = names_of(accuracy.knobs);
-    for (size_t i = 0; i < names.size(); ++i) text += (i == 0 ? " --knobs " : ",") + names[i];
-    const float metres = accuracy.knobs.motion_tolerance;
-    return metres > 0 ? text + " --motion-tolerance " + shortest(metres) : text;
+    std::string text;
+    if (accuracy.tier != Tier::standard) text = std::string(" --tier ") + name_of(accuracy.tier);
+    if (accuracy.tier == Tier::fast) {
+      const std::vector<std::string> names = names_of(accuracy.knobs);
+      for (size_t i = 0; i < names.size(); ++i) text += (i == 0 ? " --knobs " : ",") + names[i];
+    }
+    const float metres = accuracy.tolerance;
+    return metres > 0 ? text + " --tolerance " + shortest(metres) : text;
   }
 
   // Lists only the knobs that are set.
@@ -72,14 +73,13 @@ class AccuracyOption : public WorldOption {
     const std::vector<std::string> names = names_of(accuracy.knobs);
     json["tier"] = name_of(accuracy.tier);
     if (!names.empty()) json["knobs"] = names;
-    if (accuracy.knobs.motion_tolerance > 0) {
-      json["motion_tolerance"] = accuracy.knobs.motion_tolerance;
-    }
+    if (accuracy.tolerance > 0) json["tolerance"] = accuracy.tolerance;
   }
 
   void add_rows(const RunReport& report, Table& table) const override {
     const Accuracy& accuracy = report.settings.world.accuracy;
-    if (accuracy.tier != Tier::standard) table.add({"tier", describe(accuracy)});
+    const std::string text = describe(accuracy);
+    if (text != name_of(Tier::standard)) table.add({"tier", text});
   }
 
  private:

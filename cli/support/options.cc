@@ -145,12 +145,15 @@ Result<Accuracy> parse_accuracy(const TierOptions& options, KnobsOf served) {
   Accuracy accuracy{.tier = static_cast<Tier>(*tier), .knobs = {}};
   Result<void> parsed = parse_knobs(options.knobs, served, accuracy.knobs);
   if (!parsed) return parsed.error();
-  parsed = check_metres("--motion-tolerance", options.motion_tolerance);
+  parsed = check_metres("--tolerance", options.tolerance);
   if (!parsed) return parsed.error();
-  accuracy.knobs.motion_tolerance = static_cast<float>(options.motion_tolerance);
+  accuracy.tolerance = static_cast<float>(options.tolerance);
+  if (accuracy.tolerance > 0 && has_proofs(accuracy.tier)) {
+    return Error{"--tolerance " + shortest(accuracy.tolerance) + ": not with --tier " +
+                 options.tier + ", whose decisions are proven"};
+  }
   if (accuracy.tier == Tier::fast) return accuracy;
   if (!options.knobs.empty()) return needs_fast("--knobs", options.tier);
-  if (options.motion_tolerance > 0) return needs_fast("--motion-tolerance", options.tier);
   return accuracy;
 }
 
@@ -166,11 +169,9 @@ std::vector<std::string> names_of(const FastKnobs& knobs) {
 
 std::string describe(const Accuracy& accuracy) {
   std::string text(name_of(accuracy.tier));
-  if (accuracy.tier != Tier::fast) return text;
-  std::vector<std::string> parts = names_of(accuracy.knobs);
-  if (accuracy.knobs.motion_tolerance > 0) {
-    parts.push_back(number("motion tolerance %g m", accuracy.knobs.motion_tolerance));
-  }
+  std::vector<std::string> parts;
+  if (accuracy.tier == Tier::fast) parts = names_of(accuracy.knobs);
+  if (accuracy.tolerance > 0) parts.push_back(number("within %g m", accuracy.tolerance));
   for (size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? ": " : ", ") + parts[i];
   return text;
 }

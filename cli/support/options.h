@@ -26,8 +26,8 @@ struct EngineOptions {
 
 struct TierOptions {
   std::string tier = "standard";
-  std::string knobs;            // names, separated by commas
-  double motion_tolerance = 0;  // metres
+  std::string knobs;     // names, separated by commas
+  double tolerance = 0;  // metres
 };
 
 void add_engine_options(Command& command, EngineOptions& options);
@@ -51,9 +51,9 @@ enum class KnobsOf { pairs, worlds };
 Result<Accuracy> parse_accuracy(const TierOptions& options, KnobsOf served);
 // "fast", "standard", "certified", "exact".
 const char* name_of(Tier tier);
-// The set knobs by their names in --knobs; without the tolerance.
+// The set knobs by their names in --knobs.
 std::vector<std::string> names_of(const FastKnobs& knobs);
-// Readable text: "fast: faces-only, motion tolerance 0.01 m".
+// Readable text: "fast: faces-only, within 0.01 m".
 std::string describe(const Accuracy& accuracy);
 
 // "discrete", "swept", "continuous", "automatic".

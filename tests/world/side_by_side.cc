@@ -54,6 +54,13 @@ void SideBySide::creep(double distance) {
   }
 }
 
+void SideBySide::set_tolerances(float metres) {
+  for (size_t i = 0; i < ids_.size(); i += 3) {
+    const float own = metres * static_cast<float>(i % 5);
+    each([&](World& world) { world.set_tolerance(ids_[i], own); });
+  }
+}
+
 void SideBySide::disturb() {
   for (size_t i = random_.below(3); i > 0; --i) remove();
   for (size_t i = random_.below(3); i > 0; --i) add(crowd_[random_.below(crowd_.size())]);

@@ -32,6 +32,9 @@ class SideBySide {
   // Most bodies move by up to `distance` metres and turn by up to half as many radians.
   void creep(double distance);
 
+  // Gives every third body a tolerance of its own, from 0 to four times `metres`, in all worlds.
+  void set_tolerances(float metres);
+
   // Makes earlier results worthless: bodies are added, removed, teleported and changed, some
   // through the arrays.
   void disturb();

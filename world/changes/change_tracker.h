@@ -37,6 +37,7 @@ class ChangeTracker {
   // Whether the box or the rows of the body at this index differed in the last update_shapes(). It
   // does not cover BodyStore::touched() or the radii of spheres.
   bool reshaped(const Collidables& view, size_t index) const;
+  bool any_reshaped() const { return any_reshaped_; }
 
   // The number of indices that changed; removed bodies may be among them.
   size_t changed_count() const { return changed_count_; }

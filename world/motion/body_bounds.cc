@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/grown.h"
+#include "base/parallel.h"
 #include "bounds/some_bounds.h"
 #include "world/motion/present_bounds.h"
 #include "world/store/columns.h"
+#include "world/store/row_blocks.h"
 
 namespace carom {
 
@@ -66,6 +69,22 @@ void BodyBounds::update(const BodyStore& bodies, std::span<const uint32_t> chang
   std::inplace_merge(quarantined_.begin(), quarantined_.begin() + known, quarantined_.end(),
                      [](BodyId a, BodyId b) { return a.index < b.index; });
   halfspaces.set_aside(bodies, columns_);
+}
+
+void BodyBounds::grow(std::span<const uint32_t> bodies, std::span<const float> metres,
+                      Parallelism parallelism) {
+  for_each_block(bodies.size(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      float* const lower = columns_[axis].data();
+      float* const upper = columns_[3 + axis].data();
+      for (size_t k = begin; k < end; ++k) {
+        const uint32_t i = bodies[k];
+        if (!(lower[i] <= upper[i]) || metres[k] == 0) continue;
+        lower[i] = below(lower[i], metres[k]);
+        upper[i] = above(upper[i], metres[k]);
+      }
+    }
+  });
 }
 
 void BodyBounds::give_back() {

@@ -26,6 +26,10 @@ class BodyBounds {
   void update(const BodyStore& bodies, std::span<const uint32_t> changed,
               HalfspaceStage& halfspaces);
 
+  // Grows the boxes of these bodies by these metres, outwards for certain. Empty boxes stay.
+  void grow(std::span<const uint32_t> bodies, std::span<const float> metres,
+            Parallelism parallelism);
+
   BoundsView view() const;
   // The bodies that are not valid, by index.
   const std::vector<BodyId>& quarantined() const { return quarantined_; }

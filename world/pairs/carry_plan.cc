@@ -10,15 +10,17 @@
 namespace carom {
 namespace {
 
-// Lists the runs of a block, and returns how many of its pairs are open.
+// Lists the runs of a block, and returns how many of its pairs are open. is_open(pair, place in
+// `last`) says so of pairs that both lists have.
+template <class IsOpen>
 size_t find_runs(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,
-                 size_t end, std::span<const uint8_t> changed, std::vector<CarriedRun>& runs) {
+                 size_t end, const IsOpen& is_open, std::vector<CarriedRun>& runs) {
   const MergeRange range = matching_range(last, now, begin, end);
   size_t before = range.begin, open = 0;
   const auto is_carried = [&](size_t i, size_t old) {
     const Pair pair = now[i];
     const bool same = std::bit_cast<uint64_t>(last[old]) == std::bit_cast<uint64_t>(pair);
-    return same & !(changed[pair.a] | changed[pair.b]);
+    return same & !is_open(pair, old);
   };
   for (size_t i = begin; i < end;) {
     while (before < range.end && pair_key(last[before]) < pair_key(now[i])) ++before;
@@ -54,13 +56,27 @@ void CarryPlan::test_all(size_t pairs) {
 
 void CarryPlan::match(const std::vector<Pair>& last, const std::vector<Pair>& now,
                       std::span<const uint8_t> changed, Parallelism parallelism) {
+  match_if(
+      last, now, [changed](Pair pair, size_t) { return changed[pair.a] | changed[pair.b]; },
+      parallelism);
+}
+
+void CarryPlan::match_undue(const std::vector<Pair>& last, const std::vector<Pair>& now,
+                            std::span<const uint8_t> due, Parallelism parallelism) {
+  match_if(
+      last, now, [due](Pair, size_t before) { return due[before]; }, parallelism);
+}
+
+template <class IsOpen>
+void CarryPlan::match_if(const std::vector<Pair>& last, const std::vector<Pair>& now,
+                         const IsOpen& is_open, Parallelism parallelism) {
   const size_t blocks = block_count(now.size(), kPairsPerMergeBlock);
   parallelism = unless_few(parallelism, now.size());
   runs_.reset(blocks);
   open_first_.resize(blocks);
   for_each_block(now.size(), kPairsPerMergeBlock, parallelism,
                  [&](size_t block, size_t begin, size_t end) {
-                   open_first_[block] = find_runs(last, now, begin, end, changed, runs_[block]);
+                   open_first_[block] = find_runs(last, now, begin, end, is_open, runs_[block]);
                  });
   row_.clear();
   dropped_ = 0;

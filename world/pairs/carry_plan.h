@@ -34,6 +34,10 @@ class CarryPlan {
   void match(const std::vector<Pair>& last, const std::vector<Pair>& now,
              std::span<const uint8_t> changed, Parallelism parallelism);
 
+  // Carries those whose byte in `due` (one a pair of `last`) is zero.
+  void match_undue(const std::vector<Pair>& last, const std::vector<Pair>& now,
+                   std::span<const uint8_t> due, Parallelism parallelism);
+
   // Drops the open pairs whose byte is zero: they do not overlap.
   void drop(const std::vector<uint8_t>& overlap, const std::vector<Pair>& now,
             Parallelism parallelism);
@@ -82,6 +86,9 @@ class CarryPlan {
   size_t bytes() const;
 
  private:
+  template <class IsOpen>
+  void match_if(const std::vector<Pair>& last, const std::vector<Pair>& now, const IsOpen& is_open,
+                Parallelism parallelism);
   void list_open_pairs(const std::vector<Pair>& now, Parallelism parallelism);
 
   bool tests_all_ = true;

@@ -9,6 +9,7 @@ void PairHistory::clear() {
   overlaps.clear();
   contact.clear();
   direction.clear();
+  holds_until.clear();
   clear_contacts();
 }
 
@@ -19,12 +20,13 @@ void PairHistory::clear_contacts() {
 }
 
 void PairHistory::give_back() {
-  carom::give_back(pairs, overlaps, contact, direction, contacts, manifolds, identities);
+  carom::give_back(pairs, overlaps, contact, direction, holds_until, contacts, manifolds,
+                   identities);
 }
 
 size_t PairHistory::bytes() const {
   return bytes_of(pairs) + bytes_of(overlaps) + bytes_of(contact) + bytes_of(direction) +
-         bytes_of(contacts) + bytes_of(manifolds) + bytes_of(identities);
+         bytes_of(holds_until) + bytes_of(contacts) + bytes_of(manifolds) + bytes_of(identities);
 }
 
 MergeRange matching_range(const std::vector<Pair>& last, const std::vector<Pair>& now, size_t begin,

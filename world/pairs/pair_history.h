@@ -24,8 +24,9 @@ struct PairHistory {
 
   std::vector<Pair> pairs;
   RawVector<uint8_t> overlaps;
-  RawVector<uint32_t> contact;      // index into `contacts`
-  std::vector<uint32_t> direction;  // DirectionMemory's; empty if unused
+  RawVector<uint32_t> contact;        // index into `contacts`
+  std::vector<uint32_t> direction;    // DirectionMemory's; empty if unused
+  std::vector<uint32_t> holds_until;  // ResultHold's; empty if unused
   RawVector<Contact> contacts;
   RawVector<ManifoldPoints> manifolds;  // one a contact at details with manifolds, else none
 

@@ -45,6 +45,9 @@ class ContactStage {
   double write_contacts(const PairRange& range, const Input& input,
                         const NormalVelocities* velocities, PairHistory& now);
 
+  // After a step that begins or ends some overlaps of the last one alone.
+  void add_overlaps(ptrdiff_t more) { overlaps_ += static_cast<size_t>(more); }
+
   size_t overlaps() const { return overlaps_; }
   size_t undecided() const { return undecided_; }
   size_t left_out() const { return left_out_; }  // contacts beyond RegionLimits::most

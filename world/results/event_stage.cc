@@ -84,7 +84,8 @@ void EventStage::read_block(const Input& input, size_t block, Scratch& scratch) 
   scratch.now.start(end - begin);
   // Many short runs take longer than all pairs.
   const bool skips =
-      plan && !input.wants_persist && plan->runs_of(block).size() <= kPairsPerMergeBlock / 16;
+      plan && !input.wants_persist &&
+      (input.skips_carried || plan->runs_of(block).size() <= kPairsPerMergeBlock / 16);
   if (skips) {
     size_t before = range.begin;
     const auto open = [&](size_t first, size_t stop, size_t) {

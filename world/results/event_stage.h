@@ -27,6 +27,7 @@ class EventStage {
     const BodyStore& bodies;
     std::span<const BodyId> quarantined;  // by index
     bool wants_persist;
+    bool skips_carried = false;  // their events are found elsewhere
   };
   void run(const Input& input, Parallelism parallelism, RawVector<Event>& events);
 

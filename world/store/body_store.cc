@@ -10,6 +10,7 @@ namespace carom {
 namespace {
 
 constexpr uint32_t kEverything = 0xffffffffu;
+constexpr float kToleranceOfWorld = -1;
 
 // Creates the column as soon as a row differs from the default.
 template <class T>
@@ -80,6 +81,7 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   optional(self.space_, 0u);
   optional(self.sensor_, uint8_t{0});
   optional(self.contact_distance_, 0.0f);
+  optional(self.tolerance_, kToleranceOfWorld);
   optional(self.user_, uint64_t{0});
   optional(self.geometry_, std::shared_ptr<const void>());
   optional(self.dop_, static_cast<const DopGeometry*>(nullptr));
@@ -116,6 +118,7 @@ BodyId BodyStore::add(const BodyDesc& body) {
   set_row(space_, rows(), index, body.space, 0u);
   set_row(sensor_, rows(), index, uint8_t{body.sensor}, uint8_t{0});
   set_row(contact_distance_, rows(), index, body.contact_distance, 0.0f);
+  set_row(tolerance_, rows(), index, body.tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
   set_row(user_, rows(), index, body.user, uint64_t{0});
   if (has_velocities_ || !body.linear_velocity.isZero(0)) {
     set_linear_velocity(index, body.linear_velocity);
@@ -393,6 +396,11 @@ void BodyStore::set_user(uint32_t index, uint64_t user) {
 
 void BodyStore::set_contact_distance(uint32_t index, float distance) {
   set_row(contact_distance_, rows(), index, distance, 0.0f);
+  touch(index, kShapeTouched);
+}
+
+void BodyStore::set_tolerance(uint32_t index, std::optional<float> tolerance) {
+  set_row(tolerance_, rows(), index, tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
   touch(index, kShapeTouched);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -67,6 +68,14 @@ class BodyStore {
     return contact_distance_.empty() ? 0 : contact_distance_[index];
   }
   void set_contact_distance(uint32_t index, float distance);
+  // None: that of the world.
+  std::optional<float> tolerance(uint32_t index) const {
+    if (tolerance_.empty() || tolerance_[index] < 0) return std::nullopt;
+    return tolerance_[index];
+  }
+  void set_tolerance(uint32_t index, std::optional<float> tolerance);
+  // One a row, negative for that of the world; empty if every body has that.
+  std::span<const float> tolerances() const { return tolerance_; }
   uint64_t user(uint32_t index) const { return user_.empty() ? 0 : user_[index]; }
   void set_user(uint32_t index, uint64_t user);
   Eigen::Vector3f linear_velocity(uint32_t index) const;
@@ -209,6 +218,7 @@ class BodyStore {
   std::vector<int32_t> group_;
   std::vector<uint8_t> sensor_;
   std::vector<float> contact_distance_;
+  std::vector<float> tolerance_;
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;
   size_t detected_ = 0;  // bodies whose detection is not discrete

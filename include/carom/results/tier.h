@@ -37,16 +37,20 @@ struct FastKnobs {
   /// Worlds: replaces every body but half-spaces by the ball about its position that contains its
   /// shape. Reports overlaps that are none, and misses none except by rounding.
   bool proxy_spheres = false;
-
-  /// Worlds: a body keeps its results until a point of it may have moved by more than this, in
-  /// metres, since it was tested. Separations are off by up to twice as much.
-  float motion_tolerance = 0;
 };
 
 /// A tier with its knobs.
 struct Accuracy {
   Tier tier = Tier::standard;  ///< how certain decisions are
   FastKnobs knobs = {};        ///< read at Tier::fast only
+
+  /// Worlds: how wrong results may be, in metres, finite, >= 0; 0: the standard tier, to the bit.
+  /// Results of a pair are then those of two shapes of which no point is further than half of this
+  /// from where it is. So a separation is off by the tolerance at most (beside the rounding of the
+  /// standard tier), no overlap that is deeper is missed, and none is reported across a wider gap.
+  /// BodyDesc::tolerance replaces it for a body. docs/accuracy.md says how, and what it saves. Not
+  /// for Tier::certified and Tier::exact, which prove decisions about shapes where they are.
+  float tolerance = 0;
 };
 
 }  // namespace carom

@@ -64,12 +64,14 @@ struct WorldSettings {
   ///   balls. So every overlap is found, but balls that overlap are not reported if the bounds of
   ///   their shapes are separate. find_points() and bounds use the shapes themselves. dop_bounds
   ///   are not used.
-  /// - motion_tolerance: kept contacts stay as they were tested, arms and points included. Results
-  ///   then depend on the paths of the bodies, and so on the margin. After a change of its shape,
-  ///   or a call of set_motion(), set_filter() or set_sensor(), the pairs of a body are tested
-  ///   again. Separations are off by at most twice the tolerance, except at one-sided triangles and
-  ///   inner edges, where the result depends on the side from which a body comes. Without
-  ///   carry_results this knob does nothing.
+  /// With a tolerance, a step holds on to the bounds of bodies and to the results of pairs while
+  /// these have moved too little to matter; with carry_results alone. Bounds are then larger than
+  /// bodies, so there may be more candidate pairs. Contacts that are kept stay as they were tested,
+  /// arms and points relative to the bodies included. At one-sided triangles and inner edges, where
+  /// results depend on the side from which a body comes, they are those of a body that is within
+  /// the tolerance of this one. Results then depend on the paths of the bodies. After a change of
+  /// its shape, or a call of set_motion(), set_filter() or set_sensor(), the pairs of a body are
+  /// tested again. A step that looks ahead holds on to nothing.
   Accuracy accuracy = {};
 
   FilterRule filter_rule = FilterRule::both;  ///< what layers and masks must say for a pair
@@ -227,6 +229,10 @@ class CAROM_EXPORT World {
   float contact_distance(BodyId id) const;
   /// Sets BodyDesc::contact_distance.
   void set_contact_distance(BodyId id, float distance);
+  /// Metres, as it was set.
+  std::optional<float> tolerance(BodyId id) const;
+  /// Sets BodyDesc::tolerance.
+  void set_tolerance(BodyId id, std::optional<float> tolerance);
   /// Sets BodyDesc::group.
   void set_group(BodyId id, int32_t group);
   /// Sets BodyDesc::space.

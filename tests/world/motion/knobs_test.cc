@@ -23,10 +23,7 @@ TEST(Knobs, ThatAreOffChangeNothing) {
   for (uint64_t seed = 0; seed < rounds(20); ++seed) {
     const WorldSettings standard = varied_settings(seed);
     WorldSettings ignored = standard;  // knobs count only in the fast tier
-    ignored.accuracy.knobs = {.single_precision = true,
-                              .faces_only = true,
-                              .proxy_spheres = true,
-                              .motion_tolerance = 0.1f};
+    ignored.accuracy.knobs = {.single_precision = true, .faces_only = true, .proxy_spheres = true};
     SideBySide worlds(std::vector{standard, with_knobs({}, standard), ignored}, crowd(seed));
     for (int i = 0; i < 10; ++i) {
       worlds.step();

@@ -1,0 +1,198 @@
+// Odometers: upper bounds of how far points have moved, against long double; the same on every
+// instruction set.
+#include "bounds/travel.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cfloat>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "oracle/random.h"
+#include "tests/support/isas.h"
+#include "tests/support/rounds.h"
+
+namespace carom::test {
+namespace {
+
+using oracle::Random;
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+template <class T>
+struct Odometers {
+  std::vector<std::array<T, 4>> position, anchor;
+  std::vector<std::array<float, 4>> turn, anchor_turn;
+  std::vector<float> radius;
+  std::vector<uint32_t> anchored, travelled;
+
+  void add(const std::array<T, 4>& from, const std::array<T, 4>& to,
+           const std::array<float, 4>& from_turn, const std::array<float, 4>& to_turn, float r) {
+    anchor.push_back(from);
+    position.push_back(to);
+    anchor_turn.push_back(from_turn);
+    turn.push_back(to_turn);
+    radius.push_back(r);
+    anchored.push_back(static_cast<uint32_t>(-100 * static_cast<int>(radius.size())));
+    travelled.push_back(7);
+  }
+
+  void update(const TravelUnit& unit, size_t begin, size_t end, bool turns = true) {
+    add_travel({.type = sizeof(T) == 8 ? PositionType::float64 : PositionType::float32,
+                .position = position.data(),
+                .orientation = turns ? turn[0].data() : nullptr,
+                .turn_radius = radius.data(),
+                .anchor_position = anchor.data(),
+                .anchor_orientation = turns ? anchor_turn[0].data() : nullptr,
+                .anchored = anchored.data(),
+                .travelled = travelled.data()},
+               unit, begin, end);
+  }
+
+  friend bool operator==(const Odometers&, const Odometers&) = default;
+};
+
+std::array<float, 4> any_turn(Random& random) {
+  std::array<float, 4> q;
+  const double length = std::exp2(random.uniform(-6, 6));
+  for (float& x : q) x = static_cast<float>(length * random.uniform(-1, 1));
+  return q;
+}
+
+// q, turned by up to `most` and of another length and sign.
+std::array<float, 4> turned(const std::array<float, 4>& q, double most, Random& random) {
+  const double factor = random.uniform(-3, 3);
+  std::array<float, 4> r;
+  for (size_t i = 0; i < 4; ++i) {
+    r[i] = static_cast<float>(factor * (q[i] + most * random.uniform(-1, 1) * std::fabs(q[0])));
+  }
+  return r;
+}
+
+// The way of the position and the chord of a point at the radius, in long double.
+template <class T>
+long double way_of(const Odometers<T>& bodies, size_t i) {
+  using Wide = long double;
+  const auto& [px, py, pz, pw] = bodies.anchor_turn[i];
+  const auto& [qx, qy, qz, qw] = bodies.turn[i];
+  Wide way = 0;
+  for (size_t c = 0; c < 3; ++c) {
+    const Wide d = Wide{bodies.position[i][c]} - bodies.anchor[i][c];
+    way += d * d;
+  }
+  const Wide x = Wide{pw} * qx - Wide{px} * qw - (Wide{py} * qz - Wide{pz} * qy);
+  const Wide y = Wide{pw} * qy - Wide{py} * qw - (Wide{pz} * qx - Wide{px} * qz);
+  const Wide z = Wide{pw} * qz - Wide{pz} * qw - (Wide{px} * qy - Wide{py} * qx);
+  const Wide w = Wide{pw} * qw + Wide{px} * qx + Wide{py} * qy + Wide{pz} * qz;
+  const Wide sine = std::sqrt((x * x + y * y + z * z) / (x * x + y * y + z * z + w * w));
+  return std::sqrt(way) + 2 * Wide{bodies.radius[i]} * sine;
+}
+
+template <class T>
+Odometers<T> random_bodies(size_t count, Random& random) {
+  Odometers<T> bodies;
+  for (size_t i = 0; i < count; ++i) {
+    std::array<T, 4> from, to;
+    const double far = std::exp2(random.uniform(-3, 12)), way = std::exp2(random.uniform(-20, 3));
+    const bool rests = random.chance(0.2), turns = random.chance(0.7);
+    for (size_t c = 0; c < 4; ++c) {
+      from[c] = static_cast<T>(far * random.uniform(-1, 1));
+      to[c] = rests ? from[c] : static_cast<T>(from[c] + way * random.uniform(-1, 1));
+    }
+    const std::array<float, 4> q = any_turn(random);
+    bodies.add(from, to, q, turns ? turned(q, std::exp2(random.uniform(-22, 1)), random) : q,
+               static_cast<float>(std::exp2(random.uniform(-4, 6))));
+  }
+  return bodies;
+}
+
+template <class T>
+void check_bounds(uint64_t seed) {
+  Random random(seed);
+  const TravelUnit unit = {1000, 64};
+  const Odometers<T> before = random_bodies<T>(100, random);
+  Odometers<T> after = before;
+  after.update(unit, 0, 100);
+  for (size_t i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    const long double ticks = way_of(before, i) * unit.ticks_per_metre;
+    const uint32_t gone = after.travelled[i] - before.anchored[i];
+    EXPECT_GE(gone, ticks);
+    // The rounding of the turn counts as 2^-20 of the diameter.
+    const long double rounding = 2e-6L * before.radius[i] * unit.ticks_per_metre;
+    EXPECT_LE(gone, ticks * (1 + 1e-5L) + rounding + 1);
+    const bool leaves = gone > unit.leash;
+    EXPECT_EQ(after.anchored[i], leaves ? after.travelled[i] : before.anchored[i]);
+    EXPECT_EQ(after.anchor[i], leaves ? before.position[i] : before.anchor[i]);
+    EXPECT_EQ(after.anchor_turn[i], leaves ? before.turn[i] : before.anchor_turn[i]);
+  }
+}
+
+TEST(Travel, IsAnUpperBoundAndTight) {
+  for (uint64_t seed = 0; seed < rounds(200); ++seed) {
+    check_bounds<float>(seed);
+    check_bounds<double>(seed);
+    if (HasFailure()) return;
+  }
+}
+
+template <class T>
+void check_isas(size_t count) {
+  Random random(count);
+  const Odometers<T> before = random_bodies<T>(count + 2, random);
+  Odometers<T> expected = before;
+  for (size_t i = 1; i <= count; ++i) expected.update({1000, 64}, i, i + 1);
+  for_each_isa([&] {
+    Odometers<T> bodies = before;
+    bodies.update({1000, 64}, 1, count + 1);
+    EXPECT_TRUE(bodies == expected) << count;
+  });
+}
+
+TEST(Travel, HasTheSameBitsOnEveryIsaAndOneByOne) {
+  for (const size_t count : {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 100}) {
+    check_isas<float>(count);
+    check_isas<double>(count);
+  }
+}
+
+TEST(Travel, OfWhatDoesNotTurnIsThatOfThePosition) {
+  Random random(1);
+  Odometers<float> bodies = random_bodies<float>(40, random);
+  Odometers<float> still = bodies;
+  still.turn = still.anchor_turn;
+  bodies.update({1000, 64}, 0, 40, false);
+  still.update({1000, 64}, 0, 40);
+  EXPECT_EQ(bodies.travelled, still.travelled);
+}
+
+uint32_t ticks_gone(const std::array<double, 4>& to, const std::array<float, 4>& turn, float radius,
+                    float ticks_per_metre = 1000) {
+  Odometers<double> bodies;
+  bodies.add({0, 0, 0, 0}, to, {0, 0, 0, 1}, turn, radius);
+  bodies.update({ticks_per_metre, 64}, 0, 1);
+  return bodies.travelled[0] + 100;
+}
+
+TEST(Travel, OfNumbersThatAreNotFiniteIsAJump) {
+  const std::array<float, 4> none = {0, 0, 0, 1}, half = {1, 0, 0, 0};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(ticks_gone({nan, 0, 0, 0}, none, 1), kJump);
+  EXPECT_EQ(ticks_gone({0, kInfinite, 0, 0}, none, 1), kJump);
+  EXPECT_EQ(ticks_gone({0, 0, 1e300, 0}, none, 1), kJump);
+  EXPECT_EQ(ticks_gone({0, 0, 0, 0}, {0, 0, 0, 0}, 1), kJump);
+  EXPECT_EQ(ticks_gone({0, 0, 0, 0}, {NAN, 0, 0, 1}, 1), kJump);
+  EXPECT_EQ(ticks_gone({0, 0, 0, 0}, {NAN, 0, 0, 1}, 0), 0u);
+  EXPECT_EQ(ticks_gone({0, 0, 0, 0}, half, kInfinite), kJump);
+  EXPECT_EQ(ticks_gone({1, 0, 0, 0}, none, kInfinite), 1001u);
+  EXPECT_EQ(ticks_gone({0, 0, 0, 5}, none, kInfinite), 0u);
+  EXPECT_EQ(ticks_gone({0, 0, 0, 0}, half, FLT_MAX), kJump);
+  EXPECT_EQ(ticks_gone({1e-30, 0, 0, 0}, none, 1), 1u);
+  EXPECT_EQ(ticks_gone({1e-30, 0, 0, 0}, none, 1, FLT_MAX), kJump);
+  EXPECT_EQ(ticks_gone({0, 0, 0, 0}, half, 1), 2001u);
+}
+
+}  // namespace
+}  // namespace carom::test

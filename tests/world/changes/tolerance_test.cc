@@ -1,0 +1,489 @@
+// Accuracy::tolerance in worlds: what is kept, and how wrong results may be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "carom/base/thread_arena.h"
+#include "carom/reference/reference.h"
+#include "tests/support/isas.h"
+#include "tests/support/rounds.h"
+#include "tests/world/side_by_side.h"
+
+namespace carom::test {
+namespace {
+
+WorldSettings within(float metres, WorldSettings settings = {}) {
+  settings.accuracy.tolerance = metres;
+  return settings;
+}
+
+WorldSettings settings_for(uint64_t seed) {
+  WorldSettings settings = varied_settings(seed);
+  if (seed % 7 == 0) settings.margin = 0.1f;
+  if (seed % 7 == 1) settings.dop_bounds = DopKind::k14;
+  if (seed % 7 == 2) settings.contact_distance = 0.15f;
+  if (seed % 7 == 3) settings.identities = true;
+  if (seed % 7 == 4) settings.persist_events = true;
+  if (seed % 7 == 5) settings.detail = Detail::regions;
+  return settings;
+}
+
+double true_separation(const World& world, Pair pair) {
+  const BodyId a = world.id_of(pair.a), b = world.id_of(pair.b);
+  return reference::collide(world.shape(a), {world.position(a), world.orientation(a)},
+                            world.shape(b), {world.position(b), world.orientation(b)},
+                            world.settings().positions)
+      .separation;
+}
+
+float tolerance_of(const World& world, Pair pair) {
+  const auto of = [&](uint32_t body) {
+    return world.tolerance(world.id_of(body)).value_or(world.settings().accuracy.tolerance);
+  };
+  return (of(pair.a) + of(pair.b)) / 2;
+}
+
+constexpr double kRounding = 2e-5;
+
+// Checks every decision and separation against the present poses, and that no overlap of `standard`
+// is missing.
+void check_error(const World& world, const World& standard) {
+  // Fat bounds, and so the pairs, depend on the steps in which they were made.
+  if (world.settings().margin == 0) {
+    ASSERT_TRUE(std::ranges::includes(world.pairs(), standard.pairs()));
+  }
+  for (size_t i = 0; i < world.pairs().size(); ++i) {
+    const Pair pair = world.pairs()[i];
+    const double separation = true_separation(world, pair);
+    if (std::abs(separation) <= tolerance_of(world, pair) + kRounding) continue;
+    ASSERT_EQ(world.overlaps()[i], separation < 0) << separation;
+  }
+  std::set<std::pair<uint32_t, uint32_t>> listed;
+  for (const Contact& contact : world.contacts()) {
+    const Pair pair = {contact.a, contact.b};
+    if (!listed.insert({pair.a, pair.b}).second) continue;  // the first one is the deepest
+    const double separation = true_separation(world, pair);
+    ASSERT_NEAR(contact.separation, separation, tolerance_of(world, pair) + kRounding);
+  }
+  for (const Contact& contact : standard.contacts()) {
+    const Pair pair = {contact.a, contact.b};
+    const double limit = standard.settings().contact_distance - tolerance_of(world, pair);
+    if (true_separation(world, pair) >= limit - kRounding) continue;
+    ASSERT_TRUE(listed.contains({pair.a, pair.b}));
+  }
+}
+
+using Key = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t>;
+
+Key key_of(BodyId a, BodyId b) { return {a.index, a.generation, b.index, b.generation}; }
+
+// Keeps a set of overlaps by events alone, and compares it with those of each step.
+class OverlapsByEvents {
+ public:
+  void check(const World& world) {
+    ASSERT_TRUE(std::ranges::is_sorted(world.events(), {}, [](const Event& event) {
+      return std::pair(event.a.index, event.b.index);
+    }));
+    for (const Event& event : world.events()) {
+      const Key key = key_of(event.a, event.b);
+      if (event.kind == EventKind::begin) {
+        ASSERT_TRUE(overlaps_.insert(key).second);
+      } else if (event.kind == EventKind::end) {
+        ASSERT_EQ(overlaps_.erase(key), 1u);
+      }
+      if (event.contact != kNoContact) {
+        const Contact& contact = world.contacts()[event.contact];
+        ASSERT_EQ(std::pair(contact.a, contact.b), std::pair(event.a.index, event.b.index));
+      }
+    }
+    std::set<Key> expected;
+    for (size_t i = 0; i < world.pairs().size(); ++i) {
+      const Pair pair = world.pairs()[i];
+      if (world.overlaps()[i] == 1)
+        expected.insert(key_of(world.id_of(pair.a), world.id_of(pair.b)));
+    }
+    ASSERT_EQ(overlaps_, expected);
+    ASSERT_EQ(world.report().overlaps, expected.size());
+  }
+
+ private:
+  std::set<Key> overlaps_;
+};
+
+// Contacts are sorted, and those of overlaps and sensors.
+void check_lists(const World& world) {
+  ASSERT_TRUE(std::ranges::is_sorted(world.contacts(), {}, [](const Contact& contact) {
+    return std::pair(contact.a, contact.b);
+  }));
+  if (has_manifolds(world.settings().detail)) {
+    ASSERT_EQ(world.manifolds().size(), world.contacts().size());
+  }
+  if (!has_contacts(world.settings().detail) || world.settings().contact_distance > 0) return;
+  std::set<std::pair<uint32_t, uint32_t>> touching, listed;
+  for (size_t i = 0; i < world.pairs().size(); ++i) {
+    const Pair pair = world.pairs()[i];
+    const bool sensor =
+        world.is_sensor(world.id_of(pair.a)) || world.is_sensor(world.id_of(pair.b));
+    if (world.overlaps()[i] == 1 && !sensor) touching.insert({pair.a, pair.b});
+  }
+  for (const Contact& contact : world.contacts()) listed.insert({contact.a, contact.b});
+  ASSERT_EQ(listed, touching);
+}
+
+TEST(Tolerance, SeparationsAreOffByItAtMost) {
+  size_t kept = 0, tested = 0;
+  for (uint64_t seed = 0; seed < rounds(60); ++seed) {
+    const WorldSettings standard = settings_for(seed);
+    const float metres = seed % 3 == 0 ? 0.4f : 0.06f;
+    SideBySide worlds(std::vector{standard, within(metres, standard)}, varied_crowd(seed));
+    if (seed % 4 == 0) worlds.set_tolerances(metres);
+    OverlapsByEvents events;
+    for (int i = 0; i < 20; ++i) {
+      worlds.step();
+      ASSERT_EQ(as_bytes(worlds[1].quarantined()), as_bytes(worlds[0].quarantined()));
+      check_error(worlds[1], worlds[0]);
+      check_lists(worlds[1]);
+      events.check(worlds[1]);
+      ASSERT_FALSE(HasFailure()) << "seed " << seed << ", step " << i;
+      if (i > 0) kept += worlds[1].report().kept;
+      tested += worlds[1].report().tested;
+      worlds.creep(metres / 8);
+      if (i % 5 == 4) worlds.disturb();
+    }
+  }
+  EXPECT_GT(kept, tested);
+}
+
+// Points of kept contacts are named and continued like any others.
+TEST(Tolerance, ContactsContinueThoseOfTheSamePair) {
+  size_t continued = 0, renewed = 0;
+  for (uint64_t seed = 0; seed < rounds(20); ++seed) {
+    WorldSettings settings =
+        within(0.06f, {.detail = seed % 2 ? Detail::manifold : Detail::contact});
+    settings.identities = true;
+    SideBySide worlds(std::vector{settings}, varied_crowd(seed));
+    World& world = worlds[0];
+    std::vector<Contact> last;
+    for (int i = 0; i < 12; ++i) {
+      worlds.step();
+      ASSERT_EQ(world.identities().size(), world.contacts().size());
+      std::set<uint32_t> used;
+      for (size_t k = 0; k < world.contacts().size(); ++k) {
+        const uint32_t previous = world.identities()[k].previous;
+        if (previous == kNoPrevious) continue;
+        ASSERT_LT(previous, last.size());
+        ASSERT_TRUE(used.insert(previous).second);
+        const Contact &before = last[previous], &now = world.contacts()[k];
+        ASSERT_EQ(std::pair(before.a, before.b), std::pair(now.a, now.b));
+        ++continued;
+        renewed += before.separation != now.separation;
+      }
+      last.assign(world.contacts().begin(), world.contacts().end());
+      worlds.creep(0.01);
+      if (i % 5 == 4) worlds.disturb();
+    }
+  }
+  EXPECT_GT(continued, 1000u);
+  EXPECT_GT(renewed, 100u);
+}
+
+// Includes a tolerance that no motion stays within.
+TEST(Tolerance, OfZeroChangesNoBit) {
+  for (uint64_t seed = 0; seed < rounds(20); ++seed) {
+    const WorldSettings standard = settings_for(seed);
+    WorldSettings anew = within(1, standard);
+    anew.carry_results = false;
+    WorldSettings proven = within(1, standard);
+    proven.accuracy.tier = Tier::certified;
+    WorldSettings certified = standard;
+    certified.accuracy.tier = Tier::certified;
+    SideBySide worlds(std::vector{standard, within(0, standard), anew, certified, proven},
+                      varied_crowd(seed));
+    for (int i = 0; i < 10; ++i) {
+      worlds.step();
+      for (const size_t other : {1, 2}) {
+        ASSERT_TRUE(results(worlds[other]) == results(worlds[0])) << other << ", step " << i;
+      }
+      ASSERT_TRUE(results(worlds[4]) == results(worlds[3])) << "step " << i;
+      ASSERT_EQ(worlds[1].bytes(), worlds[0].bytes());
+      worlds.creep(0.05);
+      if (i % 3 == 1) worlds.disturb();
+    }
+  }
+}
+
+TEST(Tolerance, TheSameOnThreads) {
+  ThreadArena arena(2);
+  WorldSettings threaded = within(0.1f, {.detail = Detail::manifold});
+  WorldSettings plain = threaded;
+  threaded.parallelism = arena.parallelism();
+  plain.parallelism = Parallelism::none;
+  arena.run([&] {
+    SideBySide worlds(std::vector{plain, threaded}, varied_crowd(1, 5000));
+    for (int i = 0; i < 6; ++i) {
+      worlds.step();
+      ASSERT_TRUE(results(worlds[1]) == results(worlds[0]));
+      ASSERT_EQ(worlds[1].report().kept, worlds[0].report().kept);
+      worlds.creep(0.02);
+      if (i % 2) worlds.disturb();
+    }
+    EXPECT_GT(worlds[1].report().kept, worlds[1].report().pairs / 10);
+  });
+}
+
+TEST(Tolerance, TheSameOnEveryIsa) {
+  std::vector<Results> expected;
+  for_each_isa([&] {
+    SideBySide worlds(std::vector{within(0.1f, {.detail = Detail::manifold})},
+                      varied_crowd(1, 800));
+    for (size_t i = 0; i < 6; ++i) {
+      worlds.step();
+      if (expected.size() == i) expected.push_back(results(worlds[0]));
+      ASSERT_TRUE(results(worlds[0]) == expected[i]) << i;
+      worlds.creep(0.02);
+    }
+  });
+}
+
+// Where everything flies, results are those of the standard tier, but for a few steps that look
+// whether it still does.
+TEST(Tolerance, IsLeftAloneWhereNothingHolds) {
+  const WorldSettings standard = {};
+  SideBySide worlds(std::vector{standard, within(1e-4f)}, varied_crowd(4, 500));
+  int equal = 0;
+  for (int i = 0; i < 40; ++i) {
+    worlds.step();
+    equal += results(worlds[1]) == results(worlds[0]);
+    worlds.creep(0.5);
+  }
+  EXPECT_GT(equal, 30);
+  for (int i = 0; i < 3; ++i) worlds.step();  // nothing moves
+  EXPECT_EQ(worlds[1].report().tested, 0u);
+}
+
+// A body of that shape inside a large sphere.
+struct Lone {
+  explicit Lone(const Shape& shape, float metres = 0.5f, PositionType positions = {})
+      : world(within(metres, {.positions = positions, .persist_events = true})) {
+    id = world.add({.shape = shape});
+    other = world.add({.shape = Sphere{5}, .position = {1, 0, 0}});
+    world.step();
+  }
+
+  bool is_tested() {
+    const StepReport& report = world.step();
+    EXPECT_EQ(report.pairs, 1u);
+    EXPECT_EQ(report.tested + report.kept, 1u);
+    return report.tested == 1;
+  }
+  bool is_tested_at(double x) {
+    world.set_position(id, {x, 0, 0});
+    return is_tested();
+  }
+  bool is_tested_turned(double angle, double factor = 1) {
+    Eigen::Quaterniond q(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    q.coeffs() *= factor;
+    world.set_orientation(id, q.cast<float>());
+    return is_tested();
+  }
+
+  World world;
+  BodyId id, other;
+};
+
+TEST(Tolerance, IsTheWayFromTheLastTest) {
+  for (const PositionType positions : {PositionType::float32, PositionType::float64}) {
+    Lone lone(Sphere{1}, 0.5f, positions);
+    EXPECT_FALSE(lone.is_tested_at(0.25));
+    EXPECT_FALSE(lone.is_tested_at(0.49));
+    EXPECT_TRUE(lone.is_tested_at(0.51));
+    EXPECT_FALSE(lone.is_tested_at(0.76));
+    EXPECT_TRUE(lone.is_tested_at(0.5));  // there and back
+    EXPECT_TRUE(lone.is_tested_at(2));
+    EXPECT_FALSE(lone.is_tested_at(2));
+  }
+}
+
+// It goes nowhere, however long it does so.
+TEST(Tolerance, ABodyThatTremblesIsNotTestedAgain) {
+  Lone lone(Box{{1, 1, 1}}, 0.5f);
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_FALSE(lone.is_tested_at(i % 2 ? 0.007 : -0.007));
+    EXPECT_FALSE(lone.is_tested_turned(i % 2 ? 0.002 : -0.002));
+  }
+}
+
+TEST(Tolerance, CountsTheTurn) {
+  Lone lone(Box{{2, 0.1f, 0.1f}});  // a point moves by about 2 m a radian
+  EXPECT_FALSE(lone.is_tested_turned(0.12));
+  EXPECT_FALSE(lone.is_tested_turned(0.12, -1));
+  EXPECT_FALSE(lone.is_tested_turned(0.12, -30));
+  EXPECT_FALSE(lone.is_tested_turned(0.24, 0.001));
+  EXPECT_TRUE(lone.is_tested_turned(0.26, 1000));
+  EXPECT_TRUE(lone.is_tested_turned(3));
+  // Shift and rotation add up.
+  EXPECT_FALSE(lone.is_tested_turned(3.1));
+  EXPECT_FALSE(lone.is_tested_at(0.28));
+  EXPECT_TRUE(lone.is_tested_at(0.32));
+}
+
+TEST(Tolerance, ABallDoesNotTurn) {
+  Lone lone(Sphere{1});
+  lone.world.add({.shape = Box{}, .position = {50, 0, 0}});
+  EXPECT_FALSE(lone.is_tested());
+  lone.world.arrays().orientation[4 * lone.id.index] = 5;
+  EXPECT_FALSE(lone.is_tested());
+}
+
+// A rotation moves far points of a half-space by any distance.
+TEST(Tolerance, AHalfspaceMayShiftButNotTurn) {
+  Lone lone(Halfspace{{1, 0, 0}, 0});
+  EXPECT_FALSE(lone.is_tested_at(0.2));
+  EXPECT_TRUE(lone.is_tested_turned(1e-3));
+  EXPECT_FALSE(lone.is_tested_turned(1e-3));
+}
+
+TEST(Tolerance, WhatIsAnotherBodyIsTestedAgain) {
+  Lone lone(Box{{1, 1, 1}});
+  EXPECT_FALSE(lone.is_tested_at(0.1));
+  lone.world.set_shape(lone.id, Box{{1, 1, 1}});
+  EXPECT_TRUE(lone.is_tested());
+  lone.world.shape_rows().rows[4 * lone.world.first_row(lone.id)] = 1.0001f;
+  EXPECT_TRUE(lone.is_tested());
+  lone.world.arrays().record32[4 * lone.other.index + 3] = 5.0001f;
+  EXPECT_TRUE(lone.is_tested());
+  lone.world.set_sensor(lone.id, true);
+  EXPECT_TRUE(lone.is_tested());
+  EXPECT_EQ(lone.world.contacts().size(), 0u);
+  EXPECT_EQ(lone.world.events().size(), 1u);
+  EXPECT_FALSE(lone.is_tested_at(0.11));
+  lone.world.remove(lone.id);
+  lone.id = lone.world.add({.shape = Box{{1, 1, 1}}, .position = {0.11, 0, 0}});
+  EXPECT_TRUE(lone.is_tested());
+  EXPECT_FALSE(lone.is_tested());
+}
+
+TEST(Tolerance, ABodyThatWasSpoiltIsTestedAgain) {
+  Lone lone(Box{{1, 1, 1}});
+  lone.world.set_position(lone.id, {NAN, 0, 0});
+  EXPECT_EQ(lone.world.step().pairs, 0u);
+  EXPECT_TRUE(lone.is_tested_at(0));
+  lone.world.set_orientation(lone.id, {0, 0, 0, 0});
+  EXPECT_EQ(lone.world.step().pairs, 0u);
+  EXPECT_TRUE(lone.is_tested_turned(0));
+}
+
+// Bounds hold a body for some steps once it is known how fast it creeps.
+TEST(Tolerance, BoundsHoldABodyThatCreeps) {
+  Lone lone(Sphere{1}, 0.1f);
+  int steps_with_bounds = 0;
+  for (int i = 1; i <= 40; ++i) {
+    lone.world.set_position(lone.id, {0.001 * i, 0, 0});
+    lone.world.step();
+    steps_with_bounds += lone.world.report().ran(Stage::bounds);
+  }
+  EXPECT_GT(steps_with_bounds, 1);
+  EXPECT_LT(steps_with_bounds, 5);
+  EXPECT_FALSE(lone.is_tested());
+  EXPECT_FALSE(lone.world.report().ran(Stage::bounds));
+}
+
+// However large the tolerance is: bounds that are separate make no pair.
+TEST(Tolerance, APairEndsWithItsBounds) {
+  World world(within(100));
+  const BodyId id = world.add({.shape = Sphere{1}});
+  world.add({.shape = Sphere{1}, .position = {1.9, 0, 0}});
+  EXPECT_EQ(world.step().overlaps, 1u);
+  world.set_position(id, {-0.2, 0, 0});
+  EXPECT_EQ(world.step().kept, 1u);
+  world.set_position(id, {-5, 0, 0});
+  EXPECT_EQ(world.step().pairs, 0u);
+  ASSERT_EQ(world.events().size(), 1u);
+  EXPECT_EQ(world.events()[0].kind, EventKind::end);
+  world.set_position(id, {0, 0, 0});
+  EXPECT_EQ(world.step().tested, 1u);
+}
+
+// A pair that is apart needs no test until its gap and the tolerance are used up.
+TEST(Tolerance, AGapIsAddedToIt) {
+  World world(within(0.1f));
+  const BodyId id = world.add({.shape = Box{{1, 1, 1}}});
+  world.add({.shape = Box{{1, 1, 1}},
+             .position = {2.3, 2.3, 0},
+             .orientation = Orientation(Eigen::AngleAxisf(0.785398f, Eigen::Vector3f::UnitZ()))});
+  EXPECT_EQ(world.step().pairs, 1u);
+  EXPECT_EQ(world.report().overlaps, 0u);
+  const double gap = 2.3 * std::sqrt(2.0) - std::sqrt(2.0) - 1;
+  const auto move = [&](double way) -> const StepReport& {
+    const double part = way / std::sqrt(2.0);
+    world.set_position(id, {part, part, 0});
+    return world.step();
+  };
+  EXPECT_EQ(move(gap / 2).tested, 0u);
+  EXPECT_EQ(move(gap + 0.09).tested, 0u);
+  EXPECT_EQ(world.report().overlaps, 0u);
+  EXPECT_EQ(move(gap + 0.11).tested, 1u);
+  EXPECT_EQ(world.report().overlaps, 1u);
+}
+
+// What is behind a one-sided triangle is not near: a little way may bring it to the front.
+TEST(Tolerance, WhatIsBehindATriangleIsTestedOnceItHasMoved) {
+  World world(within(0.1f));
+  world.add({.shape = Triangle{.corners = {Eigen::Vector3f{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}},
+                               .one_sided = true}});
+  const BodyId id = world.add({.shape = Sphere{1}, .position = {0, 0, -0.01}});
+  EXPECT_EQ(world.step().pairs, 1u);
+  EXPECT_EQ(world.report().overlaps, 0u);
+  world.set_position(id, {0, 0, 0.08});
+  EXPECT_EQ(world.step().tested, 0u);
+  world.set_position(id, {0, 0, 0.1});
+  EXPECT_EQ(world.step().tested, 1u);
+  EXPECT_EQ(world.report().overlaps, 1u);
+}
+
+// Half of the tolerance of each of the two counts.
+TEST(Tolerance, OfABodyReplacesThatOfTheWorld) {
+  World world(within(0.1f));
+  const BodyId a = world.add({.shape = Sphere{1}, .tolerance = 0.0f});
+  const BodyId b = world.add({.shape = Sphere{1}, .position = {1, 0, 0}, .tolerance = 0.5f});
+  EXPECT_EQ(world.tolerance(a), 0.0f);
+  world.step();
+  world.set_position(a, {0.24, 0, 0});
+  EXPECT_EQ(world.step().tested, 0u);
+  world.set_position(b, {1.02, 0, 0});
+  EXPECT_EQ(world.step().tested, 1u);
+  world.set_tolerance(a, std::nullopt);
+  EXPECT_EQ(world.tolerance(a), std::nullopt);
+  EXPECT_EQ(world.step().tested, 1u);
+  world.set_position(a, {0.53, 0, 0});
+  EXPECT_EQ(world.step().tested, 0u);
+  world.set_position(a, {0.55, 0, 0});
+  EXPECT_EQ(world.step().tested, 1u);
+
+  // Also in a world that has none.
+  World plain(WorldSettings{});
+  const BodyId own = plain.add({.shape = Sphere{1}, .tolerance = 0.2f});
+  plain.add({.shape = Sphere{1}, .position = {1, 0, 0}});
+  plain.step();
+  plain.set_position(own, {0.09, 0, 0});
+  EXPECT_EQ(plain.step().tested, 0u);
+  plain.set_position(own, {0.11, 0, 0});
+  EXPECT_EQ(plain.step().tested, 1u);
+}
+
+TEST(Tolerance, TakesNoMemoryAtDetailPairs) {
+  size_t bytes[2];
+  for (const bool set : {false, true}) {
+    World world(within(set ? 1.0f : 0.0f, {.detail = Detail::pairs}));
+    add_crowd(world, {.oriented = true});
+    for (int i = 0; i < 3; ++i) world.step();
+    bytes[set] = world.bytes();
+  }
+  EXPECT_EQ(bytes[1], bytes[0]);
+}
+
+}  // namespace
+}  // namespace carom::test

@@ -1,0 +1,91 @@
+// Accuracy::tolerance in time: how far bodies have travelled since their pairs were tested and
+// since their bounds were made.
+//
+// Every body has an odometer, which counts in ticks, a small share of the tolerance. Its anchor is
+// a pose that it had: the odometer shows what it had travelled by then, and how far from there it
+// is now, so that a body which trembles about a place goes nowhere. Between two times no point of
+// it has moved by more than the difference of the odometer and twice the distance from the anchor
+// at the first of them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/block_lists.h"
+#include "base/raw_vector.h"
+#include "bounds/travel.h"
+#include "carom/base/parallelism.h"
+#include "world/changes/change_tracker.h"
+#include "world/store/body_store.h"
+#include "world/store/columns.h"
+
+namespace carom {
+
+struct BodyReader;
+
+class Drift {
+ public:
+  // Reads the odometers, and lists the bodies that need new bounds. `shapes` has compared boxes and
+  // rows. `tolerance`: of the world, metres.
+  void update(const BodyStore& bodies, const ChangeTracker& shapes, float tolerance,
+              Parallelism parallelism);
+
+  // Makes the next update begin anew: then every body is somewhere else.
+  void forget() { knows_last_ = false; }
+
+  // The bodies that may have left their bounds, ascending. If they are not few, all are listed.
+  std::span<const uint32_t> outgrown() const { return outgrown_; }
+  bool all_outgrown() const { return outgrown_.size() == travelled_.size(); }
+  // By how many metres the new bounds of each of these must be larger than it is. They then hold it
+  // for some steps, if it goes on as it has.
+  std::span<const float> growth() const { return growth_; }
+
+  // One byte a body: whether it is another one, or has another shape or other properties.
+  std::span<const uint8_t> replaced() const { return replaced_; }
+
+  // The sum of the odometers of two bodies, and up to which sum the result of a test of now holds.
+  // `gap`, metres: the separation that they may lose before there is another result; a lower bound.
+  uint32_t travelled(Pair pair) const { return travelled_[pair.a] + travelled_[pair.b]; }
+  uint32_t holds_until(Pair pair, float gap) const;
+
+  void give_back();
+  size_t bytes() const;
+
+ private:
+  // When the bounds of a body were made.
+  struct Made {
+    uint32_t at;  // its odometer
+    uint32_t in_step;
+  };
+
+  void resize(const BodyStore& bodies);
+  void move_elsewhere(const BodyStore& bodies, const BodyReader& reader, uint32_t index,
+                      float tolerance);
+  void find_moved_elsewhere(const BodyStore& bodies, const ChangeTracker& shapes, float tolerance);
+  void find_outgrown(Parallelism parallelism);
+  void list_past(const std::vector<uint32_t>& fence, Parallelism parallelism);
+  float make_fence(uint32_t index);
+
+  float ticks_per_metre_ = 0;
+  uint32_t step_ = 0;
+  bool knows_last_ = false;
+
+  LargeVector<float> anchors32_;  // as the store has positions
+  LargeVector<double> anchors64_;
+  LargeVector<BodyStore::Row> anchor_orientations_;
+  std::vector<float> radii_, turn_radii_;  // the second: 0 for what does not turn
+  std::vector<uint32_t> anchored_, travelled_;
+  std::vector<uint32_t> share_;  // of the tolerance of a pair, ticks
+  std::vector<uint8_t> replaced_;
+  std::vector<uint32_t> replaced_bodies_;  // those with a byte
+  std::vector<uint8_t> has_front_;         // one-sided triangles: what is behind them is not near
+  // The bounds of a body hold it until its odometer passes the fence; the early one is half way.
+  std::vector<uint32_t> fence_, early_fence_;
+  std::vector<Made> made_;
+  BlockLists<uint32_t> outgrown_of_block_;
+  std::vector<uint32_t> outgrown_;
+  std::vector<float> growth_;
+};
+
+}  // namespace carom

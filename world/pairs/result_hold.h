@@ -1,0 +1,76 @@
+// Which results of the last step still hold within the tolerance, by the odometers of the bodies.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "world/changes/drift.h"
+#include "world/pairs/carry_plan.h"
+#include "world/pairs/pair_history.h"
+#include "world/results/result_buffer.h"
+#include "world/store/columns.h"
+
+namespace carom {
+
+class ResultHold {
+ public:
+  // Finds the pairs of the last step whose result no longer holds, and returns their number. Those
+  // of a step that kept no terms have none that does.
+  size_t find_due(const PairHistory& last, const Drift& drift, Parallelism parallelism);
+  // One byte a pair of the last step.
+  std::span<const uint8_t> due() const { return due_; }
+  // The indices of those that are due, ascending.
+  std::span<const uint32_t> due_pairs() const { return due_pairs_; }
+  // Makes them indices of this step's pairs, of those that are carried.
+  void follow(const CarryPlan& plan, const PairHistory& now, Parallelism parallelism);
+
+  // Sets until when the results of a range hold that have been tested, and copies it of those that
+  // are carried. `has_gaps`: the results have separations of all pairs.
+  void set_terms(const PairRange& range, const CarryPlan& plan, const ResultBuffer& results,
+                 bool has_gaps, const Drift& drift, const PairHistory& last,
+                 Parallelism parallelism, PairHistory& now) const;
+
+  void give_back() { give_back_scratch(due_, due_pairs_, due_of_block_); }
+  size_t bytes() const { return bytes_of(due_) + bytes_of(due_pairs_) + due_of_block_.bytes(); }
+
+ private:
+  std::vector<uint8_t> due_;
+  std::vector<uint32_t> due_pairs_;
+  BlockLists<uint32_t> due_of_block_;
+};
+
+// Takes long pauses from keeping results where few of them hold, since it then costs more than it
+// saves.
+class HoldWatch {
+ public:
+  // Call it once a step. Whether it keeps results.
+  bool starts_step() {
+    if (pause_ == 0) return true;
+    --pause_;
+    return false;
+  }
+  bool is_on() const { return pause_ == 0; }
+
+  // After a step, with the numbers of its pairs that it kept, and of all.
+  void saw(size_t kept, size_t pairs, bool had_terms) {
+    constexpr size_t kFewest = 4;  // fewer than one pair in so many are few
+    constexpr size_t kCheap = 64;  // so few pairs cost nothing
+    if (kFewest * kept >= pairs || pairs < kCheap) {
+      patience_ = kLeastPatience;
+      pause_ = 0;
+    } else if (had_terms) {
+      pause_ = patience_;
+      patience_ = std::min(2 * patience_, kMostPatience);
+    }
+  }
+
+ private:
+  static constexpr uint32_t kLeastPatience = 8, kMostPatience = 128;
+
+  uint32_t pause_ = 0;
+  uint32_t patience_ = kLeastPatience;  // steps of the next pause
+};
+
+}  // namespace carom
