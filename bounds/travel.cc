@@ -5,8 +5,7 @@
 #define HWY_TARGET_INCLUDE "bounds/travel.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
-#include <bit>
-#include <cstring>
+#include <algorithm>
 #include <type_traits>
 
 #include "bounds/bounds_load-inl.h"
@@ -87,126 +86,113 @@ HWY_INLINE Quaternion load_quaternions(const float* rows, size_t i) {
   return q;
 }
 
-template <class T>
-struct Travel {
-  using Records = std::conditional_t<std::is_same_v<T, float>, FloatRecords, DoubleRecords>;
+HWY_INLINE F load_column(const float* column) { return hn::LoadU(FloatTag(), column); }
+HWY_INLINE Wide load_column(const double* column) { return load_wide(column); }
 
-  const TravelColumns& bodies;
-  const TravelUnit& unit;
-  Records position, anchor;
-
-  Travel(const TravelColumns& columns, const TravelUnit& of)
-      : bodies(columns),
-        unit(of),
-        position(view(columns.position)),
-        anchor(view(columns.anchor_position)) {}
-
-  static PositionView view(const void* records) {
-    PositionView of;
-    of.data = records;
-    of.stride = 4 * sizeof(T);
-    return of;
-  }
-
-  // Whether all of these bodies are at their anchors.
-  bool are_at_anchors(size_t begin, size_t count) const {
-    const auto same = [&](const void* a, const void* b, size_t size) {
-      return std::memcmp(static_cast<const char*>(a) + begin * size,
-                         static_cast<const char*>(b) + begin * size, count * size) == 0;
-    };
-    return same(bodies.position, bodies.anchor_position, 4 * sizeof(T)) &&
-           (!bodies.orientation ||
-            same(bodies.orientation, bodies.anchor_orientation, 4 * sizeof(float)));
-  }
-
-  template <size_t kCount>
-  HWY_INLINE void move_anchors(size_t i) const {
-    std::memcpy(static_cast<T*>(bodies.anchor_position) + 4 * i,
-                static_cast<const T*>(bodies.position) + 4 * i, kCount * 4 * sizeof(T));
-    if (bodies.orientation) {
-      std::memcpy(bodies.anchor_orientation + 4 * i, bodies.orientation + 4 * i,
-                  kCount * 4 * sizeof(float));
-    }
-  }
-
-  HWY_INLINE void add_lanes(size_t i) const {
-    const FloatTag tag;
-    const IntTag integers;
-    typename Records::Position from, to;
-    F unused;
-    anchor.load(i, from, unused);
-    position.load(i, to, unused);
-    F metres = length_of(way_of(from, to));
-    if (bodies.orientation) {
-      const Quaternion p = load_quaternions(bodies.anchor_orientation, i);
-      const Quaternion q = load_quaternions(bodies.orientation, i);
-      const F radius = hn::LoadU(tag, bodies.turn_radius + i);
-      const Mask turns = hn::And(differ(p, q), hn::Ne(radius, splat(0)));
-      metres = hn::Add(metres, hn::IfThenElseZero(turns, chord(p, q, radius)));
-    }
-    const I gone = ticks_of(hn::Mul(metres, splat(kRoundedUp)), unit.ticks_per_metre);
-    const auto signed_of = [](uint32_t* column) { return reinterpret_cast<int32_t*>(column); };
-    const I until = hn::LoadU(integers, signed_of(bodies.anchored) + i);
-    const I travelled = hn::Add(until, gone);
-    hn::StoreU(travelled, integers, signed_of(bodies.travelled) + i);
-    const auto leaves = hn::Gt(gone, hn::Set(integers, static_cast<int32_t>(unit.leash)));
-    if (hn::AllFalse(integers, leaves)) return;
-    hn::StoreU(hn::IfThenElse(leaves, travelled, until), integers, signed_of(bodies.anchored) + i);
-    if (hn::AllTrue(integers, leaves)) return move_anchors<kLanes>(i);
-    for (uint64_t rest = bits_of(integers, leaves); rest != 0; rest &= rest - 1) {
-      move_anchors<1>(i + static_cast<size_t>(std::countr_zero(rest)));
-    }
-  }
-
-  // The last bodies, fewer than the lanes, in copies of their columns.
-  void add_tail(size_t begin, size_t count) const {
-    alignas(64) T positions[4 * kLanes] = {}, anchors[4 * kLanes] = {};
-    alignas(64) float turns[4 * kLanes] = {}, anchor_turns[4 * kLanes] = {};
-    alignas(64) float radii[kLanes] = {};
-    alignas(64) uint32_t anchored[kLanes] = {}, travelled[kLanes] = {};
-    TravelColumns few = bodies;
-    const auto copy = [count](auto* to, const auto* from, size_t each) {
-      std::memcpy(to, from, count * each * sizeof(*to));
-    };
-    copy(positions, static_cast<const T*>(bodies.position) + 4 * begin, 4);
-    copy(anchors, static_cast<const T*>(bodies.anchor_position) + 4 * begin, 4);
-    copy(radii, bodies.turn_radius + begin, 1);
-    copy(anchored, bodies.anchored + begin, 1);
-    few.position = positions;
-    few.anchor_position = anchors;
-    few.turn_radius = radii;
-    few.anchored = anchored;
-    few.travelled = travelled;
-    if (bodies.orientation) {
-      copy(turns, bodies.orientation + 4 * begin, 4);
-      copy(anchor_turns, bodies.anchor_orientation + 4 * begin, 4);
-      few.orientation = turns;
-      few.anchor_orientation = anchor_turns;
-    }
-    Travel(few, unit).add_lanes(0);
-    copy(static_cast<T*>(bodies.anchor_position) + 4 * begin, anchors, 4);
-    if (bodies.orientation) copy(bodies.anchor_orientation + 4 * begin, anchor_turns, 4);
-    copy(bodies.anchored + begin, anchored, 1);
-    copy(bodies.travelled + begin, travelled, 1);
-  }
-};
-
-template <class T>
-void travel_of(const TravelColumns& bodies, const TravelUnit& unit, size_t begin, size_t end) {
-  const Travel<T> travel(bodies, unit);
-  if (travel.are_at_anchors(begin, end - begin)) {
-    std::memcpy(bodies.travelled + begin, bodies.anchored + begin,
-                (end - begin) * sizeof(uint32_t));
-    return;
-  }
-  size_t i = begin;
-  for (; i + kLanes <= end; i += kLanes) travel.add_lanes(i);
-  if (i < end) travel.add_tail(i, end - i);
+HWY_INLINE void store_column(F v, hn::Mask<IntTag> where, float* column) {
+  hn::BlendedStore(v, hn::RebindMask(FloatTag(), where), FloatTag(), column);
+}
+HWY_INLINE void store_column(const Wide& v, hn::Mask<IntTag> where, double* column) {
+  HWY_ALIGN double values[kLanes];
+  store_wide(v, values);
+  const uint64_t bits = bits_of(IntTag(), where);
+  for (size_t k = 0; k < kLanes; ++k) column[k] = bits >> k & 1 ? values[k] : column[k];
 }
 
-void travel(const TravelColumns& bodies, const TravelUnit& unit, size_t begin, size_t end) {
-  const auto run = bodies.type == PositionType::float64 ? travel_of<double> : travel_of<float>;
-  run(bodies, unit, begin, end);
+template <class T>
+HWY_INLINE void add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t i) {
+  using Records = std::conditional_t<std::is_same_v<T, float>, FloatRecords, DoubleRecords>;
+  using Position = typename Records::Position;
+  const FloatTag tag;
+  const IntTag integers;
+  PositionView records;
+  records.data = bodies.position;
+  records.stride = 4 * sizeof(T);
+  Position to;
+  F unused;
+  Records(records).load(i, to, unused);
+  const auto& column = bodies.anchor_position;
+  const Position from = {load_column(column[0] + i), load_column(column[1] + i),
+                         load_column(column[2] + i)};
+  F metres = length_of(way_of(from, to));
+  Quaternion q = {splat3(0), splat(1)};
+  const auto& turned = bodies.anchor_orientation;
+  if (bodies.orientation) {
+    q = load_quaternions(bodies.orientation, i);
+    const Quaternion p = {
+        {load_column(turned[0] + i), load_column(turned[1] + i), load_column(turned[2] + i)},
+        load_column(turned[3] + i)};
+    const F radius = hn::LoadU(tag, bodies.turn_radius + i);
+    const Mask turns = hn::And(differ(p, q), hn::Ne(radius, splat(0)));
+    metres = hn::Add(metres, hn::IfThenElseZero(turns, chord(p, q, radius)));
+  }
+  const I gone = ticks_of(hn::Mul(metres, splat(kRoundedUp)), unit.ticks_per_metre);
+  const auto signed_of = [](uint32_t* of) { return reinterpret_cast<int32_t*>(of); };
+  const I until = hn::LoadU(integers, signed_of(bodies.anchored) + i);
+  const I travelled = hn::Add(until, gone);
+  hn::StoreU(travelled, integers, signed_of(bodies.travelled) + i);
+  const auto leaves = hn::Gt(gone, hn::Set(integers, static_cast<int32_t>(unit.leash)));
+  if (hn::AllFalse(integers, leaves)) return;
+  hn::StoreU(hn::IfThenElse(leaves, travelled, until), integers, signed_of(bodies.anchored) + i);
+  store_column(to.x, leaves, column[0] + i);
+  store_column(to.y, leaves, column[1] + i);
+  store_column(to.z, leaves, column[2] + i);
+  if (!bodies.orientation) return;
+  store_column(q.v.x, leaves, turned[0] + i);
+  store_column(q.v.y, leaves, turned[1] + i);
+  store_column(q.v.z, leaves, turned[2] + i);
+  store_column(q.w, leaves, turned[3] + i);
+}
+
+// The last bodies, fewer than the lanes, in copies of their columns.
+template <class T>
+void add_tail(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t begin, size_t count) {
+  HWY_ALIGN T position[4 * kLanes] = {}, anchor[3][kLanes] = {};
+  HWY_ALIGN float turn[4 * kLanes] = {}, anchor_turn[4][kLanes] = {}, radius[kLanes] = {};
+  HWY_ALIGN uint32_t anchored[kLanes] = {}, travelled[kLanes] = {};
+  const auto copy = [count](const auto* from, size_t each, auto* to) {
+    std::copy_n(from, count * each, to);
+  };
+  TravelColumns<T> few = {
+      .position = position,
+      .orientation = bodies.orientation ? turn : nullptr,
+      .turn_radius = radius,
+      .anchor_position = {anchor[0], anchor[1], anchor[2]},
+      .anchor_orientation = {anchor_turn[0], anchor_turn[1], anchor_turn[2], anchor_turn[3]},
+      .anchored = anchored,
+      .travelled = travelled};
+  copy(bodies.position + 4 * begin, 4, position);
+  copy(bodies.turn_radius + begin, 1, radius);
+  copy(bodies.anchored + begin, 1, anchored);
+  for (size_t c = 0; c < 3; ++c) copy(bodies.anchor_position[c] + begin, 1, anchor[c]);
+  if (bodies.orientation) {
+    copy(bodies.orientation + 4 * begin, 4, turn);
+    for (size_t c = 0; c < 4; ++c) copy(bodies.anchor_orientation[c] + begin, 1, anchor_turn[c]);
+  }
+  add_lanes(few, unit, 0);
+  copy(anchored, 1, bodies.anchored + begin);
+  copy(travelled, 1, bodies.travelled + begin);
+  for (size_t c = 0; c < 3; ++c) copy(anchor[c], 1, bodies.anchor_position[c] + begin);
+  for (size_t c = 0; bodies.orientation && c < 4; ++c) {
+    copy(anchor_turn[c], 1, bodies.anchor_orientation[c] + begin);
+  }
+}
+
+template <class T>
+HWY_INLINE void travel(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t begin,
+                       size_t end) {
+  size_t i = begin;
+  for (; i + kLanes <= end; i += kLanes) add_lanes(bodies, unit, i);
+  if (i < end) add_tail(bodies, unit, i, end - i);
+}
+
+void travel32(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
+              size_t end) {
+  travel(bodies, unit, begin, end);
+}
+void travel64(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
+              size_t end) {
+  travel(bodies, unit, begin, end);
 }
 
 }  // namespace
@@ -219,12 +205,18 @@ HWY_AFTER_NAMESPACE();
 namespace carom {
 namespace {
 
-HWY_EXPORT(travel);
+HWY_EXPORT(travel32);
+HWY_EXPORT(travel64);
 
 }  // namespace
 
-void add_travel(const TravelColumns& bodies, const TravelUnit& unit, size_t begin, size_t end) {
-  CAROM_DISPATCH(travel)(bodies, unit, begin, end);
+void add_travel(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
+                size_t end) {
+  CAROM_DISPATCH(travel32)(bodies, unit, begin, end);
+}
+void add_travel(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
+                size_t end) {
+  CAROM_DISPATCH(travel64)(bodies, unit, begin, end);
 }
 
 }  // namespace carom

@@ -1,10 +1,9 @@
 // How far the points of bodies have travelled, as whole numbers of a small unit (ticks).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-
-#include "carom/shapes/views.h"
 
 namespace carom {
 
@@ -12,18 +11,17 @@ namespace carom {
 // many stand for a body that is somewhere else altogether.
 inline constexpr uint32_t kJump = 1u << 28;
 
-// The bodies of a world, one entry each. Every body has an anchor: a pose that it had. Positions
-// are records x, y, z, w; those of anchors, too, and of the same type.
+// The bodies of a world, one entry each. T is the type of its positions. Every body has an anchor:
+// a pose that it had, which lies in columns.
+template <class T>
 struct TravelColumns {
-  PositionType type;
-  const void* position;
+  const T* position;         // records x, y, z, w
   const float* orientation;  // quaternions x, y, z, w; nullptr: no body turns
-  // Of a ball about the position that holds the shape; 0: it does not turn; infinite: a plane.
-  const float* turn_radius;
-  void* anchor_position;
-  float* anchor_orientation;  // nullptr with `orientation`
-  uint32_t* anchored;         // ticks that the body had travelled when it was at its anchor
-  uint32_t* travelled;        // in all: those until the anchor, and how far it is from there
+  const float* turn_radius;  // metres a radian, see turning_radius()
+  std::array<T*, 3> anchor_position;
+  std::array<float*, 4> anchor_orientation;  // not read without `orientation`
+  uint32_t* anchored;   // ticks that the body had travelled when it was at its anchor
+  uint32_t* travelled;  // in all: those until the anchor, and how far it is from there
 };
 
 struct TravelUnit {
@@ -32,9 +30,11 @@ struct TravelUnit {
 };
 
 // Brings the columns of bodies [begin, end) up to date with their poses. The distance from the
-// anchor is an upper bound for every point of the shape: that of the positions, and the chord of a
-// point at the bounding radius. It is kJump if it is larger or a number is not finite. The same
-// numbers on every instruction set.
-void add_travel(const TravelColumns& bodies, const TravelUnit& unit, size_t begin, size_t end);
+// anchor is an upper bound: that of the positions, and the chord of a point at the turning radius.
+// It is kJump if it is larger or a number is not finite. The same numbers on every instruction set.
+void add_travel(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
+                size_t end);
+void add_travel(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
+                size_t end);
 
 }  // namespace carom

@@ -304,11 +304,12 @@ void World::State::compare_pairs() {
   if (!has_narrowphase()) return;
   if (refreshes()) {
     plan.match(last.pairs, now.pairs, drift.replaced(), settings.parallelism);
-    hold.follow(plan, now, settings.parallelism);
+    hold.follow(plan, now.pairs.size());
     return;
   }
   if (drifts) {
-    plan.match_undue(last.pairs, now.pairs, hold.due(), settings.parallelism);
+    plan.match_undue(last.pairs, now.pairs, hold.due_flags(last.pairs.size()),
+                     settings.parallelism);
     return;
   }
   // If all bodies changed, nothing is carried.

@@ -23,32 +23,35 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 template <class T>
 struct Odometers {
-  std::vector<std::array<T, 4>> position, anchor;
-  std::vector<std::array<float, 4>> turn, anchor_turn;
+  std::vector<std::array<T, 4>> position;
+  std::array<std::vector<T>, 3> anchor;
+  std::vector<std::array<float, 4>> turn;
+  std::array<std::vector<float>, 4> anchor_turn;
   std::vector<float> radius;
   std::vector<uint32_t> anchored, travelled;
 
   void add(const std::array<T, 4>& from, const std::array<T, 4>& to,
            const std::array<float, 4>& from_turn, const std::array<float, 4>& to_turn, float r) {
-    anchor.push_back(from);
     position.push_back(to);
-    anchor_turn.push_back(from_turn);
     turn.push_back(to_turn);
+    for (size_t c = 0; c < 3; ++c) anchor[c].push_back(from[c]);
+    for (size_t c = 0; c < 4; ++c) anchor_turn[c].push_back(from_turn[c]);
     radius.push_back(r);
     anchored.push_back(static_cast<uint32_t>(-100 * static_cast<int>(radius.size())));
     travelled.push_back(7);
   }
 
   void update(const TravelUnit& unit, size_t begin, size_t end, bool turns = true) {
-    add_travel({.type = sizeof(T) == 8 ? PositionType::float64 : PositionType::float32,
-                .position = position.data(),
-                .orientation = turns ? turn[0].data() : nullptr,
-                .turn_radius = radius.data(),
-                .anchor_position = anchor.data(),
-                .anchor_orientation = turns ? anchor_turn[0].data() : nullptr,
-                .anchored = anchored.data(),
-                .travelled = travelled.data()},
-               unit, begin, end);
+    auto& q = anchor_turn;
+    add_travel(
+        TravelColumns<T>{.position = position[0].data(),
+                         .orientation = turns ? turn[0].data() : nullptr,
+                         .turn_radius = radius.data(),
+                         .anchor_position = {anchor[0].data(), anchor[1].data(), anchor[2].data()},
+                         .anchor_orientation = {q[0].data(), q[1].data(), q[2].data(), q[3].data()},
+                         .anchored = anchored.data(),
+                         .travelled = travelled.data()},
+        unit, begin, end);
   }
 
   friend bool operator==(const Odometers&, const Odometers&) = default;
@@ -75,11 +78,13 @@ std::array<float, 4> turned(const std::array<float, 4>& q, double most, Random& 
 template <class T>
 long double way_of(const Odometers<T>& bodies, size_t i) {
   using Wide = long double;
-  const auto& [px, py, pz, pw] = bodies.anchor_turn[i];
+  const std::array<float, 4> p = {bodies.anchor_turn[0][i], bodies.anchor_turn[1][i],
+                                  bodies.anchor_turn[2][i], bodies.anchor_turn[3][i]};
+  const auto& [px, py, pz, pw] = p;
   const auto& [qx, qy, qz, qw] = bodies.turn[i];
   Wide way = 0;
   for (size_t c = 0; c < 3; ++c) {
-    const Wide d = Wide{bodies.position[i][c]} - bodies.anchor[i][c];
+    const Wide d = Wide{bodies.position[i][c]} - bodies.anchor[c][i];
     way += d * d;
   }
   const Wide x = Wide{pw} * qx - Wide{px} * qw - (Wide{py} * qz - Wide{pz} * qy);
@@ -125,8 +130,12 @@ void check_bounds(uint64_t seed) {
     EXPECT_LE(gone, ticks * (1 + 1e-5L) + rounding + 1);
     const bool leaves = gone > unit.leash;
     EXPECT_EQ(after.anchored[i], leaves ? after.travelled[i] : before.anchored[i]);
-    EXPECT_EQ(after.anchor[i], leaves ? before.position[i] : before.anchor[i]);
-    EXPECT_EQ(after.anchor_turn[i], leaves ? before.turn[i] : before.anchor_turn[i]);
+    for (size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(after.anchor[c][i], leaves ? before.position[i][c] : before.anchor[c][i]);
+    }
+    for (size_t c = 0; c < 4; ++c) {
+      EXPECT_EQ(after.anchor_turn[c][i], leaves ? before.turn[i][c] : before.anchor_turn[c][i]);
+    }
   }
 }
 
@@ -162,7 +171,9 @@ TEST(Travel, OfWhatDoesNotTurnIsThatOfThePosition) {
   Random random(1);
   Odometers<float> bodies = random_bodies<float>(40, random);
   Odometers<float> still = bodies;
-  still.turn = still.anchor_turn;
+  for (size_t i = 0; i < 40; ++i) {
+    for (size_t c = 0; c < 4; ++c) still.turn[i][c] = still.anchor_turn[c][i];
+  }
   bodies.update({1000, 64}, 0, 40, false);
   still.update({1000, 64}, 0, 40);
   EXPECT_EQ(bodies.travelled, still.travelled);

@@ -49,16 +49,17 @@ bool has_front(const Shape& shape) {
 }  // namespace
 
 void Drift::resize(const BodyStore& bodies) {
-  anchors32_.resize(bodies.records32().size());
-  anchors64_.resize(bodies.records64().size());
-  anchor_orientations_.resize(bodies.orientations().size(), BodyStore::kIdentity);
   const size_t rows = bodies.rows();
+  for (auto& column : anchors32_) column.resize(bodies.records32().size() / 4);
+  for (auto& column : anchors64_) column.resize(bodies.records64().size() / 4);
+  for (size_t c = 0; c < 4; ++c) {
+    anchor_orientations_[c].resize(bodies.orientations().size(), BodyStore::kIdentity[c]);
+  }
   for (auto* column : {&anchored_, &travelled_, &share_, &fence_, &early_fence_}) {
     column->resize(rows);
   }
   radii_.resize(rows);
   turn_radii_.resize(rows);
-  has_front_.resize(rows);
   for (const uint32_t index : replaced_bodies_) {
     if (index < replaced_.size()) replaced_[index] = 0;
   }
@@ -73,21 +74,17 @@ void Drift::update(const BodyStore& bodies, const ChangeTracker& shapes, float t
   resize(bodies);
   if (!knows_last_) ticks_per_metre_ = std::min(kTicks / unit_of(bodies, tolerance), FLT_MAX);
   find_moved_elsewhere(bodies, shapes, tolerance);
-  const bool is_float64 = !bodies.records64().empty();
-  const bool turns = !bodies.orientations().empty();
-  const TravelColumns columns = {
-      .type = is_float64 ? PositionType::float64 : PositionType::float32,
-      .position = is_float64 ? static_cast<const void*>(bodies.records64().data())
-                             : bodies.records32().data(),
-      .orientation = turns ? bodies.orientations()[0].data() : nullptr,
-      .turn_radius = turn_radii_.data(),
-      .anchor_position = is_float64 ? static_cast<void*>(anchors64_.data()) : anchors32_.data(),
-      .anchor_orientation = turns ? anchor_orientations_[0].data() : nullptr,
-      .anchored = anchored_.data(),
-      .travelled = travelled_.data()};
-  for_each_block(bodies.rows(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    add_travel(columns, {ticks_per_metre_, kLeash}, begin, end);
-  });
+  const TravelUnit unit = {ticks_per_metre_, kLeash};
+  const auto add = [&](const auto& columns) {
+    for_each_block(
+        bodies.rows(), kRowsPerBlock, parallelism,
+        [&](size_t, size_t begin, size_t end) { add_travel(columns, unit, begin, end); });
+  };
+  if (bodies.records64().empty()) {
+    add(columns(bodies.records32(), bodies, anchors32_));
+  } else {
+    add(columns(bodies.records64(), bodies, anchors64_));
+  }
   // Half-spaces have no bounds that could grow.
   const Collidables view = bodies.view();
   for (const uint32_t index : bodies.halfspaces()) {
@@ -96,6 +93,21 @@ void Drift::update(const BodyStore& bodies, const ChangeTracker& shapes, float t
     }
   }
   find_outgrown(parallelism);
+}
+
+template <class T>
+TravelColumns<T> Drift::columns(const LargeVector<T>& positions, const BodyStore& bodies,
+                                std::array<LargeVector<T>, 3>& anchors) {
+  auto& turned = anchor_orientations_;
+  const bool turns = !bodies.orientations().empty();
+  return {.position = positions.data(),
+          .orientation = turns ? bodies.orientations()[0].data() : nullptr,
+          .turn_radius = turn_radii_.data(),
+          .anchor_position = {anchors[0].data(), anchors[1].data(), anchors[2].data()},
+          .anchor_orientation = {turned[0].data(), turned[1].data(), turned[2].data(),
+                                 turned[3].data()},
+          .anchored = anchored_.data(),
+          .travelled = travelled_.data()};
 }
 
 // Bodies that are others, or have other shapes or properties.
@@ -124,18 +136,23 @@ void Drift::find_moved_elsewhere(const BodyStore& bodies, const ChangeTracker& s
 void Drift::move_elsewhere(const BodyStore& bodies, const BodyReader& reader, uint32_t index,
                            float tolerance) {
   radii_[index] = bounding_radius(reader, index);
-  turn_radii_[index] = bodies.turns(index) ? radii_[index] : 0;
+  turn_radii_[index] = turning_radius(reader, index);
   const float own = bodies.tolerance(index).value_or(tolerance);
-  share_[index] =
-      static_cast<uint32_t>(std::min(0.5f * own * ticks_per_metre_, static_cast<float>(kJump)));
-  has_front_[index] =
-      bodies.is_alive(index) && reader.is_valid(index) && has_front(bodies.shape(index));
-  const auto copy = [index](const auto& from, auto& to) {
-    if (!from.empty()) std::copy_n(&from[4 * size_t{index}], 4, &to[4 * size_t{index}]);
+  share_[index] = own > 0 ? static_cast<uint32_t>(
+                                std::min(0.5f * own * ticks_per_metre_, static_cast<float>(kJump)))
+                          : 0;
+  const bool is_known = bodies.is_alive(index) && reader.is_valid(index);
+  if (is_known && has_front(bodies.shape(index))) share_[index] |= kHasFront;
+  const auto copy = [index](const auto& records, auto& anchors) {
+    for (size_t c = 0; !records.empty() && c < 3; ++c) {
+      anchors[c][index] = records[4 * size_t{index} + c];
+    }
   };
   copy(bodies.records32(), anchors32_);
   copy(bodies.records64(), anchors64_);
-  if (!anchor_orientations_.empty()) anchor_orientations_[index] = bodies.orientations()[index];
+  for (size_t c = 0; !bodies.orientations().empty() && c < 4; ++c) {
+    anchor_orientations_[c][index] = bodies.orientations()[index][c];
+  }
   replaced_[index] = 1;
   replaced_bodies_.push_back(index);
   anchored_[index] += kJump;
@@ -204,9 +221,9 @@ float Drift::make_fence(uint32_t index) {
 
 uint32_t Drift::holds_until(Pair pair, float gap) const {
   const auto start = [this](uint32_t body) { return 2 * anchored_[body] - travelled_[body]; };
-  uint32_t ticks = share_[pair.a] + share_[pair.b];
-  const bool may_shrink = gap > 0 && !has_front_[pair.a] && !has_front_[pair.b];
-  if (may_shrink) {
+  const uint32_t share_a = share_[pair.a], share_b = share_[pair.b];
+  uint32_t ticks = (share_a & ~kHasFront) + (share_b & ~kHasFront);
+  if (gap > 0 && !((share_a | share_b) & kHasFront)) {
     const float of_gap = (1 - 0x1p-10f) * gap * ticks_per_metre_;
     ticks += static_cast<uint32_t>(std::min(of_gap, static_cast<float>(kJump)));
   }
@@ -214,18 +231,29 @@ uint32_t Drift::holds_until(Pair pair, float gap) const {
 }
 
 void Drift::give_back() {
-  carom::give_back(anchors32_, anchors64_, anchor_orientations_, radii_, turn_radii_, anchored_,
-                   travelled_, share_, has_front_, replaced_, replaced_bodies_, fence_,
-                   early_fence_, made_);
+  const auto each = [](auto& columns) {
+    for (auto& column : columns) carom::give_back(column);
+  };
+  each(anchors32_);
+  each(anchors64_);
+  each(anchor_orientations_);
+  carom::give_back(radii_, turn_radii_, anchored_, travelled_, share_, replaced_, replaced_bodies_,
+                   fence_, early_fence_, made_);
   give_back_scratch(outgrown_of_block_, outgrown_, growth_);
 }
 
 size_t Drift::bytes() const {
-  return bytes_of(anchors32_) + bytes_of(anchors64_) + bytes_of(anchor_orientations_) +
-         bytes_of(radii_) + bytes_of(turn_radii_) + bytes_of(anchored_) + bytes_of(travelled_) +
-         bytes_of(share_) + bytes_of(has_front_) + bytes_of(replaced_) +
-         bytes_of(replaced_bodies_) + bytes_of(fence_) + bytes_of(early_fence_) + bytes_of(made_) +
-         outgrown_of_block_.bytes() + bytes_of(outgrown_) + bytes_of(growth_);
+  size_t sum = outgrown_of_block_.bytes();
+  const auto add = [&sum](const auto&... columns) { ((sum += bytes_of(columns)), ...); };
+  const auto each = [&add](const auto& columns) {
+    for (const auto& column : columns) add(column);
+  };
+  each(anchors32_);
+  each(anchors64_);
+  each(anchor_orientations_);
+  add(radii_, turn_radii_, anchored_, travelled_, share_, replaced_, replaced_bodies_, fence_,
+      early_fence_, made_, outgrown_, growth_);
+  return sum;
 }
 
 }  // namespace carom

@@ -8,6 +8,7 @@
 // at the first of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,9 +45,9 @@ class Drift {
   // One byte a body: whether it is another one, or has another shape or other properties.
   std::span<const uint8_t> replaced() const { return replaced_; }
 
-  // The sum of the odometers of two bodies, and up to which sum the result of a test of now holds.
+  // One a body; and up to which sum of the two of a pair the result of a test of now holds.
   // `gap`, metres: the separation that they may lose before there is another result; a lower bound.
-  uint32_t travelled(Pair pair) const { return travelled_[pair.a] + travelled_[pair.b]; }
+  std::span<const uint32_t> odometers() const { return travelled_; }
   uint32_t holds_until(Pair pair, float gap) const;
 
   void give_back();
@@ -59,6 +60,9 @@ class Drift {
     uint32_t in_step;
   };
 
+  template <class T>
+  TravelColumns<T> columns(const LargeVector<T>& positions, const BodyStore& bodies,
+                           std::array<LargeVector<T>, 3>& anchors);
   void resize(const BodyStore& bodies);
   void move_elsewhere(const BodyStore& bodies, const BodyReader& reader, uint32_t index,
                       float tolerance);
@@ -71,15 +75,17 @@ class Drift {
   uint32_t step_ = 0;
   bool knows_last_ = false;
 
-  LargeVector<float> anchors32_;  // as the store has positions
-  LargeVector<double> anchors64_;
-  LargeVector<BodyStore::Row> anchor_orientations_;
+  std::array<LargeVector<float>, 3> anchors32_;  // as the store has positions
+  std::array<LargeVector<double>, 3> anchors64_;
+  std::array<LargeVector<float>, 4> anchor_orientations_;
   std::vector<float> radii_, turn_radii_;  // the second: 0 for what does not turn
   std::vector<uint32_t> anchored_, travelled_;
-  std::vector<uint32_t> share_;  // of the tolerance of a pair, ticks
+  // Of the tolerance of a pair, ticks; and a mark of one-sided triangles: what is behind them is
+  // not near.
+  static constexpr uint32_t kHasFront = 1u << 31;
+  std::vector<uint32_t> share_;
   std::vector<uint8_t> replaced_;
   std::vector<uint32_t> replaced_bodies_;  // those with a byte
-  std::vector<uint8_t> has_front_;         // one-sided triangles: what is behind them is not near
   // The bounds of a body hold it until its odometer passes the fence; the early one is half way.
   std::vector<uint32_t> fence_, early_fence_;
   std::vector<Made> made_;

@@ -11,6 +11,7 @@
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/body_reader.h"
 #include "shapes/dop_geometry.h"
+#include "shapes/hull_features.h"
 #include "shapes/turn.h"
 #include "world/store/row_blocks.h"
 
@@ -95,6 +96,33 @@ float bounding_radius(const BodyReader& reader, size_t i) {
   if (!are_valid_rows(kind, rows.data(), reader.dop_geometry(i))) return 0;
   return round_upwards(kind == ShapeKind::dop ? with_geometry(read_dop(reader, i), dop_reach)
                                               : rows_reach(kind, rows));
+}
+
+float turning_radius(const BodyReader& reader, size_t i) {
+  const ShapeKind kind = reader.kind(i);
+  if (row_count(kind) == 0) return 0;
+  const float radius = bounding_radius(reader, i);
+  if (kind == ShapeKind::box) {
+    const std::array<float, 4> half = reader.rows(i)[0];
+    const double x = half[0], y = half[1], z = half[2];
+    const double shortest = std::min({x, y, z});
+    return radius > 0 ? round_upwards(std::sqrt(x * x + y * y + z * z - shortest * shortest)) : 0;
+  }
+  if (kind == ShapeKind::capsule) {
+    const std::array<Row, kMostRows> rows = reader.rows(i);
+    const double furthest = std::max(length(vector_of(rows[0])), length(vector_of(rows[1])));
+    return radius > 0 ? round_upwards(furthest) : 0;
+  }
+  if (kind == ShapeKind::hull && radius > 0) {
+    const auto& hull = *geometry_at<HullGeometry>(reader.rows(i)[0]);
+    if (!hull.features()) return radius;
+    // A ball about the position that fits into the hull.
+    const Eigen::Vector3d& middle = hull.middle();
+    const double inner =
+        std::max(0.0, hull.features()->inner_radius() * (1 - 0x1p-20) - middle.norm());
+    return round_upwards(std::sqrt(double{radius} * radius - inner * inner));
+  }
+  return radius;
 }
 
 void BoundingRadii::update(const BodyStore& bodies, const ChangeTracker* changes,

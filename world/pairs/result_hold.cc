@@ -5,53 +5,47 @@
 
 #include "base/fresh_pages.h"
 #include "base/parallel.h"
+#include "world/pairs/due_pairs.h"
 
 namespace carom {
 
 size_t ResultHold::find_due(const PairHistory& last, const Drift& drift, Parallelism parallelism) {
   const size_t pairs = last.pairs.size();
-  due_.resize(pairs);
   due_pairs_.clear();
-  if (last.holds_until.size() != pairs) {
-    std::fill(due_.begin(), due_.end(), uint8_t{1});
-    return pairs;
-  }
+  knows_last_ = last.holds_until.size() == pairs;
+  if (!knows_last_) return pairs;
   due_of_block_.reset(block_count(pairs, kPairsPerMergeBlock));
-  for_each_block(pairs, kPairsPerMergeBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   // Which pairs are due cannot be predicted, so there is no branch on it.
-                   std::array<uint32_t, kPairsPerMergeBlock> found;
-                   size_t count = 0;
-                   for (size_t i = begin; i < end; ++i) {
-                     const uint32_t left = last.holds_until[i] - drift.travelled(last.pairs[i]);
-                     const uint32_t is_due = left >> 31;
-                     due_[i] = static_cast<uint8_t>(is_due);
-                     found[count] = static_cast<uint32_t>(i);
-                     count += is_due;
-                   }
-                   due_of_block_[block].assign(found.begin(), found.begin() + count);
-                 });
+  for_each_block(
+      pairs, kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
+        std::array<uint32_t, kPairsPerMergeBlock + kDuePadding> found;
+        const size_t count = find_due_pairs(last.pairs.data(), last.holds_until.data(),
+                                            drift.odometers().data(), begin, end, found.data());
+        due_of_block_[block].assign(found.begin(), found.begin() + count);
+      });
   due_of_block_.concatenate(due_pairs_, parallelism);
   return due_pairs_.size();
 }
 
-void ResultHold::follow(const CarryPlan& plan, const PairHistory& now, Parallelism parallelism) {
-  due_of_block_.reset(block_count(now.pairs.size(), kPairsPerMergeBlock));
-  for_each_block(now.pairs.size(), kPairsPerMergeBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   std::array<uint32_t, kPairsPerMergeBlock> found;
-                   size_t count = 0;
-                   const auto carried = [&](const CarriedRun& run) {
-                     for (uint32_t i = run.begin; i < run.end; ++i) {
-                       found[count] = i;
-                       count += due_[run.before + (i - run.begin)];
-                     }
-                   };
-                   plan.for_each_stretch(
-                       begin, end, [](size_t, size_t, size_t) {}, carried);
-                   due_of_block_[block].assign(found.begin(), found.begin() + count);
-                 });
-  due_of_block_.concatenate(due_pairs_, parallelism);
+std::span<const uint8_t> ResultHold::due_flags(size_t pairs) {
+  due_.assign(pairs, knows_last_ ? 0 : 1);
+  for (const uint32_t i : due_pairs_) due_[i] = 1;
+  return due_;
+}
+
+void ResultHold::follow(const CarryPlan& plan, size_t pairs) {
+  size_t next = 0, kept = 0;
+  for_each_merge_block(pairs, Parallelism::none, [&](size_t, size_t begin, size_t end) {
+    const auto carried = [&](const CarriedRun& run) {
+      const uint32_t end_before = run.before + (run.end - run.begin);
+      while (next < due_pairs_.size() && due_pairs_[next] < run.before) ++next;
+      for (; next < due_pairs_.size() && due_pairs_[next] < end_before; ++next) {
+        due_pairs_[kept++] = due_pairs_[next] - run.before + run.begin;
+      }
+    };
+    plan.for_each_stretch(
+        begin, end, [](size_t, size_t, size_t) {}, carried);
+  });
+  due_pairs_.resize(kept);
 }
 
 void ResultHold::set_terms(const PairRange& range, const CarryPlan& plan,

@@ -16,15 +16,15 @@ namespace carom {
 
 class ResultHold {
  public:
-  // Finds the pairs of the last step whose result no longer holds, and returns their number. Those
-  // of a step that kept no terms have none that does.
+  // Finds the pairs of the last step whose result no longer holds, and returns their number: all
+  // if that step has set no terms.
   size_t find_due(const PairHistory& last, const Drift& drift, Parallelism parallelism);
-  // One byte a pair of the last step.
-  std::span<const uint8_t> due() const { return due_; }
-  // The indices of those that are due, ascending.
+  // Their indices, ascending.
   std::span<const uint32_t> due_pairs() const { return due_pairs_; }
-  // Makes them indices of this step's pairs, of those that are carried.
-  void follow(const CarryPlan& plan, const PairHistory& now, Parallelism parallelism);
+  // The same as one byte a pair of the last step, which had so many.
+  std::span<const uint8_t> due_flags(size_t pairs);
+  // Makes them indices of this step's pairs, which are so many; of those that are carried.
+  void follow(const CarryPlan& plan, size_t pairs);
 
   // Sets until when the results of a range hold that have been tested, and copies it of those that
   // are carried. `has_gaps`: the results have separations of all pairs.
@@ -36,6 +36,7 @@ class ResultHold {
   size_t bytes() const { return bytes_of(due_) + bytes_of(due_pairs_) + due_of_block_.bytes(); }
 
  private:
+  bool knows_last_ = false;
   std::vector<uint8_t> due_;
   std::vector<uint32_t> due_pairs_;
   BlockLists<uint32_t> due_of_block_;

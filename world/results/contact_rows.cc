@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "world/results/contact_rows.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -129,6 +130,30 @@ size_t write(const PairRows& rows, size_t next, std::span<Contact> contacts) {
   return next;
 }
 
+// Places lie anywhere in the list.
+void overwrite(const PairRows& rows, std::span<Contact> contacts) {
+  const std::span<uint32_t> contact = rows.contact;
+  size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  constexpr size_t kAhead = 16;
+  Contact none;
+  for (; i + 4 <= contact.size(); i += 4) {
+    FourContacts four;
+    four.load(rows, i);
+    for (size_t k = 0; k < 4; ++k) {
+      const uint32_t later = contact[std::min(i + kAhead + k, contact.size() - 1)];
+      if (PairHistory::is_place(later)) fetch_to_write(contacts.data() + later, 0);
+      const uint32_t place = contact[i + k];
+      four.store(k, PairHistory::is_place(place) ? contacts[place] : none);
+    }
+  }
+#endif  // HWY_TARGET
+  for (; i < contact.size(); ++i) {
+    if (!PairHistory::is_place(contact[i])) continue;
+    contacts[contact[i]] = contact_of_row(rows.columns, rows.first_row + i, rows.pairs[i]);
+  }
+}
+
 }  // namespace
 }  // namespace carom::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -140,11 +165,16 @@ namespace carom {
 namespace {
 
 HWY_EXPORT(write);
+HWY_EXPORT(overwrite);
 
 }  // namespace
 
 size_t write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts) {
   return CAROM_DISPATCH(write)(rows, next, contacts);
+}
+
+void overwrite_contact_rows(const PairRows& rows, std::span<Contact> contacts) {
+  CAROM_DISPATCH(overwrite)(rows, contacts);
 }
 
 }  // namespace carom

@@ -29,4 +29,7 @@ struct PairRows {
 // one.
 size_t write_contact_rows(const PairRows& rows, size_t next, std::span<Contact> contacts);
 
+// Writes the first contact of each pair that has one to the place that `contact` says.
+void overwrite_contact_rows(const PairRows& rows, std::span<Contact> contacts);
+
 }  // namespace carom

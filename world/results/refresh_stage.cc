@@ -1,10 +1,10 @@
 #include "world/results/refresh_stage.h"
 
 #include <algorithm>
+#include <array>
 
-#include "base/fetch_ahead.h"
-#include "base/fresh_pages.h"
 #include "base/parallel.h"
+#include "world/results/contact_rows.h"
 #include "world/store/columns.h"
 
 namespace carom {
@@ -32,34 +32,34 @@ void RefreshStage::start(std::span<const uint32_t> due, const PairHistory& now,
 }
 
 void RefreshStage::take(const PairRange& range, const Input& input, PairHistory& now) {
-  const auto& [results, bodies, drift, detail, identities, parallelism] = input;
-  const bool lists = has_contacts(detail), manifolds = has_manifolds(detail);
   changes_of_block_.reset(block_count(range.rows, kPairsPerMergeBlock));
-  // Contacts lie anywhere in the list.
-  constexpr size_t kRowsAhead = 12;
-  const auto fetch_place = [&](size_t row) {
-    if (row >= due_.size() || !now.has_contact(due_[row])) return;
-    fetch_to_write(now.contacts.data() + now.contact[due_[row]], 0);
-    if (manifolds) fetch_to_write(now.manifolds.data() + now.contact[due_[row]], 0);
-  };
-  const auto take_row = [&](size_t i, size_t row, std::vector<Change>& changes) {
-    const Pair pair = now.pairs[i];
+  for_each_block(range.rows, kPairsPerMergeBlock, input.parallelism,
+                 [&](size_t block, size_t begin, size_t end) {
+                   take_rows(range.first_row + begin, range.first_row + end, input,
+                             changes_of_block_[block], now);
+                 });
+  changes_of_block_.concatenate(found_, input.parallelism);
+  changes_.insert(changes_.end(), found_.begin(), found_.end());
+}
+
+void RefreshStage::take_rows(size_t begin, size_t end, const Input& input,
+                             std::vector<Change>& changes, PairHistory& now) const {
+  const auto& [results, bodies, drift, detail, identities, parallelism] = input;
+  const bool lists = has_contacts(detail), knows_sensors = bodies.knows_sensors();
+  std::array<uint32_t, kPairsPerMergeBlock> places;  // of contacts to overwrite
+  for (size_t row = begin; row < end; ++row) {
+    const uint32_t i = due_[row];
+    const Pair pair = pairs_[row];
     now.holds_until[i] = drift.holds_until(pair, lists ? results.gap(row) : 0);
     const uint8_t decision = results.overlap(row);
     const bool overlap = decision == 1;
-    const bool sensor = bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b);
+    const bool sensor = knows_sensors && (bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b));
     const bool listed = lists && (overlap || results.is_near(row)) && !sensor;
     const bool is_same = decision == now.overlaps[i] && listed == now.has_contact(i);
-    if (is_same && !listed) return;
-    if (is_same) {
-      const uint32_t place = now.contact[i];
-      now.contacts[place] = results.contact(row, pair);
-      if (manifolds) now.manifolds[place] = results.manifold(row);
-      if (identities) now.identities[place].names = results.names(row);
-      return;
-    }
+    places[row - begin] = is_same ? now.contact[i] : PairHistory::kNone;
+    if (is_same) continue;
     const uint32_t without = overlap && sensor ? PairHistory::kSensor : PairHistory::kNone;
-    Change change{.pair = static_cast<uint32_t>(i),
+    Change change{.pair = i,
                   .contact = listed ? 0 : without,
                   .overlap = decision,
                   .overlap_before = now.overlaps[i],
@@ -68,21 +68,22 @@ void RefreshStage::take(const PairRange& range, const Input& input, PairHistory&
                   .new_names = {}};
     if (listed) {
       change.new_contact = results.contact(row, pair);
-      if (manifolds) change.new_points = results.manifold(row);
+      if (has_manifolds(detail)) change.new_points = results.manifold(row);
       if (identities) change.new_names = results.names(row);
     }
     changes.push_back(change);
-  };
-  for_each_block(range.rows, kPairsPerMergeBlock, parallelism,
-                 [&](size_t block, size_t begin, size_t end) {
-                   for (size_t k = begin; k < end; ++k) {
-                     const size_t row = range.first_row + k;
-                     fetch_place(row + kRowsAhead);
-                     take_row(due_[row], row, changes_of_block_[block]);
-                   }
-                 });
-  changes_of_block_.concatenate(found_, parallelism);
-  changes_.insert(changes_.end(), found_.begin(), found_.end());
+  }
+  if (!lists) return;
+  const std::span<uint32_t> of_rows = std::span(places).first(end - begin);
+  overwrite_contact_rows(
+      results.rows_of(std::span(pairs_).subspan(begin, end - begin), begin, of_rows), now.contacts);
+  if (!has_manifolds(detail) && !identities) return;
+  for (size_t row = begin; row < end; ++row) {
+    const uint32_t place = of_rows[row - begin];
+    if (!PairHistory::is_place(place)) continue;
+    if (has_manifolds(detail)) now.manifolds[place] = results.manifold(row);
+    if (identities) now.identities[place].names = results.names(row);
+  }
 }
 
 ptrdiff_t RefreshStage::finish(const Input& input, PairHistory& now) {

@@ -57,6 +57,8 @@ class RefreshStage {
     PointNames new_names;
   };
 
+  void take_rows(size_t begin, size_t end, const Input& input, std::vector<Change>& changes,
+                 PairHistory& now) const;
   void move_contacts(const Input& input, PairHistory& now);
 
   std::span<const uint32_t> due_;
