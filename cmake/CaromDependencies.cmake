@@ -7,6 +7,7 @@ find_package(Eigen3 CONFIG REQUIRED)
 if(CAROM_BUILD_HULLS)
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(qhull REQUIRED IMPORTED_TARGET qhull_r)
+  find_package(meshoptimizer CONFIG REQUIRED)
 endif()
 if(CAROM_BUILD_PROGRAM OR CAROM_BUILD_TESTS OR CAROM_BUILD_BENCH OR CAROM_BUILD_PEERS OR CAROM_FUZZ)
   # Debian's libzip-config.cmake refers to programs of other packages, so pkg-config it is.

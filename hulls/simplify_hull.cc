@@ -61,6 +61,33 @@ Result<SimplifiedHull> simplify_inside(const HullGeometry& hull, size_t most_poi
   return SimplifiedHull{std::move(built->geometry), error};
 }
 
+// The hull of some points, scaled about their middle until it lies as far outside of the original as
+// inside.
+Result<SimplifiedHull> simplify_both(const HullGeometry& hull, size_t most_points) {
+  Result<SimplifiedHull> inside = simplify_inside(hull, most_points);
+  if (!inside) return inside;
+  SimplifiedHull best = *inside;
+  const HullGeometry& inner = *inside->geometry;
+  double radius = 0;  // of the points, about their middle
+  for (const Vector3f& p : inner.points()) {
+    radius = std::max(radius, (p.cast<double>() - inner.middle()).norm());
+  }
+  for (const double part : {0.4, 0.55, 0.7}) {
+    const double factor = 1 + part * inside->error / radius;
+    Points points;
+    for (const Vector3f& p : inner.points()) {
+      points.push_back((inner.middle() + factor * (p.cast<double>() - inner.middle())).cast<float>());
+    }
+    Result<BuiltHull> built = build_hull(points);
+    if (!built) continue;
+    const double error = std::max(furthest(hull.points(), *built->geometry),
+                                  furthest(built->geometry->points(), hull)) +
+                         slack_of(*built->geometry);
+    if (error < best.error) best = {std::move(built->geometry), error};
+  }
+  return best;
+}
+
 // Replaces `best` by the hull of these corners, if that is nearer to the original.
 void keep_better(const std::optional<Corners>& corners, const UnitPoints& unit,
                  const HullGeometry& hull, std::optional<SimplifiedHull>& best) {
@@ -110,6 +137,9 @@ Result<SimplifiedHull> simplify_hull(std::span<const Eigen::Vector3f> points,
   }
   if (options.side == HullSide::inside) {
     return hulls::simplify_inside(*hull->geometry, options.most_points);
+  }
+  if (options.side == HullSide::both) {
+    return hulls::simplify_both(*hull->geometry, options.most_points);
   }
   return hulls::simplify_outside(*hull->geometry, options.most_points);
 }

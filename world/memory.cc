@@ -12,7 +12,7 @@ WorldMemory World::State::memory() const {
                   wide_swept_bounds.bytes();
   memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
-                             hold.bytes() + refresh.bytes() + dops.pair_bytes() +
+                             hold.bytes() + refresh.bytes() + gaps.bytes() + dops.pair_bytes() +
                              directions.bytes() + results.bytes() + contact_stage.bytes() +
                              sieve.bytes() + impacts.bytes() + speculative.bytes() +
                              event_stage.bytes() + bytes_of(events);
@@ -28,6 +28,7 @@ void World::State::give_back_memory() {
   drift.give_back();
   hold.give_back();
   refresh.give_back();
+  gaps.give_back();
   proxies.give_back();
   sweeps.give_back();
   give_back(events);

@@ -149,14 +149,17 @@ bool World::State::keeps_pairs() const {
 
 // Tests the pairs that are due and are not tested otherwise.
 void World::State::refresh_due() {
-  const RefreshStage::Input found = {results,         bodies,           drift,
+  const RefreshStage::Input found = {results, gaps, bodies,           drift,
                                      settings.detail, has_identities(), settings.parallelism};
   run(Stage::pairs, [&] { refresh.start(hold.due_pairs(), now, settings.parallelism); });
   const size_t blocks = uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread;
   const size_t at_once = blocks * kPairsPerMergeBlock, due = refresh.renewed();
   for (size_t begin = 0; begin < due; begin += at_once) {
     const PairRange range{0, 0, begin, std::min(at_once, due - begin)};
-    run(Stage::narrowphase, [&] { test_pairs(refresh.pairs(), range, nullptr); });
+    run(Stage::narrowphase, [&] {
+      test_pairs(refresh.pairs(), range, nullptr);
+      measure_gaps(refresh.pairs(), range);
+    });
     run(Stage::results, [&] { refresh.take(range, found, now); });
   }
   run(Stage::results, [&] { contact_stage.add_overlaps(refresh.finish(found, now)); });
@@ -382,13 +385,13 @@ void World::State::find_results() {
     run(Stage::narrowphase, [&] {
       test_pairs(plan.pairs_to_test(now.pairs), range,
                  directions_of_tests ? directions_of_tests + first_row : nullptr);
+      if (drifts) measure_gaps(plan.pairs_to_test(now.pairs), range);
     });
     const ContactStage::Input found = {plan, last, results, bodies, settings};
     run(Stage::results, [&] { contact_stage.add_results(range, found, now); });
     if (drifts) {
       run(Stage::pairs, [&] {
-        hold.set_terms(range, plan, results, has_contacts(settings.detail), drift, last,
-                       settings.parallelism, now);
+        hold.set_terms(range, plan, gaps, drift, last, settings.parallelism, now);
       });
     }
     if (has_contacts(settings.detail)) {
@@ -426,7 +429,7 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
       results.prepare(range, settings.detail, {wanted.begin(), wanted.size()});
   CollideOptions options = {.frame = WitnessFrame::body,
                             .parallelism = settings.parallelism,
-                            .measured = drifts ? Measured::all : Measured::overlapping,
+                            .measured = Measured::overlapping,
                             .accuracy = settings.accuracy,
                             .region_limits = settings.region_limits};
   if (has_distances()) {
@@ -438,6 +441,10 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
     results.reject_apart(pairs, present_bounds(), settings.parallelism);
   }
   if (has_distances()) results.find_near(pairs, wide_present_bounds(), settings.parallelism);
+}
+
+void World::State::measure_gaps(std::span<const Pair> all, const PairRange& range) {
+  gaps.measure(all, range, results, tested_shapes(), distances(), drift, settings.parallelism);
 }
 
 void World::State::find_impacts() {

@@ -25,6 +25,7 @@
 #include "world/pairs/carry_plan.h"
 #include "world/pairs/direction_memory.h"
 #include "world/pairs/dop_stage.h"
+#include "world/pairs/gap_stage.h"
 #include "world/pairs/halfspace_stage.h"
 #include "world/pairs/pair_changes.h"
 #include "world/pairs/pair_history.h"
@@ -43,7 +44,9 @@
 namespace carom {
 
 struct World::State {
-  explicit State(const WorldSettings& chosen) : settings(chosen), bodies(chosen.positions) {}
+  explicit State(const WorldSettings& chosen)
+      : settings(chosen),
+        bodies(chosen.positions, chosen.accuracy.tolerance, !has_proofs(chosen.accuracy.tier)) {}
 
   const StepReport& step();
   // The bodies, exclusions and predicate of a world whose step has thrown, as if the bodies had
@@ -170,6 +173,7 @@ struct World::State {
   void write_contacts(const PairRange& range, const ContactStage::Input& found,
                       const NormalVelocities* velocities);
   void test_pairs(std::span<const Pair> pairs, const PairRange& range, uint32_t* direction);
+  void measure_gaps(std::span<const Pair> all, const PairRange& range);
   void find_impacts();
   void forget_ahead();
   void stop_looking_ahead();
@@ -182,6 +186,7 @@ struct World::State {
   Drift drift;
   ResultHold hold;
   RefreshStage refresh;
+  GapStage gaps;
   RestWatch rest_watch;
   BoxSample sample;
   BoundingRadii bounding_radii;

@@ -94,6 +94,13 @@ Result<RunReport> run_scene(const RunOptions& options, RunSettings settings, Out
   if (Result<void> known = check_velocities(info, options.scene, settings.detection); !known) {
     return known.error();
   }
+  std::vector<LadderReport> ladders;
+  if (settings.world.accuracy.tolerance > 0) {
+    const double most = error_within(settings.world.accuracy.tolerance);
+    Result<std::vector<LadderReport>> built = player->add_ladders({&most, 1});
+    if (!built) return built.error();
+    ladders = std::move(*built);
+  }
   const bool looks_ahead = settings.detection != Detection::discrete;
   (*scene)->want(player->wanted(settings.world.detail, looks_ahead));
 
@@ -109,6 +116,7 @@ Result<RunReport> run_scene(const RunOptions& options, RunSettings settings, Out
                    .isa = name(active_isa()),
                    .settings = settings,
                    .pair_kinds = pair_kinds(player->bodies_of_kind()),
+                   .ladders = std::move(ladders),
                    .memory = {},
                    .record = {}};
   Progress progress(console, "frame", report.frames);

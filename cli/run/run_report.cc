@@ -73,6 +73,43 @@ std::string extent(const std::vector<uint64_t>& list) {
          " in the last; " + std::to_string(*least) + " to " + std::to_string(*greatest);
 }
 
+// Of all ladders: how many shapes have a model, the worst error, and the pieces with and without.
+struct LadderSums {
+  size_t models = 0, pieces = 0, simpler = 0;
+  double error = 0, seconds = 0;
+
+  explicit LadderSums(const std::vector<LadderReport>& ladders) {
+    for (const LadderReport& ladder : ladders) {
+      size_t used = ladder.pieces;
+      for (const LadderReport::Entry& entry : ladder.entries) {
+        if (entry.error == 0) continue;
+        ++models;
+        used = entry.pieces;
+        error = std::max(error, entry.error);
+      }
+      pieces += ladder.pieces;
+      simpler += used;
+      seconds += ladder.seconds;
+    }
+  }
+};
+
+Json ladders_json(const std::vector<LadderReport>& ladders) {
+  Json json = Json::array();
+  for (const LadderReport& ladder : ladders) {
+    Json rungs = Json::array();
+    for (const LadderReport::Entry& entry : ladder.entries) {
+      if (entry.error > 0) {
+        rungs.push_back({{"error", entry.error}, {"pieces", entry.pieces}});
+      } else {
+        rungs.push_back({{"wanted", entry.wanted}, {"refused", entry.refused}});
+      }
+    }
+    json.push_back({{"pieces", ladder.pieces}, {"rungs", rungs}, {"seconds", ladder.seconds}});
+  }
+  return json;
+}
+
 Json to_json(const RunReport& report, const WorldOptions& options) {
   const RunRecord& record = report.record;
   Summary frame = summarize(steady(record.frame_ms));
@@ -86,6 +123,7 @@ Json to_json(const RunReport& report, const WorldOptions& options) {
   json["pipeline"] = Json::array();
   for (Stage stage : stages_run(record)) json["pipeline"].push_back(name(stage));
   json["pair_kinds"] = report.pair_kinds;
+  if (!report.ladders.empty()) json["ladders"] = ladders_json(report.ladders);
   json["frame_ms"] = {
       {"median", frame.median}, {"min", frame.min}, {"p99", frame.p99}, {"mean", frame.mean}};
   json["first_frame_ms"] = record.frame_ms.empty() ? 0 : record.frame_ms.front();
@@ -131,6 +169,14 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
   table.add({"frames", std::to_string(report.frames)});
   table.add({"threads, ISA", std::to_string(report.threads) + ", " + report.isa});
   options.add_rows(report, table);
+  if (!report.ladders.empty()) {
+    const LadderSums sums(report.ladders);
+    table.add({"ladders", std::to_string(sums.models) + " of " +
+                              std::to_string(report.ladders.size()) + " shapes have a model: " +
+                              std::to_string(sums.pieces) + " pieces -> " +
+                              std::to_string(sums.simpler) + number(", at most %.3g m off", sums.error) +
+                              number(", built in %.3g s", sums.seconds)});
+  }
   table.add({"frame", number("%.3f ms median", frame.median) + number(", %.3f min", frame.min) +
                           number(", %.3f p99", frame.p99) + number(", %.3f mean", frame.mean)});
   for (Stage stage : stages_run(record)) {

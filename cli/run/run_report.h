@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/ladders/build_ladder.h"
 #include "cli/run/replay.h"
 #include "cli/run/world_options.h"
 #include "cli/support/json_output.h"
@@ -19,6 +20,7 @@ struct RunReport {
   std::string isa;
   RunSettings settings;
   std::vector<std::string> pair_kinds;  // possible with the scene's bodies
+  std::vector<LadderReport> ladders;    // of its shapes, with a tolerance
   WorldMemory memory;                   // at the end
   uint64_t peak_rss_bytes = 0;
   RunRecord record;

@@ -49,6 +49,18 @@ Result<Player> Player::create(const io::SceneInfo& info, const std::string& sour
   return Player(info, std::move(*shapes));
 }
 
+Result<std::vector<LadderReport>> Player::add_ladders(std::span<const double> errors) {
+  std::vector<LadderReport> reports;
+  for (Shape& shape : shapes_) {
+    if (!has_geometry(kind_of(shape))) continue;
+    Result<LadderedShape> laddered = build_ladder(shape, errors);
+    if (!laddered) continue;  // a shape that is not valid stays so
+    shape = std::move(laddered->shape);
+    reports.push_back(std::move(laddered->report));
+  }
+  return reports;
+}
+
 Shape Player::scene_shape(size_t index) const {
   return shapes_.empty() ? *convert_simple_shape(info_->shapes, index) : shapes_[index];
 }

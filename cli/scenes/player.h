@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "carom/ladders/build_ladder.h"
 #include "carom/world/world.h"
 #include "cli/support/pair_kinds.h"
 #include "io/scene.h"
@@ -15,6 +16,10 @@ class Player {
  public:
   // Fails if convert_shapes() fails. `info` must outlive the player; errors name `source`.
   static Result<Player> create(const io::SceneInfo& info, const std::string& source);
+
+  // Gives the shapes of the scene ladders with rungs of these errors, for worlds with a tolerance.
+  // Returns one report a shape that could have one.
+  Result<std::vector<LadderReport>> add_ladders(std::span<const double> errors);
 
   const io::SceneInfo& info() const { return *info_; }
   PositionType positions() const;

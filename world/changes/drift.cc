@@ -58,6 +58,7 @@ void Drift::resize(const BodyStore& bodies) {
   for (auto* column : {&anchored_, &travelled_, &share_, &fence_, &early_fence_}) {
     column->resize(rows);
   }
+  travelled_before_ = travelled_;
   radii_.resize(rows);
   turn_radii_.resize(rows);
   for (const uint32_t index : replaced_bodies_) {
@@ -138,9 +139,10 @@ void Drift::move_elsewhere(const BodyStore& bodies, const BodyReader& reader, ui
   radii_[index] = bounding_radius(reader, index);
   turn_radii_[index] = turning_radius(reader, index);
   const float own = bodies.tolerance(index).value_or(tolerance);
-  share_[index] = own > 0 ? static_cast<uint32_t>(
-                                std::min(0.5f * own * ticks_per_metre_, static_cast<float>(kJump)))
-                          : 0;
+  // What the model of the shape leaves.
+  const double half = 0.5 * double{own} - bodies.model_error(index);
+  const double ticks = half * double{ticks_per_metre_} * (1 - 0x1p-20);
+  share_[index] = ticks > 0 ? static_cast<uint32_t>(std::min(ticks, double{kJump})) : 0;
   const bool is_known = bodies.is_alive(index) && reader.is_valid(index);
   if (is_known && has_front(bodies.shape(index))) share_[index] |= kHasFront;
   const auto copy = [index](const auto& records, auto& anchors) {
@@ -219,6 +221,17 @@ float Drift::make_fence(uint32_t index) {
   return (ahead + 2 * from_anchor) / ticks_per_metre_ * (1 + 0x1p-20f);
 }
 
+float Drift::reach(Pair pair, float steps) const {
+  const auto pace = [this](uint32_t body) {
+    const auto ticks = static_cast<int32_t>(travelled_[body] - travelled_before_[body]);
+    const bool is_known = ticks >= 0 && ticks < static_cast<int32_t>(kJump / 2);
+    return is_known ? static_cast<float>(ticks) : 0;
+  };
+  const auto shares = static_cast<float>((share_[pair.a] & ~kHasFront) + (share_[pair.b] & ~kHasFront));
+  const float ticks = std::max(steps * (pace(pair.a) + pace(pair.b)), shares);
+  return ticks / ticks_per_metre_;
+}
+
 uint32_t Drift::holds_until(Pair pair, float gap) const {
   const auto start = [this](uint32_t body) { return 2 * anchored_[body] - travelled_[body]; };
   const uint32_t share_a = share_[pair.a], share_b = share_[pair.b];
@@ -237,7 +250,7 @@ void Drift::give_back() {
   each(anchors32_);
   each(anchors64_);
   each(anchor_orientations_);
-  carom::give_back(radii_, turn_radii_, anchored_, travelled_, share_, replaced_, replaced_bodies_,
+  carom::give_back(radii_, turn_radii_, anchored_, travelled_, travelled_before_, share_, replaced_, replaced_bodies_,
                    fence_, early_fence_, made_);
   give_back_scratch(outgrown_of_block_, outgrown_, growth_);
 }
@@ -251,7 +264,7 @@ size_t Drift::bytes() const {
   each(anchors32_);
   each(anchors64_);
   each(anchor_orientations_);
-  add(radii_, turn_radii_, anchored_, travelled_, share_, replaced_, replaced_bodies_, fence_,
+  add(radii_, turn_radii_, anchored_, travelled_, travelled_before_, share_, replaced_, replaced_bodies_, fence_,
       early_fence_, made_, outgrown_, growth_);
   return sum;
 }

@@ -49,6 +49,8 @@ class Drift {
   // `gap`, metres: the separation that they may lose before there is another result; a lower bound.
   std::span<const uint32_t> odometers() const { return travelled_; }
   uint32_t holds_until(Pair pair, float gap) const;
+  // By how many metres two bodies come nearer in so many steps, if they go on as in this one.
+  float reach(Pair pair, float steps) const;
 
   void give_back();
   size_t bytes() const;
@@ -79,7 +81,7 @@ class Drift {
   std::array<LargeVector<double>, 3> anchors64_;
   std::array<LargeVector<float>, 4> anchor_orientations_;
   std::vector<float> radii_, turn_radii_;  // the second: 0 for what does not turn
-  std::vector<uint32_t> anchored_, travelled_;
+  std::vector<uint32_t> anchored_, travelled_, travelled_before_;  // the last: in the last step
   // Of the tolerance of a pair, ticks; and a mark of one-sided triangles: what is behind them is
   // not near.
   static constexpr uint32_t kHasFront = 1u << 31;

@@ -49,14 +49,13 @@ void ResultHold::follow(const CarryPlan& plan, size_t pairs) {
 }
 
 void ResultHold::set_terms(const PairRange& range, const CarryPlan& plan,
-                           const ResultBuffer& results, bool has_gaps, const Drift& drift,
-                           const PairHistory& last, Parallelism parallelism,
-                           PairHistory& now) const {
+                           const GapStage& gaps, const Drift& drift, const PairHistory& last,
+                           Parallelism parallelism, PairHistory& now) const {
   resize_for_overwriting(now.holds_until, now.pairs.size());
   const auto set = [&](size_t begin, size_t end, size_t number) {
     for (size_t i = begin; i < end; ++i, ++number) {
       const size_t row = plan.row(number);
-      const float gap = has_gaps && row < plan.tested() ? results.gap(row) : 0;
+      const float gap = row < plan.tested() ? gaps.gap(row) : 0;
       now.holds_until[i] = drift.holds_until(now.pairs[i], gap);
     }
   };

@@ -8,8 +8,8 @@
 
 #include "world/changes/drift.h"
 #include "world/pairs/carry_plan.h"
+#include "world/pairs/gap_stage.h"
 #include "world/pairs/pair_history.h"
-#include "world/results/result_buffer.h"
 #include "world/store/columns.h"
 
 namespace carom {
@@ -26,11 +26,11 @@ class ResultHold {
   // Makes them indices of this step's pairs, which are so many; of those that are carried.
   void follow(const CarryPlan& plan, size_t pairs);
 
-  // Sets until when the results of a range hold that have been tested, and copies it of those that
-  // are carried. `has_gaps`: the results have separations of all pairs.
-  void set_terms(const PairRange& range, const CarryPlan& plan, const ResultBuffer& results,
-                 bool has_gaps, const Drift& drift, const PairHistory& last,
-                 Parallelism parallelism, PairHistory& now) const;
+  // Sets until when the results of a range hold that have been tested, whose gaps are known, and
+  // copies it of those that are carried.
+  void set_terms(const PairRange& range, const CarryPlan& plan, const GapStage& gaps,
+                 const Drift& drift, const PairHistory& last, Parallelism parallelism,
+                 PairHistory& now) const;
 
   void give_back() { give_back_scratch(due_, due_pairs_, due_of_block_); }
   size_t bytes() const { return bytes_of(due_) + bytes_of(due_pairs_) + due_of_block_.bytes(); }

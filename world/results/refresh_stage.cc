@@ -44,13 +44,13 @@ void RefreshStage::take(const PairRange& range, const Input& input, PairHistory&
 
 void RefreshStage::take_rows(size_t begin, size_t end, const Input& input,
                              std::vector<Change>& changes, PairHistory& now) const {
-  const auto& [results, bodies, drift, detail, identities, parallelism] = input;
+  const auto& [results, gaps, bodies, drift, detail, identities, parallelism] = input;
   const bool lists = has_contacts(detail), knows_sensors = bodies.knows_sensors();
   std::array<uint32_t, kPairsPerMergeBlock> places;  // of contacts to overwrite
   for (size_t row = begin; row < end; ++row) {
     const uint32_t i = due_[row];
     const Pair pair = pairs_[row];
-    now.holds_until[i] = drift.holds_until(pair, lists ? results.gap(row) : 0);
+    now.holds_until[i] = drift.holds_until(pair, gaps.gap(row));
     const uint8_t decision = results.overlap(row);
     const bool overlap = decision == 1;
     const bool sensor = knows_sensors && (bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b));

@@ -9,6 +9,7 @@
 #include "base/raw_vector.h"
 #include "carom/results/event.h"
 #include "world/changes/drift.h"
+#include "world/pairs/gap_stage.h"
 #include "world/pairs/pair_history.h"
 #include "world/results/list_moves.h"
 #include "world/results/result_buffer.h"
@@ -20,6 +21,7 @@ class RefreshStage {
  public:
   struct Input {
     const ResultBuffer& results;
+    const GapStage& gaps;
     const BodyStore& bodies;
     const Drift& drift;
     Detail detail;

@@ -49,13 +49,6 @@ class ResultBuffer {
   const uint8_t* overlaps_from(size_t row) const { return columns().overlap + place(row); }
   bool is_near(size_t row) const { return has_near() && near_[place(row)]; }
   bool has_near() const { return !near_.empty(); }
-  // How far the pair of a row is from having a contact, metres; 0 or less: it has one. Of pairs
-  // that were all measured.
-  float gap(size_t row) const {
-    const size_t at = place(row);
-    if (columns().overlap[at]) return 0;
-    return columns().separation[at] - (has_near() ? distances_[at] : 0);
-  }
   // The rows of pairs that are all tested, from this one on.
   PairRows rows_of(std::span<const Pair> pairs, size_t row, std::span<uint32_t> contact) const {
     return {columns(), place(row), pairs, contact};

@@ -12,6 +12,13 @@ namespace {
 constexpr uint32_t kEverything = 0xffffffffu;
 constexpr float kToleranceOfWorld = -1;
 
+LadderPtr ladder_of(const Shape& shape) {
+  if (const auto* hull = std::get_if<Hull>(&shape)) return hull->ladder;
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->ladder;
+  const auto* compound = std::get_if<Compound>(&shape);
+  return compound ? compound->ladder : nullptr;
+}
+
 // Creates the column as soon as a row differs from the default.
 template <class T>
 void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T default_value) {
@@ -82,6 +89,7 @@ void BodyStore::for_each_column(Self& self, const Visit& visit) {
   optional(self.sensor_, uint8_t{0});
   optional(self.contact_distance_, 0.0f);
   optional(self.tolerance_, kToleranceOfWorld);
+  optional(self.model_, Model{});
   optional(self.user_, uint64_t{0});
   optional(self.geometry_, std::shared_ptr<const void>());
   optional(self.dop_, static_cast<const DopGeometry*>(nullptr));
@@ -110,6 +118,7 @@ BodyId BodyStore::add(const BodyDesc& body) {
   if (rows() > generation_.size()) add_row();
   touch(index, kReplaced);
   set_position(index, body.position);
+  set_row(tolerance_, rows(), index, body.tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
   store_shape(index, body.shape);
   set_orientation(index, body.orientation);
   set_row(motion_, rows(), index, body.motion, Motion::dynamic);
@@ -118,7 +127,6 @@ BodyId BodyStore::add(const BodyDesc& body) {
   set_row(space_, rows(), index, body.space, 0u);
   set_row(sensor_, rows(), index, uint8_t{body.sensor}, uint8_t{0});
   set_row(contact_distance_, rows(), index, body.contact_distance, 0.0f);
-  set_row(tolerance_, rows(), index, body.tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
   set_row(user_, rows(), index, body.user, uint64_t{0});
   if (has_velocities_ || !body.linear_velocity.isZero(0)) {
     set_linear_velocity(index, body.linear_velocity);
@@ -137,6 +145,7 @@ void BodyStore::remove(BodyId id) {
   count_kind(index, -1);
   change_kind(index, ShapeKind::sphere);
   if (!geometry_.empty()) geometry_[index].reset();
+  if (!model_.empty()) model_[index] = {};
   if (!dop_.empty()) dop_[index] = nullptr;
   ++generation_[index];
   any_removed_ = true;
@@ -220,6 +229,7 @@ void BodyStore::set_radius(uint32_t index, float radius) {
 }
 
 Shape BodyStore::shape(uint32_t index) const {
+  if (!model_.empty() && model_[index].original) return *model_[index].original;
   const ShapeKind kind = kind_[index];
   if (kind == ShapeKind::sphere) return Sphere{radius(index)};
   if (has_geometry(kind)) return owning_shape(kind, geometry_[index]);
@@ -240,7 +250,22 @@ void BodyStore::count_kind(uint32_t index, int change) {
   bodies_of_kind_[static_cast<size_t>(kind_[index])] += static_cast<size_t>(change);
 }
 
+// Stores what stands for the shape: itself, or a model that the tolerance of the body allows.
 void BodyStore::store_shape(uint32_t index, const Shape& shape) {
+  const LadderPtr ladder = uses_models_ ? ladder_of(shape) : nullptr;
+  if (ladder && model_.empty()) model_.resize(rows());
+  if (!model_.empty()) model_[index] = {};
+  if (!ladder) return store_model(index, shape);
+  const double most = 0.5 * kShareOfRungs * double{tolerance(index).value_or(tolerance_of_world_)};
+  const Rung* best = nullptr;
+  for (const Rung& rung : ladder->rungs) {
+    if (rung.error <= most) best = &rung;
+  }
+  model_[index] = {best ? best->error : 0, std::make_shared<const Shape>(shape)};
+  store_model(index, best ? best->shape : shape);
+}
+
+void BodyStore::store_model(uint32_t index, const Shape& shape) {
   const ShapeKind kind = kind_of(shape);
   change_kind(index, kind);
   count_kind(index, 1);
@@ -401,6 +426,8 @@ void BodyStore::set_contact_distance(uint32_t index, float distance) {
 
 void BodyStore::set_tolerance(uint32_t index, std::optional<float> tolerance) {
   set_row(tolerance_, rows(), index, tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
+  const Shape own = shape(index);
+  if (ladder_of(own)) set_shape(index, own);  // another model may stand for it
   touch(index, kShapeTouched);
 }
 

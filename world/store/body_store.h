@@ -11,6 +11,7 @@
 #include "base/raw_vector.h"
 #include "carom/broadphase/find_pairs.h"
 #include "carom/shapes/body.h"
+#include "carom/shapes/rungs.h"
 #include "carom/shapes/views.h"
 #include "world/store/dop_geometries.h"
 #include "world/store/index_pool.h"
@@ -27,7 +28,10 @@ class BodyStore {
     Row lower, upper;
   };
 
-  explicit BodyStore(PositionType positions) : positions_(positions) {}
+  // `tolerance`: of bodies that have none of their own, metres. `uses_models`: whether the rungs of
+  // ladders may stand for shapes.
+  explicit BodyStore(PositionType positions, float tolerance = 0, bool uses_models = false)
+      : positions_(positions), tolerance_of_world_(tolerance), uses_models_(uses_models) {}
 
   BodyId add(const BodyDesc& body);
   void remove(BodyId id);
@@ -68,6 +72,8 @@ class BodyStore {
     return contact_distance_.empty() ? 0 : contact_distance_[index];
   }
   void set_contact_distance(uint32_t index, float distance);
+  // How far the model that stands for the shape of a body may be from it, metres; 0: none does.
+  double model_error(uint32_t index) const { return model_.empty() ? 0 : model_[index].error; }
   // None: that of the world.
   std::optional<float> tolerance(uint32_t index) const {
     if (tolerance_.empty() || tolerance_[index] < 0) return std::nullopt;
@@ -159,6 +165,7 @@ class BodyStore {
   void change_kind(uint32_t index, ShapeKind kind);
   void change_rows(uint32_t index, uint32_t last_count, uint32_t count);
   void store_shape(uint32_t index, const Shape& shape);
+  void store_model(uint32_t index, const Shape& shape);
   void store_box(uint32_t index, const Aabb& box);
   void store_geometry(uint32_t index, const Shape& shape);
   void set_dop_geometry(uint32_t index, const Dop& dop);
@@ -173,7 +180,15 @@ class BodyStore {
   float radius(uint32_t index) const;
   void set_radius(uint32_t index, float radius);
 
+  // What stands for the shape of a body.
+  struct Model {
+    double error = 0;
+    std::shared_ptr<const Shape> original;  // with its ladder; nullptr: it has none
+  };
+
   PositionType positions_;
+  float tolerance_of_world_;
+  bool uses_models_;
   IndexPool alive_;
   std::vector<uint32_t> generation_;
   // generation of new rows, above those of all bodies that dropped rows had
@@ -219,6 +234,7 @@ class BodyStore {
   std::vector<uint8_t> sensor_;
   std::vector<float> contact_distance_;
   std::vector<float> tolerance_;
+  std::vector<Model> model_;  // empty while no body has one
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;
   size_t detected_ = 0;  // bodies whose detection is not discrete

@@ -18,6 +18,7 @@ namespace carom {
 enum class HullSide : uint8_t {
   inside,   ///< in it: the points are some of the original ones
   outside,  ///< around it: no point of the original is outside
+  both,     ///< about as far outside as inside, which halves the error
 };
 
 /// What simplify_hull() may do.
@@ -39,7 +40,8 @@ struct SimplifiedHull {
 /// itself. Inside: starts with the point that is furthest from the middle and adds, again and
 /// again, the point that is furthest from the hull so far. Outside: the better one of two, the hull
 /// from inside, scaled until it contains all points, and the intersection of half-spaces, each of
-/// which cuts off the corner that is furthest from the original. The result lies outside by a
+/// which cuts off the corner that is furthest from the original. Both: the hull from inside, scaled
+/// by as much as brings the two errors near each other. The result lies outside by a
 /// little more than the rounding of its coordinates, so that it contains every point with
 /// certainty.
 ///

@@ -4,6 +4,8 @@
 
 #include <memory>
 
+#include "carom/shapes/ladder.h"
+
 namespace carom {
 
 class CompoundGeometry;  // carom/shapes/compound_geometry.h: made by make_compound()
@@ -11,6 +13,7 @@ class CompoundGeometry;  // carom/shapes/compound_geometry.h: made by make_compo
 /// A union of shapes, which turns with its body. Without geometry it is not valid.
 struct Compound {
   std::shared_ptr<const CompoundGeometry> geometry;  ///< made by make_compound(); may be shared
+  LadderPtr ladder = nullptr;  ///< simpler models of it, for bodies with a tolerance
 };
 
 }  // namespace carom

@@ -13,6 +13,7 @@
 
 #include "carom/base/result.h"
 #include "carom/export.h"
+#include "carom/shapes/ladder.h"
 
 namespace carom {
 
@@ -89,6 +90,7 @@ CAROM_EXPORT Result<std::shared_ptr<const HullGeometry>> make_hull(
 /// A convex hull, which turns with its body. Without geometry it is not valid.
 struct Hull {
   std::shared_ptr<const HullGeometry> geometry;  ///< made by make_hull(); may be shared
+  LadderPtr ladder = nullptr;  ///< simpler models of it, for bodies with a tolerance
 };
 
 }  // namespace carom
