@@ -26,6 +26,7 @@ struct SolverSettings {
   float dt = 1.0f / 60;
   int substeps = 10;
   float friction = 0.6f;
+  float damping = 0;  // the share of their velocities that bodies lose in a frame
   // Overlaps are pushed out by a spring of this frequency and damping, no faster than push_speed.
   float hertz = 120;
   float damping_ratio = 2;
@@ -123,6 +124,8 @@ class Solver {
       body.inverse_inertia_world = turn * body.inverse_inertia * turn.transpose();
       body.moved.setZero();
       body.turned.setIdentity();
+      body.velocity *= 1 - settings_.damping;
+      body.spin *= 1 - settings_.damping;
     }
   }
 
