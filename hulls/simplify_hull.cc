@@ -61,8 +61,8 @@ Result<SimplifiedHull> simplify_inside(const HullGeometry& hull, size_t most_poi
   return SimplifiedHull{std::move(built->geometry), error};
 }
 
-// The hull of some points, scaled about their middle until it lies as far outside of the original as
-// inside.
+// The hull of some points, scaled about their middle until it lies as far outside of the original
+// as inside.
 Result<SimplifiedHull> simplify_both(const HullGeometry& hull, size_t most_points) {
   Result<SimplifiedHull> inside = simplify_inside(hull, most_points);
   if (!inside) return inside;
@@ -76,7 +76,8 @@ Result<SimplifiedHull> simplify_both(const HullGeometry& hull, size_t most_point
     const double factor = 1 + part * inside->error / radius;
     Points points;
     for (const Vector3f& p : inner.points()) {
-      points.push_back((inner.middle() + factor * (p.cast<double>() - inner.middle())).cast<float>());
+      points.push_back(
+          (inner.middle() + factor * (p.cast<double>() - inner.middle())).cast<float>());
     }
     Result<BuiltHull> built = build_hull(points);
     if (!built) continue;

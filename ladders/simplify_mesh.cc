@@ -25,6 +25,7 @@ struct Surface {
       if (mesh.is_degenerate(i)) continue;
       corners.insert(corners.end(), mesh.triangles()[i].begin(), mesh.triangles()[i].end());
     }
+    if (corners.empty()) return;
     const auto given = mesh.vertices();
     std::vector<uint32_t> place(given.size());
     const size_t count = meshopt_generateVertexRemap(

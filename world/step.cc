@@ -149,8 +149,8 @@ bool World::State::keeps_pairs() const {
 
 // Tests the pairs that are due and are not tested otherwise.
 void World::State::refresh_due() {
-  const RefreshStage::Input found = {results, gaps, bodies,           drift,
-                                     settings.detail, has_identities(), settings.parallelism};
+  const RefreshStage::Input found = {
+      results, gaps, bodies, drift, settings.detail, has_identities(), settings.parallelism};
   run(Stage::pairs, [&] { refresh.start(hold.due_pairs(), now, settings.parallelism); });
   const size_t blocks = uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread;
   const size_t at_once = blocks * kPairsPerMergeBlock, due = refresh.renewed();
@@ -390,9 +390,8 @@ void World::State::find_results() {
     const ContactStage::Input found = {plan, last, results, bodies, settings};
     run(Stage::results, [&] { contact_stage.add_results(range, found, now); });
     if (drifts) {
-      run(Stage::pairs, [&] {
-        hold.set_terms(range, plan, gaps, drift, last, settings.parallelism, now);
-      });
+      run(Stage::pairs,
+          [&] { hold.set_terms(range, plan, gaps, drift, last, settings.parallelism, now); });
     }
     if (has_contacts(settings.detail)) {
       write_contacts(range, found, velocities ? &*velocities : nullptr);

@@ -175,7 +175,7 @@ std::vector<AdviceRow> not_needed(const Advice& advice) {
   add(spheres_alone(survey.kinds), "manifolds",
       "a sphere touches in one point: detail contact says all");
   add(survey.frames > 1 && run.kept == 0, "cache", "no pair kept its result");
-  add(survey.frames > 1 && survey.moving_share == 0, "margin, motion tolerance", "nothing moves");
+  add(survey.frames > 1 && survey.moving_share == 0, "margin, tolerance", "nothing moves");
   add(survey.frames > 1 && events_of(run) == 0, "events", "no overlap began or ended");
   add(!survey.has_velocities, "velocities", "the scene gives none");
   add(!survey.has_filters && survey.fixed == 0, "filters",

@@ -60,6 +60,10 @@ Result<Advice> advise_scene(const AdviseOptions& options, const Console& console
 
   Result<SceneSurvey> surveyed = survey(loaded);
   if (!surveyed) return surveyed.error();
+  const double model_error = error_within(options.tolerance);
+  if (model_error > 0 && std::isfinite(model_error)) {
+    if (auto ladders = loaded.add_ladders({&model_error, 1}); !ladders) return ladders.error();
+  }
   TrialLimits limits{.tolerance = options.tolerance, .threads = threads_of(options), .plan = {}};
   limits.plan.rounds = kMostRounds;
   limits.plan.deadline = Clock::now() + kBudget;

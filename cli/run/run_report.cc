@@ -171,11 +171,11 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
   options.add_rows(report, table);
   if (!report.ladders.empty()) {
     const LadderSums sums(report.ladders);
-    table.add({"ladders", std::to_string(sums.models) + " of " +
-                              std::to_string(report.ladders.size()) + " shapes have a model: " +
-                              std::to_string(sums.pieces) + " pieces -> " +
-                              std::to_string(sums.simpler) + number(", at most %.3g m off", sums.error) +
-                              number(", built in %.3g s", sums.seconds)});
+    table.add(
+        {"ladders", std::to_string(sums.models) + " of " + std::to_string(report.ladders.size()) +
+                        " shapes have a model: " + std::to_string(sums.pieces) + " pieces -> " +
+                        std::to_string(sums.simpler) + number(", at most %.3g m off", sums.error) +
+                        number(", built in %.3g s", sums.seconds)});
   }
   table.add({"frame", number("%.3f ms median", frame.median) + number(", %.3f min", frame.min) +
                           number(", %.3f p99", frame.p99) + number(", %.3f mean", frame.mean)});

@@ -21,6 +21,11 @@ class LoadedScene : public accuracy::Playback {
   // Reads until `frames` frames are loaded, the scene ends, or about `bytes` bytes are used.
   Result<void> load(size_t frames, size_t bytes = size_t{1} << 28);
 
+  // As Player::add_ladders().
+  Result<std::vector<LadderReport>> add_ladders(std::span<const double> errors) {
+    return player_.add_ladders(errors);
+  }
+
   const Player& player() const { return player_; }
   const io::SceneInfo& info() const { return scene_->info(); }
   const io::SceneFrame& frame(size_t index) const { return frames_[index]; }

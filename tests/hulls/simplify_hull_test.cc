@@ -119,6 +119,17 @@ double checked(const Points& points, size_t most_points, HullSide side) {
     const Outside found = outside(original_points, corners);
     EXPECT_LE(found.distance, simple->error + rounding);
     EXPECT_GE(found.distance, simple->error * 0.999 - 1e-6 * original->geometry->size());
+  } else if (side == HullSide::both) {
+    if (original_points.size() <= 60) {
+      const Outside there = outside(corners, original_points);
+      const Outside back = outside(original_points, corners);
+      const long double most = std::max(there.distance, back.distance);
+      EXPECT_LE(most, simple->error + rounding);
+      EXPECT_GE(most, simple->error * 0.999 - 1e-6 * original->geometry->size());
+    }
+    const auto inside =
+        simplify_hull(points, {.most_points = most_points, .side = HullSide::inside});
+    EXPECT_LE(simple->error, inside->error);
   } else {
     EXPECT_LE(outside(points, corners).beyond, rounding);
     if (original_points.size() <= 60) {
@@ -164,7 +175,7 @@ Points lattice(int side) {
 }
 
 TEST(SimplifyHull, OfCloudsAndSpheres) {
-  for (const HullSide side : {HullSide::inside, HullSide::outside}) {
+  for (const HullSide side : {HullSide::inside, HullSide::outside, HullSide::both}) {
     for (const size_t count : {5, 6, 9, 30, 200, 2000}) {
       if (count > rounds(2000, 30)) continue;
       for (const size_t most : {4, 5, 6, 7, 8, 12, 20}) {
@@ -177,7 +188,7 @@ TEST(SimplifyHull, OfCloudsAndSpheres) {
 }
 
 TEST(SimplifyHull, OfSliversAndFarBodies) {
-  for (const HullSide side : {HullSide::inside, HullSide::outside}) {
+  for (const HullSide side : {HullSide::inside, HullSide::outside, HullSide::both}) {
     for (const size_t most : {4, 8, 13}) {
       checked(cloud(50, 1, true, {1, 1, 1e-4f}), most, side);
       checked(cloud(50, 2, true, {1, 1e-3f, 1e-3f}), most, side);
@@ -193,7 +204,7 @@ TEST(SimplifyHull, OfSliversAndFarBodies) {
 }
 
 TEST(SimplifyHull, OfBoxesAndLattices) {
-  for (const HullSide side : {HullSide::inside, HullSide::outside}) {
+  for (const HullSide side : {HullSide::inside, HullSide::outside, HullSide::both}) {
     for (const int corners : {2, 3, 5}) {
       for (const size_t most : {4, 5, 6, 7}) checked(lattice(corners), most, side);
       // A lattice is a box.

@@ -227,7 +227,8 @@ float Drift::reach(Pair pair, float steps) const {
     const bool is_known = ticks >= 0 && ticks < static_cast<int32_t>(kJump / 2);
     return is_known ? static_cast<float>(ticks) : 0;
   };
-  const auto shares = static_cast<float>((share_[pair.a] & ~kHasFront) + (share_[pair.b] & ~kHasFront));
+  const auto shares =
+      static_cast<float>((share_[pair.a] & ~kHasFront) + (share_[pair.b] & ~kHasFront));
   const float ticks = std::max(steps * (pace(pair.a) + pace(pair.b)), shares);
   return ticks / ticks_per_metre_;
 }
@@ -250,8 +251,8 @@ void Drift::give_back() {
   each(anchors32_);
   each(anchors64_);
   each(anchor_orientations_);
-  carom::give_back(radii_, turn_radii_, anchored_, travelled_, travelled_before_, share_, replaced_, replaced_bodies_,
-                   fence_, early_fence_, made_);
+  carom::give_back(radii_, turn_radii_, anchored_, travelled_, travelled_before_, share_, replaced_,
+                   replaced_bodies_, fence_, early_fence_, made_);
   give_back_scratch(outgrown_of_block_, outgrown_, growth_);
 }
 
@@ -264,8 +265,8 @@ size_t Drift::bytes() const {
   each(anchors32_);
   each(anchors64_);
   each(anchor_orientations_);
-  add(radii_, turn_radii_, anchored_, travelled_, travelled_before_, share_, replaced_, replaced_bodies_, fence_,
-      early_fence_, made_, outgrown_, growth_);
+  add(radii_, turn_radii_, anchored_, travelled_, travelled_before_, share_, replaced_,
+      replaced_bodies_, fence_, early_fence_, made_, outgrown_, growth_);
   return sum;
 }
 

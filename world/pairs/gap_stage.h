@@ -1,4 +1,5 @@
-// How far apart the separate pairs of a step are, as far as it matters for holding on to that result.
+// How far apart the separate pairs of a step are, as far as it matters for holding on to that
+// result.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,8 @@ class GapStage {
 
   void give_back() { give_back_scratch(gap_, pairs_, rows_, reach_); }
   size_t bytes() const {
-    return bytes_of(gap_) + bytes_of(pairs_) + bytes_of(rows_) + bytes_of(reach_) + columns_.bytes();
+    return bytes_of(gap_) + bytes_of(pairs_) + bytes_of(rows_) + bytes_of(reach_) +
+           columns_.bytes();
   }
 
  private:

@@ -48,9 +48,9 @@ void ResultHold::follow(const CarryPlan& plan, size_t pairs) {
   due_pairs_.resize(kept);
 }
 
-void ResultHold::set_terms(const PairRange& range, const CarryPlan& plan,
-                           const GapStage& gaps, const Drift& drift, const PairHistory& last,
-                           Parallelism parallelism, PairHistory& now) const {
+void ResultHold::set_terms(const PairRange& range, const CarryPlan& plan, const GapStage& gaps,
+                           const Drift& drift, const PairHistory& last, Parallelism parallelism,
+                           PairHistory& now) const {
   resize_for_overwriting(now.holds_until, now.pairs.size());
   const auto set = [&](size_t begin, size_t end, size_t number) {
     for (size_t i = begin; i < end; ++i, ++number) {

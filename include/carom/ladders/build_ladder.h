@@ -39,10 +39,10 @@ CAROM_EXPORT double error_within(double tolerance);
 /// Gives a hull, a mesh or a compound a ladder, with a rung for each of these errors (metres, > 0,
 /// finite, ascending): the simplest model that was found within it, if that is worth it. Of hulls
 /// some points, moved outwards by half of what they lack; of meshes fewer triangles; of compounds
-/// those of its children. Other shapes stay as they are. A rung that cannot be proved is refused, and
-/// the report says so: of meshes that are one-sided or thick, whose fronts must stay where they are,
-/// and of hulls without volume. The same bits for the same shape. A mesh of 100,000 triangles takes
-/// some seconds a rung. Fails if an error is not such a number, or the shape has no geometry.
+/// those of its children. Other shapes stay as they are. A rung that cannot be proved is refused,
+/// and the report says so: of meshes that are one-sided or thick, whose fronts must stay where they
+/// are, and of hulls without volume. The same bits for the same shape. A mesh of 100,000 triangles
+/// takes some seconds a rung. Fails if an error is not such a number, or the shape has no geometry.
 CAROM_EXPORT Result<LadderedShape> build_ladder(const Shape& shape, std::span<const double> errors);
 
 }  // namespace carom

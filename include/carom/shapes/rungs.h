@@ -1,6 +1,6 @@
 /// @file
-/// The rungs of a ladder. build_ladder() (carom/ladders/build_ladder.h) makes them; callers who know
-/// simpler models of their shapes may make their own.
+/// The rungs of a ladder. build_ladder() (carom/ladders/build_ladder.h) makes them; callers who
+/// know simpler models of their shapes may make their own.
 #pragma once
 
 #include <vector>
@@ -22,8 +22,8 @@ struct Rung {
 /// The part of a body's half of a tolerance that its model may take up. The rest is for its motion.
 inline constexpr double kShareOfRungs = 7.0 / 8;
 
-/// The models of a shape, the finest first: errors ascend. A world tests a body by the last one whose
-/// error its tolerance allows (Accuracy::tolerance).
+/// The models of a shape, the finest first: errors ascend. A world tests a body by the last one
+/// whose error its tolerance allows (Accuracy::tolerance).
 struct Ladder {
   std::vector<Rung> rungs;  ///< empty: the shape itself is all there is
 };

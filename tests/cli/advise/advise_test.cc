@@ -70,7 +70,7 @@ TEST_F(AdviseTest, SpheresNeedNeitherOrientationsNorManifolds) {
   EXPECT_EQ(tried.count("proxy spheres"), 0u);
   EXPECT_EQ(tried.count("faces only"), 0u);
   for (const char* what : {"standard", "no cache", "2 threads", "single precision",
-                           "motion tolerance 0.0005", "certified", "exact"}) {
+                           "tolerance 0.001", "certified", "exact"}) {
     EXPECT_EQ(tried.count(what), 1u) << what;
   }
 }
@@ -113,10 +113,10 @@ TEST_F(AdviseTest, WhatIsChosenMeetsTheTolerance) {
 TEST_F(AdviseTest, StillScenesAreTold) {
   const json advice = advise_json("still:n=300,frames=6,density=0.5", "1e-3");
   EXPECT_EQ(advice["survey"]["moving_share"], 0);
-  EXPECT_FALSE(row(advice["not_needed"], "what", "margin, motion tolerance").is_null());
+  EXPECT_FALSE(row(advice["not_needed"], "what", "margin, tolerance").is_null());
   EXPECT_FALSE(row(advice["not_needed"], "what", "events").is_null());
   EXPECT_EQ(row(advice["settings"], "what", "margin")["reason"], "nothing moves");
-  EXPECT_TRUE(row(advice["trials"], "settings", "motion tolerance 0.0005").is_null());
+  EXPECT_TRUE(row(advice["trials"], "settings", "tolerance 0.001").is_null());
 }
 
 TEST_F(AdviseTest, PositionsAreFloatsWhereTheyCanBe) {
@@ -193,9 +193,9 @@ TEST(RunCommandText, QuotesWhatAShellWouldTakeApart) {
   trial.settings.accuracy.tier = Tier::fast;
   trial.settings.accuracy.knobs.faces_only = true;
   trial.settings.accuracy.knobs.single_precision = true;
-  trial.settings.accuracy.knobs.motion_tolerance = 0.005f;
+  trial.settings.accuracy.tolerance = 0.005f;
   EXPECT_EQ(run_command("s.npz", trial),
-            "carom run s.npz --tier fast --knobs single-precision,faces-only --motion-tolerance "
+            "carom run s.npz --tier fast --knobs single-precision,faces-only --tolerance "
             "0.005 --broadphase sweep --margin 0.1 --dop-bounds 14 --no-cache --threads 2");
 }
 

@@ -95,12 +95,12 @@ TEST_F(RunTest, ScenesOfAllKindsDoNotDependOnHowTheyAreRun) {
 TEST_F(RunTest, TiersAndKnobs) {
   const std::string scene = "brownian:n=300,frames=6,density=0.5,shape=box,speed=0.01,spin=0.2";
   const json standard = run_json({scene});
-  for (const char* key : {"knobs", "motion_tolerance", "undecided_per_frame"}) {
+  for (const char* key : {"knobs", "tolerance", "undecided_per_frame"}) {
     EXPECT_FALSE(standard.contains(key)) << key;
   }
-  const json fast = run_json({scene, "--tier", "fast", "--motion-tolerance", "0"});
+  const json fast = run_json({scene, "--tier", "fast", "--tolerance", "0"});
   EXPECT_EQ(fast["tier"], "fast");
-  EXPECT_FALSE(fast.contains("knobs") || fast.contains("motion_tolerance"));
+  EXPECT_FALSE(fast.contains("knobs") || fast.contains("tolerance"));
   EXPECT_EQ(fast["state_hash"], standard["state_hash"]);
 
   const json balls =
@@ -110,11 +110,22 @@ TEST_F(RunTest, TiersAndKnobs) {
   EXPECT_EQ(balls["pairs_per_frame"], standard["pairs_per_frame"]);
   EXPECT_GT(sum_of(balls["contacts_per_frame"]), sum_of(standard["contacts_per_frame"]));
 
-  const json lazy = run_json({scene, "--tier", "fast", "--motion-tolerance", "0.125"});
-  EXPECT_EQ(lazy["motion_tolerance"], 0.125);
-  EXPECT_EQ(lazy["pairs_per_frame"], standard["pairs_per_frame"]);
+  const json lazy = run_json({scene, "--tolerance", "0.125"});
+  EXPECT_EQ(lazy["tier"], "standard");
+  EXPECT_EQ(lazy["tolerance"], 0.125);
+  EXPECT_GE(sum_of(lazy["pairs_per_frame"]), sum_of(standard["pairs_per_frame"]));
   EXPECT_EQ(sum_of(standard["kept_pairs_per_frame"]), 0u);
   EXPECT_GT(sum_of(lazy["kept_pairs_per_frame"]), sum_of(lazy["tested_pairs_per_frame"]));
+
+  for (const char* bad : {"-1", "nan", "inf", "1e39"}) {
+    const CommandResult refused = run_command({"run", scene, "--tolerance", bad});
+    EXPECT_EQ(refused.code, 1) << bad;
+    EXPECT_NE(refused.err.find("--tolerance"), std::string::npos) << refused.err;
+  }
+  const CommandResult proven = run_command({"run", scene, "--tier", "exact", "--tolerance", "0.1"});
+  EXPECT_EQ(proven.code, 1);
+  EXPECT_NE(proven.err.find("not with --tier exact"), std::string::npos) << proven.err;
+  EXPECT_EQ(run_command({"run", scene, "--tolerance", "x"}).code, 2);
 
   const json certified = run_json({scene, "--tier", "certified"});
   EXPECT_EQ(certified["undecided_per_frame"].size(), 6u);
@@ -126,9 +137,9 @@ TEST_F(RunTest, TiersAndKnobs) {
 TEST_F(RunTest, TheTableNamesTierAndKnobs) {
   const std::string scene = "brownian:n=50,frames=2";
   EXPECT_EQ(run_command({"run", scene}).out.find("tier"), std::string::npos);
-  const CommandResult fast = run_command(
-      {"run", scene, "--tier", "fast", "--knobs", "faces-only", "--motion-tolerance", "0.01"});
-  EXPECT_NE(fast.out.find("fast: faces-only, motion tolerance 0.01 m"), std::string::npos);
+  const CommandResult fast =
+      run_command({"run", scene, "--tier", "fast", "--knobs", "faces-only", "--tolerance", "0.01"});
+  EXPECT_NE(fast.out.find("fast: faces-only, within 0.01 m"), std::string::npos);
   const CommandResult certified = run_command({"run", scene, "--tier", "certified"});
   EXPECT_NE(certified.out.find("undecided"), std::string::npos);
 }

@@ -23,7 +23,7 @@ RunSettings unusual_settings() {
   RunSettings settings;
   settings.world.accuracy.tier = Tier::fast;
   settings.world.accuracy.knobs.faces_only = true;
-  settings.world.accuracy.knobs.motion_tolerance = 0.125f;
+  settings.world.accuracy.tolerance = 0.125f;
   settings.world.detail = Detail::manifold;
   settings.detection = Detection::continuous;
   settings.world.broadphase = BroadphaseMethod::sweep;
@@ -35,7 +35,7 @@ RunSettings unusual_settings() {
 }
 
 constexpr char kUnusualText[] =
-    " --tier fast --knobs faces-only --motion-tolerance 0.125 --detail manifold --detection "
+    " --tier fast --knobs faces-only --tolerance 0.125 --detail manifold --detection "
     "continuous --broadphase sweep --margin 0.1 --contact-distance 0.05 --dop-bounds 14 --no-cache";
 
 Result<RunSettings> parse(const std::string& text) {
@@ -70,7 +70,7 @@ TEST(WorldOptions, UnusualSettingsAreRead) {
   const WorldSettings& world = settings->world;
   EXPECT_EQ(world.accuracy.tier, Tier::fast);
   EXPECT_TRUE(world.accuracy.knobs.faces_only);
-  EXPECT_EQ(world.accuracy.knobs.motion_tolerance, 0.125f);
+  EXPECT_EQ(world.accuracy.tolerance, 0.125f);
   EXPECT_EQ(world.detail, Detail::manifold);
   EXPECT_EQ(settings->detection, Detection::continuous);
   EXPECT_EQ(world.broadphase, BroadphaseMethod::sweep);
@@ -89,29 +89,18 @@ TEST(WorldOptions, TheJsonHasTheirKeys) {
   const auto report = nlohmann::ordered_json::parse(result.out);
   std::vector<std::string> keys;
   for (const auto& item : report.items()) keys.push_back(item.key());
-  const std::vector<std::string> expected = {"scene",
-                                             "bodies",
-                                             "frames",
-                                             "threads",
-                                             "isa",
-                                             "tier",
-                                             "knobs",
-                                             "motion_tolerance",
-                                             "detail",
-                                             "detection",
-                                             "broadphase",
-                                             "broadphase_reason",
-                                             "pair_order",
-                                             "margin",
-                                             "contact_distance",
-                                             "dop_bounds",
-                                             "pipeline"};
+  const std::vector<std::string> expected = {"scene",      "bodies",     "frames",
+                                             "threads",    "isa",        "tier",
+                                             "knobs",      "tolerance",  "detail",
+                                             "detection",  "broadphase", "broadphase_reason",
+                                             "pair_order", "margin",     "contact_distance",
+                                             "dop_bounds", "pipeline"};
   ASSERT_GE(keys.size(), expected.size());
   keys.resize(expected.size());
   EXPECT_EQ(keys, expected);
   EXPECT_EQ(report["tier"], "fast");
   EXPECT_EQ(report["knobs"], nlohmann::ordered_json::array({"faces-only"}));
-  EXPECT_EQ(report["motion_tolerance"], 0.125);
+  EXPECT_EQ(report["tolerance"], 0.125);
   EXPECT_EQ(report["detail"], "manifold");
   EXPECT_EQ(report["detection"], "continuous");
   EXPECT_EQ(report["broadphase"], "sweep");
