@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "carom/shapes/rungs.h"
 #include "carom/shapes/views.h"
 #include "shapes/geometry_row.h"
 
@@ -95,6 +96,13 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
                       rows[1][3] != 0,
                       inner_edges_from(rows[2][3])};
   }
+}
+
+LadderPtr ladder_of(const Shape& shape) {
+  if (const auto* hull = std::get_if<Hull>(&shape)) return hull->ladder;
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->ladder;
+  const auto* compound = std::get_if<Compound>(&shape);
+  return compound ? compound->ladder : nullptr;
 }
 
 }  // namespace carom

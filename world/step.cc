@@ -111,12 +111,8 @@ std::unique_ptr<World::State> World::State::without_results(State& broken) {
 
 // Whether the step repeats the last one.
 bool World::State::is_still() {
-  const bool drifted = std::exchange(
-      drifts, has_tolerance() && !bodies.has_detections() && hold_watch.starts_step());
-  if (drifts) {
-    if (!drifted) drift.forget();
-    return is_still_within_tolerance();
-  }
+  const bool drifted = std::exchange(drifts, may_drift());
+  if (drifts) return is_still_within_tolerance();
   if (drifted) changes.forget();
   const bool compares = compares_bodies();
   if (compares || bodies.has_detections()) {
@@ -127,6 +123,40 @@ bool World::State::is_still() {
   }
   if (!bodies.has_detections()) stop_looking_ahead();
   return compares && changes.all_unchanged() && !sweeps.changed() && has_same_filters();
+}
+
+// Whether this step holds on to results within the tolerance. It takes some steps to begin: of many
+// bodies a few are looked at first, so that a world in which everything flies pays for no more.
+bool World::State::may_drift() {
+  if (!can_drift() || !hold_watch.starts_step()) {
+    drift.forget();
+    paces.forget();
+    return false;
+  }
+  if (drifts) return true;
+  constexpr float kFewest = 0.25f;
+  if (drift.is_prepared()) {
+    float slow = 0;
+    run(Stage::changes, [&] { slow = drift.measure_paces(bodies, settings.parallelism); });
+    if (slow >= kFewest) return true;
+    drift.forget();
+    hold_watch.pause();
+    return false;
+  }
+  const float tolerance = settings.accuracy.tolerance;
+  const bool are_few = bodies.rows() < PaceSample::kFewBodies;
+  if (are_few || paces.is_taken()) {
+    const bool is_slow = are_few || paces.slow_share(bodies, tolerance) >= kFewest;
+    paces.forget();
+    if (is_slow) {
+      run(Stage::changes, [&] { drift.prepare(bodies, tolerance); });
+    } else {
+      hold_watch.pause();
+    }
+  } else {
+    paces.take(bodies);
+  }
+  return false;
 }
 
 // The same where all results hold within the tolerance.

@@ -12,6 +12,7 @@
 #include "carom/world/world.h"
 #include "world/changes/change_tracker.h"
 #include "world/changes/drift.h"
+#include "world/changes/pace_sample.h"
 #include "world/changes/rest_watch.h"
 #include "world/motion/body_bounds.h"
 #include "world/motion/bounding_radii.h"
@@ -144,6 +145,8 @@ struct World::State {
   template <class Work>
   void run(Stage stage, const Work& work);
   bool is_still();
+  bool can_drift() const { return has_tolerance() && !bodies.has_detections(); }
+  bool may_drift();
   bool is_still_within_tolerance();
   bool has_same_filters() const { return !excluded.has_changes() && !predicate_changed; }
   bool keeps_pairs() const;
@@ -183,6 +186,7 @@ struct World::State {
   ChangeTracker changes;
   HoldWatch hold_watch;
   bool drifts = false;  // this step holds on to results within the tolerance
+  PaceSample paces;
   Drift drift;
   ResultHold hold;
   RefreshStage refresh;

@@ -1,6 +1,7 @@
 #include "accuracy/scenes/trials.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "carom/base/thread_arena.h"
@@ -58,7 +59,7 @@ Result<TrialResult> compare(const Playback& scene, const StandardRun& standard,
     meter.add(frame, world);
   });
   if (!frame_ms) return frame_ms.error();
-  result.frame_ms = steady_median(*frame_ms);
+  result.frame_ms = steady_mean(*frame_ms);
   result.deviation = meter.finish();
   return result;
 }
@@ -84,7 +85,7 @@ Result<void> time_in_turns(const Playback& scene, std::span<const Trial> trials,
       keep_least(*times, least[i]);
     }
     for (size_t i = 0; i < trials.size(); ++i) {
-      if (results[i]) results[i]->frame_ms = steady_median(least[i]);
+      if (results[i]) results[i]->frame_ms = steady_mean(least[i]);
     }
   }
   return {};
@@ -99,8 +100,10 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-double steady_median(const std::vector<double>& frame_ms) {
-  return median({frame_ms.begin() + (frame_ms.size() > 1), frame_ms.end()});
+double steady_mean(const std::vector<double>& frame_ms) {
+  const auto first = frame_ms.begin() + (frame_ms.size() > 1);
+  if (first == frame_ms.end()) return 0;
+  return std::accumulate(first, frame_ms.end(), 0.0) / static_cast<double>(frame_ms.end() - first);
 }
 
 Result<StandardRun> run_standard(const Playback& scene) {

@@ -35,8 +35,8 @@ struct Trial {
 };
 
 struct TrialResult {
-  // For each frame the least time of any round; of these the median, without the first frame if
-  // there are others.
+  // For each frame the least time of any round; of these the mean, without the first frame if there
+  // are others: steps that hold on to results take turns with those that renew them.
   double frame_ms = 0;
   uint64_t candidates = 0;  // sums over all frames
   uint64_t tested = 0;
@@ -62,8 +62,8 @@ Result<std::vector<std::optional<TrialResult>>> run_trials(const Playback& scene
 // The middle value; for an even number of values the mean of the two in the middle; 0 if there is
 // none.
 double median(std::vector<double> values);
-// The median without the first value, in which everything is built for the first time, if there are
+// The mean without the first value, in which everything is built for the first time, if there are
 // others.
-double steady_median(const std::vector<double>& frame_ms);
+double steady_mean(const std::vector<double>& frame_ms);
 
 }  // namespace carom::accuracy

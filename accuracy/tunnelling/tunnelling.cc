@@ -209,7 +209,7 @@ class Measurement {
       }
     }
     for (size_t i = 0; i < report_.rows.size(); ++i) {
-      report_.rows[i].frame_ms = steady_median(least_ms_[i]);
+      report_.rows[i].frame_ms = steady_mean(least_ms_[i]);
     }
     return std::move(report_);
   }

@@ -38,7 +38,7 @@ struct TunnellingRow {
   uint64_t missed = 0;     // certain meetings that were not
   uint64_t grazes = 0;     // reported pairs that graze
   uint64_t unfounded = 0;  // reported pairs that do not even graze
-  double frame_ms = 0;     // all steps of a frame; median over frames of the least time
+  double frame_ms = 0;     // all steps of a frame; mean over frames of the least time
   std::optional<ImpactTimes> times;
 };
 

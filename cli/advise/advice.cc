@@ -55,21 +55,9 @@ std::string outcomes(const SettingsChoice& choice, SettingGroup group) {
 double float32_error(const SceneSurvey& survey) { return std::sqrt(3.0) * survey.float32_step; }
 
 AdviceRow tier_row(const Advice& advice) {
-  const Accuracy& chosen = advice.choice.chosen.settings.accuracy;
   std::string reason = outcomes(advice.choice, SettingGroup::tier);
   if (advice.survey.pairs.pairs == 0) reason = "no pairs in the frames looked at";
-  if (chosen.tier == Tier::fast) {
-    reason = counts_of(advice.choice.deviation) + " in these frames; " + reason;
-  }
-  return {"tier", chosen.tier == Tier::fast ? "fast" : "standard", reason};
-}
-
-AdviceRow knobs_row(const Advice& advice) {
-  const FastKnobs& knobs = advice.choice.chosen.settings.accuracy.knobs;
-  std::vector<std::string> names = names_of(knobs);
-  const std::string reason = outcomes(advice.choice, SettingGroup::knob);
-  return {"knobs", names.empty() ? "none" : joined(names, ", "),
-          reason.empty() ? "nothing to loosen" : reason};
+  return {"tier", "standard", reason};
 }
 
 AdviceRow tolerance_row(const Advice& advice) {
@@ -140,9 +128,8 @@ AdviceRow positions_row(const Advice& advice) {
 }
 
 std::vector<AdviceRow> settings_of(const Advice& advice) {
-  return {tier_row(advice),       knobs_row(advice),   tolerance_row(advice),
-          broadphase_row(advice), margin_row(advice),  dops_row(advice),
-          cache_row(advice),      threads_row(advice), positions_row(advice)};
+  return {tier_row(advice), tolerance_row(advice), broadphase_row(advice), margin_row(advice),
+          dops_row(advice), cache_row(advice),     threads_row(advice),    positions_row(advice)};
 }
 
 bool spheres_alone(const BodiesOfKind& kinds) {
@@ -204,8 +191,11 @@ Advice advise(const std::string& scene, double tolerance, SceneSurvey survey,
                 .choice = std::move(choice),
                 .settings = {},
                 .not_needed = {},
-                .command = {}};
-  advice.meets = advice.choice.deviation.worst() + advice.survey.pairs.error_bound <= tolerance;
+                .command = {},
+                .front = {}};
+  const double bound = advice.survey.pairs.error_bound;
+  advice.meets = advice.choice.deviation.worst() + bound <= tolerance;
+  advice.guaranteed_error = double{advice.choice.chosen.settings.accuracy.tolerance} + bound;
   advice.settings = settings_of(advice);
   advice.not_needed = not_needed(advice);
   advice.command = run_command(scene, advice.choice.chosen);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/advise/front.h"
 #include "cli/advise/scene_survey.h"
 #include "cli/advise/settings_trial.h"
 #include "cli/support/json_output.h"
@@ -26,7 +27,9 @@ struct Advice {
   bool meets = false;  // the choice plus the standard tier's own error meets the tolerance
   std::vector<AdviceRow> settings;
   std::vector<AdviceRow> not_needed;
-  std::string command;  // runs the scene with these settings
+  std::string command;            // runs the scene with these settings
+  double guaranteed_error = 0;    // metres: that of the tolerance, and the rounding beside it
+  std::vector<FrontPoint> front;  // empty unless it was asked for
 };
 
 Advice advise(const std::string& scene, double tolerance, SceneSurvey survey,

@@ -91,6 +91,18 @@ Json to_json(const std::vector<AdviceRow>& rows) {
   return list;
 }
 
+Json to_json(const std::vector<FrontPoint>& front) {
+  Json list = Json::array();
+  for (const FrontPoint& point : front) {
+    list.push_back({{"tolerance", point.tolerance},
+                    {"frame_ms", point.frame_ms},
+                    {"guaranteed_error", point.guaranteed_error},
+                    {"measured_error", point.measured_error},
+                    {"settings", point.settings}});
+  }
+  return list;
+}
+
 std::string four(const Spread& spread) {
   return number("%.3g min", spread.least) + number(", %.3g median", spread.median) +
          number(", %.3g p99", spread.p99) + number(", %.3g max", spread.most);
@@ -195,6 +207,10 @@ Json to_json(const Advice& advice) {
   json["choice"]["frame_ms_standard"] = choice.frame_ms_standard;
   json["meets"] = advice.meets;
   json["command"] = advice.command;
+  json["gain"] = choice.frame_ms_standard > 0 ? choice.frame_ms / choice.frame_ms_standard : 1;
+  json["guaranteed_error"] = advice.guaranteed_error;
+  json["measured_error"] = choice.deviation.worst();
+  if (!advice.front.empty()) json["front"] = to_json(advice.front);
   json["version"] = build_info::kVersion;
   json["commit"] = build_info::kCommit;
   json["compiler"] = build_info::kCompiler;
@@ -204,21 +220,23 @@ Json to_json(const Advice& advice) {
 
 void print(const Advice& advice, std::ostream& out) {
   const SettingsChoice& choice = advice.choice;
+  out << io::printable(advice.command) << ": "
+      << number("%.2f of the time at tolerance 0", choice.frame_ms / choice.frame_ms_standard)
+      << number(" (%.3f", choice.frame_ms)
+      << number(" for %.3f ms a frame)", choice.frame_ms_standard)
+      << number("; errors of %.2g m at most", advice.guaranteed_error)
+      << number(", %.2g m seen\n\n", choice.deviation.worst());
+  if (!advice.front.empty()) out << front_text(advice.front) << '\n';
   print_survey(advice, out);
   out << '\n';
   print_trials(choice, out);
   print_rows(("Settings for errors below " + number("%g", advice.tolerance) + " m").c_str(),
              advice.settings, out);
   print_rows("Not needed here", advice.not_needed, out);
-  out << '\n'
-      << number("%.3f ms a frame, ", choice.frame_ms)
-      << number("%.3f ms with what a world does by default", choice.frame_ms_standard)
-      << number("; error %.2g m at most in these frames\n", choice.deviation.worst());
   if (!advice.meets) {
-    out << "No settings keep errors below the tolerance: the standard tier itself may be off by "
+    out << "\nNo settings keep errors below the tolerance: the standard tier itself may be off by "
         << number("%.2g m\n", advice.survey.pairs.error_bound);
   }
-  out << io::printable(advice.command) << '\n';
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ struct AdviseOptions {
   double tolerance = 0;
   uint64_t frames = 30;
   int threads = 0;  // 0: as many as the machine has
+  bool front = false;
   std::string json;
 };
 
@@ -73,7 +74,17 @@ Result<Advice> advise_scene(const AdviseOptions& options, const Console& console
   };
   Result<SettingsChoice> choice = choose_settings(loaded, *surveyed, limits);
   if (!choice) return choice.error();
-  return advise(options.scene, options.tolerance, std::move(*surveyed), std::move(*choice));
+  std::vector<FrontPoint> front;
+  if (options.front) {
+    limits.plan.deadline = Clock::now() + kBudget;
+    auto measured = measure_front(loaded, *surveyed, choice->standard, limits.plan);
+    if (!measured) return measured.error();
+    front = std::move(*measured);
+  }
+  Advice advice =
+      advise(options.scene, options.tolerance, std::move(*surveyed), std::move(*choice));
+  advice.front = std::move(front);
+  return advice;
 }
 
 Result<int> run_advise(const AdviseOptions& options, const Console& console) {
@@ -102,6 +113,9 @@ void add_advise_command(CommandLine& program) {
       .show_default();
   command.add_option("--threads", options->threads,
                      "Threads to try, beside one; those of the machine if not given");
+  command.add_flag("--front", options->front,
+                   "Also measure tolerances from 1e-7 to 1e-1 of the radius, and list those that "
+                   "nothing beats in both time and guaranteed error");
   add_json_option(command, options->json);
   command.run([options](const Console& console) { return run_advise(*options, console); });
 }

@@ -31,23 +31,6 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-bool has_pairs_of(const SceneSurvey& survey, const std::function<bool(const std::string&)>& is) {
-  return std::any_of(survey.pairs.kinds.begin(), survey.pairs.kinds.end(),
-                     [&](const PairSurvey::Kinds& kinds) { return is(kinds.name); });
-}
-
-bool has_box_pairs(const SceneSurvey& survey) {
-  return has_pairs_of(
-      survey, [](const std::string& name) { return name == "box-box" || name == "aabb-box"; });
-}
-
-// Whether proxy spheres would change any pair.
-bool has_other_than_spheres(const SceneSurvey& survey) {
-  return has_pairs_of(survey, [](const std::string& name) {
-    return name != "sphere-sphere" && name != "sphere-halfspace";
-  });
-}
-
 // Whether shapes exist that may fill little of their bounding boxes.
 bool has_slanted_shapes(const SceneSurvey& survey) {
   const auto is_there = [&](ShapeKind kind) { return survey.kinds[static_cast<size_t>(kind)] > 0; };
@@ -101,13 +84,6 @@ std::vector<Candidate> lossless_candidates(const SceneSurvey& survey, Broadphase
   return candidates;
 }
 
-Candidate knob(const std::string& name, const std::function<void(FastKnobs&)>& set) {
-  return {SettingGroup::knob, name, [=](Trial& trial) {
-            trial.settings.accuracy.tier = Tier::fast;
-            set(trial.settings.accuracy.knobs);
-          }};
-}
-
 Candidate tier(const std::string& name, Tier tier) {
   return {SettingGroup::tier, name, [=](Trial& trial) { trial.settings.accuracy.tier = tier; }};
 }
@@ -115,15 +91,6 @@ Candidate tier(const std::string& name, Tier tier) {
 std::vector<Candidate> tier_candidates(const SceneSurvey& survey, double tolerance) {
   std::vector<Candidate> candidates;
   if (survey.pairs.pairs == 0) return candidates;
-  candidates.push_back(
-      knob("single precision", [](FastKnobs& knobs) { knobs.single_precision = true; }));
-  if (has_box_pairs(survey)) {
-    candidates.push_back(knob("faces only", [](FastKnobs& knobs) { knobs.faces_only = true; }));
-  }
-  if (has_other_than_spheres(survey)) {
-    candidates.push_back(
-        knob("proxy spheres", [](FastKnobs& knobs) { knobs.proxy_spheres = true; }));
-  }
   const auto metres = static_cast<float>(tolerance);
   if (moves(survey) && metres > 0 && std::isfinite(metres)) {
     candidates.push_back(
@@ -206,14 +173,12 @@ class SettingsSearch {
     return saved > kWorthwhile * tried.frame_ms_beside && saved > kWorthwhileMs;
   }
 
-  // A faster candidate of the same group, or null. Knobs can be combined; in other groups one
-  // candidate excludes the others.
+  // A faster candidate of the same group, or null.
   const TriedSettings* rival(const TriedSettings& tried, size_t first) const {
     const auto is_better = [&](const TriedSettings& other) {
       return &other != &tried && other.group == tried.group && pays(other) &&
              other.ratio() < tried.ratio();
     };
-    if (tried.group == SettingGroup::knob) return nullptr;
     const auto begin = choice_.tried.begin() + static_cast<std::ptrdiff_t>(first);
     const auto found = std::find_if(begin, choice_.tried.end(), is_better);
     return found == choice_.tried.end() ? nullptr : &*found;

@@ -11,8 +11,7 @@
 
 namespace carom::cli {
 
-// What a candidate changes. Several knobs may be chosen together. Tiers are only compared, never
-// chosen.
+// What a candidate changes. Tiers are only compared, never chosen.
 enum class SettingGroup : uint8_t {
   standard,
   cache,
@@ -20,7 +19,6 @@ enum class SettingGroup : uint8_t {
   margin,
   dops,
   threads,
-  knob,
   tolerance,
   tier,
   together,  // a combination of others

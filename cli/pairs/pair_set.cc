@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "carom/ladders/build_ladder.h"
 #include "cli/scenes/shapes.h"
 
 namespace carom::cli {
@@ -49,6 +50,24 @@ const float* first_of(const std::vector<std::array<float, 3>>& rows) {
   return rows.empty() ? nullptr : rows.front().data();
 }
 
+// To build a model takes as long as some hundred tests.
+constexpr size_t kFewestUses = 100;
+
+void use_models(const io::PairsFile& file, float tolerance, std::vector<Shape>& shapes) {
+  const double error = 0.5 * double{tolerance};
+  std::vector<size_t> uses(shapes.size());
+  for (const io::PairSide* side : {&file.a, &file.b}) {
+    for (const uint32_t shape : side->shape) ++uses[shape];
+  }
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    if (uses[i] < kFewestUses || !has_geometry(kind_of(shapes[i]))) continue;
+    const Result<LadderedShape> laddered = build_ladder(shapes[i], {&error, 1});
+    if (!laddered) continue;  // a shape that is not valid stays so
+    const LadderPtr ladder = ladder_of(laddered->shape);
+    if (ladder) shapes[i] = ladder->rungs.back().shape;
+  }
+}
+
 Eigen::Vector3f vector_of(const std::vector<std::array<float, 3>>& rows, size_t index) {
   return rows.empty() ? Eigen::Vector3f::Zero() : Eigen::Vector3f(rows[index].data());
 }
@@ -70,11 +89,12 @@ Sweep Motions::sweep(size_t index) const {
   return {vector_of(displacement, index), vector_of(rotation, index)};
 }
 
-Result<PairSet> read_pair_set(const std::string& path) {
+Result<PairSet> read_pair_set(const std::string& path, float tolerance) {
   Result<io::PairsFile> file = io::read_pairs(path);
   if (!file) return file.error();
   Result<std::vector<Shape>> shapes = convert_shapes(file->shapes, path);
   if (!shapes) return shapes.error();
+  if (tolerance > 0) use_models(*file, tolerance, *shapes);
   PositionType positions = file->float64_positions ? PositionType::float64 : PositionType::float32;
   return PairSet{columns_of(file->a, *shapes, positions), columns_of(file->b, *shapes, positions),
                  motions_of(file->a), motions_of(file->b)};

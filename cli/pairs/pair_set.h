@@ -42,8 +42,9 @@ struct PairSet {
 
 // Reads a file of pairs. An orientation that is not a rotation (NaN, infinite or zero) makes its
 // body invalid, whatever the kind. Kernels ignore orientations of spheres and aabbs, so this gives
-// such a body a NaN position.
-Result<PairSet> read_pair_set(const std::string& path);
+// such a body a NaN position. With a tolerance (metres), models within half of it stand for hulls,
+// meshes and compounds that many pairs share.
+Result<PairSet> read_pair_set(const std::string& path, float tolerance = 0);
 
 // The list of pairs (row i of A, row i of B): in order, or with neighbours far apart, so that they
 // fall into other lanes and other batches.

@@ -182,6 +182,7 @@ nlohmann::ordered_json to_json(const PairsReport& report, const PairsOptions& op
   json["tier"] = options.tier.tier;
   const std::vector<std::string> knobs = names_of(report.accuracy.knobs);
   if (!knobs.empty()) json["knobs"] = knobs;
+  if (report.accuracy.tolerance > 0) json["tolerance"] = report.accuracy.tolerance;
   json["detail"] = options.detail;
   json["contact_distance"] = options.contact_distance;
   json["threads"] = options.engine.threads;
@@ -218,7 +219,8 @@ void print(const PairsReport& report, const PairsOptions& options, std::ostream&
   }
   table.add({"invalid", std::to_string(report.invalid)});
   table.add({"threads, ISA", std::to_string(options.engine.threads) + ", " + name(active_isa())});
-  if (report.accuracy.tier != Tier::standard) table.add({"tier", describe(report.accuracy)});
+  const std::string tier = describe(report.accuracy);
+  if (tier != name_of(Tier::standard)) table.add({"tier", tier});
   table.add({"detail", options.detail});
   table.add({"time", time});
   table.print(out);
@@ -246,7 +248,8 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   Result<JsonOutput> json = JsonOutput::open(options.json);
   if (!json) return json.error();
 
-  Result<PairSet> set = read_pair_set(options.input);
+  Result<PairSet> set =
+      read_pair_set(options.input, finds_impacts(options) ? 0 : accuracy->tolerance);
   if (!set) return set.error();
   Result<Tested> tested = finds_impacts(options)
                               ? find_impacts(*set, options, console)

@@ -40,13 +40,7 @@ constexpr NamedDetail kDetails[] = {{"pairs", Detail::pairs},
 // Tier, knobs and tolerance: knobs need the fast tier.
 class AccuracyOption : public WorldOption {
  public:
-  void add_to(Command& command) override {
-    add_tier_options(command, options_);
-    command
-        .add_option("--tolerance", options_.tolerance,
-                    "Metres by which results may be wrong at most; 0: the standard tier")
-        .show_default();
-  }
+  void add_to(Command& command) override { add_tier_options(command, options_); }
 
   Result<void> read(RunSettings& settings) const override {
     const Result<Accuracy> accuracy = parse_accuracy(options_, KnobsOf::worlds);

@@ -107,6 +107,10 @@ void add_tier_options(Command& command, TierOptions& options) {
   command.add_option("--tier", options.tier, "fast, standard, certified or exact").show_default();
   command.add_option("--knobs", options.knobs,
                      "What the fast tier loosens, separated by commas; none if not given");
+  command
+      .add_option("--tolerance", options.tolerance,
+                  "Metres by which results may be wrong at most; 0: the standard tier")
+      .show_default();
 }
 
 void add_threads_option(Command& command, int& threads) {

@@ -31,7 +31,7 @@ struct TierOptions {
 };
 
 void add_engine_options(Command& command, EngineOptions& options);
-// Tier and knobs, which scenes and pairs have.
+// Tier, knobs and tolerance, which scenes and pairs have.
 void add_tier_options(Command& command, TierOptions& options);
 void add_threads_option(Command& command, int& threads);
 void add_json_option(Command& command, std::string& json);

@@ -55,10 +55,10 @@ void Drift::resize(const BodyStore& bodies) {
   for (size_t c = 0; c < 4; ++c) {
     anchor_orientations_[c].resize(bodies.orientations().size(), BodyStore::kIdentity[c]);
   }
-  for (auto* column : {&anchored_, &travelled_, &share_, &fence_, &early_fence_}) {
+  for (auto* column :
+       {&anchored_, &travelled_, &travelled_before_, &share_, &fence_, &early_fence_}) {
     column->resize(rows);
   }
-  travelled_before_ = travelled_;
   radii_.resize(rows);
   turn_radii_.resize(rows);
   for (const uint32_t index : replaced_bodies_) {
@@ -69,12 +69,70 @@ void Drift::resize(const BodyStore& bodies) {
   made_.resize(rows);
 }
 
+void Drift::prepare(const BodyStore& bodies, float tolerance) {
+  resize(bodies);
+  ticks_per_metre_ = std::min(kTicks / unit_of(bodies, tolerance), FLT_MAX);
+  move_all_elsewhere(bodies, tolerance);
+  known_ = Known::poses;
+}
+
+float Drift::measure_paces(const BodyStore& bodies, Parallelism parallelism) {
+  resize(bodies);
+  read_odometers(bodies, parallelism);
+  known_ = Known::paces;
+  size_t slow = 0;
+  for (uint32_t i = 0; i < travelled_.size(); ++i) {
+    const float pace = pace_of(i);
+    const bool is_slow = kFewestStepsAhead * pace <= most_growth(i) ||
+                         pace <= static_cast<float>(share_[i] & ~kHasFront);
+    slow += is_slow && !bodies.touched(i);
+  }
+  return static_cast<float>(slow) / static_cast<float>(std::max<size_t>(1, travelled_.size()));
+}
+
 void Drift::update(const BodyStore& bodies, const ChangeTracker& shapes, float tolerance,
                    Parallelism parallelism) {
   ++step_;
-  resize(bodies);
-  if (!knows_last_) ticks_per_metre_ = std::min(kTicks / unit_of(bodies, tolerance), FLT_MAX);
-  find_moved_elsewhere(bodies, shapes, tolerance);
+  if (std::exchange(known_, Known::all) == Known::paces) {
+    begin(bodies, tolerance);
+  } else {
+    resize(bodies);
+    find_moved_elsewhere(bodies, shapes, tolerance);
+    read_odometers(bodies, parallelism);
+  }
+  // Half-spaces have no bounds that could grow.
+  const Collidables view = bodies.view();
+  for (const uint32_t index : bodies.halfspaces()) {
+    if (travelled_[index] != anchored_[index]) {
+      move_elsewhere(bodies, BodyReader{view}, index, tolerance);
+    }
+  }
+  find_outgrown(parallelism);
+}
+
+// No bounds and no results are known, but how far each body has gone in this step.
+void Drift::begin(const BodyStore& bodies, float tolerance) {
+  std::vector<uint32_t>& gone = travelled_before_;
+  for (uint32_t i = 0; i < gone.size(); ++i) {
+    gone[i] = bodies.touched(i) ? 0 : travelled_[i] - travelled_before_[i];
+  }
+  move_all_elsewhere(bodies, tolerance);
+  for (uint32_t i = 0; i < gone.size(); ++i) {
+    made_[i] = {travelled_[i] - gone[i], step_ - 1};
+    travelled_before_[i] = made_[i].at;
+    fence_[i] = travelled_[i] - 1;
+  }
+}
+
+void Drift::move_all_elsewhere(const BodyStore& bodies, float tolerance) {
+  const Collidables view = bodies.view();
+  for (uint32_t i = 0; i < bodies.rows(); ++i) {
+    move_elsewhere(bodies, BodyReader{view}, i, tolerance);
+  }
+}
+
+void Drift::read_odometers(const BodyStore& bodies, Parallelism parallelism) {
+  travelled_before_ = travelled_;
   const TravelUnit unit = {ticks_per_metre_, kLeash};
   const auto add = [&](const auto& columns) {
     for_each_block(
@@ -86,14 +144,6 @@ void Drift::update(const BodyStore& bodies, const ChangeTracker& shapes, float t
   } else {
     add(columns(bodies.records64(), bodies, anchors64_));
   }
-  // Half-spaces have no bounds that could grow.
-  const Collidables view = bodies.view();
-  for (const uint32_t index : bodies.halfspaces()) {
-    if (travelled_[index] != anchored_[index]) {
-      move_elsewhere(bodies, BodyReader{view}, index, tolerance);
-    }
-  }
-  find_outgrown(parallelism);
 }
 
 template <class T>
@@ -117,10 +167,9 @@ void Drift::find_moved_elsewhere(const BodyStore& bodies, const ChangeTracker& s
   const Collidables view = bodies.view();
   const BodyReader reader{view};
   const auto rows = static_cast<uint32_t>(bodies.rows());
-  const bool knows_last = std::exchange(knows_last_, true);
   // A caller may have written the radii of spheres.
   const bool looks = bodies.shares_poses() && bodies.has_kind(ShapeKind::sphere);
-  if (knows_last && !looks && !shapes.any_reshaped()) {
+  if (!looks && !shapes.any_reshaped()) {
     for (const uint32_t index : bodies.touched_indices()) {
       if (index < rows) move_elsewhere(bodies, reader, index, tolerance);
     }
@@ -128,7 +177,7 @@ void Drift::find_moved_elsewhere(const BodyStore& bodies, const ChangeTracker& s
   }
   for (uint32_t i = 0; i < rows; ++i) {
     const bool is_other =
-        !knows_last || bodies.touched(i) || shapes.reshaped(view, i) ||
+        bodies.touched(i) || shapes.reshaped(view, i) ||
         (looks && reader.kind(i) == ShapeKind::sphere && reader.radius(i) != radii_[i]);
     if (is_other) move_elsewhere(bodies, reader, i, tolerance);
   }
@@ -211,8 +260,7 @@ float Drift::make_fence(uint32_t index) {
   const uint32_t now = travelled_[index];
   const float pace = static_cast<float>(now - made.at) / static_cast<float>(step_ - made.in_step);
   made = {now, step_};
-  const float most =
-      std::min(kMostGrowth * radii_[index] * ticks_per_metre_, static_cast<float>(kJump / 2));
+  const float most = most_growth(index);
   float ahead = 0;
   if (kFewestStepsAhead * pace <= most) ahead = std::min(kStepsAhead * pace, most);
   fence_[index] = now + static_cast<uint32_t>(ahead);
@@ -221,16 +269,22 @@ float Drift::make_fence(uint32_t index) {
   return (ahead + 2 * from_anchor) / ticks_per_metre_ * (1 + 0x1p-20f);
 }
 
+// Ticks in this step; 0 of a body that is somewhere else.
+float Drift::pace_of(uint32_t body) const {
+  const auto ticks = static_cast<int32_t>(travelled_[body] - travelled_before_[body]);
+  const bool is_known = ticks >= 0 && ticks < static_cast<int32_t>(kJump / 2);
+  return is_known ? static_cast<float>(ticks) : 0;
+}
+
+// By how many ticks the bounds of a body may grow at most.
+float Drift::most_growth(uint32_t body) const {
+  return std::min(kMostGrowth * radii_[body] * ticks_per_metre_, static_cast<float>(kJump / 2));
+}
+
 float Drift::reach(Pair pair, float steps) const {
-  const auto pace = [this](uint32_t body) {
-    const auto ticks = static_cast<int32_t>(travelled_[body] - travelled_before_[body]);
-    const bool is_known = ticks >= 0 && ticks < static_cast<int32_t>(kJump / 2);
-    return is_known ? static_cast<float>(ticks) : 0;
-  };
   const auto shares =
       static_cast<float>((share_[pair.a] & ~kHasFront) + (share_[pair.b] & ~kHasFront));
-  const float ticks = std::max(steps * (pace(pair.a) + pace(pair.b)), shares);
-  return ticks / ticks_per_metre_;
+  return std::max(steps * (pace_of(pair.a) + pace_of(pair.b)), shares) / ticks_per_metre_;
 }
 
 uint32_t Drift::holds_until(Pair pair, float gap) const {

@@ -27,13 +27,19 @@ struct BodyReader;
 
 class Drift {
  public:
-  // Reads the odometers, and lists the bodies that need new bounds. `shapes` has compared boxes and
-  // rows. `tolerance`: of the world, metres.
+  // Begins in three steps, so that it is known in time whether that is worth it. First: remembers
+  // where the bodies are.
+  void prepare(const BodyStore& bodies, float tolerance);
+  // In the next step: finds how fast they are, and returns which share of them is so slow that
+  // bounds or results would hold for some steps. Then update(), or forget().
+  float measure_paces(const BodyStore& bodies, Parallelism parallelism);
+  bool is_prepared() const { return known_ == Known::poses; }
+  void forget() { known_ = Known::nothing; }
+
+  // Reads the odometers, and lists the bodies that need new bounds; all the first time. `shapes`
+  // has compared boxes and rows. `tolerance`: of the world, metres.
   void update(const BodyStore& bodies, const ChangeTracker& shapes, float tolerance,
               Parallelism parallelism);
-
-  // Makes the next update begin anew: then every body is somewhere else.
-  void forget() { knows_last_ = false; }
 
   // The bodies that may have left their bounds, ascending. If they are not few, all are listed.
   std::span<const uint32_t> outgrown() const { return outgrown_; }
@@ -68,14 +74,19 @@ class Drift {
   void resize(const BodyStore& bodies);
   void move_elsewhere(const BodyStore& bodies, const BodyReader& reader, uint32_t index,
                       float tolerance);
+  void begin(const BodyStore& bodies, float tolerance);
+  void move_all_elsewhere(const BodyStore& bodies, float tolerance);
+  void read_odometers(const BodyStore& bodies, Parallelism parallelism);
   void find_moved_elsewhere(const BodyStore& bodies, const ChangeTracker& shapes, float tolerance);
   void find_outgrown(Parallelism parallelism);
   void list_past(const std::vector<uint32_t>& fence, Parallelism parallelism);
   float make_fence(uint32_t index);
+  float pace_of(uint32_t body) const;
+  float most_growth(uint32_t body) const;
 
   float ticks_per_metre_ = 0;
   uint32_t step_ = 0;
-  bool knows_last_ = false;
+  enum class Known : uint8_t { nothing, poses, paces, all } known_ = Known::nothing;
 
   std::array<LargeVector<float>, 3> anchors32_;  // as the store has positions
   std::array<LargeVector<double>, 3> anchors64_;

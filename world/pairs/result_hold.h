@@ -52,7 +52,12 @@ class HoldWatch {
     --pause_;
     return false;
   }
-  bool is_on() const { return pause_ == 0; }
+
+  // Nothing would hold.
+  void pause() {
+    pause_ = patience_;
+    patience_ = std::min(2 * patience_, kMostPatience);
+  }
 
   // After a step, with the numbers of its pairs that it kept, and of all.
   void saw(size_t kept, size_t pairs, bool had_terms) {
@@ -62,8 +67,7 @@ class HoldWatch {
       patience_ = kLeastPatience;
       pause_ = 0;
     } else if (had_terms) {
-      pause_ = patience_;
-      patience_ = std::min(2 * patience_, kMostPatience);
+      pause();
     }
   }
 

@@ -12,13 +12,6 @@ namespace {
 constexpr uint32_t kEverything = 0xffffffffu;
 constexpr float kToleranceOfWorld = -1;
 
-LadderPtr ladder_of(const Shape& shape) {
-  if (const auto* hull = std::get_if<Hull>(&shape)) return hull->ladder;
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->ladder;
-  const auto* compound = std::get_if<Compound>(&shape);
-  return compound ? compound->ladder : nullptr;
-}
-
 // Creates the column as soon as a row differs from the default.
 template <class T>
 void set_row(std::vector<T>& column, size_t rows, uint32_t index, T value, T default_value) {

@@ -28,4 +28,7 @@ struct Ladder {
   std::vector<Rung> rungs;  ///< empty: the shape itself is all there is
 };
 
+/// The ladder of a shape; nullptr: it has none.
+CAROM_EXPORT LadderPtr ladder_of(const Shape& shape);
+
 }  // namespace carom

@@ -264,13 +264,20 @@ TEST(Tolerance, IsLeftAloneWhereNothingHolds) {
   EXPECT_EQ(worlds[1].report().tested, 0u);
 }
 
+// The first step sees where bodies are, the second how fast they are: from then on results are
+// kept.
+void start_keeping(World& world) {
+  world.step();
+  world.step();
+}
+
 // A body of that shape inside a large sphere.
 struct Lone {
   explicit Lone(const Shape& shape, float metres = 0.5f, PositionType positions = {})
       : world(within(metres, {.positions = positions, .persist_events = true})) {
     id = world.add({.shape = shape});
     other = world.add({.shape = Sphere{5}, .position = {1, 0, 0}});
-    world.step();
+    start_keeping(world);
   }
 
   bool is_tested() {
@@ -396,7 +403,8 @@ TEST(Tolerance, APairEndsWithItsBounds) {
   World world(within(100));
   const BodyId id = world.add({.shape = Sphere{1}});
   world.add({.shape = Sphere{1}, .position = {1.9, 0, 0}});
-  EXPECT_EQ(world.step().overlaps, 1u);
+  start_keeping(world);
+  EXPECT_EQ(world.report().overlaps, 1u);
   world.set_position(id, {-0.2, 0, 0});
   EXPECT_EQ(world.step().kept, 1u);
   world.set_position(id, {-5, 0, 0});
@@ -414,7 +422,8 @@ TEST(Tolerance, AGapIsAddedToIt) {
   world.add({.shape = Box{{1, 1, 1}},
              .position = {2.3, 2.3, 0},
              .orientation = Orientation(Eigen::AngleAxisf(0.785398f, Eigen::Vector3f::UnitZ()))});
-  EXPECT_EQ(world.step().pairs, 1u);
+  start_keeping(world);
+  EXPECT_EQ(world.report().pairs, 1u);
   EXPECT_EQ(world.report().overlaps, 0u);
   const double gap = 2.3 * std::sqrt(2.0) - std::sqrt(2.0) - 1;
   const auto move = [&](double way) -> const StepReport& {
@@ -440,7 +449,8 @@ TEST(Tolerance, WhatIsBehindATriangleIsTestedOnceItHasMoved) {
   world.add({.shape = Triangle{.corners = {Eigen::Vector3f{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}},
                                .one_sided = true}});
   const BodyId id = world.add({.shape = Sphere{1}, .position = {0, 0, -0.01}});
-  EXPECT_EQ(world.step().pairs, 1u);
+  start_keeping(world);
+  EXPECT_EQ(world.report().pairs, 1u);
   EXPECT_EQ(world.report().overlaps, 0u);
   world.set_position(id, {0, 0, 0.08});
   EXPECT_EQ(world.step().tested, 0u);
@@ -455,7 +465,7 @@ TEST(Tolerance, OfABodyReplacesThatOfTheWorld) {
   const BodyId a = world.add({.shape = Sphere{1}, .tolerance = 0.0f});
   const BodyId b = world.add({.shape = Sphere{1}, .position = {1, 0, 0}, .tolerance = 0.5f});
   EXPECT_EQ(world.tolerance(a), 0.0f);
-  world.step();
+  start_keeping(world);
   world.set_position(a, {0.24, 0, 0});
   EXPECT_EQ(world.step().tested, 0u);
   world.set_position(b, {1.02, 0, 0});
@@ -472,7 +482,7 @@ TEST(Tolerance, OfABodyReplacesThatOfTheWorld) {
   World plain(WorldSettings{});
   const BodyId own = plain.add({.shape = Sphere{1}, .tolerance = 0.2f});
   plain.add({.shape = Sphere{1}, .position = {1, 0, 0}});
-  plain.step();
+  start_keeping(plain);
   plain.set_position(own, {0.09, 0, 0});
   EXPECT_EQ(plain.step().tested, 0u);
   plain.set_position(own, {0.11, 0, 0});
