@@ -43,6 +43,7 @@ NARROWPHASE = {
 AROUND = {
     "reference": "all of it again in plain scalar C++",
     "hulls": "points -> convex hulls, simpler ones",
+    "ladders": "shapes -> simpler models within proved distances",
     "io": "files of scenes, pairs and results; generators",
     "oracle": "exact answers by brute force",
     "accuracy": "measures what accuracy costs",
