@@ -81,7 +81,8 @@ Model model_of(const CompoundGeometry& compound, double most) {
     const auto* hull = std::get_if<Hull>(&child.shape);
     const auto* mesh = std::get_if<Mesh>(&child.shape);
     if (!hull && !mesh) continue;
-    const void* const geometry = hull ? static_cast<const void*>(hull->geometry.get()) : mesh->geometry.get();
+    const void* const geometry =
+        hull ? static_cast<const void*>(hull->geometry.get()) : mesh->geometry.get();
     auto [place, is_new] = known.try_emplace(geometry);
     if (is_new) place->second = model_of(child.shape, most);
     const Model& model = place->second;
@@ -99,7 +100,8 @@ Model model_of(const CompoundGeometry& compound, double most) {
 Model model_of(const Shape& shape, double most) {
   if (const auto* hull = std::get_if<Hull>(&shape)) return model_of(*hull->geometry, most);
   if (const auto* mesh = std::get_if<Mesh>(&shape)) return model_of(*mesh->geometry, most);
-  if (const auto* compound = std::get_if<Compound>(&shape)) return model_of(*compound->geometry, most);
+  if (const auto* compound = std::get_if<Compound>(&shape))
+    return model_of(*compound->geometry, most);
   return refused("shapes of this kind have no simpler model");
 }
 

@@ -28,8 +28,8 @@ struct Surface {
     if (corners.empty()) return;
     const auto given = mesh.vertices();
     std::vector<uint32_t> place(given.size());
-    const size_t count = meshopt_generateVertexRemap(
-        place.data(), corners.data(), corners.size(), given.data(), given.size(), sizeof(given[0]));
+    const size_t count = meshopt_generateVertexRemap(place.data(), corners.data(), corners.size(),
+                                                     given.data(), given.size(), sizeof(given[0]));
     vertices.resize(count);
     meshopt_remapVertexBuffer(vertices.data(), given.data(), given.size(), sizeof(given[0]),
                               place.data());
@@ -43,15 +43,15 @@ struct Surface {
 // Collapses edges up to an error, a share of the extents.
 std::shared_ptr<const MeshGeometry> collapse(const Surface& surface, float error) {
   std::vector<uint32_t> corners(surface.corners.size());
-  const size_t count = meshopt_simplify(corners.data(), surface.corners.data(),
-                                        surface.corners.size(), surface.numbers(),
-                                        surface.vertices.size(), Surface::kStride, 0, error, 0, nullptr);
+  const size_t count = meshopt_simplify(
+      corners.data(), surface.corners.data(), surface.corners.size(), surface.numbers(),
+      surface.vertices.size(), Surface::kStride, 0, error, 0, nullptr);
   if (count == 0) return nullptr;
   corners.resize(count);
   std::vector<Eigen::Vector3f> vertices(surface.vertices.size());
-  const size_t used = meshopt_optimizeVertexFetch(vertices.data(), corners.data(), count,
-                                                  surface.vertices.data(), surface.vertices.size(),
-                                                  Surface::kStride);
+  const size_t used =
+      meshopt_optimizeVertexFetch(vertices.data(), corners.data(), count, surface.vertices.data(),
+                                  surface.vertices.size(), Surface::kStride);
   vertices.resize(used);
   std::vector<std::array<uint32_t, 3>> triangles(count / 3);
   for (size_t i = 0; i < triangles.size(); ++i) {
@@ -79,7 +79,8 @@ std::optional<SimplerMesh> simplify_mesh(const MeshGeometry& mesh, double most) 
     if (error <= most) {
       good = limit;
       const auto triangles = static_cast<double>(simpler->triangles().size());
-      const bool is_better = !best || triangles < static_cast<double>(best->geometry->triangles().size());
+      const bool is_better =
+          !best || triangles < static_cast<double>(best->geometry->triangles().size());
       if (triangles <= enough && is_better) best = SimplerMesh{simpler, error};
     } else {
       bad = limit;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "trees/tree.h"
 
@@ -53,7 +55,8 @@ class Distance {
   bool add(const Corners& piece, int divisions) {
     const Bounds bounds = bounds_of(piece);
     if (bounds.upper <= worst_) return true;
-    const bool is_good = bounds.upper <= most_ && bounds.upper - bounds.lower <= kGoodEnough * most_;
+    const bool is_good =
+        bounds.upper <= most_ && bounds.upper - bounds.lower <= kGoodEnough * most_;
     if (is_good || divisions == 0) {
       worst_ = std::max(worst_, bounds.upper);
       return bounds.upper <= most_;
@@ -76,25 +79,43 @@ class Distance {
   Bounds bounds_of(const Corners& piece) const {
     const Vector3d low = piece[0].cwiseMin(piece[1]).cwiseMin(piece[2]);
     const Vector3d high = piece[0].cwiseMax(piece[1]).cwiseMax(piece[2]);
-    const Vector3d middle = (low + high) / 2, half = (high - low) / 2;
     std::array<double, 3> least = {kInfinity, kInfinity, kInfinity};  // of each corner, squared
     double together = kInfinity;  // to one triangle, of the furthest corner
-    const RoundedBox around =
-        rounded_outwards({middle.x(), middle.y(), middle.z()}, {half.x(), half.y(), half.z()}, most_);
-    to_.tree().find_touching(around, [&](std::span<const uint32_t> triangles) {
-      for (const uint32_t triangle : triangles) {
-        const Corners corners = corners_of(to_, triangle);
-        double furthest = 0;
-        for (size_t i = 0; i < 3; ++i) {
-          const double square = square_to_triangle(piece[i], corners);
-          least[i] = std::min(least[i], square);
-          furthest = std::max(furthest, square);
-        }
-        together = std::min(together, furthest);
+    for_each_near(low, high, [&](uint32_t triangle) {
+      const Corners corners = corners_of(to_, triangle);
+      double furthest = 0;
+      for (size_t i = 0; i < 3; ++i) {
+        const double square = square_to_triangle(piece[i], corners);
+        least[i] = std::min(least[i], square);
+        furthest = std::max(furthest, square);
       }
+      together = std::min(together, furthest);
     });
     return {std::sqrt(*std::max_element(least.begin(), least.end())) - slack_,
             std::sqrt(together) + slack_};
+  }
+
+  // Calls visit(triangle) for all triangles of the other surface that are within `most_` of a box,
+  // and some that are further.
+  template <class Visit>
+  void for_each_near(const Vector3d& low, const Vector3d& high, const Visit& visit) const {
+    const std::span<const BoxTree::Node> nodes = to_.tree().nodes();
+    std::vector<uint32_t> open;
+    if (!nodes.empty()) open.push_back(0);
+    while (!open.empty()) {
+      const BoxTree::Node& node = nodes[open.back()];
+      open.pop_back();
+      for (size_t i = 0; i < BoxTree::kChildren; ++i) {
+        bool is_near = true;
+        for (int axis = 0; axis < 3; ++axis) {
+          is_near &= node.lower[axis][i] <= high[axis] + most_ + slack_ &&
+                     node.upper[axis][i] >= low[axis] - most_ - slack_;
+        }
+        if (!is_near) continue;
+        const uint32_t child = node.child[i];
+        child >= BoxTree::kItem ? visit(child - BoxTree::kItem) : open.push_back(child);
+      }
+    }
   }
 
   const MeshGeometry& to_;

@@ -6,9 +6,9 @@
 namespace carom::ladders {
 
 // An upper bound of the distance of every point of `from` to the nearest point of `to`, metres.
-// Infinite if it may be more than `most`. Triangles without area do not count. A triangle is as near
-// as its furthest corner to some one triangle of `to`, since the distance from a convex set is convex;
-// one that is too far by that is divided in four, as often as it helps.
+// Infinite if it may be more than `most`. Triangles without area do not count. A triangle is as
+// near as its furthest corner to some one triangle of `to`, since the distance from a convex set is
+// convex; one that is too far by that is divided in four, as often as it helps.
 double furthest(const MeshGeometry& from, const MeshGeometry& to, double most);
 
 }  // namespace carom::ladders

@@ -107,7 +107,7 @@ def main():
     print_knobs(pairs)
     print("\n### Knobs in whole scenes\n")
     print_fidelity(document["fidelity"])
-    print("\n### Motion tolerance\n")
+    print("\n### Tolerance\n")
     print_reuse(document["reuse"])
 
 

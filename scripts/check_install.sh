@@ -24,7 +24,7 @@ cmake --build "$scratch/examples"
 has_hulls=$(find "$prefix" -name carom-hulls.pc)
 for source in examples/*.cc; do
   name=$(basename "$source" .cc)
-  [ "$name" != hull_from_points ] || [ -n "$has_hulls" ] || continue
+  [[ $name != @(hull_from_points|tolerance) ]] || [ -n "$has_hulls" ] || continue
   echo "== $name"
   "$scratch/examples/$name"
 done
@@ -49,6 +49,7 @@ run_through_pkg_config() {
 }
 run_through_pkg_config first_program carom-reference
 [ -z "$has_hulls" ] || run_through_pkg_config hull_from_points carom-hulls
+[ -z "$has_hulls" ] || run_through_pkg_config tolerance carom-ladders
 
 if [ "$linkage" = shared ]; then
   # Weak symbols are templates of the standard library; strong ones must be ours and public.

@@ -12,5 +12,5 @@ esac
 
 trap 'cmake --preset release -DBUILD_SHARED_LIBS=OFF >/dev/null' EXIT
 cmake --preset release -DBUILD_SHARED_LIBS=$shared >/dev/null
-scripts/build.sh release carom carom_reference carom_hulls
+scripts/build.sh release carom carom_reference carom_hulls carom_ladders
 scripts/check_install.sh build/release g++ "$linkage"

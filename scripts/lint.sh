@@ -15,7 +15,7 @@ tree=build/lint-UnifiedSource
 cmake --preset clang -B $tree -DCAROM_UNITY_BUILD=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=OFF \
   -DCAROM_BUILD_TESTS=OFF -DCAROM_BUILD_BENCH=OFF >/dev/null
 cmake --build $tree --target carom_build_info_header carom_precompiled carom_precompiled_program >/dev/null
-rooms='simd|base|shapes|trees|bounds|geometries|broadphase|narrowphase|midphase|impacts|queries|world|reference|hulls|io|cli'
+rooms='simd|base|shapes|trees|bounds|geometries|broadphase|narrowphase|midphase|impacts|queries|world|reference|hulls|ladders|io|cli'
 # The analyzer follows each function through at most so many states, and does not look into the
 # functions of the standard library, in which it would spend most of them and two fifths of the time.
 analyzer=(max-nodes=100000 c++-stdlib-inlining=false)

@@ -3,5 +3,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folders=(include simd base shapes trees bounds geometries broadphase narrowphase midphase impacts queries world
-         reference hulls io cli tests bench examples fuzz oracle accuracy)
+         reference hulls ladders io cli tests bench examples fuzz oracle accuracy)
 find "${folders[@]}" -type f \( -name '*.h' -o -name '*.cc' \) | sort

@@ -9,7 +9,7 @@
 namespace carom::accuracy {
 namespace {
 
-// Motion tolerances as shares of the median bounding radius.
+// Tolerances as shares of the median bounding radius.
 constexpr double kTolerances[] = {1e-4, 1e-3, 1e-2, 1e-1};
 
 Trial fast_trial(const std::string& name, const FastKnobs& knobs) {

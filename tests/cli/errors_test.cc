@@ -158,15 +158,15 @@ TEST_F(ErrorsTest, KnobsNeedTheFastTier) {
   expect_error({"run", scene, "--knobs", "faces-only"},
                {"--knobs needs --tier fast, not standard"});
   fails("exact", "--knobs", "proxy-spheres", {"--knobs needs --tier fast, not exact"});
-  fails("certified", "--motion-tolerance", "0.1", {"--motion-tolerance needs --tier fast"});
+  fails("certified", "--tolerance", "0.1", {"--tolerance 0.1: not with --tier certified"});
   fails("fast", "--knobs", "magic", {"unknown knob 'magic'", served});
   fails("fast", "--knobs", "faces-only,magic", {"unknown knob 'magic'", served});
   fails("fast", "--knobs", "faces-only,", {"unknown knob ''", served});
   fails("fast", "--knobs", "faces-only, proxy-spheres", {"unknown knob ' proxy-spheres'"});
   for (const char* metres : {"-1", "nan", "inf", "1e39", "-1e-9"}) {
-    fails("fast", "--motion-tolerance", metres, {"--motion-tolerance", "metres"});
+    fails("fast", "--tolerance", metres, {"--tolerance", "metres"});
   }
-  fails("fast", "--motion-tolerance", "wide", {"--motion-tolerance", "wide"});
+  fails("fast", "--tolerance", "wide", {"--tolerance", "wide"});
 
   write_pairs(path("in.npz"), 2);
   const auto pairs_fail = [&](const std::string& tier, const std::string& option,
@@ -177,7 +177,8 @@ TEST_F(ErrorsTest, KnobsNeedTheFastTier) {
   pairs_fail("standard", "--knobs", "faces-only", "--knobs needs --tier fast");
   pairs_fail("fast", "--knobs", "proxy-spheres", "knob 'proxy-spheres' is for scenes only");
   pairs_fail("fast", "--knobs", "magic", "(there are: single-precision, faces-only)");
-  pairs_fail("fast", "--motion-tolerance", "1", "--motion-tolerance");
+  pairs_fail("standard", "--tolerance", "-1", "--tolerance -1: not a number of metres");
+  pairs_fail("exact", "--tolerance", "1", "not with --tier exact");
   EXPECT_EQ(files(), 1u);
 }
 

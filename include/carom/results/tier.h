@@ -45,11 +45,13 @@ struct Accuracy {
   FastKnobs knobs = {};        ///< read at Tier::fast only
 
   /// Worlds: how wrong results may be, in metres, finite, >= 0; 0: the standard tier, to the bit.
-  /// Results of a pair are then those of two shapes of which no point is further than half of this
-  /// from where it is. So a separation is off by the tolerance at most (beside the rounding of the
-  /// standard tier), no overlap that is deeper is missed, and none is reported across a wider gap.
-  /// BodyDesc::tolerance replaces it for a body. docs/accuracy.md says how, and what it saves. Not
-  /// for Tier::certified and Tier::exact, which prove decisions about shapes where they are.
+  /// Results of a pair are then those of two shapes whose distances from the true ones (Hausdorff)
+  /// are no more than this together. So a separation is off by the tolerance at most (beside the
+  /// rounding of the standard tier), no overlap that is deeper is missed, and none is reported
+  /// across a wider gap. Depths of surfaces that cross depend on their triangles: where models
+  /// stand for meshes (carom/shapes/ladder.h), they are those of the models. BodyDesc::tolerance
+  /// replaces it for a body. docs/accuracy.md says how, and what it saves. Not for Tier::certified
+  /// and Tier::exact, which prove decisions about shapes where they are.
   float tolerance = 0;
 };
 

@@ -41,7 +41,7 @@ TEST(SceneFidelity, KnobsKeepTheirPromises) {
 
   ASSERT_EQ(report.reuse.size(), 4u);
   for (const ReuseEntry& entry : report.reuse) {
-    EXPECT_NEAR(entry.error_bound, 2 * entry.tolerance, 1e-12);
+    EXPECT_EQ(entry.error_bound, entry.tolerance);
     EXPECT_LE(entry.error_worst, entry.error_bound + 0x1p-18 * radius);
   }
   EXPECT_NEAR(report.reuse[3].tolerance, 0.1 * radius, 1e-6);

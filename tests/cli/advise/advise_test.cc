@@ -146,9 +146,33 @@ TEST_F(AdviseTest, PrintsATableAndTheCommand) {
       {"advise", "brownian:n=200,frames=4,density=0.3", "--tolerance", "0.001", "--frames", "4"});
   EXPECT_EQ(result.code, 0);
   for (const char* part : {"near touching", "tried", "meets", "broadphase", "Not needed here",
-                           "\ncarom run brownian:n=200,frames=4,density=0.3"}) {
+                           " of the time at tolerance 0", " m seen"}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   }
+  EXPECT_EQ(result.out.find("carom run brownian:n=200,frames=4,density=0.3"), 0u);
+}
+
+// Errors and times of the front: guaranteed errors ascend, times descend, and none is exceeded.
+TEST_F(AdviseTest, TheFrontHasWhatNothingBeats) {
+  const std::string scene = "brownian:n=600,frames=8,density=0.3,shape=box,speed=0.01,spin=0.01";
+  const CommandResult result = run_command(
+      {"advise", scene, "--tolerance", "0.001", "--frames", "8", "--front", "--json", "-"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json front = json::parse(result.out)["front"];
+  ASSERT_GE(front.size(), 2u);
+  EXPECT_EQ(front[0]["tolerance"], 0);
+  for (size_t i = 0; i < front.size(); ++i) {
+    EXPECT_LE(front[i]["measured_error"], front[i]["guaranteed_error"]);
+    EXPECT_GE(front[i]["guaranteed_error"], front[i]["tolerance"]);
+    EXPECT_EQ(front[i]["settings"].get<std::string>().find("--tolerance "), 0u);
+    if (i == 0) continue;
+    EXPECT_GT(front[i]["guaranteed_error"], front[i - 1]["guaranteed_error"]);
+    EXPECT_LT(front[i]["frame_ms"], front[i - 1]["frame_ms"]);
+  }
+  const CommandResult text =
+      run_command({"advise", scene, "--tolerance", "0.001", "--frames", "8", "--front"});
+  EXPECT_NE(text.out.find("guaranteed, m"), std::string::npos);
+  EXPECT_NE(text.out.find("* guaranteed, o measured"), std::string::npos);
 }
 
 TEST_F(AdviseTest, JsonGoesToAFile) {
