@@ -42,9 +42,18 @@ HWY_INLINE F length_of(const F3& way) {
   return max(largest_component(way), hn::Sqrt(squared(way)));
 }
 
-// The chord that a point at `radius` covers when p becomes q: 2 r sin(angle / 2), where |p| |q|
-// times the sine is the length of the vector part of conj(p) q.
-HWY_INLINE F chord(const Quaternion& p, const Quaternion& q, F radius) {
+// The quaternion with its largest component scaled to between 1 and 2, exactly, so that no product
+// leaves the range of floats.
+HWY_INLINE Quaternion scaled(const Quaternion& q) {
+  F up, down;
+  power_of_two(max(largest_component(q.v), hn::Abs(q.w)), up, down);
+  return {q.v * down, hn::Mul(q.w, down)};
+}
+
+// The chord that a point at `radius` covers when one orientation becomes another: 2 r sin(angle / 2),
+// where |p| |q| times the sine is the length of the vector part of conj(p) q.
+HWY_INLINE F chord(const Quaternion& from, const Quaternion& to, F radius) {
+  const Quaternion p = scaled(from), q = scaled(to);
   const auto minus = [](F a, F b, F c, F d)
                          HWY_ATTR { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); };
   const F3 straight = {minus(p.w, q.v.x, q.w, p.v.x), minus(p.w, q.v.y, q.w, p.v.y),

@@ -8,7 +8,7 @@
 namespace carom {
 
 // Numbers of ticks are compared by their difference, as they may pass the greatest integer. This
-// many stand for a body that is somewhere else altogether.
+// many stand for a body that is somewhere else altogether: more than any limit allows.
 inline constexpr uint32_t kJump = 1u << 28;
 
 // The bodies of a world, one entry each. T is the type of its positions. Every body has an anchor:

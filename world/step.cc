@@ -114,6 +114,7 @@ bool World::State::is_still() {
   const bool drifted = std::exchange(drifts, may_drift());
   if (drifts) return is_still_within_tolerance();
   if (drifted) changes.forget();
+  now.holds_until.clear();
   const bool compares = compares_bodies();
   if (compares || bodies.has_detections()) {
     run(Stage::changes, [&] {
@@ -268,7 +269,7 @@ void World::State::find_bounds() {
   if (drifts) {
     if (drift.all_outgrown()) {
       bounds.update_all(bodies, settings.parallelism, halfspaces);
-    } else if (!drift.outgrown().empty()) {
+    } else if (!drift.outgrown().empty() || bodies.any_touched()) {
       bounds.update(bodies, drift.outgrown(), halfspaces);
     }
     bounds.grow(drift.outgrown(), drift.growth(), settings.parallelism);

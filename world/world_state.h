@@ -85,7 +85,7 @@ struct World::State {
   // Only a world that carries results can hold on to them, and not one that proves them.
   bool has_tolerance() const {
     return carries() && !has_proofs(settings.accuracy.tier) &&
-           (is_tolerance(settings.accuracy.tolerance) || !bodies.tolerances().empty());
+           (is_tolerance(settings.accuracy.tolerance) || bodies.has_tolerances());
   }
   static bool is_tolerance(float metres) { return metres > 0 && std::isfinite(metres); }
   // No k-DOPs with proxy spheres: testing balls is faster than testing their k-DOPs. None with

@@ -22,19 +22,11 @@ constexpr float kMostGrowth = 0.03f;  // of bounds, a share of the body's radius
 constexpr float kStepsAhead = 128;    // for which new bounds hold a body that goes on as it has
 constexpr float kFewestStepsAhead = 8;
 
+// Limits of a pair: together less than a jump.
+constexpr uint32_t kMostShare = kJump / 8, kMostGap = kJump / 4;
+
 // Whether a is further on than b.
 bool is_past(uint32_t a, uint32_t b) { return static_cast<int32_t>(b - a) < 0; }
-
-// The tolerance by which ticks are measured: that of the world, or else the least one that a body
-// has.
-float unit_of(const BodyStore& bodies, float tolerance) {
-  if (tolerance > 0) return tolerance;
-  float least = FLT_MAX;
-  for (const float own : bodies.tolerances()) {
-    if (own > 0) least = std::min(least, own);
-  }
-  return least;
-}
 
 bool has_front(const Shape& shape) {
   if (const auto* triangle = std::get_if<Triangle>(&shape)) return triangle->one_sided;
@@ -76,6 +68,21 @@ void Drift::prepare(const BodyStore& bodies, float tolerance) {
   known_ = Known::poses;
 }
 
+// The tolerance by which ticks are measured: the least one, but not much more than the smallest body,
+// since bounds grow by some ticks in any case, nor so little that the greatest one leaves the range.
+float Drift::unit_of(const BodyStore& bodies, float tolerance) const {
+  const Collidables view = bodies.view();
+  float least = FLT_MAX, greatest = 0;
+  for (uint32_t i = 0; i < bodies.rows(); ++i) {
+    const float own = bodies.tolerance(i).value_or(tolerance);
+    if (!(own > 0)) continue;
+    greatest = std::max(greatest, own);
+    const float radius = bounding_radius(BodyReader{view}, i);
+    least = std::min(least, radius > 0 ? std::min(own, 4 * radius) : own);
+  }
+  return std::max(least, greatest * 0x1p-14f);
+}
+
 float Drift::measure_paces(const BodyStore& bodies, Parallelism parallelism) {
   resize(bodies);
   read_odometers(bodies, parallelism);
@@ -100,7 +107,6 @@ void Drift::update(const BodyStore& bodies, const ChangeTracker& shapes, float t
     find_moved_elsewhere(bodies, shapes, tolerance);
     read_odometers(bodies, parallelism);
   }
-  // Half-spaces have no bounds that could grow.
   const Collidables view = bodies.view();
   for (const uint32_t index : bodies.halfspaces()) {
     if (travelled_[index] != anchored_[index]) {
@@ -191,7 +197,7 @@ void Drift::move_elsewhere(const BodyStore& bodies, const BodyReader& reader, ui
   // What the model of the shape leaves.
   const double half = 0.5 * double{own} - bodies.model_error(index);
   const double ticks = half * double{ticks_per_metre_} * (1 - 0x1p-20);
-  share_[index] = ticks > 0 ? static_cast<uint32_t>(std::min(ticks, double{kJump})) : 0;
+  share_[index] = ticks > 0 ? static_cast<uint32_t>(std::min(ticks, double{kMostShare})) : 0;
   const bool is_known = bodies.is_alive(index) && reader.is_valid(index);
   if (is_known && has_front(bodies.shape(index))) share_[index] |= kHasFront;
   const auto copy = [index](const auto& records, auto& anchors) {
@@ -276,8 +282,9 @@ float Drift::pace_of(uint32_t body) const {
   return is_known ? static_cast<float>(ticks) : 0;
 }
 
-// By how many ticks the bounds of a body may grow at most.
+// By how many ticks the bounds of a body may grow at most. Half-spaces have none.
 float Drift::most_growth(uint32_t body) const {
+  if (std::isinf(radii_[body])) return 0;
   return std::min(kMostGrowth * radii_[body] * ticks_per_metre_, static_cast<float>(kJump / 2));
 }
 
@@ -293,7 +300,7 @@ uint32_t Drift::holds_until(Pair pair, float gap) const {
   uint32_t ticks = (share_a & ~kHasFront) + (share_b & ~kHasFront);
   if (gap > 0 && !((share_a | share_b) & kHasFront)) {
     const float of_gap = (1 - 0x1p-10f) * gap * ticks_per_metre_;
-    ticks += static_cast<uint32_t>(std::min(of_gap, static_cast<float>(kJump)));
+    ticks += static_cast<uint32_t>(std::min(of_gap, static_cast<float>(kMostGap)));
   }
   return start(pair.a) + start(pair.b) + ticks;
 }

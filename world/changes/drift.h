@@ -74,6 +74,7 @@ class Drift {
   void resize(const BodyStore& bodies);
   void move_elsewhere(const BodyStore& bodies, const BodyReader& reader, uint32_t index,
                       float tolerance);
+  float unit_of(const BodyStore& bodies, float tolerance) const;
   void begin(const BodyStore& bodies, float tolerance);
   void move_all_elsewhere(const BodyStore& bodies, float tolerance);
   void read_odometers(const BodyStore& bodies, Parallelism parallelism);

@@ -111,7 +111,7 @@ BodyId BodyStore::add(const BodyDesc& body) {
   if (rows() > generation_.size()) add_row();
   touch(index, kReplaced);
   set_position(index, body.position);
-  set_row(tolerance_, rows(), index, body.tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
+  store_tolerance(index, body.tolerance);
   store_shape(index, body.shape);
   set_orientation(index, body.orientation);
   set_row(motion_, rows(), index, body.motion, Motion::dynamic);
@@ -139,6 +139,7 @@ void BodyStore::remove(BodyId id) {
   change_kind(index, ShapeKind::sphere);
   if (!geometry_.empty()) geometry_[index].reset();
   if (!model_.empty()) model_[index] = {};
+  store_tolerance(index, std::nullopt);
   if (!dop_.empty()) dop_[index] = nullptr;
   ++generation_[index];
   any_removed_ = true;
@@ -418,10 +419,17 @@ void BodyStore::set_contact_distance(uint32_t index, float distance) {
 }
 
 void BodyStore::set_tolerance(uint32_t index, std::optional<float> tolerance) {
-  set_row(tolerance_, rows(), index, tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
+  store_tolerance(index, tolerance);
   const Shape own = shape(index);
   if (ladder_of(own)) set_shape(index, own);  // another model may stand for it
   touch(index, kShapeTouched);
+}
+
+void BodyStore::store_tolerance(uint32_t index, std::optional<float> tolerance) {
+  const auto counts = [this, index] { return !tolerance_.empty() && tolerance_[index] > 0; };
+  tolerant_ -= counts();
+  set_row(tolerance_, rows(), index, tolerance.value_or(kToleranceOfWorld), kToleranceOfWorld);
+  tolerant_ += counts();
 }
 
 Eigen::Vector3f BodyStore::linear_velocity(uint32_t index) const {

@@ -80,8 +80,8 @@ class BodyStore {
     return tolerance_[index];
   }
   void set_tolerance(uint32_t index, std::optional<float> tolerance);
-  // One a row, negative for that of the world; empty if every body has that.
-  std::span<const float> tolerances() const { return tolerance_; }
+  // Whether some body has one of its own that is more than 0.
+  bool has_tolerances() const { return tolerant_ > 0; }
   uint64_t user(uint32_t index) const { return user_.empty() ? 0 : user_[index]; }
   void set_user(uint32_t index, uint64_t user);
   Eigen::Vector3f linear_velocity(uint32_t index) const;
@@ -164,6 +164,7 @@ class BodyStore {
   void count_kind(uint32_t index, int change);
   void change_kind(uint32_t index, ShapeKind kind);
   void change_rows(uint32_t index, uint32_t last_count, uint32_t count);
+  void store_tolerance(uint32_t index, std::optional<float> tolerance);
   void store_shape(uint32_t index, const Shape& shape);
   void store_model(uint32_t index, const Shape& shape);
   void store_box(uint32_t index, const Aabb& box);
@@ -234,6 +235,7 @@ class BodyStore {
   std::vector<uint8_t> sensor_;
   std::vector<float> contact_distance_;
   std::vector<float> tolerance_;
+  size_t tolerant_ = 0;  // bodies with more than 0
   std::vector<Model> model_;  // empty while no body has one
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;
