@@ -50,8 +50,8 @@ HWY_INLINE Quaternion scaled(const Quaternion& q) {
   return {q.v * down, hn::Mul(q.w, down)};
 }
 
-// The chord that a point at `radius` covers when one orientation becomes another: 2 r sin(angle / 2),
-// where |p| |q| times the sine is the length of the vector part of conj(p) q.
+// The chord that a point at `radius` covers when one orientation becomes another: 2 r sin(angle /
+// 2), where |p| |q| times the sine is the length of the vector part of conj(p) q.
 HWY_INLINE F chord(const Quaternion& from, const Quaternion& to, F radius) {
   const Quaternion p = scaled(from), q = scaled(to);
   const auto minus = [](F a, F b, F c, F d)

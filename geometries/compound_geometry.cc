@@ -107,6 +107,8 @@ class CompoundMaker {
       const ChildView view(child);
       if (!view.is_valid()) return bad_child(i, "has a shape that is not valid");
       compound_->parts_.push_back(view.part(child.position));
+      const bool has_many = compound_->children_.size() >= kManyParts;
+      if (has_many) compound_->parts_.back().ball = ball_of(compound_->parts_.back());
       boxes.push_back(box_at(child.position, view.extent()));
     }
     add_up(boxes);

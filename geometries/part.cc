@@ -1,6 +1,7 @@
 #include "geometries/part.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/powers.h"
 #include "shapes/dop_polytope.h"
@@ -81,6 +82,37 @@ PartBox box_of(const Part& part) {
       GrowingBox box;
       for (size_t i = 0; i < 3; ++i) box.add({rows[i][0], rows[i][1], rows[i][2]});
       return box.box(rows[0][3]);
+    }
+    default:
+      return {};
+  }
+}
+
+PartBall ball_of(const Part& part) {
+  const auto length = [](const Double3& v) { return std::sqrt(dot(v, v)); };
+  const std::array<Row, kMostRows>& rows = part.rows;
+  switch (part.kind) {
+    case ShapeKind::sphere:
+      return {{}, part.radius};
+    case ShapeKind::capsule: {
+      const Double3 a = carom::vector_of(rows[0]), b = carom::vector_of(rows[1]);
+      const Double3 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+      return {middle, length(minus(b, middle)) + rows[0][3]};
+    }
+    case ShapeKind::hull: {
+      const auto& hull = *geometry_at<HullGeometry>(rows[0]);
+      const Double3 middle = {hull.middle().x(), hull.middle().y(), hull.middle().z()};
+      double radius = 0;
+      for (const Eigen::Vector3f& point : hull.points()) {
+        radius = std::max(radius, length(minus(vector_of(point), middle)));
+      }
+      return {middle, radius};
+    }
+    case ShapeKind::aabb:
+    case ShapeKind::box:
+    case ShapeKind::dop: {
+      const PartBox box = box_of(part);
+      return {box.middle, length(box.half)};
     }
     default:
       return {};

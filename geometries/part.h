@@ -35,6 +35,15 @@ inline Double3 cross(const Double3& a, const Double3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+// From so many parts on it pays to look at hulls and balls before the parts themselves.
+inline constexpr size_t kManyParts = 8;
+
+// A ball that holds a part, in its frame.
+struct PartBall {
+  Double3 middle{};
+  double radius = -1;  // negative: none is known
+};
+
 // A shape and its pose: in the body's frame for a child of a compound, in a frame of the pair's own
 // for a whole body.
 struct Part {
@@ -45,6 +54,7 @@ struct Part {
   const DopGeometry* dop = nullptr;       // of a k-DOP, if it is known
   Row orientation = {0, 0, 0, 1};
   Double3 position{};
+  PartBall ball{};  // of the children of compounds that have many
 
   bool is_turned() const { return row_count(kind) > 0; }
   Turn turn() const { return is_turned() ? rotation_of(orientation) : kNotTurned; }
@@ -56,6 +66,9 @@ struct PartBox {
 };
 
 PartBox box_of(const Part& part);
+
+// None for meshes, half-spaces and triangles, which may have rules that make them deeper.
+PartBall ball_of(const Part& part);
 
 // q * p as x, y, z, w, scaled by a power of two and rounded to float32. The quaternions need not be
 // unit ones.

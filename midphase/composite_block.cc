@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "midphase/body_pair.h"
@@ -122,14 +123,18 @@ class CompositeRun {
     if (!parts.pairs.empty()) return add_triangle_pairs(k, parts);
     if (!find_pair_kind(parts.a.kind(), parts.b.kind()).exists()) return;
     if (batch_.is_full()) flush();
-    batch_.add(k, parts.a, parts.b, reach(k));
+    const float least =
+        may_skip() ? least_separation(parts.a, parts.b) : -std::numeric_limits<float>::infinity();
+    std::isinf(least) ? batch_.add(k, parts.a, parts.b, reach(k))
+                      : batch_.add_waiting(k, parts.a, parts.b, reach(k), least);
   }
+
+  // Where all contacts count, or their bounds, no part may be skipped.
+  bool may_skip() const { return !tests_.manifolds && !tests_.bounds; }
 
   // Every kind has a kernel with triangles.
   void add_triangles(size_t k, const NearParts& parts) {
-    // Where all contacts count, or their bounds, no part may be skipped.
-    const bool may_skip = !tests_.manifolds && !tests_.bounds;
-    std::span<const float> least = may_skip ? parts.least_separations : std::span<const float>();
+    std::span<const float> least = may_skip() ? parts.least_separations : std::span<const float>();
     for (std::span<const uint32_t> left = parts.triangles; !left.empty();) {
       if (batch_.is_full()) flush();
       const size_t count = std::min(left.size(), batch_.room());

@@ -126,6 +126,13 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, floa
   put_pair({body_a, body_b}, owner, reach);
 }
 
+void PartBatch::add_waiting(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
+                            float least_separation) {
+  const uint32_t body_a = sides_[0].put(owner, a), body_b = sides_[1].put(owner, b);
+  waiting_[waiting_count_++] = {
+      {body_a, body_b}, static_cast<uint32_t>(owner), reach, least_separation};
+}
+
 void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach) {
   const PlacedPart &a = parts.a, &b = parts.b;
   const size_t mesh_side = a.kind() == ShapeKind::mesh ? 0 : 1;

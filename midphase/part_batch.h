@@ -99,6 +99,9 @@ class PartBatch {
   void clear();
   // Adds a pair for `owner`, with its contact distance. Its kinds must have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach);
+  // The same of a pair whose separation is not less: it waits until it is admitted.
+  void add_waiting(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
+                   float least_separation);
   // Adds the pairs of one part with each of some triangles of a mesh; there must be room for them.
   // Those with a least separation wait until they are admitted.
   void add_triangles(size_t owner, const NearParts& parts, float reach);

@@ -358,6 +358,18 @@ void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, Apa
   PartSearch(reach, apart, found).run(a, b);
 }
 
+float least_separation(const PlacedPart& a, const PlacedPart& b) {
+  const PartBall &ball_a = a.part->ball, &ball_b = b.part->ball;
+  if (ball_a.radius < 0 || ball_b.radius < 0) return -std::numeric_limits<float>::infinity();
+  const Double3 way = minus(plus(b.position, turned(b.turn, ball_b.middle)),
+                            plus(a.position, turned(a.turn, ball_a.middle)));
+  const double radii = ball_a.radius + ball_b.radius, distance = std::sqrt(dot(way, way));
+  const double lengths = distance + radii + greatest(ball_a.middle) + greatest(ball_b.middle);
+  const double least = distance - radii - kDepthSlack * lengths;
+  return std::fabs(least) < kBeyondSearch ? round_downwards(least)
+                                          : -std::numeric_limits<float>::infinity();
+}
+
 void find_near_part_pair(const PlacedPart& first, const PlacedPart& second, NearPartsFound found) {
   PlacedPart a = first, b = second;
   while (a.has_parts() || b.has_parts()) {

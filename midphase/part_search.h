@@ -33,6 +33,10 @@ enum class Apart { by_boxes, by_planes };
 void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, Apart apart,
                      NearPartsFound found);
 
+// A lower bound of the separation that a test of two parts may find, metres, by balls that hold
+// them; -infinity if there are none.
+float least_separation(const PlacedPart& a, const PlacedPart& b);
+
 // Finds one pair of parts that is about the nearest; none if one of the bodies has no parts.
 void find_near_part_pair(const PlacedPart& a, const PlacedPart& b, NearPartsFound found);
 

@@ -8,8 +8,8 @@ WorldMemory World::State::memory() const {
   memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + drift.bytes() +
                   proxies.bytes() + sweeps.bytes() + bytes_of(bounds.quarantined());
   memory.bounds = bounds.bytes() + swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
-                  bounding_radii.bytes() + query_index.bytes() + wide_bounds.bytes() +
-                  wide_swept_bounds.bytes();
+                  outer.bytes() + bounding_radii.bytes() + query_index.bytes() +
+                  wide_bounds.bytes() + wide_swept_bounds.bytes();
   memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              hold.bytes() + refresh.bytes() + gaps.bytes() + dops.pair_bytes() +
@@ -40,6 +40,7 @@ void World::State::give_back_memory() {
   bounding_radii.give_back();
   query_index.give_back();
   dops.give_back();
+  outer.give_back();
   halfspaces.give_back();
   now.give_back();
   pair_changes.give_back();

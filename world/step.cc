@@ -231,7 +231,11 @@ void World::State::find_all() {
   run(Stage::broadphase, [&] { find_pairs(); });
   if (settings.pair_changes || has_narrowphase()) run(Stage::pairs, [&] { compare_pairs(); });
   if (!has_narrowphase()) return;
-  if (has_dops()) run(Stage::dops, [&] { drop_pairs(); });
+  if (has_dops()) {
+    run(Stage::dops, [&] { drop_pairs(); });
+  } else if (has_outer() && outer.starts_step()) {
+    run(Stage::dops, [&] { drop_outer(); });
+  }
   find_results();
   if (looks_ahead()) run(Stage::impacts, [&] { find_impacts(); });
 }
@@ -365,6 +369,15 @@ void World::State::drop_pairs() {
   plan.drop(dops.test(pairs, settings.parallelism), now.pairs, settings.parallelism);
 }
 
+// Drops pairs of meshes and compounds whose hulls are apart.
+void World::State::drop_outer() {
+  const std::vector<Pair>& pairs = plan.pairs_to_test(now.pairs);
+  if (pairs.empty()) return;
+  const std::vector<uint8_t>& needs_test = outer.test(bodies, pairs, settings.parallelism);
+  if (std::find(needs_test.begin(), needs_test.end(), 0) == needs_test.end()) return;
+  plan.drop(needs_test, now.pairs, settings.parallelism);
+}
+
 // Whether the world has two kinds whose test remembers the separating direction.
 bool World::State::uses_directions() const {
   if (!carries() || !has_contacts(settings.detail) || has_proxies() || has_distances()) {
@@ -449,8 +462,7 @@ void World::State::write_contacts(const PairRange& range, const ContactStage::In
 void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
                               uint32_t* direction) {
   const Collidables view = tested_shapes();
-  const bool composites =
-      !has_proxies() && (bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound));
+  const bool composites = !has_proxies() && has_composites();
   const std::span<const Pair> pairs = all.subspan(range.first_row, range.rows);
   FewOf<ColumnRole, 2> wanted;
   if (composites) wanted.push_back(ColumnRole::sub_shape);

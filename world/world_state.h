@@ -28,6 +28,7 @@
 #include "world/pairs/dop_stage.h"
 #include "world/pairs/gap_stage.h"
 #include "world/pairs/halfspace_stage.h"
+#include "world/pairs/outer_stage.h"
 #include "world/pairs/pair_changes.h"
 #include "world/pairs/pair_history.h"
 #include "world/pairs/pair_sieve.h"
@@ -94,6 +95,11 @@ struct World::State {
     return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_proxies() &&
            !has_distances();
   }
+  bool has_composites() const {
+    return bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound);
+  }
+  // For the same reasons.
+  bool has_outer() const { return has_composites() && !has_proxies() && !has_distances(); }
   ContactDistances distances() const {
     if (!has_contacts(settings.detail)) return {};
     return {settings.contact_distance, bodies.contact_distances()};
@@ -171,6 +177,7 @@ struct World::State {
   void select_pairs();
   void compare_pairs();
   void drop_pairs();
+  void drop_outer();
   ContactStage::Last use_of_last_contacts(bool in_one_range) const;
   void find_results();
   void write_contacts(const PairRange& range, const ContactStage::Input& found,
@@ -207,6 +214,7 @@ struct World::State {
   PairHistory last;
   CarryPlan plan;
   DopStage dops;
+  OuterStage outer;
   DirectionMemory directions;
   ResultBuffer results;
   ContactStage contact_stage;

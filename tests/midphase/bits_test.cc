@@ -91,6 +91,33 @@ TEST(CompositeBits, AtTheEndOfDoublePrecision) {
   expect_reference(pairs, call);
 }
 
+// Parts of compounds that have many wait until it is known how deep another pair of them is.
+TEST(CompositeBits, CompoundsOfManyChildren) {
+  size_t overlaps = 0, all = 0;
+  for (const PositionType positions : kPositionTypes) {
+    Composites composites(5);
+    std::vector<TestPair> pairs;
+    for (size_t i = 0; i < rounds(120, 30); ++i) {
+      const size_t counts[] = {7, 8, 9, 20};
+      TestPair pair;
+      pair.a.shape = composites.compound_of_many(1, counts[i % 4]);
+      pair.b.shape = composites.compound_of_many(1, counts[i / 4 % 4]);
+      pair.b.position = composites.random().uniform(0.3, 4) * composites.random().direction();
+      pair.b.orientation = composites.orientation();
+      pairs.push_back(pair);
+    }
+    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+      Call call = call_with(positions);
+      call.detail = detail;
+      expect_reference(pairs, call);
+    }
+    for (const Row& row : run_rows(pairs, call_with(positions))) overlaps += row.overlap;
+    all += pairs.size();
+  }
+  EXPECT_GT(10 * overlaps, 2 * all);
+  EXPECT_LT(10 * overlaps, 8 * all);
+}
+
 TEST(CompositeBits, SimplePairsAmongThem) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> pairs = make_mixed_pairs(rounds(400), positions);

@@ -41,7 +41,11 @@ Mesh Composites::mesh(double size, size_t most_triangles) {
 }
 
 Compound Composites::compound(double size, size_t most_children) {
-  std::vector<CompoundChild> children(1 + random_.below(most_children));
+  return compound_of_many(size, 1 + random_.below(most_children));
+}
+
+Compound Composites::compound_of_many(double size, size_t count) {
+  std::vector<CompoundChild> children(count);
   for (CompoundChild& child : children) {
     child.shape = child_shape(size * random_.uniform(0.2, 0.6));
     child.position = (random_.direction() * random_.uniform(0, size)).cast<float>();

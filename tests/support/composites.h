@@ -54,6 +54,8 @@ class Composites {
 
   Compound compound(double size, size_t most_children = 6);
 
+  Compound compound_of_many(double size, size_t count);
+
   Shape simple(ShapeKind kind, double size) { return shapes_.shape(kind, size); }
 
   Shape shape(ShapeKind kind, double size);

@@ -68,8 +68,9 @@ void Drift::prepare(const BodyStore& bodies, float tolerance) {
   known_ = Known::poses;
 }
 
-// The tolerance by which ticks are measured: the least one, but not much more than the smallest body,
-// since bounds grow by some ticks in any case, nor so little that the greatest one leaves the range.
+// The tolerance by which ticks are measured: the least one, but not much more than the smallest
+// body, since bounds grow by some ticks in any case, nor so little that the greatest one leaves the
+// range.
 float Drift::unit_of(const BodyStore& bodies, float tolerance) const {
   const Collidables view = bodies.view();
   float least = FLT_MAX, greatest = 0;

@@ -224,6 +224,10 @@ void BodyStore::set_radius(uint32_t index, float radius) {
 
 Shape BodyStore::shape(uint32_t index) const {
   if (!model_.empty() && model_[index].original) return *model_[index].original;
+  return tested_shape(index);
+}
+
+Shape BodyStore::tested_shape(uint32_t index) const {
   const ShapeKind kind = kind_[index];
   if (kind == ShapeKind::sphere) return Sphere{radius(index)};
   if (has_geometry(kind)) return owning_shape(kind, geometry_[index]);

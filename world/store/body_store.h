@@ -72,6 +72,10 @@ class BodyStore {
     return contact_distance_.empty() ? 0 : contact_distance_[index];
   }
   void set_contact_distance(uint32_t index, float distance);
+  // What tests see: the shape, or the model that stands for it.
+  Shape tested_shape(uint32_t index) const;
+  // The geometry of that, of bodies that have one.
+  const std::shared_ptr<const void>& geometry(uint32_t index) const { return geometry_[index]; }
   // How far the model that stands for the shape of a body may be from it, metres; 0: none does.
   double model_error(uint32_t index) const { return model_.empty() ? 0 : model_[index].error; }
   // None: that of the world.
@@ -235,7 +239,7 @@ class BodyStore {
   std::vector<uint8_t> sensor_;
   std::vector<float> contact_distance_;
   std::vector<float> tolerance_;
-  size_t tolerant_ = 0;  // bodies with more than 0
+  size_t tolerant_ = 0;       // bodies with more than 0
   std::vector<Model> model_;  // empty while no body has one
   std::vector<uint64_t> user_;
   std::vector<Detection> detection_;

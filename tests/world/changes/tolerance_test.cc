@@ -607,7 +607,8 @@ TEST(Tolerance, LimitsOfOtherPairsAreForgotten) {
   }
 }
 
-// Neither a tolerance of 0 of some bodies nor a tolerance much larger than they are makes bounds huge.
+// Neither a tolerance of 0 of some bodies nor a tolerance much larger than they are makes bounds
+// huge.
 TEST(Tolerance, BoundsStayAsLargeAsTheBodies) {
   for (const float of_world : {0.0f, 0.1f, 10.0f, 1000.0f, 1e6f}) {
     World world(within(of_world));
