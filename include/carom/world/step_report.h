@@ -17,7 +17,7 @@ enum class Stage : uint8_t {
   margins,     ///< bounds grown by contact distances; new fat bounds for bodies that left theirs
   broadphase,  ///< pairs of overlapping bounds
   pairs,       ///< merge with the last step's pairs: which results are kept, which pairs are tested
-  dops,        ///< k-DOPs of bodies, and which pairs of them are separate
+  dops,  ///< k-DOPs of bodies, or hulls of meshes and compounds, and which pairs are separate
   narrowphase,  ///< tests, batch by batch
   results,      ///< overlaps and contacts in order, kept ones included
   impacts,      ///< impacts and speculative contacts of bodies that look ahead
@@ -39,7 +39,7 @@ struct StepReport {
   size_t pairs = 0;        ///< candidate pairs
   size_t tested = 0;       ///< pairs that the narrow phase tested
   size_t kept = 0;         ///< pairs that kept the result of the last step
-  size_t dropped = 0;      ///< pairs not tested because their k-DOPs are separate
+  size_t dropped = 0;      ///< pairs not tested because their k-DOPs or hulls are separate
   size_t overlaps = 0;     ///< overlapping pairs, sensors included
   size_t contacts = 0;     ///< World::contacts()
   size_t left_out = 0;     ///< contacts beyond RegionLimits::most, at Detail::regions
