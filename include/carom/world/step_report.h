@@ -17,7 +17,7 @@ enum class Stage : uint8_t {
   margins,     ///< bounds grown by contact distances; new fat bounds for bodies that left theirs
   broadphase,  ///< pairs of overlapping bounds
   pairs,       ///< merge with the last step's pairs: which results are kept, which pairs are tested
-  dops,  ///< k-DOPs of bodies, or hulls of meshes and compounds, and which pairs are separate
+  dops,        ///< k-DOPs of bodies, or hulls of meshes and compounds, and which pairs are separate
   narrowphase,  ///< tests, batch by batch
   results,      ///< overlaps and contacts in order, kept ones included
   impacts,      ///< impacts and speculative contacts of bodies that look ahead
