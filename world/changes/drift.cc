@@ -24,6 +24,8 @@ constexpr float kFewestStepsAhead = 8;
 
 // Limits of a pair: together less than a jump.
 constexpr uint32_t kMostShare = kJump / 8, kMostGap = kJump / 4;
+// So many ticks are somewhere else, too: no bounds hold a body that far.
+constexpr uint32_t kMostAhead = kJump / 2;
 
 // Whether a is further on than b.
 bool is_past(uint32_t a, uint32_t b) { return static_cast<int32_t>(b - a) < 0; }
@@ -279,14 +281,14 @@ float Drift::make_fence(uint32_t index) {
 // Ticks in this step; 0 of a body that is somewhere else.
 float Drift::pace_of(uint32_t body) const {
   const auto ticks = static_cast<int32_t>(travelled_[body] - travelled_before_[body]);
-  const bool is_known = ticks >= 0 && ticks < static_cast<int32_t>(kJump / 2);
+  const bool is_known = ticks >= 0 && ticks < static_cast<int32_t>(kMostAhead);
   return is_known ? static_cast<float>(ticks) : 0;
 }
 
 // By how many ticks the bounds of a body may grow at most. Half-spaces have none.
 float Drift::most_growth(uint32_t body) const {
   if (std::isinf(radii_[body])) return 0;
-  return std::min(kMostGrowth * radii_[body] * ticks_per_metre_, static_cast<float>(kJump / 2));
+  return std::min(kMostGrowth * radii_[body] * ticks_per_metre_, static_cast<float>(kMostAhead));
 }
 
 float Drift::reach(Pair pair, float steps) const {
