@@ -174,7 +174,10 @@ const std::vector<uint8_t>& OuterStage::test(const BodyStore& bodies, std::span<
     tested_.push_back(pair);
     place_.push_back(static_cast<uint32_t>(i));
   }
-  if (tested_.empty()) return needs_test_;
+  if (tested_.empty()) {
+    judge(0);
+    return needs_test_;
+  }
   view.kind = kind_.data();
   view.rows = {rows_.front().data(), first_row_.data()};
   results_.resize(tested_.size(), Detail::overlap, {});
@@ -187,14 +190,19 @@ const std::vector<uint8_t>& OuterStage::test(const BodyStore& bodies, std::span<
     needs_test_[place_[k]] = overlap;
     apart += !overlap;
   }
-  constexpr size_t kFewest = 16;  // fewer than one pair in so many are few
-  if (kFewest * apart >= tested_.size()) {
-    patience_ = kLeastPatience;
-  } else {
-    pause_ = patience_;
-    patience_ = std::min(2 * patience_, kMostPatience);
-  }
+  judge(apart);
   return needs_test_;
+}
+
+// Begins a pause if too few pairs were apart.
+void OuterStage::judge(size_t apart) {
+  constexpr size_t kFewest = 16;  // fewer than one pair in so many are few
+  if (apart > 0 && kFewest * apart >= tested_.size()) {
+    patience_ = kLeastPatience;
+    return;
+  }
+  pause_ = patience_;
+  patience_ = std::min(2 * patience_, kMostPatience);
 }
 
 void OuterStage::give_back() {

@@ -40,6 +40,7 @@ class OuterStage {
   };
 
   void update(const BodyStore& bodies);
+  void judge(size_t apart);
   const HullGeometry* hull_of(const BodyStore& bodies, uint32_t body);
 
   static constexpr uint32_t kLeastPatience = 4, kMostPatience = 64;
