@@ -21,15 +21,15 @@ struct LadderReport {
     size_t pieces = 0;    ///< corners of a hull, triangles of a mesh, of a compound those of all
     std::string refused;  ///< why there is none; empty if there is one
   };
-  size_t pieces = 0;  ///< of the shape itself
-  std::vector<Entry> entries;
-  double seconds = 0;  ///< that it took
+  size_t pieces = 0;           ///< of the shape itself
+  std::vector<Entry> entries;  ///< one for each error that was asked for
+  double seconds = 0;          ///< that it took
 };
 
 /// A shape with its ladder.
 struct LadderedShape {
-  Shape shape;
-  LadderReport report;
+  Shape shape;          ///< as it was given, with the ladder if that has a rung
+  LadderReport report;  ///< what became of each rung
 };
 
 /// The rung that a tolerance allows: so far a body with it may be from its model (metres, of the
