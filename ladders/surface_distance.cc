@@ -71,7 +71,7 @@ class Distance {
   double worst() const { return worst_; }
 
  private:
-  // Of the distance of the furthest point of a piece.
+  // Bounds of the distance of the furthest point of a piece.
   struct Bounds {
     double lower, upper;
   };

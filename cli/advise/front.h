@@ -1,4 +1,4 @@
-// What a tolerance buys in a scene: time against error, over many tolerances.
+// Measures time against error in a scene, over many tolerances.
 #pragma once
 
 #include <string>

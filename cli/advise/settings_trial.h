@@ -11,7 +11,7 @@
 
 namespace carom::cli {
 
-// What a candidate changes. Tiers are only compared, never chosen.
+// The setting that a candidate changes. Tiers are only compared, never chosen.
 enum class SettingGroup : uint8_t {
   standard,
   cache,

@@ -73,7 +73,8 @@ std::string extent(const std::vector<uint64_t>& list) {
          " in the last; " + std::to_string(*least) + " to " + std::to_string(*greatest);
 }
 
-// Of all ladders: how many shapes have a model, the worst error, and the pieces with and without.
+// Sums over all ladders: how many shapes have a model, the worst error, and the pieces with and
+// without.
 struct LadderSums {
   size_t models = 0, pieces = 0, simpler = 0;
   double error = 0, seconds = 0;

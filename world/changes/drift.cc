@@ -129,7 +129,7 @@ void Drift::begin(const BodyStore& bodies, float tolerance) {
   for (uint32_t i = 0; i < gone.size(); ++i) {
     made_[i] = {travelled_[i] - gone[i], step_ - 1};
     travelled_before_[i] = made_[i].at;
-    fence_[i] = travelled_[i] - 1;
+    fence_[i] = early_fence_[i] = travelled_[i] - 1;
   }
 }
 
@@ -197,7 +197,7 @@ void Drift::move_elsewhere(const BodyStore& bodies, const BodyReader& reader, ui
   radii_[index] = bounding_radius(reader, index);
   turn_radii_[index] = turning_radius(reader, index);
   const float own = bodies.tolerance(index).value_or(tolerance);
-  // What the model of the shape leaves.
+  // The model of the shape takes its part first.
   const double half = 0.5 * double{own} - bodies.model_error(index);
   const double ticks = half * double{ticks_per_metre_} * (1 - 0x1p-20);
   share_[index] = ticks > 0 ? static_cast<uint32_t>(std::min(ticks, double{kMostShare})) : 0;

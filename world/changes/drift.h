@@ -94,8 +94,8 @@ class Drift {
   std::array<LargeVector<float>, 4> anchor_orientations_;
   std::vector<float> radii_, turn_radii_;  // the second: 0 for what does not turn
   std::vector<uint32_t> anchored_, travelled_, travelled_before_;  // the last: in the last step
-  // Of the tolerance of a pair, ticks; and a mark of one-sided triangles: what is behind them is
-  // not near.
+  // Ticks of a pair's tolerance that are this body's; and a mark of one-sided triangles, since a
+  // body behind them is not near.
   static constexpr uint32_t kHasFront = 1u << 31;
   std::vector<uint32_t> share_;
   std::vector<uint8_t> replaced_;

@@ -49,7 +49,7 @@ void GapStage::measure(std::span<const Pair> pairs, const PairRange& range,
                 columns_.columns(), options);
   for (size_t i = 0; i < pairs_.size(); ++i) {
     const ResultColumns& found = columns_.columns();
-    // What is further away was not measured.
+    // Pairs that are further apart were not measured.
     const float separation = found.overlap[i] ? 0 : std::min(found.separation[i], reach_[i]);
     gap_[rows_[i]] = separation - distances.of(pairs_[i]);
   }

@@ -24,7 +24,7 @@ class GapStage {
                const Collidables& bodies, const ContactDistances& distances, const Drift& drift,
                Parallelism parallelism);
 
-  // Of a row of that range, metres; 0 if the pair has a contact, or nothing is known.
+  // The gap of a row of that range, metres; 0 if the pair has a contact, or nothing is known.
   float gap(size_t row) const { return gap_[row - first_row_]; }
 
   void give_back() { give_back_scratch(gap_, pairs_, rows_, reach_); }

@@ -72,7 +72,7 @@ class BodyStore {
     return contact_distance_.empty() ? 0 : contact_distance_[index];
   }
   void set_contact_distance(uint32_t index, float distance);
-  // What tests see: the shape, or the model that stands for it.
+  // The shape that tests see: itself, or the model that stands for it.
   Shape tested_shape(uint32_t index) const;
   // The geometry of that, of bodies that have one.
   const std::shared_ptr<const void>& geometry(uint32_t index) const { return geometry_[index]; }
@@ -185,7 +185,7 @@ class BodyStore {
   float radius(uint32_t index) const;
   void set_radius(uint32_t index, float radius);
 
-  // What stands for the shape of a body.
+  // The model that stands for the shape of a body.
   struct Model {
     double error = 0;
     std::shared_ptr<const Shape> original;  // with its ladder; nullptr: it has none

@@ -63,7 +63,7 @@ Result<void> read_ends(io::SceneReader& scene, io::SceneFrame& first, io::SceneF
   return {};
 }
 
-// What the written scene holds: bodies and shapes as they were, and all that the heap writes.
+// The written scene holds bodies and shapes as they were, and all that the heap writes.
 io::SceneInfo written_info(const io::SceneInfo& read) {
   io::SceneInfo info = read;
   info.has_orientation = true;

@@ -12,7 +12,7 @@
 
 namespace carom {
 
-/// What a ladder has become.
+/// The outcome of build_ladder().
 struct LadderReport {
   /// A rung, or one that was asked for and is not there.
   struct Entry {

@@ -443,7 +443,7 @@ TEST(Tolerance, AGapIsAddedToIt) {
   EXPECT_EQ(world.report().overlaps, 1u);
 }
 
-// What is behind a one-sided triangle is not near: a little way may bring it to the front.
+// A body behind a one-sided triangle is not near: a little way may bring it to the front.
 TEST(Tolerance, WhatIsBehindATriangleIsTestedOnceItHasMoved) {
   World world(within(0.1f));
   world.add({.shape = Triangle{.corners = {Eigen::Vector3f{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}},
@@ -640,6 +640,35 @@ TEST(Tolerance, IsThereOnceABodyHasOne) {
   EXPECT_TRUE(is_kept(0.003));
   world.set_tolerance(a, std::nullopt);
   EXPECT_FALSE(is_kept(0.004) || is_kept(0.005));
+}
+
+// Odometers jump whenever the world looks whether bodies are slow, and pass their greatest number.
+TEST(Tolerance, HoldsAfterManyStartsThatFailed) {
+  for (const int starts : {3, 4, 7, 8, 11, 15, 16}) {
+    World world(within(0.02f));
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 12; ++i) {
+      ids.push_back(world.add({.shape = Sphere{0.6f}, .position = {static_cast<double>(i), 0, 0}}));
+    }
+    const auto move_to = [&](double way) {
+      for (size_t i = 0; i < ids.size(); ++i) {
+        const double own = i % 2 == 0 ? way : -way;
+        world.set_position(ids[i], {static_cast<double>(i), own, 0});
+      }
+      world.step();
+    };
+    for (int i = 0; i < 140 * starts; ++i) move_to(i % 2);
+    for (int i = 0; i < 300; ++i) {
+      move_to(0.002 * i);
+      for (const Contact& contact : world.contacts()) {
+        ASSERT_NEAR(contact.separation, true_separation(world, {contact.a, contact.b}), 0.0201);
+      }
+      const double between = std::hypot(1, 0.004 * i) - 1.2;
+      if (std::abs(between) > 0.021) {
+        ASSERT_EQ(world.report().overlaps > 0, between < 0) << starts << ", " << i;
+      }
+    }
+  }
 }
 
 TEST(Tolerance, TakesNoMemoryAtDetailPairs) {
