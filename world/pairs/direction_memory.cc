@@ -32,20 +32,15 @@ size_t match_directions(const PairHistory& last, PairHistory& now, size_t begin,
 
 }  // namespace
 
-bool DirectionMemory::starts_step() {
-  if (pause_ == 0) return true;
-  --pause_;
-  return false;
-}
+bool DirectionMemory::starts_step() { return pauses_.starts_step(); }
 
 void DirectionMemory::judge(size_t known, size_t tested) {
   constexpr size_t kFewest = 4;  // fewer than one in so many are few
   if (kFewest * known >= tested) {
-    patience_ = kLeastPatience;
-    return;
+    pauses_.end();
+  } else {
+    pauses_.begin();
   }
-  pause_ = patience_;
-  patience_ = std::min(2 * patience_, kMostPatience);
 }
 
 uint32_t* DirectionMemory::prepare(const CarryPlan& plan, const PairHistory& last,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "world/pairs/carry_plan.h"
+#include "world/pairs/pauses.h"
 
 namespace carom {
 
@@ -34,11 +35,8 @@ class DirectionMemory {
   // Begins a pause if the pairs with a known direction are few beside those to test.
   void judge(size_t known, size_t tested);
 
-  static constexpr uint32_t kLeastPatience = 4, kMostPatience = 64;
-
   std::vector<uint32_t> tested_;
-  uint32_t pause_ = 0;                  // steps to come without directions
-  uint32_t patience_ = kLeastPatience;  // steps of the next pause
+  Pauses pauses_{4, 64};
 };
 
 }  // namespace carom

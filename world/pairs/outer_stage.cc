@@ -118,11 +118,7 @@ std::shared_ptr<const HullGeometry> hull_around(const Shape& shape) {
 
 }  // namespace
 
-bool OuterStage::starts_step() {
-  if (pause_ == 0) return true;
-  --pause_;
-  return false;
-}
+bool OuterStage::starts_step() { return pauses_.starts_step(); }
 
 const HullGeometry* OuterStage::hull_of(const BodyStore& bodies, uint32_t body) {
   const std::shared_ptr<const void>& geometry = bodies.geometry(body);
@@ -198,11 +194,10 @@ const std::vector<uint8_t>& OuterStage::test(const BodyStore& bodies, std::span<
 void OuterStage::judge(size_t apart) {
   constexpr size_t kFewest = 16;  // fewer than one pair in so many are few
   if (apart > 0 && kFewest * apart >= tested_.size()) {
-    patience_ = kLeastPatience;
-    return;
+    pauses_.end();
+  } else {
+    pauses_.begin();
   }
-  pause_ = patience_;
-  patience_ = std::min(2 * patience_, kMostPatience);
 }
 
 void OuterStage::give_back() {

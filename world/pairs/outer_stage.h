@@ -14,6 +14,7 @@
 #include "carom/results/pair.h"
 #include "carom/results/result_arrays.h"
 #include "carom/shapes/hull.h"
+#include "world/pairs/pauses.h"
 #include "world/store/body_store.h"
 #include "world/store/columns.h"
 
@@ -43,8 +44,6 @@ class OuterStage {
   void judge(size_t apart);
   const HullGeometry* hull_of(const BodyStore& bodies, uint32_t body);
 
-  static constexpr uint32_t kLeastPatience = 4, kMostPatience = 64;
-
   std::map<const void*, Outer> outer_;
   // The bodies with hulls in place of meshes and compounds.
   std::vector<ShapeKind> kind_;
@@ -52,7 +51,7 @@ class OuterStage {
   std::vector<float> size_;  // of the hull; 0: none stands for the body
   LargeVector<BodyStore::Row> rows_;
   bool is_known_ = false;
-  uint32_t pause_ = 0, patience_ = kLeastPatience;
+  Pauses pauses_{4, 64};
 
   std::vector<Pair> tested_;
   std::vector<uint32_t> place_;  // of each among the pairs

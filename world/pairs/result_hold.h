@@ -1,7 +1,6 @@
 // Which results of the last step still hold within the tolerance, by the odometers of the bodies.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "world/pairs/carry_plan.h"
 #include "world/pairs/gap_stage.h"
 #include "world/pairs/pair_history.h"
+#include "world/pairs/pauses.h"
 #include "world/store/columns.h"
 
 namespace carom {
@@ -47,35 +47,24 @@ class ResultHold {
 class HoldWatch {
  public:
   // Call it once a step. Whether it keeps results.
-  bool starts_step() {
-    if (pause_ == 0) return true;
-    --pause_;
-    return false;
-  }
+  bool starts_step() { return pauses_.starts_step(); }
 
   // Nothing would hold.
-  void pause() {
-    pause_ = patience_;
-    patience_ = std::min(2 * patience_, kMostPatience);
-  }
+  void pause() { pauses_.begin(); }
 
   // After a step, with the numbers of its pairs that it kept, and of all.
   void saw(size_t kept, size_t pairs, bool had_terms) {
     constexpr size_t kFewest = 4;  // fewer than one pair in so many are few
     constexpr size_t kCheap = 64;  // so few pairs cost nothing
     if (kFewest * kept >= pairs || pairs < kCheap) {
-      patience_ = kLeastPatience;
-      pause_ = 0;
+      pauses_.end();
     } else if (had_terms) {
       pause();
     }
   }
 
  private:
-  static constexpr uint32_t kLeastPatience = 8, kMostPatience = 128;
-
-  uint32_t pause_ = 0;
-  uint32_t patience_ = kLeastPatience;  // steps of the next pause
+  Pauses pauses_{8, 128};
 };
 
 }  // namespace carom
