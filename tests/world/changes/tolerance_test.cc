@@ -186,8 +186,8 @@ TEST(Tolerance, ContactsContinueThoseOfTheSamePair) {
       if (i % 5 == 4) worlds.disturb();
     }
   }
-  EXPECT_GT(continued, 1000u);
-  EXPECT_GT(renewed, 100u);
+  EXPECT_GT(continued, 50 * rounds(20));
+  EXPECT_GT(renewed, 5 * rounds(20));
 }
 
 // Includes a tolerance that no motion stays within.
