@@ -26,7 +26,7 @@ void check(const MeshGeometry& from, const MeshGeometry& to, double most, int st
 
 TEST(SurfaceDistance, OfRandomMeshes) {
   int far = 0, near = 0;
-  for (uint64_t seed = 0; seed < rounds(30); ++seed) {
+  for (uint64_t seed = 0; seed < rounds(30, 10); ++seed) {
     Composites random(seed);
     const Mesh a = random.mesh(1), b = random.mesh(1);
     for (const double most : {0.1, 0.5, 4.0}) {
