@@ -18,6 +18,7 @@ namespace {
 
 // A normal whose square is less may have lost digits: it keeps nothing apart.
 constexpr float kLeastSquare = 0x1p-100f;
+constexpr float kNoGap = -0x1p100f;
 
 // The corners number k of the triangles `kItem` of some pairs.
 template <uint32_t ItemPair::*kItem>
@@ -54,30 +55,30 @@ struct Range {
   }
 };
 
-// Whether two triangles are more than `most` apart along the normal of the first. Both are
-// projected on it, so that it need not be exact.
-HWY_INLINE Mask are_apart(const F3* a, const F3* b, F most) {
+// The gap of two triangles along the normal of the first. Both are projected on it, so that it need
+// not be exact.
+HWY_INLINE F gap_along_normal(const F3* a, const F3* b) {
   const F3 n = cross(a[1] - a[0], a[2] - a[0]);
   const Range range_a(n, a), range_b(n, b);
   const F gap = max(hn::Sub(range_b.low, range_a.high), hn::Sub(range_a.low, range_b.high));
   const F squared = dot(n, n);
-  return hn::And(hn::Ge(squared, splat(kLeastSquare)),
-                 hn::Gt(gap, hn::Mul(most, hn::Sqrt(squared))));
+  return hn::IfThenElse(hn::Ge(squared, splat(kLeastSquare)), hn::Div(gap, hn::Sqrt(squared)),
+                        splat(kNoGap));
 }
 
 class PlaneTest {
  public:
   PlaneTest(const TriangleArrays& a, const TriangleArrays& b, const FrameChange& b_to_a,
             const PairScale& scale)
-      : a_(a), b_(b), down_(static_cast<float>(scale.down)), most_(static_cast<float>(scale.grow)) {
+      : a_(a), b_(b), down_(static_cast<float>(scale.down)) {
     for (size_t i = 0; i < 3; ++i) {
       for (size_t k = 0; k < 3; ++k) turn_[k][i] = static_cast<float>(b_to_a.turn[i][k]);
       offset_[i] = scale.offset(b_to_a.offset[i]);
     }
   }
 
-  // Bit i: the triangles of pair i may be near each other.
-  HWY_INLINE uint64_t may_be_near(const ItemPair* pairs) const {
+  // The greater one of the gaps along the two normals.
+  HWY_INLINE F gap(const ItemPair* pairs) const {
     F3 a[3], b[3];
     load_corners<&ItemPair::a>(a_, pairs, a);
     load_corners<&ItemPair::b>(b_, pairs, b);
@@ -91,8 +92,7 @@ class PlaneTest {
       b[k] = b[k] - a[0];
       a[k] = a[k] - a[0];
     }
-    const Mask apart = hn::Or(are_apart(a, b, splat(most_)), are_apart(b, a, splat(most_)));
-    return bits_of(FloatTag(), hn::Not(apart));
+    return max(gap_along_normal(a, b), gap_along_normal(b, a));
   }
 
  private:
@@ -103,11 +103,11 @@ class PlaneTest {
   const TriangleArrays a_, b_;
   float turn_[3][3];  // columns
   float offset_[3];
-  const float down_, most_;
+  const float down_;
 };
 
 size_t keep_near(const TriangleArrays& a, const TriangleArrays& b, const FrameChange& b_to_a,
-                 const PairScale& scale, std::span<ItemPair> pairs) {
+                 const PairScale& scale, float reach, std::span<ItemPair> pairs, float* gaps) {
   const PlaneTest test(a, b, b_to_a, scale);
   size_t kept = 0;
   for (size_t first = 0; first < pairs.size(); first += kLanes) {
@@ -115,8 +115,17 @@ size_t keep_near(const TriangleArrays& a, const TriangleArrays& b, const FrameCh
     ItemPair some[kLanes];
     std::copy_n(pairs.begin() + first, count, some);
     std::fill(some + count, some + kLanes, some[0]);
-    uint64_t near = test.may_be_near(some) & ((uint64_t{1} << count) - 1);
-    for (; near != 0; near &= near - 1) pairs[kept++] = some[std::countr_zero(near)];
+    const F gap = test.gap(some);
+    // What is not a number is near.
+    const Mask apart = hn::Gt(gap, splat(reach));
+    uint64_t near = bits_of(FloatTag(), hn::Not(apart)) & ((uint64_t{1} << count) - 1);
+    float gap_of[kLanes];
+    hn::StoreU(gap, FloatTag(), gap_of);
+    for (; near != 0; near &= near - 1) {
+      const auto i = static_cast<size_t>(std::countr_zero(near));
+      gaps[kept] = gap_of[i];
+      pairs[kept++] = some[i];
+    }
   }
   return kept;
 }
@@ -133,8 +142,9 @@ namespace carom {
 HWY_EXPORT(keep_near);
 
 size_t keep_near(const TriangleArrays& a, const TriangleArrays& b, const FrameChange& b_to_a,
-                 const PairScale& scale, std::span<ItemPair> pairs) {
-  return CAROM_DISPATCH_MEASURED(near_triangles, keep_near)(a, b, b_to_a, scale, pairs);
+                 const PairScale& scale, float reach, std::span<ItemPair> pairs, float* gaps) {
+  return CAROM_DISPATCH_MEASURED(near_triangles, keep_near)(a, b, b_to_a, scale, reach, pairs,
+                                                            gaps);
 }
 
 }  // namespace carom

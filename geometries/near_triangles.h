@@ -17,10 +17,12 @@ struct TriangleArrays {
   const std::array<uint32_t, 3>* triangles;
 };
 
-// Moves the pairs of triangles that may be within the reach of `scale` to the front, in their
-// order, and returns how many they are. The others are further apart along the normal of one of the
-// two triangles. The pairs that are kept are the same on every ISA.
+// Moves the pairs of triangles that may be within `reach` to the front, in their order, and returns
+// how many they are. The others are further apart along the normal of one of the two triangles.
+// `gaps`: for each pair that is kept, the gap along that normal, a lower bound of their separation.
+// `reach` and gaps in units of `scale`, less than 0 for triangles that cross; gaps are exact to its
+// slack. The same on every ISA.
 size_t keep_near(const TriangleArrays& a, const TriangleArrays& b, const FrameChange& b_to_a,
-                 const PairScale& scale, std::span<ItemPair> pairs);
+                 const PairScale& scale, float reach, std::span<ItemPair> pairs, float* gaps);
 
 }  // namespace carom

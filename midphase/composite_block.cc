@@ -114,8 +114,10 @@ class CompositeRun {
 
   void search(size_t k, double reach, Apart apart) {
     const BodyPair bodies(a_, b_, pair(k));
-    find_part_pairs(bodies.a, bodies.b, reach, apart,
-                    [&](const NearParts& parts) { add(k, parts); });
+    find_part_pairs(bodies.a, bodies.b, reach, apart, [&](const NearParts& parts) {
+      add(k, parts);
+      return has_deep_face(k) && may_skip() ? outcomes_[k].separation : reach;
+    });
   }
 
   void add(size_t k, const NearParts& parts) {
@@ -146,13 +148,21 @@ class CompositeRun {
     }
   }
 
+  // Many are tested at once, since how deep they are spares most others.
   void add_triangle_pairs(size_t k, const NearParts& parts) {
+    constexpr size_t kMany = 8;
+    std::span<const float> least = may_skip() ? parts.least_separations : std::span<const float>();
+    const bool are_many = least.size() >= kMany;
     for (std::span<const ItemPair> left = parts.pairs; !left.empty();) {
       if (batch_.is_full()) flush();
       const size_t count = std::min(left.size(), batch_.room());
-      batch_.add_triangle_pairs(k, {parts.a, parts.b, {}, left.first(count)}, reach(k));
+      const size_t bounded = std::min(count, least.size());
+      batch_.add_triangle_pairs(k, {parts.a, parts.b, {}, left.first(count), least.first(bounded)},
+                                reach(k));
       left = left.subspan(count);
+      least = least.subspan(bounded);
     }
+    if (are_many) flush();
   }
 
   // Tests the waiting pairs of parts. All pairs of bodies before the current one are then complete.
@@ -325,7 +335,10 @@ class CompositeRun {
     for (const size_t k : to_measure) {
       if (outcomes_[k].is_found) continue;
       const BodyPair bodies(a_, b_, pair(k));
-      find_near_part_pair(bodies.a, bodies.b, [&](const NearParts& parts) { add(k, parts); });
+      find_near_part_pair(bodies.a, bodies.b, [&](const NearParts& parts) {
+        add(k, parts);
+        return 0.0;
+      });
     }
     run_batch();
     for (const size_t k : to_measure) {

@@ -159,6 +159,12 @@ void PartBatch::add_triangle_pairs(size_t owner, const NearParts& parts, float r
       sides_[0].put_triangles(owner, parts.a, count, [&](size_t i) { return pairs[i].a; });
   const uint32_t first_b =
       sides_[1].put_triangles(owner, parts.b, count, [&](size_t i) { return pairs[i].b; });
+  const std::span<const float> least = parts.least_separations;
+  for (uint32_t i = 0; i < least.size(); ++i) {
+    waiting_[waiting_count_++] = {
+        {first_a + i, first_b + i}, static_cast<uint32_t>(owner), reach, least[i]};
+  }
+  if (!least.empty()) return;
   std::fill_n(reach_.begin() + count_, count, reach);
   std::fill_n(owner_.begin() + count_, count, static_cast<uint32_t>(owner));
   for (uint32_t i = 0; i < count; ++i) pairs_[count_++] = {first_a + i, first_b + i};

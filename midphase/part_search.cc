@@ -306,6 +306,7 @@ class PartSearch {
     PartOf part_a(a), part_b(b);
     find_touching_items(a.tree(), b.tree(), change, reach, [&](std::span<const ItemPair> pairs) {
       for (const ItemPair& p : pairs) run(part_a.item(p.a), part_b.item(p.b));
+      return reach;
     });
   }
 
@@ -315,11 +316,35 @@ class PartSearch {
     const double thickness = double{a.mesh().rules().thickness} + b.mesh().rules().thickness;
     const PairScale scale(size_of(a), size_of(b), b_to_a.offset, reach + thickness);
     const TriangleArrays triangles_a = arrays_of(a.mesh()), triangles_b = arrays_of(b.mesh());
+    const auto all = [&](std::span<ItemPair> pairs) {
+      found_({a, b, {}, pairs});
+      return reach;
+    };
+    if (apart_ == Apart::by_boxes) {
+      return find_touching_items(a.tree(), b.tree(), b_to_a, reach, all);
+    }
+    // Tests of triangles with rules may find greater depths than the planes say.
+    const auto has_rules = [](const PlacedPart& mesh) {
+      return mesh.mesh().rules().thickness > 0 ||
+             mesh.one_sided.value_or(mesh.mesh().rules().one_sided);
+    };
+    const bool is_bounded = !has_rules(a) && !has_rules(b) && std::isfinite(reach);
+    const double lengths = size_of(a) + size_of(b) + greatest(b_to_a.offset);
+    double most = reach;
+    std::vector<float> gaps;
     find_touching_items(a.tree(), b.tree(), b_to_a, reach, [&](std::span<ItemPair> pairs) {
-      const size_t count = apart_ == Apart::by_planes
-                               ? keep_near(triangles_a, triangles_b, b_to_a, scale, pairs)
-                               : pairs.size();
-      if (count > 0) found_({a, b, {}, pairs.first(count)});
+      gaps.resize(std::max(gaps.size(), pairs.size()));
+      const auto within = static_cast<float>(scale.grow_of(most + thickness));
+      const size_t count =
+          keep_near(triangles_a, triangles_b, b_to_a, scale, within, pairs, gaps.data());
+      if (count == 0) return most;
+      for (size_t i = 0; i < count; ++i) {
+        gaps[i] = round_downwards((gaps[i] - scale.slack) * scale.up - kDepthSlack * lengths);
+      }
+      const double matters =
+          found_({a, b, {}, pairs.first(count), std::span(gaps).first(is_bounded ? count : 0)});
+      if (is_bounded) most = std::min(most, matters + kDepthSlack * lengths);
+      return most;
     });
   }
 

@@ -17,11 +17,14 @@ struct NearParts {
   const PlacedPart& b;
   std::span<const uint32_t> triangles = {};
   std::span<const ItemPair> pairs = {};
-  // A lower bound of each separation that a test of `triangles` may find, metres; empty: not known.
+  // A lower bound of each separation that a test of `triangles` or `pairs` may find, metres; empty:
+  // not known.
   std::span<const float> least_separations = {};
 };
 
-using NearPartsFound = FunctionRef<void(const NearParts&)>;
+// Receives some pairs of parts. Returns how far apart others may be that still matter, metres; less
+// than 0 if only those that cross by more do.
+using NearPartsFound = FunctionRef<double(const NearParts&)>;
 
 // How parts are told apart: by their boxes, or also by the planes of triangles where two meshes
 // meet. Pairs whose boxes touch are near, so that the nearest of them bounds a distance.

@@ -24,8 +24,10 @@ struct PairScale {
     down = power_of_two(-clamped);
     up = power_of_two(clamped);
     slack = kTreeSlack * lengths * down;
-    grow = std::min(reach * down + slack, kEverything);
+    grow = grow_of(reach);
   }
+
+  double grow_of(double reach) const { return std::min(reach * down + slack, kEverything); }
 
   // In units. An offset beyond all lengths is cut, which brings nothing further apart.
   float offset(double x) const {

@@ -127,8 +127,9 @@ struct ItemPair {
 // Items of two trees that are about the nearest to each other. The trees must not be empty.
 ItemPair near_items(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a);
 
-// Receives some of the pairs of items of two trees, and may change them.
-using ItemPairsFound = FunctionRef<void(std::span<ItemPair> pairs)>;
+// Receives some of the pairs of items of two trees, and may change them. Returns the reach of the
+// search from now on, if that is less; it may be less than 0.
+using ItemPairsFound = FunctionRef<double(std::span<ItemPair> pairs)>;
 
 // Calls `found` with all pairs of items whose boxes touch when those of `b` are put into the frame
 // of `a`, each with a box around it that is grown by `reach`, and when those of `a` are put into

@@ -51,8 +51,8 @@ class BoxTurner {
  public:
   BoxTurner(const FrameChange& change, const PairScale& scale)
       : half_(static_cast<float>(scale.down / 2)),
-        up_(static_cast<float>(scale.up)),
-        grow_(static_cast<float>(scale.grow)) {
+        up_(static_cast<float>(scale.up)) {
+    set_grow(scale.grow);
     for (size_t i = 0; i < 3; ++i) {
       for (size_t k = 0; k < 3; ++k) {
         turn_[i][k] = static_cast<float>(change.turn[i][k]);
@@ -61,6 +61,9 @@ class BoxTurner {
       offset_[i] = scale.offset(change.offset[i]);
     }
   }
+
+  // By how much boxes grow, in units of the scale.
+  void set_grow(double grow) { grow_ = static_cast<float>(grow); }
 
   // The boxes around turned boxes. Those of places without a child become NaN, which touches
   // nothing.
@@ -162,6 +165,7 @@ class TreePair {
            ItemPairsFound found)
       : nodes_a_(a.nodes().data()),
         nodes_b_(b.nodes().data()),
+        scale_(scale),
         b_to_a_(b_to_a, scale),
         a_to_b_(b_to_a.inverse(), scale),
         found_(found) {}
@@ -173,7 +177,7 @@ class TreePair {
   }
 
  private:
-  static constexpr size_t kAtOnce = 512;
+  static constexpr size_t kFirst = 64, kMostAtOnce = 512;  // so many pairs are handed on
 
   HWY_INLINE void visit(const Visit& v, VisitStack& stack) {
     const BoxTree::Node& a = nodes_a_[v.a];
@@ -204,10 +208,16 @@ class TreePair {
         if (items != 0) stack.push({a.child[i], v.b, kAll, items});
       });
     }
-    if (count_ >= kAtOnce) {
-      found_({pairs_, count_});
-      count_ = 0;
-    }
+    if (count_ >= at_once_) hand_on();
+  }
+
+  // The first pairs may make the others fewer.
+  HWY_INLINE void hand_on() {
+    const double grow = scale_.grow_of(found_({pairs_, count_}));
+    b_to_a_.set_grow(grow);
+    a_to_b_.set_grow(grow);
+    count_ = 0;
+    at_once_ = std::min(2 * at_once_, kMostAtOnce);
   }
 
   // Bit j of the result is bit 8 j + i.
@@ -252,10 +262,11 @@ class TreePair {
 
   const BoxTree::Node* nodes_a_;
   const BoxTree::Node* nodes_b_;
-  const BoxTurner b_to_a_, a_to_b_;
+  const PairScale& scale_;
+  BoxTurner b_to_a_, a_to_b_;
   const ItemPairsFound found_;
-  size_t count_ = 0;
-  ItemPair pairs_[kAtOnce + BoxTree::kChildren * BoxTree::kChildren];
+  size_t count_ = 0, at_once_ = kFirst;
+  ItemPair pairs_[kMostAtOnce + BoxTree::kChildren * BoxTree::kChildren];
 };
 
 void touching_pairs(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a,

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
+#include "oracle/convex_oracle.h"
 #include "oracle/random.h"
 #include "tests/support/isas.h"
 
@@ -58,19 +61,33 @@ double gap_along_normal(const Corners& a, const Corners& b) {
   return std::max(low, -high);
 }
 
+// To rounding in float32.
+double separation_of(const Corners& a, const Corners& b) {
+  const auto shape = [](const Corners& corners) {
+    Triangle triangle;
+    for (size_t k = 0; k < 3; ++k) {
+      for (int axis = 0; axis < 3; ++axis) {
+        triangle.corners[k][axis] = static_cast<float>(corners[k][static_cast<size_t>(axis)]);
+      }
+    }
+    return oracle::ConvexShape<long double>(Shape{triangle});
+  };
+  return static_cast<double>(exact_separation(shape(a), shape(b)));
+}
+
 TEST(NearTriangles, OnlyThoseThatAreApartAreLeftOut) {
   constexpr double kTurn[3][3] = {{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}};
   FrameChange change;
   for (size_t i = 0; i < 3; ++i) change.turn[i] = {kTurn[i][0], kTurn[i][1], kTurn[i][2]};
   Random random(1);
-  size_t left_out = 0, kept_near = 0, all = 0;
+  size_t left_out = 0, kept_near = 0, all = 0, crossing = 0;
   for (const double unit : {1e-38, 1e-20, 1.0, 1e20, 1e37}) {
     SCOPED_TRACE(unit);
-    for (const size_t count : {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 300}) {
+    for (const size_t count : {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 900}) {
       const LooseTriangles a(40, unit, unit, random), b(40, unit, unit, random);
       const Eigen::Vector3d offset = unit * random.direction();
       change.offset = {offset.x(), offset.y(), offset.z()};
-      const double reach = random.chance(0.5) ? 0 : 0.2 * unit;
+      const double reach = std::array{0.0, 0.2, -0.1}[random.below(3)] * unit;
       const PairScale scale(2 * unit, 2 * unit, change.offset, reach);
       std::vector<ItemPair> pairs;
       for (size_t i = 0; i < count; ++i) {
@@ -78,6 +95,7 @@ TEST(NearTriangles, OnlyThoseThatAreApartAreLeftOut) {
             {static_cast<uint32_t>(random.below(40)), static_cast<uint32_t>(random.below(40))});
       }
       std::vector<ItemPair> expected;
+      std::map<ItemPair, double> separation;
       for (const ItemPair& pair : pairs) {
         Corners x, y;
         for (size_t k = 0; k < 3; ++k) {
@@ -93,13 +111,18 @@ TEST(NearTriangles, OnlyThoseThatAreApartAreLeftOut) {
           }
         }
         const double gap = std::max(gap_along_normal(x, y), gap_along_normal(y, x)) * unit;
+        if (unit == 1) separation[pair] = separation_of(x, y);
         if (gap <= reach + 0x1p-19 * unit) expected.push_back(pair);
         all += gap > reach + 0x1p-14 * unit;
       }
       std::vector<ItemPair> first;
+      std::vector<float> first_gaps;
       for_each_isa([&] {
         std::vector<ItemPair> kept = pairs;
-        kept.resize(keep_near(a.arrays(), b.arrays(), change, scale, kept));
+        std::vector<float> gaps(pairs.size());
+        const auto within = static_cast<float>(scale.grow);
+        kept.resize(keep_near(a.arrays(), b.arrays(), change, scale, within, kept, gaps.data()));
+        gaps.resize(kept.size());
         // In their order, and all that are near.
         auto at = kept.begin();
         for (const ItemPair& pair : expected) {
@@ -107,16 +130,23 @@ TEST(NearTriangles, OnlyThoseThatAreApartAreLeftOut) {
           ASSERT_NE(at, kept.end());
           ++at;
         }
+        for (size_t i = 0; unit == 1 && i < kept.size(); ++i) {
+          EXPECT_LE(gaps[i], separation[kept[i]] * scale.down + scale.slack);
+          crossing += gaps[i] < 0;
+        }
         if (first.empty()) {
           first = kept;
+          first_gaps = gaps;
           left_out += pairs.size() - kept.size();
           kept_near += kept.size();
         }
         EXPECT_EQ(kept, first);
+        EXPECT_EQ(gaps, first_gaps);
       });
     }
   }
   EXPECT_GT(kept_near, 300u);
+  EXPECT_GT(crossing, 50u);
   EXPECT_GT(left_out, 300u);
   EXPECT_GT(static_cast<double>(left_out), 0.99 * static_cast<double>(all));
 }
@@ -128,8 +158,12 @@ TEST(NearTriangles, NothingIsLeftOutOfAnInfiniteReach) {
   const PairScale scale(2, 2, change.offset, HUGE_VAL);
   std::vector<ItemPair> pairs;
   for (uint32_t i = 0; i < 20; ++i) pairs.push_back({i, 19 - i});
-  for_each_isa(
-      [&] { EXPECT_EQ(keep_near(a.arrays(), b.arrays(), change, scale, pairs), pairs.size()); });
+  std::vector<float> gaps(pairs.size());
+  for_each_isa([&] {
+    EXPECT_EQ(keep_near(a.arrays(), b.arrays(), change, scale, static_cast<float>(scale.grow),
+                        pairs, gaps.data()),
+              pairs.size());
+  });
 }
 
 }  // namespace

@@ -257,6 +257,7 @@ TEST(BoxTree, TwoTreesFindAllThatTouch) {
           ItemPairs found;
           find_touching_items(a, b, change, reach, [&](std::span<const ItemPair> pairs) {
             found.insert(found.end(), pairs.begin(), pairs.end());
+            return reach;
           });
           std::sort(found.begin(), found.end());
           EXPECT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end());
