@@ -50,8 +50,7 @@ struct SeenBoxes {
 class BoxTurner {
  public:
   BoxTurner(const FrameChange& change, const PairScale& scale)
-      : half_(static_cast<float>(scale.down / 2)),
-        up_(static_cast<float>(scale.up)) {
+      : half_(static_cast<float>(scale.down / 2)), up_(static_cast<float>(scale.up)) {
     set_grow(scale.grow);
     for (size_t i = 0; i < 3; ++i) {
       for (size_t k = 0; k < 3; ++k) {
