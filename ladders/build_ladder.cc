@@ -11,6 +11,7 @@
 #include "carom/hulls/simplify_hull.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "ladders/capsule_model.h"
 #include "ladders/simplify_mesh.h"
 
 namespace carom::ladders {
@@ -136,10 +137,13 @@ Result<LadderedShape> build_ladder(const Shape& shape, std::span<const double> e
   if (ladders::has_no_geometry(shape)) return Error{"the shape has no geometry"};
   LadderedShape result{shape, {.pieces = ladders::pieces_of(shape), .entries = {}}};
   auto ladder = std::make_shared<Ladder>();
+  const std::optional<Rung> capsule = ladders::capsule_model(shape);
   for (const double most : errors) {
-    ladders::Model model = ladders::model_of(shape, most);
-    result.report.entries.push_back(
-        {most, model.rung ? model.rung->error : 0, model.pieces, std::move(model.refused)});
+    const bool is_capsule = capsule && capsule->error <= most;
+    ladders::Model model =
+        is_capsule ? ladders::Model{*capsule, 1, {}} : ladders::model_of(shape, most);
+    result.report.entries.push_back({most, model.rung ? model.rung->error : 0, model.pieces,
+                                     is_capsule, std::move(model.refused)});
     if (!model.rung) continue;
     const bool is_coarser = ladder->rungs.empty() || model.rung->error > ladder->rungs.back().error;
     if (is_coarser) ladder->rungs.push_back(std::move(*model.rung));

@@ -464,6 +464,7 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
   const Collidables view = tested_shapes();
   const bool composites = !has_proxies() && has_composites();
   const std::span<const Pair> pairs = all.subspan(range.first_row, range.rows);
+  report.by_models += bodies.count_with_models(pairs);
   FewOf<ColumnRole, 2> wanted;
   if (composites) wanted.push_back(ColumnRole::sub_shape);
   if (has_identities()) wanted.push_back(ColumnRole::name);

@@ -76,7 +76,7 @@ std::string extent(const std::vector<uint64_t>& list) {
 // Sums over all ladders: how many shapes have a model, the worst error, and the pieces with and
 // without.
 struct LadderSums {
-  size_t models = 0, pieces = 0, simpler = 0;
+  size_t models = 0, capsules = 0, pieces = 0, simpler = 0;
   double error = 0, seconds = 0;
 
   explicit LadderSums(const std::vector<LadderReport>& ladders) {
@@ -85,6 +85,7 @@ struct LadderSums {
       for (const LadderReport::Entry& entry : ladder.entries) {
         if (entry.error == 0) continue;
         ++models;
+        capsules += entry.is_capsule;
         used = entry.pieces;
         error = std::max(error, entry.error);
       }
@@ -101,7 +102,8 @@ Json ladders_json(const std::vector<LadderReport>& ladders) {
     Json rungs = Json::array();
     for (const LadderReport::Entry& entry : ladder.entries) {
       if (entry.error > 0) {
-        rungs.push_back({{"error", entry.error}, {"pieces", entry.pieces}});
+        rungs.push_back(
+            {{"error", entry.error}, {"pieces", entry.pieces}, {"is_capsule", entry.is_capsule}});
       } else {
         rungs.push_back({{"wanted", entry.wanted}, {"refused", entry.refused}});
       }
@@ -137,6 +139,7 @@ Json to_json(const RunReport& report, const WorldOptions& options) {
   json["tested_pairs_per_frame"] = record.tested;
   json["kept_pairs_per_frame"] = record.kept;
   json["dropped_pairs_per_frame"] = record.dropped;
+  if (!report.ladders.empty()) json["tested_by_models_per_frame"] = record.by_models;
   if (looks_ahead(report)) {
     json["swept_per_frame"] = record.swept;
     json["impacts_per_frame"] = record.impacts;
@@ -174,7 +177,8 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
     const LadderSums sums(report.ladders);
     table.add(
         {"ladders", std::to_string(sums.models) + " of " + std::to_string(report.ladders.size()) +
-                        " shapes have a model: " + std::to_string(sums.pieces) + " pieces -> " +
+                        " shapes have a model, " + std::to_string(sums.capsules) +
+                        " a capsule or ball: " + std::to_string(sums.pieces) + " pieces -> " +
                         std::to_string(sums.simpler) + number(", at most %.3g m off", sums.error) +
                         number(", built in %.3g s", sums.seconds)});
   }
@@ -194,6 +198,7 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
     table.add({"impacts", extent(record.impacts)});
     table.add({"speculative contacts", extent(record.speculative)});
   }
+  if (!report.ladders.empty()) table.add({"pairs tested by models", extent(record.by_models)});
   table.add({"kept pairs", extent(record.kept)});
   if (settings.dop_bounds) table.add({"dropped pairs", extent(record.dropped)});
   table.add({"state hash", record.hash.text()});

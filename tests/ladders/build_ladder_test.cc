@@ -19,10 +19,14 @@ double bumps(double x, double y, double z) {
   return 1 + 0.2 * std::sin(2 * x + 1) * std::cos(3 * y) * std::cos(z);
 }
 
+// In an ellipsoid that no capsule is near.
 Hull random_hull(size_t points, uint64_t seed) {
   oracle::Random random(seed);
+  const Eigen::Vector3f half = {1, 1, 0.3f};
   Points all;
-  for (size_t i = 0; i < points; ++i) all.push_back(random.direction().cast<float>());
+  for (size_t i = 0; i < points; ++i) {
+    all.push_back(random.direction().cast<float>().cwiseProduct(half));
+  }
   return {build_hull(all)->geometry};
 }
 
@@ -85,6 +89,71 @@ TEST(BuildLadder, OfHullsHasFewerPointsWithinTheError) {
       EXPECT_GE(reach(*hull.geometry, simpler) + 1e-6, 0.2 * rung.error);
     }
   }
+}
+
+// How far two convex shapes reach in many directions.
+void check_reach(const Hull& hull, const Capsule& capsule, double error) {
+  oracle::Random random(9);
+  double most = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d n = random.direction();
+    double of_hull = -HUGE_VAL;
+    for (const Eigen::Vector3f& p : hull.geometry->points()) {
+      of_hull = std::max(of_hull, n.dot(p.cast<double>()));
+    }
+    const double of_capsule =
+        std::max(n.dot(capsule.a.cast<double>()), n.dot(capsule.b.cast<double>())) +
+        double{capsule.radius};
+    most = std::max(most, std::fabs(of_hull - of_capsule));
+  }
+  EXPECT_LE(most, error);
+  EXPECT_GE(most, 0.5 * error);
+}
+
+TEST(BuildLadder, OfRoundHullsHasACapsule) {
+  for (const double stretch : {1.0, 1.5, 4.0}) {
+    for (const uint64_t seed : {1, 2, 3}) {
+      oracle::Random random(seed);
+      const Eigen::Vector3d axis = random.direction(), at = random.direction();
+      Points all;
+      for (int i = 0; i < 120; ++i) {
+        const Eigen::Vector3d p = random.direction();
+        all.push_back((at + p + (stretch - 1) * axis.dot(p) * axis).cast<float>());
+      }
+      const Hull hull{build_hull(all)->geometry};
+      const LadderedShape laddered = built(hull, 0.6);
+      EXPECT_TRUE(laddered.report.entries[0].is_capsule);
+      EXPECT_EQ(laddered.report.entries[0].pieces, 1u);
+      const Rung& rung = only_rung(laddered.shape);
+      const Capsule& capsule = std::get<Capsule>(rung.shape);
+      check_reach(hull, capsule, rung.error);
+      EXPECT_LE(rung.error, stretch < 2 ? 0.35 : 0.6);
+      EXPECT_EQ((capsule.a - capsule.b).norm() > 0.2f, stretch > 1);
+    }
+  }
+}
+
+// A ball stands for whatever lies in it, where even that is near enough.
+TEST(BuildLadder, WithGreatErrorsEverythingIsABall) {
+  const Hull flat{build_hull(Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})->geometry};
+  const Compound compound = compound_of({{.shape = Sphere{1}, .position = {3, 0, 0}},
+                                         {.shape = Box{{1, 1, 1}}, .position = {-1, 0, 0}}});
+  for (const Shape& shape : std::initializer_list<Shape>{ball_mesh(6, bumps), compound}) {
+    const LadderedShape laddered = built(shape, 10);
+    EXPECT_TRUE(laddered.report.entries[0].is_capsule);
+    const Rung& rung = only_rung(laddered.shape);
+    EXPECT_LE(rung.error, 6);
+    EXPECT_GE(rung.error, 1.2);
+    EXPECT_EQ(std::get<Capsule>(rung.shape).a, std::get<Capsule>(rung.shape).b);
+  }
+  // No proof: a hull without volume, triangles with rules, and what has no points.
+  const auto is_capsule = [](const Shape& shape) {
+    return built(shape, 10).report.entries[0].is_capsule;
+  };
+  EXPECT_FALSE(is_capsule(flat));
+  EXPECT_FALSE(is_capsule(ball_mesh(6, bumps, {.one_sided = true})));
+  EXPECT_FALSE(is_capsule(compound_of({{.shape = ball_mesh(6, bumps)}})));
+  EXPECT_FALSE(is_capsule(mesh_of({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}})));
 }
 
 TEST(BuildLadder, OfCompoundsHasTheModelsOfTheirChildren) {

@@ -263,6 +263,13 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
   store_model(index, best ? best->shape : shape);
 }
 
+size_t BodyStore::count_with_models(std::span<const Pair> pairs) const {
+  if (model_.empty()) return 0;
+  return static_cast<size_t>(std::count_if(pairs.begin(), pairs.end(), [this](const Pair& pair) {
+    return model_[pair.a].error > 0 || model_[pair.b].error > 0;
+  }));
+}
+
 void BodyStore::store_model(uint32_t index, const Shape& shape) {
   const ShapeKind kind = kind_of(shape);
   change_kind(index, kind);

@@ -78,6 +78,8 @@ class BodyStore {
   const std::shared_ptr<const void>& geometry(uint32_t index) const { return geometry_[index]; }
   // How far the model that stands for the shape of a body may be from it, metres; 0: none does.
   double model_error(uint32_t index) const { return model_.empty() ? 0 : model_[index].error; }
+  // How many of these pairs have a body that a model stands for.
+  size_t count_with_models(std::span<const Pair> pairs) const;
   // None: that of the world.
   std::optional<float> tolerance(uint32_t index) const {
     if (tolerance_.empty() || tolerance_[index] < 0) return std::nullopt;

@@ -16,10 +16,11 @@ namespace carom {
 struct LadderReport {
   /// A rung, or one that was asked for and is not there.
   struct Entry {
-    double wanted = 0;    ///< metres, as it was asked for
-    double error = 0;     ///< metres, proved; 0: there is no such rung
-    size_t pieces = 0;    ///< corners of a hull, triangles of a mesh, of a compound those of all
-    std::string refused;  ///< why there is none; empty if there is one
+    double wanted = 0;  ///< metres, as it was asked for
+    double error = 0;   ///< metres, proved; 0: there is no such rung
+    size_t pieces = 0;  ///< corners of a hull, triangles of a mesh, of a compound those of all
+    bool is_capsule = false;  ///< the rung is a capsule, or a ball, which is one without length
+    std::string refused;      ///< why there is none; empty if there is one
   };
   size_t pieces = 0;           ///< of the shape itself
   std::vector<Entry> entries;  ///< one for each error that was asked for
@@ -37,12 +38,13 @@ struct LadderedShape {
 CAROM_EXPORT double error_within(double tolerance);
 
 /// Gives a hull, a mesh or a compound a ladder, with a rung for each of these errors (metres, > 0,
-/// finite, ascending): the simplest model that was found within it, if that is worth it. Of hulls
-/// some points, moved outwards by half of what they lack; of meshes fewer triangles; of compounds
-/// those of its children. Other shapes stay as they are. A rung that cannot be proved is refused,
-/// and the report says so: of meshes that are one-sided or thick, whose fronts must stay where they
-/// are, and of hulls without volume. The same bits for the same shape. A mesh of 100,000 triangles
-/// takes some seconds a rung. Fails if an error is not such a number, or the shape has no geometry.
+/// finite, ascending): the simplest model that was found within it, if that is worth it. A capsule
+/// or a ball, where one is within it; else of hulls some points, moved outwards by half of what
+/// they lack; of meshes fewer triangles; of compounds those of its children. Other shapes stay as
+/// they are. A rung that cannot be proved is refused, and the report says so: of meshes that are
+/// one-sided or thick, whose fronts must stay where they are, and of hulls without volume. The same
+/// bits for the same shape. A mesh of 100,000 triangles takes some seconds a rung. Fails if an
+/// error is not such a number, or the shape has no geometry.
 CAROM_EXPORT Result<LadderedShape> build_ladder(const Shape& shape, std::span<const double> errors);
 
 }  // namespace carom
