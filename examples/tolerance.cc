@@ -43,7 +43,7 @@ int main() {
   std::printf("%zu triangles; a model of %zu is %.4f m off at most\n", ball->report.pieces,
               rung.pieces, rung.error);
 
-  carom::World world({.accuracy = {.tier = {}, .knobs = {}, .tolerance = kTolerance}});
+  carom::World world({.accuracy = {.tier = {}, .tolerance = kTolerance}});
   const carom::BodyId moving = world.add({.shape = ball->shape});
   world.add({.shape = carom::Box{{1, 1, 1}}, .position = {1.9, 0, 0}});
   size_t tested = 0;

@@ -1,6 +1,7 @@
 #include "midphase/part_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -331,9 +332,8 @@ class PartSearch {
     const bool is_bounded = !has_rules(a) && !has_rules(b) && std::isfinite(reach);
     const double lengths = size_of(a) + size_of(b) + greatest(b_to_a.offset);
     double most = reach;
-    std::vector<float> gaps;
+    std::array<float, kMostItemPairs> gaps;
     find_touching_items(a.tree(), b.tree(), b_to_a, reach, [&](std::span<ItemPair> pairs) {
-      gaps.resize(std::max(gaps.size(), pairs.size()));
       const auto within = static_cast<float>(scale.grow_of(most + thickness));
       const size_t count =
           keep_near(triangles_a, triangles_b, b_to_a, scale, within, pairs, gaps.data());
@@ -341,8 +341,11 @@ class PartSearch {
       for (size_t i = 0; i < count; ++i) {
         gaps[i] = round_downwards((gaps[i] - scale.slack) * scale.up - kDepthSlack * lengths);
       }
-      const double matters =
-          found_({a, b, {}, pairs.first(count), std::span(gaps).first(is_bounded ? count : 0)});
+      const double matters = found_({a,
+                                     b,
+                                     {},
+                                     pairs.first(count),
+                                     std::span<const float>(gaps).first(is_bounded ? count : 0)});
       if (is_bounded) most = std::min(most, matters + kDepthSlack * lengths);
       return most;
     });

@@ -127,6 +127,9 @@ struct ItemPair {
 // Items of two trees that are about the nearest to each other. The trees must not be empty.
 ItemPair near_items(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a);
 
+// So many pairs at most are handed on at once.
+inline constexpr size_t kMostItemPairs = 512 + BoxTree::kChildren * BoxTree::kChildren;
+
 // Receives some of the pairs of items of two trees, and may change them. Returns the reach of the
 // search from now on, if that is less; it may be less than 0.
 using ItemPairsFound = FunctionRef<double(std::span<ItemPair> pairs)>;

@@ -176,7 +176,9 @@ class TreePair {
   }
 
  private:
-  static constexpr size_t kFirst = 64, kMostAtOnce = 512;  // so many pairs are handed on
+  // So many pairs wait, or a few more, before they are handed on.
+  static constexpr size_t kFirst = 64;
+  static constexpr size_t kMostAtOnce = kMostItemPairs - BoxTree::kChildren * BoxTree::kChildren;
 
   HWY_INLINE void visit(const Visit& v, VisitStack& stack) {
     const BoxTree::Node& a = nodes_a_[v.a];
@@ -265,7 +267,7 @@ class TreePair {
   BoxTurner b_to_a_, a_to_b_;
   const ItemPairsFound found_;
   size_t count_ = 0, at_once_ = kFirst;
-  ItemPair pairs_[kMostAtOnce + BoxTree::kChildren * BoxTree::kChildren];
+  ItemPair pairs_[kMostItemPairs];
 };
 
 void touching_pairs(const BoxTree& a, const BoxTree& b, const FrameChange& b_to_a,

@@ -6,10 +6,10 @@ namespace carom {
 WorldMemory World::State::memory() const {
   WorldMemory memory;
   memory.bodies = bodies.bytes() + excluded.bytes() + changes.bytes() + drift.bytes() +
-                  proxies.bytes() + sweeps.bytes() + bytes_of(bounds.quarantined());
+                  sweeps.bytes() + bytes_of(bounds.quarantined());
   memory.bounds = bounds.bytes() + swept_bounds.bytes() + fat_bounds.bytes() + dops.record_bytes() +
-                  outer.bytes() + bounding_radii.bytes() + query_index.bytes() +
-                  wide_bounds.bytes() + wide_swept_bounds.bytes();
+                  outer.bytes() + query_index.bytes() + wide_bounds.bytes() +
+                  wide_swept_bounds.bytes();
   memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              hold.bytes() + refresh.bytes() + gaps.bytes() + dops.pair_bytes() +
@@ -29,7 +29,6 @@ void World::State::give_back_memory() {
   hold.give_back();
   refresh.give_back();
   gaps.give_back();
-  proxies.give_back();
   sweeps.give_back();
   give_back(events);
   bounds.give_back();
@@ -37,7 +36,6 @@ void World::State::give_back_memory() {
   fat_bounds.give_back();
   wide_bounds.give_back();
   wide_swept_bounds.give_back();
-  bounding_radii.give_back();
   query_index.give_back();
   dops.give_back();
   outer.give_back();

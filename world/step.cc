@@ -165,7 +165,6 @@ bool World::State::is_still_within_tolerance() {
   stop_looking_ahead();
   run(Stage::changes, [&] {
     changes.update_shapes(bodies, settings.parallelism);
-    update_proxies(&changes);
     drift.update(bodies, changes, settings.accuracy.tolerance, settings.parallelism);
   });
   size_t due = 0;
@@ -202,22 +201,11 @@ void World::State::find_sweeps() {
 
 void World::State::find_changes() {
   changes.update_shapes(bodies, settings.parallelism);
-  update_proxies(&changes);
   changes.update_bodies(bodies, settings.parallelism);
 }
 
-// Updates the balls that stand for bodies. `reshaped` nullptr: of all bodies.
-void World::State::update_proxies(const ChangeTracker* reshaped) {
-  if (!has_proxies()) return;
-  bounding_radii.update(bodies, reshaped, settings.parallelism);
-  proxies.update(bodies, bounding_radii.radii(), settings.parallelism);
-}
-
 void World::State::find_all() {
-  run(Stage::bounds, [&] {
-    find_bounds();
-    if (!carries()) update_proxies(nullptr);
-  });
+  run(Stage::bounds, [&] { find_bounds(); });
   if (looks_ahead()) {
     run(Stage::sweeps, [&] { sweep_bounds(); });
   } else {
@@ -380,7 +368,7 @@ void World::State::drop_outer() {
 
 // Whether the world has two kinds whose test remembers the separating direction.
 bool World::State::uses_directions() const {
-  if (!carries() || !has_contacts(settings.detail) || has_proxies() || has_distances()) {
+  if (!carries() || !has_contacts(settings.detail) || has_distances()) {
     return false;
   }
   const auto is_there = [this](int kind) { return bodies.has_kind(static_cast<ShapeKind>(kind)); };
@@ -461,8 +449,8 @@ void World::State::write_contacts(const PairRange& range, const ContactStage::In
 // Tests the rows of a range; `all`: the pairs of all rows.
 void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
                               uint32_t* direction) {
-  const Collidables view = tested_shapes();
-  const bool composites = !has_proxies() && has_composites();
+  const Collidables view = bodies.view();
+  const bool composites = has_composites();
   const std::span<const Pair> pairs = all.subspan(range.first_row, range.rows);
   report.by_models += bodies.count_with_models(pairs);
   FewOf<ColumnRole, 2> wanted;
@@ -487,11 +475,11 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
 }
 
 void World::State::measure_gaps(std::span<const Pair> all, const PairRange& range) {
-  gaps.measure(all, range, results, tested_shapes(), distances(), drift, settings.parallelism);
+  gaps.measure(all, range, results, bodies.view(), distances(), drift, settings.parallelism);
 }
 
 void World::State::find_impacts() {
-  const Collidables shapes = tested_shapes();
+  const Collidables shapes = bodies.view();
   const BoundsView swept = swept_bounds.view();
   const LookAhead ahead{settings, bodies, shapes, sweeps, swept, now};
   impacts.run(ahead);

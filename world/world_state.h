@@ -15,11 +15,9 @@
 #include "world/changes/pace_sample.h"
 #include "world/changes/rest_watch.h"
 #include "world/motion/body_bounds.h"
-#include "world/motion/bounding_radii.h"
 #include "world/motion/fat_bounds.h"
 #include "world/motion/look_ahead.h"
 #include "world/motion/present_bounds.h"
-#include "world/motion/proxy_spheres.h"
 #include "world/motion/sweeps.h"
 #include "world/motion/swept_bounds.h"
 #include "world/motion/wide_bounds.h"
@@ -81,25 +79,21 @@ struct World::State {
   bool has_velocities() { return has_contacts(settings.detail) && bodies.has_velocities(); }
   bool has_events() const { return settings.events && has_narrowphase(); }
   bool has_margin() const { return settings.margin > 0; }
-  bool is_fast() const { return settings.accuracy.tier == Tier::fast && has_narrowphase(); }
-  bool has_proxies() const { return is_fast() && settings.accuracy.knobs.proxy_spheres; }
   // Only a world that carries results can hold on to them, and not one that proves them.
   bool has_tolerance() const {
     return carries() && !has_proofs(settings.accuracy.tier) &&
            (is_tolerance(settings.accuracy.tolerance) || bodies.has_tolerances());
   }
   static bool is_tolerance(float metres) { return metres > 0 && std::isfinite(metres); }
-  // No k-DOPs with proxy spheres: testing balls is faster than testing their k-DOPs. None with
-  // contact distances either, since pairs with separate k-DOPs may have contacts.
+  // None with contact distances, since pairs with separate k-DOPs may have contacts.
   bool has_dops() const {
-    return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_proxies() &&
-           !has_distances();
+    return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_distances();
   }
   bool has_composites() const {
     return bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound);
   }
-  // For the same reasons.
-  bool has_outer() const { return has_composites() && !has_proxies() && !has_distances(); }
+  // For the same reason.
+  bool has_outer() const { return has_composites() && !has_distances(); }
   ContactDistances distances() const {
     if (!has_contacts(settings.detail)) return {};
     return {settings.contact_distance, bodies.contact_distances()};
@@ -122,7 +116,6 @@ struct World::State {
     if (has_distances()) return looks_ahead() ? wide_swept_bounds.view() : wide_bounds.view();
     return looks_ahead() ? swept_bounds.view() : bounds_view();
   }
-  Collidables tested_shapes() const { return has_proxies() ? proxies.view(bodies) : bodies.view(); }
   bool uses_directions() const;
   bool has_identities() const { return settings.identities && has_contacts(settings.detail); }
   bool needs_sorted_pairs() const {
@@ -166,7 +159,6 @@ struct World::State {
   void refresh_due();
   void find_changes();
   void find_sweeps();
-  void update_proxies(const ChangeTracker* reshaped);
   void find_all();
   void watch_rest(bool still);
   void fill_report();
@@ -200,8 +192,6 @@ struct World::State {
   GapStage gaps;
   RestWatch rest_watch;
   BoxSample sample;
-  BoundingRadii bounding_radii;
-  ProxySpheres proxies;
   Sweeps sweeps;
   SweptBounds swept_bounds;
   WideBounds wide_bounds, wide_swept_bounds;  // of bodies now, and over the interval ahead

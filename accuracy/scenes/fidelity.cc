@@ -12,9 +12,9 @@ namespace {
 // Tolerances as shares of the median bounding radius.
 constexpr double kTolerances[] = {1e-4, 1e-3, 1e-2, 1e-1};
 
-Trial fast_trial(const std::string& name, const FastKnobs& knobs) {
-  Trial trial{.name = name, .settings = {}};
-  trial.settings.accuracy = {Tier::fast, knobs};
+Trial fast_trial() {
+  Trial trial{.name = "single precision", .settings = {}};
+  trial.settings.accuracy.tier = Tier::fast;
   return trial;
 }
 
@@ -22,12 +22,6 @@ Trial tolerant_trial(float tolerance) {
   Trial trial{.name = "tolerance", .settings = {}};
   trial.settings.accuracy.tolerance = tolerance;
   return trial;
-}
-
-std::vector<Trial> knob_trials() {
-  return {fast_trial("single precision", {.single_precision = true}),
-          fast_trial("faces only", {.faces_only = true}),
-          fast_trial("proxy spheres", {.proxy_spheres = true})};
 }
 
 double median_radius(const Playback& scene) {
@@ -92,17 +86,15 @@ std::vector<std::string> fidelity_scenes(bool is_short) {
 Result<void> measure_fidelity(const Playback& scene, int rounds, FidelityReport& report) {
   const Result<StandardRun> standard = run_standard(scene);
   if (!standard) return standard.error();
-  std::vector<Trial> trials = {{.name = "standard", .settings = {}}};
-  const std::vector<Trial> knobs = knob_trials();
+  std::vector<Trial> trials = {{.name = "standard", .settings = {}}, fast_trial()};
   const std::vector<Trial> reuse = reuse_trials(median_radius(scene));
-  trials.insert(trials.end(), knobs.begin(), knobs.end());
   trials.insert(trials.end(), reuse.begin(), reuse.end());
   const auto results = run_trials(scene, *standard, trials, {.rounds = rounds});
   if (!results) return results.error();
   const double frame_ms_standard = results->front()->frame_ms;
   for (size_t i = 1; i < trials.size(); ++i) {
     const TrialResult& result = *(*results)[i];
-    if (i <= knobs.size()) {
+    if (i == 1) {
       report.fidelity.push_back(fidelity_entry(scene, trials[i], result, frame_ms_standard));
     } else {
       report.reuse.push_back(reuse_entry(scene, trials[i], result, frame_ms_standard));

@@ -1,4 +1,4 @@
-// Measures what the knobs of Tier::fast change in whole scenes and how much time they save.
+// Measures what the fast tier and a tolerance change in whole scenes and how much time they save.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace carom::accuracy {
 
-// One scene with one knob, compared with the standard tier; sums over all frames. Times are as in
+// One scene at the fast tier, compared with the standard one; sums over all frames. Times are as in
 // TrialResult and come from alternating runs; lengths are metres.
 struct FidelityEntry {
   std::string scene;
-  std::string setting;  // "single precision", "faces only", "proxy spheres"
+  std::string setting;  // "single precision"
   uint64_t pairs = 0;   // candidates of the standard run
   uint64_t lost = 0;    // overlaps of the standard run that are missing
   uint64_t gained = 0;  // overlaps that the standard run does not have
@@ -43,7 +43,7 @@ struct FidelityReport {
   std::vector<ReuseEntry> reuse;
 };
 
-// Generated scenes (as on the command line) that show the effect of the knobs: creeping boxes,
+// Generated scenes (as on the command line) that show the effect: creeping boxes,
 // moving boxes and spheres, and a level in which nine tenths of the bodies rest. `is_short`: small
 // scenes that take some seconds in all.
 std::vector<std::string> fidelity_scenes(bool is_short);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "accuracy/tiers/bullet.h"
-#include "accuracy/tiers/proxy_spheres.h"
 #include "carom/narrowphase/collide.h"
 #include "carom/reference/reference.h"
 
@@ -37,25 +36,15 @@ class ScalarReference final : public Contender {
   }
 };
 
-// Kinds whose results change in single precision.
-bool has_knob(ShapeKind kind) {
+// Kinds whose results change at the fast tier.
+bool may_be_fast(ShapeKind kind) {
   return kind == ShapeKind::sphere || kind == ShapeKind::capsule || is_boxlike(kind);
-}
-
-LibrarySetting faces_only_setting() {
-  return {
-      "faces only", "fast", Promise::finite, {.tier = Tier::fast, .knobs = {.faces_only = true}}};
 }
 
 }  // namespace
 
 bool LibrarySetting::serves(const KindPair& kinds) const {
-  if (accuracy_.knobs.single_precision) return has_knob(kinds.a) && has_knob(kinds.b);
-  if (accuracy_.knobs.faces_only) {
-    const bool has_box = kinds.a == ShapeKind::box || kinds.b == ShapeKind::box;
-    return has_box && is_boxlike(kinds.a) && is_boxlike(kinds.b);
-  }
-  return true;
+  return accuracy_.tier != Tier::fast || (may_be_fast(kinds.a) && may_be_fast(kinds.b));
 }
 
 void LibrarySetting::run(const PairSet& pairs, Detail detail, Answers& out) {
@@ -68,16 +57,11 @@ LibrarySetting standard_setting() {
   return {"standard", "standard", Promise::standard, Accuracy{}};
 }
 LibrarySetting certified_setting() {
-  return {"certified", "certified", Promise::proven, {.tier = Tier::certified, .knobs = {}}};
+  return {"certified", "certified", Promise::proven, {.tier = Tier::certified}};
 }
-LibrarySetting exact_setting() {
-  return {"exact", "exact", Promise::exact, {.tier = Tier::exact, .knobs = {}}};
-}
+LibrarySetting exact_setting() { return {"exact", "exact", Promise::exact, {.tier = Tier::exact}}; }
 LibrarySetting single_precision_setting() {
-  return {"single precision",
-          "fast",
-          Promise::finite,
-          {.tier = Tier::fast, .knobs = {.single_precision = true}}};
+  return {"single precision", "fast", Promise::finite, {.tier = Tier::fast}};
 }
 
 std::vector<std::unique_ptr<Contender>> contenders_for(const KindPair& kinds) {
@@ -86,11 +70,10 @@ std::vector<std::unique_ptr<Contender>> contenders_for(const KindPair& kinds) {
     if (contender && contender->serves(kinds)) all.push_back(std::move(contender));
   };
   add(std::make_unique<ScalarReference>());
-  for (const LibrarySetting& setting : {standard_setting(), certified_setting(), exact_setting(),
-                                        single_precision_setting(), faces_only_setting()}) {
+  for (const LibrarySetting& setting :
+       {standard_setting(), certified_setting(), exact_setting(), single_precision_setting()}) {
     add(std::make_unique<LibrarySetting>(setting));
   }
-  add(make_proxy_spheres());
   add(make_bullet());
   return all;
 }

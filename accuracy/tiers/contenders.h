@@ -27,7 +27,7 @@ class Contender {
   virtual const char* setting() const = 0;
   virtual const char* tier() const = 0;
   virtual Promise promise() const = 0;
-  // Whether it supports these kinds; a knob: whether it changes their results.
+  // Whether it supports these kinds; the fast tier: whether it changes their results.
   virtual bool serves(const KindPair& kinds) const = 0;
   // Preparation of the pairs that is not timed as part of run().
   virtual void prepare(const PairSet& /*pairs*/) {}
@@ -58,7 +58,7 @@ LibrarySetting certified_setting();
 LibrarySetting exact_setting();
 LibrarySetting single_precision_setting();
 
-// All contenders that serve the kinds: the scalar reference, the tiers, the knobs, and Bullet if
+// All contenders that serve the kinds: the scalar reference, the tiers, and Bullet if
 // the program was built with it.
 std::vector<std::unique_ptr<Contender>> contenders_for(const KindPair& kinds);
 

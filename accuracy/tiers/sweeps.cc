@@ -12,13 +12,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The settings whose curves are worth a look. The reference has the bits of standard, and the
-// errors of proxy spheres exceed all of these gaps.
+// The settings whose curves are worth a look. The reference has the bits of standard.
 std::vector<std::unique_ptr<Contender>> close_contenders(const KindPair& kinds) {
   auto all = contenders_for(kinds);
   std::erase_if(all, [](const auto& contender) {
     const std::string setting = contender->setting();
-    return setting == "scalar reference" || setting == "proxy spheres";
+    return setting == "scalar reference";
   });
   return all;
 }

@@ -1,4 +1,4 @@
-// carom accuracy: what the tiers and knobs cost and what they give, measured against exact answers.
+// carom accuracy: what the tiers cost and what they give, measured against exact answers.
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -67,7 +67,7 @@ class ProgressLine {
   std::shared_ptr<Progress> line_;  // shared by all copies, because std::function copies
 };
 
-// Adds the effect of the knobs on whole scenes.
+// Adds the effect of the fast tier and of a tolerance on whole scenes.
 Result<void> add_scenes(const AccuracyOptions& options, const Console& console, Json& json) {
   const Result<accuracy::FidelityReport> report = measure_scene_fidelity(
       options.scenes, options.mode == "short", ProgressLine(console, "scenes"));
@@ -195,7 +195,8 @@ void add_accuracy_command(CommandLine& program) {
       .separated_by(',');
   command
       .add_option("--scene", options->scenes,
-                  "Measure what the knobs change in this scene, too (a file or a generator)")
+                  "Measure what the fast tier and tolerances change in this scene, too (a file or "
+                  "a generator)")
       .take_all();
   command
       .add_option("--decisions", options->decisions,

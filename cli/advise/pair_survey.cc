@@ -13,7 +13,8 @@
 namespace carom::cli {
 namespace {
 
-// Below this distance, as a share of the pair's mean radius, float32 may not decide; see FastKnobs.
+// Below this distance, as a share of the pair's mean radius, float32 may not decide; see
+// Tier::fast.
 constexpr double kNear = 0x1p-17;
 
 BodyColumns columns_of(const LoadedScene& scene, const io::SceneFrame& frame) {

@@ -44,14 +44,12 @@ struct PairsOptions {
 
 bool finds_impacts(const PairsOptions& options) { return options.detail == "toi"; }
 
-// Every tier finds times of impact in double precision, so other tiers and knobs have no effect.
+// Times of impact are found in double precision, so that the fast tier has no effect.
 Result<void> check_tier_of_impacts(const Accuracy& accuracy, const std::string& tier) {
   if (has_proofs(accuracy.tier)) {
     return Error{"--detail toi has the tier standard alone (--tier " + tier + " was given)"};
   }
-  const std::vector<std::string> knobs = names_of(accuracy.knobs);
-  if (knobs.empty()) return {};
-  return Error{"--detail toi has no knobs (--knobs " + knobs.front() + " was given)"};
+  return {};
 }
 
 Result<void> check_motions(const PairSet& pairs, const std::string& path) {
@@ -180,8 +178,6 @@ nlohmann::ordered_json to_json(const PairsReport& report, const PairsOptions& op
   json["ns_per_pair"] = report.ns_per_pair;
   json["isa"] = name(active_isa());
   json["tier"] = options.tier.tier;
-  const std::vector<std::string> knobs = names_of(report.accuracy.knobs);
-  if (!knobs.empty()) json["knobs"] = knobs;
   if (report.accuracy.tolerance > 0) json["tolerance"] = report.accuracy.tolerance;
   json["detail"] = options.detail;
   json["contact_distance"] = options.contact_distance;
@@ -230,7 +226,7 @@ Result<int> pairs(const PairsOptions& options, const Console& console) {
   if (Result<void> threads = check_threads(options.engine.threads); !threads) {
     return threads.error();
   }
-  Result<Accuracy> accuracy = parse_accuracy(options.tier, KnobsOf::pairs);
+  Result<Accuracy> accuracy = parse_accuracy(options.tier);
   if (!accuracy) return accuracy.error();
   Result<Detail> detail = parse_detail(options.detail, kDetails);
   if (!detail) return detail.error();

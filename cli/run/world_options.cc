@@ -37,13 +37,12 @@ constexpr NamedDetail kDetails[] = {{"pairs", Detail::pairs},
                                     {"manifold", Detail::manifold},
                                     {"regions", Detail::regions}};
 
-// Tier, knobs and tolerance: knobs need the fast tier.
 class AccuracyOption : public WorldOption {
  public:
   void add_to(Command& command) override { add_tier_options(command, options_); }
 
   Result<void> read(RunSettings& settings) const override {
-    const Result<Accuracy> accuracy = parse_accuracy(options_, KnobsOf::worlds);
+    const Result<Accuracy> accuracy = parse_accuracy(options_);
     if (!accuracy) return accuracy.error();
     settings.world.accuracy = *accuracy;
     return {};
@@ -53,20 +52,13 @@ class AccuracyOption : public WorldOption {
     const Accuracy& accuracy = settings.world.accuracy;
     std::string text;
     if (accuracy.tier != Tier::standard) text = std::string(" --tier ") + name_of(accuracy.tier);
-    if (accuracy.tier == Tier::fast) {
-      const std::vector<std::string> names = names_of(accuracy.knobs);
-      for (size_t i = 0; i < names.size(); ++i) text += (i == 0 ? " --knobs " : ",") + names[i];
-    }
     const float metres = accuracy.tolerance;
     return metres > 0 ? text + " --tolerance " + shortest(metres) : text;
   }
 
-  // Lists only the knobs that are set.
   void add_json(const RunReport& report, Json& json) const override {
     const Accuracy& accuracy = report.settings.world.accuracy;
-    const std::vector<std::string> names = names_of(accuracy.knobs);
     json["tier"] = name_of(accuracy.tier);
-    if (!names.empty()) json["knobs"] = names;
     if (accuracy.tolerance > 0) json["tolerance"] = accuracy.tolerance;
   }
 

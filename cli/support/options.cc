@@ -39,47 +39,6 @@ Error unknown(const std::string& what, const std::string& text, const std::strin
 constexpr const char* kTiers[] = {"fast", "standard", "certified", "exact"};
 constexpr const char* kDetections[] = {"discrete", "swept", "continuous", "automatic"};
 
-struct NamedKnob {
-  std::string_view name;
-  bool FastKnobs::*knob;
-  KnobsOf of;
-};
-constexpr NamedKnob kKnobs[] = {{"single-precision", &FastKnobs::single_precision, KnobsOf::pairs},
-                                {"faces-only", &FastKnobs::faces_only, KnobsOf::pairs},
-                                {"proxy-spheres", &FastKnobs::proxy_spheres, KnobsOf::worlds}};
-
-Result<void> set_knob(const std::string& name, KnobsOf served, FastKnobs& knobs) {
-  std::string names;
-  for (const NamedKnob& entry : kKnobs) {
-    const bool is_served = entry.of == KnobsOf::pairs || served == KnobsOf::worlds;
-    if (name == entry.name && !is_served) {
-      return Error{"knob " + io::quoted_name(name) + " is for scenes only (carom run)"};
-    }
-    if (name == entry.name) {
-      knobs.*entry.knob = true;
-      return {};
-    }
-    if (is_served) names += (names.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  return unknown("knob", name, names);
-}
-
-// An empty list sets no knob.
-Result<void> parse_knobs(const std::string& list, KnobsOf served, FastKnobs& knobs) {
-  if (list.empty()) return {};
-  for (size_t begin = 0; begin <= list.size();) {
-    const size_t end = std::min(list.find(',', begin), list.size());
-    Result<void> set = set_knob(list.substr(begin, end - begin), served, knobs);
-    if (!set) return set;
-    begin = end + 1;
-  }
-  return {};
-}
-
-Error needs_fast(const std::string& option, const std::string& tier) {
-  return {option + " needs --tier fast, not " + tier};
-}
-
 // Returns no set for "auto".
 Result<std::optional<Isa>> parse_isa(const std::string& name) {
   std::optional<Isa> isa;
@@ -105,8 +64,6 @@ void add_engine_options(Command& command, EngineOptions& options) {
 
 void add_tier_options(Command& command, TierOptions& options) {
   command.add_option("--tier", options.tier, "fast, standard, certified or exact").show_default();
-  command.add_option("--knobs", options.knobs,
-                     "What the fast tier loosens, separated by commas; none if not given");
   command
       .add_option("--tolerance", options.tolerance,
                   "Metres by which results may be wrong at most; 0: the standard tier")
@@ -143,41 +100,25 @@ Result<size_t> find_name(const std::string& what, const std::string& text,
   return unknown(what, text, available);
 }
 
-Result<Accuracy> parse_accuracy(const TierOptions& options, KnobsOf served) {
+Result<Accuracy> parse_accuracy(const TierOptions& options) {
   const Result<size_t> tier = find_name("tier", options.tier, kTiers);
   if (!tier) return tier.error();
-  Accuracy accuracy{.tier = static_cast<Tier>(*tier), .knobs = {}};
-  Result<void> parsed = parse_knobs(options.knobs, served, accuracy.knobs);
-  if (!parsed) return parsed.error();
-  parsed = check_metres("--tolerance", options.tolerance);
-  if (!parsed) return parsed.error();
+  Accuracy accuracy{.tier = static_cast<Tier>(*tier)};
+  const Result<void> checked = check_metres("--tolerance", options.tolerance);
+  if (!checked) return checked.error();
   accuracy.tolerance = static_cast<float>(options.tolerance);
   if (accuracy.tolerance > 0 && has_proofs(accuracy.tier)) {
     return Error{"--tolerance " + shortest(accuracy.tolerance) + ": not with --tier " +
                  options.tier + ", whose decisions are proven"};
   }
-  if (accuracy.tier == Tier::fast) return accuracy;
-  if (!options.knobs.empty()) return needs_fast("--knobs", options.tier);
   return accuracy;
 }
 
 const char* name_of(Tier tier) { return kTiers[static_cast<size_t>(tier)]; }
 
-std::vector<std::string> names_of(const FastKnobs& knobs) {
-  std::vector<std::string> names;
-  for (const NamedKnob& entry : kKnobs) {
-    if (knobs.*entry.knob) names.emplace_back(entry.name);
-  }
-  return names;
-}
-
 std::string describe(const Accuracy& accuracy) {
-  std::string text(name_of(accuracy.tier));
-  std::vector<std::string> parts;
-  if (accuracy.tier == Tier::fast) parts = names_of(accuracy.knobs);
-  if (accuracy.tolerance > 0) parts.push_back(number("within %g m", accuracy.tolerance));
-  for (size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? ": " : ", ") + parts[i];
-  return text;
+  const std::string tier = name_of(accuracy.tier);
+  return accuracy.tolerance > 0 ? tier + number(", within %g m", accuracy.tolerance) : tier;
 }
 
 const char* name_of(Detection detection) { return kDetections[static_cast<size_t>(detection)]; }

@@ -26,12 +26,11 @@ struct EngineOptions {
 
 struct TierOptions {
   std::string tier = "standard";
-  std::string knobs;     // names, separated by commas
   double tolerance = 0;  // metres
 };
 
 void add_engine_options(Command& command, EngineOptions& options);
-// Tier, knobs and tolerance, which scenes and pairs have.
+// Tier and tolerance, which scenes and pairs have.
 void add_tier_options(Command& command, TierOptions& options);
 void add_threads_option(Command& command, int& threads);
 void add_json_option(Command& command, std::string& json);
@@ -45,15 +44,11 @@ Result<void> check_metres(const std::string& option, double metres);
 Result<size_t> find_name(const std::string& what, const std::string& text,
                          std::span<const char* const> names);
 
-// The knobs of the fast tier that a command accepts: those of collide(), or also those of worlds.
-enum class KnobsOf { pairs, worlds };
-// Parses tier, knobs and tolerance; knobs need the fast tier.
-Result<Accuracy> parse_accuracy(const TierOptions& options, KnobsOf served);
+// Parses tier and tolerance.
+Result<Accuracy> parse_accuracy(const TierOptions& options);
 // "fast", "standard", "certified", "exact".
 const char* name_of(Tier tier);
-// The set knobs by their names in --knobs.
-std::vector<std::string> names_of(const FastKnobs& knobs);
-// Readable text: "fast: faces-only, within 0.01 m".
+// Readable text: "fast, within 0.01 m".
 std::string describe(const Accuracy& accuracy);
 
 // "discrete", "swept", "continuous", "automatic".

@@ -73,8 +73,7 @@ struct Batch {
   // decision, even if the answer of doubles is given. At Pass::manifold: 1 where the kernel defers
   // the points. nullptr: the caller does not need it.
   uint8_t* unsure = nullptr;
-  bool single_precision = false;  // FastKnobs
-  bool faces_only = false;        // FastKnobs
+  bool single_precision = false;  // Tier::fast
   // The points of hulls are rounded by up to 2^-24 of the size. Kernels in float32 allow for it;
   // double precision proves no decision then.
   bool has_rounded_points = false;
@@ -93,7 +92,7 @@ inline constexpr uint8_t kDeep = 2;
 
 // Whether only decisions are wanted, and these as good as those of the standard tier.
 inline bool is_plain_decision(const Batch& batch) {
-  return batch.detail == Detail::overlap && !batch.single_precision && !batch.faces_only;
+  return batch.detail == Detail::overlap && !batch.single_precision;
 }
 
 // run_NAME(batch) for every pair kind, on the ISA in use.

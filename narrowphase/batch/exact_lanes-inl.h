@@ -108,7 +108,6 @@ class ExactLanes {
  public:
   // For test_boxes().
   static constexpr bool kHasContact = kContacts;
-  static constexpr bool faces_only() { return false; }
   // Whether the caller wants to know which decisions are proven.
   bool marks_unsure() const { return batch_.unsure != nullptr; }
   template <size_t kPart>

@@ -69,7 +69,6 @@ struct LaneReport {
   bool is_odd;           // not all lanes are plain
   UnsureRows* gathered;  // nullptr: unsure lanes are computed at once
 
-  HWY_INLINE bool faces_only() const { return batch.faces_only; }
   // Asks for a part of the bodies of pairs to come. Only for kernels with kTestFetches, each part
   // once.
   template <size_t kPart>
@@ -178,7 +177,7 @@ struct LaneReport {
     }
   }
 
-  // Whether FastKnobs::single_precision may keep the float32 answer. Not for triangles: special
+  // Whether Tier::fast may keep the float32 answer. Not for triangles: special
   // ones, which the kernel does not test, are unsure. Not for half-spaces, which may be far away.
   // Not without a unit normal, if the detail stores one.
   static HWY_INLINE Mask is_good_enough(const AnswerLanes& answer) {

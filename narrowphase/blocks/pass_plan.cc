@@ -40,10 +40,7 @@ PassPlan plan_passes(const PairKind& kind, const Batch& batch, Measured wanted, 
 
   plan.points = points_of(kind, batch.detail, measured);
   plan.clears_separate = measured == Measured::all;
-  if (accuracy.tier == Tier::fast) {
-    plan.single_precision = accuracy.knobs.single_precision;
-    plan.faces_only = accuracy.knobs.faces_only;
-  }
+  plan.single_precision = accuracy.tier == Tier::fast;
   return plan;
 }
 

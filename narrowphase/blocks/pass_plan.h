@@ -22,8 +22,8 @@ struct PassPlan {
   bool proves = false;             // unsure rows get proofs or exact decisions
   bool bounds = false;             // separations get their error bounds
   Points points = Points::none;
-  bool clears_separate = false;  // manifolds of separate pairs are written as zero
-  bool single_precision = false, faces_only = false;  // FastKnobs
+  bool clears_separate = false;   // manifolds of separate pairs are written as zero
+  bool single_precision = false;  // Tier::fast
 };
 
 // `has_directions`: the caller remembers directions. `batch.out` says which optional columns it

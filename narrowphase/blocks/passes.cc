@@ -219,7 +219,6 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured measured, uin
   RowFlags unsure;
   Batch batch = asked;
   batch.single_precision = plan.single_precision;
-  batch.faces_only = plan.faces_only;
   // Points are clipped relative to the bodies.
   if (plan.points == PassPlan::Points::clipped) batch.frame = WitnessFrame::body;
   if (plan.known == PassPlan::Known::features) batch.features = batch.out.features;

@@ -291,23 +291,18 @@ HWY_INLINE void report_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
          rotate(turn_a, on_b - p.centre));
 }
 
-// Decision and, of overlapping boxes, all. Doubles ignore faces_only.
+// Decision and, of overlapping boxes, all.
 template <class V, class Report>
 HWY_INLINE void test_boxes(const BoxPairOf<V>& p, const RotationOf<V>& turn_a,
                            const Lanes3<V>& centre_a, Report& report) {
-  const bool faces_only = std::is_same_v<V, F> && report.faces_only();
-  BestEdgesOf<V> edges = no_edges<V>();
   report.template fetch<0>();
-  if (HWY_LIKELY(!faces_only)) edges = best_edges(p);
+  const BestEdgesOf<V> edges = best_edges(p);
   report.template fetch<1>();
   const SeparatingAxisOf<V> axis = best_axis(p, edges);
   report.template fetch<2>();
   Lanes3<V> on_a = p.centre, on_b = p.centre;
   MaskOf<V> unsure = no_lanes_of<V>();
   if constexpr (Report::kHasContact) witness_along(p, axis, on_a, on_b, unsure);
-  // With faces only, pairs that only an edge axis separates give a meaningless witness; they are
-  // not marked unsure.
-  if (HWY_UNLIKELY(faces_only)) unsure = no_lanes_of<V>();
   const MaskOf<V> overlap = hn::Le(axis.gap, splat_as<V>(0));
   report.template fetch<3>();
   report_boxes(p, turn_a, centre_a, axis.gap, axis.gap, axis.normal, on_a, on_b,

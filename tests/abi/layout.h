@@ -25,7 +25,7 @@ static_assert(kNaturallyAligned<HullGeometry, HullGeometry::Face, MeshRules, Mes
 static_assert(kNaturallyAligned<BodyId, Pose, BodyDesc, Sweep, SweepView, PositionView, AabbColumns,
                                 OrientationView, ShapeRows, Collidables, BoundsView>);
 static_assert(kNaturallyAligned<BoundsColumns, DopRecords, PairFilter, PairSearch, PairFinder,
-                                ResultColumns, ImpactColumns, Accuracy, FastKnobs>);
+                                ResultColumns, ImpactColumns, Accuracy>);
 static_assert(kNaturallyAligned<Pair, Contact, ManifoldPoints, Event, Impact, CastHit, OverlapHit,
                                 NearestHit, PointHit, Rays>);
 static_assert(

@@ -148,21 +148,13 @@ TEST_F(ErrorsTest, OptionsOfPairs) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(ErrorsTest, KnobsNeedTheFastTier) {
+TEST_F(ErrorsTest, Tolerances) {
   const std::string scene = "still:n=5,frames=2";
-  const std::string served = "single-precision, faces-only, proxy-spheres";
   const auto fails = [&](const std::string& tier, const std::string& option,
                          const std::string& value, std::initializer_list<std::string> parts) {
     expect_error({"run", scene, "--tier", tier, option, value}, parts);
   };
-  expect_error({"run", scene, "--knobs", "faces-only"},
-               {"--knobs needs --tier fast, not standard"});
-  fails("exact", "--knobs", "proxy-spheres", {"--knobs needs --tier fast, not exact"});
   fails("certified", "--tolerance", "0.1", {"--tolerance 0.1: not with --tier certified"});
-  fails("fast", "--knobs", "magic", {"unknown knob 'magic'", served});
-  fails("fast", "--knobs", "faces-only,magic", {"unknown knob 'magic'", served});
-  fails("fast", "--knobs", "faces-only,", {"unknown knob ''", served});
-  fails("fast", "--knobs", "faces-only, proxy-spheres", {"unknown knob ' proxy-spheres'"});
   for (const char* metres : {"-1", "nan", "inf", "1e39", "-1e-9"}) {
     fails("fast", "--tolerance", metres, {"--tolerance", "metres"});
   }
@@ -174,9 +166,6 @@ TEST_F(ErrorsTest, KnobsNeedTheFastTier) {
     expect_error({"pairs", path("in.npz"), "-o", path("out.npz"), "--tier", tier, option, value},
                  {part});
   };
-  pairs_fail("standard", "--knobs", "faces-only", "--knobs needs --tier fast");
-  pairs_fail("fast", "--knobs", "proxy-spheres", "knob 'proxy-spheres' is for scenes only");
-  pairs_fail("fast", "--knobs", "magic", "(there are: single-precision, faces-only)");
   pairs_fail("standard", "--tolerance", "-1", "--tolerance -1: not a number of metres");
   pairs_fail("exact", "--tolerance", "1", "not with --tier exact");
   EXPECT_EQ(files(), 1u);
@@ -191,8 +180,6 @@ TEST_F(ErrorsTest, TimesOfImpactHaveOneTier) {
   };
   fails({"--tier", "certified"}, "has the tier standard alone (--tier certified was given)");
   fails({"--tier", "exact"}, "has the tier standard alone (--tier exact was given)");
-  fails({"--tier", "fast", "--knobs", "single-precision"},
-        "has no knobs (--knobs single-precision was given)");
   EXPECT_EQ(files(), 1u);
 }
 

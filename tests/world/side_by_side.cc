@@ -2,11 +2,6 @@
 
 namespace carom::test {
 
-WorldSettings with_knobs(const FastKnobs& knobs, WorldSettings settings) {
-  settings.accuracy = {.tier = Tier::fast, .knobs = knobs};
-  return settings;
-}
-
 CrowdSpec varied_crowd(uint64_t seed, size_t count) {
   return {.count = count,
           .side = 1.2 * std::cbrt(static_cast<double>(count)),

@@ -13,8 +13,6 @@
 
 namespace carom::test {
 
-WorldSettings with_knobs(const FastKnobs& knobs, WorldSettings settings = {});
-
 // Crowds and settings that vary with the seed.
 CrowdSpec varied_crowd(uint64_t seed, size_t count = 200);
 

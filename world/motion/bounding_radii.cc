@@ -6,14 +6,12 @@
 #include <limits>
 
 #include "base/outward.h"
-#include "base/parallel.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/body_reader.h"
 #include "shapes/dop_geometry.h"
 #include "shapes/hull_features.h"
 #include "shapes/turn.h"
-#include "world/store/row_blocks.h"
 
 namespace carom {
 namespace {
@@ -123,22 +121,6 @@ float turning_radius(const BodyReader& reader, size_t i) {
     return round_upwards(std::sqrt(double{radius} * radius - inner * inner));
   }
   return radius;
-}
-
-void BoundingRadii::update(const BodyStore& bodies, const ChangeTracker* changes,
-                           Parallelism parallelism) {
-  radii_.resize(bodies.rows());
-  const Collidables view = bodies.view();
-  const BodyReader reader{view};
-  for_each_block(bodies.rows(), kRowsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      // A sphere's radius is in its record, so `changes` does not report it.
-      const bool is_known = changes && reader.kind(i) != ShapeKind::sphere &&
-                            !bodies.touched(static_cast<uint32_t>(i)) &&
-                            !changes->reshaped(view, i);
-      if (!is_known) radii_[i] = bounding_radius(reader, i);
-    }
-  });
 }
 
 }  // namespace carom

@@ -1,13 +1,7 @@
 // The radius of a ball about each body's position that holds its shape.
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "carom/base/parallelism.h"
-#include "world/changes/change_tracker.h"
-#include "world/store/body_store.h"
-#include "world/store/columns.h"
+#include <cstddef>
 
 namespace carom {
 
@@ -23,20 +17,5 @@ float bounding_radius(const BodyReader& reader, size_t i);
 // direction, since the height of the support changes by that: a ball has 0, a cube half the
 // diagonal of a face. Zero for what does not turn, infinite for half-spaces.
 float turning_radius(const BodyReader& reader, size_t i);
-
-class BoundingRadii {
- public:
-  // Updates the radii of the bodies whose shape has changed by `changes`; nullptr: of all bodies.
-  void update(const BodyStore& bodies, const ChangeTracker* changes, Parallelism parallelism);
-
-  // One radius a body index.
-  std::span<const float> radii() const { return radii_; }
-
-  void give_back() { carom::give_back(radii_); }
-  size_t bytes() const { return bytes_of(radii_); }
-
- private:
-  std::vector<float> radii_;
-};
 
 }  // namespace carom

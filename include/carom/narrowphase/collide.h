@@ -24,7 +24,7 @@ struct CollideOptions {
   WitnessFrame frame = WitnessFrame::world;     ///< of witness and manifold points
   Parallelism parallelism = Parallelism::none;  ///< which threads the call may use
   Measured measured = Measured::all;            ///< which pairs are measured
-  Accuracy accuracy = {};                       ///< the tier and its knobs
+  Accuracy accuracy = {};                       ///< the tier
   /// Metres, finite, >= 0. Separate pairs with at most this separation have contacts, too: they are
   /// measured, whatever `measured` says, and get manifold points and regions at details that have
   /// them. In every manifold, points may be this far from B. Overlaps do not change.

@@ -10,7 +10,9 @@ namespace carom {
 /// that they are, R(q) = M(q) / |q|^2 in rationals, and a thick triangle reaches `thickness` along
 /// its exact unit normal.
 enum class Tier : uint8_t {
-  fast,       ///< the standard tier, loosened by FastKnobs
+  /// Float32 alone: of spheres, capsules, boxes and aabbs nothing is recomputed in float64, so that
+  /// decisions within 2^-17 of their size may be wrong. Other kinds are as in the standard tier.
+  fast,
   standard,   ///< float32, and float64 where that is unsure; equal bits on every instruction set
   certified,  ///< the standard results; overlaps of 1 and 0 are proven, all others are kUndecided
   exact       ///< as certified, but exact arithmetic decides the rest: always right
@@ -22,27 +24,9 @@ constexpr bool has_proofs(Tier tier) { return tier >= Tier::certified; }
 /// The overlap of a pair that the certified tier could not prove.
 inline constexpr uint8_t kUndecided = 2;
 
-/// What Tier::fast gives up. Every knob is off until it is set; docs/accuracy.md has the gain and
-/// the error of each.
-struct FastKnobs {
-  /// Nothing is recomputed in float64: decisions within 2^-17 of the shapes' size may be wrong.
-  /// Does not change triangles, half-spaces and kinds without a float32 kernel.
-  bool single_precision = false;
-
-  /// Boxes are tested against boxes with the six face normals only. Pairs separated along an edge
-  /// axis count as overlapping, never the other way round; their witness points may not face each
-  /// other.
-  bool faces_only = false;
-
-  /// Worlds: replaces every body but half-spaces by the ball about its position that contains its
-  /// shape. Reports overlaps that are none, and misses none except by rounding.
-  bool proxy_spheres = false;
-};
-
-/// A tier with its knobs.
+/// How certain decisions are, and how wrong results may be.
 struct Accuracy {
   Tier tier = Tier::standard;  ///< how certain decisions are
-  FastKnobs knobs = {};        ///< read at Tier::fast only
 
   /// Worlds: how wrong results may be, in metres, finite, >= 0; 0: the standard tier, to the bit.
   /// Results of a pair are then those of two shapes whose distances from the true ones (Hausdorff)

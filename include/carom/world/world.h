@@ -57,13 +57,8 @@ struct WorldSettings {
   /// same with and without. A 6-DOP equals the bounds, and drops nothing.
   std::optional<DopKind> dop_bounds = std::nullopt;
 
-  /// The tier and its knobs. Undecided pairs (Tier::certified) are kUndecided in overlaps(), and
-  /// make neither contacts nor events. What FastKnobs mean for a world, in which candidate pairs
-  /// are always those of the true bounds:
-  /// - proxy_spheres: the balls of the candidate pairs are tested, and contacts are those of the
-  ///   balls. So every overlap is found, but balls that overlap are not reported if the bounds of
-  ///   their shapes are separate. find_points() and bounds use the shapes themselves. dop_bounds
-  ///   are not used.
+  /// The tier and the tolerance. Undecided pairs (Tier::certified) are kUndecided in overlaps(),
+  /// and make neither contacts nor events.
   /// With a tolerance, a step holds on to the bounds of bodies and to the results of pairs while
   /// these have moved too little to matter; with carry_results alone. Bounds are then larger than
   /// bodies, so there may be more candidate pairs. Contacts that are kept stay as they were tested,
@@ -107,7 +102,7 @@ struct WorldSettings {
 struct BodyArrays {
   size_t count = 0;  ///< highest living index + 1
   /// Records of x, y, z, w, world frame, metres; nullptr if the world stores float64. w is the
-  /// radius of a sphere; leave it alone for other kinds, where FastKnobs::proxy_spheres may use it.
+  /// radius of a sphere, and nothing for other kinds.
   float* record32 = nullptr;
   double* record64 = nullptr;  ///< likewise; nullptr if the world stores float32
   /// Quaternions x, y, z, w, which need not be unit ones; nullptr until there is a body of a kind
@@ -330,8 +325,7 @@ class CAROM_EXPORT World {
   /// The pairs with a continuous body that will meet in the interval ahead if all bodies go on as
   /// they are, and those that overlap now; sorted by (toi, a, b). At details with a narrow phase.
   /// None is missed, and none is late (time_of_impact()). A body whose motion is not finite stays
-  /// where it is and has no impacts (StepReport::unswept). With FastKnobs::proxy_spheres these are
-  /// impacts of the balls.
+  /// where it is and has no impacts (StepReport::unswept).
   std::span<const Impact> impacts() const;
   /// The first impact that stops the body: not with a sensor, and not with a body that it overlaps
   /// now (contacts() has those). nullptr: there is none.

@@ -214,11 +214,9 @@ TEST(RunCommandText, QuotesWhatAShellWouldTakeApart) {
   trial.settings.dop_bounds = DopKind::k14;
   trial.settings.carry_results = false;
   trial.settings.accuracy.tier = Tier::fast;
-  trial.settings.accuracy.knobs.faces_only = true;
-  trial.settings.accuracy.knobs.single_precision = true;
   trial.settings.accuracy.tolerance = 0.005f;
   EXPECT_EQ(run_command("s.npz", trial),
-            "carom run s.npz --tier fast --knobs single-precision,faces-only --tolerance "
+            "carom run s.npz --tier fast --tolerance "
             "0.005 --broadphase sweep --margin 0.1 --dop-bounds 14 --no-cache --threads 2");
 }
 

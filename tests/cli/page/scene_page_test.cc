@@ -125,13 +125,6 @@ TEST_F(ScenePageTest, ContactsLieOnTheSurfaces) {
   }
 }
 
-// Proxy balls of boxes touch at points beside the boxes.
-TEST_F(ScenePageTest, ContactsBesideTheSurfacesAreSeen) {
-  const json data = page_of("brownian:n=100,frames=1,density=0.5,shape=box",
-                            {"--tier", "fast", "--knobs", "proxy-spheres"});
-  EXPECT_GT(data["surface"]["on"]["greatest"].get<double>(), 0.1);
-}
-
 // A ball on a hull of points along a spiral.
 TEST_F(ScenePageTest, HullsTooLargeForTheOracleAreNotMeasured) {
   io::SceneInfo info;

@@ -121,7 +121,6 @@ TEST_F(PairsTest, ResultsAreThoseOfTheReference) {
     EXPECT_EQ(json["isa"], name(active_isa()));
     EXPECT_EQ(json["tier"], "standard");
     EXPECT_EQ(json["undecided"], 0);
-    EXPECT_FALSE(json.contains("knobs"));
     EXPECT_EQ(json["detail"], "contact");
     const PairResultsFile results = read_pair_results(path("out.npz"), kPairs);
     const std::vector<reference::PairResult> expected = reference_results(file);
@@ -235,13 +234,12 @@ TEST_F(PairsTest, DetailsAgree) {
   }
 }
 
-TEST_F(PairsTest, TiersAndKnobs) {
+TEST_F(PairsTest, Tiers) {
   const io::PairsFile file = random_pairs(false);
   const auto standard = test(file, {});
-  const auto fast = test(file, {"--tier", "fast", "--knobs", "faces-only"});
+  const auto fast = test(file, {"--tier", "fast"});
   EXPECT_EQ(fast["tier"], "fast");
-  EXPECT_EQ(fast["knobs"].get<std::vector<std::string>>(), std::vector<std::string>{"faces-only"});
-  EXPECT_GE(fast["overlaps"], standard["overlaps"]);
+  EXPECT_NEAR(fast["overlaps"].get<double>(), standard["overlaps"].get<double>(), 2);
 
   for (const char* tier : {"certified", "exact"}) {
     const auto json = test(file, {"--tier", tier, "--detail", "manifold"});

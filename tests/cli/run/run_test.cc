@@ -92,23 +92,16 @@ TEST_F(RunTest, ScenesOfAllKindsDoNotDependOnHowTheyAreRun) {
   }
 }
 
-TEST_F(RunTest, TiersAndKnobs) {
+TEST_F(RunTest, Tiers) {
   const std::string scene = "brownian:n=300,frames=6,density=0.5,shape=box,speed=0.01,spin=0.2";
   const json standard = run_json({scene});
-  for (const char* key : {"knobs", "tolerance", "undecided_per_frame"}) {
+  for (const char* key : {"tolerance", "undecided_per_frame"}) {
     EXPECT_FALSE(standard.contains(key)) << key;
   }
   const json fast = run_json({scene, "--tier", "fast", "--tolerance", "0"});
   EXPECT_EQ(fast["tier"], "fast");
-  EXPECT_FALSE(fast.contains("knobs") || fast.contains("tolerance"));
-  EXPECT_EQ(fast["state_hash"], standard["state_hash"]);
-
-  const json balls =
-      run_json({scene, "--tier", "fast", "--knobs", "proxy-spheres,single-precision"});
-  EXPECT_EQ(balls["knobs"].get<std::vector<std::string>>(),
-            (std::vector<std::string>{"single-precision", "proxy-spheres"}));
-  EXPECT_EQ(balls["pairs_per_frame"], standard["pairs_per_frame"]);
-  EXPECT_GT(sum_of(balls["contacts_per_frame"]), sum_of(standard["contacts_per_frame"]));
+  EXPECT_FALSE(fast.contains("tolerance"));
+  EXPECT_EQ(fast["pairs_per_frame"], standard["pairs_per_frame"]);
 
   const json lazy = run_json({scene, "--tolerance", "0.125"});
   EXPECT_EQ(lazy["tier"], "standard");
@@ -134,12 +127,11 @@ TEST_F(RunTest, TiersAndKnobs) {
   EXPECT_FALSE(exact.contains("undecided_per_frame"));
 }
 
-TEST_F(RunTest, TheTableNamesTierAndKnobs) {
+TEST_F(RunTest, TheTableNamesTierAndTolerance) {
   const std::string scene = "brownian:n=50,frames=2";
   EXPECT_EQ(run_command({"run", scene}).out.find("tier"), std::string::npos);
-  const CommandResult fast =
-      run_command({"run", scene, "--tier", "fast", "--knobs", "faces-only", "--tolerance", "0.01"});
-  EXPECT_NE(fast.out.find("fast: faces-only, within 0.01 m"), std::string::npos);
+  const CommandResult fast = run_command({"run", scene, "--tier", "fast", "--tolerance", "0.01"});
+  EXPECT_NE(fast.out.find("fast, within 0.01 m"), std::string::npos);
   const CommandResult certified = run_command({"run", scene, "--tier", "certified"});
   EXPECT_NE(certified.out.find("undecided"), std::string::npos);
 }

@@ -22,7 +22,6 @@ std::string text_of_file(const std::string& path) {
 RunSettings unusual_settings() {
   RunSettings settings;
   settings.world.accuracy.tier = Tier::fast;
-  settings.world.accuracy.knobs.faces_only = true;
   settings.world.accuracy.tolerance = 0.125f;
   settings.world.detail = Detail::manifold;
   settings.detection = Detection::continuous;
@@ -35,7 +34,7 @@ RunSettings unusual_settings() {
 }
 
 constexpr char kUnusualText[] =
-    " --tier fast --knobs faces-only --tolerance 0.125 --detail manifold --detection "
+    " --tier fast --tolerance 0.125 --detail manifold --detection "
     "continuous --broadphase sweep --margin 0.1 --contact-distance 0.05 --dop-bounds 14 --no-cache";
 
 Result<RunSettings> parse(const std::string& text) {
@@ -69,7 +68,6 @@ TEST(WorldOptions, UnusualSettingsAreRead) {
   ASSERT_TRUE(settings) << settings.error().message;
   const WorldSettings& world = settings->world;
   EXPECT_EQ(world.accuracy.tier, Tier::fast);
-  EXPECT_TRUE(world.accuracy.knobs.faces_only);
   EXPECT_EQ(world.accuracy.tolerance, 0.125f);
   EXPECT_EQ(world.detail, Detail::manifold);
   EXPECT_EQ(settings->detection, Detection::continuous);
@@ -89,17 +87,26 @@ TEST(WorldOptions, TheJsonHasTheirKeys) {
   const auto report = nlohmann::ordered_json::parse(result.out);
   std::vector<std::string> keys;
   for (const auto& item : report.items()) keys.push_back(item.key());
-  const std::vector<std::string> expected = {"scene",      "bodies",     "frames",
-                                             "threads",    "isa",        "tier",
-                                             "knobs",      "tolerance",  "detail",
-                                             "detection",  "broadphase", "broadphase_reason",
-                                             "pair_order", "margin",     "contact_distance",
-                                             "dop_bounds", "pipeline"};
+  const std::vector<std::string> expected = {"scene",
+                                             "bodies",
+                                             "frames",
+                                             "threads",
+                                             "isa",
+                                             "tier",
+                                             "tolerance",
+                                             "detail",
+                                             "detection",
+                                             "broadphase",
+                                             "broadphase_reason",
+                                             "pair_order",
+                                             "margin",
+                                             "contact_distance",
+                                             "dop_bounds",
+                                             "pipeline"};
   ASSERT_GE(keys.size(), expected.size());
   keys.resize(expected.size());
   EXPECT_EQ(keys, expected);
   EXPECT_EQ(report["tier"], "fast");
-  EXPECT_EQ(report["knobs"], nlohmann::ordered_json::array({"faces-only"}));
   EXPECT_EQ(report["tolerance"], 0.125);
   EXPECT_EQ(report["detail"], "manifold");
   EXPECT_EQ(report["detection"], "continuous");

@@ -127,32 +127,10 @@ TEST_P(Tiers, SeparationsAreWithinTheirBounds) {
 
 INSTANTIATE_TEST_SUITE_P(Families, Tiers, testing::ValuesIn(convex_families()), family_name);
 
-TEST(Tiers, FastWithoutKnobsIsStandard) {
-  for (const PositionType positions : kPositionTypes) {
-    const auto pairs = make_mixed_kind_pairs(convex_families()[6], positions, 500, 3);
-    for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
-      const auto standard = run_rows(pairs, call_of(Tier::standard, positions, detail));
-      const auto fast = run_rows(pairs, call_of(Tier::fast, positions, detail));
-      EXPECT_TRUE(same_rows(standard, fast, pairs));
-    }
-  }
-}
-
-TEST(Tiers, KnobsOfOtherTiersAreOff) {
-  const auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 500, 3);
-  Call call = call_with(PositionType::float32);
-  const auto standard = run_rows(pairs, call);
-  call.accuracy.knobs = {.single_precision = true, .faces_only = true};
-  EXPECT_TRUE(same_rows(standard, run_rows(pairs, call), pairs));
-}
-
 // Every tier has the same bits on every instruction set, for any number of pairs, in any order.
 TEST(Tiers, AreTheSameOnEveryInstructionSet) {
-  const Accuracy tiers[] = {{.tier = Tier::certified, .knobs = {}},
-                            {.tier = Tier::exact, .knobs = {}},
-                            {.tier = Tier::fast, .knobs = {.single_precision = true}},
-                            {.tier = Tier::fast, .knobs = {.faces_only = true}}};
-  for (const Accuracy& accuracy : tiers) {
+  for (const Tier tier : {Tier::certified, Tier::exact, Tier::fast}) {
+    const Accuracy accuracy{.tier = tier};
     for (const PositionType positions : kPositionTypes) {
       const auto pairs = make_mixed_kind_pairs(
           {.name = "touch", .distance = 0, .placement = ConvexPlacement::near_touch}, positions,
@@ -228,18 +206,16 @@ TEST(Tiers, SignsHoldWhereDistancesOverflow) {
   }
 }
 
-// --- The knobs of the fast tier ---
-
-Accuracy knobs(const FastKnobs& knobs) { return {Tier::fast, knobs}; }
+// --- The fast tier ---
 
 // Decisions further than 2^-17 of the size from touching stay right, and so do normals.
-TEST(FastTier, SinglePrecisionErrsNearTouchAlone) {
+TEST(FastTier, ErrsNearTouchAlone) {
   size_t wrong = 0;
   for (const ConvexFamily& family : convex_families()) {
     if (family.smallest < 1e-30) continue;  // floats have fewer digits there
     const auto pairs = make_mixed_kind_pairs(family, PositionType::float32, rounds(800), 4);
     Call call = call_with(PositionType::float32);
-    call.accuracy = knobs({.single_precision = true});
+    call.accuracy.tier = Tier::fast;
     const std::vector<Row> rows = run_rows(pairs, call);
     for (size_t i = 0; i < pairs.size(); ++i) {
       const ExactKinds exact(pairs[i], PositionType::float32);
@@ -253,37 +229,22 @@ TEST(FastTier, SinglePrecisionErrsNearTouchAlone) {
   EXPECT_GT(wrong, 0u);
 }
 
-TEST(FastTier, FacesOnlyMissesNothing) {
-  size_t extra = 0;
-  for (const KindPair kinds :
-       {KindPair{ShapeKind::box, ShapeKind::box}, KindPair{ShapeKind::aabb, ShapeKind::box},
-        KindPair{ShapeKind::box, ShapeKind::aabb}}) {
-    const auto pairs = make_kind_pairs({.name = "plain"}, kinds, PositionType::float32, 4000, 6);
-    Call call = call_with(PositionType::float32);
-    const std::vector<Row> standard = run_rows(pairs, call);
-    call.accuracy = knobs({.faces_only = true});
-    const std::vector<Row> rows = run_rows(pairs, call);
-    for (size_t i = 0; i < pairs.size(); ++i) {
-      EXPECT_GE(rows[i].overlap, standard[i].overlap) << show(pairs[i]);
-      extra += rows[i].overlap > standard[i].overlap;
-    }
-  }
-  EXPECT_GT(extra, 20u);
-}
-
-// faces_only does not change kinds without edge axes.
-TEST(FastTier, FacesOnlyLeavesOtherKindsAlone) {
-  auto pairs = make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 600, 8);
+// Triangles and half-spaces are as in the standard tier.
+TEST(FastTier, LeavesOtherKindsAlone) {
+  auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 2000, 8);
   std::erase_if(pairs, [](const TestPair& pair) {
-    const auto is_box = [](const PlacedShape& body) {
-      return kind_of(body.shape) == ShapeKind::box || kind_of(body.shape) == ShapeKind::aabb;
+    const auto is_other = [](const PlacedShape& body) {
+      const ShapeKind kind = kind_of(body.shape);
+      return kind == ShapeKind::triangle || kind == ShapeKind::halfspace;
     };
-    return is_box(pair.a) && is_box(pair.b);
+    return !is_other(pair.a) && !is_other(pair.b);
   });
-  Call call = call_with(PositionType::float32);
-  const std::vector<Row> standard = run_rows(pairs, call);
-  call.accuracy = knobs({.faces_only = true});
-  EXPECT_TRUE(same_rows(standard, run_rows(pairs, call), pairs));
+  ASSERT_GT(pairs.size(), 100u);
+  for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
+    const auto standard = run_rows(pairs, call_of(Tier::standard, PositionType::float32, detail));
+    const auto fast = run_rows(pairs, call_of(Tier::fast, PositionType::float32, detail));
+    EXPECT_TRUE(same_rows(standard, fast, pairs));
+  }
 }
 
 void expect_never_wrong(const std::vector<TestPair>& pairs) {

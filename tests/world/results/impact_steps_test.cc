@@ -159,19 +159,6 @@ TEST(ImpactSteps, DetailSaysHowMuchThereIs) {
   }
 }
 
-// A rod points along its path; its proxy ball has the rod's length as diameter.
-TEST(ImpactSteps, OfProxiesAreThoseOfTheBalls) {
-  WorldSettings settings = kSecond;
-  settings.accuracy = {.tier = Tier::fast, .knobs = {.proxy_spheres = true}};
-  World world(settings);
-  world.add({.shape = Sphere{1}, .position = {20, 0, 0}});
-  BodyDesc rod = bullet(100);
-  rod.shape = Capsule{{0, -2, 0}, {0, 2, 0}, 0.01f};
-  world.add(rod);
-  EXPECT_THAT(step(world), SizeIs(1));
-  EXPECT_NEAR(world.impacts()[0].toi, (20 - 1 - 2.01) / 100, 1e-5);
-}
-
 TEST(ImpactSteps, TooManyPairsAreNone) {
   WorldSettings settings = kSecond;
   settings.most_pairs = 1;

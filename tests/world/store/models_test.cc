@@ -26,7 +26,7 @@ Shape laddered(const Shape& shape, double tolerance) {
 }
 
 World world_within(float tolerance, Tier tier = Tier::standard) {
-  return World({.accuracy = {.tier = tier, .knobs = {}, .tolerance = tolerance}});
+  return World({.accuracy = {.tier = tier, .tolerance = tolerance}});
 }
 
 // A model with a hand-made rung: a ball for a box.
