@@ -32,6 +32,8 @@ def measure(program, scenes):
         out = subprocess.run([program, "advise", scene, "--tolerance", "0.001", "--front", "--json",
                               "-"], check=True, capture_output=True, text=True).stdout
         advice = json.loads(out)
+        if not advice.get("front"):
+            sys.exit(f"{scene}: too slow to measure a front")
         radius = advice["survey"]["radius"]["median"]
         slowest = advice["front"][0]["frame_ms"]
         points = [[point[key] / unit for key, unit in (("guaranteed_error", radius),
@@ -64,15 +66,11 @@ def peer_points():
     ratio = next(key for key in all_tables[0][1][0] if key.endswith("x Bullet"))
     bullet_time = {(row["pair"], row["output"]): row[ratio] for row in all_tables[0][1]}
     for heading, rows in all_tables:
-        for row in rows:
-            key = row.get("pair"), row.get("output")
-            if key not in PAIRS or "worst error" not in row:
-                continue
-            library = heading if heading in PEER_COLOURS else "Bullet"
-            times = row.get("x", bullet_time.get(key)) if library != "Bullet" else bullet_time.get(key)
-            if heading not in ("FCL", "ODE") and "Bullet decides otherwise" not in row:
-                continue
-            yield library, key, float(row["worst error"]), float(times)
+        library = "Bullet" if "Bullet decides otherwise" in rows[0] else heading
+        for row in rows if library in PEER_COLOURS else []:
+            key = row["pair"], row["output"]
+            if key in PAIRS and "worst error" in row:
+                yield library, key, float(row["worst error"]), float(row.get("x", bullet_time[key]))
 
 
 def place(error, time):
@@ -84,6 +82,11 @@ def place(error, time):
 def text_at(x, y, words, size=12, anchor="start", colour="#222", weight="normal"):
     return (f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}"'
             f' fill="{colour}" font-weight="{weight}">{html.escape(words)}</text>')
+
+
+def square(x, y, colour, title=""):
+    return (f'<rect x="{x - 4.5:.1f}" y="{y - 4.5:.1f}" width="9" height="9" fill="{colour}">'
+            f"<title>{html.escape(title)}</title></rect>")
 
 
 def axes():
@@ -126,13 +129,12 @@ def draw():
     parts.append(text_at(WIDTH - RIGHT + 14, y_label + 16, "by their worst error:"))
     y_label += 38
     for library, colour in PEER_COLOURS.items():
-        parts.append(f'<rect x="{WIDTH - RIGHT + 14}" y="{y_label - 9}" width="9" height="9" fill="{colour}"/>')
+        parts.append(square(WIDTH - RIGHT + 18.5, y_label - 4.5, colour))
         parts.append(text_at(WIDTH - RIGHT + 29, y_label, library))
         y_label += 18
     for library, pair, error, times in peer_points():
         x, y = place(max(error, 10 ** ERRORS[0]), times)
-        parts.append(f'<rect x="{x - 4.5:.1f}" y="{y - 4.5:.1f}" width="9" height="9"'
-                     f' fill="{PEER_COLOURS[library]}"><title>{library}, {pair[0]} {pair[1]}</title></rect>')
+        parts.append(square(x, y, PEER_COLOURS[library], f"{library}, {pair[0]} {pair[1]}"))
     parts.append(text_at(20, HEIGHT - 12, "Scenes: docs/tolerance.json. Pairs: capsule - box, box - box,"
                          " hull - hull of 16 corners, two capsules; times of Carom's test of the same.",
                          12, colour="#555"))
