@@ -71,7 +71,7 @@ Model model_of(const MeshGeometry& mesh, double most) {
   return {Rung{Mesh{std::move(simpler->geometry)}, simpler->error}, triangles, {}};
 }
 
-Model model_of(const Shape& shape, double most);
+Model simplest_of(const Shape& shape, double most);
 
 // The union of the models of the children, or of those that have none.
 Model model_of(const CompoundGeometry& compound, double most) {
@@ -85,7 +85,7 @@ Model model_of(const CompoundGeometry& compound, double most) {
     const void* const geometry =
         hull ? static_cast<const void*>(hull->geometry.get()) : mesh->geometry.get();
     auto [place, is_new] = known.try_emplace(geometry);
-    if (is_new) place->second = model_of(child.shape, most);
+    if (is_new) place->second = simplest_of(child.shape, most);
     const Model& model = place->second;
     if (!model.rung) continue;
     child.shape = model.rung->shape;
@@ -104,6 +104,12 @@ Model model_of(const Shape& shape, double most) {
   if (const auto* compound = std::get_if<Compound>(&shape))
     return model_of(*compound->geometry, most);
   return refused("shapes of this kind have no simpler model");
+}
+
+Model simplest_of(const Shape& shape, double most) {
+  std::optional<Rung> capsule = capsule_model(shape);
+  if (capsule && capsule->error <= most) return {std::move(capsule), 1, {}};
+  return model_of(shape, most);
 }
 
 bool has_no_geometry(const Shape& shape) {
@@ -137,11 +143,9 @@ Result<LadderedShape> build_ladder(const Shape& shape, std::span<const double> e
   if (ladders::has_no_geometry(shape)) return Error{"the shape has no geometry"};
   LadderedShape result{shape, {.pieces = ladders::pieces_of(shape), .entries = {}}};
   auto ladder = std::make_shared<Ladder>();
-  const std::optional<Rung> capsule = ladders::capsule_model(shape);
   for (const double most : errors) {
-    const bool is_capsule = capsule && capsule->error <= most;
-    ladders::Model model =
-        is_capsule ? ladders::Model{*capsule, 1, {}} : ladders::model_of(shape, most);
+    ladders::Model model = ladders::simplest_of(shape, most);
+    const bool is_capsule = model.rung && std::holds_alternative<Capsule>(model.rung->shape);
     result.report.entries.push_back({most, model.rung ? model.rung->error : 0, model.pieces,
                                      is_capsule, std::move(model.refused)});
     if (!model.rung) continue;

@@ -154,6 +154,10 @@ TEST(BuildLadder, WithGreatErrorsEverythingIsABall) {
   EXPECT_FALSE(is_capsule(ball_mesh(6, bumps, {.one_sided = true})));
   EXPECT_FALSE(is_capsule(compound_of({{.shape = ball_mesh(6, bumps)}})));
   EXPECT_FALSE(is_capsule(mesh_of({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}})));
+  // The children of a compound have balls of their own.
+  const LadderedShape laddered = built(compound_of({{.shape = ball_mesh(6, bumps)}}), 10);
+  const auto child = std::get<Compound>(only_rung(laddered.shape).shape).geometry->children()[0];
+  EXPECT_TRUE(std::holds_alternative<Capsule>(child.shape));
 }
 
 TEST(BuildLadder, OfCompoundsHasTheModelsOfTheirChildren) {

@@ -201,7 +201,10 @@ void Drift::move_elsewhere(const BodyStore& bodies, const BodyReader& reader, ui
   const double half = 0.5 * double{own} - bodies.model_error(index);
   const double ticks = half * double{ticks_per_metre_} * (1 - 0x1p-20);
   share_[index] = ticks > 0 ? static_cast<uint32_t>(std::min(ticks, double{kMostShare})) : 0;
-  const bool is_known = bodies.is_alive(index) && reader.is_valid(index);
+  const ShapeKind kind = reader.kind(index);
+  const bool may_have_front =
+      kind == ShapeKind::triangle || is_composite(kind) || bodies.model_error(index) > 0;
+  const bool is_known = may_have_front && bodies.is_alive(index) && reader.is_valid(index);
   if (is_known && has_front(bodies.shape(index))) share_[index] |= kHasFront;
   const auto copy = [index](const auto& records, auto& anchors) {
     for (size_t c = 0; !records.empty() && c < 3; ++c) {
