@@ -126,8 +126,9 @@ bool World::State::is_still() {
   return compares && changes.all_unchanged() && !sweeps.changed() && has_same_filters();
 }
 
-// Whether this step holds on to results within the tolerance. It takes some steps to begin: of many
-// bodies a few are looked at first, so that a world in which everything flies pays for no more.
+// Whether this step holds on to results within the tolerance. It takes two steps to begin. After
+// the first step of a world, which builds everything anyway, a few of many bodies are looked at
+// before that, so that a world in which everything flies pays for no more.
 bool World::State::may_drift() {
   if (!can_drift() || !hold_watch.starts_step()) {
     drift.forget();
@@ -145,9 +146,9 @@ bool World::State::may_drift() {
     return false;
   }
   const float tolerance = settings.accuracy.tolerance;
-  const bool are_few = bodies.rows() < PaceSample::kFewBodies;
-  if (are_few || paces.is_taken()) {
-    const bool is_slow = are_few || paces.slow_share(bodies, tolerance) >= kFewest;
+  const bool looks_at_all = bodies.rows() < PaceSample::kFewBodies || report.step == 1;
+  if (looks_at_all || paces.is_taken()) {
+    const bool is_slow = looks_at_all || paces.slow_share(bodies, tolerance) >= kFewest;
     paces.forget();
     if (is_slow) {
       run(Stage::changes, [&] { drift.prepare(bodies, tolerance); });
