@@ -5,10 +5,11 @@ included, from the first table of docs/narrowphase_peers.md, which `make peers` 
   scripts/speed_picture.py            writes docs/speed.svg
   scripts/speed_picture.py --check    fails if that would change it
 """
-import html
 import pathlib
 import re
 import sys
+
+from picture import head, text_at, write
 
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
 TABLE = DOCS / "narrowphase_peers.md"
@@ -57,11 +58,6 @@ def read_origin():
     return machine, compiler, bullet, commit, day
 
 
-def text_at(x, y, words, size=13, anchor="start", colour="#222", weight="normal"):
-    return (f'<text x="{x}" y="{y}" font-size="{size}" text-anchor="{anchor}" fill="{colour}"'
-            f' font-weight="{weight}">{html.escape(words)}</text>')
-
-
 def draw():
     table, ratio = read_table()
     machine, compiler, bullet, commit, day = read_origin()
@@ -74,10 +70,7 @@ def draw():
     height = bottom + 78
 
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}"'
-        f' height="{height}" font-family="system-ui, Segoe UI, Helvetica, Arial, sans-serif">',
-        "<title>How many times as fast as Bullet a pair is tested</title>",
-        f'<rect width="{WIDTH}" height="{height}" fill="white"/>',
+        *head(WIDTH, height, "How many times as fast as Bullet a pair is tested"),
         text_at(20, 32, "Times as fast as Bullet, one thread", 20, weight="bold"),
         text_at(20, 54, f"Ten of the {len(table)} rows of docs/narrowphase_peers.md; in all of"
                 f" them: {min(ratios):.2g} to {max(ratios):.0f} times. Dashed: as fast as Bullet.",
@@ -110,12 +103,4 @@ def draw():
     return "\n".join(parts) + "\n"
 
 
-def main():
-    picture = draw()
-    if sys.argv[1:] != ["--check"]:
-        PICTURE.write_text(picture)
-    elif not PICTURE.exists() or PICTURE.read_text() != picture:
-        sys.exit("docs/speed.svg is out of date: run scripts/speed_picture.py")
-
-
-main()
+write(PICTURE, draw(), check=sys.argv[1:] == ["--check"])

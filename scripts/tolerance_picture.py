@@ -14,6 +14,8 @@ import pathlib
 import subprocess
 import sys
 
+from picture import head, text_at, write
+
 DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
 FRONTS, PICTURE, PEERS = DOCS / "tolerance.json", DOCS / "tolerance.svg", DOCS / "narrowphase_peers.md"
 
@@ -76,12 +78,8 @@ def peer_points():
 def place(error, time):
     x = (math.log10(error) - ERRORS[0]) / (ERRORS[1] - ERRORS[0])
     y = (math.log10(time) - TIMES[0]) / (TIMES[1] - TIMES[0])
-    return (LEFT + x * (WIDTH - LEFT - RIGHT), HEIGHT - BOTTOM - y * (HEIGHT - TOP - BOTTOM))
-
-
-def text_at(x, y, words, size=12, anchor="start", colour="#222", weight="normal"):
-    return (f'<text x="{x:.1f}" y="{y:.1f}" font-size="{size}" text-anchor="{anchor}"'
-            f' fill="{colour}" font-weight="{weight}">{html.escape(words)}</text>')
+    return (round(LEFT + x * (WIDTH - LEFT - RIGHT), 1),
+            round(HEIGHT - BOTTOM - y * (HEIGHT - TOP - BOTTOM), 1))
 
 
 def square(x, y, colour, title=""):
@@ -103,10 +101,7 @@ def axes():
 
 def draw():
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}"'
-        f' height="{HEIGHT}" font-family="system-ui, Segoe UI, Helvetica, Arial, sans-serif">',
-        "<title>Time of a frame against its error</title>",
-        f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
+        *head(WIDTH, HEIGHT, "Time of a frame against its error"),
         text_at(20, 30, "What a tolerance buys", 20, weight="bold"),
         text_at(20, 52, "Time of a frame, of that at tolerance 0, against the guaranteed error, of the"
                 " bounding radius. Dots: the worst error seen.", 13, colour="#555"),
@@ -145,11 +140,7 @@ def draw():
 def main():
     if sys.argv[1:2] == ["--measure"]:
         measure(sys.argv[2], sys.argv[3:])
-    picture = draw()
-    if sys.argv[1:] != ["--check"]:
-        PICTURE.write_text(picture)
-    elif not PICTURE.exists() or PICTURE.read_text() != picture:
-        sys.exit("docs/tolerance.svg is out of date: run scripts/tolerance_picture.py")
+    write(PICTURE, draw(), check=sys.argv[1:] == ["--check"])
 
 
 main()

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -11,25 +10,13 @@
 #include "world/world_state.h"
 
 namespace carom {
-namespace {
 
-// Merge blocks whose results are found together. Those of one thread stay in its cache; threads
-// share more, so that all have work.
-constexpr size_t kBlocksOfOneThread = 1;
-constexpr size_t kBlocksOfThreads = 16;
-
-}  // namespace
-
-// The time between two stages, which is short, counts to the second: in a small world a look at the
-// clock takes as long.
-template <class Work>
-World::State::Time World::State::time_of(const Work& work) {
-  const uint64_t shared_before = shared_nanoseconds();
-  work();
-  const auto end = std::chrono::steady_clock::now();
-  const auto duration = end - std::exchange(last_stage_end, end);
-  const auto ns = static_cast<uint64_t>(std::chrono::nanoseconds(duration).count());
-  return {ns, ns - std::min(shared_nanoseconds() - shared_before, ns)};
+// How many pairs are tested before their results are read. Those of one thread stay in its cache;
+// threads share more, so that all have work.
+size_t World::State::pairs_at_once() const {
+  constexpr size_t kBlocksOfOneThread = 1, kBlocksOfThreads = 16;
+  return kPairsPerMergeBlock *
+         (uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread);
 }
 
 void World::State::count(Stage stage, const Time& time) {
@@ -37,11 +24,6 @@ void World::State::count(Stage stage, const Time& time) {
   report.stages_run |= 1u << index;
   report.stage_ns[index] += time.ns;
   report.serial_ns[index] += time.serial_ns;
-}
-
-template <class Work>
-void World::State::run(Stage stage, const Work& work) {
-  count(stage, time_of(work));
 }
 
 const StepReport& World::State::step() {
@@ -124,76 +106,6 @@ bool World::State::is_still() {
   }
   if (!bodies.has_detections()) stop_looking_ahead();
   return compares && changes.all_unchanged() && !sweeps.changed() && has_same_filters();
-}
-
-// Whether this step holds on to results within the tolerance. It takes two steps to begin. After
-// the first step of a world, which builds everything anyway, a few of many bodies are looked at
-// before that, so that a world in which everything flies pays for no more.
-bool World::State::may_drift() {
-  if (!can_drift() || !hold_watch.starts_step()) {
-    drift.forget();
-    paces.forget();
-    return false;
-  }
-  if (drifts) return true;
-  constexpr float kFewest = 0.25f;
-  if (drift.is_prepared()) {
-    float slow = 0;
-    run(Stage::changes, [&] { slow = drift.measure_paces(bodies, settings.parallelism); });
-    if (slow >= kFewest) return true;
-    drift.forget();
-    hold_watch.pause();
-    return false;
-  }
-  const float tolerance = settings.accuracy.tolerance;
-  const bool looks_at_all = bodies.rows() < PaceSample::kFewBodies || report.step == 1;
-  if (looks_at_all || paces.is_taken()) {
-    const bool is_slow = looks_at_all || paces.slow_share(bodies, tolerance) >= kFewest;
-    paces.forget();
-    if (is_slow) {
-      run(Stage::changes, [&] { drift.prepare(bodies, tolerance); });
-    } else {
-      hold_watch.pause();
-    }
-  } else {
-    paces.take(bodies);
-  }
-  return false;
-}
-
-// The same where all results hold within the tolerance.
-bool World::State::is_still_within_tolerance() {
-  stop_looking_ahead();
-  run(Stage::changes, [&] {
-    changes.update_shapes(bodies, settings.parallelism);
-    drift.update(bodies, changes, settings.accuracy.tolerance, settings.parallelism);
-  });
-  size_t due = 0;
-  run(Stage::pairs, [&] { due = hold.find_due(now, drift, settings.parallelism); });
-  return due == 0 && keeps_pairs();
-}
-
-// Whether this step has the pairs of the last one, for certain.
-bool World::State::keeps_pairs() const {
-  return drifts && drift.outgrown().empty() && has_same_filters() && !bodies.any_touched();
-}
-
-// Tests the pairs that are due and are not tested otherwise.
-void World::State::refresh_due() {
-  const RefreshStage::Input found = {
-      results, gaps, bodies, drift, settings.detail, has_identities(), settings.parallelism};
-  run(Stage::pairs, [&] { refresh.start(hold.due_pairs(), now, settings.parallelism); });
-  const size_t blocks = uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread;
-  const size_t at_once = blocks * kPairsPerMergeBlock, due = refresh.renewed();
-  for (size_t begin = 0; begin < due; begin += at_once) {
-    const PairRange range{0, 0, begin, std::min(at_once, due - begin)};
-    run(Stage::narrowphase, [&] {
-      test_pairs(refresh.pairs(), range, nullptr);
-      measure_gaps(refresh.pairs(), range);
-    });
-    run(Stage::results, [&] { refresh.take(range, found, now); });
-  }
-  run(Stage::results, [&] { contact_stage.add_overlaps(refresh.finish(found, now)); });
 }
 
 void World::State::find_sweeps() {
@@ -405,9 +317,7 @@ void World::State::find_results() {
   const size_t pairs = now.pairs.size();
   // Where most pairs are carried, more of them have as many to test.
   const size_t share = std::clamp<size_t>(pairs / std::max<size_t>(1, plan.tested()), 1, 64);
-  const size_t blocks =
-      share * (uses_threads(settings.parallelism) ? kBlocksOfThreads : kBlocksOfOneThread);
-  const size_t at_once = blocks * kPairsPerMergeBlock;
+  const size_t at_once = share * pairs_at_once();
   contact_stage.start(use_of_last_contacts(at_once >= pairs), last, now);
   std::optional<NormalVelocities> velocities;
   if (has_velocities() && !refreshes()) velocities.emplace(bodies);
@@ -473,10 +383,6 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
     results.reject_apart(pairs, present_bounds(), settings.parallelism);
   }
   if (has_distances()) results.find_near(pairs, wide_present_bounds(), settings.parallelism);
-}
-
-void World::State::measure_gaps(std::span<const Pair> all, const PairRange& range) {
-  gaps.measure(all, range, results, bodies.view(), distances(), drift, settings.parallelism);
 }
 
 void World::State::find_impacts() {

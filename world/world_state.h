@@ -1,12 +1,15 @@
 // The stages of a world, and the data that flows between them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "broadphase/resting/box_memory.h"
 #include "broadphase/sort/pair_selection.h"
 #include "carom/world/world.h"
@@ -157,6 +160,7 @@ struct World::State {
     return refreshes() && keeps_pairs() && !settings.identities && !settings.persist_events;
   }
   void refresh_due();
+  size_t pairs_at_once() const;
   void find_changes();
   void find_sweeps();
   void find_all();
@@ -210,5 +214,22 @@ struct World::State {
   ContactStage contact_stage;
   EventStage event_stage;
 };
+
+// The time between two stages, which is short, counts to the second: in a small world a look at the
+// clock takes as long.
+template <class Work>
+World::State::Time World::State::time_of(const Work& work) {
+  const uint64_t shared_before = shared_nanoseconds();
+  work();
+  const auto end = std::chrono::steady_clock::now();
+  const auto duration = end - std::exchange(last_stage_end, end);
+  const auto ns = static_cast<uint64_t>(std::chrono::nanoseconds(duration).count());
+  return {ns, ns - std::min(shared_nanoseconds() - shared_before, ns)};
+}
+
+template <class Work>
+void World::State::run(Stage stage, const Work& work) {
+  count(stage, time_of(work));
+}
 
 }  // namespace carom

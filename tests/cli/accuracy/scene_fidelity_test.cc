@@ -6,9 +6,9 @@
 
 #include "accuracy/scenes/deviation.h"
 #include "accuracy/scenes/trials.h"
-#include "carom/hulls/build_hull.h"
 #include "cli/scenes/loaded_scene.h"
 #include "tests/cli/cli_test_util.h"
+#include "tests/support/laddered_cube.h"
 
 namespace carom::cli {
 namespace {
@@ -118,30 +118,17 @@ TEST(Deviations, LostOverlapsAreAsBadAsTheyAreDeep) {
   EXPECT_EQ(found.worst(), 0.5);
 }
 
-// A box with a ball as model, whose corners are no further from it.
-Hull box_with_ball() {
-  Hull box;
-  std::vector<Eigen::Vector3f> corners;
-  for (int i = 0; i < 8; ++i) {
-    corners.emplace_back(i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f);
-  }
-  box.geometry = build_hull(corners)->geometry;
-  const Capsule ball{{0, 0, 0}, {0, 0, 0}, 1.7321f};
-  box.ladder = std::make_shared<const Ladder>(Ladder{{{ball, 0.7322}}});
-  return box;
-}
-
-// A box, and a box turned by 45 degrees, corner to face. Their bounds and their balls overlap, the
-// boxes do not. The meter asks the other world for the true shapes: models change only what that
-// world finds.
+// A box, and a box turned by 45 degrees, corner to face. Their bounds and the balls that stand for
+// them overlap, the boxes do not. The meter asks the other world for the true shapes: models change
+// only what that world finds.
 TEST(Deviations, GainedOverlapsAreAsBadAsTheyAreApart) {
   WorldSettings settings;
   settings.accuracy.tolerance = 2;
   World plain(WorldSettings{});
   World balls(settings);
   for (World* world : {&plain, &balls}) {
-    world->add({.shape = box_with_ball(), .position = {0, 0, 0}});
-    world->add({.shape = box_with_ball(),
+    world->add({.shape = test::cube_with_ball(1.7321f, 0.7322), .position = {0, 0, 0}});
+    world->add({.shape = test::cube_with_ball(1.7321f, 0.7322),
                 .position = {2.2, 2.2, 0},
                 .orientation = Eigen::Quaternionf(1, 0, 0, 0.41421356f)});
     world->step();

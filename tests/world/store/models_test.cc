@@ -8,6 +8,7 @@
 #include "carom/world/world.h"
 #include "oracle/random.h"
 #include "tests/support/composites.h"
+#include "tests/support/laddered_cube.h"
 #include "tests/support/rounds.h"
 
 namespace carom::test {
@@ -27,19 +28,6 @@ Shape laddered(const Shape& shape, double tolerance) {
 
 World world_within(float tolerance, Tier tier = Tier::standard) {
   return World({.accuracy = {.tier = tier, .tolerance = tolerance}});
-}
-
-// A model with a hand-made rung: a ball for a box.
-Hull cube_with_ball() {
-  Hull cube;
-  std::vector<Eigen::Vector3f> corners;
-  for (int i = 0; i < 8; ++i) {
-    corners.emplace_back(i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f);
-  }
-  cube.geometry = build_hull(corners)->geometry;
-  const Capsule ball{{0, 0, 0}, {0, 0, 0}, 1.25f};
-  cube.ladder = std::make_shared<const Ladder>(Ladder{{{ball, 0.5}}});
-  return cube;
 }
 
 // Whether two cubes that are 2.2 apart along x overlap: balls do, cubes do not.
