@@ -129,8 +129,7 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, floa
 void PartBatch::add_waiting(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
                             float least_separation) {
   const uint32_t body_a = sides_[0].put(owner, a), body_b = sides_[1].put(owner, b);
-  waiting_[waiting_count_++] = {
-      {body_a, body_b}, static_cast<uint32_t>(owner), reach, least_separation};
+  put_waiting({body_a, body_b}, owner, reach, least_separation);
 }
 
 void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach) {
@@ -145,9 +144,7 @@ void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach)
     return mesh_side == 0 ? Pair{triangle, other} : Pair{other, triangle};
   };
   const std::span<const float> least = parts.least_separations;
-  for (size_t i = 0; i < least.size(); ++i) {
-    waiting_[waiting_count_++] = {pair(i), static_cast<uint32_t>(owner), reach, least[i]};
-  }
+  for (size_t i = 0; i < least.size(); ++i) put_waiting(pair(i), owner, reach, least[i]);
   if (!least.empty()) return;
   for (size_t i = 0; i < parts.triangles.size(); ++i) put_pair(pair(i), owner, reach);
 }
@@ -161,8 +158,7 @@ void PartBatch::add_triangle_pairs(size_t owner, const NearParts& parts, float r
       sides_[1].put_triangles(owner, parts.b, count, [&](size_t i) { return pairs[i].b; });
   const std::span<const float> least = parts.least_separations;
   for (uint32_t i = 0; i < least.size(); ++i) {
-    waiting_[waiting_count_++] = {
-        {first_a + i, first_b + i}, static_cast<uint32_t>(owner), reach, least[i]};
+    put_waiting({first_a + i, first_b + i}, owner, reach, least[i]);
   }
   if (!least.empty()) return;
   std::fill_n(reach_.begin() + count_, count, reach);

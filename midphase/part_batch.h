@@ -150,6 +150,10 @@ class PartBatch {
     pairs_[count_++] = pair;
   }
 
+  void put_waiting(Pair pair, size_t owner, float reach, float least_separation) {
+    waiting_[waiting_count_++] = {pair, static_cast<uint32_t>(owner), reach, least_separation};
+  }
+
   size_t count_ = 0, tested_ = 0, tested_before_ = 0, waiting_count_ = 0;
   std::array<PartColumns, 2> sides_;
   std::array<Pair, kPairsPerBlock> pairs_;

@@ -339,7 +339,9 @@ class PartSearch {
           keep_near(triangles_a, triangles_b, b_to_a, scale, within, pairs, gaps.data());
       if (count == 0) return most;
       for (size_t i = 0; i < count; ++i) {
-        gaps[i] = round_downwards((gaps[i] - scale.slack) * scale.up - kDepthSlack * lengths);
+        const double least = (gaps[i] - scale.slack) * scale.up - kDepthSlack * lengths;
+        // A gap that is not a number says nothing.
+        gaps[i] = std::isnan(least) ? -HUGE_VALF : round_downwards(least);
       }
       const double matters = found_({a,
                                      b,
