@@ -7,6 +7,7 @@
 #include "base/tolerances.h"
 #include "tests/midphase/region_checks.h"
 #include "tests/support/composites.h"
+#include "tests/support/fine_meshes.h"
 #include "tests/support/rounds.h"
 
 namespace carom::test {
@@ -81,6 +82,31 @@ TEST(ManyParts, TheDeepestTriangleIsThatOfTheReference) {
       const PlacedShape body = {shape, {x, y, z}, turn}, ground = {i % 2 == 0 ? wide : coarse};
       pairs.push_back(i % 3 == 0 ? TestPair{ground, body} : TestPair{body, ground});
     }
+  }
+  Call call = call_with(PositionType::float64);
+  call.detail = Detail::contact;
+  expect_reference(pairs, call);
+}
+
+// Two meshes that meet in many pairs of triangles, of which most cannot be the deepest: closed and
+// open surfaces, fine and coarse, far from the origin, with rules and without.
+TEST(ManyParts, TheDeepestPairOfTrianglesIsThatOfTheReference) {
+  oracle::Random random(35);
+  const auto bumps = [&](float, float) { return random.uniform(-0.05, 0.05); };
+  const auto bumpy = [](double x, double y, double z) {
+    return 0.6 + 0.1 * std::sin(5 * x) * std::cos(4 * y + z);
+  };
+  const std::vector<Mesh> meshes = {grid_mesh(12, 0.1f, bumps), ball_mesh(9, bumpy),
+                                    ball_mesh(5, bumpy), grid_mesh(5, 0.3f, bumps),
+                                    ball_mesh(8, bumpy, {.thickness = 0.02f})};
+  oracle::ConvexRandom shapes({}, random);
+  std::vector<TestPair> pairs;
+  for (uint32_t i = 0; i < rounds(60, 10); ++i) {
+    const Mesh &a = meshes[random.below(meshes.size())], &b = meshes[random.below(meshes.size())];
+    const Eigen::Vector3d place = (i % 4 == 0 ? 50.0 : 0.0) * random.direction();
+    const Eigen::Vector3d way = random.uniform(0, 0.7) * random.direction();
+    const Eigen::Quaternionf turn_a = shapes.orientation(), turn_b = shapes.orientation();
+    pairs.push_back({{a, place, turn_a}, {b, place + way, turn_b}});
   }
   Call call = call_with(PositionType::float64);
   call.detail = Detail::contact;
