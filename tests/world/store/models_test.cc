@@ -73,6 +73,19 @@ TEST(Models, FollowTheToleranceOfTheBody) {
   EXPECT_FALSE(are_balls(world));
 }
 
+TEST(Models, TheReportCountsThePairsThatTheyDecide) {
+  for (const float tolerance : {0.1f, 3.0f}) {
+    World world = world_within(tolerance);
+    world.add({.shape = cube_with_ball()});
+    world.add({.shape = cube_with_ball(), .position = {1.5, 0, 0}});
+    world.add({.shape = Box{{1, 1, 1}}, .position = {0.75, 1.5, 0}});
+    world.add({.shape = Box{{1, 1, 1}}, .position = {0.75, 3, 0}});
+    world.step();
+    EXPECT_EQ(world.report().tested, 4u);  // two balls, each with a box; two boxes
+    EXPECT_EQ(world.report().by_models, tolerance > 1 ? 3u : 0u);
+  }
+}
+
 TEST(Models, AreNotForProofs) {
   for (const Tier tier : {Tier::certified, Tier::exact}) {
     World world = world_within(3, tier);
