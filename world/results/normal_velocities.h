@@ -10,25 +10,28 @@
 
 namespace carom {
 
+// The bodies of a world, one entry each.
+struct BodyVelocities {
+  const Eigen::Vector3f* linear;
+  const Eigen::Vector3f* angular;  // nullptr: nothing turns
+  // nullptr: all kinds turn. Then there is no need to look at the kind of each body, which lies
+  // anywhere.
+  const ShapeKind* kinds;
+};
+
 // The velocities of a world's bodies at present.
 class NormalVelocities {
  public:
   explicit NormalVelocities(BodyStore& bodies);
 
-  // Sets the normal velocity of every contact. They are neighbours in the list of a step.
+  // Sets the normal velocity of every contact: how fast the points at the arms part along the
+  // normal. They are neighbours in the list of a step.
   void set(std::span<Contact> contacts) const;
   // The same, shared among threads.
   void set_all(std::span<Contact> contacts, Parallelism parallelism) const;
 
  private:
-  Eigen::Vector3f velocity(uint32_t body, const Eigen::Vector3f& arm) const;
-
-  const BodyStore& bodies_;
-  std::span<const Eigen::Vector3f> linear_;
-  std::span<const Eigen::Vector3f> angular_;  // empty: nothing turns
-  // Whether all kinds turn. Then there is no need to look at the kind of each body, which lies
-  // anywhere.
-  bool all_turn_;
+  BodyVelocities bodies_;
 };
 
 }  // namespace carom

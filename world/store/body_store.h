@@ -124,10 +124,8 @@ class BodyStore {
   // Whether some body has a detection that is not discrete.
   bool has_detections() const { return detected_ > 0; }
 
-  // Whether the body is of a kind that has an orientation.
-  bool turns(uint32_t index) const {
-    return kind_[index] != ShapeKind::sphere && kind_[index] != ShapeKind::aabb;
-  }
+  // One a row; of a row without a body, too.
+  std::span<const ShapeKind> kinds() const { return kind_; }
   // One a row; nullptr if every body has 0.
   const float* contact_distances() const {
     return contact_distance_.empty() ? nullptr : contact_distance_.data();
