@@ -136,11 +136,22 @@ HWY_INLINE Few least_gaps(const TriangleArrays& mesh, const SeenPoints& points,
   return hn::IfThenElse(is_known, hn::Sub(gap, slack), splat_few(-HUGE_VALF));
 }
 
+// Those of a large mesh lie anywhere: a third of the time was waiting for them.
+HWY_INLINE void fetch_corners(const TriangleArrays& mesh, std::span<const uint32_t> triangles) {
+  for (const uint32_t triangle : triangles) __builtin_prefetch(&mesh.triangles[triangle]);
+  for (const uint32_t triangle : triangles) {
+    for (const uint32_t corner : mesh.triangles[triangle]) {
+      __builtin_prefetch(mesh.vertices + size_t{3} * corner);
+    }
+  }
+}
+
 void keep_near_points(const TriangleArrays& mesh, const SeenPoints& points, float most,
                       std::span<const uint32_t> triangles, NearPoints& near) {
   const FewTag tag;
   const hn::RebindToUnsigned<FewTag> number_tag;
   size_t count = 0;
+  fetch_corners(mesh, triangles);
   for (size_t first = 0; first < triangles.size(); first += kFewLanes) {
     const size_t some = std::min(triangles.size() - first, kFewLanes);
     HWY_ALIGN uint32_t numbers[kFewLanes];

@@ -92,13 +92,15 @@ inline Double3 middle_of(const Part& part) {
   return plus(part.position, turned(part.turn(), box_of(part).middle));
 }
 
-// Writes the three rows of a triangle of a mesh, without inner edges. It writes straight to the
-// destination: copying rows that were just stored as floats would wait for those stores.
-inline void put_triangle_rows(const MeshGeometry& mesh, size_t triangle, Row* rows) {
+// Writes the three rows of a triangle of a mesh, without inner edges; corners are counted from
+// `origin`. It writes straight to the destination: copying rows that were just stored as floats
+// would wait for those stores.
+inline void put_triangle_rows(const MeshGeometry& mesh, size_t triangle, Row* rows,
+                              const std::array<float, 3>& origin = {}) {
   const float fourth[] = {mesh.rules().thickness, mesh.rules().one_sided ? 1.0f : 0.0f, 0.0f};
   for (size_t i = 0; i < 3; ++i) {
     const Eigen::Vector3f& v = mesh.vertices()[mesh.triangles()[triangle][i]];
-    rows[i] = {v.x(), v.y(), v.z(), fourth[i]};
+    rows[i] = {v.x() - origin[0], v.y() - origin[1], v.z() - origin[2], fourth[i]};
   }
 }
 

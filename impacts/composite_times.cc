@@ -27,7 +27,7 @@ struct MovingParts {
   std::array<Double3, kPairsPerBlock> arm;
 
   uint32_t put(size_t owner, const PlacedPart& part, const BodySweep& sweep) {
-    const uint32_t body = columns.put(owner, part);
+    const uint32_t body = columns.put(owner, part, {});
     for (size_t axis = 0; axis < 3; ++axis) {
       displacement[body][axis] = static_cast<float>(sweep.displacement[axis]);
       rotation[body][axis] = static_cast<float>(sweep.rotation[axis]);
@@ -51,8 +51,8 @@ struct Scratch {
   std::array<uint8_t, kPairsPerBlock> status;
 
   void clear() {
-    a.columns.clear();
-    b.columns.clear();
+    a.columns.clear(PartColumns::Corners::as_made);
+    b.columns.clear(PartColumns::Corners::as_made);
     count = 0;
   }
 };

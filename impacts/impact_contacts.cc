@@ -43,7 +43,7 @@ class ImpactContacts {
         scratch_(scratch) {}
 
   void run() {
-    scratch_.parts.clear();
+    scratch_.parts.begin({.counts_near = false, .accuracy = {}});
     write_nothing();
     sort_rows();
     run_bodies();
@@ -219,7 +219,7 @@ class ImpactContacts {
   }
 
   void run_parts() {
-    scratch_.parts.run({});
+    scratch_.parts.run();
     for (size_t i = 0; i < scratch_.parts.count(); ++i) {
       write(scratch_.parts.owner(i), scratch_.parts.results(), i, scratch_.arms[i]);
     }

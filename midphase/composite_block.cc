@@ -79,7 +79,8 @@ class CompositeRun {
         contacts_(scratch.contacts),
         results_(block, extra, scratch.merger),
         to_measure_(scratch.to_measure) {
-    batch_.clear();
+    batch_.begin(tests_);
+    again_.begin(tests_);
     contacts_.clear();
   }
 
@@ -197,7 +198,7 @@ class CompositeRun {
   }
 
   void test_and_merge() {
-    batch_.run(tests_);
+    batch_.run();
     for (size_t begin = batch_.tested_before(); begin < batch_.count();) {
       size_t end = begin + 1;
       while (end < batch_.count() && batch_.owner(end) == batch_.owner(begin)) ++end;
@@ -295,7 +296,7 @@ class CompositeRun {
       again_.add(k, part_at(bodies.a, o.parts[0]), part_at(bodies.b, o.parts[1]), reach(k),
                  o.edges_to_close);
     }
-    again_.run(tests_);
+    again_.run();
     for (size_t i = 0; i < again_.count(); ++i) {
       const size_t k = again_.owner(i);
       Outcome& o = outcomes_[k];

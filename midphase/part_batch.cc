@@ -2,21 +2,27 @@
 
 #include <algorithm>
 
+#include "geometries/local_origin.h"
 #include "narrowphase/blocks/pair_block.h"
+#include "narrowphase/proof/decide_unsure.h"
 
 namespace carom {
 
-void PartColumns::clear() {
+void PartColumns::clear(Corners corners) {
+  corners_ = corners;
   count_ = frames_used_ = rows_used_ = 0;
   are_mixed_ = false;
 }
 
-uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
-  const bool has_frame = frames_used_ > 0 && frames_[frames_used_ - 1].is_of(owner, part);
-  if (has_frame && triangle_[count_ - 1] == part.triangle) return count_ - 1;
-  if (!has_frame) put_frame(owner, part);
+uint32_t PartColumns::put(size_t owner, const PlacedPart& part,
+                          const std::array<float, 3>& origin) {
+  if (!has_frame(owner, part, origin)) {
+    put_frame(owner, part, origin);
+  } else if (triangle_[count_ - 1] == part.triangle) {
+    return count_ - 1;
+  }
   const uint32_t body = count_++;
-  const Double3& p = part.position;
+  const Double3& p = frames_[frames_used_ - 1].position;
   record_[body] = {p[0], p[1], p[2], part.part->radius};
   orientation_[body] = part.orientation;
   kind_[body] = part.kind();
@@ -25,7 +31,8 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
   triangle_[body] = part.triangle;
   first_row_[body] = rows_used_;
   if (is_of_mesh(body)) {
-    put_triangle_rows(part.mesh(), part.triangle, rows_.data() + rows_used_);
+    put_triangle_rows(part.mesh(), part.triangle, rows_.data() + rows_used_,
+                      origin_of_rows(origin));
     if (part.one_sided) rows_[rows_used_ + 1][3] = *part.one_sided ? 1.0f : 0.0f;
   } else {
     std::copy_n(part.part->rows.data(), row_count(kind_[body]), rows_.data() + rows_used_);
@@ -41,12 +48,12 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part) {
 
 // What all triangles share is written column by column.
 template <class Triangle>
-uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh, size_t count,
+uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
+                                    const std::array<float, 3>& origin, size_t count,
                                     const Triangle& triangle) {
   const uint32_t first = count_, first_row = rows_used_;
-  const bool has_frame = frames_used_ > 0 && frames_[frames_used_ - 1].is_of(owner, mesh);
-  if (!has_frame) put_frame(owner, mesh);
-  const Double3& p = mesh.position;
+  if (!has_frame(owner, mesh, origin)) put_frame(owner, mesh, origin);
+  const Double3& p = frames_[frames_used_ - 1].position;
   std::fill_n(record_.begin() + first, count, Position{p[0], p[1], p[2], 0});
   std::fill_n(orientation_.begin() + first, count, mesh.orientation);
   std::fill_n(kind_.begin() + first, count, ShapeKind::triangle);
@@ -54,11 +61,12 @@ uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh, size_t
   std::fill_n(dops_.begin() + first, count, nullptr);
   are_mixed_ = are_mixed_ || kind_[0] != ShapeKind::triangle;
   Row* const rows = rows_.data() + first_row;
+  const std::array<float, 3> from = origin_of_rows(origin);
   constexpr uint32_t kRows = row_count(ShapeKind::triangle);
   for (uint32_t i = 0; i < count; ++i) {
     triangle_[first + i] = triangle(i);
     first_row_[first + i] = first_row + kRows * i;
-    put_triangle_rows(mesh.mesh(), triangle(i), rows + kRows * i);
+    put_triangle_rows(mesh.mesh(), triangle(i), rows + kRows * i, from);
   }
   for (size_t i = 0; mesh.one_sided && i < count; ++i) {
     rows[kRows * i + 1][3] = *mesh.one_sided ? 1.0f : 0.0f;
@@ -68,10 +76,19 @@ uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh, size_t
   return first;
 }
 
-void PartColumns::put_frame(size_t owner, const PlacedPart& part) {
+void PartColumns::put_frame(size_t owner, const PlacedPart& part,
+                            const std::array<float, 3>& origin) {
   const bool is_of_mesh = part.part->kind == ShapeKind::mesh;
-  const MeshGeometry* const mesh = is_of_mesh ? &part.mesh() : nullptr;
-  frames_[frames_used_++] = {part.position, part.arm, part.turn, mesh, part.child, owner};
+  const auto& [x, y, z] = origin_of_rows(origin);
+  const Double3 way = turned(part.turn, {x, y, z});
+  frames_[frames_used_++] = {.position = plus(part.position, way),
+                             .arm = plus(part.arm, way),
+                             .origin = origin,
+                             .position_of_mesh = part.position,
+                             .turn = part.turn,
+                             .mesh = is_of_mesh ? &part.mesh() : nullptr,
+                             .child = part.child,
+                             .owner = owner};
 }
 
 // Says that all are of one kind if they are, which saves the narrow phase from sorting them.
@@ -113,32 +130,62 @@ Double3 PartColumns::middle(size_t body) const {
 
 PlacedTriangle PartColumns::triangle(size_t body) const {
   const Frame& frame = frames_[frame_[body]];
-  return {*frame.mesh, triangle_[body], frame.position, frame.turn};
+  return {*frame.mesh, triangle_[body], frame.position_of_mesh, frame.turn};
+}
+
+void PartBatch::begin(const PartTests& tests) {
+  tests_ = tests;
+  const bool proves = has_proofs(tests.accuracy.tier) && tests.counts_near;
+  if (!proves) as_made_.reset();
+  if (proves && !as_made_) as_made_ = std::make_unique_for_overwrite<std::array<PartColumns, 2>>();
+  clear();
 }
 
 void PartBatch::clear() {
   count_ = tested_ = tested_before_ = waiting_count_ = 0;
-  for (PartColumns& side : sides_) side.clear();
+  for (PartColumns& side : sides_) side.clear(PartColumns::Corners::near);
+  if (!as_made_) return;
+  for (PartColumns& side : *as_made_) side.clear(PartColumns::Corners::as_made);
+}
+
+std::array<float, 3> PartBatch::origin_of(const PlacedPart& part, const PlacedPart& other) const {
+  const bool is_moved = tests_.counts_near && part.part->kind == ShapeKind::mesh &&
+                        other.part->kind != ShapeKind::mesh;
+  if (!is_moved) return {};
+  return origin_near(part.turn, part.position, *other.part, other.position);
+}
+
+Pair PartBatch::put_parts(size_t owner, const PlacedPart& a, const PlacedPart& b) {
+  const std::array<float, 3> origin_a = origin_of(a, b), origin_b = origin_of(b, a);
+  const auto put = [&](std::array<PartColumns, 2>& sides) -> Pair {
+    return {sides[0].put(owner, a, origin_a), sides[1].put(owner, b, origin_b)};
+  };
+  if (as_made_) put(*as_made_);
+  return put(sides_);
 }
 
 void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach) {
-  const uint32_t body_a = sides_[0].put(owner, a), body_b = sides_[1].put(owner, b);
-  put_pair({body_a, body_b}, owner, reach);
+  put_pair(put_parts(owner, a, b), owner, reach);
 }
 
 void PartBatch::add_waiting(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
                             float least_separation) {
-  const uint32_t body_a = sides_[0].put(owner, a), body_b = sides_[1].put(owner, b);
-  put_waiting({body_a, body_b}, owner, reach, least_separation);
+  put_waiting(put_parts(owner, a, b), owner, reach, least_separation);
 }
 
 void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach) {
-  const PlacedPart &a = parts.a, &b = parts.b;
-  const size_t mesh_side = a.kind() == ShapeKind::mesh ? 0 : 1;
-  const uint32_t first =
-      sides_[mesh_side].put_triangles(owner, mesh_side == 0 ? a : b, parts.triangles.size(),
-                                      [&](size_t i) { return parts.triangles[i]; });
-  const uint32_t other = sides_[1 - mesh_side].put(owner, mesh_side == 0 ? b : a);
+  const size_t mesh_side = parts.a.kind() == ShapeKind::mesh ? 0 : 1;
+  const PlacedPart& mesh = mesh_side == 0 ? parts.a : parts.b;
+  const PlacedPart& convex = mesh_side == 0 ? parts.b : parts.a;
+  const std::array<float, 3> origin = origin_of(mesh, convex);
+  uint32_t first, other;
+  const auto put = [&](std::array<PartColumns, 2>& sides) {
+    first = sides[mesh_side].put_triangles(owner, mesh, origin, parts.triangles.size(),
+                                           [&](size_t i) { return parts.triangles[i]; });
+    other = sides[1 - mesh_side].put(owner, convex, {});
+  };
+  if (as_made_) put(*as_made_);
+  put(sides_);
   const auto pair = [&](size_t i) {
     const uint32_t triangle = first + static_cast<uint32_t>(i);
     return mesh_side == 0 ? Pair{triangle, other} : Pair{other, triangle};
@@ -152,10 +199,15 @@ void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach)
 void PartBatch::add_triangle_pairs(size_t owner, const NearParts& parts, float reach) {
   const std::span<const ItemPair> pairs = parts.pairs;
   const size_t count = pairs.size();
-  const uint32_t first_a =
-      sides_[0].put_triangles(owner, parts.a, count, [&](size_t i) { return pairs[i].a; });
-  const uint32_t first_b =
-      sides_[1].put_triangles(owner, parts.b, count, [&](size_t i) { return pairs[i].b; });
+  uint32_t first_a, first_b;
+  const auto put = [&](std::array<PartColumns, 2>& sides) {
+    first_a =
+        sides[0].put_triangles(owner, parts.a, {}, count, [&](size_t i) { return pairs[i].a; });
+    first_b =
+        sides[1].put_triangles(owner, parts.b, {}, count, [&](size_t i) { return pairs[i].b; });
+  };
+  if (as_made_) put(*as_made_);
+  put(sides_);
   const std::span<const float> least = parts.least_separations;
   for (uint32_t i = 0; i < least.size(); ++i) {
     put_waiting({first_a + i, first_b + i}, owner, reach, least[i]);
@@ -170,27 +222,58 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, floa
                     const std::array<uint8_t, 2>& inner_edges) {
   add(owner, a, b, reach);
   const Pair pair = pairs_[count_ - 1];
-  if (inner_edges[0] != 0) sides_[0].set_inner_edges(pair.a, inner_edges[0]);
-  if (inner_edges[1] != 0) sides_[1].set_inner_edges(pair.b, inner_edges[1]);
+  const auto set = [&](std::array<PartColumns, 2>& sides) {
+    if (inner_edges[0] != 0) sides[0].set_inner_edges(pair.a, inner_edges[0]);
+    if (inner_edges[1] != 0) sides[1].set_inner_edges(pair.b, inner_edges[1]);
+  };
+  if (as_made_) set(*as_made_);
+  set(sides_);
 }
 
-void PartBatch::run(const PartTests& tests) {
+void PartBatch::run() {
   tested_before_ = tested_;
   if (tested_ == count_) return;
   ResultColumns asked = from_row(results_, tested_);
-  if (!tests.bounds) asked.separation_bound = nullptr;
-  run_pair_block({.a = sides_[0].view(),
-                  .b = sides_[1].view(),
+  if (!tests_.bounds) asked.separation_bound = nullptr;
+  PartTests tests = tests_;
+  if (as_made_) tests.accuracy.tier = Tier::standard;
+  run_from(sides_, tests, tests.manifolds ? Detail::manifold : Detail::contact, asked);
+  if (as_made_) prove(asked);
+  tested_ = count_;
+}
+
+void PartBatch::run_from(const std::array<PartColumns, 2>& sides, const PartTests& tests,
+                         Detail detail, const ResultColumns& out) const {
+  run_pair_block({.a = sides[0].view(),
+                  .b = sides[1].view(),
                   .pairs = pairs_.data() + tested_,
                   .first = 0,
                   .count = count_ - tested_,
-                  .detail = tests.manifolds ? Detail::manifold : Detail::contact,
+                  .detail = detail,
                   .frame = WitnessFrame::body,
                   .measured = tests.measured,
                   .reach = tests.reach ? reach_.data() + tested_ : nullptr,
                   .accuracy = tests.accuracy,
-                  .out = asked});
-  tested_ = count_;
+                  .out = out});
+}
+
+// As decide_unsure(), of triangles as they are made.
+void PartBatch::prove(const ResultColumns& tested) {
+  ResultColumns decided;
+  decided.overlap = proven_.data();
+  run_from(*as_made_, tests_, Detail::overlap, decided);
+  for (size_t row = 0; row < count_ - tested_; ++row) {
+    float& separation = tested.separation[row];
+    separation = with_sign_of(proven_[row], separation);
+    tested.overlap[row] = proven_[row];
+    if (!tests_.manifolds || proven_[row] != 1 || tested.manifold_count[row] > 0) continue;
+    // Two parts that touch, of which rounding made separate ones.
+    tested.manifold_count[row] = 1;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      tested.manifold[row].point[0][axis] = tested.point_a[axis][row];
+    }
+    tested.manifold[row].separation[0] = separation;
+  }
 }
 
 // Half-spaces are skipped: they always push along their own normal.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "carom/results/pair.h"
@@ -16,15 +17,19 @@ namespace carom {
 // The bodies of one side, dense, with float64 positions.
 class PartColumns {
  public:
-  void clear();
+  // How corners of triangles of meshes are stored: counted from the origin that they are put with
+  // (geometries/local_origin.h), or as the mesh has them.
+  enum class Corners { near, as_made };
+
+  void clear(Corners corners);
   // Adds a part, and returns the index of its body. A part that repeats the last one is not added
   // again.
-  uint32_t put(size_t owner, const PlacedPart& part);
+  uint32_t put(size_t owner, const PlacedPart& part, const std::array<float, 3>& origin);
   // Adds `count` triangles of a mesh, number i being triangle(i), and returns the index of the
   // first one's body.
   template <class Triangle>
-  uint32_t put_triangles(size_t owner, const PlacedPart& mesh, size_t count,
-                         const Triangle& triangle);
+  uint32_t put_triangles(size_t owner, const PlacedPart& mesh, const std::array<float, 3>& origin,
+                         size_t count, const Triangle& triangle);
 
   Collidables view() const;
   ShapeKind kind(size_t body) const { return kind_[body]; }
@@ -49,23 +54,35 @@ class PartColumns {
 
   // What the triangles of one mesh share.
   struct Frame {
-    Double3 position, arm;
+    Double3 position, arm;  // of the origin
+    std::array<float, 3> origin;
+    Double3 position_of_mesh;
     Turn turn;
     const MeshGeometry* mesh;  // nullptr: not a mesh
     uint32_t child;
     size_t owner;
 
-    bool is_of(size_t its_owner, const PlacedPart& placed) const {
-      return owner == its_owner && child == placed.child;
+    bool is_of(size_t its_owner, const PlacedPart& placed,
+               const std::array<float, 3>& its_origin) const {
+      return owner == its_owner && child == placed.child && origin == its_origin;
     }
   };
 
-  void put_frame(size_t owner, const PlacedPart& part);
+  // Whether it is the last one.
+  bool has_frame(size_t owner, const PlacedPart& part, const std::array<float, 3>& origin) const {
+    return frames_used_ > 0 && frames_[frames_used_ - 1].is_of(owner, part, origin);
+  }
+  void put_frame(size_t owner, const PlacedPart& part, const std::array<float, 3>& origin);
 
   struct Position {
     double x, y, z, radius;
   };
 
+  std::array<float, 3> origin_of_rows(const std::array<float, 3>& origin) const {
+    return corners_ == Corners::near ? origin : std::array<float, 3>{};
+  }
+
+  Corners corners_ = Corners::near;
   uint32_t count_ = 0, frames_used_ = 0, rows_used_ = 0;
   bool are_mixed_ = false;
   alignas(64) std::array<Position, kPairsPerBlock> record_;
@@ -84,7 +101,8 @@ class PartColumns {
 struct PartTests {
   bool manifolds = false;
   bool bounds = false;
-  bool reach = false;  // pairs have contact distances
+  bool reach = false;       // pairs have contact distances
+  bool counts_near = true;  // corners of triangles of meshes, from a place near the other part
   Measured measured = Measured::all;
   Accuracy accuracy;
 };
@@ -96,6 +114,8 @@ class PartBatch {
   bool is_full() const { return room() == 0; }
   // How many pairs may still be added.
   size_t room() const { return kPairsPerBlock - count_ - waiting_count_; }
+  // Forgets all pairs. Those that follow get these tests.
+  void begin(const PartTests& tests);
   void clear();
   // Adds a pair for `owner`, with its contact distance. Its kinds must have a kernel.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach);
@@ -119,7 +139,7 @@ class PartBatch {
   void admit_waiting(const IsKnown& is_known, const MayMatter& may_matter);
 
   // Tests all pairs that were added since the last run.
-  void run(const PartTests& tests);
+  void run();
   // How many pairs were tested in all runs but the last.
   size_t tested_before() const { return tested_before_; }
 
@@ -154,8 +174,20 @@ class PartBatch {
     waiting_[waiting_count_++] = {pair, static_cast<uint32_t>(owner), reach, least_separation};
   }
 
+  // Runs the pairs from the first that is not tested.
+  void run_from(const std::array<PartColumns, 2>& sides, const PartTests& tests, Detail detail,
+                const ResultColumns& out) const;
+  void prove(const ResultColumns& tested);
+  std::array<float, 3> origin_of(const PlacedPart& part, const PlacedPart& other) const;
+  // The pair with both parts, which are added.
+  Pair put_parts(size_t owner, const PlacedPart& a, const PlacedPart& b);
+
+  PartTests tests_;
   size_t count_ = 0, tested_ = 0, tested_before_ = 0, waiting_count_ = 0;
   std::array<PartColumns, 2> sides_;
+  // The same bodies for proofs, which are about triangles as they are made.
+  std::unique_ptr<std::array<PartColumns, 2>> as_made_;
+  std::array<uint8_t, kPairsPerBlock> proven_;
   std::array<Pair, kPairsPerBlock> pairs_;
   std::array<uint32_t, kPairsPerBlock> owner_;
   std::array<float, kPairsPerBlock> reach_;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <tuple>
 
+#include "geometries/local_origin.h"
 #include "narrowphase/manifolds/merge.h"
 #include "reference/scalar.h"
 #include "reference/simple_parts.h"
@@ -14,8 +15,18 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-PairResult test(const Simple& a, const Simple& b, float distance) {
-  return collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64, distance);
+// A triangle of a mesh with its corners counted from a place near the other part.
+Simple counted_near(const Simple& part, const Simple& other) {
+  if (!part.mesh || other.mesh) return part;
+  const Turn turn = rotation_of(part.placed.orientation);
+  const auto& [x, y, z] =
+      origin_near(turn, part.placed.position, other.placed, other.placed.position);
+  const Double3 way = turned(turn, {x, y, z});
+  Simple result = part;
+  for (Vector3f& corner : std::get<Triangle>(result.shape).corners) corner -= Vector3f(x, y, z);
+  result.placed.position = plus(part.placed.position, way);
+  result.arm = plus(part.arm, way);
+  return result;
 }
 
 // The inner edges of a triangle of a mesh, if the other part is pushed out over one of them; else
@@ -51,6 +62,13 @@ PairResult from_parts(PairResult result, const Simple& a, const Simple& b) {
   result.sub_a = a.sub;
   result.sub_b = b.sub;
   return result;
+}
+
+// The test of two parts, relative to the bodies.
+PairResult test(const Simple& part_a, const Simple& part_b, float distance) {
+  const Simple a = counted_near(part_a, part_b), b = counted_near(part_b, part_a);
+  return from_parts(collide(a.shape, a.pose(), b.shape, b.pose(), PositionType::float64, distance),
+                    a, b);
 }
 
 PairResult nothing() {
@@ -100,7 +118,7 @@ void close_edges(Best& best, float distance) {
   const PairResult again = test(with_inner_edges(*best.a, best.closed[0]),
                                 with_inner_edges(*best.b, best.closed[1]), distance);
   if (again.overlap) {
-    best.result = from_parts(again, *best.a, *best.b);
+    best.result = again;
     return;
   }
   const Vector3f& p = best.result.arm_a;
@@ -147,21 +165,18 @@ Double3 stored(const Vector3d& position, PositionType positions) {
 PairContacts collide_parts(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
                            const Pose& pose_b, PositionType positions, float contact_distance,
                            const RegionLimits& limits) {
-  Double3 position_a = stored(pose_a.position, positions);
-  Double3 position_b = stored(pose_b.position, positions);
-  // Children are placed in double precision, so the pair is moved near the origin.
-  if (kind_of(shape_a) == ShapeKind::compound || kind_of(shape_b) == ShapeKind::compound) {
-    position_b = minus(position_b, position_a);
-    position_a = {};
-  }
-  const std::vector<Simple> parts_a = parts_of(shape_a, position_a, pose_a.orientation);
-  const std::vector<Simple> parts_b = parts_of(shape_b, position_b, pose_b.orientation);
+  const Double3 position_a = stored(pose_a.position, positions);
+  const Double3 position_b = stored(pose_b.position, positions);
+  // Parts are placed in double precision, so the pair is moved near the origin.
+  const std::vector<Simple> parts_a = parts_of(shape_a, {}, pose_a.orientation);
+  const std::vector<Simple> parts_b =
+      parts_of(shape_b, minus(position_b, position_a), pose_b.orientation);
 
   Best best;
   std::vector<PartContact> contacts;
   for (const Simple& a : parts_a) {
     for (const Simple& b : parts_b) {
-      const PairResult result = from_parts(test(a, b, contact_distance), a, b);
+      const PairResult result = test(a, b, contact_distance);
       const Double3 way = {result.normal.x(), result.normal.y(), result.normal.z()};
       const bool touches = has_contact(result.overlap, result.separation, contact_distance);
       std::array<uint8_t, 2> closed{};

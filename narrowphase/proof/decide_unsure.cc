@@ -35,15 +35,13 @@ size_t next_marked(const uint8_t* marks, size_t row, size_t count) {
   return std::min(row, count);
 }
 
-// Replaces a separation with the wrong sign, or NaN from overflow, by the smallest one with the
-// right sign.
+}  // namespace
+
 float with_sign_of(uint8_t overlap, float separation) {
   if (overlap == 1 && !(separation <= 0)) return 0;
   if (overlap == 0 && !(separation > 0)) return std::numeric_limits<float>::denorm_min();
   return separation;
 }
-
-}  // namespace
 
 void decide_unsure(const PairKind& kind, const Batch& batch, Tier tier) {
   const Collidables view_a = view_of(batch.a, batch.layout, kind.a);

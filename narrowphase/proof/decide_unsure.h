@@ -11,4 +11,8 @@ namespace carom {
 // corrects the sign of the separation if the batch has one.
 void decide_unsure(const PairKind& kind, const Batch& batch, Tier tier);
 
+// Replaces a separation with the wrong sign, or NaN from overflow, by the smallest one with the
+// right sign.
+float with_sign_of(uint8_t overlap, float separation);
+
 }  // namespace carom

@@ -18,8 +18,8 @@ namespace {
 
 constexpr float kTicks = 1024;        // of a tolerance
 constexpr uint32_t kLeash = 32;       // ticks, see TravelUnit
-constexpr float kMostGrowth = 0.03f;  // of bounds, a share of the body's radius
-constexpr float kStepsAhead = 128;    // for which new bounds hold a body that goes on as it has
+constexpr float kMostGrowth = 0.05f;  // of bounds, a share of the body's radius
+constexpr float kStepsAhead = 400;    // for which new bounds hold a body that goes on as it has
 constexpr float kFewestStepsAhead = 8;
 
 // Limits of a pair: together less than a jump.

@@ -73,13 +73,14 @@ HWY_INLINE F difference(F a, F b, F c, F d) { return hn::Sub(hn::Mul(a, b), hn::
 // As point_velocity(); the linear velocity alone where nothing turns.
 HWY_INLINE F3 velocity_at(const F3& linear, const F3& angular, const F3& arm) {
   const F zero = splat(0);
-  const Mask turns =
-      hn::Or(hn::Or(hn::Ne(angular.x, zero), hn::Ne(angular.y, zero)), hn::Ne(angular.z, zero));
+  // Not by Ne(), which is false for NaN on some instruction sets.
+  const Mask rests =
+      hn::And(hn::And(hn::Eq(angular.x, zero), hn::Eq(angular.y, zero)), hn::Eq(angular.z, zero));
   const F3 turned = {hn::Add(linear.x, difference(angular.y, arm.z, angular.z, arm.y)),
                      hn::Add(linear.y, difference(angular.z, arm.x, angular.x, arm.z)),
                      hn::Add(linear.z, difference(angular.x, arm.y, angular.y, arm.x))};
-  return {hn::IfThenElse(turns, turned.x, linear.x), hn::IfThenElse(turns, turned.y, linear.y),
-          hn::IfThenElse(turns, turned.z, linear.z)};
+  return {hn::IfThenElse(rests, linear.x, turned.x), hn::IfThenElse(rests, linear.y, turned.y),
+          hn::IfThenElse(rests, linear.z, turned.z)};
 }
 
 HWY_INLINE F3 load_velocity(const BodyVelocities& bodies, const Contact* contacts,
@@ -139,10 +140,10 @@ bool all_turn(const BodyStore& bodies) {
 }  // namespace
 
 NormalVelocities::NormalVelocities(BodyStore& bodies)
-    : bodies_{.linear = bodies.linear_velocities().data(),
-              .angular =
-                  bodies.has_angular_velocities() ? bodies.angular_velocities().data() : nullptr,
-              .kinds = all_turn(bodies) ? nullptr : bodies.kinds().data()} {}
+    : bodies_{
+          .linear = bodies.linear_velocities().data(),
+          .angular = bodies.has_angular_velocities() ? bodies.angular_velocities().data() : nullptr,
+          .kinds = all_turn(bodies) ? nullptr : bodies.kinds().data()} {}
 
 void NormalVelocities::set(std::span<Contact> contacts) const {
   CAROM_DISPATCH(set_velocities)(bodies_, contacts);

@@ -133,7 +133,7 @@ TEST(Tolerance, ABodyThatWasSpoiltIsTestedAgain) {
 TEST(Tolerance, BoundsHoldABodyThatCreeps) {
   Lone lone(Sphere{1}, 0.1f);
   int steps_with_bounds = 0;
-  for (int i = 1; i <= 40; ++i) {
+  for (int i = 1; i <= 100; ++i) {
     lone.world.set_position(lone.id, {0.001 * i, 0, 0});
     lone.world.step();
     steps_with_bounds += lone.world.report().ran(Stage::bounds);

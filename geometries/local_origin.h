@@ -1,0 +1,21 @@
+// Where tests of the triangles of a mesh count their corners from.
+#pragma once
+
+#include <array>
+
+#include "geometries/part.h"
+
+namespace carom {
+
+// A place near another part, in the frame of a mesh. Corners that are counted from it have few
+// digits even where the mesh reaches far, so that float32 decides what would need float64 if they
+// were counted from the mesh's own origin. Coordinates are whole numbers of a power of two that is
+// two to four times the size of the part: then most corners are exact, and the others are off by
+// 2^-25 of the distance from there. Zero where the mesh's own origin is that near, and for
+// half-spaces, which have no place.
+//
+// `turn` and `position` are those of the mesh; `other` lies at `other_position`.
+std::array<float, 3> origin_near(const Turn& turn, const Double3& position, const Part& other,
+                                 const Double3& other_position);
+
+}  // namespace carom
