@@ -22,11 +22,11 @@ std::array<float, 3> origin_near(const Turn& turn, const Double3& position, cons
                                  const Double3& other_position) {
   constexpr double kFurthest = 0x1p100, kLeast = 0x1p-100;
   constexpr int kDigits = 16;  // of a coordinate, at most
-  if (other.kind == ShapeKind::halfspace) return {};
+  if (other.kind == ShapeKind::halfspace) return kMeshOrigin;
   const Double3 way = turned_back(turn, minus(other_position, position));
   const double distance = greatest(way), size = size_of(other);
   // False for NaN.
-  if (!(distance > kLeast && distance < kFurthest && size < distance)) return {};
+  if (!(distance > kLeast && distance < kFurthest && size < distance)) return kMeshOrigin;
   const int of_size = size > kLeast ? exponent_of(size) + 2 : exponent_of(kLeast);
   const double step = power_of_two(std::max(of_size, exponent_of(distance) - kDigits));
   std::array<float, 3> origin;

@@ -7,12 +7,15 @@
 
 namespace carom {
 
+// Corners are counted from where the mesh has them. Nothing is added then: it would turn -0 into 0.
+inline constexpr std::array<float, 3> kMeshOrigin = {};
+
 // A place near another part, in the frame of a mesh. Corners that are counted from it have few
 // digits even where the mesh reaches far, so that float32 decides what would need float64 if they
 // were counted from the mesh's own origin. Coordinates are whole numbers of a power of two that is
 // two to four times the size of the part: then most corners are exact, and the others are off by
-// 2^-25 of the distance from there. Zero where the mesh's own origin is that near, and for
-// half-spaces, which have no place.
+// 2^-25 of the distance from there. kMeshOrigin where that is as near, and for half-spaces,
+// which have no place.
 //
 // `turn` and `position` are those of the mesh; `other` lies at `other_position`.
 std::array<float, 3> origin_near(const Turn& turn, const Double3& position, const Part& other,

@@ -79,16 +79,21 @@ uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
 void PartColumns::put_frame(size_t owner, const PlacedPart& part,
                             const std::array<float, 3>& origin) {
   const bool is_of_mesh = part.part->kind == ShapeKind::mesh;
-  const auto& [x, y, z] = origin_of_rows(origin);
-  const Double3 way = turned(part.turn, {x, y, z});
-  frames_[frames_used_++] = {.position = plus(part.position, way),
-                             .arm = plus(part.arm, way),
-                             .origin = origin,
-                             .position_of_mesh = part.position,
-                             .turn = part.turn,
-                             .mesh = is_of_mesh ? &part.mesh() : nullptr,
-                             .child = part.child,
-                             .owner = owner};
+  Frame frame = {.position = part.position,
+                 .arm = part.arm,
+                 .origin = origin,
+                 .position_of_mesh = part.position,
+                 .turn = part.turn,
+                 .mesh = is_of_mesh ? &part.mesh() : nullptr,
+                 .child = part.child,
+                 .owner = owner};
+  const std::array<float, 3> from = origin_of_rows(origin);
+  if (from != kMeshOrigin) {
+    const Double3 way = turned(part.turn, {from[0], from[1], from[2]});
+    frame.position = plus(part.position, way);
+    frame.arm = plus(part.arm, way);
+  }
+  frames_[frames_used_++] = frame;
 }
 
 // Says that all are of one kind if they are, which saves the narrow phase from sorting them.

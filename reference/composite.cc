@@ -19,8 +19,10 @@ using Eigen::Vector3f;
 Simple counted_near(const Simple& part, const Simple& other) {
   if (!part.mesh || other.mesh) return part;
   const Turn turn = rotation_of(part.placed.orientation);
-  const auto& [x, y, z] =
+  const std::array<float, 3> origin =
       origin_near(turn, part.placed.position, other.placed, other.placed.position);
+  if (origin == kMeshOrigin) return part;
+  const auto& [x, y, z] = origin;
   const Double3 way = turned(turn, {x, y, z});
   Simple result = part;
   for (Vector3f& corner : std::get<Triangle>(result.shape).corners) corner -= Vector3f(x, y, z);
