@@ -170,8 +170,11 @@ void move_to_world(const ResultColumns& columns, size_t row, const CollideCall& 
   }
 }
 
-Result<void> check_distances(const CollideOptions& options, size_t count) {
+Result<void> check_lengths(const CollideOptions& options, size_t count) {
   const auto is_good = [](float distance) { return distance >= 0 && distance <= FLT_MAX; };
+  if (!is_good(options.accuracy.tolerance)) {
+    return Error{"the tolerance is not a finite number >= 0"};
+  }
   const float* const each = options.contact_distances;
   if (each ? std::all_of(each, each + count, is_good) : is_good(options.contact_distance)) {
     return {};
@@ -220,7 +223,7 @@ void list_regions(const CollideCall& asked, ContactRegions& regions) {
 
 Result<void> run(CollideCall call) {
   call.composites = may_have_composites(call.a, call.b, call.pairs, call.count);
-  if (Result<void> checked = check_distances(call.options, call.count); !checked) return checked;
+  if (Result<void> checked = check_lengths(call.options, call.count); !checked) return checked;
   if (call.detail == Detail::regions && call.options.regions) {
     list_regions(call, *call.options.regions);
   } else {

@@ -73,6 +73,7 @@ class CompositeRun {
                .reach = block.reach != nullptr,
                .measured = of_parts(block.measured),
                .accuracy = block.accuracy},
+        slack_(has_proofs(block.accuracy.tier) ? 0 : block.accuracy.tolerance),
         batch_(scratch.batch),
         again_(scratch.again),
         outcomes_(scratch.outcomes),
@@ -117,7 +118,7 @@ class CompositeRun {
     const BodyPair bodies(a_, b_, pair(k));
     find_part_pairs(bodies.a, bodies.b, reach, apart, [&](const NearParts& parts) {
       add(k, parts);
-      return has_deep_face(k) && may_skip() ? outcomes_[k].separation : reach;
+      return has_deep_face(k) && may_skip() ? outcomes_[k].separation - slack_ : reach;
     });
   }
 
@@ -184,7 +185,7 @@ class CompositeRun {
     for (size_t tries = 0; batch_.has_waiting(); ++tries) {
       const auto admits_all = [&](size_t k) { return tries == kTriesOfOne || has_deep_face(k); };
       const auto may_be_best = [&](size_t k, float least_separation) {
-        return !has_deep_face(k) || least_separation <= outcomes_[k].separation;
+        return !has_deep_face(k) || least_separation <= outcomes_[k].separation - slack_;
       };
       batch_.admit_waiting(admits_all, may_be_best);
       test_and_merge();
@@ -366,6 +367,7 @@ class CompositeRun {
   const BodyReader a_, b_;
   const std::span<const uint16_t> rows_;
   const PartTests tests_;
+  const float slack_;  // by so much a part may be deeper than the one that is reported
   PartBatch& batch_;
   PartBatch& again_;  // pairs to test again without inner edges
   std::array<Outcome, kPairsPerBlock>& outcomes_;

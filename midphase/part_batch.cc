@@ -241,7 +241,7 @@ void PartBatch::run() {
   ResultColumns asked = from_row(results_, tested_);
   if (!tests_.bounds) asked.separation_bound = nullptr;
   PartTests tests = tests_;
-  if (as_made_) tests.accuracy.tier = Tier::standard;
+  if (as_made_) tests.accuracy = {};
   run_from(sides_, tests, tests.manifolds ? Detail::manifold : Detail::contact, asked);
   if (as_made_) prove(asked);
   tested_ = count_;

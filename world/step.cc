@@ -357,6 +357,12 @@ void World::State::write_contacts(const PairRange& range, const ContactStage::In
   if (velocities) count(Stage::velocities, time.part(part));
 }
 
+// How far results may be off when they are found. Those that are held need their tolerance for the
+// motion.
+float World::State::tolerance_of_tests() const {
+  return carries() && !drifts ? bodies.spare_tolerance() : 0;
+}
+
 // Tests the rows of a range; `all`: the pairs of all rows.
 void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
                               uint32_t* direction) {
@@ -372,7 +378,7 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
   CollideOptions options = {.frame = WitnessFrame::body,
                             .parallelism = settings.parallelism,
                             .measured = Measured::overlapping,
-                            .accuracy = settings.accuracy,
+                            .accuracy = {settings.accuracy.tier, tolerance_of_tests()},
                             .region_limits = settings.region_limits};
   if (has_distances()) {
     options.contact_distances = results.prepare_distances(pairs, distances(), settings.parallelism);

@@ -178,6 +178,7 @@ struct World::State {
   void find_results();
   void write_contacts(const PairRange& range, const ContactStage::Input& found,
                       const NormalVelocities* velocities);
+  float tolerance_of_tests() const;
   void test_pairs(std::span<const Pair> pairs, const PairRange& range, uint32_t* direction);
   void measure_gaps(std::span<const Pair> all, const PairRange& range);
   void find_impacts();

@@ -74,6 +74,7 @@ struct Batch {
   // the points. nullptr: the caller does not need it.
   uint8_t* unsure = nullptr;
   bool single_precision = false;  // Tier::fast
+  float slack = 0;                // metres by which depths may be too great
   // The points of hulls are rounded by up to 2^-24 of the size. Kernels in float32 allow for it;
   // double precision proves no decision then.
   bool has_rounded_points = false;

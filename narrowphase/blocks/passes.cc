@@ -219,6 +219,7 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured measured, uin
   RowFlags unsure;
   Batch batch = asked;
   batch.single_precision = plan.single_precision;
+  if (!plan.proves) batch.slack = accuracy.tolerance;
   // Points are clipped relative to the bodies.
   if (plan.points == PassPlan::Points::clipped) batch.frame = WitnessFrame::body;
   if (plan.known == PassPlan::Known::features) batch.features = batch.out.features;

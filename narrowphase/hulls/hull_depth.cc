@@ -50,6 +50,7 @@ class DepthSearch {
     a_ = pair.a;
     b_ = pair.b;
     steps_ = &steps;
+    slack_ = pair.slack;
     is_doubtful_ = !a_->is_known() || !b_->is_known();
     may_cross_ = has_crossing_ = false;
     const Quaternion<float> unturned{Vector3f::Zero(), 1};
@@ -139,7 +140,7 @@ class DepthSearch {
   void try_faces(const Side& a, BestFace& best_a, const Side& b, BestFace& best_b) {
     BestFace next_a = first_face(a, best_a), next_b = first_face(b, best_b);
     while (!is_doubtful_) {
-      const float least = std::max(best_a.gap, best_b.gap);
+      const float least = std::max(best_a.gap, best_b.gap) + slack_;
       const bool goes_on_a = next_a.gap > least, goes_on_b = next_b.gap > least;
       if (!goes_on_a && !goes_on_b) return;
       if (goes_on_a) try_next(a, next_a, best_a);
@@ -186,7 +187,7 @@ class DepthSearch {
   // --- Edges ---
 
   // An axis of two edges matters from this gap on.
-  float least_crossing() const { return gap_ - kSameGapInFloat; }
+  float least_crossing() const { return gap_ - kSameGapInFloat + slack_; }
 
   void take_crossing(float gap, const Solid::Edge& a, const Solid::Edge& b) {
     has_crossing_ = true;
@@ -246,6 +247,7 @@ class DepthSearch {
 
   const Solid *a_, *b_;
   const HullSteps* steps_;
+  float slack_;
   Rotation<float> turn_;  // from B to A
   Vector3f centre_;       // position of B in the frame of A
   Ball in_a_, in_b_;      // inside A in the frame of B, and inside B in that of A

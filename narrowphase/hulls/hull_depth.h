@@ -158,11 +158,13 @@ struct DeepPair {
   const Solid* b;
   Vector3f d;  // position of B relative to A
   scalar::Quaternion<float> turn_a, turn_b;
+  float slack = 0;  // by how much the depth that is found may exceed the least one
 };
 
-// The contacts of up to kMostDeepPairs pairs. Unsure if the features of two solids do not give it,
-// or if the witness points are not unique. Poses are turned a pair a lane. Each step of the search
-// is taken for all pairs before the next one.
+// The contacts of up to kMostDeepPairs pairs. With a slack the search leaves out axes that are
+// better by no more than it. Unsure if the features of two solids do not give it, or if the witness
+// points are not unique. Poses are turned a pair a lane. Each step of the search is taken for all
+// pairs before the next one.
 void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps,
                   scalar::Separation* contacts);
 

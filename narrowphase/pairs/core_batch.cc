@@ -138,8 +138,12 @@ class RowTester {
     placed.shape_a.emplace(a.scaled(placed.scale.down));
     placed.a.emplace(*placed.shape_a);
     placed.b.emplace(b.scaled(placed.scale.down));
-    deep = {&placed.a->view(), &placed.b->view(), scalar::scaled_pose(pose, placed.scale).d, pose.a,
-            pose.b};
+    deep = {&placed.a->view(),
+            &placed.b->view(),
+            scalar::scaled_pose(pose, placed.scale).d,
+            pose.a,
+            pose.b,
+            batch_.slack * placed.scale.down};
   }
 
   // Asks for the hulls of the rows after row i of the list. Hulls are mostly shared by many bodies,

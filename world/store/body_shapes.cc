@@ -71,6 +71,7 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
     if (rung.error <= most) best = &rung;
   }
   model_[index] = {best ? best->error : 0, std::make_shared<const Shape>(shape)};
+  greatest_model_error_ = std::max(greatest_model_error_, model_[index].error);
   store_model(index, best ? best->shape : shape);
 }
 

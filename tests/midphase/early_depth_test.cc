@@ -1,0 +1,107 @@
+// Depths that end early, within a tolerance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/composites.h"
+#include "tests/support/isas.h"
+#include "tests/support/rounds.h"
+
+namespace carom::test {
+namespace {
+
+constexpr float kTolerances[] = {1e-3f, 1e-2f, 0.1f, 10};
+constexpr float kRounding = 1e-5f;  // of bodies of about 1 m
+
+// Hulls, and all that has parts, so close that half of them overlap.
+std::vector<TestPair> make_pairs(size_t count) {
+  Composites composites(11);
+  std::vector<TestPair> pairs;
+  const std::array<ShapeKind, 2> kinds[] = {
+      {ShapeKind::hull, ShapeKind::hull},     {ShapeKind::box, ShapeKind::hull},
+      {ShapeKind::mesh, ShapeKind::mesh},     {ShapeKind::mesh, ShapeKind::hull},
+      {ShapeKind::compound, ShapeKind::mesh}, {ShapeKind::compound, ShapeKind::compound}};
+  for (size_t i = 0; i < count; ++i) {
+    const auto& [a, b] = kinds[i % std::size(kinds)];
+    pairs.push_back(composites.pair(a, b, PositionType::float64, 1, 2));
+  }
+  return pairs;
+}
+
+std::vector<Row> rows_within(float tolerance, const std::vector<TestPair>& pairs, Detail detail) {
+  Call call = call_with(PositionType::float64);
+  call.detail = detail;
+  call.accuracy.tolerance = tolerance;
+  return run_rows(pairs, call);
+}
+
+// Which pairs overlap, and all about separate ones, is as without a tolerance.
+TEST(EarlyDepths, AreOffByTheToleranceAtMost) {
+  const std::vector<TestPair> pairs = make_pairs(rounds(3000));
+  for (const Detail detail : {Detail::contact, Detail::manifold}) {
+    const std::vector<Row> exact = rows_within(0, pairs, detail);
+    for (const float tolerance : kTolerances) {
+      SCOPED_TRACE(tolerance);
+      const std::vector<Row> early = rows_within(tolerance, pairs, detail);
+      size_t others = 0;
+      for (size_t i = 0; i < pairs.size(); ++i) {
+        ASSERT_EQ(early[i].overlap, exact[i].overlap) << show(pairs[i]);
+        if (exact[i].overlap != 1) {
+          EXPECT_EQ(early[i].separation, exact[i].separation) << show(pairs[i]);
+          continue;
+        }
+        others += early[i].separation != exact[i].separation;
+        EXPECT_LE(early[i].separation, 0);
+        EXPECT_NEAR(early[i].separation, exact[i].separation, tolerance + kRounding)
+            << show(pairs[i]);
+      }
+      // The less a depth may be off, the fewer are.
+      if (tolerance >= 0.1f) {
+        EXPECT_GT(others, rounds(50));
+      }
+    }
+  }
+}
+
+TEST(EarlyDepths, AreTheSameOnEveryIsa) {
+  const std::vector<TestPair> pairs = make_pairs(rounds(300));
+  std::vector<Row> first;
+  for_each_isa([&] {
+    const std::vector<Row> rows = rows_within(0.05f, pairs, Detail::contact);
+    if (first.empty()) first = rows;
+    EXPECT_TRUE(same_rows(first, rows, pairs));
+  });
+}
+
+// A proof leaves nothing out.
+TEST(EarlyDepths, AreNotOfProvenTiers) {
+  const std::vector<TestPair> pairs = make_pairs(rounds(300));
+  Call call = call_with(PositionType::float64);
+  call.accuracy.tier = Tier::exact;
+  const std::vector<Row> exact = run_rows(pairs, call);
+  call.accuracy.tolerance = 0.1f;
+  EXPECT_TRUE(same_rows(exact, run_rows(pairs, call), pairs));
+}
+
+TEST(EarlyDepths, NeedALength) {
+  const std::vector<Eigen::Vector4f> spheres(2, Eigen::Vector4f(0, 0, 0, 1));
+  Collidables view;
+  view.count = spheres.size();
+  view.position = {.data = spheres.data(), .stride = sizeof spheres[0]};
+  const Pair pair{0, 1};
+  uint8_t overlap, status;
+  ResultColumns out;
+  out.overlap = &overlap;
+  out.status = &status;
+  for (const float bad :
+       {-1e-3f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    const Result<void> done = collide(view, view, {&pair, 1}, Detail::overlap, out,
+                                      CollideOptions{.accuracy = {.tolerance = bad}});
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message, "the tolerance is not a finite number >= 0");
+  }
+}
+
+}  // namespace
+}  // namespace carom::test
