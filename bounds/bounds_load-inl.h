@@ -71,44 +71,21 @@ struct DoubleRecords {
     return reinterpret_cast<const double*>(base + i * stride);
   }
 
+  HWY_INLINE void load(size_t i, Wide3& position, F& w) const {
+    D3 low;
+    D low_w;
+    transpose_doubles(*this, i, low, low_w);
 #if HWY_TARGET == HWY_SCALAR
-  HWY_INLINE void load(size_t i, Wide3& position, F& w) const {
-    const double* r = record(i);
-    position = {load_wide(r), load_wide(r + 1), load_wide(r + 2)};
-    w = demote(load_wide(r + 3));
-  }
+    position = {{low.x}, {low.y}, {low.z}};
+    w = demote(low_w);
 #else
-  // A vector whose 128-bit block j holds components c and c + 1 of record i + 2 j.
-  template <class Tag>
-  HWY_INLINE hn::Vec<Tag> interleaved_pairs(Tag tag, size_t i, size_t c) const {
-    if constexpr (hn::MaxLanes(Tag()) == 2) {
-      return hn::LoadU(tag, record(i) + c);
-    } else {
-      const hn::Half<Tag> half;
-      return hn::Combine(tag, interleaved_pairs(half, i + hn::MaxLanes(half), c),
-                         interleaved_pairs(half, i, c));
-    }
-  }
-
-  // Loads components c and c + 1 of as many records as a vector has doubles.
-  HWY_INLINE void load_pairs(size_t i, size_t c, D& first, D& second) const {
-    const DoubleTag tag;
-    const D even = interleaved_pairs(tag, i, c);
-    const D odd = interleaved_pairs(tag, i + 1, c);
-    first = hn::InterleaveLower(tag, even, odd);
-    second = hn::InterleaveUpper(tag, even, odd);
-  }
-
-  HWY_INLINE void load(size_t i, Wide3& position, F& w) const {
-    const size_t high = i + kLanes / 2;
-    D low_w, high_w;
-    load_pairs(i, 0, position.x.low, position.y.low);
-    load_pairs(high, 0, position.x.high, position.y.high);
-    load_pairs(i, 2, position.z.low, low_w);
-    load_pairs(high, 2, position.z.high, high_w);
+    D3 high;
+    D high_w;
+    transpose_doubles(*this, i + kLanes / 2, high, high_w);
+    position = {{low.x, high.x}, {low.y, high.y}, {low.z, high.z}};
     w = demote(Wide{low_w, high_w});
-  }
 #endif
+  }
 };
 
 // AnyPositions reads any other layout body by body. T is float or double.

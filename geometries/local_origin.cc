@@ -1,7 +1,6 @@
 #include "geometries/local_origin.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/powers.h"
 #include "carom/shapes/hull.h"
@@ -14,6 +13,12 @@ double size_of(const Part& part) {
   if (part.kind == ShapeKind::hull) return geometry_at<HullGeometry>(part.rows[0])->size();
   const PartBox box = box_of(part);
   return greatest(box.middle) + greatest(box.half);
+}
+
+// Of numbers up to 2^51; std::nearbyint() is a call.
+double nearest_integer(double x) {
+  constexpr double kHasNoFraction = 0x1.8p52;
+  return (x + kHasNoFraction) - kHasNoFraction;
 }
 
 }  // namespace
@@ -31,7 +36,7 @@ std::array<float, 3> origin_near(const Turn& turn, const Double3& position, cons
   const double step = power_of_two(std::max(of_size, exponent_of(distance) - kDigits));
   std::array<float, 3> origin;
   for (size_t axis = 0; axis < 3; ++axis) {
-    origin[axis] = static_cast<float>(step * std::nearbyint(way[axis] / step));
+    origin[axis] = static_cast<float>(step * nearest_integer(way[axis] / step));
   }
   return origin;
 }

@@ -15,6 +15,7 @@ namespace carom {
 struct TriangleArrays {
   const float* vertices;  // three numbers each; one more number follows the last vertex
   const std::array<uint32_t, 3>* triangles;
+  size_t count;
 };
 
 // Moves the pairs of triangles that may be within `reach` to the front, in their order, and returns

@@ -47,7 +47,7 @@ double with_slack(double reach, double lengths) {
 }
 
 TriangleArrays arrays_of(const MeshGeometry& mesh) {
-  return {mesh.vertices().data()->data(), mesh.triangles().data()};
+  return {mesh.vertices().data()->data(), mesh.triangles().data(), mesh.triangles().size()};
 }
 
 // A part in the frame of a tree.

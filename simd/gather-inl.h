@@ -19,7 +19,6 @@ namespace carom::HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 
 using Quad = hn::FixedTag<float, 4>;
-using DoublePair = hn::FixedTag<double, 2>;
 
 // A vector whose 128-bit block j is record k + 4 j.
 template <class Tag, class Source>
@@ -53,10 +52,32 @@ HWY_INLINE void transpose_records(const Source& source, F3& xyz, F& w) {
                  interleaved_row(tag, source, 2), interleaved_row(tag, source, 3), xyz, w);
 }
 
-// Four doubles, rounded to float32.
-HWY_INLINE hn::Vec<Quad> demote_quad(hn::Vec<DoublePair> xy, hn::Vec<DoublePair> zw) {
-  const hn::Half<Quad> half;
-  return hn::Combine(Quad(), hn::DemoteTo(half, zw), hn::DemoteTo(half, xy));
+// A vector whose 128-bit block j holds components c and c + 1 of record i + 2 j.
+template <class Tag, class Source>
+HWY_INLINE hn::Vec<Tag> interleaved_pairs(Tag tag, const Source& source, size_t i, size_t c) {
+  if constexpr (hn::MaxLanes(Tag()) == 2) {
+    return hn::LoadU(tag, source.record(i) + c);
+  } else {
+    const hn::Half<Tag> half;
+    return hn::Combine(tag, interleaved_pairs(half, source, i + hn::MaxLanes(half), c),
+                       interleaved_pairs(half, source, i, c));
+  }
+}
+
+// Loads records of doubles from `first` on, as many as a vector has, of a source that gives record
+// i as
+//   const double* record(size_t i)
+template <class Source>
+HWY_INLINE void transpose_doubles(const Source& source, size_t first, D3& xyz, D& w) {
+  const DoubleTag tag;
+  const D xy_even = interleaved_pairs(tag, source, first, 0);
+  const D xy_odd = interleaved_pairs(tag, source, first + 1, 0);
+  const D zw_even = interleaved_pairs(tag, source, first, 2);
+  const D zw_odd = interleaved_pairs(tag, source, first + 1, 2);
+  xyz.x = hn::InterleaveLower(tag, xy_even, xy_odd);
+  xyz.y = hn::InterleaveUpper(tag, xy_even, xy_odd);
+  xyz.z = hn::InterleaveLower(tag, zw_even, zw_odd);
+  w = hn::InterleaveUpper(tag, zw_even, zw_odd);
 }
 
 #else
@@ -66,6 +87,13 @@ HWY_INLINE void transpose_records(const Source& source, F3& xyz, F& w) {
   xyz = {splat(source.component(0, 0)), splat(source.component(0, 1)),
          splat(source.component(0, 2))};
   w = splat(source.component(0, 3));
+}
+
+template <class Source>
+HWY_INLINE void transpose_doubles(const Source& source, size_t first, D3& xyz, D& w) {
+  const double* const record = source.record(first);
+  xyz = {splat_double(record[0]), splat_double(record[1]), splat_double(record[2])};
+  w = splat_double(record[3]);
 }
 
 #endif

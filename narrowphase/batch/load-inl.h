@@ -69,60 +69,46 @@ struct Source32 : RecordSource<float, kRole, Bodies> {
   HWY_INLINE float component(size_t i, size_t c) const { return this->record(i)[c]; }
 };
 
-// float64 records, rounded to float32.
-template <Role kRole, class Bodies>
-struct HighSource : RecordSource<double, kRole, Bodies> {
-#if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
-    const DoublePair pair;
-    const double* p = this->record(i);
-    return demote_quad(hn::LoadU(pair, p), hn::LoadU(pair, p + 2));
-  }
-#endif
-  HWY_INLINE float component(size_t i, size_t c) const {
-    return static_cast<float>(this->record(i)[c]);
-  }
+// float64 records of one side, in lanes of doubles: of the first half of the rows and of the
+// second.
+struct RecordsOfDoubles {
+  D3 xyz[2];
+  D w[2];
 };
 
-// The remainder of that rounding.
-template <Role kRole, class Bodies>
-struct LowSource : RecordSource<double, kRole, Bodies> {
 #if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
-    const double* p = this->record(i);
-    return demote_quad(low(p), low(p + 2));
-  }
-  static HWY_INLINE hn::Vec<DoublePair> low(const double* p) {
-    const hn::Rebind<float, DoublePair> narrow;
-    const auto v = hn::LoadU(DoublePair(), p);
-    return hn::Sub(v, hn::PromoteTo(DoublePair(), hn::DemoteTo(narrow, v)));
-  }
-#endif
-  HWY_INLINE float component(size_t i, size_t c) const {
-    const double v = this->record(i)[c];
-    return static_cast<float>(v - static_cast<double>(static_cast<float>(v)));
-  }
-};
 
-// b - a in float64, then rounded to float32.
-template <class Bodies>
-struct RelativeSource {
-  RecordSource<double, Role::a, Bodies> a;
-  RecordSource<double, Role::b, Bodies> b;
+using HalfFloatTag = hn::Half<FloatTag>;
 
-#if HWY_TARGET != HWY_SCALAR
-  HWY_INLINE hn::Vec<Quad> quad(size_t i) const {
-    return demote_quad(difference(i, 0), difference(i, 2));
-  }
-  HWY_INLINE hn::Vec<DoublePair> difference(size_t i, size_t c) const {
-    const DoublePair pair;
-    return hn::Sub(hn::LoadU(pair, b.record(i) + c), hn::LoadU(pair, a.record(i) + c));
-  }
+HWY_INLINE F rounded(D first, D second) {
+  const HalfFloatTag half;
+  return hn::Combine(FloatTag(), hn::DemoteTo(half, second), hn::DemoteTo(half, first));
+}
+// What rounding leaves over.
+HWY_INLINE D beyond_float(D v) {
+  return hn::Sub(v, hn::PromoteTo(DoubleTag(), hn::DemoteTo(HalfFloatTag(), v)));
+}
+
+#else
+
+HWY_INLINE F rounded(D first, D) { return splat(static_cast<float>(hn::GetLane(first))); }
+HWY_INLINE D beyond_float(D v) {
+  return splat_double(hn::GetLane(v) - static_cast<double>(static_cast<float>(hn::GetLane(v))));
+}
+
 #endif
-  HWY_INLINE float component(size_t i, size_t c) const {
-    return static_cast<float>(b.record(i)[c] - a.record(i)[c]);
-  }
-};
+
+template <class Source>
+HWY_INLINE void transpose_doubles(const Source& source, RecordsOfDoubles& out) {
+  transpose_doubles(source, 0, out.xyz[0], out.w[0]);
+  transpose_doubles(source, kLanes == 1 ? 0 : kDoubleLanes, out.xyz[1], out.w[1]);
+}
+HWY_INLINE F3 rounded(const D3& first, const D3& second) {
+  return {rounded(first.x, second.x), rounded(first.y, second.y), rounded(first.z, second.z)};
+}
+HWY_INLINE D3 beyond_float(const D3& v) {
+  return {beyond_float(v.x), beyond_float(v.y), beyond_float(v.z)};
+}
 
 // No positions: both sides are boxes in world coordinates.
 struct NoRecords {
@@ -156,14 +142,16 @@ struct Records64 {
 
   template <class Bodies>
   static HWY_INLINE void load(const Batch& batch, const Bodies& bodies, PositionLanes& out) {
-    const RecordSource<double, Role::a, Bodies> a{batch.a, bodies};
-    const RecordSource<double, Role::b, Bodies> b{batch.b, bodies};
-    F unused;
-    transpose_records(HighSource<Role::a, Bodies>{a}, out.a, out.radius_a);
-    transpose_records(HighSource<Role::b, Bodies>{b}, out.b, out.radius_b);
-    transpose_records(LowSource<Role::a, Bodies>{a}, out.a_low, unused);
-    transpose_records(LowSource<Role::b, Bodies>{b}, out.b_low, unused);
-    transpose_records(RelativeSource<Bodies>{a, b}, out.relative, unused);
+    RecordsOfDoubles a, b;
+    transpose_doubles(RecordSource<double, Role::a, Bodies>{batch.a, bodies}, a);
+    transpose_doubles(RecordSource<double, Role::b, Bodies>{batch.b, bodies}, b);
+    out.a = rounded(a.xyz[0], a.xyz[1]);
+    out.b = rounded(b.xyz[0], b.xyz[1]);
+    out.radius_a = rounded(a.w[0], a.w[1]);
+    out.radius_b = rounded(b.w[0], b.w[1]);
+    out.a_low = rounded(beyond_float(a.xyz[0]), beyond_float(a.xyz[1]));
+    out.b_low = rounded(beyond_float(b.xyz[0]), beyond_float(b.xyz[1]));
+    out.relative = rounded(b.xyz[0] - a.xyz[0], b.xyz[1] - a.xyz[1]);
   }
 };
 

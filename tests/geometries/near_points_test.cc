@@ -46,7 +46,7 @@ struct SomeTriangles {
     return a + share * (b - a);
   }
 
-  TriangleArrays arrays() const { return {vertices.data(), corners.data()}; }
+  TriangleArrays arrays() const { return {vertices.data(), corners.data(), corners.size()}; }
 
   Triangle triangle(size_t i) const {
     const auto at = [&](size_t k) {

@@ -36,7 +36,7 @@ struct LooseTriangles {
     vertices.push_back(0);
   }
 
-  TriangleArrays arrays() const { return {vertices.data(), corners.data()}; }
+  TriangleArrays arrays() const { return {vertices.data(), corners.data(), corners.size()}; }
   Double3 corner(size_t triangle, size_t k) const {
     const float* v = vertices.data() + size_t{3} * corners[triangle][k];
     return {v[0], v[1], v[2]};
