@@ -15,10 +15,12 @@ HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 namespace {
 
-// The sums, products and roots below round a dozen times.
-constexpr float kRoundedUp = 1 + 0x1p-19f;
-// The vector part of conj(p) q is a difference of products: it rounds by a share of |p| |q|.
+// The sums, products and roots below round some twenty times.
+constexpr float kRoundedUp = 1 + 0x1p-18f;
+// The vector part of q conj(p) is a difference of products: it rounds by a share of |p| |q|.
 constexpr float kTurnRounding = 0x1p-20f;
+// Below this, in square metres, products of lengths lose digits.
+constexpr float kLeastSquare = 0x1p-80f;
 
 HWY_INLINE F squared(const F3& v) {
   return hn::Add(hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.y, v.y)), hn::Mul(v.z, v.z));
@@ -50,9 +52,12 @@ HWY_INLINE Quaternion scaled(const Quaternion& q) {
   return {q.v * down, hn::Mul(q.w, down)};
 }
 
-// The chord that a point at `radius` covers when one orientation becomes another: 2 r sin(angle /
-// 2), where |p| |q| times the sine is the length of the vector part of conj(p) q.
-HWY_INLINE F chord(const Quaternion& from, const Quaternion& to, F radius) {
+// How far points move that lie `radius` from the axis about which one orientation becomes another,
+// and that go `way` as well. The turn moves them across the axis, by a chord of c = 2 r sin(angle /
+// 2). Of the way, the part across the axis may go with the chord: the square of both is that of the
+// way, of c, and twice c times that part. |p| |q| sin(angle / 2) is the length of the vector part
+// of q conj(p), which lies along the axis.
+HWY_INLINE F turning_way(const F3& way, const Quaternion& from, const Quaternion& to, F radius) {
   const Quaternion p = scaled(from), q = scaled(to);
   const auto minus = [](F a, F b, F c, F d)
                          HWY_ATTR { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); };
@@ -60,11 +65,19 @@ HWY_INLINE F chord(const Quaternion& from, const Quaternion& to, F radius) {
                        minus(p.w, q.v.z, q.w, p.v.z)};
   const F3 crossed = {minus(p.v.y, q.v.z, p.v.z, q.v.y), minus(p.v.z, q.v.x, p.v.x, q.v.z),
                       minus(p.v.x, q.v.y, p.v.y, q.v.x)};
-  const F3 part = straight - crossed;
+  const F3 axis = straight + crossed;
   const F lengths =
       hn::Mul(hn::Add(squared(p.v), hn::Mul(p.w, p.w)), hn::Add(squared(q.v), hn::Mul(q.w, q.w)));
-  const F sine = hn::Sqrt(hn::Div(squared(part), lengths));
-  return hn::Mul(hn::Add(radius, radius), hn::Add(sine, splat(kTurnRounding)));
+  const auto share = [&](const F3& v) HWY_ATTR { return hn::Sqrt(hn::Div(squared(v), lengths)); };
+  const F diameter = hn::Add(radius, radius), length = length_of(way);
+  const F chord = hn::Mul(diameter, hn::Add(share(axis), splat(kTurnRounding)));
+  const F across = hn::Mul(
+      diameter, hn::Add(share(cross(way, axis)), hn::Mul(length, splat(2 * kTurnRounding))));
+  const F square = hn::Add(hn::Add(squared(way), hn::Mul(chord, chord)), hn::Add(across, across));
+  const F together = hn::Sqrt(square), most = hn::Add(length, chord);
+  // Where something is infinite or NaN, so is the second.
+  const Mask is_less = hn::And(hn::Lt(together, most), hn::Gt(square, splat(kLeastSquare)));
+  return hn::IfThenElse(is_less, together, most);
 }
 
 HWY_INLINE Mask differ(const Quaternion& p, const Quaternion& q) {
@@ -123,7 +136,8 @@ HWY_INLINE void add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit
   const auto& column = bodies.anchor_position;
   const Position from = {load_column(column[0] + i), load_column(column[1] + i),
                          load_column(column[2] + i)};
-  F metres = length_of(way_of(from, to));
+  const F3 way = way_of(from, to);
+  F metres = length_of(way);
   Quaternion q = {splat3(0), splat(1)};
   const auto& turned = bodies.anchor_orientation;
   if (bodies.orientation) {
@@ -133,7 +147,7 @@ HWY_INLINE void add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit
         load_column(turned[3] + i)};
     const F radius = hn::LoadU(tag, bodies.turn_radius + i);
     const Mask turns = hn::And(differ(p, q), hn::Ne(radius, splat(0)));
-    metres = hn::Add(metres, hn::IfThenElseZero(turns, chord(p, q, radius)));
+    metres = hn::IfThenElse(turns, turning_way(way, p, q, radius), metres);
   }
   const I gone = ticks_of(hn::Mul(metres, splat(kRoundedUp)), unit.ticks_per_metre);
   const auto signed_of = [](uint32_t* of) { return reinterpret_cast<int32_t*>(of); };

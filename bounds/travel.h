@@ -30,7 +30,8 @@ struct TravelUnit {
 };
 
 // Brings the columns of bodies [begin, end) up to date with their poses. The distance from the
-// anchor is an upper bound: that of the positions, and the chord of a point at the turning radius.
+// anchor is an upper bound: that of the positions, and the chord of a point at the turning radius,
+// which lies across the axis of the turn.
 // It is kJump if it is larger or a number is not finite. The same numbers on every instruction set.
 void add_travel(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
                 size_t end);
