@@ -78,22 +78,22 @@ uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
 
 void PartColumns::put_frame(size_t owner, const PlacedPart& part,
                             const std::array<float, 3>& origin) {
-  const bool is_of_mesh = part.part->kind == ShapeKind::mesh;
-  Frame frame = {.position = part.position,
-                 .arm = part.arm,
-                 .origin = origin,
-                 .position_of_mesh = part.position,
-                 .turn = part.turn,
-                 .mesh = is_of_mesh ? &part.mesh() : nullptr,
-                 .child = part.child,
-                 .owner = owner};
+  Frame& frame = frames_[frames_used_++];  // in place: a copy would wait for its own stores
+  frame.position = part.position;
+  frame.arm = part.arm;
+  frame.origin = origin;
+  frame.turn = part.turn;
+  frame.mesh = nullptr;
+  frame.child = part.child;
+  frame.owner = owner;
+  if (part.part->kind != ShapeKind::mesh) return;
+  frame.mesh = &part.mesh();
+  frame.position_of_mesh = part.position;
   const std::array<float, 3> from = origin_of_rows(origin);
-  if (from != kMeshOrigin) {
-    const Double3 way = turned(part.turn, {from[0], from[1], from[2]});
-    frame.position = plus(part.position, way);
-    frame.arm = plus(part.arm, way);
-  }
-  frames_[frames_used_++] = frame;
+  if (from == kMeshOrigin) return;
+  const Double3 way = turned(part.turn, {from[0], from[1], from[2]});
+  frame.position = plus(part.position, way);
+  frame.arm = plus(part.arm, way);
 }
 
 // Says that all are of one kind if they are, which saves the narrow phase from sorting them.
