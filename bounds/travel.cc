@@ -20,7 +20,7 @@ constexpr float kRoundedUp = 1 + 0x1p-18f;
 // The vector part of q conj(p) is a difference of products: it rounds by a share of |p| |q|.
 constexpr float kTurnRounding = 0x1p-20f;
 // Below this, in square metres, products of lengths lose digits.
-constexpr float kLeastSquare = 0x1p-80f;
+constexpr float kLeastSquare = 0x1p-100f;
 
 HWY_INLINE F squared(const F3& v) {
   return hn::Add(hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.y, v.y)), hn::Mul(v.z, v.z));
@@ -39,9 +39,11 @@ HWY_INLINE F3 way_of(const Wide3& from, const Wide3& to) {
   return {part(from.x, to.x), part(from.y, to.y), part(from.z, to.z)};
 }
 
-// Squares of very short ways vanish. NaN stays NaN: it is the second operand.
+// Or up to twice as much, of very short ways, whose squares vanish. NaN stays NaN.
 HWY_INLINE F length_of(const F3& way) {
-  return max(largest_component(way), hn::Sqrt(squared(way)));
+  const F square = squared(way), largest = largest_component(way);
+  return hn::IfThenElse(hn::Lt(square, splat(kLeastSquare)), hn::Add(largest, largest),
+                        hn::Sqrt(square));
 }
 
 // The quaternion with its largest component scaled to between 1 and 2, exactly, so that no product
@@ -146,7 +148,8 @@ HWY_INLINE void add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit
         {load_column(turned[0] + i), load_column(turned[1] + i), load_column(turned[2] + i)},
         load_column(turned[3] + i)};
     const F radius = hn::LoadU(tag, bodies.turn_radius + i);
-    const Mask turns = hn::And(differ(p, q), hn::Ne(radius, splat(0)));
+    // Of NaN Ne() says otherwise on other instruction sets.
+    const Mask turns = hn::AndNot(hn::Eq(radius, splat(0)), differ(p, q));
     metres = hn::IfThenElse(turns, turning_way(way, p, q, radius), metres);
   }
   const I gone = ticks_of(hn::Mul(metres, splat(kRoundedUp)), unit.ticks_per_metre);

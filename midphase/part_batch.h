@@ -18,7 +18,8 @@ namespace carom {
 class PartColumns {
  public:
   // How corners of triangles of meshes are stored: counted from the origin that they are put with
-  // (geometries/local_origin.h), or as the mesh has them.
+  // (geometries/local_origin.h), or as the mesh has them; whole bodies then lie where they are
+  // stored.
   enum class Corners { near, as_made };
 
   void clear(Corners corners);
@@ -35,6 +36,7 @@ class PartColumns {
   ShapeKind kind(size_t body) const { return kind_[body]; }
   Double3 middle(size_t body) const;
   const Double3& arm(size_t body) const { return frames_[frame_[body]].arm; }
+  bool has_mesh() const { return has_mesh_; }
   // See PlacedPart::order().
   uint64_t order(size_t body) const {
     const uint32_t triangle = is_of_mesh(body) ? triangle_[body] : 0;
@@ -84,7 +86,7 @@ class PartColumns {
 
   Corners corners_ = Corners::near;
   uint32_t count_ = 0, frames_used_ = 0, rows_used_ = 0;
-  bool are_mixed_ = false;
+  bool are_mixed_ = false, has_mesh_ = false;
   alignas(64) std::array<Position, kPairsPerBlock> record_;
   std::array<Row, kPairsPerBlock> orientation_;
   std::array<std::array<float, kPairsPerBlock>, 3> lower_, upper_;  // aabbs only
@@ -127,7 +129,7 @@ class PartBatch {
   void add_triangles(size_t owner, const NearParts& parts, float reach);
   // Adds pairs of triangles of two meshes; there must be room for them.
   void add_triangle_pairs(size_t owner, const NearParts& parts, float reach);
-  // Adds a pair, and sets the inner edges of triangles.
+  // Adds a pair, and sets the inner edges of triangles, whose corners are counted as the mesh does.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
            const std::array<uint8_t, 2>& inner_edges);
 
@@ -180,7 +182,7 @@ class PartBatch {
   void prove(const ResultColumns& tested);
   std::array<float, 3> origin_of(const PlacedPart& part, const PlacedPart& other) const;
   // The pair with both parts, which are added.
-  Pair put_parts(size_t owner, const PlacedPart& a, const PlacedPart& b);
+  Pair put_parts(size_t owner, const PlacedPart& a, const PlacedPart& b, bool counts_near);
 
   PartTests tests_;
   size_t count_ = 0, tested_ = 0, tested_before_ = 0, waiting_count_ = 0;

@@ -23,6 +23,8 @@ struct PlacedPart {
   uint32_t child = 0;
   uint32_t triangle = kWhole;          // index in the mesh; kWhole: no triangle of a mesh
   std::optional<bool> one_sided = {};  // of triangles of meshes; without it, as they are made
+  // The position of a whole body, or of its mesh, as it is stored, for proofs; nullptr: as above.
+  const Double3* stored = nullptr;
 
   // Places a whole body.
   PlacedPart(const Part& body, const Double3& at)

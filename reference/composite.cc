@@ -17,7 +17,10 @@ using Eigen::Vector3f;
 
 // A triangle of a mesh with its corners counted from a place near the other part.
 Simple counted_near(const Simple& part, const Simple& other) {
-  if (!part.mesh || other.mesh) return part;
+  if (!part.mesh || other.mesh || !may_count_near(part.mesh->rules(), std::nullopt) ||
+      std::get<Triangle>(part.shape).inner_edges != 0) {
+    return part;
+  }
   const Turn turn = rotation_of(part.placed.orientation);
   const std::array<float, 3> origin =
       origin_near(turn, part.placed.position, other.placed, other.placed.position);

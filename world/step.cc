@@ -357,12 +357,6 @@ void World::State::write_contacts(const PairRange& range, const ContactStage::In
   if (velocities) count(Stage::velocities, time.part(part));
 }
 
-// How far results may be off when they are found. Those that are held need their tolerance for the
-// motion.
-float World::State::tolerance_of_tests() const {
-  return carries() && !drifts ? bodies.spare_tolerance() : 0;
-}
-
 // Tests the rows of a range; `all`: the pairs of all rows.
 void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
                               uint32_t* direction) {

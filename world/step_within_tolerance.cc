@@ -57,6 +57,12 @@ bool World::State::keeps_pairs() const {
   return drifts && drift.outgrown().empty() && has_same_filters() && !bodies.any_touched();
 }
 
+// How far results may be off when they are found. Those that are held need their tolerance for the
+// motion.
+float World::State::tolerance_of_tests() const {
+  return carries() && !drifts ? bodies.spare_tolerance() : 0;
+}
+
 // Tests the pairs that are due and are not tested otherwise.
 void World::State::refresh_due() {
   const RefreshStage::Input found = {

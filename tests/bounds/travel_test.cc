@@ -260,6 +260,17 @@ TEST(Travel, OfNumbersThatAreNotFiniteIsAJump) {
   EXPECT_EQ(ticks_gone({1e-30, 0, 0, 0}, none, 1), 1u);
   EXPECT_EQ(ticks_gone({1e-30, 0, 0, 0}, none, 1, FLT_MAX), kJump);
   EXPECT_EQ(ticks_gone({0, 0, 0, 0}, half, 1), 2001u);
+  for_each_isa([&] { EXPECT_EQ(ticks_gone({0, 0, 0, 0}, half, NAN), kJump); });
+}
+
+// The squares of such a way vanish: its largest component is less than it is long.
+TEST(Travel, OfVeryShortWaysIsAnUpperBound) {
+  for (const double x : {0x1p-76, 0x1p-60, 0x1p-52, 0x1p-49}) {
+    const auto ticks_per_metre = static_cast<float>(1e6 / x);
+    const uint32_t ticks = ticks_gone({x, x, x, 0}, {0, 0, 0, 1}, 1, ticks_per_metre);
+    EXPECT_GE(ticks, std::sqrt(3.0) * 1e6) << x;
+    EXPECT_LE(ticks, 2.1e6) << x;
+  }
 }
 
 }  // namespace

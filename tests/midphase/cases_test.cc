@@ -34,6 +34,34 @@ void expect_near(const Vector3f& actual, const Vector3f& expected, float toleran
       << actual.transpose() << " instead of " << expected.transpose();
 }
 
+// The difference of the two positions is no double. Proofs are about the positions as they are.
+TEST(CompositeCases, ProofsOfMeshesAreAboutPositionsAsStored) {
+  const Mesh mesh = mesh_of({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}}, {{0, 1, 2}});
+  for (const double z : {-0x1p-60, -0x1p-54, -0x1p-53, 0.0, 0x1p-60}) {
+    SCOPED_TRACE(z);
+    const TestPair pair = {{mesh, {0, 0, z}}, sphere(0, 0, 1, 1)};
+    for (const TestPair& each : {pair, swapped(pair)}) {
+      Call call = call_with(PositionType::float64);
+      call.accuracy.tier = Tier::exact;
+      EXPECT_EQ(run_rows({&each, 1}, call)[0].overlap, z >= 0);
+      call.accuracy.tier = Tier::certified;
+      EXPECT_THAT(run_rows({&each, 1}, call)[0].overlap, testing::AnyOf(z >= 0, kUndecided));
+    }
+  }
+}
+
+// The normal of a thick sliver depends on the last bits of its corners.
+TEST(CompositeCases, ThickSliversAreAsTheShape) {
+  const std::vector<Vector3f> corners = {{0x1.ac788ep-1f, 0x1.23a0b6p+1f, 0x1.552366p-3f},
+                                         {0x1.6a85dp+0f, 0x1.1d36fcp+1f, 0x1.f5da76p-1f},
+                                         {0x1.caa83ap-1f, 0x1.22f9a8p+1f, 0x1.febbd4p-3f}};
+  const PlacedShape ball = {Sphere{0x1.2bc2a8p-1f},
+                            {0x1.585f74b341d08p+0, 0x1.24db73d81bd82p+1, 0x1.2a01cac8dc288p-6}};
+  const Mesh mesh = mesh_of(corners, {{0, 1, 2}}, {.thickness = 0.2f});
+  const auto result = result_of({{mesh, Vector3d::Zero()}, ball}, PositionType::float64);
+  EXPECT_NEAR(result.separation, -0x1.da735d59fba1cp-3, 1e-6);
+}
+
 // Case 64 of CASES.md.
 TEST(CompositeCases, SphereOverAnInnerEdgeGetsTheNormalOfThePlane) {
   const Mesh ground = flat_grid(4, 5);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/support/composites.h"
+#include "tests/support/hulls.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
 
@@ -62,6 +63,24 @@ TEST(EarlyDepths, AreOffByTheToleranceAtMost) {
       }
     }
   }
+}
+
+// Whether a contact came over an inner edge depends on its normal, and so does the contact that is
+// reported.
+TEST(EarlyDepths, OfHullsKeepTheirNormalsOnMeshes) {
+  const float h = -0x1.a6778ep-3f;
+  const Mesh mesh =
+      mesh_of({{-1, -1, 0}, {1, -1, h}, {1, 1, 0}, {-1, 1, h}}, {{0, 1, 2}, {0, 2, 3}});
+  const std::vector<Eigen::Vector3f> corners = {{-0x1.7d13dep-4f, 0x1.dc7fc8p-3f, 0x1.d79dd2p-1f},
+                                                {-0x1.3738eep-6f, -0x1.28d0dp-2f, 0x1.3ca7d6p-4f},
+                                                {-0x1.e70ec4p-5f, 0x1.87c6c8p-2f, -0x1.d718aep-1f},
+                                                {0x1.88db3ep-1f, 0x1.d269d6p-4f, -0x1.e67838p-2f}};
+  const TestPair pair = {
+      {mesh, {0, 0, 0}},
+      placed_hull(corners, {-0x1.08486ee996b91p-1, -0x1.74decfebf3daep-2, -0x1.259b61132338p-4})};
+  const float exact = rows_within(0, {pair}, Detail::contact)[0].separation;
+  EXPECT_NEAR(exact, -0x1.a4c308p-1, 1e-5);
+  EXPECT_NEAR(rows_within(0.01f, {pair}, Detail::contact)[0].separation, exact, 0.01f);
 }
 
 TEST(EarlyDepths, AreTheSameOnEveryIsa) {
