@@ -59,7 +59,7 @@ TEST(EarlyDepths, AreOffByTheToleranceAtMost) {
       }
       // The less a depth may be off, the fewer are.
       if (tolerance >= 0.1f) {
-        EXPECT_GT(others, rounds(50));
+        EXPECT_GT(others, rounds(16));
       }
     }
   }
