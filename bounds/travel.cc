@@ -148,7 +148,7 @@ HWY_INLINE void add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit
         {load_column(turned[0] + i), load_column(turned[1] + i), load_column(turned[2] + i)},
         load_column(turned[3] + i)};
     const F radius = hn::LoadU(tag, bodies.turn_radius + i);
-    // Of NaN Ne() says otherwise on other instruction sets.
+    // Not by Ne(), which is false for NaN on some instruction sets.
     const Mask turns = hn::AndNot(hn::Eq(radius, splat(0)), differ(p, q));
     metres = hn::IfThenElse(turns, turning_way(way, p, q, radius), metres);
   }

@@ -15,7 +15,7 @@ double size_of(const Part& part) {
   return greatest(box.middle) + greatest(box.half);
 }
 
-// Of numbers up to 2^51; std::nearbyint() is a call.
+// For numbers up to 2^51. std::nearbyint() is a call.
 double nearest_integer(double x) {
   constexpr double kHasNoFraction = 0x1.8p52;
   return (x + kHasNoFraction) - kHasNoFraction;

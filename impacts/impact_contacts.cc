@@ -43,7 +43,7 @@ class ImpactContacts {
         scratch_(scratch) {}
 
   void run() {
-    scratch_.parts.begin({.counts_near = false, .accuracy = {}});
+    scratch_.parts.begin({.counts_near = false});
     write_nothing();
     sort_rows();
     run_bodies();

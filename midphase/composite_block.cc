@@ -72,7 +72,7 @@ class CompositeRun {
                .bounds = block.out.separation_bound != nullptr,
                .reach = block.reach != nullptr,
                .measured = of_parts(block.measured),
-               .accuracy = block.accuracy},
+               .tier = block.accuracy.tier},
         slack_(has_proofs(block.accuracy.tier) ? 0 : block.accuracy.tolerance),
         batch_(scratch.batch),
         again_(scratch.again),
@@ -93,7 +93,9 @@ class CompositeRun {
     for (current_ = 0; current_ < rows_.size(); ++current_) {
       const Pair p = pair(current_);
       outcomes_[current_] = valid_a.has(p.a) && valid_b.has(p.b) ? Outcome{} : no_answer();
-      if (!outcomes_[current_].is_invalid()) search(current_, reach(current_), apart);
+      if (outcomes_[current_].is_invalid()) continue;
+      if (slack(current_) > 0) flush();
+      search(current_, reach(current_), apart);
     }
     flush();
     if (measures) measure();
@@ -118,8 +120,17 @@ class CompositeRun {
     const BodyPair bodies(a_, b_, pair(k));
     find_part_pairs(bodies.a, bodies.b, reach, apart, [&](const NearParts& parts) {
       add(k, parts);
-      return has_deep_face(k) && may_skip() ? outcomes_[k].separation - slack_ : reach;
+      return has_deep_face(k) && may_skip() ? outcomes_[k].separation - slack(k) : reach;
     });
+  }
+
+  // By so much a part may be deeper than the one that is reported. What is left out then depends on
+  // what was tested before. Two meshes begin with an empty batch, so that it is their own
+  // triangles.
+  float slack(size_t k) const { return are_meshes(k) ? slack_ : 0; }
+
+  bool are_meshes(size_t k) const {
+    return a_.kind(pair(k).a) == ShapeKind::mesh && b_.kind(pair(k).b) == ShapeKind::mesh;
   }
 
   void add(size_t k, const NearParts& parts) {
@@ -185,7 +196,7 @@ class CompositeRun {
     for (size_t tries = 0; batch_.has_waiting(); ++tries) {
       const auto admits_all = [&](size_t k) { return tries == kTriesOfOne || has_deep_face(k); };
       const auto may_be_best = [&](size_t k, float least_separation) {
-        return !has_deep_face(k) || least_separation <= outcomes_[k].separation - slack_;
+        return !has_deep_face(k) || least_separation <= outcomes_[k].separation - slack(k);
       };
       batch_.admit_waiting(admits_all, may_be_best);
       test_and_merge();
@@ -367,7 +378,7 @@ class CompositeRun {
   const BodyReader a_, b_;
   const std::span<const uint16_t> rows_;
   const PartTests tests_;
-  const float slack_;  // by so much a part may be deeper than the one that is reported
+  const float slack_;  // what the tolerance leaves two meshes
   PartBatch& batch_;
   PartBatch& again_;  // pairs to test again without inner edges
   std::array<Outcome, kPairsPerBlock>& outcomes_;

@@ -11,7 +11,7 @@ namespace carom {
 void PartColumns::clear(Corners corners) {
   corners_ = corners;
   count_ = frames_used_ = rows_used_ = 0;
-  are_mixed_ = has_mesh_ = false;
+  are_mixed_ = false;
 }
 
 uint32_t PartColumns::put(size_t owner, const PlacedPart& part,
@@ -88,7 +88,6 @@ void PartColumns::put_frame(size_t owner, const PlacedPart& part,
   frame.child = part.child;
   frame.owner = owner;
   if (part.part->kind != ShapeKind::mesh) return;
-  has_mesh_ = true;
   frame.mesh = &part.mesh();
   frame.position_of_mesh = part.position;
   const std::array<float, 3> from = origin_of_rows(origin);
@@ -142,16 +141,15 @@ PlacedTriangle PartColumns::triangle(size_t body) const {
 
 void PartBatch::begin(const PartTests& tests) {
   tests_ = tests;
-  const bool proves = has_proofs(tests.accuracy.tier) && tests.counts_near;
-  if (!proves) as_made_.reset();
-  if (proves && !as_made_) as_made_ = std::make_unique_for_overwrite<std::array<PartColumns, 2>>();
+  proves_ = has_proofs(tests.tier) && tests.counts_near;
+  if (proves_ && !as_made_) as_made_ = std::make_unique_for_overwrite<std::array<PartColumns, 2>>();
   clear();
 }
 
 void PartBatch::clear() {
   count_ = tested_ = tested_before_ = waiting_count_ = 0;
   for (PartColumns& side : sides_) side.clear(PartColumns::Corners::near);
-  if (!as_made_) return;
+  if (!proves_) return;
   for (PartColumns& side : *as_made_) side.clear(PartColumns::Corners::as_made);
 }
 
@@ -170,7 +168,7 @@ Pair PartBatch::put_parts(size_t owner, const PlacedPart& a, const PlacedPart& b
   const auto put = [&](std::array<PartColumns, 2>& sides) -> Pair {
     return {sides[0].put(owner, a, origin_a), sides[1].put(owner, b, origin_b)};
   };
-  if (as_made_) put(*as_made_);
+  if (proves_) put(*as_made_);
   return put(sides_);
 }
 
@@ -194,7 +192,7 @@ void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach)
                                            [&](size_t i) { return parts.triangles[i]; });
     other = sides[1 - mesh_side].put(owner, convex, {});
   };
-  if (as_made_) put(*as_made_);
+  if (proves_) put(*as_made_);
   put(sides_);
   const auto pair = [&](size_t i) {
     const uint32_t triangle = first + static_cast<uint32_t>(i);
@@ -216,7 +214,7 @@ void PartBatch::add_triangle_pairs(size_t owner, const NearParts& parts, float r
     first_b =
         sides[1].put_triangles(owner, parts.b, {}, count, [&](size_t i) { return pairs[i].b; });
   };
-  if (as_made_) put(*as_made_);
+  if (proves_) put(*as_made_);
   put(sides_);
   const std::span<const float> least = parts.least_separations;
   for (uint32_t i = 0; i < least.size(); ++i) {
@@ -236,7 +234,7 @@ void PartBatch::add(size_t owner, const PlacedPart& a, const PlacedPart& b, floa
     if (inner_edges[0] != 0) sides[0].set_inner_edges(pair.a, inner_edges[0]);
     if (inner_edges[1] != 0) sides[1].set_inner_edges(pair.b, inner_edges[1]);
   };
-  if (as_made_) set(*as_made_);
+  if (proves_) set(*as_made_);
   set(sides_);
 }
 
@@ -246,11 +244,9 @@ void PartBatch::run() {
   ResultColumns asked = from_row(results_, tested_);
   if (!tests_.bounds) asked.separation_bound = nullptr;
   PartTests tests = tests_;
-  if (as_made_) tests.accuracy = {};
-  // The normal decides whether a contact came over an inner edge.
-  if (sides_[0].has_mesh() || sides_[1].has_mesh()) tests.accuracy.tolerance = 0;
+  if (proves_) tests.tier = Tier::standard;
   run_from(sides_, tests, tests.manifolds ? Detail::manifold : Detail::contact, asked);
-  if (as_made_) prove(asked);
+  if (proves_) prove(asked);
   tested_ = count_;
 }
 
@@ -265,7 +261,7 @@ void PartBatch::run_from(const std::array<PartColumns, 2>& sides, const PartTest
                   .frame = WitnessFrame::body,
                   .measured = tests.measured,
                   .reach = tests.reach ? reach_.data() + tested_ : nullptr,
-                  .accuracy = tests.accuracy,
+                  .accuracy = {.tier = tests.tier},
                   .out = out});
 }
 

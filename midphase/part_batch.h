@@ -36,7 +36,6 @@ class PartColumns {
   ShapeKind kind(size_t body) const { return kind_[body]; }
   Double3 middle(size_t body) const;
   const Double3& arm(size_t body) const { return frames_[frame_[body]].arm; }
-  bool has_mesh() const { return has_mesh_; }
   // See PlacedPart::order().
   uint64_t order(size_t body) const {
     const uint32_t triangle = is_of_mesh(body) ? triangle_[body] : 0;
@@ -86,7 +85,7 @@ class PartColumns {
 
   Corners corners_ = Corners::near;
   uint32_t count_ = 0, frames_used_ = 0, rows_used_ = 0;
-  bool are_mixed_ = false, has_mesh_ = false;
+  bool are_mixed_ = false;
   alignas(64) std::array<Position, kPairsPerBlock> record_;
   std::array<Row, kPairsPerBlock> orientation_;
   std::array<std::array<float, kPairsPerBlock>, 3> lower_, upper_;  // aabbs only
@@ -106,7 +105,7 @@ struct PartTests {
   bool reach = false;       // pairs have contact distances
   bool counts_near = true;  // corners of triangles of meshes, from a place near the other part
   Measured measured = Measured::all;
-  Accuracy accuracy;
+  Tier tier = Tier::standard;
 };
 
 // Results are relative to the parts' own positions.
@@ -187,7 +186,8 @@ class PartBatch {
   PartTests tests_;
   size_t count_ = 0, tested_ = 0, tested_before_ = 0, waiting_count_ = 0;
   std::array<PartColumns, 2> sides_;
-  // The same bodies for proofs, which are about triangles as they are made.
+  // The same bodies for proofs, which are about triangles as they are made. Kept for the next ones.
+  bool proves_ = false;
   std::unique_ptr<std::array<PartColumns, 2>> as_made_;
   std::array<uint8_t, kPairsPerBlock> proven_;
   std::array<Pair, kPairsPerBlock> pairs_;

@@ -1,4 +1,4 @@
-// What a step does otherwise while it holds on to results within Accuracy::tolerance.
+// A step that holds on to results within Accuracy::tolerance does this otherwise.
 #include <algorithm>
 
 #include "world/world_state.h"

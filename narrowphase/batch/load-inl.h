@@ -84,7 +84,7 @@ HWY_INLINE F rounded(D first, D second) {
   const HalfFloatTag half;
   return hn::Combine(FloatTag(), hn::DemoteTo(half, second), hn::DemoteTo(half, first));
 }
-// What rounding leaves over.
+// Yields the remainder of the rounding.
 HWY_INLINE D beyond_float(D v) {
   return hn::Sub(v, hn::PromoteTo(DoubleTag(), hn::DemoteTo(HalfFloatTag(), v)));
 }

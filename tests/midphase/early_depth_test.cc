@@ -1,10 +1,12 @@
 // Depths that end early, within a tolerance.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "tests/support/composites.h"
+#include "tests/support/fine_meshes.h"
 #include "tests/support/hulls.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
@@ -81,6 +83,37 @@ TEST(EarlyDepths, OfHullsKeepTheirNormalsOnMeshes) {
   const float exact = rows_within(0, {pair}, Detail::contact)[0].separation;
   EXPECT_NEAR(exact, -0x1.a4c308p-1, 1e-5);
   EXPECT_NEAR(rows_within(0.01f, {pair}, Detail::contact)[0].separation, exact, 0.01f);
+}
+
+// Batches hold the parts of many pairs. What is left out depends on none but the pair's own.
+TEST(EarlyDepths, DoNotDependOnOtherPairs) {
+  std::vector<TestPair> pairs = make_pairs(rounds(600));
+  oracle::Random random(5);
+  for (size_t i = 0; i < 12; ++i) {
+    const double phase = random.uniform(0, 6);
+    const Mesh rough = ball_mesh(60, [&](double x, double y, double z) {
+      return 1 + 0.1 * std::sin(9 * x + phase) * std::sin(8 * y) + 0.05 * std::sin(13 * z);
+    });
+    TestPair pair = {{rough, Eigen::Vector3d::Zero()},
+                     {rough, random.uniform(0.3, 1.2) * random.direction()}};
+    pairs.insert(pairs.begin() + static_cast<ptrdiff_t>(random.below(pairs.size())), pair);
+  }
+  size_t others = 0;
+  for (const float tolerance : {0.0f, 0.01f, 0.1f}) {
+    SCOPED_TRACE(tolerance);
+    const std::vector<Row> together = rows_within(tolerance, pairs, Detail::contact);
+    std::vector<TestPair> backwards(pairs.rbegin(), pairs.rend());
+    std::vector<Row> turned_round = rows_within(tolerance, backwards, Detail::contact);
+    std::reverse(turned_round.begin(), turned_round.end());
+    EXPECT_TRUE(same_rows(together, turned_round, pairs));
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      const std::vector<Row> alone = rows_within(tolerance, {pairs[i]}, Detail::contact);
+      EXPECT_TRUE(same_rows({&together[i], 1}, alone, {&pairs[i], 1}));
+      others += tolerance > 0 &&
+                alone[0].separation != rows_within(0, {pairs[i]}, Detail::contact)[0].separation;
+    }
+  }
+  EXPECT_GT(others, rounds(8));
 }
 
 TEST(EarlyDepths, AreTheSameOnEveryIsa) {

@@ -1,4 +1,4 @@
-// What tests of Accuracy::tolerance share.
+// Tests of Accuracy::tolerance share this.
 #pragma once
 
 #include "carom/world/world.h"

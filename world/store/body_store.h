@@ -78,7 +78,7 @@ class BodyStore {
   const std::shared_ptr<const void>& geometry(uint32_t index) const { return geometry_[index]; }
   // How far the model that stands for the shape of a body may be from it, metres; 0: none does.
   double model_error(uint32_t index) const { return model_.empty() ? 0 : model_[index].error; }
-  // What the models of any pair leave of its tolerance, metres. 0 where a body has its own.
+  // The models of a pair leave at least this of its tolerance, metres. 0 where a body has its own.
   float spare_tolerance() const {
     if (!tolerance_.empty()) return 0;
     return static_cast<float>((tolerance_of_world_ - 2 * greatest_model_error_) * (1 - 0x1p-20));

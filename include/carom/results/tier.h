@@ -29,8 +29,8 @@ struct Accuracy {
   Tier tier = Tier::standard;  ///< how certain decisions are
 
   /// How wrong results may be, in metres, finite, >= 0; 0: the standard tier, to the bit. In calls
-  /// for pairs depths may be off by it: that of hulls may be too great, that of the deepest of the
-  /// parts of bodies too small; all else is as without it. The rest is about worlds. Results of a
+  /// for pairs depths may be off by it: that of two hulls may be too great, that of two
+  /// meshes too small; all else is as without it. The rest is about worlds. Results of a
   /// pair are then those of two shapes whose distances from the true ones (Hausdorff)
   /// are no more than this together. So a separation is off by the tolerance at most (beside the
   /// rounding of the standard tier), no overlap that is deeper is missed, and none is reported
