@@ -232,6 +232,30 @@ inline constexpr float kLeastProgress = 0x1p-21f;
 // both.
 inline constexpr float kSameGapInFloat = 0x1p-19f;
 
+// Shells (narrowphase/hulls/shell.h), by the greatest squared distance M of a triangle's corners
+// from zero. A product of two corners rounds by less than 2^-22 M, the normal of the triangle by
+// less than 2^-20 M, the volume by less than 2^-21 M^1.5, and a difference of two scalar products
+// by less than kShellSure M.
+inline constexpr float kShellSure = 0x1p-20f;
+
+// A triangle's plane is no nearer to zero than this share of M (M + 1), less than the volume, over
+// the length of the normal: both round by 1.5 x 2^-20 M^1.5.
+
+// Squares count as this share of themselves, which is less than sums of products round. It pays for
+// (a - b)^2 >= (1 - 2^-12) a^2 - 2^12 b^2, too, with b^2 = 2^-44 M^2 of a product of two corners:
+// the squared product, less kShellEdgeRest M^2, over the squared length is a bound of the distance
+// of the line through both.
+inline constexpr float kShellShare = 1 - 0x1p-11f;
+inline constexpr float kShellEdgeRest = 0x1p-31f;
+
+// Zero projects beside an edge if the normal and the product of the edge's corners point apart by
+// more than this share of M^2: 2.4 x 2^-20 of it is rounding.
+inline constexpr float kShellBeside = 0x1p-18f;
+
+// What the corners of a shell are off by, and the depth that it confirms: four roundings of placed
+// points.
+inline constexpr float kShellRounding = 0x1p-17f;
+
 // Between cores nearer than this float32 finds no reliable direction.
 inline constexpr float kNearCores = 0x1p-12f;
 

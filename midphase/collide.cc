@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cfloat>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,8 @@ struct CollideCall {
   bool composites = false;  // whether there may be meshes and compounds
   uint32_t* direction = nullptr;
   ExtraContacts* extra = nullptr;
+  ShellLists* shells = nullptr;
+  size_t first_row = 0;  // of the shells
 
   Pair pair(size_t i) const {
     const auto index = static_cast<uint32_t>(i);
@@ -135,20 +138,23 @@ void run_blocks(const CollideCall& call) {
       is_quick ? unless_few(options.parallelism, call.count) : options.parallelism;
   for_each_block(call.count, kPairsPerBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     if (has_contacts(call.detail)) fill_sub_shapes(call.out, begin, end);
-    const PairBlock block = {.a = call.a,
-                             .b = call.b,
-                             .pairs = call.pairs ? call.pairs + begin : nullptr,
-                             .first = begin,
-                             .count = end - begin,
-                             .detail = call.detail,
-                             .frame = options.frame,
-                             .measured = options.measured,
-                             .reach = distances      ? distances + begin
-                                      : has_distance ? one_distance.data()
-                                                     : nullptr,
-                             .direction = call.direction ? call.direction + begin : nullptr,
-                             .accuracy = options.accuracy,
-                             .out = from_row(call.out, begin)};
+    std::optional<KeptShells> shells;
+    if (call.shells) shells.emplace(*call.shells, call.first_row + begin, end - begin);
+    const PairBlock block = {
+        .a = call.a,
+        .b = call.b,
+        .pairs = call.pairs ? call.pairs + begin : nullptr,
+        .first = begin,
+        .count = end - begin,
+        .detail = call.detail,
+        .frame = options.frame,
+        .measured = options.measured,
+        .reach = distances      ? distances + begin
+                 : has_distance ? one_distance.data()
+                                : nullptr,
+        .memory = {call.direction ? call.direction + begin : nullptr, shells ? &*shells : nullptr},
+        .accuracy = options.accuracy,
+        .out = from_row(call.out, begin)};
     call.composites ? run_mixed_block(block, extra) : run_pair_block(block);
     if (block.out.point_names && has_contacts(call.detail)) name_simple_points(block);
   });
@@ -267,7 +273,8 @@ Result<void> collide_rows(const Collidables& a, const Collidables& b, Detail det
 void collide_pairs(const PairsOfWorld& tested, Detail detail, const ResultColumns& out,
                    const CollideOptions& options) {
   run_blocks({tested.bodies, tested.bodies, tested.pairs.data(), tested.pairs.size(), detail, out,
-              options, tested.has_composites, tested.direction, tested.extra});
+              options, tested.has_composites, tested.direction, tested.extra, tested.shells,
+              tested.first_row});
 }
 
 bool uses_directions(ShapeKind a, ShapeKind b) {

@@ -6,6 +6,7 @@
 #include "carom/narrowphase/collide.h"
 #include "midphase/extra_contacts.h"
 #include "narrowphase/batch/packed_direction.h"
+#include "narrowphase/blocks/kept_shells.h"
 
 namespace carom {
 
@@ -19,6 +20,9 @@ struct PairsOfWorld {
   // Results are the same. It must be nullptr unless only overlapping pairs are measured, without
   // contact distances.
   uint32_t* direction = nullptr;
+  // nullptr, or the shells of the step, with a tolerance; pair i is row first_row + i there.
+  ShellLists* shells = nullptr;
+  size_t first_row = 0;
   // nullptr, or at Detail::regions what receives the contacts beside the first one of a pair.
   ExtraContacts* extra = nullptr;
 };

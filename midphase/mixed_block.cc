@@ -61,9 +61,10 @@ void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
                       .measured = block.measured,
                       .accuracy = block.accuracy,
                       .out = out};
-  if (block.direction) {
-    for (size_t i = 0; i < rows.size(); ++i) scratch.direction[i] = block.direction[rows[i]];
-    simple.direction = scratch.direction.data();
+  uint32_t* const directions = block.memory.direction;
+  if (directions) {
+    for (size_t i = 0; i < rows.size(); ++i) scratch.direction[i] = directions[rows[i]];
+    simple.memory = {scratch.direction.data(), block.memory.shells};
   }
   if (block.reach) {
     for (size_t i = 0; i < rows.size(); ++i) scratch.reach[i] = block.reach[rows[i]];
@@ -71,8 +72,8 @@ void run_simple_pairs(const PairBlock& block, MixedScratch& scratch) {
   }
   run_pair_block(simple);
   copy_rows(out, block.out, block.detail, rows.size(), [rows](size_t i) { return rows[i]; });
-  for (size_t i = 0; block.direction && i < rows.size(); ++i) {
-    block.direction[rows[i]] = simple.direction[i];
+  for (size_t i = 0; directions && i < rows.size(); ++i) {
+    directions[rows[i]] = scratch.direction[i];
   }
 }
 

@@ -13,9 +13,9 @@ WorldMemory World::State::memory() const {
   memory.broadphase = finder.bytes() + selection.bytes() + halfspaces.bytes();
   memory.pairs_and_results = now.bytes() + last.bytes() + pair_changes.bytes() + plan.bytes() +
                              hold.bytes() + refresh.bytes() + gaps.bytes() + dops.pair_bytes() +
-                             directions.bytes() + results.bytes() + contact_stage.bytes() +
-                             sieve.bytes() + impacts.bytes() + speculative.bytes() +
-                             event_stage.bytes() + bytes_of(events);
+                             directions.bytes() + shells.bytes() + results.bytes() +
+                             contact_stage.bytes() + sieve.bytes() + impacts.bytes() +
+                             speculative.bytes() + event_stage.bytes() + bytes_of(events);
   return memory;
 }
 
@@ -43,6 +43,7 @@ void World::State::give_back_memory() {
   now.give_back();
   pair_changes.give_back();
   directions.give_back();
+  shells.give_back();
   impacts.give_back();
   speculative.give_back();
   event_stage.give_back();

@@ -314,6 +314,7 @@ void World::State::find_results() {
     run(Stage::narrowphase,
         [&] { directions_of_tests = directions.prepare(plan, last, settings.parallelism, now); });
   }
+  ShellLists* const lists = remembers ? prepare_shells() : nullptr;
   const size_t pairs = now.pairs.size();
   // Where most pairs are carried, more of them have as many to test.
   const size_t share = std::clamp<size_t>(pairs / std::max<size_t>(1, plan.tested()), 1, 64);
@@ -327,7 +328,7 @@ void World::State::find_results() {
     const PairRange range{begin, end, first_row, plan.rows_before(end) - first_row};
     run(Stage::narrowphase, [&] {
       test_pairs(plan.pairs_to_test(now.pairs), range,
-                 directions_of_tests ? directions_of_tests + first_row : nullptr);
+                 directions_of_tests ? directions_of_tests + first_row : nullptr, lists);
       if (drifts) measure_gaps(plan.pairs_to_test(now.pairs), range);
     });
     const ContactStage::Input found = {plan, last, results, bodies, settings};
@@ -339,6 +340,11 @@ void World::State::find_results() {
     if (has_contacts(settings.detail)) {
       write_contacts(range, found, velocities ? &*velocities : nullptr);
     }
+  }
+  if (lists) {
+    report.by_shells = shells.keep();
+  } else {
+    shells.forget();
   }
   if (remembers) {
     run(Stage::narrowphase, [&] { directions.keep(plan, settings.parallelism, now); });
@@ -359,7 +365,7 @@ void World::State::write_contacts(const PairRange& range, const ContactStage::In
 
 // Tests the rows of a range; `all`: the pairs of all rows.
 void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
-                              uint32_t* direction) {
+                              uint32_t* direction, ShellLists* lists) {
   const Collidables view = bodies.view();
   const bool composites = has_composites();
   const std::span<const Pair> pairs = all.subspan(range.first_row, range.rows);
@@ -377,7 +383,13 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
   if (has_distances()) {
     options.contact_distances = results.prepare_distances(pairs, distances(), settings.parallelism);
   }
-  collide_pairs({view, pairs, composites, direction, results.extra_of(settings.detail)},
+  collide_pairs({.bodies = view,
+                 .pairs = pairs,
+                 .has_composites = composites,
+                 .direction = direction,
+                 .shells = lists,
+                 .first_row = range.first_row,
+                 .extra = results.extra_of(settings.detail)},
                 settings.detail, columns, options);
   if (has_margin() || looks_ahead() || has_distances()) {
     results.reject_apart(pairs, present_bounds(), settings.parallelism);

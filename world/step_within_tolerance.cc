@@ -63,6 +63,17 @@ float World::State::tolerance_of_tests() const {
   return carries() && !drifts ? bodies.spare_tolerance() : 0;
 }
 
+// The lists of shells, if this step is to have any: their places are those of all pairs, so hulls
+// must not be few among the bodies. The pairs must have their directions.
+ShellLists* World::State::prepare_shells() {
+  constexpr size_t kFewest = 4;  // fewer than one in so many are few
+  if (tolerance_of_tests() <= 0 || kFewest * bodies.count_of(ShapeKind::hull) < bodies.size() ||
+      !shells.starts_step()) {
+    return nullptr;
+  }
+  return &shells.prepare(plan.tested());
+}
+
 // Tests the pairs that are due and are not tested otherwise.
 void World::State::refresh_due() {
   const RefreshStage::Input found = {
@@ -72,7 +83,7 @@ void World::State::refresh_due() {
   for (size_t begin = 0; begin < due; begin += at_once) {
     const PairRange range{0, 0, begin, std::min(at_once, due - begin)};
     run(Stage::narrowphase, [&] {
-      test_pairs(refresh.pairs(), range, nullptr);
+      test_pairs(refresh.pairs(), range, nullptr, nullptr);
       measure_gaps(refresh.pairs(), range);
     });
     run(Stage::results, [&] { refresh.take(range, found, now); });

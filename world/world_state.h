@@ -34,6 +34,7 @@
 #include "world/pairs/pair_history.h"
 #include "world/pairs/pair_sieve.h"
 #include "world/pairs/result_hold.h"
+#include "world/pairs/shell_memory.h"
 #include "world/query_index.h"
 #include "world/results/contact_stage.h"
 #include "world/results/event_stage.h"
@@ -179,7 +180,9 @@ struct World::State {
   void write_contacts(const PairRange& range, const ContactStage::Input& found,
                       const NormalVelocities* velocities);
   float tolerance_of_tests() const;
-  void test_pairs(std::span<const Pair> pairs, const PairRange& range, uint32_t* direction);
+  void test_pairs(std::span<const Pair> pairs, const PairRange& range, uint32_t* direction,
+                  ShellLists* lists);
+  ShellLists* prepare_shells();
   void measure_gaps(std::span<const Pair> all, const PairRange& range);
   void find_impacts();
   void forget_ahead();
@@ -211,6 +214,7 @@ struct World::State {
   DopStage dops;
   OuterStage outer;
   DirectionMemory directions;
+  ShellMemory shells;
   ResultBuffer results;
   ContactStage contact_stage;
   EventStage event_stage;

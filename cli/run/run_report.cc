@@ -139,7 +139,10 @@ Json to_json(const RunReport& report, const WorldOptions& options) {
   json["tested_pairs_per_frame"] = record.tested;
   json["kept_pairs_per_frame"] = record.kept;
   json["dropped_pairs_per_frame"] = record.dropped;
-  if (!report.ladders.empty()) json["tested_by_models_per_frame"] = record.by_models;
+  if (!report.ladders.empty()) {
+    json["tested_by_models_per_frame"] = record.by_models;
+    json["tested_by_shells_per_frame"] = record.by_shells;
+  }
   if (looks_ahead(report)) {
     json["swept_per_frame"] = record.swept;
     json["impacts_per_frame"] = record.impacts;
@@ -198,7 +201,10 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
     table.add({"impacts", extent(record.impacts)});
     table.add({"speculative contacts", extent(record.speculative)});
   }
-  if (!report.ladders.empty()) table.add({"pairs tested by models", extent(record.by_models)});
+  if (!report.ladders.empty()) {
+    table.add({"pairs tested by models", extent(record.by_models)});
+    table.add({"depths by shells", extent(record.by_shells)});
+  }
   table.add({"kept pairs", extent(record.kept)});
   if (settings.dop_bounds) table.add({"dropped pairs", extent(record.dropped)});
   table.add({"state hash", record.hash.text()});

@@ -33,6 +33,7 @@ struct BatchSide {
 enum class Pass : uint8_t {
   direction,  // overlap 0: the pair is separate along its old direction and needs no test
   recall,     // results of pairs whose closest features are those in `features`; others are unsure
+  shell,      // results of pairs whose shells prove depths within the slack; overlap 0: others
   test,       // decision and contact; separate pairs may have none if there is a distance pass
   distance,   // contact columns of separate pairs; for GJK kinds, all columns of all pairs
   clearance,  // GJK kinds only: decision, and the contact columns of separate pairs
@@ -55,6 +56,7 @@ enum class MorePasses : uint8_t {
 inline constexpr size_t kMostLanes = 16;
 
 struct OpenSearches;
+struct Shell;
 
 // Row i tests a[pairs[i].a] against b[pairs[i].b] and writes to row i of `out`. `out` has every
 // column that the detail fills.
@@ -81,7 +83,10 @@ struct Batch {
   const uint32_t* direction = nullptr;  // Pass::direction only: packed_direction.h
   uint64_t* features = nullptr;         // Pass::recall reads it, distance and clearance write it
   OpenSearches* open = nullptr;         // of the second stage: hulls/core_stages-inl.h
-  const float* reach = nullptr;         // contact distance by row, metres; nullptr: 0
+  // Each row's, or nullptr: Pass::shell uses those that there are, the test makes new ones
+  // (hulls/shell.h). nullptr: no row is to have one.
+  Shell* const* shells = nullptr;
+  const float* reach = nullptr;  // contact distance by row, metres; nullptr: 0
   // Pass::manifold only.
   ResultColumns tested;                    // separation, normal and point_a, relative to A
   const uint16_t* manifold_row = nullptr;  // the row of `out` for row i

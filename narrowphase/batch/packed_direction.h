@@ -1,5 +1,6 @@
-// Unit vectors in 32 bits, ten a component: precise enough to test whether two shapes are still
-// separate along them.
+// What a pair remembers of its last test, in 32 bits: a unit vector, ten bits a component, precise
+// enough to test whether two shapes are still separate along it; or that they overlapped, and where
+// their shell is.
 #pragma once
 
 #include <array>
@@ -11,6 +12,13 @@ namespace carom {
 inline constexpr float kDirectionSteps = 486;  // from 0 to 1; components up to 1.05 still fit
 inline constexpr float kDirectionZero = 512;
 inline constexpr uint32_t kNoDirection = 0;
+// Any other word from here on is no direction: the pair overlapped, and has no shell. A number of
+// steps follows this bit: so long it is not to get one.
+inline constexpr uint32_t kOverlapped = uint32_t{1} << 30;
+// Or it has one, whose place follows this bit.
+inline constexpr uint32_t kHasShell = uint32_t{1} << 31;
+
+inline bool is_direction(uint32_t word) { return word != kNoDirection && word < kOverlapped; }
 
 // kNoDirection if n is not a unit vector.
 inline uint32_t pack_direction(const std::array<float, 3>& n) {

@@ -53,12 +53,13 @@ class RowSelection {
   // count(), rounded up to whole vectors; the last row is repeated to fill them.
   size_t padded_count() const { return (count_ + kMostLanes - 1) / kMostLanes * kMostLanes; }
 
-  // The selected rows as a batch for `pass`. `unsure` and `features` are nullptr.
+  // The selected rows as a batch for `pass`. `unsure`, `features` and `shells` are nullptr.
   Batch batch(Pass pass) const {
     Batch selected = batch_;
     selected.pass = pass;
     selected.unsure = nullptr;
     selected.features = nullptr;
+    selected.shells = nullptr;
     selected.pairs = pairs_.data();
     selected.pairs_are_rows = false;
     selected.count = count_;

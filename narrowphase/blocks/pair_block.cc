@@ -140,7 +140,7 @@ class BlockRunner {
     whole.count = block_.count;
     whole.reach = block_.reach;
     whole.out = block_.out;
-    run_passes(kPairKinds[kind.index], whole, block_.measured, block_.direction, block_.accuracy);
+    run_passes(kPairKinds[kind.index], whole, block_.measured, block_.memory, block_.accuracy);
   }
 
   // Sorts the rows by counting.
@@ -173,20 +173,21 @@ class BlockRunner {
     part.out = as_asked(memory_.columns(), block_.out);
     for (size_t i = 0; block_.reach && i < count; ++i) reach_[i] = block_.reach[rows[i]];
     if (block_.reach) part.reach = reach_.data();
-    uint32_t* const direction = block_.direction ? directions_.data() : nullptr;
-    for (size_t i = 0; direction && i < count; ++i) direction[i] = block_.direction[rows[i]];
+    uint32_t* const directions = block_.memory.direction;
+    const PairMemory memory = {directions ? directions_.data() : nullptr, block_.memory.shells};
+    for (size_t i = 0; directions && i < count; ++i) directions_[i] = directions[rows[i]];
     for (size_t i = 0; part.out.features && i < count; ++i) {
       part.out.features[i] = block_.out.features[rows[i]];
     }
     if (layout_) {
-      run_passes(kPairKinds[kind.index], part, block_.measured, direction, block_.accuracy);
+      run_passes(kPairKinds[kind.index], part, block_.measured, memory, block_.accuracy);
     } else if (BodyReader{block_.a}.is_float64() || BodyReader{block_.b}.is_float64()) {
       run_packed<double>(kind, part, PositionLayout::records64);
     } else {
       run_packed<float>(kind, part, PositionLayout::records32);
     }
     scatter(kind, part.out, rows, count);
-    for (size_t i = 0; direction && i < count; ++i) block_.direction[rows[i]] = direction[i];
+    for (size_t i = 0; directions && i < count; ++i) directions[rows[i]] = directions_[i];
   }
 
   template <class T>
@@ -202,7 +203,7 @@ class BlockRunner {
     part.b = packed_b.side(b);
     part.layout = layout;
     part.pairs = kRowPairs.data();
-    run_passes(kPairKinds[kind.index], part, block_.measured, nullptr, block_.accuracy);
+    run_passes(kPairKinds[kind.index], part, block_.measured, {}, block_.accuracy);
   }
 
   // Copies results to the rows of the block, and exchanges the sides of flipped pairs.

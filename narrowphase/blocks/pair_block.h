@@ -19,8 +19,8 @@ struct PairBlock {
   Detail detail;  // Detail::regions is as Detail::manifold here
   WitnessFrame frame;
   Measured measured = Measured::all;
-  const float* reach = nullptr;   // contact distance of each row of the block; nullptr: 0
-  uint32_t* direction = nullptr;  // one for each row of the block; see run_passes()
+  const float* reach = nullptr;  // contact distance of each row of the block; nullptr: 0
+  PairMemory memory = {};        // by the rows of the block
   Accuracy accuracy;
   ResultColumns out;  // of the block
 };

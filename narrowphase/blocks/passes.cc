@@ -40,7 +40,7 @@ void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* di
                     RowFlags& open) {
   open.fill(1);
   RowSelection known(batch);
-  known.select([&](size_t row) { return direction[row] != kNoDirection; });
+  known.select([&](size_t row) { return is_direction(direction[row]); });
   if (known.count() == 0) return;
   std::array<uint32_t, kPairsPerBlock> known_direction;
   RowFlags known_open;
@@ -52,16 +52,62 @@ void run_directions(const PairKind& kind, const Batch& batch, const uint32_t* di
   known.scatter(known_open.data(), open.data());
 }
 
-// Stores the normals of the tested separate pairs. Without branches: they would be taken at random,
-// and predicted badly.
-void remember_directions(const Batch& batch, const RowFlags& tested, uint32_t* direction) {
+// Stores the normals of the separate pairs whose rows are not remembered yet. Without branches:
+// they would be taken at random, and predicted badly.
+void remember_directions(const Batch& batch, const RowFlags& is_remembered, uint32_t* direction) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
     const uint32_t found =
         pack_direction({out.normal[0][row], out.normal[1][row], out.normal[2][row]});
     const uint32_t apart = out.overlap[row] ? kNoDirection : found;
-    direction[row] = tested[row] ? apart : direction[row];
+    direction[row] = is_remembered[row] ? direction[row] : apart;
   }
+}
+
+// A shell or nullptr for each row.
+using RowShells = std::array<Shell*, kPairsPerBlock>;
+
+// Calls use(row) for the rows with this flag. Lists them first, without branches: they are as
+// random as overlaps.
+template <class Use>
+void for_each_flagged(const uint8_t* flags, size_t count, const Use& use) {
+  std::array<uint16_t, kPairsPerBlock + 1> rows;
+  size_t found = 0;
+  for (size_t row = 0; row < count; ++row) {
+    rows[found] = static_cast<uint16_t>(row);
+    found += flags[row] != 0 ? 1 : 0;
+  }
+  for (size_t i = 0; i < found; ++i) use(rows[i]);
+}
+
+// Closes the open rows whose shells prove their depths, and writes their results. `of_rows`: the
+// shells of this step.
+void run_shells(const PairKind& kind, const Batch& batch, const uint32_t* words, KeptShells& shells,
+                RowShells& of_rows, RowFlags& open) {
+  of_rows.fill(nullptr);
+  for_each_flagged(open.data(), batch.count,
+                   [&](size_t row) { of_rows[row] = shells.take(words[row]); });
+  RowSelection known(batch);
+  known.select([&](size_t row) { return of_rows[row] && of_rows[row]->triangle_count > 0; });
+  if (known.count() == 0) return;
+  RowShells of_known;
+  known.gather(of_rows.data(), of_known.data());
+  TestColumns scratch;
+  Batch proofs = known.batch(Pass::shell);
+  proofs.shells = of_known.data();
+  proofs.out = scratch.columns();
+  kind.run(proofs);
+  known.scatter(proofs.out, batch.out, batch.detail);
+  for (size_t i = 0; i < known.count(); ++i) open[known.rows()[i]] = !proofs.out.overlap[i];
+}
+
+// Stores where the shells of the pairs are that overlap; these rows are then remembered.
+void remember_shells(const Batch& batch, const RowShells& of_rows, KeptShells& shells,
+                     RowFlags& is_remembered, uint32_t* words) {
+  for_each_flagged(batch.out.overlap, batch.count, [&](size_t row) {
+    words[row] = shells.word_of(of_rows[row], words[row]);
+    is_remembered[row] = 1;
+  });
 }
 
 // Writes to `open` which rows still need a test, and the results of the others. `finds_depths`:
@@ -106,8 +152,13 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
   TestColumns scratch;
   RowFlags unsure{};
   std::array<uint64_t, kPairsPerBlock> features;
+  RowShells shells;
   Batch test = tested.batch(batch.pass);
   test.out = scratch.columns();
+  if (batch.shells) {
+    tested.gather(batch.shells, shells.data());
+    test.shells = shells.data();
+  }
   if (batch.unsure) test.unsure = unsure.data();
   if (batch.features) test.features = features.data();
   kind.run(test);
@@ -117,32 +168,41 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
 }
 
 // Sets the decisions of the rows that are known to be separate.
-void settle(const Batch& batch, const RowFlags& open) {
+void settle(const Batch& batch, const RowFlags& is_apart) {
   const ResultColumns& out = batch.out;
   for (size_t row = 0; row < batch.count; ++row) {
-    out.overlap[row] = open[row] ? out.overlap[row] : uint8_t{0};
-    out.status[row] = open[row] ? out.status[row] : static_cast<uint8_t>(Status::ok);
+    out.overlap[row] = is_apart[row] ? uint8_t{0} : out.overlap[row];
+    out.status[row] = is_apart[row] ? static_cast<uint8_t>(Status::ok) : out.status[row];
   }
   for (size_t row = 0; batch.unsure && row < batch.count; ++row) {
-    batch.unsure[row] = open[row] ? batch.unsure[row] : uint8_t{0};
+    batch.unsure[row] = is_apart[row] ? uint8_t{0} : batch.unsure[row];
   }
 }
 
-// Tests the pairs that are no longer separate along their known direction. Where nearly all of them
-// are open, all are tested: copying the results of those that are takes longer than testing the
-// others.
-void run_test(const PairKind& kind, const Batch& batch, uint32_t* direction) {
+// Tests the pairs that are no longer separate along their known direction, and whose shells do not
+// prove their depths. Where nearly all of them are open, all are tested: copying the results of
+// those that are takes longer than testing the others.
+void run_test(const PairKind& kind, Batch batch, const PairMemory& memory) {
   constexpr size_t kFewest = 4;  // fewer than one row in so many are few
-  RowFlags open;
-  run_directions(kind, batch, direction, open);
+  RowFlags open, is_apart;
+  run_directions(kind, batch, memory.direction, open);
+  for (size_t row = 0; row < batch.count; ++row) is_apart[row] = !open[row];
+  RowShells shells;
+  if (memory.shells) {
+    run_shells(kind, batch, memory.direction, *memory.shells, shells, open);
+    batch.shells = shells.data();
+  }
   const auto settled = static_cast<size_t>(std::count(open.begin(), open.begin() + batch.count, 0));
   if (kFewest * settled < batch.count) {
     kind.run(batch);
   } else {
     test_open(kind, batch, open);
   }
-  if (settled > 0) settle(batch, open);
-  remember_directions(batch, open, direction);
+  if (settled > 0) settle(batch, is_apart);
+  if (memory.shells) {
+    remember_shells(batch, shells, *memory.shells, is_apart, memory.direction);
+  }
+  remember_directions(batch, is_apart, memory.direction);
 }
 
 // `batch` has witness points relative to the bodies; manifolds get their points in `frame`.
@@ -180,12 +240,13 @@ void run_manifolds(const PairKind& kind, const Batch& batch, WitnessFrame frame,
 }
 
 void run_search(const PairKind& kind, const Batch& batch, const PassPlan& plan,
-                uint32_t* direction) {
+                const PairMemory& memory) {
   Batch search = batch;
   search.pass = plan.search;
   search.detail = plan.search_detail;
-  if (direction && plan.known == PassPlan::Known::directions) {
-    run_test(kind, batch, direction);
+  if (memory.direction && plan.known == PassPlan::Known::directions) {
+    const bool has_shells = memory.shells && batch.slack > 0 && kind.has_shell_pass();
+    run_test(kind, batch, {memory.direction, has_shells ? memory.shells : nullptr});
   } else if (plan.known == PassPlan::Known::features) {
     RowFlags open;
     run_recall(kind, batch, plan.search == Pass::distance, open);
@@ -213,9 +274,9 @@ void run_points(const PairKind& kind, const Batch& batch, WitnessFrame frame,
 
 }  // namespace
 
-void run_passes(const PairKind& kind, const Batch& asked, Measured measured, uint32_t* direction,
-                const Accuracy& accuracy) {
-  const PassPlan plan = plan_passes(kind, asked, measured, direction != nullptr, accuracy);
+void run_passes(const PairKind& kind, const Batch& asked, Measured measured,
+                const PairMemory& memory, const Accuracy& accuracy) {
+  const PassPlan plan = plan_passes(kind, asked, measured, memory.direction != nullptr, accuracy);
   RowFlags unsure;
   Batch batch = asked;
   batch.single_precision = plan.single_precision;
@@ -227,7 +288,7 @@ void run_passes(const PairKind& kind, const Batch& asked, Measured measured, uin
     std::fill_n(unsure.begin(), batch.count, uint8_t{0});
     batch.unsure = unsure.data();
   }
-  run_search(kind, batch, plan, direction);
+  run_search(kind, batch, plan, memory);
   if (plan.measures_separate) run_distances(kind, batch, plan.measures_invalid);
   if (plan.proves) decide_unsure(kind, batch, accuracy.tier);
   if (plan.bounds) bound_separations(kind, batch);

@@ -3,15 +3,23 @@
 
 #include "carom/results/tier.h"
 #include "narrowphase/batch/column_memory.h"
+#include "narrowphase/blocks/kept_shells.h"
 #include "narrowphase/pairs/pair_kinds.h"
 
 namespace carom {
 
+// What the pairs of a batch remember from step to step. Everything is for details with contacts and
+// Measured::overlapping.
+struct PairMemory {
+  // nullptr, or for every row a direction in which the pair may be separate (packed_direction.h).
+  // The direction pass tests it first, and run_passes() writes the new directions back.
+  uint32_t* direction = nullptr;
+  // nullptr, or the shells of pairs that overlap. Depths within the tolerance are proved by them.
+  KeptShells* shells = nullptr;
+};
+
 // Runs `batch` of at most kPairsPerBlock pairs; its `out` has every column that the detail fills.
-// `direction`: nullptr, or for every row a direction in which the pair may be separate
-// (packed_direction.h). At details with contacts the direction pass tests it first, and
-// run_passes() writes the new directions back; `measured` must then be Measured::overlapping.
-void run_passes(const PairKind& kind, const Batch& batch, Measured measured, uint32_t* direction,
-                const Accuracy& accuracy);
+void run_passes(const PairKind& kind, const Batch& batch, Measured measured,
+                const PairMemory& memory, const Accuracy& accuracy);
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 
 #include "base/few_of.h"
 #include "narrowphase/doubles/convex.h"
+#include "narrowphase/hulls/shell_growth.h"
 
 namespace carom {
 namespace {
@@ -51,6 +52,7 @@ class DepthSearch {
     b_ = pair.b;
     steps_ = &steps;
     slack_ = pair.slack;
+    shell_ = pair.shell;
     is_doubtful_ = !a_->is_known() || !b_->is_known();
     may_cross_ = has_crossing_ = false;
     const Quaternion<float> unturned{Vector3f::Zero(), 1};
@@ -65,8 +67,7 @@ class DepthSearch {
   // After the set-up of the frames.
   void place_points(const DeepFrames& frames, size_t i) {
     if (is_doubtful_) return;
-    DeepFrames::get(frames.b_to_a, i, turn_);
-    DeepFrames::get(frames.b_from_a, i, centre_);
+    place_in_a(frames, i);
     DeepFrames::get(frames.middle_a_in_b, i, in_a_.middle);
     DeepFrames::get(frames.middle_b_in_a, i, in_b_.middle);
     in_a_.radius = a_->inner_radius * a_->scale;
@@ -80,10 +81,34 @@ class DepthSearch {
     }
     Vector3f a_from_b;
     DeepFrames::get(frames.a_from_b, i, a_from_b);
-    const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
-    steps_->place(*a_, unturned, Vector3f::Zero(), own_a_);
-    steps_->place(*b_, turn_, centre_, b_in_a_);
     steps_->place(*a_, back, a_from_b, a_in_b_);
+  }
+
+  // Takes the depth that the pair's shell proves, or a new one, and writes place i of the frames.
+  // After the set-up of the frames, in place of all other steps.
+  void measure_shell(ShellSpace& space, DeepFrames& frames, size_t i) {
+    is_doubtful_ = is_doubtful_ || !shell_ || a_->dop || b_->dop;
+    if (is_doubtful_) return;
+    place_in_a(frames, i);
+    const ShellHulls hulls{own_a_, b_in_a_, *steps_};
+    ShellDepth found;
+    bool is_found = shell_->is_of(a_->point_count, b_->point_count) &&
+                    ShellGrowth(*shell_, hulls, space).measure(slack_, found);
+    if (!is_found) {
+      Vector3f from_a_to_b;
+      DeepFrames::get(frames.middle_b_in_a, i, from_a_to_b);
+      from_a_to_b -= a_->middle * a_->scale;
+      *shell_ = {};
+      ShellGrowth growth(*shell_, hulls, space);
+      growth.begin(from_a_to_b);
+      is_found = growth.measure(slack_, found);
+      is_found ? growth.end() : void(*shell_ = {});
+    }
+    is_doubtful_ = !is_found || !(found.depth > kSureGap);
+    if (is_doubtful_) return;
+    gap_ = -found.depth;
+    normal_ = found.normal;
+    put(found.on_a, frames, i);
   }
 
   // Finds the best face, and the edges whose axes may be better, or as good up to rounding.
@@ -115,10 +140,7 @@ class DepthSearch {
   void locate(DeepFrames& frames, size_t i) {
     Vector3f on_a;
     is_doubtful_ = is_doubtful_ || !find_location(on_a);
-    if (is_doubtful_) return;
-    DeepFrames::put(normal_, frames.normal, i);
-    DeepFrames::put(on_a, frames.arm_a, i);
-    frames.gap[i] = gap_;
+    if (!is_doubtful_) put(on_a, frames, i);
   }
 
   // After the frames are finished.
@@ -133,6 +155,20 @@ class DepthSearch {
   }
 
  private:
+  void place_in_a(const DeepFrames& frames, size_t i) {
+    DeepFrames::get(frames.b_to_a, i, turn_);
+    DeepFrames::get(frames.b_from_a, i, centre_);
+    const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
+    steps_->place(*a_, unturned, Vector3f::Zero(), own_a_);
+    steps_->place(*b_, turn_, centre_, b_in_a_);
+  }
+
+  void put(const Vector3f& on_a, DeepFrames& frames, size_t i) const {
+    DeepFrames::put(normal_, frames.normal, i);
+    DeepFrames::put(on_a, frames.arm_a, i);
+    frames.gap[i] = gap_;
+  }
+
   // --- Faces ---
 
   // The best faces of both solids. Of the one that is less than the other's, it only finds that.
@@ -248,6 +284,7 @@ class DepthSearch {
   const Solid *a_, *b_;
   const HullSteps* steps_;
   float slack_;
+  Shell* shell_;
   Rotation<float> turn_;  // from B to A
   Vector3f centre_;       // position of B in the frame of A
   Ball in_a_, in_b_;      // inside A in the frame of B, and inside B in that of A
@@ -272,6 +309,7 @@ struct Memory {
   std::array<DepthSearch, kMostDeepPairs> searches;
   FaceBounds bounds_a, bounds_b;
   DopEdges dop_a, dop_b;
+  ShellSpace space;
 };
 
 // Not in the thread's own memory, which every thread of the program would get. Not inlined, because
@@ -281,21 +319,37 @@ struct Memory {
   return *memory;
 }
 
+std::span<DepthSearch> begin(std::span<const DeepPair> pairs, const HullSteps& steps,
+                             Memory& memory) {
+  memory.frames.count = pairs.size();
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    memory.searches[i].begin(pairs[i], steps, memory.frames, i);
+  }
+  steps.set_up(memory.frames);
+  return std::span(memory.searches).first(pairs.size());
+}
+
 }  // namespace
 
 void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps, Separation* contacts) {
   Memory& memory = memory_of_thread();
   DeepFrames& frames = memory.frames;
-  const std::span<DepthSearch> searches(memory.searches.data(), pairs.size());
-  frames.count = pairs.size();
-  for (size_t i = 0; i < pairs.size(); ++i) searches[i].begin(pairs[i], steps, frames, i);
-  steps.set_up(frames);
+  const std::span<DepthSearch> searches = begin(pairs, steps, memory);
   for (size_t i = 0; i < pairs.size(); ++i) {
     searches[i].place_points(frames, i);
     searches[i].find_faces(memory.bounds_a, memory.bounds_b);
   }
   for (DepthSearch& search : searches) search.cross_edges(memory.dop_a, memory.dop_b);
   for (size_t i = 0; i < pairs.size(); ++i) searches[i].locate(frames, i);
+  steps.finish(frames);
+  for (size_t i = 0; i < pairs.size(); ++i) contacts[i] = searches[i].contact(frames, i);
+}
+
+void shell_depths(std::span<const DeepPair> pairs, const HullSteps& steps, Separation* contacts) {
+  Memory& memory = memory_of_thread();
+  DeepFrames& frames = memory.frames;
+  const std::span<DepthSearch> searches = begin(pairs, steps, memory);
+  for (size_t i = 0; i < pairs.size(); ++i) searches[i].measure_shell(memory.space, frames, i);
   steps.finish(frames);
   for (size_t i = 0; i < pairs.size(); ++i) contacts[i] = searches[i].contact(frames, i);
 }

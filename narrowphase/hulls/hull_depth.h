@@ -14,6 +14,7 @@
 #include <span>
 
 #include "narrowphase/hulls/deep_frames.h"
+#include "narrowphase/hulls/shell.h"
 #include "narrowphase/hulls/solid.h"
 #include "narrowphase/scalar/separation.h"
 
@@ -146,10 +147,17 @@ struct HullSteps {
   // greater than `gap`; the first of equals. turn * p + offset takes B to the frame of A.
   Crossing (*cross)(const CrossedEdges& a, const CrossedEdges& b,
                     const scalar::Rotation<float>& turn, const Vector3f& offset, float gap);
+  FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
   // The furthest point, and the number of points that reach as far up to kFacingSlack.
   FacingPoints (*facing)(const HullPoints& points, const Vector3f& way);
   // Whether a point is inside, up to rounding; in the frame of the solid.
   bool (*is_inside)(const Solid& solid, const Vector3f& point);
+  // How near the planes of a shell come to zero. Computes normals and volumes.
+  ShellCheck (*check_planes)(const Shell& shell, ShellSpace& space);
+  // How near its triangles come, which takes longer; where zero is inside.
+  ShellCheck (*check_edges)(const Shell& shell, const ShellSpace& space);
+  // A bit for each triangle that the point is in front of; after check_shell().
+  uint64_t (*in_front)(const Shell& shell, const ShellSpace& space, const Vector3f& point);
 };
 
 // Two solids that surely overlap, in scaled units.
@@ -158,7 +166,8 @@ struct DeepPair {
   const Solid* b;
   Vector3f d;  // position of B relative to A
   scalar::Quaternion<float> turn_a, turn_b;
-  float slack = 0;  // by how much the depth that is found may exceed the least one
+  float slack = 0;         // by how much the depth that is found may exceed the least one
+  Shell* shell = nullptr;  // for shell_depths(), which changes it; nullptr: there is to be none
 };
 
 // The contacts of up to kMostDeepPairs pairs. With a slack the search leaves out axes that are
@@ -166,6 +175,12 @@ struct DeepPair {
 // points are not unique. Poses are turned a pair a lane. Each step of the search is taken for all
 // pairs before the next one.
 void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps,
+                  scalar::Separation* contacts);
+
+// The same by shells alone, of hulls that may be apart: those of the last step, or new ones where
+// there are none or they prove nothing. The depth that is found may be too small by the slack as
+// well. Unsure, and the shell without triangles, where no shell proves a depth.
+void shell_depths(std::span<const DeepPair> pairs, const HullSteps& steps,
                   scalar::Separation* contacts);
 
 // Makes the contact of the cores of two shapes that of the shapes.

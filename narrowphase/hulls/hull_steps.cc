@@ -5,9 +5,12 @@
 #define HWY_TARGET_INCLUDE "narrowphase/hulls/hull_steps.cc"
 #include <hwy/foreach_target.h>
 // After the loop over targets.
+#include <bit>
+
 #include "narrowphase/hulls/deep_frames-inl.h"
 #include "narrowphase/hulls/hull_edges-inl.h"
 #include "narrowphase/hulls/hull_steps.h"
+#include "narrowphase/hulls/shell_check-inl.h"
 #include "simd/first_of_most-inl.h"
 #include "simd/rotation-inl.h"
 
@@ -89,16 +92,30 @@ HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
                    hn::LoadU(tag, points.column(2) + i)});
 }
 
+// Finds the greatest height first, and then its place: fewer instructions than to keep both.
 FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
+  const FloatTag tag;
   const F3 n = in_all_lanes(way);
-  const Mask all = hn::Not(no_lanes());
-  FirstOfMost best = FirstOfMost::none();
-  F index = lane_indices();
-  for (size_t i = 0; i < points.padded; i += kLanes) {
-    best.keep(all, heights(points, n, i), index);
-    index = hn::Add(index, splat(kLanes));
+  HWY_ALIGN float found[kMostLanePoints];
+  F most = heights(points, n, 0);
+  hn::Store(most, tag, found);
+  for (size_t i = kLanes; i < points.padded; i += kLanes) {
+    const F height = heights(points, n, i);
+    hn::Store(height, tag, found + i);
+    most = max(most, height);
   }
-  return {best.first_of(points.count), best.value()};
+  const F greatest = hn::MaxOfLanes(tag, most);
+  // Without a branch on the place, which nobody can predict.
+  static_assert(kMostLanePoints == 128);
+  std::array<uint64_t, 2> places{};
+  for (size_t i = 0; i < points.padded; i += kLanes) {
+    const Mask is_it = hn::Eq(hn::Load(tag, found + i), greatest);
+    places[i / 64] |= bits_of(tag, is_it) << i % 64;
+  }
+  const auto low = static_cast<size_t>(std::countr_zero(places[0]));
+  const auto high = static_cast<size_t>(std::countr_zero(places[1]));
+  const size_t place = low < 64 ? low : 64 + high;
+  return {place < points.count ? place : 0, hn::GetLane(greatest)};  // heights may be no numbers
 }
 
 TriedFace try_face(const Solid& solid, const HullPoints& points, size_t face, FaceBounds& bounds) {
@@ -158,8 +175,9 @@ bool is_inside(const Solid& solid, const Vector3f& point) {
 
 const HullSteps& hull_steps() {
   static constexpr HullSteps kSteps = {
-      &set_up_frames, &finish_frames,   &place_points, &bound_faces,   &try_face,
-      &try_all_faces, &find_open_edges, &cross_edges,  &facing_points, &is_inside};
+      &set_up_frames, &finish_frames,   &place_points, &bound_faces,      &try_face,
+      &try_all_faces, &find_open_edges, &cross_edges,  &furthest_of_hull, &facing_points,
+      &is_inside,     &check_planes,    &check_edges,  &in_front};
   return kSteps;
 }
 

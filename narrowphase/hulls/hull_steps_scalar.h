@@ -5,6 +5,7 @@
 
 #include "narrowphase/hulls/deep_frames_scalar.h"
 #include "narrowphase/hulls/hull_depth.h"
+#include "narrowphase/hulls/shell_check_scalar.h"
 
 namespace carom::scalar {
 
@@ -134,7 +135,8 @@ inline bool is_inside(const Solid& solid, const Vector3f& point) {
 }
 
 inline constexpr HullSteps kHullSteps = {
-    &set_up_frames, &finish_frames,   &place_points, &bound_faces,   &try_face,
-    &try_all_faces, &find_open_edges, &cross_edges,  &facing_points, &is_inside};
+    &set_up_frames, &finish_frames,   &place_points, &bound_faces,      &try_face,
+    &try_all_faces, &find_open_edges, &cross_edges,  &furthest_of_hull, &facing_points,
+    &is_inside,     &check_planes,    &check_edges,  &in_front};
 
 }  // namespace carom::scalar

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -12,6 +13,7 @@
 #include "narrowphase/doubles/furthest.h"
 #include "narrowphase/hulls/fetch_solid.h"
 #include "narrowphase/hulls/hull_steps.h"
+#include "narrowphase/hulls/shell.h"
 #include "narrowphase/pairs/all_pairs.h"
 #include "narrowphase/pairs/core_row.h"
 #include "narrowphase/pairs/manifold_batch.h"
@@ -67,11 +69,35 @@ class RowTester {
   }
 
   // Tests rows whose cores surely overlap, whose bodies are valid. Rows may wait until finish().
-  void run_deep(std::span<const uint16_t> rows) {
+  void run_deep(std::span<uint16_t> rows) {
     static_assert(kIsSolid<FloatShape<A>> && kIsSolid<FloatShape<B>>);
+    if (batch_.shells) rows = rows.first(run_shells(rows));
     for (size_t first = 0; first < rows.size(); first += kMostDeepPairs) {
       run_deep_group(rows, first, std::min(rows.size(), first + kMostDeepPairs));
     }
+  }
+
+  // Tests rows by their shells. Returns how many are left, where no shell proves a depth; they are
+  // the first ones then.
+  size_t run_shells(std::span<uint16_t> rows) {
+    std::array<DeepRow, kMostDeepPairs> placed;
+    std::array<DeepPair, kMostDeepPairs> pairs;
+    std::array<scalar::Separation, kMostDeepPairs> contacts;
+    size_t left = 0;
+    for (size_t begin = 0; begin < rows.size(); begin += kMostDeepPairs) {
+      const size_t count = std::min(rows.size() - begin, kMostDeepPairs);
+      for (size_t i = 0; i < count; ++i) place(rows[begin + i], placed[i], pairs[i]);
+      shell_depths({pairs.data(), count}, steps_, contacts.data());
+      for (size_t i = 0; i < count; ++i) {
+        const uint16_t row = rows[begin + i];
+        if (contacts[i].is_unsure) {
+          rows[left++] = row;
+        } else {
+          put_depth(row, contacts[i], placed[i]);
+        }
+      }
+    }
+    return left;
   }
 
   // Tests a row in double precision. Both bodies are valid. The row may wait until finish().
@@ -122,11 +148,15 @@ class RowTester {
       if (s.is_unsure) {
         run(rows[begin + i]);
       } else {
-        grow(s, *placed[i].shape_a);
-        put_in_metres(s, placed[i].scale);
-        store_.put(rows[begin + i], s.status, numbers_of(s));
+        put_depth(rows[begin + i], s, placed[i]);
       }
     }
+  }
+
+  void put_depth(size_t row, scalar::Separation& s, const DeepRow& placed) const {
+    grow(s, *placed.shape_a);
+    put_in_metres(s, placed.scale);
+    store_.put(row, s.status, numbers_of(s));
   }
 
   void place(size_t row, DeepRow& placed, DeepPair& deep) const {
@@ -143,7 +173,8 @@ class RowTester {
             scalar::scaled_pose(pose, placed.scale).d,
             pose.a,
             pose.b,
-            batch_.slack * placed.scale.down};
+            batch_.slack * placed.scale.down,
+            batch_.shells ? batch_.shells[row] : nullptr};
   }
 
   // Asks for the hulls of the rows after row i of the list. Hulls are mostly shared by many bodies,
@@ -235,13 +266,19 @@ void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
   if (batch.pass == Pass::manifold) return run_manifolds(batch, kind_a, kind_b, in_lanes);
   if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
   RowTester<A, B> rows(batch, kind_a, kind_b);
+  std::array<uint16_t, kPairsPerBlock + 1> deep, unsure;
+  if (batch.pass == Pass::shell) {
+    std::iota(deep.begin(), deep.begin() + batch.count, uint16_t{0});
+    std::fill_n(batch.out.overlap, batch.count, uint8_t{0});
+    rows.run_shells({deep.data(), batch.count});
+    return;
+  }
   std::array<uint8_t, kPairsPerBlock> left{};
   Batch lanes = batch;
   lanes.unsure = left.data();
   in_lanes(lanes);
   // Lists the deferred rows first, without branches: they are as random as overlaps, and would be
   // predicted badly.
-  std::array<uint16_t, kPairsPerBlock + 1> deep, unsure;
   size_t deep_count = 0, unsure_count = 0;
   for (size_t row = 0; row < batch.count; ++row) {
     deep[deep_count] = unsure[unsure_count] = static_cast<uint16_t>(row);

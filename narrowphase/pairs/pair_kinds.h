@@ -20,6 +20,7 @@ struct PairKind {
   bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
   // Where the test takes longer than looking for the direction of the last step.
   bool has_direction_pass() const { return measures_at_once(); }
+  bool has_shell_pass() const { return a == ShapeKind::hull && b == ShapeKind::hull; }
   bool has_distance_pass() const { return more == MorePasses::distance || measures_at_once(); }
   bool has_manifold_pass() const { return more != MorePasses::none; }
 };

@@ -21,7 +21,7 @@ size_t match_directions(const PairHistory& last, PairHistory& now, size_t begin,
     const uint32_t same = key_before == key ? 0xffffffffu : 0u;
     const uint32_t direction = last.direction[before] & same;
     now.direction[i] = direction;
-    known += direction != kNoDirection;
+    known += is_direction(direction) || (direction & kHasShell) != 0;
     before += key_before <= key;
     i += key <= key_before;
   }
@@ -57,28 +57,35 @@ uint32_t* DirectionMemory::prepare(const CarryPlan& plan, const PairHistory& las
     judge(known, plan.tested());
   }
   resize_for_overwriting(tested_, plan.tested());
-  for_each_tested(plan, now.pairs.size(), parallelism,
-                  [&](size_t i, size_t row) { tested_[row] = now.direction[i]; });
+  for_each(
+      plan, now.pairs.size(), parallelism,
+      [&](size_t i, size_t row) { tested_[row] = now.direction[i]; }, [](size_t) {});
   return tested_.data();
 }
 
 void DirectionMemory::keep(const CarryPlan& plan, Parallelism parallelism, PairHistory& now) const {
-  for_each_tested(plan, now.pairs.size(), parallelism,
-                  [&](size_t i, size_t row) { now.direction[i] = tested_[row]; });
+  for_each(
+      plan, now.pairs.size(), parallelism,
+      [&](size_t i, size_t row) { now.direction[i] = tested_[row]; },
+      [&](size_t i) {
+        if (!is_direction(now.direction[i])) now.direction[i] = kNoDirection;
+      });
 }
 
-// Calls use(pair, row) for each pair that is tested.
-template <class Use>
-void DirectionMemory::for_each_tested(const CarryPlan& plan, size_t pairs, Parallelism parallelism,
-                                      const Use& use) const {
+// Calls tested(pair, row) for each pair that is tested, and other(pair) for all others.
+template <class Tested, class Other>
+void DirectionMemory::for_each(const CarryPlan& plan, size_t pairs, Parallelism parallelism,
+                               const Tested& tested, const Other& other) const {
   for_each_block(pairs, kPairsPerMergeBlock, parallelism, [&](size_t, size_t begin, size_t end) {
     const auto open = [&](size_t first, size_t stop, size_t number) {
       for (size_t i = first; i < stop; ++i, ++number) {
         const size_t row = plan.row(number);
-        if (row < plan.tested()) use(i, row);
+        row < plan.tested() ? tested(i, row) : other(i);
       }
     };
-    plan.for_each_stretch(begin, end, open, [](const CarriedRun&) {});
+    plan.for_each_stretch(begin, end, open, [&](const CarriedRun& run) {
+      for (size_t i = run.begin; i < run.end; ++i) other(i);
+    });
   });
 }
 

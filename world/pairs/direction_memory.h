@@ -21,16 +21,17 @@ class DirectionMemory {
   uint32_t* prepare(const CarryPlan& plan, const PairHistory& last, Parallelism parallelism,
                     PairHistory& now);
 
-  // Writes the new directions of these pairs to `now`, after the tests.
+  // Writes the new directions of these pairs to `now`, after the tests. Other pairs lose their
+  // shells, since a place of a shell is good for one step.
   void keep(const CarryPlan& plan, Parallelism parallelism, PairHistory& now) const;
 
   void give_back();
   size_t bytes() const;
 
  private:
-  template <class Use>
-  void for_each_tested(const CarryPlan& plan, size_t pairs, Parallelism parallelism,
-                       const Use& use) const;
+  template <class Tested, class Other>
+  void for_each(const CarryPlan& plan, size_t pairs, Parallelism parallelism, const Tested& tested,
+                const Other& other) const;
 
   // Begins a pause if the pairs with a known direction are few beside those to test.
   void judge(size_t known, size_t tested);

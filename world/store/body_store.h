@@ -137,7 +137,8 @@ class BodyStore {
   }
 
   // Inputs of the stages.
-  bool has_kind(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)] > 0; }
+  size_t count_of(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)]; }
+  bool has_kind(ShapeKind kind) const { return count_of(kind) > 0; }
   Collidables view() const;
   // The columns of the filter; its other parts are those of a default one.
   PairFilter filter() const;

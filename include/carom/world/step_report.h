@@ -39,9 +39,11 @@ struct StepReport {
   size_t pairs = 0;        ///< candidate pairs
   size_t tested = 0;       ///< pairs that the narrow phase tested
   size_t by_models =
-      0;               ///< of these, those of a body that a model stands for (carom/shapes/rungs.h)
-  size_t kept = 0;     ///< pairs that kept the result of the last step
-  size_t dropped = 0;  ///< pairs not tested because their k-DOPs or hulls are separate
+      0;  ///< of these, those of a body that a model stands for (carom/shapes/rungs.h)
+  /// Of these, those whose depth the shell of the last step proved within the tolerance (hulls).
+  size_t by_shells = 0;
+  size_t kept = 0;         ///< pairs that kept the result of the last step
+  size_t dropped = 0;      ///< pairs not tested because their k-DOPs or hulls are separate
   size_t overlaps = 0;     ///< overlapping pairs, sensors included
   size_t contacts = 0;     ///< World::contacts()
   size_t left_out = 0;     ///< contacts beyond RegionLimits::most, at Detail::regions

@@ -90,6 +90,7 @@ void aabb_box(const Batch& batch) {
       return run_manifold<AabbLanes, BoxLanes>(batch);
     case Pass::clearance:  // these are only for GJK kinds
     case Pass::recall:
+    case Pass::shell:
     case Pass::direction:
       return;
   }

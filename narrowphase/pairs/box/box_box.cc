@@ -80,6 +80,7 @@ void box_box(const Batch& batch) {
       return run_manifold<BoxLanes, BoxLanes>(batch);
     case Pass::clearance:  // these are only for GJK kinds
     case Pass::recall:
+    case Pass::shell:
     case Pass::direction:
       return;
   }
