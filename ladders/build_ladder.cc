@@ -11,6 +11,7 @@
 #include "carom/hulls/simplify_hull.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "ladders/box_model.h"
 #include "ladders/capsule_model.h"
 #include "ladders/simplify_mesh.h"
 
@@ -22,9 +23,13 @@ struct Model {
   std::optional<Rung> rung;
   size_t pieces = 0;
   std::string refused;
+  std::optional<BoxModel> box = std::nullopt;  // if the rung is the box of a child: where it lies
 };
 
 Model refused(std::string why) { return {.rung = std::nullopt, .refused = std::move(why)}; }
+
+// Whose shape it is. A body that is a box has it about its origin, a child has a pose that is free.
+enum class Owner { body, child };
 
 constexpr const char* kNoGain = "nothing markedly simpler was found within it";
 
@@ -71,7 +76,18 @@ Model model_of(const MeshGeometry& mesh, double most) {
   return {Rung{Mesh{std::move(simpler->geometry)}, simpler->error}, triangles, {}};
 }
 
-Model simplest_of(const Shape& shape, double most);
+Model simplest_of(const Shape& shape, Owner owner, double most);
+
+// Puts the model in place of the shape, and says how far the two are apart at most.
+double replace_shape(CompoundChild& child, const Model& model) {
+  if (!model.box) {
+    child.shape = model.rung->shape;
+    return model.rung->error;
+  }
+  const BoxModel box = placed(*model.box, child);
+  child = box.box;
+  return box.error;
+}
 
 // The union of the models of the children, or of those that have none.
 Model model_of(const CompoundGeometry& compound, double most) {
@@ -85,17 +101,29 @@ Model model_of(const CompoundGeometry& compound, double most) {
     const void* const geometry =
         hull ? static_cast<const void*>(hull->geometry.get()) : mesh->geometry.get();
     auto [place, is_new] = known.try_emplace(geometry);
-    if (is_new) place->second = simplest_of(child.shape, most);
-    const Model& model = place->second;
-    if (!model.rung) continue;
-    child.shape = model.rung->shape;
-    error = std::max(error, model.rung->error);
+    if (is_new) place->second = simplest_of(child.shape, Owner::child, most);
+    if (!place->second.rung) continue;
+    CompoundChild simpler = child;
+    const double apart = replace_shape(simpler, place->second);
+    if (apart > most) continue;  // so far out that float32 rounds its place too much
+    child = std::move(simpler);
+    error = std::max(error, apart);
   }
   if (error == 0) return refused(kNoGain);
   auto simpler = make_compound(children);
   if (!simpler) return refused(simpler.error().message);
   const Shape shape = Compound{std::move(*simpler)};
   return {Rung{shape, error}, pieces_of(shape), {}};
+}
+
+// The box of a hull, if one is within the error.
+std::optional<Model> box_of(const HullGeometry& hull, Owner owner, double most) {
+  const bool is_body = owner == Owner::body;
+  std::optional<BoxModel> box = is_body ? box_of_body(hull) : box_of_child(hull);
+  if (!box || !(box->error <= most)) return std::nullopt;
+  Model model{Rung{box->box.shape, box->error}, 1, {}};
+  if (!is_body) model.box = std::move(box);
+  return model;
 }
 
 Model model_of(const Shape& shape, double most) {
@@ -106,9 +134,12 @@ Model model_of(const Shape& shape, double most) {
   return refused("shapes of this kind have no simpler model");
 }
 
-Model simplest_of(const Shape& shape, double most) {
+Model simplest_of(const Shape& shape, Owner owner, double most) {
   std::optional<Rung> capsule = capsule_model(shape);
   if (capsule && capsule->error <= most) return {std::move(capsule), 1, {}};
+  if (const auto* hull = std::get_if<Hull>(&shape)) {
+    if (std::optional<Model> box = box_of(*hull->geometry, owner, most)) return std::move(*box);
+  }
   return model_of(shape, most);
 }
 
@@ -144,10 +175,11 @@ Result<LadderedShape> build_ladder(const Shape& shape, std::span<const double> e
   LadderedShape result{shape, {.pieces = ladders::pieces_of(shape), .entries = {}}};
   auto ladder = std::make_shared<Ladder>();
   for (const double most : errors) {
-    ladders::Model model = ladders::simplest_of(shape, most);
+    ladders::Model model = ladders::simplest_of(shape, ladders::Owner::body, most);
     const bool is_capsule = model.rung && std::holds_alternative<Capsule>(model.rung->shape);
+    const bool is_box = model.rung && std::holds_alternative<Box>(model.rung->shape);
     result.report.entries.push_back({most, model.rung ? model.rung->error : 0, model.pieces,
-                                     is_capsule, std::move(model.refused)});
+                                     is_capsule, is_box, std::move(model.refused)});
     if (!model.rung) continue;
     const bool is_coarser = ladder->rungs.empty() || model.rung->error > ladder->rungs.back().error;
     if (is_coarser) ladder->rungs.push_back(std::move(*model.rung));

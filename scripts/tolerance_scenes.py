@@ -2,6 +2,7 @@
 """Writes the scenes by which docs/accuracy.md measures what a tolerance buys.
 
   tolerance_scenes.py hulls OUT.npz                 10,000 hulls of 64 corners, tumbling
+  tolerance_scenes.py bevelled OUT.npz              10,000 boxes with bevelled edges, as hulls
   tolerance_scenes.py compounds OUT.npz             1,000 compounds of 20 hulls that creep
   tolerance_scenes.py meshes OUT.npz --models DIR   50 scanned models, tumbling
   tolerance_scenes.py terrain OUT.npz --models DIR  2,000 bodies on three scanned models
@@ -156,6 +157,24 @@ def make_hulls(draw, scene, _):
         scene.add_body(shapes[i % 16], draw.place(side), draw, 0.5, 1)
 
 
+def bevelled_corners(half, bevel):
+    corners = []
+    for axis in range(3):
+        face = [x - (0 if k == axis else bevel) for k, x in enumerate(half)]
+        corners += [tuple(x if i >> k & 1 else -x for k, x in enumerate(face)) for i in range(8)]
+    return corners
+
+
+def make_bevelled(draw, scene, _):
+    shapes = []
+    for _ in range(16):
+        half = [draw.random.uniform(0.15, 0.4) for _ in range(3)]
+        shapes.append(scene.add_shape(HULL, vertices=bevelled_corners(half, 0.004)))
+    side = (10000 * 0.52 / 0.58) ** (1 / 3)
+    for i in range(10000):
+        scene.add_body(shapes[i % 16], draw.place(side), draw, 0.5, 1)
+
+
 def make_compounds(draw, scene, _):
     hulls = [scene.add_shape(HULL, vertices=draw.hull(draw.random.randint(12, 40), 0.25))
              for _ in range(24)]
@@ -198,8 +217,8 @@ def make_terrain(draw, scene, models):
 
 
 def main():
-    makers = {"hulls": make_hulls, "compounds": make_compounds, "meshes": make_meshes,
-              "terrain": make_terrain}
+    makers = {"hulls": make_hulls, "bevelled": make_bevelled, "compounds": make_compounds,
+              "meshes": make_meshes, "terrain": make_terrain}
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", choices=makers)

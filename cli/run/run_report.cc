@@ -76,7 +76,7 @@ std::string extent(const std::vector<uint64_t>& list) {
 // Sums over all ladders: how many shapes have a model, the worst error, and the pieces with and
 // without.
 struct LadderSums {
-  size_t models = 0, capsules = 0, pieces = 0, simpler = 0;
+  size_t models = 0, capsules = 0, boxes = 0, pieces = 0, simpler = 0;
   double error = 0, seconds = 0;
 
   explicit LadderSums(const std::vector<LadderReport>& ladders) {
@@ -86,6 +86,7 @@ struct LadderSums {
         if (entry.error == 0) continue;
         ++models;
         capsules += entry.is_capsule;
+        boxes += entry.is_box;
         used = entry.pieces;
         error = std::max(error, entry.error);
       }
@@ -102,8 +103,10 @@ Json ladders_json(const std::vector<LadderReport>& ladders) {
     Json rungs = Json::array();
     for (const LadderReport::Entry& entry : ladder.entries) {
       if (entry.error > 0) {
-        rungs.push_back(
-            {{"error", entry.error}, {"pieces", entry.pieces}, {"is_capsule", entry.is_capsule}});
+        rungs.push_back({{"error", entry.error},
+                         {"pieces", entry.pieces},
+                         {"is_capsule", entry.is_capsule},
+                         {"is_box", entry.is_box}});
       } else {
         rungs.push_back({{"wanted", entry.wanted}, {"refused", entry.refused}});
       }
@@ -181,7 +184,8 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
     table.add(
         {"ladders", std::to_string(sums.models) + " of " + std::to_string(report.ladders.size()) +
                         " shapes have a model, " + std::to_string(sums.capsules) +
-                        " a capsule or ball: " + std::to_string(sums.pieces) + " pieces -> " +
+                        " a capsule or ball, " + std::to_string(sums.boxes) +
+                        " a box: " + std::to_string(sums.pieces) + " pieces -> " +
                         std::to_string(sums.simpler) + number(", at most %.3g m off", sums.error) +
                         number(", built in %.3g s", sums.seconds)});
   }

@@ -22,6 +22,17 @@ Points box_corners(const Eigen::Vector3f& half) {
 
 Points cube_corners(float half) { return box_corners(Eigen::Vector3f::Constant(half)); }
 
+Points bevelled_corners(const Eigen::Vector3f& half, float bevel) {
+  Points corners;
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Vector3f less = Eigen::Vector3f::Constant(bevel);
+    less[axis] = 0;
+    const Points face = box_corners(half - less);
+    corners.insert(corners.end(), face.begin(), face.end());
+  }
+  return corners;
+}
+
 Points pyramid(float height) {
   return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, height}};
 }

@@ -22,6 +22,9 @@ Points box_corners(const Eigen::Vector3f& half);
 
 Points cube_corners(float half = 1);
 
+// The corners of a box whose edges are bevelled: of each face, this much is missing on all sides.
+Points bevelled_corners(const Eigen::Vector3f& half, float bevel);
+
 // A square at z = 0 with sides of 2, and an apex above it.
 Points pyramid(float height);
 

@@ -20,6 +20,7 @@ struct LadderReport {
     double error = 0;   ///< metres, proved; 0: there is no such rung
     size_t pieces = 0;  ///< corners of a hull, triangles of a mesh, of a compound those of all
     bool is_capsule = false;  ///< the rung is a capsule, or a ball, which is one without length
+    bool is_box = false;      ///< the rung is a box
     std::string refused;      ///< why there is none; empty if there is one
   };
   size_t pieces = 0;           ///< of the shape itself
@@ -39,12 +40,13 @@ CAROM_EXPORT double error_within(double tolerance);
 
 /// Gives a hull, a mesh or a compound a ladder, with a rung for each of these errors (metres, > 0,
 /// finite, ascending): the simplest model that was found within it, if that is worth it. A capsule
-/// or a ball, where one is within it; else of hulls some points, moved outwards by half of what
-/// they lack; of meshes fewer triangles; of compounds those of its children. Other shapes stay as
-/// they are. A rung that cannot be proved is refused, and the report says so: of meshes that are
-/// one-sided or thick, whose fronts must stay where they are, and of hulls without volume. The same
-/// bits for the same shape. A mesh of 100,000 triangles takes some seconds a rung. Fails if an
-/// error is not such a number, or the shape has no geometry.
+/// or a ball, where one is within it; else of hulls a box, or some points, moved outwards by half
+/// of what they lack; of meshes fewer triangles; of compounds those of its children. A box lies
+/// about the origin along the axes of the hull's frame; in place of a child it may lie anywhere.
+/// Other shapes stay as they are. A rung that cannot be proved is refused, and the report says so:
+/// of meshes that are one-sided or thick, whose fronts must stay where they are, and of hulls
+/// without volume. The same bits for the same shape. A mesh of 100,000 triangles takes some seconds
+/// a rung. Fails if an error is not such a number, or the shape has no geometry.
 CAROM_EXPORT Result<LadderedShape> build_ladder(const Shape& shape, std::span<const double> errors);
 
 }  // namespace carom
