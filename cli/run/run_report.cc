@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "carom_build_info.h"
 #include "cli/support/number_text.h"
@@ -49,6 +50,14 @@ double bytes_per_body(const RunReport& report) {
 double bytes_per_pair(const RunReport& report) {
   const std::vector<uint64_t>& pairs = report.record.pairs;
   return share(report.memory.pairs_and_results, pairs.empty() ? 0 : pairs.back());
+}
+
+// Which share of the pairs was not tested, after the first frame.
+double share_not_tested(const RunRecord& record) {
+  const auto sum = [](const std::vector<uint64_t>& list) {
+    return std::accumulate(list.begin() + (list.size() > 1), list.end(), uint64_t{0});
+  };
+  return share(sum(record.kept) + sum(record.dropped), sum(record.pairs));
 }
 
 Json events_json(const RunRecord& record) {
@@ -146,6 +155,9 @@ Json to_json(const RunReport& report, const WorldOptions& options) {
     json["tested_by_models_per_frame"] = record.by_models;
     json["tested_by_shells_per_frame"] = record.by_shells;
   }
+  if (report.settings.world.accuracy.tolerance > 0) {
+    json["share_not_tested"] = share_not_tested(record);
+  }
   if (looks_ahead(report)) {
     json["swept_per_frame"] = record.swept;
     json["impacts_per_frame"] = record.impacts;
@@ -210,6 +222,10 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
     table.add({"depths by shells", extent(record.by_shells)});
   }
   table.add({"kept pairs", extent(record.kept)});
+  if (settings.accuracy.tolerance > 0) {
+    table.add({"not tested", number("%.1f %% of the pairs after the first frame",
+                                    100 * share_not_tested(record))});
+  }
   if (settings.dop_bounds) table.add({"dropped pairs", extent(record.dropped)});
   table.add({"state hash", record.hash.text()});
   table.add({"memory", number("%.1f bytes a body, ", bytes_per_body(report)) +

@@ -18,6 +18,7 @@
 
 namespace carom {
 
+// By numbers of points, so that it moves with the hulls.
 struct Shell {
   static constexpr size_t kMostCorners = 24;
   static constexpr size_t kMostTriangles = 48;

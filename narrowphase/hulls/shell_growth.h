@@ -36,19 +36,12 @@ class ShellGrowth {
   void end();
 
  private:
+  // A corner of A - B that reaches furthest along some way, by its points.
   struct Support {
     size_t of_a, of_b;
     Vector3f point;
     float height;
   };
-  // The triangles to be removed, as edges: bit j of edges[i] is one from corner i to j.
-  struct Cut {
-    uint64_t triangles = 0;
-    uint32_t corners = 0;
-    std::array<uint32_t, Shell::kMostCorners> edges{};
-  };
-
-  Support support(const Vector3f& way) const;
   // The point of a triangle that is nearest to zero.
   struct Nearest {
     size_t triangle;
@@ -57,7 +50,14 @@ class ShellGrowth {
     float distance;
     Vector3f way;  // from zero to the point, a unit vector
   };
+  // Triangles to be removed, and their edges: bit j of edges[i] is one from corner i to j.
+  struct Cut {
+    uint64_t triangles = 0;
+    uint32_t corners = 0;
+    std::array<uint32_t, Shell::kMostCorners> edges{};
+  };
 
+  Support support(const Vector3f& way) const;
   bool is_proved(const ShellCheck& planes, float slack, Nearest& nearest, Support& next) const;
   bool fills_dent(size_t triangle, Support& next) const;
   Nearest nearest_on(size_t triangle) const;

@@ -195,7 +195,7 @@ void Drift::find_moved_elsewhere(const BodyStore& bodies, const ChangeTracker& s
 void Drift::move_elsewhere(const BodyStore& bodies, const BodyReader& reader, uint32_t index,
                            float tolerance) {
   radii_[index] = bounding_radius(reader, index);
-  turn_radii_[index] = turning_radius(reader, index);
+  turn_radii_[index] = turning_radius(reader, index, radii_[index]);
   const float own = bodies.tolerance(index).value_or(tolerance);
   // The model of the shape takes its part first.
   const double half = 0.5 * double{own} - bodies.model_error(index);

@@ -96,10 +96,9 @@ float bounding_radius(const BodyReader& reader, size_t i) {
                                               : rows_reach(kind, rows));
 }
 
-float turning_radius(const BodyReader& reader, size_t i) {
+float turning_radius(const BodyReader& reader, size_t i, float radius) {
   const ShapeKind kind = reader.kind(i);
   if (row_count(kind) == 0) return 0;
-  const float radius = bounding_radius(reader, i);
   if (kind == ShapeKind::box) {
     const std::array<float, 4> half = reader.rows(i)[0];
     const double x = half[0], y = half[1], z = half[2];

@@ -15,7 +15,8 @@ float bounding_radius(const BodyReader& reader, size_t i);
 // the angle times this radius (as sets: no point of one is further from the other). That of a
 // convex shape is the most by which a support point is off the line through the position along its
 // direction, since the height of the support changes by that: a ball has 0, a cube half the
-// diagonal of a face. Zero for what does not turn, infinite for half-spaces.
-float turning_radius(const BodyReader& reader, size_t i);
+// diagonal of a face. Zero for what does not turn, infinite for half-spaces. `radius`: that of
+// bounding_radius().
+float turning_radius(const BodyReader& reader, size_t i, float radius);
 
 }  // namespace carom

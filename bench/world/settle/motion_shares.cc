@@ -20,7 +20,8 @@ float turning_radius_of(const Shape& shape) {
   body.count = 1;
   body.uniform_kind = kind;
   body.rows.data = rows[0].data();
-  return turning_radius(BodyReader{body}, 0);
+  const BodyReader reader{body};
+  return turning_radius(reader, 0, bounding_radius(reader, 0));
 }
 
 Pose pose_of(const World& world, BodyId id) { return {world.position(id), world.orientation(id)}; }

@@ -95,7 +95,7 @@ TEST_F(RunTest, ScenesOfAllKindsDoNotDependOnHowTheyAreRun) {
 TEST_F(RunTest, Tiers) {
   const std::string scene = "brownian:n=300,frames=6,density=0.5,shape=box,speed=0.01,spin=0.2";
   const json standard = run_json({scene});
-  for (const char* key : {"tolerance", "undecided_per_frame"}) {
+  for (const char* key : {"tolerance", "undecided_per_frame", "share_not_tested"}) {
     EXPECT_FALSE(standard.contains(key)) << key;
   }
   const json fast = run_json({scene, "--tier", "fast", "--tolerance", "0"});
@@ -109,6 +109,8 @@ TEST_F(RunTest, Tiers) {
   EXPECT_GE(sum_of(lazy["pairs_per_frame"]), sum_of(standard["pairs_per_frame"]));
   EXPECT_EQ(sum_of(standard["kept_pairs_per_frame"]), 0u);
   EXPECT_GT(sum_of(lazy["kept_pairs_per_frame"]), sum_of(lazy["tested_pairs_per_frame"]));
+  EXPECT_GT(lazy["share_not_tested"], 0.5);
+  EXPECT_LE(lazy["share_not_tested"], 1);
 
   for (const char* bad : {"-1", "nan", "inf", "1e39"}) {
     const CommandResult refused = run_command({"run", scene, "--tolerance", bad});
