@@ -85,6 +85,11 @@ void run_mixed_block(const PairBlock& block, const ExtraRequest& extra) {
   if (scratch->composite_count == 0) return run_pair_block(block);
   if (scratch->simple_count > 0) run_simple_pairs(block, *scratch);
   run_composite_pairs(block, scratch->composite_rows(), extra);
+  // Such pairs remember nothing, whatever their bodies were in the last step.
+  uint32_t* const directions = block.memory.direction;
+  for (size_t i = 0; directions && i < scratch->composite_count; ++i) {
+    directions[scratch->composite[i]] = kNoDirection;
+  }
 }
 
 }  // namespace carom

@@ -246,8 +246,11 @@ void run_search(const PairKind& kind, const Batch& batch, const PassPlan& plan,
   search.detail = plan.search_detail;
   if (memory.direction && plan.known == PassPlan::Known::directions) {
     const bool has_shells = memory.shells && batch.slack > 0 && kind.has_shell_pass();
-    run_test(kind, batch, {memory.direction, has_shells ? memory.shells : nullptr});
-  } else if (plan.known == PassPlan::Known::features) {
+    return run_test(kind, batch, {memory.direction, has_shells ? memory.shells : nullptr});
+  }
+  // A place of a shell is good for one step, even if the pair needs none in this one.
+  if (memory.direction) std::fill_n(memory.direction, batch.count, kNoDirection);
+  if (plan.known == PassPlan::Known::features) {
     RowFlags open;
     run_recall(kind, batch, plan.search == Pass::distance, open);
     test_open(kind, search, open);

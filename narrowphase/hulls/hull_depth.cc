@@ -136,11 +136,21 @@ class DepthSearch {
     }
   }
 
-  // Locates the contact, and writes place i of the frames unless the result is unsure.
-  void locate(DeepFrames& frames, size_t i) {
+  // Locates the contact, and writes place i of the frames unless the result is unsure. False if the
+  // axis that was found early does not locate one: the search has to go on to the end.
+  bool locate(DeepFrames& frames, size_t i) {
     Vector3f on_a;
-    is_doubtful_ = is_doubtful_ || !find_location(on_a);
-    if (!is_doubtful_) put(on_a, frames, i);
+    if (is_doubtful_) return true;
+    is_doubtful_ = !find_location(on_a);
+    if (is_doubtful_) return slack_ == 0;
+    put(on_a, frames, i);
+    return true;
+  }
+
+  // Begins again, without a slack. Points stay where they are.
+  void begin_again() {
+    slack_ = 0;
+    is_doubtful_ = may_cross_ = has_crossing_ = false;
   }
 
   // After the frames are finished.
@@ -254,13 +264,16 @@ class DepthSearch {
       count_a = count_groups(a, normal_, of_a);
       count_b = count_groups(b, -normal_, of_b);
     }
+    // The corner may be beside the face that it should lie over: of edges that are nearly as good,
+    // or of an axis that was found early, so that a better one is nearer.
+    const bool may_miss = may_cross_ || slack_ > 0;
     if (count_b == 1) {
       on_a = b[of_b.index] - normal_ * gap_;
-      if (may_cross_ && !steps_->is_inside(*a_, on_a)) return false;
+      if (may_miss && !steps_->is_inside(*a_, on_a)) return false;
     } else if (count_a == 1) {
       on_a = a[of_a.index];
       const Vector3f on_b = on_a + normal_ * gap_;
-      if (may_cross_ && !steps_->is_inside(*b_, rotate_back(turn_, Vector3f(on_b - centre_)))) {
+      if (may_miss && !steps_->is_inside(*b_, rotate_back(turn_, Vector3f(on_b - centre_)))) {
         return false;
       }
     } else if (has_crossing_ && count_a == 2 && count_b == 2 &&
@@ -269,10 +282,11 @@ class DepthSearch {
           dot(cross<float>(edge_b_.from - edge_a_.from, edge_b_.direction), across_) /
           dot(cross(edge_a_.direction, edge_b_.direction), across_);
       on_a = edge_a_.from + edge_a_.direction * along;
-      // The edges may lie within a group.
+      // The edges may lie within a group, or cross beyond their ends.
       const Vector3f on_b = on_a + normal_ * gap_;
-      if (has_groups && !(steps_->is_inside(*a_, on_a) &&
-                          steps_->is_inside(*b_, rotate_back(turn_, Vector3f(on_b - centre_))))) {
+      if ((has_groups || slack_ > 0) &&
+          !(steps_->is_inside(*a_, on_a) &&
+            steps_->is_inside(*b_, rotate_back(turn_, Vector3f(on_b - centre_))))) {
         return false;
       }
     } else {
@@ -340,7 +354,14 @@ void solid_depths(std::span<const DeepPair> pairs, const HullSteps& steps, Separ
     searches[i].find_faces(memory.bounds_a, memory.bounds_b);
   }
   for (DepthSearch& search : searches) search.cross_edges(memory.dop_a, memory.dop_b);
-  for (size_t i = 0; i < pairs.size(); ++i) searches[i].locate(frames, i);
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    DepthSearch& search = searches[i];
+    if (search.locate(frames, i)) continue;
+    search.begin_again();
+    search.find_faces(memory.bounds_a, memory.bounds_b);
+    search.cross_edges(memory.dop_a, memory.dop_b);
+    search.locate(frames, i);
+  }
   steps.finish(frames);
   for (size_t i = 0; i < pairs.size(); ++i) contacts[i] = searches[i].contact(frames, i);
 }

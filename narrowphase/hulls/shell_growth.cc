@@ -220,7 +220,7 @@ bool ShellGrowth::grow(const Support& support) {
       of_rim |= uint32_t{1} << i | uint32_t{1} << j;
     }
   }
-  const uint32_t used = shell_.corners & (~cut_out.corners | of_rim);
+  const uint32_t used = shell_.corners & ~gone(cut_out, of_rim);
   const size_t corner = place_of(support, used);
   const size_t kept = shell_.triangle_count - static_cast<size_t>(std::popcount(cut_out.triangles));
   if (corner >= Shell::kMostCorners || kept + rim.size() > Shell::kMostTriangles) return false;
@@ -266,6 +266,17 @@ bool ShellGrowth::cut(uint64_t triangles, Cut& cut) const {
     }
   }
   return triangles != 0;
+}
+
+// The corners that are in no triangle any more. One that is not on the rim may still be in some:
+// where the surface meets itself in that corner alone.
+uint32_t ShellGrowth::gone(const Cut& cut, uint32_t of_rim) const {
+  uint32_t gone = cut.corners & ~of_rim;
+  for (size_t t = 0; gone != 0 && t < shell_.triangle_count; ++t) {
+    if (cut.triangles >> t & 1) continue;
+    for (size_t k = 0; k < 3; ++k) gone &= ~(uint32_t{1} << shell_.corner_of(t, k));
+  }
+  return gone;
 }
 
 // The place of this corner, or the first that is not in use.

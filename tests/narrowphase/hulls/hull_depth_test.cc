@@ -218,6 +218,62 @@ TEST(HullDepth, KnownOnes) {
   EXPECT_NEAR(edges.arm_a.z(), reach, 1e-5);
 }
 
+// Whether a point of the world, relative to the hull, is in the hull up to rounding.
+bool holds(const Hull& hull, const scalar::Quaternion<float>& turn, const Vector3f& arm) {
+  const SolidHull solid(float_hull(hull));
+  const Vector3f point = rotate_back(scalar::rotation_of(turn), arm);
+  for (size_t f = 0; f < solid.view().face_count; ++f) {
+    if (solid.view().normal(f).dot(point) > solid.view().height(f) + 4e-6f) return false;
+  }
+  return true;
+}
+
+Separation early_depth(const HullPair& pair, float slack) {
+  const SolidHull a(float_hull(pair.a)), b(float_hull(pair.b));
+  const DeepPair deep{&a.view(), &b.view(), pair.pose.d, pair.pose.a, pair.pose.b, slack};
+  Separation found;
+  solid_depths({&deep, 1}, hull_steps_in_lanes(), &found);
+  return found;
+}
+
+// An axis that is nearly as good as the best one may belong to a face beside which the other hull's
+// corner lies: one point was once 1.1 outside of the second hull.
+TEST(HullDepth, ThatIsFoundEarlyHasItsPointsInBothHulls) {
+  const auto box = [](float x, float y, float z) {
+    return oracle::hull_of(box_corners({x, y, z}));
+  };
+  const HullPair known = {box(0.346772522f, 0.953612685f, 0.501050532f),
+                          box(0.611381114f, 0.129429638f, 0.126802683f),
+                          {{0.0976213142f, -0.839280427f, 0.164785638f},
+                           {Vector3f::Zero(), 1},
+                           {{0.00295916782f, -0.345688373f, 0.938344717f}, 0.866795659f}}};
+  Random random(15);
+  const uint32_t count = rounds(3000, 40);
+  uint32_t found_depths = 0, early = 0;
+  for (uint32_t round = 0; round < count; ++round) {
+    const auto side = [&] { return static_cast<float>(random.uniform(0.1, 1)); };
+    HullPair pair = round % 2 ? random_pair(random, 6 + random.below(20)) : known;
+    if (round > 0 && round % 2 == 0) {
+      pair.a = box(side(), side(), side());
+      pair.b = box(side(), side(), side());
+      pair.pose = {(random.direction() * random.uniform(0, 1)).cast<float>(), random_turn(random),
+                   random_turn(random)};
+    }
+    constexpr float kSlack = 0.02f;
+    const Separation found = early_depth(pair, kSlack);
+    if (found.is_unsure) continue;
+    ++found_depths;
+    const auto exact = in_double(pair);
+    early += exact.separation - found.separation > 1e-4;
+    EXPECT_GE(found.separation, exact.separation - kSlack - 4e-6);
+    EXPECT_LE(found.separation, exact.separation + 4e-6);
+    EXPECT_TRUE(holds(pair.a, pair.pose.a, found.arm_a)) << round;
+    EXPECT_TRUE(holds(pair.b, pair.pose.b, found.arm_b)) << round;
+  }
+  EXPECT_GT(found_depths, count / 4);
+  EXPECT_GT(early, found_depths / 20);
+}
+
 // Two faces on each other have many common points, and this search cannot choose one: the result is
 // unsure.
 TEST(HullDepth, IsUnsureOfFacesOnFaces) {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
+#include <map>
 
 #include "narrowphase/doubles/core_separation.h"
 #include "narrowphase/hulls/hull_steps.h"
@@ -249,6 +249,53 @@ TEST(Shells, DepthsAreWithinTheSlackWhileHullsMove) {
   EXPECT_GT(overlaps, count * 20 / 3);
   EXPECT_GT(found_depths, overlaps * 8 / 10);
   EXPECT_GT(by_old_shells, found_depths * 6 / 10);
+}
+
+// Every corner of a triangle is in use, and the surface has each edge as often in one direction as
+// in the other.
+void expect_closed(const Shell& shell) {
+  std::map<std::pair<size_t, size_t>, int> edges;
+  for (size_t t = 0; t < shell.triangle_count; ++t) {
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t from = shell.corner_of(t, k), to = shell.corner_of(t, (k + 1) % 3);
+      ASSERT_TRUE(shell.corners >> from & 1);
+      ++edges[{from, to}];
+      --edges[{to, from}];
+    }
+  }
+  for (const auto& [edge, count] : edges) ASSERT_EQ(count, 0);
+}
+
+// The surface may meet itself in one corner. A corner that no longer counted as in use had the
+// place of whatever pair was tested before.
+TEST(Shells, StayClosedHoweverHullsMove) {
+  Random random(36);
+  const HullSteps& steps = hull_steps_in_lanes();
+  const MovingPair other = [&] {
+    MovingPair pair = moving_pair(random, 40);
+    pair.pose.d.setZero();
+    return pair;
+  }();
+  size_t found_depths = 0;
+  for (uint32_t round = 0; round < rounds(2500, 20); ++round) {
+    MovingPair pair = moving_pair(random, 8 + random.below(40));
+    const auto slack = static_cast<float>(std::exp(random.uniform(std::log(3e-4), std::log(0.05))));
+    Shell shell{}, alone{}, of_other{};
+    for (int step = 0; step < 40; ++step) {
+      move(pair, slack * random.uniform(0, 6), random);
+      shell.is_new = alone.is_new = false;
+      const Separation expected = shell_depth(pair, slack, steps, alone);
+      of_other = {};
+      shell_depth(other, 0.01f, steps, of_other);
+      const Separation found = shell_depth(pair, slack, steps, shell);
+      ASSERT_EQ(found.is_unsure, expected.is_unsure);
+      if (found.is_unsure) continue;
+      ++found_depths;
+      ASSERT_EQ(found.separation, expected.separation);
+      ASSERT_NO_FATAL_FAILURE(expect_closed(shell));
+    }
+  }
+  EXPECT_GT(found_depths, rounds(2500, 20) * 10);
 }
 
 // A point of a hull, up to rounding: no plane of a face is below it.
