@@ -209,18 +209,19 @@ bool ShellGrowth::grow(const Support& support) {
   Cut cut_out;
   if (!cut(hulls_.steps.in_front(shell_, space_, support.point), cut_out)) return false;
   FewOf<std::array<uint8_t, 2>, Shell::kMostTriangles> rim;
-  uint32_t of_rim = 0;
+  uint32_t from_rim = 0;  // a bit for each corner of it
   for (uint32_t left = cut_out.corners; left != 0; left &= left - 1) {
     const auto i = static_cast<size_t>(std::countr_zero(left));
     for (uint32_t ends = cut_out.edges[i]; ends != 0; ends &= ends - 1) {
       const auto j = static_cast<size_t>(std::countr_zero(ends));
       if (cut_out.edges[j] >> i & 1) continue;
-      if (rim.is_full()) return false;
+      // A rim that meets itself would make a surface that does, and cannot grow there any more.
+      if (rim.is_full() || (from_rim >> i & 1) != 0) return false;
       rim.push_back({static_cast<uint8_t>(i), static_cast<uint8_t>(j)});
-      of_rim |= uint32_t{1} << i | uint32_t{1} << j;
+      from_rim |= uint32_t{1} << i;
     }
   }
-  const uint32_t used = shell_.corners & ~gone(cut_out, of_rim);
+  const uint32_t used = shell_.corners & ~gone(cut_out, from_rim);
   const size_t corner = place_of(support, used);
   const size_t kept = shell_.triangle_count - static_cast<size_t>(std::popcount(cut_out.triangles));
   if (corner >= Shell::kMostCorners || kept + rim.size() > Shell::kMostTriangles) return false;
@@ -270,8 +271,8 @@ bool ShellGrowth::cut(uint64_t triangles, Cut& cut) const {
 
 // The corners that are in no triangle any more. One that is not on the rim may still be in some:
 // where the surface meets itself in that corner alone.
-uint32_t ShellGrowth::gone(const Cut& cut, uint32_t of_rim) const {
-  uint32_t gone = cut.corners & ~of_rim;
+uint32_t ShellGrowth::gone(const Cut& cut, uint32_t rim) const {
+  uint32_t gone = cut.corners & ~rim;
   for (size_t t = 0; gone != 0 && t < shell_.triangle_count; ++t) {
     if (cut.triangles >> t & 1) continue;
     for (size_t k = 0; k < 3; ++k) gone &= ~(uint32_t{1} << shell_.corner_of(t, k));

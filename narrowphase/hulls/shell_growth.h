@@ -65,7 +65,7 @@ class ShellGrowth {
   Vector3f way_out() const;
   bool grow(const Support& support);
   bool cut(uint64_t triangles, Cut& cut) const;
-  uint32_t gone(const Cut& cut, uint32_t of_rim) const;
+  uint32_t gone(const Cut& cut, uint32_t rim) const;
   size_t place_of(const Support& support, uint32_t used) const;
   void put_corner(const Support& support, size_t place);
   void put_triangle(size_t place, size_t i, size_t j, size_t k);
