@@ -238,8 +238,8 @@ inline constexpr float kSameGapInFloat = 0x1p-19f;
 // by less than kShellSure M.
 inline constexpr float kShellSure = 0x1p-20f;
 
-// A triangle's plane is no nearer to zero than this share of M (M + 1), less than the volume, over
-// the length of the normal: both round by 1.5 x 2^-20 M^1.5.
+// A triangle's plane is no nearer to zero than the volume, less kShellSure M (M + 1), over the
+// length of the normal: both round by 1.5 x 2^-20 M^1.5.
 
 // Squares count as this share of themselves, which is less than sums of products round. It pays for
 // (a - b)^2 >= (1 - 2^-12) a^2 - 2^12 b^2, too, with b^2 = 2^-44 M^2 of a product of two corners:

@@ -156,7 +156,7 @@ struct HullSteps {
   ShellCheck (*check_planes)(const Shell& shell, ShellSpace& space);
   // How near its triangles come, which takes longer; where zero is inside.
   ShellCheck (*check_edges)(const Shell& shell, const ShellSpace& space);
-  // A bit for each triangle that the point is in front of; after check_shell().
+  // A bit for each triangle that the point is in front of; after check_planes().
   uint64_t (*in_front)(const Shell& shell, const ShellSpace& space, const Vector3f& point);
 };
 

@@ -61,6 +61,14 @@ struct ShellSpace {
   }
 };
 
+// The ray that tells whether zero is inside: shorter than 1, and skew to what shapes are parallel
+// to.
+inline constexpr std::array<float, 3> kShellRay = {0.861f, 0.347f, 0.283f};
+
+// A point is in front of a triangle if the volumes differ by more than this: points of one face
+// would be in front of each other by what rounds, and cut a surface to pieces.
+inline constexpr float kShellInFront = 0x1p-20f;
+
 // What is known for certain of the surface of a shell.
 struct ShellCheck {
   float least_squared = 0;  // no triangle is nearer to zero than the root of this

@@ -130,6 +130,7 @@ HWY_INLINE ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
   const F count = splat(static_cast<float>(shell.triangle_count)), zero = splat(0);
   F index = lane_indices();
   LeastOfTriangles squared;
+  const F3 ray = {splat(kShellRay[0]), splat(kShellRay[1]), splat(kShellRay[2])};
   Mask unsure = no_lanes();
   uint64_t leaves = 0, enters = 0;
   for (size_t i = 0; i < shell.triangle_count; i += kLanes) {
@@ -141,9 +142,11 @@ HWY_INLINE ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
     const Mask exists = hn::Lt(index, count);
     squared.put(i, exists, t.squared);
     index = hn::Add(index, splat(kLanes));
-    // The ray from zero along x.
+    // The ray from zero.
     const F sure = hn::Mul(splat(kShellSure), t.greatest), not_sure = hn::Neg(sure);
-    const F most = max(max(t.ab.x, t.bc.x), t.ca.x), least = min(min(t.ab.x, t.bc.x), t.ca.x);
+    const F beside_ab = dot(t.ab, ray), beside_bc = dot(t.bc, ray), beside_ca = dot(t.ca, ray);
+    const F most = max(max(beside_ab, beside_bc), beside_ca);
+    const F least = min(min(beside_ab, beside_bc), beside_ca);
     const Mask is_missed = hn::And(hn::Gt(most, sure), hn::Lt(least, not_sure));
     const Mask from_behind = hn::Gt(least, sure), from_before = hn::Lt(most, not_sure);
     const Mask is_hit = hn::And(hn::Or(from_behind, from_before), hn::Gt(t.height, zero));
@@ -186,7 +189,9 @@ HWY_INLINE uint64_t in_front(const Shell& shell, const ShellSpace& space,
     const F3 n = {hn::Load(tag, space.normal[0].data() + i),
                   hn::Load(tag, space.normal[1].data() + i),
                   hn::Load(tag, space.normal[2].data() + i)};
-    found |= bits_of(tag, hn::Gt(dot(n, p), hn::Load(tag, space.volume.data() + i))) << i;
+    found |= bits_of(tag, hn::Gt(dot(n, p), hn::Add(hn::Load(tag, space.volume.data() + i),
+                                                    splat(kShellInFront))))
+             << i;
   }
   return found & ((uint64_t{1} << shell.triangle_count) - 1);
 }

@@ -2,8 +2,8 @@
 //
 // A triangle is no nearer than its plane; or, if zero projects beside it, than its edges. An edge
 // is no nearer than its line; or, if one of its ends is its nearest point, than both ends. Zero is
-// inside if the ray from there along the x axis leaves the surface once more than it enters. Each
-// of these counts where it is certain, by more than float32 rounds (kShellSure and what follows in
+// inside if a ray from there leaves the surface once more than it enters. Each of these counts
+// where it is certain, by more than float32 rounds (kShellSure and what follows in
 // base/tolerances.h); where the ray meets an edge too closely, the answer is no.
 #pragma once
 
@@ -52,6 +52,7 @@ struct ShellTriangle {
 inline ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
   ShellCheck check;
   check.least_squared = kLargest;
+  const Vector3<float> ray(kShellRay[0], kShellRay[1], kShellRay[2]);
   bool is_sure = true;
   int crossings = 0;
   for (size_t i = 0; i < shell.triangle_count; ++i) {
@@ -64,10 +65,11 @@ inline ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
       check.least_squared = t.squared;
       check.nearest = i;
     }
-    // The ray from zero along x.
+    // The ray from zero.
     const float sure = kShellSure * t.greatest;
-    const float most = max(max(t.ab.x(), t.bc.x()), t.ca.x());
-    const float least = min(min(t.ab.x(), t.bc.x()), t.ca.x());
+    const float beside_ab = dot(t.ab, ray), beside_bc = dot(t.bc, ray), beside_ca = dot(t.ca, ray);
+    const float most = max(max(beside_ab, beside_bc), beside_ca);
+    const float least = min(min(beside_ab, beside_bc), beside_ca);
     const bool is_missed = most > sure && least < -sure;
     const bool from_behind = least > sure, from_before = most < -sure;
     const bool is_hit = (from_behind || from_before) && t.height > 0;
@@ -103,7 +105,7 @@ inline ShellCheck check_edges(const Shell& shell, const ShellSpace& space) {
 inline uint64_t in_front(const Shell& shell, const ShellSpace& space, const Vector3<float>& point) {
   uint64_t found = 0;
   for (size_t i = 0; i < shell.triangle_count; ++i) {
-    found |= uint64_t{dot(space.normal_at(i), point) > space.volume[i]} << i;
+    found |= uint64_t{dot(space.normal_at(i), point) > space.volume[i] + kShellInFront} << i;
   }
   return found;
 }

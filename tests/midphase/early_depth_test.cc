@@ -41,7 +41,7 @@ std::vector<Row> rows_within(float tolerance, const std::vector<TestPair>& pairs
 
 // Which pairs overlap, and all about separate ones, is as without a tolerance.
 TEST(EarlyDepths, AreOffByTheToleranceAtMost) {
-  const std::vector<TestPair> pairs = make_pairs(rounds(3000));
+  const std::vector<TestPair> pairs = make_pairs(rounds(3000, 1500));
   for (const Detail detail : {Detail::contact, Detail::manifold}) {
     const std::vector<Row> exact = rows_within(0, pairs, detail);
     for (const float tolerance : kTolerances) {
@@ -87,7 +87,7 @@ TEST(EarlyDepths, OfHullsKeepTheirNormalsOnMeshes) {
 
 // Batches hold the parts of many pairs. What is left out depends on none but the pair's own.
 TEST(EarlyDepths, DoNotDependOnOtherPairs) {
-  std::vector<TestPair> pairs = make_pairs(rounds(600));
+  std::vector<TestPair> pairs = make_pairs(rounds(600, 300));
   oracle::Random random(5);
   for (size_t i = 0; i < 12; ++i) {
     const double phase = random.uniform(0, 6);

@@ -342,20 +342,21 @@ TEST(Shells, ProveNothingOfHullsThatAreApart) {
 }
 
 TEST(Shells, OfOtherHullsOrOfNoNumbersAreMadeAnew) {
-  Random random(35);
-  MovingPair pair = moving_pair(random, 20);
-  pair.pose.d.setZero();
+  const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
+  const Hull box = oracle::hull_of(box_corners({0.4f, 0.5f, 0.6f}));
+  const Hull tip = oracle::hull_of(pyramid(1));
+  const MovingPair pair{box, box, {{0.3f, 0.2f, 0.1f}, unturned, {{0.1f, 0.2f, 0}, 1}}};
   Shell shell{};
-  ASSERT_FALSE(shell_depth(pair, 0.01f, hull_steps_in_lanes(), shell).is_unsure);
+  ASSERT_FALSE(shell_depth(pair, 0.05f, hull_steps_in_lanes(), shell).is_unsure);
+  EXPECT_EQ(shell.points_of_a, 8);
   // Fewer points than the shell has numbers of.
-  MovingPair fewer = moving_pair(random, 6);
-  fewer.pose.d.setZero();
+  const MovingPair fewer{tip, tip, {{0.3f, 0.2f, 0.1f}, unturned, {{0.1f, 0.2f, 0}, 1}}};
   shell.is_new = false;
-  const Separation found = shell_depth(fewer, 0.01f, hull_steps_in_lanes(), shell);
+  const Separation found = shell_depth(fewer, 0.05f, hull_steps_in_lanes(), shell);
   ASSERT_FALSE(found.is_unsure);
   EXPECT_TRUE(shell.is_new);
-  EXPECT_EQ(shell.points_of_a, 6);
-  EXPECT_NEAR(found.separation, exact_separation(fewer).separation, 0.01 + 4e-6);
+  EXPECT_EQ(shell.points_of_a, 5);
+  EXPECT_NEAR(found.separation, exact_separation(fewer).separation, 0.05 + 4e-6);
 
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30f}) {
@@ -363,6 +364,29 @@ TEST(Shells, OfOtherHullsOrOfNoNumbersAreMadeAnew) {
     spoilt.pose.d.x() = bad;
     EXPECT_TRUE(shell_depth(spoilt, 0.01f, hull_steps_in_lanes(), shell).is_unsure);
   }
+}
+
+// Faces and edges of boxes that are not turned are parallel, and many points are in one plane.
+TEST(Shells, ProveMostDepthsOfParallelBoxes) {
+  Random random(40);
+  const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
+  const Hull box = oracle::hull_of(box_corners({0.4f, 0.5f, 0.6f}));
+  const uint32_t count = rounds(400, 40);
+  uint32_t overlaps = 0, sure = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    const Vector3f d = (random.direction() * random.uniform(0, 0.9)).cast<float>();
+    const MovingPair pair{box, box, {d, unturned, unturned}};
+    const auto exact = exact_separation(pair);
+    if (exact.separation > -1e-3) continue;
+    ++overlaps;
+    Shell shell{};
+    const Separation found = shell_depth(pair, 0.02f, hull_steps_in_lanes(), shell);
+    if (found.is_unsure) continue;
+    ++sure;
+    EXPECT_NEAR(found.separation, exact.separation, 0.02 + 4e-6);
+  }
+  EXPECT_GT(overlaps, count / 2);
+  EXPECT_GT(sure, overlaps * 9 / 10);
 }
 
 // Hulls at one place, and hulls without height, have many axes of least overlap.
