@@ -6,13 +6,15 @@
 #include <span>
 #include <vector>
 
+#include "carom/export.h"
 #include "carom/shapes/hull.h"
 
 namespace carom::hulls {
 
 // Triangles of a hull: its faces, cut into fans. A hull without faces has the segments between all
-// its points. So all of them lie in the hull, however its faces round.
-class Surface {
+// its points. So all of them lie in the hull, however its faces round. Exported, since
+// carom_ladders is another library.
+class CAROM_EXPORT Surface {
  public:
   using Triangle = std::array<Eigen::Vector3d, 3>;
 
