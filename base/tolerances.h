@@ -252,8 +252,8 @@ inline constexpr float kShellEdgeRest = 0x1p-31f;
 // more than this share of M^2: 2.4 x 2^-20 of it is rounding.
 inline constexpr float kShellBeside = 0x1p-18f;
 
-// What the corners of a shell are off by, and the depth that it confirms: four roundings of placed
-// points.
+// Placed points round by a quarter of this, and so do the corners of a shell and the depth that it
+// confirms.
 inline constexpr float kShellRounding = 0x1p-17f;
 
 // Between cores nearer than this float32 finds no reliable direction.

@@ -1,6 +1,6 @@
-// What a pair remembers of its last test, in 32 bits: a unit vector, ten bits a component, precise
-// enough to test whether two shapes are still separate along it; or that they overlapped, and where
-// their shell is.
+// A pair remembers its last test in 32 bits: a unit vector, ten bits a component, precise enough to
+// test whether two shapes are still separate along it; or that they overlapped, and where their
+// shell is.
 #pragma once
 
 #include <array>

@@ -15,8 +15,8 @@ namespace carom {
 struct ShellLists {
   std::span<const Shell> last;  // of the last step
   std::span<Shell> now;         // of this step: a place for each pair that is tested
-  // Of this step: how many pairs overlap that could have a shell, and how many have that of the
-  // last step.
+  // Blocks count in this step how many pairs overlap that could have a shell, and how many have
+  // that of the last step.
   std::atomic<size_t> overlapping = 0, kept = 0;
 };
 
@@ -40,10 +40,10 @@ class KeptShells {
     const size_t place = word & ~kHasShell;
     if (word >= kHasShell && place < lists_.last.size()) {
       shell = lists_.last[place];
-      shell.is_new = false;
     } else {
       shell.triangle_count = 0;
     }
+    shell.is_new = false;
     return &shell;
   }
 

@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// What the pairs of a batch remember from step to step. Everything is for details with contacts and
+// The pairs of a batch remember this from step to step, at details with contacts and with
 // Measured::overlapping.
 struct PairMemory {
   // nullptr, or for every row a direction in which the pair may be separate (packed_direction.h).

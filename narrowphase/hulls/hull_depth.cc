@@ -87,23 +87,14 @@ class DepthSearch {
   // Takes the depth that the pair's shell proves, or a new one, and writes place i of the frames.
   // After the set-up of the frames, in place of all other steps.
   void measure_shell(ShellSpace& space, DeepFrames& frames, size_t i) {
-    is_doubtful_ = is_doubtful_ || !shell_ || a_->dop || b_->dop;
+    is_doubtful_ = is_doubtful_ || !shell_ || shell_->was_in_vain() || a_->dop || b_->dop;
     if (is_doubtful_) return;
     place_in_a(frames, i);
     const ShellHulls hulls{own_a_, b_in_a_, *steps_};
     ShellDepth found;
-    bool is_found = shell_->is_of(a_->point_count, b_->point_count) &&
-                    ShellGrowth(*shell_, hulls, space).measure(slack_, found);
-    if (!is_found) {
-      Vector3f from_a_to_b;
-      DeepFrames::get(frames.middle_b_in_a, i, from_a_to_b);
-      from_a_to_b -= a_->middle * a_->scale;
-      *shell_ = {};
-      ShellGrowth growth(*shell_, hulls, space);
-      growth.begin(from_a_to_b);
-      is_found = growth.measure(slack_, found);
-      is_found ? growth.end() : void(*shell_ = {});
-    }
+    const bool is_found = (shell_->is_of(a_->point_count, b_->point_count) &&
+                           ShellGrowth(*shell_, hulls, space).measure(slack_, found)) ||
+                          measure_new_shell(hulls, space, frames, i, found);
     is_doubtful_ = !is_found || !(found.depth > kSureGap);
     if (is_doubtful_) return;
     gap_ = -found.depth;
@@ -171,6 +162,20 @@ class DepthSearch {
     const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
     steps_->place(*a_, unturned, Vector3f::Zero(), own_a_);
     steps_->place(*b_, turn_, centre_, b_in_a_);
+  }
+
+  bool measure_new_shell(const ShellHulls& hulls, ShellSpace& space, const DeepFrames& frames,
+                         size_t i, ShellDepth& found) {
+    Vector3f from_a_to_b;
+    DeepFrames::get(frames.middle_b_in_a, i, from_a_to_b);
+    from_a_to_b -= a_->middle * a_->scale;
+    *shell_ = {};
+    ShellGrowth growth(*shell_, hulls, space);
+    growth.begin(from_a_to_b);
+    const bool is_found = growth.measure(slack_, found);
+    growth.end();
+    if (!is_found) shell_->triangle_count = 0;
+    return is_found;
   }
 
   void put(const Vector3f& on_a, DeepFrames& frames, size_t i) const {

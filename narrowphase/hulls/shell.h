@@ -27,7 +27,7 @@ struct Shell {
   uint32_t corners = 0;                          // a bit for each place of a corner that is in use
   uint8_t triangle_count = 0;                    // 0: there is no shell
   uint8_t most_corners = 0;                      // a shell that needs more is made anew
-  bool is_new = false;                           // made in this step
+  bool is_new = false;                           // made in this step, or tried in vain
   uint8_t points_of_a = 0, points_of_b = 0;      // of the hulls
   std::array<uint8_t, kMostCorners> of_a, of_b;  // each corner's points
   // The corners of the triangles, seen from outside against the clock. A number for each triangle,
@@ -38,18 +38,20 @@ struct Shell {
   bool is_of(size_t points_a, size_t points_b) const {
     return triangle_count > 0 && points_of_a == points_a && points_of_b == points_b;
   }
+  // Whether no shell was found in this step.
+  bool was_in_vain() const { return is_new && triangle_count == 0; }
   size_t corner_of(size_t triangle, size_t k) const {
     return corner[triangle / kGroup][k][triangle % kGroup];
   }
 };
 
-// What a search computes of a shell, in scaled units and the frame of A.
+// A search computes these numbers of a shell, in scaled units and the frame of A.
 struct ShellSpace {
   static constexpr size_t kPlaces = 32;  // for corners: what two vectors of 16 lanes hold
 
   alignas(64) std::array<std::array<float, kPlaces>, 3> corner;
-  // Of each triangle: the normal, with twice its area as length, and the volume that it spans with
-  // zero, six times.
+  // Each triangle has a normal, with twice its area as length, and a volume: six times that which
+  // it spans with zero.
   alignas(64) std::array<std::array<float, Shell::kMostTriangles>, 3> normal;
   alignas(64) std::array<float, Shell::kMostTriangles> volume;
 
@@ -69,7 +71,7 @@ inline constexpr std::array<float, 3> kShellRay = {0.861f, 0.347f, 0.283f};
 // would be in front of each other by what rounds, and cut a surface to pieces.
 inline constexpr float kShellInFront = 0x1p-20f;
 
-// What is known for certain of the surface of a shell.
+// A check knows this for certain of the surface of a shell.
 struct ShellCheck {
   float least_squared = 0;  // no triangle is nearer to zero than the root of this
   size_t nearest = 0;       // the triangle of which this is so, the first of equals

@@ -37,7 +37,7 @@ float nearest_share(const Vector3f& p, const Vector3f& q) {
   return ee > 0 ? clamp<float>(-dot(p, e) / ee, 0, 1) : 0;
 }
 
-// What all axes must overlap by, so that one with this overlap has no more than they, but for the
+// If all axes overlap by this, one with such a height has no more overlap than they, but for the
 // slack.
 float reach_of(float height, float slack) { return max(height - slack, 0.0f) + kShellRounding; }
 

@@ -10,6 +10,7 @@
 #include "tests/support/hulls.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
+#include "tests/support/scaled_hulls.h"
 
 namespace carom::test {
 namespace {
@@ -20,16 +21,6 @@ using oracle::Random;
 using scalar::HullShape;
 using scalar::PairPose;
 using scalar::Separation;
-
-struct HullPair {
-  Hull a, b;
-  PairPose<float> pose;
-};
-
-scalar::Quaternion<float> random_turn(Random& random) {
-  const Vector3f v = random.direction().cast<float>() * static_cast<float>(random.uniform(-1, 1));
-  return {v, static_cast<float>(random.uniform(0.1, 1))};
-}
 
 // A pair in scaled units; about half of the pairs overlap. Without a need for B, it has no
 // geometry: the faces of hulls took most of the time of these tests.
@@ -73,10 +64,6 @@ scalar::SeparationAs<double> in_double(const HullPair& pair, const Shape& b) {
       scalar::CoreTest());
 }
 
-scalar::SeparationAs<double> in_double(const HullPair& pair) {
-  return in_double(pair, float_hull(pair.b));
-}
-
 void expect_close(const Separation& found, const scalar::SeparationAs<double>& exact) {
   EXPECT_NEAR(found.separation, exact.separation, 2e-6);
   EXPECT_NEAR(found.normal.norm(), 1, 1e-6);
@@ -93,7 +80,7 @@ TEST(FloatGjk, IsSureOfMostDistancesAndRightWhereItIs) {
   uint32_t separate = 0, sure = 0, deep = 0;
   for (uint32_t round = 0; round < count; ++round) {
     const HullPair pair = random_pair(random, 4 + random.below(60));
-    const auto exact = in_double(pair);
+    const auto exact = exact_separation(pair);
     const scalar::FloatTest test = scalar::nearest_separation(
         float_core(float_hull(pair.a), pair.pose.a, Vector3f::Zero()),
         float_core(float_hull(pair.b), pair.pose.b, pair.pose.d), pair.pose.d, 1);
@@ -140,7 +127,7 @@ TEST(HullDepth, IsTheWayOut) {
   uint32_t overlapping = 0, sure = 0;
   for (uint32_t round = 0; round < count; ++round) {
     const HullPair pair = random_pair(random, 4 + random.below(60));
-    const auto exact = in_double(pair);
+    const auto exact = exact_separation(pair);
     if (exact.separation > -1e-3) continue;
     ++overlapping;
     const Separation found =
@@ -151,7 +138,7 @@ TEST(HullDepth, IsTheWayOut) {
     // Moved by the depth along the normal, the hulls just touch.
     HullPair apart = pair;
     apart.pose.d -= found.normal * found.separation;
-    EXPECT_NEAR(in_double(apart).separation, 0, 4e-6);
+    EXPECT_NEAR(exact_separation(apart).separation, 0, 4e-6);
   }
   EXPECT_GT(overlapping, count * 3 / 10);
   EXPECT_LT(overlapping, count * 7 / 10);
@@ -176,7 +163,7 @@ TEST(HullDepth, OfKDopsIsSeldomUnsure) {
     const Vector3f d = (random.direction() * random.uniform(0, 1.9)).cast<float>();
     const scalar::Quaternion<float> turn_a = random_turn(random), turn_b = random_turn(random);
     const HullPair pair{a, b, {d, turn_a, turn_b}};
-    const auto exact = in_double(pair);
+    const auto exact = exact_separation(pair);
     if (exact.separation > -1e-3) continue;
     ++overlapping;
     const Separation found =
@@ -218,16 +205,6 @@ TEST(HullDepth, KnownOnes) {
   EXPECT_NEAR(edges.arm_a.z(), reach, 1e-5);
 }
 
-// Whether a point of the world, relative to the hull, is in the hull up to rounding.
-bool holds(const Hull& hull, const scalar::Quaternion<float>& turn, const Vector3f& arm) {
-  const SolidHull solid(float_hull(hull));
-  const Vector3f point = rotate_back(scalar::rotation_of(turn), arm);
-  for (size_t f = 0; f < solid.view().face_count; ++f) {
-    if (solid.view().normal(f).dot(point) > solid.view().height(f) + 4e-6f) return false;
-  }
-  return true;
-}
-
 Separation early_depth(const HullPair& pair, float slack) {
   const SolidHull a(float_hull(pair.a)), b(float_hull(pair.b));
   const DeepPair deep{&a.view(), &b.view(), pair.pose.d, pair.pose.a, pair.pose.b, slack};
@@ -263,7 +240,7 @@ TEST(HullDepth, ThatIsFoundEarlyHasItsPointsInBothHulls) {
     const Separation found = early_depth(pair, kSlack);
     if (found.is_unsure) continue;
     ++found_depths;
-    const auto exact = in_double(pair);
+    const auto exact = exact_separation(pair);
     early += exact.separation - found.separation > 1e-4;
     EXPECT_GE(found.separation, exact.separation - kSlack - 4e-6);
     EXPECT_LE(found.separation, exact.separation + 4e-6);

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <map>
 
-#include "narrowphase/doubles/core_separation.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/hulls/hull_steps_scalar.h"
 #include "tests/support/hulls.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
+#include "tests/support/scaled_hulls.h"
 
 namespace carom::test {
 namespace {
@@ -149,44 +149,25 @@ TEST(Shells, ProveNoMoreThanIsTrueOnEveryIsa) {
 
 // --- Hulls that move ---
 
-struct MovingPair {
-  Hull a, b;
-  scalar::PairPose<float> pose;
-};
-
-scalar::Quaternion<float> turn_of_moving(Random& random) {
-  const Vector3f v = random.direction().cast<float>() * static_cast<float>(random.uniform(-1, 1));
-  return {v, static_cast<float>(random.uniform(0.1, 1))};
-}
-
-MovingPair moving_pair(Random& random, size_t points) {
+HullPair moving_pair(Random& random, size_t points) {
   const auto hull = [&] {
     const auto side = [&] { return static_cast<float>(random.uniform(0.3, 1)); };
     return oracle::hull_of(round_points(points, {side(), side(), side()}, random));
   };
-  MovingPair pair{hull(), hull(), {}};
+  HullPair pair{hull(), hull(), {}};
   pair.pose.d = (random.direction() * random.uniform(0, 1.2)).cast<float>();
-  pair.pose.a = turn_of_moving(random);
-  pair.pose.b = turn_of_moving(random);
+  pair.pose.a = random_turn(random);
+  pair.pose.b = random_turn(random);
   return pair;
 }
 
-void move(MovingPair& pair, double way, Random& random) {
+void move(HullPair& pair, double way, Random& random) {
   pair.pose.d += (random.direction() * way).cast<float>();
   pair.pose.a.v += (random.direction() * way).cast<float>();
   pair.pose.b.v += (random.direction() * way).cast<float>();
 }
 
-scalar::SeparationAs<double> exact_separation(const MovingPair& pair) {
-  const auto turn = [](const scalar::Quaternion<float>& q) -> scalar::Quaternion<double> {
-    return {q.v.cast<double>(), q.w};
-  };
-  return core_separation(
-      HullShape<double>{pair.a.geometry.get(), 1}, HullShape<double>{pair.b.geometry.get(), 1},
-      {pair.pose.d.cast<double>(), turn(pair.pose.a), turn(pair.pose.b)}, scalar::CoreTest());
-}
-
-Separation shell_depth(const MovingPair& pair, float slack, const HullSteps& steps, Shell& shell) {
+Separation shell_depth(const HullPair& pair, float slack, const HullSteps& steps, Shell& shell) {
   const SolidHull a(HullShape<float>{pair.a.geometry.get(), 1});
   const SolidHull b(HullShape<float>{pair.b.geometry.get(), 1});
   const DeepPair deep{&a.view(), &b.view(), pair.pose.d, pair.pose.a, pair.pose.b, slack, &shell};
@@ -196,7 +177,7 @@ Separation shell_depth(const MovingPair& pair, float slack, const HullSteps& ste
 }
 
 // The overlap along the normal, in double precision.
-double overlap_along(const MovingPair& pair, const Vector3f& normal) {
+double overlap_along(const HullPair& pair, const Vector3f& normal) {
   const auto greatest = [](const Hull& hull, const scalar::Quaternion<float>& q,
                            const Vector3d& way) {
     const Eigen::Quaterniond turn(q.w, q.v.x(), q.v.y(), q.v.z());
@@ -216,7 +197,7 @@ TEST(Shells, DepthsAreWithinTheSlackWhileHullsMove) {
   const uint32_t count = rounds(150, 8);
   uint32_t overlaps = 0, found_depths = 0, by_old_shells = 0;
   for (uint32_t round = 0; round < count; ++round) {
-    MovingPair pair = moving_pair(random, 5 + random.below(60));
+    HullPair pair = moving_pair(random, 5 + random.below(60));
     const auto slack = static_cast<float>(std::exp(random.uniform(std::log(1e-3), std::log(0.1))));
     Shell shell{}, shell_of_lanes{};
     for (int step = 0; step < 20; ++step) {
@@ -271,14 +252,14 @@ void expect_closed(const Shell& shell) {
 TEST(Shells, StayClosedHoweverHullsMove) {
   Random random(36);
   const HullSteps& steps = hull_steps_in_lanes();
-  const MovingPair other = [&] {
-    MovingPair pair = moving_pair(random, 40);
+  const HullPair other = [&] {
+    HullPair pair = moving_pair(random, 40);
     pair.pose.d.setZero();
     return pair;
   }();
   size_t found_depths = 0;
   for (uint32_t round = 0; round < rounds(2500, 20); ++round) {
-    MovingPair pair = moving_pair(random, 8 + random.below(40));
+    HullPair pair = moving_pair(random, 8 + random.below(40));
     const auto slack = static_cast<float>(std::exp(random.uniform(std::log(3e-4), std::log(0.05))));
     Shell shell{}, alone{}, of_other{};
     for (int step = 0; step < 40; ++step) {
@@ -298,29 +279,18 @@ TEST(Shells, StayClosedHoweverHullsMove) {
   EXPECT_GT(found_depths, rounds(2500, 20) * 10);
 }
 
-// A point of a hull, up to rounding: no plane of a face is below it.
-bool is_in(const Hull& hull, const scalar::Quaternion<float>& q, const Vector3f& arm) {
-  const SolidHull view(HullShape<float>{hull.geometry.get(), 1});
-  const Eigen::Quaternionf turn(q.w, q.v.x(), q.v.y(), q.v.z());
-  const Vector3f point = turn.normalized().inverse() * arm;
-  for (size_t f = 0; f < view.view().face_count; ++f) {
-    if (view.view().normal(f).dot(point) > view.view().height(f) + 4e-6f) return false;
-  }
-  return true;
-}
-
 TEST(Shells, ContactsAreInBothHulls) {
   Random random(33);
   const uint32_t count = rounds(400, 20);
   uint32_t found_depths = 0;
   for (uint32_t round = 0; round < count; ++round) {
-    const MovingPair pair = moving_pair(random, 6 + random.below(40));
+    const HullPair pair = moving_pair(random, 6 + random.below(40));
     Shell shell{};
     const Separation found = shell_depth(pair, 0.01f, hull_steps_in_lanes(), shell);
     if (found.is_unsure) continue;
     ++found_depths;
-    EXPECT_TRUE(is_in(pair.a, pair.pose.a, found.arm_a));
-    EXPECT_TRUE(is_in(pair.b, pair.pose.b, found.arm_b));
+    EXPECT_TRUE(holds(pair.a, pair.pose.a, found.arm_a));
+    EXPECT_TRUE(holds(pair.b, pair.pose.b, found.arm_b));
   }
   EXPECT_GT(found_depths, count / 4);
 }
@@ -328,7 +298,7 @@ TEST(Shells, ContactsAreInBothHulls) {
 TEST(Shells, ProveNothingOfHullsThatAreApart) {
   Random random(34);
   for (uint32_t round = 0; round < rounds(300, 20); ++round) {
-    MovingPair pair = moving_pair(random, 6 + random.below(40));
+    HullPair pair = moving_pair(random, 6 + random.below(40));
     Shell shell{};
     shell_depth(pair, 0.01f, hull_steps_in_lanes(), shell);
     // From overlap to any distance, touching included.
@@ -345,12 +315,12 @@ TEST(Shells, OfOtherHullsOrOfNoNumbersAreMadeAnew) {
   const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
   const Hull box = oracle::hull_of(box_corners({0.4f, 0.5f, 0.6f}));
   const Hull tip = oracle::hull_of(pyramid(1));
-  const MovingPair pair{box, box, {{0.3f, 0.2f, 0.1f}, unturned, {{0.1f, 0.2f, 0}, 1}}};
+  const HullPair pair{box, box, {{0.3f, 0.2f, 0.1f}, unturned, {{0.1f, 0.2f, 0}, 1}}};
   Shell shell{};
   ASSERT_FALSE(shell_depth(pair, 0.05f, hull_steps_in_lanes(), shell).is_unsure);
   EXPECT_EQ(shell.points_of_a, 8);
   // Fewer points than the shell has numbers of.
-  const MovingPair fewer{tip, tip, {{0.3f, 0.2f, 0.1f}, unturned, {{0.1f, 0.2f, 0}, 1}}};
+  const HullPair fewer{tip, tip, {{0.3f, 0.2f, 0.1f}, unturned, {{0.1f, 0.2f, 0}, 1}}};
   shell.is_new = false;
   const Separation found = shell_depth(fewer, 0.05f, hull_steps_in_lanes(), shell);
   ASSERT_FALSE(found.is_unsure);
@@ -360,7 +330,7 @@ TEST(Shells, OfOtherHullsOrOfNoNumbersAreMadeAnew) {
 
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e30f}) {
-    MovingPair spoilt = fewer;
+    HullPair spoilt = fewer;
     spoilt.pose.d.x() = bad;
     EXPECT_TRUE(shell_depth(spoilt, 0.01f, hull_steps_in_lanes(), shell).is_unsure);
   }
@@ -375,7 +345,7 @@ TEST(Shells, ProveMostDepthsOfParallelBoxes) {
   uint32_t overlaps = 0, sure = 0;
   for (uint32_t i = 0; i < count; ++i) {
     const Vector3f d = (random.direction() * random.uniform(0, 0.9)).cast<float>();
-    const MovingPair pair{box, box, {d, unturned, unturned}};
+    const HullPair pair{box, box, {d, unturned, unturned}};
     const auto exact = exact_separation(pair);
     if (exact.separation > -1e-3) continue;
     ++overlaps;
@@ -395,7 +365,7 @@ TEST(Shells, OfSpecialHulls) {
   const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
   for (const Vector3f& d : {Vector3f(0, 0, 0), Vector3f(0, 0, 1.5f), Vector3f(1, 1, 1),
                             Vector3f(1.99f, 0, 0), Vector3f(1e-4f, 0, 0)}) {
-    const MovingPair pair{cube, cube, {d, unturned, unturned}};
+    const HullPair pair{cube, cube, {d, unturned, unturned}};
     Shell shell{};
     const Separation found = shell_depth(pair, 0.05f, hull_steps_in_lanes(), shell);
     if (found.is_unsure) continue;
