@@ -10,20 +10,40 @@
 namespace carom {
 namespace {
 
-// Gives pairs [begin, end) of `now` their directions of the last step, and returns how many have
-// one. Which pairs were there cannot be predicted, so there is no branch on it.
+// Most pairs lie in runs that both steps have. So many of them are compared at once.
+constexpr size_t kRun = 8;
+
+// Whether the next kRun pairs of both steps are the same.
+bool are_same(const Pair* last, const Pair* now) {
+  uint64_t difference = 0;
+  for (size_t k = 0; k < kRun; ++k) difference |= pair_key(last[k]) ^ pair_key(now[k]);
+  return difference == 0;
+}
+
+// Whether the pair has a direction, or a shell in its place.
+bool is_known(uint32_t word) { return is_direction(word) || (word & kHasShell) != 0; }
+
+// Gives pairs [begin, end) of `now` their words of the last step, and returns how many are known.
+// Which pairs there are between two runs cannot be predicted, so there is no branch on it.
 size_t match_directions(const PairHistory& last, PairHistory& now, size_t begin, size_t end) {
   static_assert(kNoDirection == 0);
   const MergeRange range = matching_range(last.pairs, now.pairs, begin, end);
   size_t before = range.begin, i = begin, known = 0;
+  const auto give = [&](uint32_t word) {
+    now.direction[i] = word;
+    known += is_known(word);
+  };
   while (before < range.end && i < end) {
-    const uint64_t key_before = pair_key(last.pairs[before]), key = pair_key(now.pairs[i]);
-    const uint32_t same = key_before == key ? 0xffffffffu : 0u;
-    const uint32_t direction = last.direction[before] & same;
-    now.direction[i] = direction;
-    known += is_direction(direction) || (direction & kHasShell) != 0;
-    before += key_before <= key;
-    i += key <= key_before;
+    while (before + kRun <= range.end && i + kRun <= end &&
+           are_same(&last.pairs[before], &now.pairs[i])) {
+      for (size_t k = 0; k < kRun; ++k, ++i, ++before) give(last.direction[before]);
+    }
+    for (size_t k = 0; k < kRun && before < range.end && i < end; ++k) {
+      const uint64_t key_before = pair_key(last.pairs[before]), key = pair_key(now.pairs[i]);
+      give(last.direction[before] & (key_before == key ? 0xffffffffu : 0u));
+      before += key_before <= key;
+      i += key <= key_before;
+    }
   }
   std::fill(now.direction.begin() + static_cast<ptrdiff_t>(i),
             now.direction.begin() + static_cast<ptrdiff_t>(end), kNoDirection);

@@ -9,7 +9,7 @@ namespace carom {
 namespace {
 
 // The search for parts takes longer the further it goes.
-constexpr float kSteps = 128, kStepsOfComposites = 16;
+constexpr float kSteps = 400, kStepsOfComposites = 16;
 
 }  // namespace
 
