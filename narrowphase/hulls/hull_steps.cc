@@ -106,15 +106,16 @@ FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
   }
   const F greatest = hn::MaxOfLanes(tag, most);
   // Without a branch on the place, which nobody can predict.
+  const auto place_from = [&](size_t begin) {
+    uint64_t places = 0;
+    for (size_t i = begin; i < std::min(begin + 64, points.padded); i += kLanes) {
+      places |= bits_of(tag, hn::Eq(hn::Load(tag, found + i), greatest)) << (i - begin);
+    }
+    return begin + static_cast<size_t>(std::countr_zero(places));
+  };
   static_assert(kMostLanePoints == 128);
-  std::array<uint64_t, 2> places{};
-  for (size_t i = 0; i < points.padded; i += kLanes) {
-    const Mask is_it = hn::Eq(hn::Load(tag, found + i), greatest);
-    places[i / 64] |= bits_of(tag, is_it) << i % 64;
-  }
-  const auto low = static_cast<size_t>(std::countr_zero(places[0]));
-  const auto high = static_cast<size_t>(std::countr_zero(places[1]));
-  const size_t place = low < 64 ? low : 64 + high;
+  const size_t low = place_from(0);
+  const size_t place = low < 64 ? low : place_from(64);
   return {place < points.count ? place : 0, hn::GetLane(greatest)};  // heights may be no numbers
 }
 

@@ -85,17 +85,16 @@ void ShellGrowth::begin(const Vector3f& way) {
 bool ShellGrowth::measure(float slack, ShellDepth& found) {
   for (size_t step = 0; step < kMostSteps; ++step) {
     const ShellCheck planes = hulls_.steps.check_planes(shell_, space_);
-    Support next;
-    if (planes.is_around) {
-      Nearest nearest = nearest_on(planes.nearest);
-      next = support(nearest.way);
-      if (is_proved(planes, slack, nearest, next)) {
-        found = depth_at(nearest);
-        return true;
-      }
-    } else {
-      next = support(way_out());
-      if (next.height <= 0) return false;
+    if (!planes.is_around) {
+      const Support next = support(way_out());
+      if (next.height <= 0 || !grow(next)) return false;
+      continue;
+    }
+    Nearest nearest = nearest_on(planes.nearest);
+    Support next = support(nearest.way);
+    if (is_proved(planes, slack, nearest, next)) {
+      locate(nearest, found);
+      return true;
     }
     if (!grow(next)) return false;
   }
@@ -152,9 +151,10 @@ ShellGrowth::Nearest ShellGrowth::nearest_on(size_t triangle) const {
   for (size_t k = 0; k < 3; ++k) p[k] = space_.corner_at(shell_.corner_of(triangle, k));
   const Vector3f n = space_.normal_at(triangle);
   const float volume = space_.volume[triangle], nn = dot(n, n);
-  Nearest nearest{triangle, false, {}, 0, n};
+  Nearest nearest;
+  nearest.triangle = triangle;
   std::array<float, 3>& share = nearest.share;
-  share = {dot(n, cross(p[1], p[2])), dot(n, cross(p[2], p[0])), dot(n, cross(p[0], p[1]))};
+  for (size_t k = 0; k < 3; ++k) share[k] = dot(n, cross(p[(k + 1) % 3], p[(k + 2) % 3]));
   nearest.is_inside = nn > 0 && share[0] >= 0 && share[1] >= 0 && share[2] >= 0;
   if (nearest.is_inside) {
     const float inverse = (volume < 0 ? -1 : 1) / std::sqrt(nn);
@@ -180,13 +180,15 @@ ShellGrowth::Nearest ShellGrowth::nearest_on(size_t triangle) const {
   return nearest;
 }
 
-ShellDepth ShellGrowth::depth_at(const Nearest& nearest) const {
+void ShellGrowth::locate(const Nearest& nearest, ShellDepth& found) const {
   const std::array<float, 3>& share = nearest.share;
   Vector3f sum = Vector3f::Zero();
   for (size_t k = 0; k < 3; ++k) {
     sum += hulls_.a[shell_.of_a[shell_.corner_of(nearest.triangle, k)]] * share[k];
   }
-  return {nearest.distance, nearest.way, sum * (1 / ((share[0] + share[1]) + share[2]))};
+  found.depth = nearest.distance;
+  found.normal = nearest.way;
+  found.on_a = sum * (1 / ((share[0] + share[1]) + share[2]));
 }
 
 // Where zero may be outside: the normal of the triangle that it is furthest in front of.

@@ -61,7 +61,7 @@ class ShellGrowth {
   bool is_proved(const ShellCheck& planes, float slack, Nearest& nearest, Support& next) const;
   bool fills_dent(size_t triangle, Support& next) const;
   Nearest nearest_on(size_t triangle) const;
-  ShellDepth depth_at(const Nearest& nearest) const;
+  void locate(const Nearest& nearest, ShellDepth& found) const;
   Vector3f way_out() const;
   bool grow(const Support& support);
   bool cut(uint64_t triangles, Cut& cut) const;

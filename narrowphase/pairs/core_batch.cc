@@ -168,13 +168,19 @@ class RowTester {
     placed.shape_a.emplace(a.scaled(placed.scale.down));
     placed.a.emplace(*placed.shape_a);
     placed.b.emplace(b.scaled(placed.scale.down));
-    deep = {&placed.a->view(),
-            &placed.b->view(),
-            scalar::scaled_pose(pose, placed.scale).d,
-            pose.a,
-            pose.b,
-            batch_.slack * placed.scale.down,
-            batch_.shells ? batch_.shells[row] : nullptr};
+    deep.a = &placed.a->view();
+    deep.b = &placed.b->view();
+    // One by one: compilers would copy the pose in larger pieces than those that were just written,
+    // and wait for these.
+    for (int k = 0; k < 3; ++k) {
+      deep.d[k] = pose.d[k] * placed.scale.down;
+      deep.turn_a.v[k] = pose.a.v[k];
+      deep.turn_b.v[k] = pose.b.v[k];
+    }
+    deep.turn_a.w = pose.a.w;
+    deep.turn_b.w = pose.b.w;
+    deep.slack = batch_.slack * placed.scale.down;
+    deep.shell = batch_.shells ? batch_.shells[row] : nullptr;
   }
 
   // Asks for the hulls of the rows after row i of the list. Hulls are mostly shared by many bodies,
