@@ -124,7 +124,7 @@ HWY_INLINE void store_column(const Wide& v, hn::Mask<IntTag> where, double* colu
 }
 
 template <class T>
-HWY_INLINE void add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t i) {
+HWY_INLINE I add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t i) {
   using Records = std::conditional_t<std::is_same_v<T, float>, FloatRecords, DoubleRecords>;
   using Position = typename Records::Position;
   const FloatTag tag;
@@ -156,26 +156,31 @@ HWY_INLINE void add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit
   const auto signed_of = [](uint32_t* of) { return reinterpret_cast<int32_t*>(of); };
   const I until = hn::LoadU(integers, signed_of(bodies.anchored) + i);
   const I travelled = hn::Add(until, gone);
+  const I before = hn::LoadU(integers, signed_of(bodies.travelled) + i);
+  const I since = hn::Max(hn::Sub(travelled, before), hn::Zero(integers));
+  hn::StoreU(before, integers, signed_of(bodies.travelled_before) + i);
   hn::StoreU(travelled, integers, signed_of(bodies.travelled) + i);
   const auto leaves = hn::Gt(gone, hn::Set(integers, static_cast<int32_t>(unit.leash)));
-  if (hn::AllFalse(integers, leaves)) return;
+  if (hn::AllFalse(integers, leaves)) return since;
   hn::StoreU(hn::IfThenElse(leaves, travelled, until), integers, signed_of(bodies.anchored) + i);
   store_column(to.x, leaves, column[0] + i);
   store_column(to.y, leaves, column[1] + i);
   store_column(to.z, leaves, column[2] + i);
-  if (!bodies.orientation) return;
+  if (!bodies.orientation) return since;
   store_column(q.v.x, leaves, turned[0] + i);
   store_column(q.v.y, leaves, turned[1] + i);
   store_column(q.v.z, leaves, turned[2] + i);
   store_column(q.w, leaves, turned[3] + i);
+  return since;
 }
 
 // The last bodies, fewer than the lanes, in copies of their columns.
 template <class T>
-void add_tail(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t begin, size_t count) {
+HWY_INLINE I add_tail(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t begin,
+                      size_t count) {
   HWY_ALIGN T position[4 * kLanes] = {}, anchor[3][kLanes] = {};
   HWY_ALIGN float turn[4 * kLanes] = {}, anchor_turn[4][kLanes] = {}, radius[kLanes] = {};
-  HWY_ALIGN uint32_t anchored[kLanes] = {}, travelled[kLanes] = {};
+  HWY_ALIGN uint32_t anchored[kLanes] = {}, travelled[kLanes] = {}, before[kLanes] = {};
   const auto copy = [count](const auto* from, size_t each, auto* to) {
     std::copy_n(from, count * each, to);
   };
@@ -186,39 +191,49 @@ void add_tail(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t beg
       .anchor_position = {anchor[0], anchor[1], anchor[2]},
       .anchor_orientation = {anchor_turn[0], anchor_turn[1], anchor_turn[2], anchor_turn[3]},
       .anchored = anchored,
-      .travelled = travelled};
+      .travelled = travelled,
+      .travelled_before = before};
   copy(bodies.position + 4 * begin, 4, position);
   copy(bodies.turn_radius + begin, 1, radius);
   copy(bodies.anchored + begin, 1, anchored);
+  copy(bodies.travelled + begin, 1, travelled);
   for (size_t c = 0; c < 3; ++c) copy(bodies.anchor_position[c] + begin, 1, anchor[c]);
   if (bodies.orientation) {
     copy(bodies.orientation + 4 * begin, 4, turn);
     for (size_t c = 0; c < 4; ++c) copy(bodies.anchor_orientation[c] + begin, 1, anchor_turn[c]);
   }
-  add_lanes(few, unit, 0);
+  const I way = add_lanes(few, unit, 0);
   copy(anchored, 1, bodies.anchored + begin);
   copy(travelled, 1, bodies.travelled + begin);
+  copy(before, 1, bodies.travelled_before + begin);
   for (size_t c = 0; c < 3; ++c) copy(anchor[c], 1, bodies.anchor_position[c] + begin);
   for (size_t c = 0; bodies.orientation && c < 4; ++c) {
     copy(anchor_turn[c], 1, bodies.anchor_orientation[c] + begin);
   }
+  return way;
 }
 
 template <class T>
-HWY_INLINE void travel(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t begin,
-                       size_t end) {
+HWY_INLINE uint32_t travel(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t begin,
+                           size_t end) {
   size_t i = begin;
-  for (; i + kLanes <= end; i += kLanes) add_lanes(bodies, unit, i);
-  if (i < end) add_tail(bodies, unit, i, end - i);
+  I ways = hn::Zero(IntTag());
+  for (; i + kLanes <= end; i += kLanes) ways = hn::Or(ways, add_lanes(bodies, unit, i));
+  if (i < end) ways = hn::Or(ways, add_tail(bodies, unit, i, end - i));
+  HWY_ALIGN int32_t way[kLanes];
+  hn::Store(ways, IntTag(), way);
+  uint32_t all = 0;
+  for (const int32_t its : way) all |= static_cast<uint32_t>(its);
+  return all;
 }
 
-void travel32(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
-              size_t end) {
-  travel(bodies, unit, begin, end);
+uint32_t travel32(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
+                  size_t end) {
+  return travel(bodies, unit, begin, end);
 }
-void travel64(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
-              size_t end) {
-  travel(bodies, unit, begin, end);
+uint32_t travel64(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
+                  size_t end) {
+  return travel(bodies, unit, begin, end);
 }
 
 }  // namespace
@@ -236,13 +251,13 @@ HWY_EXPORT(travel64);
 
 }  // namespace
 
-void add_travel(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
-                size_t end) {
-  CAROM_DISPATCH(travel32)(bodies, unit, begin, end);
+uint32_t add_travel(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
+                    size_t end) {
+  return CAROM_DISPATCH(travel32)(bodies, unit, begin, end);
 }
-void add_travel(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
-                size_t end) {
-  CAROM_DISPATCH(travel64)(bodies, unit, begin, end);
+uint32_t add_travel(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
+                    size_t end) {
+  return CAROM_DISPATCH(travel64)(bodies, unit, begin, end);
 }
 
 }  // namespace carom

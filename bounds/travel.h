@@ -20,8 +20,9 @@ struct TravelColumns {
   const float* turn_radius;  // metres a radian, see turning_radius()
   std::array<T*, 3> anchor_position;
   std::array<float*, 4> anchor_orientation;  // not read without `orientation`
-  uint32_t* anchored;   // ticks that the body had travelled when it was at its anchor
-  uint32_t* travelled;  // in all: those until the anchor, and how far it is from there
+  uint32_t* anchored;          // ticks that the body had travelled when it was at its anchor
+  uint32_t* travelled;         // in all: those until the anchor, and how far it is from there
+  uint32_t* travelled_before;  // `travelled` before this call, which writes it
 };
 
 struct TravelUnit {
@@ -32,10 +33,12 @@ struct TravelUnit {
 // Brings the columns of bodies [begin, end) up to date with their poses. The distance from the
 // anchor is an upper bound: that of the positions, and the chord of a point at the turning radius,
 // which lies across the axis of the turn.
-// It is kJump if it is larger or a number is not finite. The same numbers on every instruction set.
-void add_travel(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
-                size_t end);
-void add_travel(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
-                size_t end);
+// It is kJump if it is larger or a number is not finite. Returns a number that has all bits of
+// what the odometers have gained in this call, so that it is no less than any. The same numbers on
+// every instruction set.
+uint32_t add_travel(const TravelColumns<float>& bodies, const TravelUnit& unit, size_t begin,
+                    size_t end);
+uint32_t add_travel(const TravelColumns<double>& bodies, const TravelUnit& unit, size_t begin,
+                    size_t end);
 
 }  // namespace carom

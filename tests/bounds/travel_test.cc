@@ -28,7 +28,7 @@ struct Odometers {
   std::vector<std::array<float, 4>> turn;
   std::array<std::vector<float>, 4> anchor_turn;
   std::vector<float> radius;
-  std::vector<uint32_t> anchored, travelled;
+  std::vector<uint32_t> anchored, travelled, before;
 
   void add(const std::array<T, 4>& from, const std::array<T, 4>& to,
            const std::array<float, 4>& from_turn, const std::array<float, 4>& to_turn, float r) {
@@ -39,18 +39,20 @@ struct Odometers {
     radius.push_back(r);
     anchored.push_back(static_cast<uint32_t>(-100 * static_cast<int>(radius.size())));
     travelled.push_back(7);
+    before.push_back(0);
   }
 
-  void update(const TravelUnit& unit, size_t begin, size_t end, bool turns = true) {
+  uint32_t update(const TravelUnit& unit, size_t begin, size_t end, bool turns = true) {
     auto& q = anchor_turn;
-    add_travel(
+    return add_travel(
         TravelColumns<T>{.position = position[0].data(),
                          .orientation = turns ? turn[0].data() : nullptr,
                          .turn_radius = radius.data(),
                          .anchor_position = {anchor[0].data(), anchor[1].data(), anchor[2].data()},
                          .anchor_orientation = {q[0].data(), q[1].data(), q[2].data(), q[3].data()},
                          .anchored = anchored.data(),
-                         .travelled = travelled.data()},
+                         .travelled = travelled.data(),
+                         .travelled_before = before.data()},
         unit, begin, end);
   }
 
@@ -166,6 +168,29 @@ void check_bounds(uint64_t seed) {
     for (size_t c = 0; c < 4; ++c) {
       EXPECT_EQ(after.anchor_turn[c][i], leaves ? before.turn[i][c] : before.anchor_turn[c][i]);
     }
+  }
+}
+
+// What the odometers gain, where some go back towards their anchors, of any number of bodies.
+TEST(Travel, SaysNoLessThanAnyOdometerGains) {
+  Random random(4);
+  const TravelUnit unit = {1000, 1u << 27};
+  for (size_t count = 0; count < 40; ++count) {
+    Odometers<float> bodies = random_bodies<float>(count, random);
+    for (uint32_t& odometer : bodies.travelled) {
+      odometer = static_cast<uint32_t>(random.below(5000));
+    }
+    for_each_isa([&] {
+      Odometers<float> after = bodies;
+      const uint32_t gained = after.update(unit, 0, count);
+      EXPECT_EQ(after.before, bodies.travelled);
+      uint32_t all = 0;
+      for (size_t i = 0; i < count; ++i) {
+        const auto gain = static_cast<int32_t>(after.travelled[i] - bodies.travelled[i]);
+        all |= static_cast<uint32_t>(std::max(gain, 0));
+      }
+      EXPECT_EQ(gained, all) << count;
+    });
   }
 }
 

@@ -141,18 +141,19 @@ void Drift::move_all_elsewhere(const BodyStore& bodies, float tolerance) {
 }
 
 void Drift::read_odometers(const BodyStore& bodies, Parallelism parallelism) {
-  travelled_before_ = travelled_;
   const TravelUnit unit = {ticks_per_metre_, kLeash};
+  std::atomic<uint32_t> gained{0};
   const auto add = [&](const auto& columns) {
     for_each_block(
         bodies.rows(), kRowsPerBlock, parallelism,
-        [&](size_t, size_t begin, size_t end) { add_travel(columns, unit, begin, end); });
+        [&](size_t, size_t begin, size_t end) { gained |= add_travel(columns, unit, begin, end); });
   };
   if (bodies.records64().empty()) {
     add(columns(bodies.records32(), bodies, anchors32_));
   } else {
     add(columns(bodies.records64(), bodies, anchors64_));
   }
+  most_gained_ = gained;
 }
 
 template <class T>
@@ -167,7 +168,8 @@ TravelColumns<T> Drift::columns(const LargeVector<T>& positions, const BodyStore
           .anchor_orientation = {turned[0].data(), turned[1].data(), turned[2].data(),
                                  turned[3].data()},
           .anchored = anchored_.data(),
-          .travelled = travelled_.data()};
+          .travelled = travelled_.data(),
+          .travelled_before = travelled_before_.data()};
 }
 
 // Bodies that are others, or have other shapes or properties.

@@ -51,6 +51,9 @@ class Drift {
   // One byte a body: whether it is another one, or has another shape or other properties.
   std::span<const uint8_t> replaced() const { return replaced_; }
 
+  // No odometer has gained more ticks in this step.
+  uint32_t most_gained() const { return replaced_bodies_.empty() ? most_gained_ : kJump; }
+
   // One a body; and up to which sum of the two of a pair the result of a test of now holds.
   // `gap`, metres: the separation that they may lose before there is another result; a lower bound.
   std::span<const uint32_t> odometers() const { return travelled_; }
@@ -98,6 +101,7 @@ class Drift {
   // body behind them is not near.
   static constexpr uint32_t kHasFront = 1u << 31;
   std::vector<uint32_t> share_;
+  uint32_t most_gained_ = 0;
   std::vector<uint8_t> replaced_;
   std::vector<uint32_t> replaced_bodies_;  // those with a byte
   // The bounds of a body hold it until its odometer passes the fence; the early one is half way.

@@ -1,11 +1,9 @@
 #include "world/pairs/result_hold.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/fresh_pages.h"
 #include "base/parallel.h"
-#include "world/pairs/due_pairs.h"
 
 namespace carom {
 
@@ -14,15 +12,7 @@ size_t ResultHold::find_due(const PairHistory& last, const Drift& drift, Paralle
   due_pairs_.clear();
   knows_last_ = last.holds_until.size() == pairs;
   if (!knows_last_) return pairs;
-  due_of_block_.reset(block_count(pairs, kPairsPerMergeBlock));
-  for_each_block(
-      pairs, kPairsPerMergeBlock, parallelism, [&](size_t block, size_t begin, size_t end) {
-        std::array<uint32_t, kPairsPerMergeBlock + kDuePadding> found;
-        const size_t count = find_due_pairs(last.pairs.data(), last.holds_until.data(),
-                                            drift.odometers().data(), begin, end, found.data());
-        due_of_block_[block].assign(found.begin(), found.begin() + count);
-      });
-  due_of_block_.concatenate(due_pairs_, parallelism);
+  watched_.find_due(last, drift.odometers(), drift.most_gained(), parallelism, due_pairs_);
   return due_pairs_.size();
 }
 
@@ -50,7 +40,8 @@ void ResultHold::follow(const CarryPlan& plan, size_t pairs) {
 
 void ResultHold::set_terms(const PairRange& range, const CarryPlan& plan, const GapStage& gaps,
                            const Drift& drift, const PairHistory& last, Parallelism parallelism,
-                           PairHistory& now) const {
+                           PairHistory& now) {
+  watched_.forget();
   resize_for_overwriting(now.holds_until, now.pairs.size());
   const auto set = [&](size_t begin, size_t end, size_t number) {
     for (size_t i = begin; i < end; ++i, ++number) {

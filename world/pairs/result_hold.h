@@ -10,6 +10,7 @@
 #include "world/pairs/gap_stage.h"
 #include "world/pairs/pair_history.h"
 #include "world/pairs/pauses.h"
+#include "world/pairs/watched_pairs.h"
 #include "world/store/columns.h"
 
 namespace carom {
@@ -30,16 +31,19 @@ class ResultHold {
   // copies it of those that are carried.
   void set_terms(const PairRange& range, const CarryPlan& plan, const GapStage& gaps,
                  const Drift& drift, const PairHistory& last, Parallelism parallelism,
-                 PairHistory& now) const;
+                 PairHistory& now);
 
-  void give_back() { give_back_scratch(due_, due_pairs_, due_of_block_); }
-  size_t bytes() const { return bytes_of(due_) + bytes_of(due_pairs_) + due_of_block_.bytes(); }
+  void give_back() {
+    give_back_scratch(due_, due_pairs_);
+    watched_.give_back();
+  }
+  size_t bytes() const { return bytes_of(due_) + bytes_of(due_pairs_) + watched_.bytes(); }
 
  private:
   bool knows_last_ = false;
   std::vector<uint8_t> due_;
   std::vector<uint32_t> due_pairs_;
-  BlockLists<uint32_t> due_of_block_;
+  WatchedPairs watched_;
 };
 
 // Takes long pauses from keeping results where few of them hold, since it then costs more than it
