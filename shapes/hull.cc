@@ -59,6 +59,15 @@ std::optional<std::vector<DopSolid::Edge>> edges_between(std::span<const HullEdg
   return between;
 }
 
+// Rounded up.
+float radius_about(const Eigen::Vector3f& middle, std::span<const Eigen::Vector3f> points) {
+  double radius = 0;
+  for (const Eigen::Vector3f& point : points) {
+    radius = std::max(radius, (point.cast<double>() - middle.cast<double>()).norm());
+  }
+  return static_cast<float>(radius * (1 + 0x1p-20));
+}
+
 }  // namespace
 
 struct HullBuilder {
@@ -76,7 +85,9 @@ struct HullBuilder {
     hull.columns_ = columns_of(points);
     hull.column_stride_ = static_cast<uint32_t>(padded_count(points.size()));
     hull.middle_ = mean_of(points);
-    hull.records_ = records_of(points, hull.middle_.cast<float>());
+    const Eigen::Vector3f middle = hull.middle_.cast<float>();
+    hull.records_ = records_of(points, middle);
+    hull.balls_ = {{middle.x(), middle.y(), middle.z()}, radius_about(middle, points), 0};
     for (size_t i = 0; i < faces.size(); ++i) {
       const std::vector<uint32_t>& face = faces[i];
       if (face.size() < 3) {
@@ -92,7 +103,17 @@ struct HullBuilder {
     return {};
   }
 
-  static void add_features(HullGeometry& hull) { hull.features_ = HullFeatures::of(hull); }
+  static void add_features(HullGeometry& hull) {
+    hull.features_ = HullFeatures::of(hull);
+    add_inner_ball(hull);
+  }
+
+  static void add_inner_ball(HullGeometry& hull) {
+    if (!hull.features_) return;
+    const Eigen::Vector3d off = hull.middle_ - hull.middle_.cast<float>().cast<double>();
+    const double radius = (double{hull.features_->inner_radius()} - off.norm()) * (1 - 0x1p-20);
+    hull.balls_.inner = static_cast<float>(std::max(radius, 0.0));
+  }
 
   // The same of a k-DOP, by the planes of its faces.
   static void add_features(DopHull& dop, std::span<const uint8_t> planes) {
@@ -106,6 +127,7 @@ struct HullBuilder {
     heights.fill(HUGE_VALF);
     for (size_t f = 0; f < planes.size(); ++f) heights[planes[f]] = features->height(f);
     hull.features_ = features;
+    add_inner_ball(hull);
     hull.dop_solid_ = &dop.solid.emplace(hull, features->inner_radius(), heights, *between);
     hull.columns_ = {std::shared_ptr<const float>(), hull.dop_solid_->column(0)};
     hull.column_stride_ = DopSolid::kMostPoints;

@@ -34,6 +34,7 @@ enum class Pass : uint8_t {
   direction,  // overlap 0: the pair is separate along its old direction and needs no test
   recall,     // results of pairs whose closest features are those in `features`; others are unsure
   shell,      // results of pairs whose shells prove depths within the slack; overlap 0: others
+  balls,      // decisions of two hulls by balls in and about them; others are unsure
   test,       // decision and contact; separate pairs may have none if there is a distance pass
   distance,   // contact columns of separate pairs; for GJK kinds, all columns of all pairs
   clearance,  // GJK kinds only: decision, and the contact columns of separate pairs

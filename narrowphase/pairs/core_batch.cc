@@ -7,6 +7,7 @@
 #include <span>
 
 #include "narrowphase/batch/column_memory.h"
+#include "narrowphase/batch/row_selection.h"
 #include "narrowphase/batch/row_store.h"
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/stated_body.h"
@@ -261,16 +262,16 @@ class RowTester {
   std::array<uint16_t, CoreRows::kMost> row_of_;
 };
 
-}  // namespace
-
 template <class A, class B>
-void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
+void run_rows(const Batch& batch, const CoreKernels& kernels) {
   const ShapeKind kind_a = kind_of(A()), kind_b = kind_of(B());
   const bool decides_only = batch.pass == Pass::test &&
                             (!has_contacts(batch.detail) || has_distance_pass(kind_a, kind_b));
   const auto in_lanes = decides_only ? kernels.for_decisions : kernels.for_all_else;
   if (batch.pass == Pass::manifold) return run_manifolds(batch, kind_a, kind_b, in_lanes);
-  if (batch.pass == Pass::direction || batch.pass == Pass::recall) return in_lanes(batch);
+  if (batch.pass == Pass::direction || batch.pass == Pass::recall || batch.pass == Pass::balls) {
+    return in_lanes(batch);
+  }
   RowTester<A, B> rows(batch, kind_a, kind_b);
   std::array<uint16_t, kPairsPerBlock + 1> deep, unsure;
   if (batch.pass == Pass::shell) {
@@ -294,6 +295,67 @@ void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
   rows.run_deep({deep.data(), deep_count});
   for (size_t i = 0; i < unsure_count; ++i) rows.run(unsure[i]);
   rows.finish();
+}
+
+// Whether balls may decide rows: of two hulls whose decision alone is wanted. Those of the first
+// row stand for all. GJK takes little longer than balls do if they have few points.
+template <class A, class B>
+bool is_for_balls(const Batch& batch) {
+  constexpr size_t kFewestPoints = 24;  // of both together
+  if constexpr (std::is_same_v<A, Hull> && std::is_same_v<B, Hull>) {
+    if (batch.count == 0 || batch.pass != Pass::test || has_contacts(batch.detail) ||
+        batch.unsure) {
+      return false;
+    }
+    const BodyReader a{view_of(batch.a, batch.layout, ShapeKind::hull)};
+    const BodyReader b{view_of(batch.b, batch.layout, ShapeKind::hull)};
+    const auto* of_a = geometry_at<HullGeometry>(a.row(batch.pairs[0].a, 0));
+    const auto* of_b = geometry_at<HullGeometry>(b.row(batch.pairs[0].b, 0));
+    return of_a && of_b && of_a->points().size() + of_b->points().size() >= kFewestPoints;
+  } else {
+    return false;
+  }
+}
+
+// Decides rows by balls, and marks in `open` those that need a test. False if these are nearly all
+// of the first ones: then nothing is decided.
+bool run_balls(const Batch& batch, const CoreKernels& kernels, uint8_t* open) {
+  constexpr size_t kFirst = 64, kFewest = 8;  // fewer than one row in so many are few
+  Batch balls = batch;
+  balls.pass = Pass::balls;
+  balls.unsure = open;
+  balls.count = std::min(batch.count, kFirst);
+  kernels.for_decisions(balls);
+  const auto decided = static_cast<size_t>(std::count(open, open + balls.count, 0));
+  if (kFewest * decided < balls.count) return false;
+  if (balls.count < batch.count) {
+    std::fill_n(open, balls.count, uint8_t{0});
+    balls.count = batch.count;
+    kernels.for_decisions(balls);
+  }
+  return true;
+}
+
+// Tests the rows that balls do not decide.
+template <class A, class B>
+void run_by_balls(const Batch& batch, const CoreKernels& kernels) {
+  std::array<uint8_t, kPairsPerBlock> open{};
+  if (!run_balls(batch, kernels, open.data())) return run_rows<A, B>(batch, kernels);
+  RowSelection left(batch);
+  left.select([&](size_t row) { return open[row] != 0; });
+  if (left.count() == 0) return;
+  TestColumns scratch;
+  Batch rest = left.batch(Pass::test);
+  rest.out = scratch.columns();
+  run_rows<A, B>(rest, kernels);
+  left.scatter(rest.out, batch.out, batch.detail);
+}
+
+}  // namespace
+
+template <class A, class B>
+void run_core_batch(const Batch& batch, const CoreKernels& kernels) {
+  is_for_balls<A, B>(batch) ? run_by_balls<A, B>(batch, kernels) : run_rows<A, B>(batch, kernels);
 }
 
 template void run_core_batch<Sphere, Hull>(const Batch&, const CoreKernels&);

@@ -49,6 +49,13 @@ class CAROM_EXPORT HullGeometry {
   const float* column(size_t axis) const { return columns_.get() + axis * column_stride_; }
   /// Entries from one column to the next: the number of points, padded.
   size_t column_stride() const { return column_stride_; }
+  /// Two balls about middle(), which is rounded: all points lie in the outer one, and the inner one
+  /// lies in the hull, if its faces close a solid; otherwise its radius is 0.
+  struct Balls {
+    std::array<float, 3> middle = {};
+    float outer = 0, inner = 0;
+  };
+  const Balls& balls() const { return balls_; }
   /// Records x, y, z, 0 of every point, and after them of middle(), rounded to float32.
   std::span<const std::array<float, 4>> records() const { return records_; }
   /// Faces, edges (none for k-DOPs) and neighbours, if the faces close a solid with all points
@@ -64,7 +71,8 @@ class CAROM_EXPORT HullGeometry {
   friend class DopGeometry;
 
   // Tests in lanes read these of every hull, so they lie side by side.
-  static constexpr size_t kBytesOfLanes = 80;
+  static constexpr size_t kBytesOfLanes = 104;
+  Balls balls_;
   float size_ = 0;
   uint32_t column_stride_ = 0;
   const DopSolid* dop_solid_ = nullptr;

@@ -91,6 +91,7 @@ void aabb_box(const Batch& batch) {
     case Pass::clearance:  // these are only for GJK kinds
     case Pass::recall:
     case Pass::shell:
+    case Pass::balls:
     case Pass::direction:
       return;
   }

@@ -81,6 +81,7 @@ void box_box(const Batch& batch) {
     case Pass::clearance:  // these are only for GJK kinds
     case Pass::recall:
     case Pass::shell:
+    case Pass::balls:
     case Pass::direction:
       return;
   }

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 // After the loop over targets.
 #include "narrowphase/batch/batch-inl.h"
+#include "narrowphase/hulls/ball_kernel-inl.h"
 #include "narrowphase/hulls/core_stages-inl.h"
 #include "narrowphase/hulls/recall-inl.h"
 #include "narrowphase/manifolds/hull_points-inl.h"
@@ -18,6 +19,8 @@ namespace {
 
 void hull_hull(const Batch& batch) {
   switch (batch.pass) {
+    case Pass::balls:
+      return run_batch<BallKernel>(batch);
     case Pass::direction:
       return run_direction<HullLanes, HullLanes>(batch);
     case Pass::recall:
