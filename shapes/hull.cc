@@ -87,7 +87,7 @@ struct HullBuilder {
     hull.middle_ = mean_of(points);
     const Eigen::Vector3f middle = hull.middle_.cast<float>();
     hull.records_ = records_of(points, middle);
-    hull.balls_ = {{middle.x(), middle.y(), middle.z()}, radius_about(middle, points), 0};
+    hull.balls_.outer = {middle.x(), middle.y(), middle.z(), radius_about(middle, points)};
     for (size_t i = 0; i < faces.size(); ++i) {
       const std::vector<uint32_t>& face = faces[i];
       if (face.size() < 3) {

@@ -18,7 +18,7 @@ struct BallRecords {
 
   HWY_INLINE const float* record(size_t lane) const {
     const HullGeometry* const geometry = hull.geometry[lane];
-    return geometry ? geometry->balls().middle.data() : kNoRecords.data();
+    return geometry ? geometry->balls().outer.data() : kNoRecords.data();
   }
 #if HWY_TARGET != HWY_SCALAR
   HWY_INLINE hn::Vec<Quad> quad(size_t lane) const { return hn::LoadU(Quad(), record(lane)); }

@@ -19,10 +19,11 @@ struct PlacedBalls {
   float outer, inner;
 
   PlacedBalls(const HullShape<float>& hull, const Quaternion<float>& q, const Vector3f& offset) {
-    const auto& [own, own_outer, own_inner] = hull.geometry->balls();
-    middle = rotate(placing_turn(hull, q), Vector3f(own[0], own[1], own[2])) + offset;
-    outer = own_outer * static_cast<float>(hull.scale);
-    inner = own_inner * static_cast<float>(hull.scale);
+    const HullGeometry::Balls& balls = hull.geometry->balls();
+    const auto& [x, y, z, radius] = balls.outer;
+    middle = rotate(placing_turn(hull, q), Vector3f(x, y, z)) + offset;
+    outer = radius * static_cast<float>(hull.scale);
+    inner = balls.inner * static_cast<float>(hull.scale);
   }
 };
 

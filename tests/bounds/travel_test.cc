@@ -22,6 +22,11 @@ using oracle::Random;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 template <class T>
+const T* numbers_of(const std::vector<std::array<T, 4>>& records) {
+  return records.empty() ? nullptr : records[0].data();
+}
+
+template <class T>
 struct Odometers {
   std::vector<std::array<T, 4>> position;
   std::array<std::vector<T>, 3> anchor;
@@ -45,8 +50,8 @@ struct Odometers {
   uint32_t update(const TravelUnit& unit, size_t begin, size_t end, bool turns = true) {
     auto& q = anchor_turn;
     return add_travel(
-        TravelColumns<T>{.position = position[0].data(),
-                         .orientation = turns ? turn[0].data() : nullptr,
+        TravelColumns<T>{.position = numbers_of(position),
+                         .orientation = turns ? numbers_of(turn) : nullptr,
                          .turn_radius = radius.data(),
                          .anchor_position = {anchor[0].data(), anchor[1].data(), anchor[2].data()},
                          .anchor_orientation = {q[0].data(), q[1].data(), q[2].data(), q[3].data()},

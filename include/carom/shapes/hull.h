@@ -52,8 +52,8 @@ class CAROM_EXPORT HullGeometry {
   /// Two balls about middle(), which is rounded: all points lie in the outer one, and the inner one
   /// lies in the hull, if its faces close a solid; otherwise its radius is 0.
   struct Balls {
-    std::array<float, 3> middle = {};
-    float outer = 0, inner = 0;
+    std::array<float, 4> outer = {};  ///< middle and radius
+    float inner = 0;                  ///< radius
   };
   const Balls& balls() const { return balls_; }
   /// Records x, y, z, 0 of every point, and after them of middle(), rounded to float32.

@@ -146,7 +146,8 @@ TEST(Balls, HoldTheHullAndLieInIt) {
   for (const Hull& hull : hulls) {
     const HullGeometry& geometry = *hull.geometry;
     const HullGeometry::Balls& balls = geometry.balls();
-    const Vector3d middle = Vector3f(balls.middle.data()).cast<double>();
+    const Vector3d middle = Vector3f(balls.outer.data()).cast<double>();
+    const double outer = balls.outer[3];
     double furthest = 0, nearest = HUGE_VAL;
     for (const Vector3f& point : geometry.points()) {
       furthest = std::max(furthest, (point.cast<double>() - middle).norm());
@@ -161,8 +162,8 @@ TEST(Balls, HoldTheHullAndLieInIt) {
       for (size_t k = 0; k < corners.size(); ++k) normal += corner(k).cross(corner(k + 1));
       nearest = std::min(nearest, normal.normalized().dot(corner(0)));
     }
-    EXPECT_GE(balls.outer, furthest);
-    EXPECT_LE(balls.outer, furthest * (1 + 1e-5));
+    EXPECT_GE(outer, furthest);
+    EXPECT_LE(outer, furthest * (1 + 1e-5));
     EXPECT_LE(balls.inner, nearest);
     EXPECT_GE(balls.inner, nearest - 1e-4 * double{geometry.size()});
   }
@@ -213,7 +214,7 @@ TEST(Balls, OfHugeHullsDecideNothing) {
   const float far = 3e38f;
   const Points points = {{far, far, far}, {-far, far, -far}, {far, -far, -far}, {-far, -far, far}};
   const Hull hull{*make_hull(points, {})};
-  EXPECT_GE(hull.geometry->balls().outer, far);
+  EXPECT_GE(hull.geometry->balls().outer[3], far);
   const HullPair pair = {
       hull, hull, {Vector3f(far, 0, 0), {Vector3f::Zero(), 1}, {Vector3f::Zero(), 1}}};
   EXPECT_FALSE(expected_decision(pair).is_sure);
