@@ -148,6 +148,17 @@ Result<void> check_sizes(const SceneShapes& shapes, const std::string& path) {
   });
 }
 
+// Members that make other shapes of the kinds that this version knows: to pass over them would be to
+// answer for other shapes.
+Result<void> refuse_unknown_members(const NpzReader& reader) {
+  for (const char* const name : {"shape_radius", "shape_scale"}) {
+    if (reader.has(name)) {
+      return member_error(reader.path(), name, "is not supported by this version of Carom");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
@@ -171,6 +182,7 @@ Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
 }
 
 Result<SceneShapes> read_shapes(const NpzReader& reader) {
+  if (Result<void> known = refuse_unknown_members(reader); !known) return known.error();
   SceneShapes shapes;
   Result<std::vector<uint8_t>> kind = reader.read<uint8_t>("shape_kind", {kAny});
   if (!kind) return kind.error();

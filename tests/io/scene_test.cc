@@ -257,6 +257,15 @@ TEST_F(SceneTest, WrongMembersAreNamed) {
               HasSubstr("member dt: has shape () (float64 (1,)"));
 }
 
+// They would make other shapes of the kinds that are known.
+TEST_F(SceneTest, MembersThatChangeAShapeAreNotPassedOver) {
+  EXPECT_EQ(error_with(array<float>("shape_radius", "<f4", "(1,)", {0.1f})),
+            path("bad.npz") + ": member shape_radius: is not supported by this version of Carom");
+  EXPECT_THAT(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, 1, 2})),
+              HasSubstr("member shape_scale: is not supported"));
+  EXPECT_EQ(error_with(array<float>("my_colours", "<f4", "(1,)", {1})), "");
+}
+
 TEST_F(SceneTest, ArraysWithoutFiniteValuesAreErrors) {
   EXPECT_EQ(error_with(array<float>("position", "<f4", "(1, 2, 3)", std::vector<float>(6, kNan))),
             path("bad.npz") +
