@@ -148,8 +148,8 @@ Result<void> check_sizes(const SceneShapes& shapes, const std::string& path) {
   });
 }
 
-// Members that make other shapes of the kinds that this version knows: to pass over them would be to
-// answer for other shapes.
+// Members that make other shapes of the kinds that this version knows: to pass over them would be
+// to answer for other shapes.
 Result<void> refuse_unknown_members(const NpzReader& reader) {
   for (const char* const name : {"shape_radius", "shape_scale"}) {
     if (reader.has(name)) {

@@ -49,12 +49,12 @@ class CAROM_EXPORT HullGeometry {
   const float* column(size_t axis) const { return columns_.get() + axis * column_stride_; }
   /// Entries from one column to the next: the number of points, padded.
   size_t column_stride() const { return column_stride_; }
-  /// Two balls about middle(), which is rounded: all points lie in the outer one, and the inner one
-  /// lies in the hull, if its faces close a solid; otherwise its radius is 0.
+  /// Two balls about middle(), which is rounded.
   struct Balls {
-    std::array<float, 4> outer = {};  ///< middle and radius
-    float inner = 0;                  ///< radius
+    std::array<float, 4> outer = {};  ///< middle and radius: all points lie in it
+    float inner = 0;  ///< radius of a ball in the hull; 0 if its faces do not close a solid
   };
+  /// The balls of this hull, metres, in the body's frame.
   const Balls& balls() const { return balls_; }
   /// Records x, y, z, 0 of every point, and after them of middle(), rounded to float32.
   std::span<const std::array<float, 4>> records() const { return records_; }
