@@ -1,6 +1,7 @@
 #include "carom/shapes/hull.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -65,7 +66,8 @@ float radius_about(const Eigen::Vector3f& middle, std::span<const Eigen::Vector3
   for (const Eigen::Vector3f& point : points) {
     radius = std::max(radius, (point.cast<double>() - middle.cast<double>()).norm());
   }
-  return static_cast<float>(radius * (1 + 0x1p-20));
+  radius *= 1 + 0x1p-20;
+  return radius <= double{FLT_MAX} ? static_cast<float>(radius) : HUGE_VALF;
 }
 
 }  // namespace

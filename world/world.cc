@@ -3,6 +3,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "base/float_environment.h"
@@ -19,17 +21,23 @@ const char* name(Stage stage) {
 
 namespace {
 
-[[maybe_unused]] bool is_tolerance(std::optional<float> metres) {
-  return !metres || (std::isfinite(*metres) && *metres >= 0);
+void check_tolerance(std::optional<float> metres) {
+  if (!metres || (std::isfinite(*metres) && *metres >= 0)) return;
+  throw std::invalid_argument("the tolerance " + std::to_string(*metres) +
+                              " is not a finite number of metres from 0 on");
+}
+
+const WorldSettings& checked(const WorldSettings& settings) {
+  check_tolerance(settings.accuracy.tolerance);
+  return settings;
 }
 
 }  // namespace
 
-World::World(const WorldSettings& settings) : state_(std::make_unique<State>(settings)) {
+World::World(const WorldSettings& settings) : state_(std::make_unique<State>(checked(settings))) {
   assert(std::isfinite(settings.margin) && settings.margin >= 0);
   assert(std::isfinite(settings.dt) && settings.dt >= 0);
   assert(std::isfinite(settings.contact_distance) && settings.contact_distance >= 0);
-  assert(is_tolerance(settings.accuracy.tolerance));
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
@@ -38,12 +46,13 @@ World& World::operator=(World&&) noexcept = default;
 const WorldSettings& World::settings() const { return state_->settings; }
 
 BodyId World::add(const BodyDesc& body) {
-  assert(is_tolerance(body.tolerance));
+  check_tolerance(body.tolerance);
   const FloatEnvironment environment;
   return state_->bodies.add(body);
 }
 
 void World::add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids) {
+  for (const BodyDesc& body : bodies) check_tolerance(body.tolerance);
   ids.reserve(ids.size() + bodies.size());
   for (const BodyDesc& body : bodies) ids.push_back(add(body));
 }
@@ -183,7 +192,7 @@ std::optional<float> World::tolerance(BodyId id) const {
 
 void World::set_tolerance(BodyId id, std::optional<float> tolerance) {
   assert(contains(id));
-  assert(is_tolerance(tolerance));
+  check_tolerance(tolerance);
   state_->bodies.set_tolerance(id.index, tolerance);
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "carom_build_info.h"
@@ -218,13 +219,24 @@ Json to_json(const Advice& advice) {
   return json;
 }
 
+// Two digits, and no less than the number.
+double rounded_up(double metres) {
+  if (!(metres > 0)) return metres;
+  const double unit = std::pow(10, std::floor(std::log10(metres)) - 1);
+  return std::ceil(metres / unit * (1 - 1e-12)) * unit;
+}
+
 void print(const Advice& advice, std::ostream& out) {
   const SettingsChoice& choice = advice.choice;
+  if (!advice.meets) {
+    out << "No settings keep errors below the tolerance: the standard tier itself may be off by "
+        << number("%.2g m.\n", advice.survey.pairs.error_bound);
+  }
   out << io::printable(advice.command) << ": "
       << number("%.2f of the time at tolerance 0", choice.frame_ms / choice.frame_ms_standard)
       << number(" (%.3f", choice.frame_ms)
       << number(" for %.3f ms a frame)", choice.frame_ms_standard)
-      << number("; errors of %.2g m at most", advice.guaranteed_error)
+      << number("; errors of %.2g m at most", rounded_up(advice.guaranteed_error))
       << number(", %.2g m seen\n\n", choice.deviation.worst());
   if (!advice.front.empty()) out << front_text(advice.front) << '\n';
   print_survey(advice, out);
@@ -233,10 +245,6 @@ void print(const Advice& advice, std::ostream& out) {
   print_rows(("Settings for errors below " + number("%g", advice.tolerance) + " m").c_str(),
              advice.settings, out);
   print_rows("Not needed here", advice.not_needed, out);
-  if (!advice.meets) {
-    out << "\nNo settings keep errors below the tolerance: the standard tier itself may be off by "
-        << number("%.2g m\n", advice.survey.pairs.error_bound);
-  }
 }
 
 }  // namespace

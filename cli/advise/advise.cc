@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <thread>
 
@@ -9,9 +8,9 @@
 #include "cli/commands.h"
 #include "cli/support/command_line.h"
 #include "cli/support/json_output.h"
+#include "cli/support/number_text.h"
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
-#include "io/printable.h"
 
 namespace carom::cli {
 namespace {
@@ -33,10 +32,10 @@ struct AdviseOptions {
 };
 
 Result<void> check(const AdviseOptions& options) {
-  if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", options.tolerance);
-    return Error{"--tolerance " + io::printable_name(text) + ": not a number of metres above 0"};
+  if (Result<void> metres = check_metres("--tolerance", options.tolerance); !metres) return metres;
+  if (!(static_cast<float>(options.tolerance) > 0)) {
+    return Error{"--tolerance" + number(" %g", options.tolerance) +
+                 ": not a number of metres above 0"};
   }
   return options.threads == 0 ? Result<void>() : check_threads(options.threads);
 }

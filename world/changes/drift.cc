@@ -72,16 +72,17 @@ void Drift::prepare(const BodyStore& bodies, float tolerance) {
 
 // The tolerance by which ticks are measured: the least one, but not much more than the smallest
 // body, since bounds grow by some ticks in any case, nor so little that the greatest one leaves the
-// range.
+// range. Of a tolerance that is larger than its body, no more than the body's size counts.
 float Drift::unit_of(const BodyStore& bodies, float tolerance) const {
   const Collidables view = bodies.view();
   float least = FLT_MAX, greatest = 0;
   for (uint32_t i = 0; i < bodies.rows(); ++i) {
     const float own = bodies.tolerance(i).value_or(tolerance);
-    if (!(own > 0)) continue;
-    greatest = std::max(greatest, own);
     const float radius = bounding_radius(BodyReader{view}, i);
-    least = std::min(least, radius > 0 ? std::min(own, 4 * radius) : own);
+    if (!(own > 0) || std::isinf(radius)) continue;
+    const float useful = radius > 0 ? std::min(own, 4 * radius) : own;
+    if (radius > 0) greatest = std::max(greatest, useful);
+    least = std::min(least, useful);
   }
   return std::max(least, greatest * 0x1p-14f);
 }

@@ -28,7 +28,8 @@ inline constexpr uint8_t kUndecided = 2;
 struct Accuracy {
   Tier tier = Tier::standard;  ///< how certain decisions are
 
-  /// How wrong results may be, in metres, finite, >= 0; 0: the standard tier, to the bit. In calls
+  /// How wrong results may be, in metres, finite, >= 0 (otherwise World throws
+  /// std::invalid_argument, and calls for pairs fail); 0: the standard tier, to the bit. In calls
   /// for pairs depths may be off by it: that of two hulls may be too great, that of two
   /// meshes too small; all else is as without it. The rest is about worlds. Results of a
   /// pair are then those of two shapes whose distances from the true ones (Hausdorff)
@@ -36,8 +37,10 @@ struct Accuracy {
   /// rounding of the standard tier), no overlap that is deeper is missed, and none is reported
   /// across a wider gap. Depths of surfaces that cross depend on their triangles: where models
   /// stand for meshes (carom/shapes/ladder.h), they are those of the models. BodyDesc::tolerance
-  /// replaces it for a body. docs/accuracy.md says how, and what it saves. Not for Tier::certified
-  /// and Tier::exact, which prove decisions about shapes where they are.
+  /// replaces it for a body. A world uses the models that shapes have, and builds none:
+  /// build_ladder() does (carom/ladders/build_ladder.h). docs/accuracy.md says how, and what it
+  /// saves. Not for Tier::certified and Tier::exact, which prove decisions about shapes where they
+  /// are.
   float tolerance = 0;
 };
 

@@ -78,8 +78,9 @@ struct BodyDesc {
   /// Metres, finite, >= 0: separate pairs of this body have contacts from this separation on. The
   /// distance of a pair is the larger one of its two bodies, and not less than that of the world.
   float contact_distance = 0;
-  /// Metres, finite, >= 0: Accuracy::tolerance of this body; none: that of the world. Half of it
-  /// counts for each of its pairs, and half of that of the other body.
+  /// Metres, finite, >= 0 (otherwise World throws std::invalid_argument): Accuracy::tolerance of
+  /// this body; none: that of the world. Half of it counts for each of its pairs, and half of that
+  /// of the other body.
   std::optional<float> tolerance = std::nullopt;
   uint64_t user = 0;  ///< handed back unchanged
 };

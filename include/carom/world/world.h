@@ -154,7 +154,7 @@ struct WorldMemory {
 /// World.
 class CAROM_EXPORT World {
  public:
-  /// An empty world.
+  /// An empty world. Throws std::invalid_argument if the tolerance is negative or not finite.
   explicit World(const WorldSettings& settings = {});
   ~World();
   /// Moves all bodies and results.
@@ -167,10 +167,11 @@ class CAROM_EXPORT World {
 
   // Bodies.
 
-  /// Adds a body. Indices start at 0; the lowest free one is used again first. A body that is not
+  /// Adds a body. Throws std::invalid_argument, and adds none, if its tolerance is negative or not
+  /// finite. Indices start at 0; the lowest free one is used again first. A body that is not
   /// valid is added, too, and quarantined by the next step.
   BodyId add(const BodyDesc& body);
-  /// Adds bodies in order and appends their ids to `ids`.
+  /// Adds bodies in order and appends their ids to `ids`; none if the tolerance of one is bad.
   void add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids);
   /// Removes a body; false if it is dead already.
   bool remove(BodyId id);
@@ -226,7 +227,7 @@ class CAROM_EXPORT World {
   void set_contact_distance(BodyId id, float distance);
   /// Metres, as it was set.
   std::optional<float> tolerance(BodyId id) const;
-  /// Sets BodyDesc::tolerance.
+  /// Sets BodyDesc::tolerance. Throws std::invalid_argument if it is negative or not finite.
   void set_tolerance(BodyId id, std::optional<float> tolerance);
   /// Sets BodyDesc::group.
   void set_group(BodyId id, int32_t group);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "tests/world/crowds.h"
 #include "tests/world/tolerance.h"
@@ -356,9 +357,11 @@ TEST(Tolerance, LimitsOfOtherPairsAreForgotten) {
 // Neither a tolerance of 0 of some bodies nor a tolerance much larger than they are makes bounds
 // huge.
 TEST(Tolerance, BoundsStayAsLargeAsTheBodies) {
-  for (const float of_world : {0.0f, 0.1f, 10.0f, 1000.0f, 1e6f}) {
+  for (const float of_world : {0.0f, 0.1f, 10.0f, 1000.0f, 1e6f, 1e30f, 3e38f}) {
     World world(within(of_world));
     std::vector<BodyId> ids;
+    // It has no size, and is below all.
+    world.add({.shape = Halfspace{{0, 0, 1}, -10}});
     for (int i = 0; i < 200; ++i) {
       ids.push_back(world.add({.shape = Sphere{0.4f}, .position = {static_cast<double>(i), 0, 0}}));
       if (of_world == 0) world.set_tolerance(ids.back(), 0.0f);
@@ -368,6 +371,28 @@ TEST(Tolerance, BoundsStayAsLargeAsTheBodies) {
       world.step();
       ASSERT_LE(world.pairs().size(), of_world == 0 ? 0u : 199u) << of_world << ", " << k;
     }
+  }
+}
+
+TEST(Tolerance, ThatIsNoLengthIsAnError) {
+  World world(within(0.1f));
+  const BodyId id = world.add({.shape = Sphere{1}, .tolerance = 0.2f});
+  for (const float bad : {-1.0f, -1e-30f, NAN, INFINITY, -INFINITY}) {
+    EXPECT_THROW(World(within(bad)), std::invalid_argument) << bad;
+    const BodyDesc good = {.shape = Sphere{1}}, wrong = {.shape = Sphere{1}, .tolerance = bad};
+    EXPECT_THROW(world.add(wrong), std::invalid_argument) << bad;
+    std::vector<BodyId> ids;
+    EXPECT_THROW(world.add(std::vector{good, wrong}, ids), std::invalid_argument) << bad;
+    EXPECT_TRUE(ids.empty());
+    EXPECT_THROW(world.set_tolerance(id, bad), std::invalid_argument) << bad;
+  }
+  EXPECT_EQ(world.size(), 1u);
+  EXPECT_EQ(world.tolerance(id), 0.2f);
+  try {
+    world.set_tolerance(id, -2.0f);
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "the tolerance -2.000000 is not a finite number of metres from 0 on");
   }
 }
 
