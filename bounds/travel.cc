@@ -123,6 +123,7 @@ HWY_INLINE void store_column(const Wide& v, hn::Mask<IntTag> where, double* colu
   for (size_t k = 0; k < kLanes; ++k) column[k] = bits >> k & 1 ? values[k] : column[k];
 }
 
+// Returns the ticks that each odometer has gained; none where it went back.
 template <class T>
 HWY_INLINE I add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t i) {
   using Records = std::conditional_t<std::is_same_v<T, float>, FloatRecords, DoubleRecords>;
@@ -157,21 +158,21 @@ HWY_INLINE I add_lanes(const TravelColumns<T>& bodies, const TravelUnit& unit, s
   const I until = hn::LoadU(integers, signed_of(bodies.anchored) + i);
   const I travelled = hn::Add(until, gone);
   const I before = hn::LoadU(integers, signed_of(bodies.travelled) + i);
-  const I since = hn::Max(hn::Sub(travelled, before), hn::Zero(integers));
+  const I gained = hn::Max(hn::Sub(travelled, before), hn::Zero(integers));
   hn::StoreU(before, integers, signed_of(bodies.travelled_before) + i);
   hn::StoreU(travelled, integers, signed_of(bodies.travelled) + i);
   const auto leaves = hn::Gt(gone, hn::Set(integers, static_cast<int32_t>(unit.leash)));
-  if (hn::AllFalse(integers, leaves)) return since;
+  if (hn::AllFalse(integers, leaves)) return gained;
   hn::StoreU(hn::IfThenElse(leaves, travelled, until), integers, signed_of(bodies.anchored) + i);
   store_column(to.x, leaves, column[0] + i);
   store_column(to.y, leaves, column[1] + i);
   store_column(to.z, leaves, column[2] + i);
-  if (!bodies.orientation) return since;
+  if (!bodies.orientation) return gained;
   store_column(q.v.x, leaves, turned[0] + i);
   store_column(q.v.y, leaves, turned[1] + i);
   store_column(q.v.z, leaves, turned[2] + i);
   store_column(q.w, leaves, turned[3] + i);
-  return since;
+  return gained;
 }
 
 // The last bodies, fewer than the lanes, in copies of their columns.
@@ -202,7 +203,7 @@ HWY_INLINE I add_tail(const TravelColumns<T>& bodies, const TravelUnit& unit, si
     copy(bodies.orientation + 4 * begin, 4, turn);
     for (size_t c = 0; c < 4; ++c) copy(bodies.anchor_orientation[c] + begin, 1, anchor_turn[c]);
   }
-  const I way = add_lanes(few, unit, 0);
+  const I gained = add_lanes(few, unit, 0);
   copy(anchored, 1, bodies.anchored + begin);
   copy(travelled, 1, bodies.travelled + begin);
   copy(before, 1, bodies.travelled_before + begin);
@@ -210,20 +211,20 @@ HWY_INLINE I add_tail(const TravelColumns<T>& bodies, const TravelUnit& unit, si
   for (size_t c = 0; bodies.orientation && c < 4; ++c) {
     copy(anchor_turn[c], 1, bodies.anchor_orientation[c] + begin);
   }
-  return way;
+  return gained;
 }
 
 template <class T>
 HWY_INLINE uint32_t travel(const TravelColumns<T>& bodies, const TravelUnit& unit, size_t begin,
                            size_t end) {
   size_t i = begin;
-  I ways = hn::Zero(IntTag());
-  for (; i + kLanes <= end; i += kLanes) ways = hn::Or(ways, add_lanes(bodies, unit, i));
-  if (i < end) ways = hn::Or(ways, add_tail(bodies, unit, i, end - i));
-  HWY_ALIGN int32_t way[kLanes];
-  hn::Store(ways, IntTag(), way);
+  I gains = hn::Zero(IntTag());
+  for (; i + kLanes <= end; i += kLanes) gains = hn::Or(gains, add_lanes(bodies, unit, i));
+  if (i < end) gains = hn::Or(gains, add_tail(bodies, unit, i, end - i));
+  HWY_ALIGN int32_t gain[kLanes];
+  hn::Store(gains, IntTag(), gain);
   uint32_t all = 0;
-  for (const int32_t its : way) all |= static_cast<uint32_t>(its);
+  for (const int32_t its : gain) all |= static_cast<uint32_t>(its);
   return all;
 }
 

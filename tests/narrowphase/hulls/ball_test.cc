@@ -7,11 +7,11 @@
 #include "narrowphase/hulls/ball_scalar.h"
 #include "narrowphase/scalar/scaled.h"
 #include "shapes/hull_features.h"
+#include "tests/narrowphase/hulls/scaled_hulls.h"
 #include "tests/support/hull_pairs.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
 #include "tests/support/run.h"
-#include "tests/support/scaled_hulls.h"
 
 namespace carom::test {
 namespace {

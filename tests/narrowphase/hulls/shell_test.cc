@@ -9,10 +9,10 @@
 
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/hulls/hull_steps_scalar.h"
+#include "tests/narrowphase/hulls/scaled_hulls.h"
 #include "tests/support/hulls.h"
 #include "tests/support/isas.h"
 #include "tests/support/rounds.h"
-#include "tests/support/scaled_hulls.h"
 
 namespace carom::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/support/scaled_hulls.h"
+#include "tests/narrowphase/hulls/scaled_hulls.h"
 
 #include "narrowphase/doubles/core_separation.h"
 #include "narrowphase/hulls/solid.h"
