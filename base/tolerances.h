@@ -233,13 +233,16 @@ inline constexpr float kLeastProgress = 0x1p-21f;
 inline constexpr float kSameGapInFloat = 0x1p-19f;
 
 // Shells (narrowphase/hulls/shell.h), by the greatest squared distance M of a triangle's corners
-// from zero. A product of two corners rounds by less than 2^-22 M, the normal of the triangle by
-// less than 2^-20 M, the volume by less than 2^-21 M^1.5, and a difference of two scalar products
-// by less than kShellSure M.
+// from zero. The length of a product of two sides is at most 2.6 M. It rounds by less than
+// 1.1 x 2^-20 M, so that the volume, a corner times this normal, rounds by less than
+// 1.6 x 2^-20 M^1.5. A product of two corners rounds by less than 2^-22 M, a difference of two
+// scalar products, or of two products of these, by less than kShellSure M.
 inline constexpr float kShellSure = 0x1p-20f;
 
-// A triangle's plane is no nearer to zero than the volume, less kShellSure M (M + 1), over the
-// length of the normal: both round by 1.5 x 2^-20 M^1.5.
+// A triangle's plane is no nearer to zero than the volume, less kShellHeight M (M + 1), over the
+// length of the normal: both together round by less than 3.2 x 2^-20 M^1.5, the quotient included,
+// and M + 1 is at least twice the root of M.
+inline constexpr float kShellHeight = 0x1p-19f;
 
 // Squares count as this share of themselves, which is less than sums of products round. It pays for
 // (a - b)^2 >= (1 - 2^-12) a^2 - 2^12 b^2, too, with b^2 = 2^-44 M^2 of a product of two corners:
@@ -249,7 +252,7 @@ inline constexpr float kShellShare = 1 - 0x1p-11f;
 inline constexpr float kShellEdgeRest = 0x1p-31f;
 
 // Zero projects beside an edge if the normal and the product of the edge's corners point apart by
-// more than this share of M^2: 2.4 x 2^-20 of it is rounding.
+// more than this share of M^2: 2.1 x 2^-20 of it is rounding.
 inline constexpr float kShellBeside = 0x1p-18f;
 
 // Placed points round by a quarter of this, and so do the corners of a shell and the depth that it

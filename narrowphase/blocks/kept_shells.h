@@ -39,11 +39,11 @@ class KeptShells {
     Shell& shell = now_[used_++];
     const size_t place = word & ~kHasShell;
     if (word >= kHasShell && place < lists_.last.size()) {
-      shell = lists_.last[place];
+      shell.take(lists_.last[place]);
     } else {
       shell.triangle_count = 0;
+      shell.is_new = false;
     }
-    shell.is_new = false;
     return &shell;
   }
 

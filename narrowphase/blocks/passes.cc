@@ -85,10 +85,14 @@ void for_each_flagged(const uint8_t* flags, size_t count, const Use& use) {
 void run_shells(const PairKind& kind, const Batch& batch, const uint32_t* words, KeptShells& shells,
                 RowShells& of_rows, RowFlags& open) {
   of_rows.fill(nullptr);
-  for_each_flagged(open.data(), batch.count,
-                   [&](size_t row) { of_rows[row] = shells.take(words[row]); });
+  RowFlags has_shell{};
+  for_each_flagged(open.data(), batch.count, [&](size_t row) {
+    Shell* const shell = shells.take(words[row]);
+    of_rows[row] = shell;
+    has_shell[row] = shell && shell->triangle_count > 0;
+  });
   RowSelection known(batch);
-  known.select([&](size_t row) { return of_rows[row] && of_rows[row]->triangle_count > 0; });
+  known.select([&](size_t row) { return has_shell[row] != 0; });
   if (known.count() == 0) return;
   RowShells of_known;
   known.gather(of_rows.data(), of_known.data());
@@ -169,14 +173,15 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
 
 // Sets the decisions of the rows that are known to be separate.
 void settle(const Batch& batch, const RowFlags& is_apart) {
-  const ResultColumns& out = batch.out;
-  for (size_t row = 0; row < batch.count; ++row) {
-    out.overlap[row] = is_apart[row] ? uint8_t{0} : out.overlap[row];
-    out.status[row] = is_apart[row] ? static_cast<uint8_t>(Status::ok) : out.status[row];
-  }
-  for (size_t row = 0; batch.unsure && row < batch.count; ++row) {
-    batch.unsure[row] = is_apart[row] ? uint8_t{0} : batch.unsure[row];
-  }
+  RowFlags mask;
+  for (size_t row = 0; row < batch.count; ++row) mask[row] = is_apart[row] ? 0 : 0xff;
+  static_assert(static_cast<uint8_t>(Status::ok) == 0);
+  const auto clear = [&](uint8_t* flags) {
+    for (size_t row = 0; row < batch.count; ++row) flags[row] &= mask[row];
+  };
+  clear(batch.out.overlap);
+  clear(batch.out.status);
+  if (batch.unsure) clear(batch.unsure);
 }
 
 // Tests the pairs that are no longer separate along their known direction, and whose shells do not

@@ -89,13 +89,16 @@ class DepthSearch {
   void measure_shell(ShellSpace& space, DeepFrames& frames, size_t i) {
     is_doubtful_ = is_doubtful_ || !shell_ || shell_->was_in_vain() || a_->dop || b_->dop;
     if (is_doubtful_) return;
-    place_in_a(frames, i);
-    const ShellHulls hulls{own_a_, b_in_a_, *steps_};
+    place_b_in_a(frames, i);
+    const ShellHulls hulls{*a_, b_in_a_, *steps_};
     ShellDepth found;
-    const bool is_found = (shell_->is_of(a_->point_count, b_->point_count) &&
-                           ShellGrowth(*shell_, hulls, space).measure(slack_, found)) ||
-                          measure_new_shell(hulls, space, frames, i, found);
-    is_doubtful_ = !is_found || !(found.depth > kSureGap);
+    ShellAnswer answer = ShellAnswer::none;
+    if (shell_->is_of(a_->point_count, b_->point_count)) {
+      answer = ShellGrowth(*shell_, hulls, space).measure(slack_, found);
+    }
+    if (answer == ShellAnswer::none) answer = measure_new_shell(hulls, space, frames, i, found);
+    if (answer != ShellAnswer::depth) shell_->end_in_vain();
+    is_doubtful_ = answer != ShellAnswer::depth || !(found.depth > kSureGap);
     if (is_doubtful_) return;
     gap_ = -found.depth;
     normal_ = found.normal;
@@ -156,26 +159,29 @@ class DepthSearch {
   }
 
  private:
-  void place_in_a(const DeepFrames& frames, size_t i) {
+  void place_b_in_a(const DeepFrames& frames, size_t i) {
     DeepFrames::get(frames.b_to_a, i, turn_);
     DeepFrames::get(frames.b_from_a, i, centre_);
-    const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
-    steps_->place(*a_, unturned, Vector3f::Zero(), own_a_);
     steps_->place(*b_, turn_, centre_, b_in_a_);
   }
 
-  bool measure_new_shell(const ShellHulls& hulls, ShellSpace& space, const DeepFrames& frames,
-                         size_t i, ShellDepth& found) {
+  void place_in_a(const DeepFrames& frames, size_t i) {
+    place_b_in_a(frames, i);
+    const Rotation<float> unturned{Vector3f::UnitX(), Vector3f::UnitY(), Vector3f::UnitZ()};
+    steps_->place(*a_, unturned, Vector3f::Zero(), own_a_);
+  }
+
+  ShellAnswer measure_new_shell(const ShellHulls& hulls, ShellSpace& space,
+                                const DeepFrames& frames, size_t i, ShellDepth& found) {
     Vector3f from_a_to_b;
     DeepFrames::get(frames.middle_b_in_a, i, from_a_to_b);
     from_a_to_b -= a_->middle * a_->scale;
     *shell_ = {};
     ShellGrowth growth(*shell_, hulls, space);
     growth.begin(from_a_to_b);
-    const bool is_found = growth.measure(slack_, found);
+    const ShellAnswer answer = growth.measure(slack_, found);
     growth.end();
-    if (!is_found) shell_->triangle_count = 0;
-    return is_found;
+    return answer;
   }
 
   void put(const Vector3f& on_a, DeepFrames& frames, size_t i) const {

@@ -29,6 +29,7 @@ struct HullPoints {
   const float* column(size_t axis) const { return numbers.data() + axis * padded; }
   float* column(size_t axis) { return numbers.data() + axis * padded; }
   Vector3f operator[](size_t i) const { return {column(0)[i], column(1)[i], column(2)[i]}; }
+  PointView view() const { return {{column(0), column(1), column(2)}, count, padded}; }
 };
 
 // The first of the furthest points along a direction.
@@ -147,11 +148,14 @@ struct HullSteps {
   // greater than `gap`; the first of equals. turn * p + offset takes B to the frame of A.
   Crossing (*cross)(const CrossedEdges& a, const CrossedEdges& b,
                     const scalar::Rotation<float>& turn, const Vector3f& offset, float gap);
-  FurthestOfHull (*furthest)(const HullPoints& points, const Vector3f& way);
+  FurthestOfHull (*furthest)(const PointView& points, const Vector3f& way);
   // The furthest point, and the number of points that reach as far up to kFacingSlack.
   FacingPoints (*facing)(const HullPoints& points, const Vector3f& way);
   // Whether a point is inside, up to rounding; in the frame of the solid.
   bool (*is_inside)(const Solid& solid, const Vector3f& point);
+  // Computes where the corners of a shell are: points of A less points of B, which are in scaled
+  // units and the frame of A. Places that are not in use get anything.
+  void (*place_corners)(const Shell& shell, const Solid& a, const PointView& b, ShellSpace& space);
   // How near the planes of a shell come to zero. Computes normals and volumes.
   ShellCheck (*check_planes)(const Shell& shell, ShellSpace& space);
   // How near its triangles come, which takes longer; where zero is inside.

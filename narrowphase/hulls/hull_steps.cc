@@ -11,6 +11,7 @@
 #include "narrowphase/hulls/hull_edges-inl.h"
 #include "narrowphase/hulls/hull_steps.h"
 #include "narrowphase/hulls/shell_check-inl.h"
+#include "narrowphase/hulls/shell_corners-inl.h"
 #include "simd/first_of_most-inl.h"
 #include "simd/rotation-inl.h"
 
@@ -86,14 +87,14 @@ BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bounds) {
   return {best.value(), best.first_of(solid.face_count)};
 }
 
-HWY_INLINE F heights(const HullPoints& points, const F3& way, size_t i) {
+HWY_INLINE F heights(const PointView& points, const F3& way, size_t i) {
   const FloatTag tag;
-  return dot(way, {hn::LoadU(tag, points.column(0) + i), hn::LoadU(tag, points.column(1) + i),
-                   hn::LoadU(tag, points.column(2) + i)});
+  return dot(way, {hn::LoadU(tag, points.column[0] + i), hn::LoadU(tag, points.column[1] + i),
+                   hn::LoadU(tag, points.column[2] + i)});
 }
 
 // Finds the greatest height first, and then its place: fewer instructions than to keep both.
-FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
+FurthestOfHull furthest_of_hull(const PointView& points, const Vector3f& way) {
   const FloatTag tag;
   const F3 n = in_all_lanes(way);
   HWY_ALIGN float found[kMostLanePoints];
@@ -120,7 +121,7 @@ FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
 }
 
 TriedFace try_face(const Solid& solid, const HullPoints& points, size_t face, FaceBounds& bounds) {
-  const FurthestOfHull lowest = furthest_of_hull(points, -solid.normal(face));
+  const FurthestOfHull lowest = furthest_of_hull(points.view(), -solid.normal(face));
   const float gap = -lowest.height - solid.height(face);
   return {gap, bound_faces(solid, {points[lowest.index], 0}, bounds)};
 }
@@ -151,13 +152,13 @@ BestFace try_all_faces(const Solid& solid, const HullPoints& points, FaceBounds&
 
 FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
   const FloatTag tag;
-  const FurthestOfHull furthest = furthest_of_hull(points, way);
+  const FurthestOfHull furthest = furthest_of_hull(points.view(), way);
   const F3 n = in_all_lanes(way);
   const F most = splat(furthest.height), count = splat(static_cast<float>(points.count));
   F index = lane_indices();
   size_t found = 0;
   for (size_t i = 0; i < points.padded; i += kLanes) {
-    const Mask is_as_far = hn::Le(hn::Sub(most, heights(points, n, i)), splat(kFacingSlack));
+    const Mask is_as_far = hn::Le(hn::Sub(most, heights(points.view(), n, i)), splat(kFacingSlack));
     found += hn::CountTrue(tag, hn::And(is_as_far, hn::Lt(index, count)));
     index = hn::Add(index, splat(kLanes));
   }
@@ -178,7 +179,7 @@ const HullSteps& hull_steps() {
   static constexpr HullSteps kSteps = {
       &set_up_frames, &finish_frames,   &place_points, &bound_faces,      &try_face,
       &try_all_faces, &find_open_edges, &cross_edges,  &furthest_of_hull, &facing_points,
-      &is_inside,     &check_planes,    &check_edges,  &in_front};
+      &is_inside,     &place_corners,   &check_planes, &check_edges,      &in_front};
   return kSteps;
 }
 

@@ -6,6 +6,7 @@
 #include "narrowphase/hulls/deep_frames_scalar.h"
 #include "narrowphase/hulls/hull_depth.h"
 #include "narrowphase/hulls/shell_check_scalar.h"
+#include "narrowphase/hulls/shell_corners_scalar.h"
 
 namespace carom::scalar {
 
@@ -33,7 +34,7 @@ inline BestFace bound_faces(const Solid& solid, const Ball& ball, FaceBounds& bo
   return best;
 }
 
-inline FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f& way) {
+inline FurthestOfHull furthest_of_hull(const PointView& points, const Vector3f& way) {
   FurthestOfHull best{0, dot(way, points[0])};
   for (size_t i = 1; i < points.count; ++i) {
     const float height = dot(way, points[i]);
@@ -44,7 +45,7 @@ inline FurthestOfHull furthest_of_hull(const HullPoints& points, const Vector3f&
 
 inline TriedFace try_face(const Solid& solid, const HullPoints& points, size_t face,
                           FaceBounds& bounds) {
-  const FurthestOfHull lowest = furthest_of_hull(points, -solid.normal(face));
+  const FurthestOfHull lowest = furthest_of_hull(points.view(), -solid.normal(face));
   const float gap = -lowest.height - solid.height(face);
   return {gap, bound_faces(solid, {points[lowest.index], 0}, bounds)};
 }
@@ -120,7 +121,7 @@ inline Crossing cross_edges(const CrossedEdges& a, const CrossedEdges& b,
 }
 
 inline FacingPoints facing_points(const HullPoints& points, const Vector3f& way) {
-  FacingPoints facing{furthest_of_hull(points, way), 0};
+  FacingPoints facing{furthest_of_hull(points.view(), way), 0};
   for (size_t i = 0; i < points.count; ++i) {
     facing.count += facing.furthest.height - dot(way, points[i]) <= kFacingSlack ? 1 : 0;
   }
@@ -137,6 +138,6 @@ inline bool is_inside(const Solid& solid, const Vector3f& point) {
 inline constexpr HullSteps kHullSteps = {
     &set_up_frames, &finish_frames,   &place_points, &bound_faces,      &try_face,
     &try_all_faces, &find_open_edges, &cross_edges,  &furthest_of_hull, &facing_points,
-    &is_inside,     &check_planes,    &check_edges,  &in_front};
+    &is_inside,     &place_corners,   &check_planes, &check_edges,      &in_front};
 
 }  // namespace carom::scalar

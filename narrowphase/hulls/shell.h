@@ -20,8 +20,8 @@ namespace carom {
 
 // By numbers of points, so that it moves with the hulls.
 struct Shell {
-  static constexpr size_t kMostCorners = 24;
-  static constexpr size_t kMostTriangles = 48;
+  static constexpr size_t kMostCorners = 32;
+  static constexpr size_t kMostTriangles = 64;
   static constexpr size_t kGroup = 16;  // the numbers of so many triangles lie together
 
   uint32_t corners = 0;                          // a bit for each place of a corner that is in use
@@ -38,8 +38,24 @@ struct Shell {
   bool is_of(size_t points_a, size_t points_b) const {
     return triangle_count > 0 && points_of_a == points_a && points_of_b == points_b;
   }
-  // Whether no shell was found in this step.
+  // No shell was found in this step.
+  void end_in_vain() {
+    triangle_count = 0;
+    is_new = true;
+  }
   bool was_in_vain() const { return is_new && triangle_count == 0; }
+  // Makes this shell that of another step. Copies what is in use alone.
+  void take(const Shell& from) {
+    corners = from.corners;
+    triangle_count = from.triangle_count;
+    most_corners = from.most_corners;
+    is_new = false;
+    points_of_a = from.points_of_a;
+    points_of_b = from.points_of_b;
+    of_a = from.of_a;
+    of_b = from.of_b;
+    for (size_t i = 0; i * kGroup < triangle_count; ++i) corner[i] = from.corner[i];
+  }
   size_t corner_of(size_t triangle, size_t k) const {
     return corner[triangle / kGroup][k][triangle % kGroup];
   }
@@ -63,9 +79,10 @@ struct ShellSpace {
   }
 };
 
-// The ray that tells whether zero is inside: shorter than 1, and skew to what shapes are parallel
-// to.
-inline constexpr std::array<float, 3> kShellRay = {0.861f, 0.347f, 0.283f};
+// The ray that tells whether zero is inside goes along the product of these two, which are shorter
+// than 1: it is skew to what shapes are parallel to.
+inline constexpr std::array<std::array<float, 3>, 2> kShellAcross = {
+    {{0.447f, -0.644f, -0.571f}, {-0.016f, 0.637f, -0.732f}}};
 
 // A point is in front of a triangle if the volumes differ by more than this: points of one face
 // would be in front of each other by what rounds, and cut a surface to pieces.

@@ -17,87 +17,118 @@
 HWY_BEFORE_NAMESPACE();
 namespace carom::HWY_NAMESPACE {
 
+// A corner, its squared distance from zero, and how it is seen along the ray.
+struct ShellCorner {
+  F3 point;
+  F squared, u, v;
+
+  HWY_INLINE explicit ShellCorner(const F3& p)
+      : point(p), squared(dot(p, p)), u(dot(p, across(0))), v(dot(p, across(1))) {}
+  HWY_INLINE ShellCorner(const F3& p, F squared_p, F u_p, F v_p)
+      : point(p), squared(squared_p), u(u_p), v(v_p) {}
+
+ private:
+  static HWY_INLINE F3 across(size_t i) {
+    return {splat(kShellAcross[i][0]), splat(kShellAcross[i][1]), splat(kShellAcross[i][2])};
+  }
+};
+
+// On which side of the edge from p to q the ray passes.
+HWY_INLINE F beside(const ShellCorner& p, const ShellCorner& q) {
+  return hn::Sub(hn::Mul(p.u, q.v), hn::Mul(p.v, q.u));
+}
+
 // The corners of a shell, looked up by their numbers: from registers in vectors of sixteen.
 class ShellCorners {
  public:
   HWY_INLINE ShellCorners(const Shell& shell, const ShellSpace& space)
-      : space_(space), has_high_(shell.corners >> kInOne != 0) {
-    if constexpr (kLanes == kInOne) {
-      const FloatTag tag;
-      for (size_t axis = 0; axis < 3; ++axis) {
-        low_[axis] = hn::Load(tag, space.corner[axis].data());
-        high_[axis] = hn::Load(tag, space.corner[axis].data() + kInOne);
-      }
-    }
-  }
+      : space_(space),
+        has_high_(shell.corners >> kInOne != 0),
+        low_(load(0)),
+        high_(has_high_ ? load(ShellSpace::kPlaces - kInOne) : low_) {}
 
-  HWY_INLINE F3 at(const uint8_t* numbers) const {
+  HWY_INLINE ShellCorner at(const uint8_t* numbers) const {
     const IntTag tag;
     const I index = hn::PromoteTo(tag, hn::LoadU(hn::Rebind<uint8_t, IntTag>(), numbers));
-    return {look_up(0, index), look_up(1, index), look_up(2, index)};
+    if constexpr (kLanes == kInOne) {
+      const auto find = [&](F low, F high) HWY_ATTR { return look_up(low, high, index); };
+      return {{find(low_.point.x, high_.point.x), find(low_.point.y, high_.point.y),
+               find(low_.point.z, high_.point.z)},
+              find(low_.squared, high_.squared),
+              find(low_.u, high_.u),
+              find(low_.v, high_.v)};
+    } else {
+      const FloatTag floats;
+      const auto find = [&](size_t axis) HWY_ATTR {
+        return hn::GatherIndex(floats, space_.corner[axis].data(), index);
+      };
+      return ShellCorner(F3{find(0), find(1), find(2)});
+    }
   }
 
  private:
   static constexpr size_t kInOne = 16;  // corners in a vector of sixteen lanes
 
-  HWY_INLINE F look_up(size_t axis, I index) const {
+  HWY_INLINE ShellCorner load(size_t i) const {
     const FloatTag tag;
-    if constexpr (kLanes == kInOne) {
-      const IntTag integers;
-      const auto place =
-          hn::IndicesFromVec(tag, hn::And(index, hn::Set(integers, int32_t{kInOne - 1})));
-      const F low = hn::TableLookupLanes(low_[axis], place);
-      if (!has_high_) return low;
-      const auto is_low = hn::RebindMask(tag, hn::Lt(index, hn::Set(integers, int32_t{kInOne})));
-      return hn::IfThenElse(is_low, low, hn::TableLookupLanes(high_[axis], place));
-    } else {
-      return hn::GatherIndex(tag, space_.corner[axis].data(), index);
-    }
+    return ShellCorner({hn::Load(tag, space_.corner[0].data() + i),
+                        hn::Load(tag, space_.corner[1].data() + i),
+                        hn::Load(tag, space_.corner[2].data() + i)});
+  }
+
+  HWY_INLINE F look_up(F low, F high, I index) const {
+    const FloatTag tag;
+    const IntTag integers;
+    const auto place =
+        hn::IndicesFromVec(tag, hn::And(index, hn::Set(integers, int32_t{kInOne - 1})));
+    const F found = hn::TableLookupLanes(low, place);
+    if (!has_high_) return found;
+    const auto is_low = hn::RebindMask(tag, hn::Lt(index, hn::Set(integers, int32_t{kInOne})));
+    return hn::IfThenElse(is_low, found, hn::TableLookupLanes(high, place));
   }
 
   const ShellSpace& space_;
   const bool has_high_;
-  F low_[3], high_[3];
+  const ShellCorner low_, high_;  // of vectors of sixteen lanes
 };
 
 // The squared distance of the edge from p to q, or less. `across`: p x q.
-HWY_INLINE F edge_squared(const F3& p, const F3& q, const F3& across, F pp, F qq, F greatest) {
-  const F3 e = q - p;
-  const F pq = dot(p, q), sure = hn::Mul(splat(kShellSure), greatest);
-  const Mask ends_first = hn::Or(hn::Gt(hn::Sub(pq, pp), sure), hn::Gt(hn::Sub(pq, qq), sure));
+HWY_INLINE F edge_squared(const ShellCorner& p, const ShellCorner& q, const F3& across,
+                          F greatest) {
+  const F3 e = q.point - p.point;
+  const F pq = dot(p.point, q.point), sure = hn::Mul(splat(kShellSure), greatest);
+  const Mask ends_first =
+      hn::Or(hn::Gt(hn::Sub(pq, p.squared), sure), hn::Gt(hn::Sub(pq, q.squared), sure));
   const F share = splat(kShellShare);
   const F product = hn::Sub(hn::Mul(dot(across, across), share),
                             hn::Mul(splat(kShellEdgeRest), hn::Mul(greatest, greatest)));
   const F line = hn::IfThenElseZero(hn::Gt(product, splat(0)), hn::Div(product, dot(e, e)));
-  return hn::IfThenElse(ends_first, hn::Mul(min(pp, qq), share), line);
+  return hn::IfThenElse(ends_first, hn::Mul(min(p.squared, q.squared), share), line);
 }
 
 // The triangles from number i on; scalar::ShellTriangle says what the members are.
 struct ShellTriangles {
-  F3 a, b, c, ab, bc, ca;
-  F aa, bb, cc, greatest;
+  ShellCorner a, b, c;
+  F greatest;
   F3 normal;
   F volume, height, squared;
 
-  HWY_INLINE ShellTriangles(const Shell& shell, const ShellCorners& corners, size_t i) {
-    const auto& group = shell.corner[i / Shell::kGroup];
-    const size_t k = i % Shell::kGroup;
-    a = corners.at(group[0].data() + k);
-    b = corners.at(group[1].data() + k);
-    c = corners.at(group[2].data() + k);
-    ab = cross(a, b);
-    bc = cross(b, c);
-    ca = cross(c, a);
-    aa = dot(a, a);
-    bb = dot(b, b);
-    cc = dot(c, c);
-    greatest = max(max(aa, bb), cc);
-    normal = (ab + bc) + ca;
-    volume = dot(a, bc);
-    const F rest = hn::Mul(splat(kShellSure), hn::Mul(greatest, hn::Add(greatest, splat(1))));
+  HWY_INLINE ShellTriangles(const Shell& shell, const ShellCorners& corners, size_t i)
+      : a(corners.at(numbers(shell, i, 0))),
+        b(corners.at(numbers(shell, i, 1))),
+        c(corners.at(numbers(shell, i, 2))),
+        greatest(max(max(a.squared, b.squared), c.squared)),
+        normal(cross(b.point - a.point, c.point - a.point)),
+        volume(dot(a.point, normal)) {
+    const F rest = hn::Mul(splat(kShellHeight), hn::Mul(greatest, hn::Add(greatest, splat(1))));
     height = hn::Sub(hn::Abs(volume), rest);
     squared = hn::IfThenElseZero(hn::Gt(height, splat(0)),
                                  hn::Div(hn::Mul(height, height), dot(normal, normal)));
+  }
+
+ private:
+  static HWY_INLINE const uint8_t* numbers(const Shell& shell, size_t i, size_t k) {
+    return shell.corner[i / Shell::kGroup][k].data() + i % Shell::kGroup;
   }
 };
 
@@ -130,7 +161,6 @@ HWY_INLINE ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
   const F count = splat(static_cast<float>(shell.triangle_count)), zero = splat(0);
   F index = lane_indices();
   LeastOfTriangles squared;
-  const F3 ray = {splat(kShellRay[0]), splat(kShellRay[1]), splat(kShellRay[2])};
   Mask unsure = no_lanes();
   uint64_t leaves = 0, enters = 0;
   for (size_t i = 0; i < shell.triangle_count; i += kLanes) {
@@ -144,7 +174,8 @@ HWY_INLINE ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
     index = hn::Add(index, splat(kLanes));
     // The ray from zero.
     const F sure = hn::Mul(splat(kShellSure), t.greatest), not_sure = hn::Neg(sure);
-    const F beside_ab = dot(t.ab, ray), beside_bc = dot(t.bc, ray), beside_ca = dot(t.ca, ray);
+    const F beside_ab = beside(t.a, t.b), beside_bc = beside(t.b, t.c);
+    const F beside_ca = beside(t.c, t.a);
     const F most = max(max(beside_ab, beside_bc), beside_ca);
     const F least = min(min(beside_ab, beside_bc), beside_ca);
     const Mask is_missed = hn::And(hn::Gt(most, sure), hn::Lt(least, not_sure));
@@ -165,18 +196,24 @@ HWY_INLINE ShellCheck check_edges(const Shell& shell, const ShellSpace& space) {
   LeastOfTriangles squared;
   for (size_t i = 0; i < shell.triangle_count; i += kLanes) {
     const ShellTriangles t(shell, corners, i);
-    const F beside = hn::Mul(splat(-kShellBeside), hn::Mul(t.greatest, t.greatest));
+    const F3 ab = cross(t.a.point, t.b.point), bc = cross(t.b.point, t.c.point);
+    const F3 ca = cross(t.c.point, t.a.point);
+    const F least = hn::Mul(splat(-kShellBeside), hn::Mul(t.greatest, t.greatest));
     const Mask is_beside =
-        hn::Or(hn::Lt(dot(t.normal, t.ab), beside),
-               hn::Or(hn::Lt(dot(t.normal, t.bc), beside), hn::Lt(dot(t.normal, t.ca), beside)));
-    const F edges = min(min(edge_squared(t.a, t.b, t.ab, t.aa, t.bb, t.greatest),
-                            edge_squared(t.b, t.c, t.bc, t.bb, t.cc, t.greatest)),
-                        edge_squared(t.c, t.a, t.ca, t.cc, t.aa, t.greatest));
+        hn::Or(hn::Lt(dot(t.normal, ab), least),
+               hn::Or(hn::Lt(dot(t.normal, bc), least), hn::Lt(dot(t.normal, ca), least)));
+    const F edges =
+        min(min(edge_squared(t.a, t.b, ab, t.greatest), edge_squared(t.b, t.c, bc, t.greatest)),
+            edge_squared(t.c, t.a, ca, t.greatest));
     squared.put(i, hn::Lt(index, count),
                 hn::IfThenElse(is_beside, max(t.squared, edges), t.squared));
     index = hn::Add(index, splat(kLanes));
   }
   return squared.check(shell.triangle_count, true);
+}
+
+HWY_INLINE uint64_t places_below(size_t count) {
+  return count < 64 ? (uint64_t{1} << count) - 1 : ~uint64_t{0};
 }
 
 // A bit for each triangle that the point is in front of.
@@ -193,7 +230,7 @@ HWY_INLINE uint64_t in_front(const Shell& shell, const ShellSpace& space,
                                                     splat(kShellInFront))))
              << i;
   }
-  return found & ((uint64_t{1} << shell.triangle_count) - 1);
+  return found & places_below(shell.triangle_count);
 }
 
 }  // namespace carom::HWY_NAMESPACE

@@ -16,17 +16,17 @@ namespace carom::scalar {
 
 // The squared distance of the edge from p to q, or less. `across`: p x q.
 inline float edge_squared(const Vector3<float>& p, const Vector3<float>& q,
-                          const Vector3<float>& across, float pp, float qq, float greatest) {
+                          const Vector3<float>& across, float greatest) {
   const Vector3<float> e = q - p;
-  const float pq = dot(p, q), sure = kShellSure * greatest;
+  const float pp = dot(p, p), qq = dot(q, q), pq = dot(p, q), sure = kShellSure * greatest;
   if (pq - pp > sure || pq - qq > sure) return min(pp, qq) * kShellShare;
   const float product = dot(across, across) * kShellShare - kShellEdgeRest * (greatest * greatest);
   return product > 0 ? product / dot(e, e) : 0;
 }
 
 struct ShellTriangle {
-  Vector3<float> a, b, c, ab, bc, ca;  // the corners, and the products of each two
-  float aa, bb, cc, greatest;          // squared distances of the corners from zero
+  Vector3<float> a, b, c;  // the corners
+  float greatest;          // squared distance of a corner from zero
   Vector3<float> normal;
   float volume;
   float height;   // no more than its amount
@@ -36,23 +36,29 @@ struct ShellTriangle {
       : a(space.corner_at(shell.corner_of(i, 0))),
         b(space.corner_at(shell.corner_of(i, 1))),
         c(space.corner_at(shell.corner_of(i, 2))),
-        ab(cross(a, b)),
-        bc(cross(b, c)),
-        ca(cross(c, a)),
-        aa(dot(a, a)),
-        bb(dot(b, b)),
-        cc(dot(c, c)),
-        greatest(max(max(aa, bb), cc)),
-        normal((ab + bc) + ca),
-        volume(dot(a, bc)),
-        height(std::fabs(volume) - kShellSure * (greatest * (greatest + 1))),
+        greatest(max(max(dot(a, a), dot(b, b)), dot(c, c))),
+        normal(cross<float>(b - a, c - a)),
+        volume(dot(a, normal)),
+        height(std::fabs(volume) - kShellHeight * (greatest * (greatest + 1))),
         squared(height > 0 ? height * height / dot(normal, normal) : 0) {}
 };
+
+// A corner, seen along the ray.
+struct ShellView {
+  float u, v;
+
+  explicit ShellView(const Vector3<float>& p) : u(dot(p, across(0))), v(dot(p, across(1))) {}
+  static Vector3<float> across(size_t i) {
+    return {kShellAcross[i][0], kShellAcross[i][1], kShellAcross[i][2]};
+  }
+};
+
+// On which side of the edge from p to q the ray passes.
+inline float beside(const ShellView& p, const ShellView& q) { return p.u * q.v - p.v * q.u; }
 
 inline ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
   ShellCheck check;
   check.least_squared = kLargest;
-  const Vector3<float> ray(kShellRay[0], kShellRay[1], kShellRay[2]);
   bool is_sure = true;
   int crossings = 0;
   for (size_t i = 0; i < shell.triangle_count; ++i) {
@@ -66,8 +72,9 @@ inline ShellCheck check_planes(const Shell& shell, ShellSpace& space) {
       check.nearest = i;
     }
     // The ray from zero.
+    const ShellView a(t.a), b(t.b), c(t.c);
     const float sure = kShellSure * t.greatest;
-    const float beside_ab = dot(t.ab, ray), beside_bc = dot(t.bc, ray), beside_ca = dot(t.ca, ray);
+    const float beside_ab = beside(a, b), beside_bc = beside(b, c), beside_ca = beside(c, a);
     const float most = max(max(beside_ab, beside_bc), beside_ca);
     const float least = min(min(beside_ab, beside_bc), beside_ca);
     const bool is_missed = most > sure && least < -sure;
@@ -87,12 +94,13 @@ inline ShellCheck check_edges(const Shell& shell, const ShellSpace& space) {
   check.is_around = true;
   for (size_t i = 0; i < shell.triangle_count; ++i) {
     const ShellTriangle t(shell, space, i);
-    const float beside = -kShellBeside * (t.greatest * t.greatest);
-    const bool is_beside = dot(t.normal, t.ab) < beside || dot(t.normal, t.bc) < beside ||
-                           dot(t.normal, t.ca) < beside;
-    const float edges = min(min(edge_squared(t.a, t.b, t.ab, t.aa, t.bb, t.greatest),
-                                edge_squared(t.b, t.c, t.bc, t.bb, t.cc, t.greatest)),
-                            edge_squared(t.c, t.a, t.ca, t.cc, t.aa, t.greatest));
+    const Vector3<float> ab = cross(t.a, t.b), bc = cross(t.b, t.c), ca = cross(t.c, t.a);
+    const float least = -kShellBeside * (t.greatest * t.greatest);
+    const bool is_beside =
+        dot(t.normal, ab) < least || dot(t.normal, bc) < least || dot(t.normal, ca) < least;
+    const float edges =
+        min(min(edge_squared(t.a, t.b, ab, t.greatest), edge_squared(t.b, t.c, bc, t.greatest)),
+            edge_squared(t.c, t.a, ca, t.greatest));
     const float squared = is_beside ? max(t.squared, edges) : t.squared;
     if (squared < check.least_squared) {
       check.least_squared = squared;

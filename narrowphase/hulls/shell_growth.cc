@@ -9,7 +9,7 @@ namespace {
 using namespace scalar;
 
 // The most corners that one proof adds.
-constexpr size_t kMostSteps = 24;
+constexpr size_t kMostSteps = 40;
 
 // How many corners a shell may get after it was made.
 constexpr size_t kMoreCorners = 6;
@@ -47,17 +47,11 @@ bool proves(const ShellCheck& check, float reach) { return reach * reach <= chec
 
 ShellGrowth::ShellGrowth(Shell& shell, const ShellHulls& hulls, ShellSpace& space)
     : shell_(shell), hulls_(hulls), space_(space) {
-  for (uint32_t left = shell_.corners; left != 0; left &= left - 1) {
-    const auto i = static_cast<size_t>(std::countr_zero(left));
-    const size_t a = shell_.of_a[i], b = shell_.of_b[i];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      space_.corner[axis][i] = hulls_.a.column(axis)[a] - hulls_.b.column(axis)[b];
-    }
-  }
+  hulls_.steps.place_corners(shell_, hulls_.a, hulls_.b.view(), space_);
 }
 
 void ShellGrowth::begin(const Vector3f& way) {
-  shell_.points_of_a = static_cast<uint8_t>(hulls_.a.count);
+  shell_.points_of_a = static_cast<uint8_t>(hulls_.a.point_count);
   shell_.points_of_b = static_cast<uint8_t>(hulls_.b.count);
   shell_.most_corners = Shell::kMostCorners;
   shell_.is_new = true;
@@ -82,23 +76,24 @@ void ShellGrowth::begin(const Vector3f& way) {
   }
 }
 
-bool ShellGrowth::measure(float slack, ShellDepth& found) {
+ShellAnswer ShellGrowth::measure(float slack, ShellDepth& found) {
   for (size_t step = 0; step < kMostSteps; ++step) {
     const ShellCheck planes = hulls_.steps.check_planes(shell_, space_);
     if (!planes.is_around) {
       const Support next = support(way_out());
-      if (next.height <= 0 || !grow(next)) return false;
+      if (next.height <= 0) return ShellAnswer::apart;
+      if (!grow(next)) return ShellAnswer::none;
       continue;
     }
     Nearest nearest = nearest_on(planes.nearest);
     Support next = support(nearest.way);
     if (is_proved(planes, slack, nearest, next)) {
       locate(nearest, found);
-      return true;
+      return ShellAnswer::depth;
     }
-    if (!grow(next)) return false;
+    if (!grow(next)) return ShellAnswer::none;
   }
-  return false;
+  return ShellAnswer::none;
 }
 
 // Whether no axis has less overlap than the one to the nearest point, but for the slack. If not,
@@ -141,9 +136,10 @@ void ShellGrowth::end() {
 }
 
 ShellGrowth::Support ShellGrowth::support(const Vector3f& way) const {
-  const FurthestOfHull a = hulls_.steps.furthest(hulls_.a, way);
-  const FurthestOfHull b = hulls_.steps.furthest(hulls_.b, -way);
-  return {a.index, b.index, hulls_.a[a.index] - hulls_.b[b.index], a.height + b.height};
+  const FurthestOfHull a = hulls_.steps.furthest(hulls_.a.points(), way);
+  const FurthestOfHull b = hulls_.steps.furthest(hulls_.b.view(), -way);
+  const Vector3f point = hulls_.a.corner(a.index) - hulls_.b[b.index];
+  return {a.index, b.index, point, a.height * hulls_.a.scale + b.height};
 }
 
 ShellGrowth::Nearest ShellGrowth::nearest_on(size_t triangle) const {
@@ -184,7 +180,7 @@ void ShellGrowth::locate(const Nearest& nearest, ShellDepth& found) const {
   const std::array<float, 3>& share = nearest.share;
   Vector3f sum = Vector3f::Zero();
   for (size_t k = 0; k < 3; ++k) {
-    sum += hulls_.a[shell_.of_a[shell_.corner_of(nearest.triangle, k)]] * share[k];
+    sum += hulls_.a.corner(shell_.of_a[shell_.corner_of(nearest.triangle, k)]) * share[k];
   }
   found.depth = nearest.distance;
   found.normal = nearest.way;
@@ -240,6 +236,7 @@ bool ShellGrowth::grow(const Support& support) {
       place = static_cast<size_t>(std::countr_zero(free));
       free &= free - 1;
     } else {
+      if (place % Shell::kGroup == 0) shell_.corner[place / Shell::kGroup] = {};
       ++shell_.triangle_count;
     }
     put_triangle(place, from, to, corner);

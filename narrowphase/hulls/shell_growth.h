@@ -6,9 +6,9 @@
 
 namespace carom {
 
-// Two hulls in scaled units and the frame of A.
+// Two hulls: the points of B in scaled units and the frame of A.
 struct ShellHulls {
-  const HullPoints& a;
+  const Solid& a;
   const HullPoints& b;
   const HullSteps& steps;
 };
@@ -19,6 +19,9 @@ struct ShellDepth {
   Vector3f normal, on_a;
 };
 
+// What a shell tells of its hulls; `apart` is so up to rounding.
+enum class ShellAnswer : uint8_t { none, depth, apart };
+
 class ShellGrowth {
  public:
   // The points of the shell, if it has any, must be points of these hulls.
@@ -28,9 +31,9 @@ class ShellGrowth {
   // nearer it is to the axis of least overlap, the better.
   void begin(const Vector3f& way);
 
-  // Grows the shell, if it has to, until the depth is known within the slack. False if that takes
-  // too many steps or corners: the shell is still closed.
-  bool measure(float slack, ShellDepth& found);
+  // Grows the shell, if it has to, until the depth is known within the slack. It is not found if
+  // that takes too many steps or corners: the shell is still closed.
+  ShellAnswer measure(float slack, ShellDepth& found);
 
   // Leaves room for a few more corners. A shell that needs more has many that it no longer needs.
   void end();

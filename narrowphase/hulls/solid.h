@@ -25,6 +25,14 @@ struct DopEdges {
   void put(const DopSolid& solid, std::span<const uint16_t> indices);
 };
 
+// Points in columns. Whole vectors are filled: the places after the last point repeat the first.
+struct PointView {
+  std::array<const float*, 3> column;
+  size_t count, padded;
+
+  Vector3f operator[](size_t i) const { return {column[0][i], column[1][i], column[2][i]}; }
+};
+
 // A view of columns. Multiply lengths by `scale` to get those of the pair. Columns are padded to a
 // multiple of sixteen.
 struct Solid {
@@ -55,6 +63,7 @@ struct Solid {
   Vector3f corner(size_t i) const {
     return Vector3f(point[0][i], point[1][i], point[2][i]) * scale;
   }
+  PointView points() const { return {point, point_count, padded_count(point_count)}; }
   Vector3f normal(size_t face) const { return {plane[0][face], plane[1][face], plane[2][face]}; }
   float height(size_t face) const { return plane[3][face] * scale; }
 };

@@ -109,7 +109,7 @@ TEST(Shells, ProveNoMoreThanIsTrueOnEveryIsa) {
     const uint32_t count = rounds(6000);
     uint32_t around = 0, proved_around = 0, tight = 0;
     for (uint32_t round = 0; round < count; ++round) {
-      Surface s = double_cone(3 + random.below(20), random);
+      Surface s = double_cone(3 + random.below(Shell::kMostCorners - 4), random);
       Surface other = s;
       const ShellCheck planes = scalar::check_planes(s.shell, s.space);
       const ShellCheck triangles = scalar::check_edges(s.shell, s.space);
@@ -144,6 +144,43 @@ TEST(Shells, ProveNoMoreThanIsTrueOnEveryIsa) {
     EXPECT_LT(around, count / 4 * 3);
     EXPECT_GT(proved_around, around * 9 / 10);
     EXPECT_GT(tight, count / 2);
+  });
+}
+
+// --- Corners ---
+
+TEST(Shells, CornersAreDifferencesOfPointsOnEveryIsa) {
+  for_each_isa([] {
+    Random random(35);
+    for (const size_t points : {4, 5, 15, 16, 17, 32, 33, 64, 65, 127, 128}) {
+      const Hull hull = oracle::hull_of(round_points(points, {0.5f, 0.4f, 0.6f}, random));
+      const SolidHull a(HullShape<float>{hull.geometry.get(), 1.5f});
+      ASSERT_EQ(a.view().point_count, points);
+      const scalar::Rotation<float> turn{Vector3f(0, 1, 0), Vector3f(0, 0, 1), Vector3f(1, 0, 0)};
+      HullPoints b;
+      hull_steps_in_lanes().place(a.view(), turn, {0.25f, 0, 0}, b);
+      for (uint32_t round = 0; round < rounds(50); ++round) {
+        Shell shell{};
+        // Places that are not in use may hold anything.
+        for (uint8_t& number : shell.of_a) number = static_cast<uint8_t>(random.below(256));
+        for (uint8_t& number : shell.of_b) number = static_cast<uint8_t>(random.below(256));
+        const size_t places = random.below(Shell::kMostCorners) + 1;
+        for (size_t i = 0; i < places; ++i) {
+          if (random.below(4) == 0) continue;
+          shell.corners |= uint32_t{1} << i;
+          shell.of_a[i] = static_cast<uint8_t>(random.below(points));
+          shell.of_b[i] = static_cast<uint8_t>(random.below(points));
+        }
+        ShellSpace expected, found;
+        scalar::place_corners(shell, a.view(), b.view(), expected);
+        hull_steps_in_lanes().place_corners(shell, a.view(), b.view(), found);
+        for (size_t i = 0; i < places; ++i) {
+          if (!(shell.corners >> i & 1)) continue;
+          EXPECT_EQ(expected.corner_at(i), found.corner_at(i));
+          EXPECT_EQ(expected.corner_at(i), a.view().corner(shell.of_a[i]) - b[shell.of_b[i]]);
+        }
+      }
+    }
   });
 }
 
@@ -308,6 +345,7 @@ TEST(Shells, ProveNothingOfHullsThatAreApart) {
     if (exact_separation(pair).separation < 0) continue;
     EXPECT_TRUE(shell_depth(pair, 0.01f, hull_steps_in_lanes(), shell).is_unsure);
     EXPECT_EQ(shell.triangle_count, 0);
+    EXPECT_TRUE(shell.was_in_vain());
   }
 }
 
