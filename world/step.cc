@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -369,7 +370,9 @@ void World::State::test_pairs(std::span<const Pair> all, const PairRange& range,
   const Collidables view = bodies.view();
   const bool composites = has_composites();
   const std::span<const Pair> pairs = all.subspan(range.first_row, range.rows);
-  report.by_models += bodies.count_with_models(pairs);
+  bodies.count_by_rung(pairs, report.by_rung);
+  report.by_models =
+      std::accumulate(std::begin(report.by_rung), std::end(report.by_rung), size_t{0});
   FewOf<ColumnRole, 2> wanted;
   if (composites) wanted.push_back(ColumnRole::sub_shape);
   if (has_identities()) wanted.push_back(ColumnRole::name);

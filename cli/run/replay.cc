@@ -23,6 +23,7 @@ class Recorder {
     record_.undecided.push_back(report.undecided);
     record_.tested.push_back(report.tested);
     record_.by_models.push_back(report.by_models);
+    for (size_t k = 0; k < kCountedRungs; ++k) record_.by_rung[k].push_back(report.by_rung[k]);
     record_.by_shells.push_back(report.by_shells);
     record_.kept.push_back(report.kept);
     record_.dropped.push_back(report.dropped);

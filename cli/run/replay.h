@@ -27,6 +27,7 @@ struct RunRecord {
   std::vector<uint64_t> undecided;
   std::vector<uint64_t> tested;
   std::vector<uint64_t> by_models;
+  std::array<std::vector<uint64_t>, kCountedRungs> by_rung;
   std::vector<uint64_t> by_shells;
   std::vector<uint64_t> kept;
   std::vector<uint64_t> dropped;

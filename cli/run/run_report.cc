@@ -153,6 +153,7 @@ Json to_json(const RunReport& report, const WorldOptions& options) {
   json["dropped_pairs_per_frame"] = record.dropped;
   if (!report.ladders.empty()) {
     json["tested_by_models_per_frame"] = record.by_models;
+    json["tested_by_rung_per_frame"] = record.by_rung;
     json["tested_by_shells_per_frame"] = record.by_shells;
   }
   if (report.settings.world.accuracy.tolerance > 0) {
@@ -219,6 +220,12 @@ void print(const RunReport& report, const WorldOptions& options, std::ostream& o
   }
   if (!report.ladders.empty()) {
     table.add({"pairs tested by models", extent(record.by_models)});
+    for (size_t k = 0; k < kCountedRungs; ++k) {
+      if (std::ranges::count(record.by_rung[k], 0u) == std::ssize(record.by_rung[k])) continue;
+      table.add(
+          {"  by rung " + std::to_string(k + 1) + (k + 1 < kCountedRungs ? "" : " and further"),
+           extent(record.by_rung[k])});
+    }
     table.add({"depths by shells", extent(record.by_shells)});
   }
   table.add({"kept pairs", extent(record.kept)});

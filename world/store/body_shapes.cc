@@ -70,16 +70,19 @@ void BodyStore::store_shape(uint32_t index, const Shape& shape) {
   for (const Rung& rung : ladder->rungs) {
     if (rung.error <= most) best = &rung;
   }
-  model_[index] = {best ? best->error : 0, std::make_shared<const Shape>(shape)};
+  const auto rung = best ? static_cast<uint32_t>(best - ladder->rungs.data()) + 1 : 0;
+  model_[index] = {best ? best->error : 0, rung, std::make_shared<const Shape>(shape)};
   greatest_model_error_ = std::max(greatest_model_error_, model_[index].error);
   store_model(index, best ? best->shape : shape);
 }
 
-size_t BodyStore::count_with_models(std::span<const Pair> pairs) const {
-  if (model_.empty()) return 0;
-  return static_cast<size_t>(std::count_if(pairs.begin(), pairs.end(), [this](const Pair& pair) {
-    return model_[pair.a].error > 0 || model_[pair.b].error > 0;
-  }));
+void BodyStore::count_by_rung(std::span<const Pair> pairs,
+                              std::span<size_t, kCountedRungs> counts) const {
+  if (model_.empty()) return;
+  for (const Pair& pair : pairs) {
+    const uint32_t rung = std::max(model_[pair.a].rung, model_[pair.b].rung);
+    if (rung > 0) ++counts[std::min<size_t>(rung, kCountedRungs) - 1];
+  }
 }
 
 void BodyStore::store_model(uint32_t index, const Shape& shape) {

@@ -83,8 +83,8 @@ class BodyStore {
     if (!tolerance_.empty()) return 0;
     return static_cast<float>((tolerance_of_world_ - 2 * greatest_model_error_) * (1 - 0x1p-20));
   }
-  // How many of these pairs have a body that a model stands for.
-  size_t count_with_models(std::span<const Pair> pairs) const;
+  // Counts the pairs that have a body for which a model stands: StepReport::by_rung.
+  void count_by_rung(std::span<const Pair> pairs, std::span<size_t, kCountedRungs> counts) const;
   // None: that of the world.
   std::optional<float> tolerance(uint32_t index) const {
     if (tolerance_.empty() || tolerance_[index] < 0) return std::nullopt;
@@ -194,6 +194,7 @@ class BodyStore {
   // The model that stands for the shape of a body.
   struct Model {
     double error = 0;
+    uint32_t rung = 0;                      // of the ladder, from 1; 0: the shape itself
     std::shared_ptr<const Shape> original;  // with its ladder; nullptr: it has none
   };
 

@@ -28,6 +28,9 @@ struct Ladder {
   std::vector<Rung> rungs;  ///< empty: the shape itself is all there is
 };
 
+/// Reports count so many rungs of a ladder by themselves, the last one with all further ones.
+inline constexpr int kCountedRungs = 4;
+
 /// The ladder of a shape; nullptr: it has none.
 CAROM_EXPORT LadderPtr ladder_of(const Shape& shape);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "carom/broadphase/find_pairs.h"
+#include "carom/shapes/rungs.h"
 
 namespace carom {
 
@@ -38,8 +39,11 @@ struct StepReport {
   size_t quarantined = 0;  ///< bodies left out: World::quarantined()
   size_t pairs = 0;        ///< candidate pairs
   size_t tested = 0;       ///< pairs that the narrow phase tested
-  size_t by_models =
-      0;  ///< of these, those of a body that a model stands for (carom/shapes/rungs.h)
+  /// Of these, those of a body that a model stands for (carom/shapes/rungs.h).
+  size_t by_models = 0;
+  /// How many of these models are rung 1, the finest, 2, 3, or any further one of their ladder. The
+  /// further one counts where both bodies have a model.
+  size_t by_rung[kCountedRungs] = {};
   /// Of these, those whose depth the shell of the last step proved within the tolerance (hulls).
   size_t by_shells = 0;
   size_t kept = 0;         ///< pairs that kept the result of the last step

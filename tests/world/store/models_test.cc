@@ -95,6 +95,36 @@ TEST(Models, TheReportCountsThePairsThatTheyDecide) {
     world.step();
     EXPECT_EQ(world.report().tested, 4u);  // two balls, each with a box; two boxes
     EXPECT_EQ(world.report().by_models, tolerance > 1 ? 3u : 0u);
+    EXPECT_EQ(world.report().by_rung[0], tolerance > 1 ? 3u : 0u);
+  }
+}
+
+// Balls that grow, each a rung. Of two models the further one counts, and all beyond the fourth
+// count with it.
+TEST(Models, TheReportCountsRungs) {
+  for (uint32_t a = 0; a <= 6; ++a) {
+    for (uint32_t b = 0; b <= 6; ++b) {
+      World world = world_within(0);
+      const auto add = [&world](uint32_t rung, double x) {
+        Ladder ladder;
+        for (int k = 1; k <= 6; ++k)
+          ladder.rungs.push_back(
+              {Capsule{{0, 0, 0}, {0, 0, 0}, 1 + 0.1f * static_cast<float>(k)}, 0.5 * k});
+        Hull cube = oracle::hull_of(cube_corners());
+        cube.ladder = std::make_shared<const Ladder>(ladder);
+        const float enough = static_cast<float>((0.5 * rung + 0.25) * 2 / kShareOfRungs);
+        world.add({.shape = cube, .position = {x, 0, 0}, .tolerance = enough});
+      };
+      add(a, 0);
+      add(b, 1);
+      world.step();
+      const StepReport& report = world.report();
+      ASSERT_EQ(report.tested, 1u);
+      for (uint32_t k = 0; k < kCountedRungs; ++k) {
+        EXPECT_EQ(report.by_rung[k], std::min(std::max(a, b), 4u) == k + 1) << a << b;
+      }
+      EXPECT_EQ(report.by_models, a > 0 || b > 0);
+    }
   }
 }
 
