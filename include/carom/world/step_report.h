@@ -44,7 +44,8 @@ struct StepReport {
   /// How many of these models are rung 1, the finest, 2, 3, or any further one of their ladder. The
   /// further one counts where both bodies have a model.
   size_t by_rung[kCountedRungs] = {};
-  /// Of these, those whose depth the shell of the last step proved within the tolerance (hulls).
+  /// Of the tested ones, those whose depth the shell of the last step proved within the tolerance
+  /// (hulls).
   size_t by_shells = 0;
   size_t kept = 0;         ///< pairs that kept the result of the last step
   size_t dropped = 0;      ///< pairs not tested because their k-DOPs or hulls are separate
