@@ -171,7 +171,8 @@ void test_open(const PairKind& kind, const Batch& batch, const RowFlags& open) {
   tested.scatter(test.out, batch.out, batch.detail);
 }
 
-// Sets the decisions of the rows that are known to be separate.
+// Sets the decisions of the rows that are known to be separate. Without branches on them, which
+// nobody can predict.
 void settle(const Batch& batch, const RowFlags& is_apart) {
   RowFlags mask;
   for (size_t row = 0; row < batch.count; ++row) mask[row] = is_apart[row] ? 0 : 0xff;

@@ -97,9 +97,8 @@ class DepthSearch {
       answer = ShellGrowth(*shell_, hulls, space).measure(slack_, found);
     }
     if (answer == ShellAnswer::none) answer = measure_new_shell(hulls, space, frames, i, found);
-    if (answer != ShellAnswer::depth) shell_->end_in_vain();
     is_doubtful_ = answer != ShellAnswer::depth || !(found.depth > kSureGap);
-    if (is_doubtful_) return;
+    if (is_doubtful_) return shell_->end_in_vain();
     gap_ = -found.depth;
     normal_ = found.normal;
     put(found.on_a, frames, i);

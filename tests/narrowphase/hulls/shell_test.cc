@@ -397,6 +397,19 @@ TEST(Shells, ProveMostDepthsOfParallelBoxes) {
   EXPECT_GT(sure, overlaps * 9 / 10);
 }
 
+// A depth that may be rounding is left to the search. The shell goes, so that no step tries it
+// twice.
+TEST(Shells, OfHullsThatHardlyOverlapAreInVain) {
+  const scalar::Quaternion<float> unturned{Vector3f::Zero(), 1};
+  const Hull box = oracle::hull_of(box_corners({0.5f, 0.5f, 0.5f}));
+  for (const auto& [depth, is_found] : {std::pair{1.2e-5f, false}, std::pair{3e-5f, true}}) {
+    const HullPair pair{box, box, {{1 - depth, 0.1f, 0.2f}, unturned, unturned}};
+    Shell shell{};
+    EXPECT_EQ(!shell_depth(pair, 0.05f, hull_steps_in_lanes(), shell).is_unsure, is_found);
+    EXPECT_EQ(shell.was_in_vain(), !is_found);
+  }
+}
+
 // Hulls at one place, and hulls without height, have many axes of least overlap.
 TEST(Shells, OfSpecialHulls) {
   const Hull cube = oracle::hull_of(cube_corners());
