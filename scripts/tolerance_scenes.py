@@ -7,6 +7,8 @@
   tolerance_scenes.py meshes OUT.npz --models DIR   50 scanned models, tumbling
   tolerance_scenes.py terrain OUT.npz --models DIR  2,000 bodies on three scanned models
 
+--frames N: how many frames, 30 by default.
+
 DIR holds OFF files: data/meshes of CGAL's data (Debian: libcgal-demo, data.tar.gz).
 """
 
@@ -82,7 +84,8 @@ class Draw:
 
 
 class Scene:
-    def __init__(self):
+    def __init__(self, frames):
+        self.frame_count = frames
         self.kind, self.params = [], []
         self.vertex_range, self.vertices = [], []
         self.triangle_range, self.triangles = [], []
@@ -124,21 +127,21 @@ class Scene:
             write("body_motion", "B", 0, [body[1] for body in self.bodies])
             write("dt", "d", 0, [DT])
             for name, columns, frames in self.frames():
-                shape = (FRAMES, len(self.bodies), columns)
+                shape = (self.frame_count, len(self.bodies), columns)
                 self.write_array(archive, name, "f", shape, frames)
 
     def frames(self):
         positions, orientations = [], []
         now = [(body[2], body[3]) for body in self.bodies]
-        for _ in range(FRAMES):
+        for _ in range(self.frame_count):
             positions += [position for position, _ in now]
             orientations += [orientation for _, orientation in now]
             now = [([p + DT * v for p, v in zip(position, body[4])], turned(orientation, body[5]))
                    for (position, orientation), body in zip(now, self.bodies)]
         yield "position", 3, positions
         yield "orientation", 4, orientations
-        yield "linear_velocity", 3, [body[4] for body in self.bodies] * FRAMES
-        yield "angular_velocity", 3, [body[5] for body in self.bodies] * FRAMES
+        yield "linear_velocity", 3, [body[4] for body in self.bodies] * self.frame_count
+        yield "angular_velocity", 3, [body[5] for body in self.bodies] * self.frame_count
 
     @staticmethod
     def write_array(archive, name, code, shape, rows):
@@ -223,9 +226,10 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", choices=makers)
     parser.add_argument("out")
+    parser.add_argument("--frames", type=int, default=FRAMES)
     parser.add_argument("--models", type=pathlib.Path, default=pathlib.Path("."))
     options = parser.parse_args()
-    scene = Scene()
+    scene = Scene(options.frames)
     makers[options.scene](Draw(), scene, options.models)
     scene.write(options.out)
 
