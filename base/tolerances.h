@@ -196,6 +196,17 @@ inline constexpr double kSameGap = 0x1p-40;
 // A penetration depth is the shortest if it exceeds the lower bound by no more than this.
 inline constexpr double kSameWayOut = 0x1p-42;
 
+// The same of round cores, whose surface no number of faces reaches. GJK ends where the gap is less
+// than the distance by no more than this share of the cores' size; what it found is the distance if
+// the gap is less by no more than this share of it, and rounding has not turned it: if it is above
+// kTouchingRound. A depth may exceed its lower bound by kSameRoundWayOut, and its witness points may
+// miss each other by kRoundAside.
+inline constexpr double kSameRoundGap = 0x1p-40;
+inline constexpr double kSameRoundWay = 0x1p-20;
+inline constexpr double kTouchingRound = 0x1p-34;
+inline constexpr double kSameRoundWayOut = 0x1p-28;
+inline constexpr double kRoundAside = 0x1p-19;
+
 // A point of a Minkowski difference that is no further than this from a plane, line or point lies
 // in it.
 inline constexpr double kFlatDifference = 0x1p-36;

@@ -22,6 +22,41 @@ Intervals box_intervals(const std::array<Double3, 3>& turn, const Row& half) {
   return result;
 }
 
+// An axis of the world, in the frame of the body, is `r`.
+double across(const Double3& r) { return std::sqrt(r[0] * r[0] + r[1] * r[1]); }
+
+Intervals cylinder_intervals(const std::array<Double3, 3>& turn, const Row& row) {
+  Intervals result;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const Double3& r = turn[axis];
+    const double reach = double{row[0]} * across(r) + double{row[1]} * std::fabs(r[2]);
+    result[axis] = {-reach, reach};
+  }
+  return result;
+}
+
+Intervals cone_intervals(const std::array<Double3, 3>& turn, const Row& row) {
+  Intervals result;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const Double3& r = turn[axis];
+    const double of_base = double{row[0]} * across(r), of_tip = double{row[1]} * r[2];
+    result[axis] = {std::min(of_tip, -of_tip - of_base), std::max(of_tip, of_base - of_tip)};
+  }
+  return result;
+}
+
+Intervals ellipsoid_intervals(const std::array<Double3, 3>& turn, const Row& row) {
+  const Double3 semi_axes = vector_of(row);
+  Intervals result;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    Double3 scaled = turn[axis];
+    for (size_t k = 0; k < 3; ++k) scaled[k] *= semi_axes[k];
+    const double reach = std::sqrt(dot(scaled, scaled));
+    result[axis] = {-reach, reach};
+  }
+  return result;
+}
+
 template <class Points>
 Intervals point_intervals(const std::array<Double3, 3>& turn, const Points& points) {
   Intervals result;
@@ -119,6 +154,12 @@ Extent turned_extent(const BodyReader& reader, size_t i) {
                      rows[0][3], slack);
     case ShapeKind::box:
       return outward(box_intervals(turn, rows[0]), 0, slack);
+    case ShapeKind::cylinder:
+      return outward(cylinder_intervals(turn, rows[0]), 0, slack);
+    case ShapeKind::cone:
+      return outward(cone_intervals(turn, rows[0]), 0, slack);
+    case ShapeKind::ellipsoid:
+      return outward(ellipsoid_intervals(turn, rows[0]), 0, slack);
     case ShapeKind::triangle:
       return outward(triangle_intervals(turn, rows.data()), 0, slack);
     case ShapeKind::dop:

@@ -86,6 +86,13 @@ inline void place(const MovingCore& moving, const Vector3d& at, double t, Core& 
     placed.set(i, core_vector(moved(eigen_vector(moving.core->point(i)))));
   }
   placed.pad();
+  if (moving.core->is_round()) {
+    CoreRoundness roundness = moving.core->roundness();
+    for (CoreVector& axis : roundness.axis) {
+      axis = core_vector(rotate(turn, eigen_vector(axis)));
+    }
+    placed.make_round(roundness);
+  }
   placed.middle = core_vector(moved(eigen_vector(moving.core->middle)));
 }
 
@@ -112,7 +119,7 @@ inline CoreScratch& core_scratch_of_thread() {
 // The edge of a core at its furthest point along n: from there to the point to which the way falls
 // least steeply. Zero for a core that is one point.
 inline Vector3d edge_along(const Core& placed, const Vector3d& n, FurthestPoint furthest) {
-  const Vector3d top = eigen_vector(placed.point(furthest(placed, core_vector(n))));
+  const Vector3d top = eigen_vector(support_point(placed, core_vector(n), furthest));
   Vector3d edge = Vector3d::Zero();
   double fall = 1, squared = 0;  // of the edge
   for (size_t i = 0; i < placed.size(); ++i) {

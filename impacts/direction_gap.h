@@ -35,9 +35,9 @@ inline MovingCore moving_core(const Core& core, const Vector3d& arm, const Vecto
   double greatest = 0;
   for (size_t i = 0; i < core.size(); ++i) {
     const CoreVector p = core.point(i);
-    greatest = max(greatest, dot(p, p));
+    greatest = max(greatest, std::sqrt(dot(p, p)) + core.roundness_of(i));
   }
-  const double size = std::sqrt(greatest), arm_length = std::sqrt(dot(arm, arm));
+  const double size = greatest, arm_length = std::sqrt(dot(arm, arm));
   const double reach = (turns ? size : 0.0) + arm_length;
   const bool is_round_about_pivot = !(reach > 0);
   const Vector3d turning = is_round_about_pivot ? Vector3d(Vector3d::Zero()) : rotation;
@@ -76,8 +76,7 @@ struct MovingSupport {
   MovingSupport(const MovingCore& moving, const Rotation<double>& turn, const Vector3d& n,
                 FurthestPoint furthest) {
     const Vector3d own = moving.turns ? rotate_back(turn, n) : n;
-    const Vector3d corner =
-        eigen_vector(moving.core->point(furthest(*moving.core, core_vector(own))));
+    const Vector3d corner = eigen_vector(support_point(*moving.core, core_vector(own), furthest));
     const Vector3d arm = rotate(turn, moving.arm);
     const Vector3d turned = moving.turns ? Vector3d(rotate(turn, corner) + arm) : arm;
     point = moving.turns ? turned : Vector3d(corner + arm);

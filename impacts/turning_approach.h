@@ -84,7 +84,7 @@ class TurningApproach {
   }
   Vector3d furthest(const MovingCore& core, const Rotation<double>& turn, const Vector3d& n) const {
     const Vector3d own = core.turns ? Vector3d(rotate_back(turn, n)) : n;
-    return eigen_vector(core.core->point(pair_.furthest(*core.core, core_vector(own))));
+    return eigen_vector(support_point(*core.core, core_vector(own), pair_.furthest));
   }
 
   Vector3d between_middles(const Moment& now) const {

@@ -1,6 +1,13 @@
 #include "oracle/convex_families.h"
 
 namespace carom::oracle {
+namespace {
+
+Eigen::Vector3d as_doubles(const Vec3<long double>& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+
+}  // namespace
 
 std::vector<KindPair> convex_kind_pairs() {
   std::vector<KindPair> all;
@@ -12,19 +19,33 @@ std::vector<KindPair> convex_kind_pairs() {
   return all;
 }
 
+std::vector<KindPair> round_kind_pairs() {
+  std::vector<KindPair> all;
+  for (const ShapeKind round : kRoundKinds) {
+    for (const ShapeKind other : kConvexKinds) {
+      all.push_back({round, other});
+      all.push_back({other, round});
+    }
+    for (const ShapeKind other : kRoundKinds) all.push_back({round, other});
+  }
+  return all;
+}
+
+bool has_round(const KindPair& kinds) { return is_round(kinds.a) || is_round(kinds.b); }
+
 std::string name(const KindPair& kinds) {
   return std::string(carom::name(kinds.a)) + "_" + carom::name(kinds.b);
 }
 
-bool has_polytope(const KindPair& kinds) {
-  const auto is_polytope = [](ShapeKind kind) {
+bool is_slow(const KindPair& kinds) {
+  const auto has_many_faces = [](ShapeKind kind) {
     return kind == ShapeKind::dop || kind == ShapeKind::hull;
   };
-  return is_polytope(kinds.a) || is_polytope(kinds.b);
+  return has_many_faces(kinds.a) || has_many_faces(kinds.b) || has_round(kinds);
 }
 
-size_t fewer_polytopes(const KindPair& kinds, size_t count) {
-  return has_polytope(kinds) ? std::max<size_t>(count / 8, 1) : count;
+size_t fewer_if_slow(const KindPair& kinds, size_t count) {
+  return is_slow(kinds) ? std::max<size_t>(count / 8, 1) : count;
 }
 
 ConvexPair swapped(const ConvexPair& pair) {
@@ -102,16 +123,26 @@ ConvexPair ConvexPairMaker::next() {
   const double distance = family_.distance * (family_.distance_in_sizes ? size : 1);
   pair.pose_a.position = stored(random_.direction() * distance);
   pair.pose_b.position = pair.pose_a.position;
+  place_pair(pair, size);
+  return pair;
+}
+
+void ConvexPairMaker::place_pair(ConvexPair& pair, double size) {
   if (family_.placement == ConvexPlacement::free) {
     const double factor = random_.uniform(0, 2);
-    if (has_polytope(kinds_) && family_.largest > 1e30) {
+    if (has_round(kinds_)) {
+      place_round(pair, size, factor);
+    } else if (is_slow(kinds_) && family_.largest > 1e30) {
       place<long double>(pair, size, factor, 8);  // doubles would overflow
     } else {
-      place<double>(pair, size, factor, has_polytope(kinds_) ? 8 : 10);
+      place<double>(pair, size, factor, is_slow(kinds_) ? 8 : 10);
     }
   } else if (family_.placement == ConvexPlacement::near_touch) {
     const double factor = 1 + 0x1p-23 * shapes_.integer(-8, 8);
-    if (has_polytope(kinds_)) {
+    if (has_round(kinds_)) {
+      place_round(pair, size, 1.5);
+      let_touch(pair);
+    } else if (is_slow(kinds_)) {
       place<double>(pair, size, factor, 16);
     } else {
       place<long double>(pair, size, factor, 100);
@@ -120,7 +151,38 @@ ConvexPair ConvexPairMaker::next() {
   } else if (kinds_.a == kinds_.b && random_.chance(0.3)) {
     pair.shape_b = pair.shape_a;
   }
-  return pair;
+}
+
+// The separation is a convex function of the distance moved. Eight steps of bisection find its root
+// well enough for pairs of which half are to overlap.
+void ConvexPairMaker::place_round(ConvexPair& pair, double size, double factor) {
+  const SupportPair start(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
+  const auto scale = static_cast<double>(start.scale());
+  Eigen::Vector3d middle = pair.pose_a.position, way = random_.direction();
+  if (start.has_halfspace()) {  // from below the plane to above it
+    const SeparationBounds found = start.separation(0);
+    const Eigen::Vector3d out = as_doubles(found.normal);
+    way = (out * 1.1 + way).normalized();
+    middle -= out * (static_cast<double>(found.low) + size);
+  }
+  const auto gap = [&](double reach) {
+    const Pose there{middle + way * reach, pair.pose_b.orientation};
+    const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, there);
+    return static_cast<double>(placed.separation(0.02L * scale).low);
+  };
+  double low = 0, high = 4 * scale;
+  for (int i = 0; i < 8; ++i) {
+    const double middle_reach = (low + high) / 2;
+    (gap(middle_reach) > 0 ? high : low) = middle_reach;
+  }
+  pair.pose_b.position = stored(middle + way * (high * factor));
+}
+
+void ConvexPairMaker::let_touch(ConvexPair& pair) const {
+  const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
+  SeparationBounds found = placed.separation(1e-3L * placed.scale());
+  placed.climb(found);
+  pair.pose_b.position = stored(pair.pose_b.position + as_doubles(found.normal * -found.low));
 }
 
 void ConvexPairMaker::orient(ConvexPair& pair) {

@@ -1,5 +1,5 @@
 // Families of random pairs of placed shapes. Each family makes inputs hard in one way, for any two
-// kinds that have a direct solution.
+// convex kinds.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "oracle/convex_oracle.h"
 #include "oracle/convex_random.h"
+#include "oracle/support_pair.h"
 
 namespace carom::oracle {
 
@@ -23,15 +24,23 @@ inline constexpr ShapeKind kConvexKinds[] = {
     ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,     ShapeKind::box,
     ShapeKind::dop,    ShapeKind::hull,    ShapeKind::triangle, ShapeKind::halfspace};
 
-// All ordered pairs of these kinds except two half-spaces.
+// Shapes that only support_pair.h knows.
+inline constexpr ShapeKind kRoundKinds[] = {ShapeKind::cylinder, ShapeKind::cone,
+                                            ShapeKind::ellipsoid};
+
+// All ordered pairs of convex kinds except two half-spaces.
 std::vector<KindPair> convex_kind_pairs();
+// All ordered pairs of convex or round kinds of which one is round.
+std::vector<KindPair> round_kind_pairs();
 
 std::string name(const KindPair& kinds);
 
-// Polytopes with many faces are slow in the library and in the oracle, so tests take fewer of these
-// pairs.
-bool has_polytope(const KindPair& kinds);
-size_t fewer_polytopes(const KindPair& kinds, size_t count);
+bool has_round(const KindPair& kinds);
+
+// Polytopes with many faces and round shapes are slow in the library and in the oracle, so tests
+// take fewer of these pairs.
+bool is_slow(const KindPair& kinds);
+size_t fewer_if_slow(const KindPair& kinds, size_t count);
 
 struct ConvexPair {
   Shape shape_a;
@@ -39,6 +48,7 @@ struct ConvexPair {
   Shape shape_b;
   Pose pose_b;
 
+  // Not of round shapes.
   template <class R = long double>
   ConvexOracle<R> oracle() const {
     return ConvexOracle<R>(shape_a, pose_a, shape_b, pose_b);
@@ -84,6 +94,12 @@ class ConvexPairMaker {
   using Vec = Vec3<R>;
 
   void orient(ConvexPair& pair);
+  void place_pair(ConvexPair& pair, double size);
+
+  // As place(), for pairs with a round shape: roughly at `factor` times the distance of touch or, if
+  // they are to touch, exactly there.
+  void place_round(ConvexPair& pair, double size, double factor);
+  void let_touch(ConvexPair& pair) const;
 
   // Turns b from a by a small angle. A quaternion near identity stores the small angle; others lose
   // it in rounding.

@@ -20,6 +20,12 @@ Shape ConvexRandom::shape(ShapeKind kind, double size) {
       return dop(size);
     case ShapeKind::hull:
       return hull(size);
+    case ShapeKind::cylinder:
+      return Cylinder{length(size), length(size)};
+    case ShapeKind::cone:
+      return Cone{length(size), length(size)};
+    case ShapeKind::ellipsoid:
+      return Ellipsoid{half(size)};
     default:
       return halfspace(size);
   }

@@ -45,6 +45,7 @@ class ConvexRandom {
   Eigen::Vector3d extents(double size);
 
   Eigen::Vector3f half(double size) { return extents(size).cast<float>(); }
+  float length(double size) { return static_cast<float>(extent(size)); }
 
   // Offset of the shape's centre from the body's origin.
   Eigen::Vector3d shift(double size);

@@ -116,6 +116,11 @@ struct ConvexShape {
 
   void build(const Dop& dop);
 
+  // Round shapes have no features: support_oracle.h is for them.
+  void build(const Cylinder&) { std::abort(); }
+  void build(const Cone&) { std::abort(); }
+  void build(const Ellipsoid&) { std::abort(); }
+
   // Finds corners and faces from the points alone and ignores those in the geometry.
   void build(const Hull& hull);
 

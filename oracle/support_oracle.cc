@@ -11,10 +11,6 @@ namespace {
 
 using Vec = Vec3<long double>;
 
-// So many triangles are looked at. A ring of directions that are all as good takes some 10^5 at a
-// tolerance of 1e-10.
-constexpr size_t kMostTriangles = 4'000'000;
-
 // A direction, the point of A - B that is furthest along it, and how far.
 struct Probe {
   Vec way, point;
@@ -60,7 +56,7 @@ class LeastHeight {
  public:
   LeastHeight(const SupportShape& a, const SupportShape& b) : a_(a), b_(b) {}
 
-  void search(long double tolerance) {
+  void search(long double tolerance, size_t most_triangles) {
     const std::array<Vec, 6> axes = {Vec{1, 0, 0},  Vec{0, 1, 0},  Vec{0, 0, 1},
                                      Vec{-1, 0, 0}, Vec{0, -1, 0}, Vec{0, 0, -1}};
     std::array<Probe, 6> probes;
@@ -68,7 +64,7 @@ class LeastHeight {
     for (size_t octant = 0; octant < 8; ++octant) {
       push({{probes[octant & 1 ? 3 : 0], probes[octant & 2 ? 4 : 1], probes[octant & 4 ? 5 : 2]}});
     }
-    for (size_t count = 8; count < kMostTriangles && !is_done(tolerance); count += 2) halve();
+    for (size_t count = 8; count < most_triangles && !is_done(tolerance); count += 2) halve();
   }
 
   const Probe& best() const { return best_; }
@@ -110,9 +106,9 @@ class LeastHeight {
 // The separation is the greatest gap of all directions, which is the least height of A - B, with
 // the other sign: if the cores are separate the distance (by duality), else the depth.
 SeparationBounds separation_by_supports(const SupportShape& a, const SupportShape& b,
-                                        long double tolerance) {
+                                        long double tolerance, size_t most_triangles) {
   LeastHeight search(a, b);
-  search.search(tolerance);
+  search.search(tolerance, most_triangles);
   const long double radii = a.radius + b.radius;
   return {-search.best().height - radii, -search.least() - radii, search.best().way};
 }

@@ -2,6 +2,7 @@
 // slow, and bounded from both sides. It shares nothing with the searches of the library.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 #include "oracle/vec3.h"
@@ -24,9 +25,10 @@ struct SeparationBounds {
   Vec3<long double> normal;  // unit, from A to B; the gap along it is `low`
 };
 
-// Searches until both ends are nearer than `tolerance`, or directions become too many: near a
-// least overlap that is the same in a whole range of directions.
+// Searches until both ends are nearer than `tolerance`, or it has looked at too many triangles of
+// directions: near a least overlap that is the same in a whole range of directions. A ring of such
+// directions takes some 10^5 at a tolerance of 1e-10.
 SeparationBounds separation_by_supports(const SupportShape& a, const SupportShape& b,
-                                        long double tolerance);
+                                        long double tolerance, size_t most_triangles = 4'000'000);
 
 }  // namespace carom::oracle

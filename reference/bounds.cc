@@ -49,6 +49,11 @@ bool is_valid_shape(const Capsule& c) {
 bool is_valid_shape(const carom::Box& box) {
   return box.half.allFinite() && (box.half.array() >= 0).all();
 }
+bool is_valid_shape(const Cylinder& c) { return is_size(c.radius) && is_size(c.half_length); }
+bool is_valid_shape(const Cone& c) { return is_size(c.radius) && is_size(c.half_length); }
+bool is_valid_shape(const Ellipsoid& e) {
+  return e.semi_axes.allFinite() && (e.semi_axes.array() >= 0).all();
+}
 bool is_valid_shape(const Triangle& t) {
   return t.corners[0].allFinite() && t.corners[1].allFinite() && t.corners[2].allFinite() &&
          is_size(t.thickness) && t.inner_edges <= 7;

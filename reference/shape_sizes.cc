@@ -25,6 +25,9 @@ double reach(const Sphere& sphere) { return sphere.radius; }
 double reach(const Aabb& box) { return reach_of_box(box.lower, box.upper); }
 double reach(const Capsule& c) { return std::max(norm(c.a), norm(c.b)) + c.radius; }
 double reach(const carom::Box& box) { return norm(box.half); }
+double reach(const Cylinder& c) { return norm(Vector3f(c.radius, c.half_length, 0)); }
+double reach(const Cone& c) { return norm(Vector3f(c.radius, c.half_length, 0)); }
+double reach(const Ellipsoid& e) { return e.semi_axes.maxCoeff(); }
 double reach(const Triangle& t) {
   const auto& c = t.corners;
   return std::max({norm(c[0]), norm(c[1]), norm(c[2])}) + t.thickness;
@@ -58,6 +61,14 @@ double diameter(const Aabb& box) {
 }
 double diameter(const Capsule& capsule) { return 2 * double{capsule.radius}; }
 double diameter(const carom::Box& box) { return 2 * double{box.half.minCoeff()}; }
+double diameter(const Cylinder& c) { return 2 * double{std::min(c.radius, c.half_length)}; }
+// The ball touches the base and the side.
+double diameter(const Cone& c) {
+  const double radius = c.radius, length = 2 * double{c.half_length};
+  const double side = std::sqrt(radius * radius + length * length);
+  return radius > 0 ? 2 * radius * length / (radius + side) : 0;
+}
+double diameter(const Ellipsoid& e) { return 2 * double{e.semi_axes.minCoeff()}; }
 double diameter(const Triangle&) { return 0; }
 double diameter(const Halfspace&) { return kInfinity; }
 // The diameter of the largest ball around the middle of the first three slabs that stays within all

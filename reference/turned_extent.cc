@@ -36,6 +36,8 @@ struct Turn {
   const Vector3d& row(int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
+double across(const Vector3d& r) { return std::sqrt(r.x() * r.x() + r.y() * r.y()); }
+
 double greatest(const Vector3d& v) { return v.cwiseAbs().maxCoeff(); }
 
 // The largest float that is not above x, and the smallest that is not below.
@@ -139,6 +141,43 @@ Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation)
   for (int axis = 0; axis < 3; ++axis) {
     const double reach = inner_product(turn.row(axis).cwiseAbs(), half);
     set_axis(extent, axis, -reach, reach, kTurnRounding * greatest(half));
+  }
+  return extent;
+}
+
+Aabb turned_extent(const Cylinder& cylinder, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  const double radius = cylinder.radius, half_length = cylinder.half_length;
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d& r = turn.row(axis);
+    const double reach = radius * across(r) + half_length * std::fabs(r.z());
+    set_axis(extent, axis, -reach, reach, kTurnRounding * std::fmax(radius, half_length));
+  }
+  return extent;
+}
+
+Aabb turned_extent(const Cone& cone, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  const double radius = cone.radius, half_length = cone.half_length;
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d& r = turn.row(axis);
+    const double base = radius * across(r), tip = half_length * r.z();
+    set_axis(extent, axis, std::fmin(tip, -tip - base), std::fmax(tip, base - tip),
+             kTurnRounding * std::fmax(radius, half_length));
+  }
+  return extent;
+}
+
+Aabb turned_extent(const Ellipsoid& ellipsoid, const Eigen::Quaternionf& orientation) {
+  const Turn turn(orientation);
+  const Vector3d semi_axes = ellipsoid.semi_axes.cast<double>();
+  Aabb extent;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d scaled = turn.row(axis).cwiseProduct(semi_axes);
+    const double reach = std::sqrt(inner_product(scaled, scaled));
+    set_axis(extent, axis, -reach, reach, kTurnRounding * greatest(semi_axes));
   }
   return extent;
 }

@@ -10,6 +10,9 @@ namespace carom::reference {
 // Corners relative to the position, rounded outwards. Shape and orientation are valid.
 Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const Cylinder& cylinder, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const Cone& cone, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const Ellipsoid& ellipsoid, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Triangle& triangle, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation);

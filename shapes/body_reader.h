@@ -70,6 +70,9 @@ inline bool are_valid_rows(ShapeKind kind, const Row* rows,
     case ShapeKind::triangle:  // thickness and the bits of the inner edges
       return rows[0][3] >= 0 && rows[2][3] >= 0 && rows[2][3] <= 7;
     case ShapeKind::box:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::ellipsoid:
       return rows[0][0] >= 0 && rows[0][1] >= 0 && rows[0][2] >= 0;
     case ShapeKind::halfspace:
       return is_direction(rows[0][0], rows[0][1], rows[0][2]);

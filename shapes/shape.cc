@@ -6,8 +6,8 @@ namespace carom {
 
 const char* name(ShapeKind kind) {
   static constexpr std::array<const char*, kShapeKindCount> kNames = {
-      "sphere", "capsule", "aabb",     "box",       "dop",
-      "hull",   "mesh",    "compound", "halfspace", "triangle"};
+      "sphere",   "capsule",   "aabb",     "box",  "dop",       "hull",    "mesh",
+      "compound", "halfspace", "cylinder", "cone", "ellipsoid", "triangle"};
   const auto code = static_cast<size_t>(kind);
   return code < kNames.size() ? kNames[code] : "unknown";
 }
@@ -15,9 +15,10 @@ const char* name(ShapeKind kind) {
 ShapeKind kind_of(const Shape& shape) {
   // In the order of the variant.
   static constexpr std::array<ShapeKind, std::variant_size_v<Shape>> kKinds = {
-      ShapeKind::sphere,   ShapeKind::aabb,      ShapeKind::capsule, ShapeKind::box,
-      ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop,     ShapeKind::hull,
-      ShapeKind::mesh,     ShapeKind::compound};
+      ShapeKind::sphere,   ShapeKind::aabb,      ShapeKind::capsule,  ShapeKind::box,
+      ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop,      ShapeKind::hull,
+      ShapeKind::mesh,     ShapeKind::compound,  ShapeKind::cylinder, ShapeKind::cone,
+      ShapeKind::ellipsoid};
   return kKinds[shape.index()];
 }
 

@@ -19,6 +19,9 @@ Rows rows_of(const Sphere&) { return {}; }
 Rows rows_of(const Aabb&) { return {}; }
 Rows rows_of(const Capsule& c) { return {row(c.a, c.radius), row(c.b, 0)}; }
 Rows rows_of(const Box& box) { return {row(box.half, 0)}; }
+Rows rows_of(const Cylinder& c) { return {Row{c.radius, c.half_length, 0, 0}}; }
+Rows rows_of(const Cone& c) { return {Row{c.radius, c.half_length, 0, 0}}; }
+Rows rows_of(const Ellipsoid& e) { return {row(e.semi_axes, 0)}; }
 Rows rows_of(const Halfspace& h) { return {row(h.normal, h.offset)}; }
 Rows rows_of(const Triangle& t) {
   return {row(t.corners[0], t.thickness), row(t.corners[1], t.one_sided ? 1.0f : 0.0f),
@@ -80,6 +83,12 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
       return Capsule{vector(rows[0]), vector(rows[1]), rows[0][3]};
     case ShapeKind::box:
       return Box{vector(rows[0])};
+    case ShapeKind::cylinder:
+      return Cylinder{rows[0][0], rows[0][1]};
+    case ShapeKind::cone:
+      return Cone{rows[0][0], rows[0][1]};
+    case ShapeKind::ellipsoid:
+      return Ellipsoid{vector(rows[0])};
     case ShapeKind::halfspace:
       return Halfspace{vector(rows[0]), rows[0][3]};
     case ShapeKind::dop:

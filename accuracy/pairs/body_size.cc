@@ -36,6 +36,9 @@ struct Radius {
            capsule.radius;
   }
   double operator()(const Box& box) const { return box.half.cast<double>().norm(); }
+  double operator()(const Cylinder& c) const { return std::hypot(c.radius, c.half_length); }
+  double operator()(const Cone& c) const { return std::hypot(c.radius, c.half_length); }
+  double operator()(const Ellipsoid& e) const { return e.semi_axes.maxCoeff(); }
   double operator()(const Triangle& triangle) const {
     double farthest = 0;
     for (const Eigen::Vector3f& corner : triangle.corners) {
@@ -71,6 +74,11 @@ struct Aspect {
     return edge_ratio((box.upper - box.lower).cast<double>());
   }
   double operator()(const Box& box) const { return edge_ratio(box.half.cast<double>()); }
+  double operator()(const Cylinder& c) const {
+    return edge_ratio({c.radius, c.radius, c.half_length});
+  }
+  double operator()(const Cone& c) const { return edge_ratio({c.radius, c.radius, c.half_length}); }
+  double operator()(const Ellipsoid& e) const { return edge_ratio(e.semi_axes.cast<double>()); }
   double operator()(const Dop& dop) const {
     return edge_ratio(upper_corner(dop) - lower_corner(dop));
   }

@@ -31,7 +31,7 @@ Effort effort_for(const KindPair& kinds, bool is_long) {
                                      .angle = 100,
                                      .scene = 20'000,
                                      .rounds = 7};
-  if (oracle::has_polytope(kinds)) return is_long ? kLongPolytopes : kShortPolytopes;
+  if (oracle::is_slow(kinds)) return is_long ? kLongPolytopes : kShortPolytopes;
   return is_long ? kLong : kShort;
 }
 

@@ -1,7 +1,9 @@
 #include "cli/page/shape_view.h"
 
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
@@ -49,9 +51,35 @@ class Faces {
     }
   }
 
+  // Adds a ring of points about the z axis, counter-clockwise from above; the place of the first.
+  size_t add_ring(double radius_x, double radius_y, double z) {
+    const size_t first = points_.size() / 3;
+    for (size_t k = 0; k < kOfRing; ++k) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(k) / kOfRing;
+      add_point(radius_x * std::cos(angle), radius_y * std::sin(angle), z);
+    }
+    return first;
+  }
+  // The faces between two rings, the second above the first.
+  void join_rings(size_t lower, size_t upper) {
+    for (size_t k = 0; k < kOfRing; ++k) {
+      const size_t next = (k + 1) % kOfRing;
+      add_face({lower + k, lower + next, upper + next, upper + k});
+    }
+  }
+  void close_ring(size_t ring, bool from_above) {
+    Json outline = Json::array();
+    for (size_t k = 0; k < kOfRing; ++k) {
+      outline.push_back(ring + (from_above ? k : kOfRing - 1 - k));
+    }
+    add_face(std::move(outline));
+  }
+
   Json json() && { return {{"points", std::move(points_)}, {"faces", std::move(faces_)}}; }
 
  private:
+  static constexpr size_t kOfRing = 24;
+
   static Eigen::Vector3d front_normal(const std::array<Eigen::Vector3f, 3>& corners) {
     const Eigen::Vector3d a = corners[0].cast<double>();
     return (corners[1].cast<double>() - a).cross(corners[2].cast<double>() - a).normalized();
@@ -105,6 +133,40 @@ struct Viewer {
         outline.push_back(faces.add_point(point[0], point[1], point[2]));
       }
       if (outline.size() > 2) faces.add_face(std::move(outline));
+    }
+    return std::move(faces).json();
+  }
+
+  Json operator()(const Cylinder& c) const {
+    Faces faces;
+    const size_t lower = faces.add_ring(c.radius, c.radius, -c.half_length);
+    const size_t upper = faces.add_ring(c.radius, c.radius, c.half_length);
+    faces.join_rings(lower, upper);
+    faces.close_ring(lower, false);
+    faces.close_ring(upper, true);
+    return std::move(faces).json();
+  }
+
+  // The ring at the tip has no radius.
+  Json operator()(const Cone& c) const {
+    Faces faces;
+    const size_t base = faces.add_ring(c.radius, c.radius, -c.half_length);
+    faces.join_rings(base, faces.add_ring(0, 0, c.half_length));
+    faces.close_ring(base, false);
+    return std::move(faces).json();
+  }
+
+  Json operator()(const Ellipsoid& e) const {
+    constexpr int kRings = 12;
+    Faces faces;
+    size_t below = 0;
+    for (int i = 0; i <= kRings; ++i) {
+      const double angle = std::numbers::pi * (double{1} * i / kRings - 0.5);
+      const double out = std::cos(angle), up = std::sin(angle);
+      const size_t ring =
+          faces.add_ring(e.semi_axes.x() * out, e.semi_axes.y() * out, e.semi_axes.z() * up);
+      if (i > 0) faces.join_rings(below, ring);
+      below = ring;
     }
     return std::move(faces).json();
   }

@@ -38,6 +38,16 @@ std::string parameters(const Triangle& triangle) {
          std::to_string(triangle.inner_edges);
 }
 
+std::string parameters(const Cylinder& c) {
+  return "radius " + text_of(c.radius) + " half length " + text_of(c.half_length);
+}
+
+std::string parameters(const Cone& c) {
+  return "radius " + text_of(c.radius) + " half length " + text_of(c.half_length);
+}
+
+std::string parameters(const Ellipsoid& e) { return "semi-axes " + list(e.semi_axes); }
+
 std::string parameters(const Halfspace& halfspace) {
   return "normal " + list(halfspace.normal) + " offset " + text_of(halfspace.offset);
 }

@@ -1,7 +1,11 @@
 // A convex shape as the hull of points, grown by a radius: the input of the searches over any two
-// convex shapes.
+// convex shapes. Around one or two points may lie ellipsoids or discs: then it is the hull of
+// these.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -15,6 +19,13 @@ using CoreVector = VectorOf<double>;
 // repeat the first.
 inline constexpr size_t kCoreLanes = 8;
 
+// The ellipsoid about a point has these half axes, times the share of the point. An axis of length
+// zero makes it flat.
+struct CoreRoundness {
+  std::array<CoreVector, 3> axis;
+  std::array<double, 2> share;
+};
+
 class Core {
  public:
   double radius = 0;
@@ -25,6 +36,46 @@ class Core {
     count_ = count;
     padded_ = (count + kCoreLanes - 1) / kCoreLanes * kCoreLanes;
     if (values_.size() < 3 * padded_) values_.resize(3 * padded_);
+    is_round_ = false;
+  }
+  // Of a core of one or two points.
+  void make_round(const CoreRoundness& roundness) {
+    roundness_ = roundness;
+    is_round_ = true;
+  }
+  bool is_round() const { return is_round_; }
+  const CoreRoundness& roundness() const { return roundness_; }
+
+  // How far the ellipsoid of share 1 reaches along `way`, times the length of `way`.
+  double reach(const CoreVector& way) const { return length(along_axes(way)); }
+  // The furthest point of point i's ellipsoid.
+  CoreVector round_point(size_t i, const CoreVector& way) const {
+    const CoreVector along = along_axes(way);
+    const double reach = length(along);
+    if (!(reach > 0)) return point(i);
+    const auto& [x, y, z] = roundness_.axis;
+    const CoreVector out = x * (along.x / reach) + y * (along.y / reach) + z * (along.z / reach);
+    return point(i) + out * roundness_.share[i];
+  }
+  // How far point i's ellipsoid reaches at most.
+  double roundness_of(size_t i) const {
+    const auto& [x, y, z] = roundness_.axis;
+    const double longest = std::max(std::max(length(x), length(y)), length(z));
+    return is_round_ ? longest * roundness_.share[i] : 0;
+  }
+  // The distance of the furthest point from `middle`, or a little more.
+  double reach_from_middle() const {
+    double most = 0;
+    for (size_t i = 0; i < count_; ++i) {
+      most = std::max(most, length(point(i) - middle) + roundness_of(i));
+    }
+    return most;
+  }
+  // The support point of a round core.
+  CoreVector furthest_round(const CoreVector& way) const {
+    const double here = reach(way);
+    const auto height = [&](size_t i) { return dot(way, point(i)) + roundness_.share[i] * here; };
+    return round_point(count_ == 2 && height(1) > height(0) ? 1 : 0, way);
   }
   void set(size_t i, const CoreVector& p) {
     values_[i] = p.x;
@@ -48,6 +99,14 @@ class Core {
   double* z() { return values_.data() + 2 * padded_; }
 
  private:
+  static double length(const CoreVector& v) { return std::sqrt(dot(v, v)); }
+  CoreVector along_axes(const CoreVector& way) const {
+    const auto& [x, y, z] = roundness_.axis;
+    return {dot(x, way), dot(y, way), dot(z, way)};
+  }
+
+  bool is_round_ = false;
+  CoreRoundness roundness_;
   std::vector<double> values_;  // never shrinks: cores are used again for the next pair
   size_t count_ = 0, padded_ = 0;
 };
@@ -64,5 +123,10 @@ inline CorePair& core_pair_of_thread() {
 
 // The index of the support point of the core along `way`; the first of equals.
 using FurthestPoint = size_t (*)(const Core& core, const CoreVector& way);
+
+// The support point itself; `furthest` finds it among points.
+inline CoreVector support_point(const Core& core, const CoreVector& way, FurthestPoint furthest) {
+  return core.is_round() ? core.furthest_round(way) : core.point(furthest(core, way));
+}
 
 }  // namespace carom

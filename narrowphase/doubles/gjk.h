@@ -131,6 +131,7 @@ struct NearestWay {
   CoreVector way;
   NearestPoint::Corners corners;  // of B - A, that span `way`; four: zero lies inside
   double gap = 0;  // between the projections on `way`, times its length; 0 if the cores touch
+  NearestPoint::Corners of_a;  // the points of A at `corners`, if one of the cores is round
 };
 
 // Goes on from what plain GJK found.
@@ -145,22 +146,84 @@ inline NearestWay nearest_way(const Core& a, const Core& b, const scalar::PlainS
   for (int round = 0;; ++round) {
     const CoreVector& way = nearest.point();
     if (nearest.squared() <= kTouchingSquared || nearest.is_around_zero()) {
-      return {way, nearest.corners()};
+      return {way, nearest.corners(), 0, {}};
     }
     const CoreVector next = difference_point(a, b, way, furthest);
     const double gap = dot(way, next);
     // Search to the very last point, because `way` is only as good as the corners at its end.
     const bool has_ended = gap >= nearest.squared() || holds(nearest.corners(), next);
-    if (has_ended || round == kMostRounds) return {way, nearest.corners(), gap};
+    if (has_ended || round == kMostRounds) return {way, nearest.corners(), gap, {}};
     NearestPoint::Corners corners = nearest.corners();
     corners.push_back(next);
     const NearestPoint nearer(corners);
-    if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners(), gap};
+    if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners(), gap, {}};
     nearest = nearer;
   }
 }
 
+// Those of the points that span the nearest one.
+inline NearestPoint::Corners spanning(const NearestPoint& nearest,
+                                      const NearestPoint::Corners& points) {
+  NearestPoint::Corners kept;
+  for (size_t i = 0; i + 1 < points.size(); ++i) {
+    if (nearest.spans(i)) kept.push_back(points[i]);
+  }
+  kept.push_back(points[points.size() - 1]);
+  return kept;
+}
+
+// For round cores, which have no last point: ends where the gap shows the distance to be as good as
+// known, and keeps the points of A.
+inline NearestWay nearest_round_way(const Core& a, const Core& b, FurthestPoint furthest) {
+  constexpr int kMostRounds = 128;  // ten are usual
+  const DifferencePoint first = find_difference_point(a, b, b.middle - a.middle, furthest);
+  const double size = a.reach_from_middle() + b.reach_from_middle();
+  NearestPoint nearest({first.point});
+  NearestPoint::Corners of_a = {first.of_a};
+  for (int round = 0;; ++round) {
+    const CoreVector& way = nearest.point();
+    if (nearest.squared() <= kTouchingSquared || nearest.is_around_zero()) {
+      return {way, nearest.corners(), 0, of_a};
+    }
+    const DifferencePoint next = find_difference_point(a, b, way, furthest);
+    const double gap = dot(way, next.point), squared = nearest.squared();
+    // How far the surface may be before the corners, times the distance: a share of the cores' size,
+    // but less than what turns the way noticeably, and more than rounding.
+    const double of_size = kSameRoundGap * size * std::sqrt(squared);
+    const double slack = std::clamp(of_size, 0x1p-50 * squared, kSameRoundWay / 4 * squared);
+    const bool has_ended = gap >= squared - slack || holds(nearest.corners(), next.point);
+    if (has_ended || round == kMostRounds) return {way, nearest.corners(), gap, of_a};
+    NearestPoint::Corners corners = nearest.corners();
+    corners.push_back(next.point);
+    const NearestPoint nearer(corners);
+    if (!(nearer.squared() < nearest.squared())) return {way, nearest.corners(), gap, of_a};
+    of_a.push_back(next.of_a);
+    of_a = spanning(nearer, of_a);
+    nearest = nearer;
+  }
+}
+
+// The point of A that belongs to the nearest point of at most three corners. `of_a`: those of the
+// corners that span it.
+inline CoreVector spanned_of_a(const NearestPoint::Corners& corners, const CoreVector& nearest,
+                               const NearestPoint::Corners& of_a) {
+  if (corners.size() == 2) {
+    const CoreVector side = corners[1] - corners[0];
+    const double share = dot(nearest - corners[0], side) / dot(side, side);
+    return of_a[0] + (of_a[1] - of_a[0]) * share;
+  }
+  if (corners.size() != 3) return of_a[0];
+  const CoreVector u = corners[1] - corners[0], v = corners[2] - corners[0];
+  const CoreVector n = cross(u, v), way = nearest - corners[0];
+  const double squared = dot(n, n);
+  if (!(squared > 0)) return of_a[0];
+  const double of_u = std::clamp(dot(n, cross(way, v)) / squared, 0.0, 1.0);
+  const double of_v = std::clamp(dot(n, cross(u, way)) / squared, 0.0, 1.0 - of_u);
+  return of_a[0] + (of_a[1] - of_a[0]) * of_u + (of_a[2] - of_a[0]) * of_v;
+}
+
 inline NearestWay nearest_way(const Core& a, const Core& b, FurthestPoint furthest) {
+  if (a.is_round() || b.is_round()) return nearest_round_way(a, b, furthest);
   return nearest_way(a, b, scalar::PlainGjk(a, b, furthest).simplex, furthest);
 }
 

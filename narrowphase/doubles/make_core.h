@@ -31,6 +31,41 @@ inline void make_core(const CapsuleShape<double>& capsule, const Quaternion<doub
   core.middle = core_vector(rotate(turn, Vector3d((capsule.a + capsule.b) / 2)) + offset);
 }
 
+// The axes of the body are half axes of the ellipsoids, in these lengths.
+inline void make_round_core(const Vector3d& lengths, double half_length,
+                            const std::array<double, 2>& shares, const Rotation<double>& turn,
+                            const Vector3d& offset, Core& core) {
+  const auto turned = [&](const Vector3d& v) { return rotate(turn, v); };
+  const Vector3d top(0, 0, half_length);
+  core.resize(half_length > 0 ? 2 : 1);
+  core.set(0, core_vector(turned(-top) + offset));
+  if (half_length > 0) core.set(1, core_vector(turned(top) + offset));
+  core.pad();
+  core.make_round({{core_vector(turned(Vector3d(lengths.x(), 0, 0))),
+                    core_vector(turned(Vector3d(0, lengths.y(), 0))),
+                    core_vector(turned(Vector3d(0, 0, lengths.z())))},
+                   shares});
+  core.radius = 0;
+  core.middle = core_vector(offset);
+}
+
+inline void make_core(const CylinderShape<double>& cylinder, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  make_round_core({cylinder.radius, cylinder.radius, 0}, cylinder.half_length, {1, 1},
+                  rotation_of(q), offset, core);
+}
+
+inline void make_core(const ConeShape<double>& cone, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  make_round_core({cone.radius, cone.radius, 0}, cone.half_length, {1, 0}, rotation_of(q), offset,
+                  core);
+}
+
+inline void make_core(const EllipsoidShape<double>& ellipsoid, const Quaternion<double>& q,
+                      const Vector3d& offset, Core& core) {
+  make_round_core(ellipsoid.semi_axes, 0, {1, 1}, rotation_of(q), offset, core);
+}
+
 inline void make_core_of_box(const Vector3d& lower, const Vector3d& upper,
                              const Rotation<double>& turn, const Vector3d& offset, Core& core) {
   core.resize(8);

@@ -27,31 +27,59 @@ struct WayOut {
   double gap = -HUGE_VAL;
   bool is_flat = false;   // B - A has no volume: -normal is as good
   bool has_ended = true;  // false: there may be a direction with less depth
+  bool has_point = false;  // of A, where it meets B: of round cores
+  CoreVector of_a{};
 };
 
 class WayOutSearch {
  public:
   WayOutSearch(const Core& a, const Core& b, FurthestPoint furthest)
-      : a_(a), b_(b), furthest_(furthest) {}
+      : a_(a),
+        b_(b),
+        furthest_(furthest),
+        same_(a.is_round() || b.is_round() ? kSameRoundWayOut : kSameWayOut) {}
 
   // Starts from the corners that nearest_way() found.
   WayOut run(const NearestPoint::Corners& known) {
-    for (const CoreVector& corner : known) add_if_beside(corner);
+    for (const CoreVector& corner : known) add_if_beside({corner, {}});
     if (!complete_tetrahedron()) return best_;
     make_faces();
     while (true) {
       const size_t nearest = nearest_face();
       if (is_shortest(nearest)) return best_;
-      const CoreVector normal = faces_[nearest].normal;
-      const CoreVector point = try_way(normal);
+      const DifferencePoint point = try_way(faces_[nearest].normal);
       if (is_shortest(nearest)) return best_;
-      if (is_corner(point)) {
-        // Rounding had put the face too low.
-        height_[nearest] = dot(normal, point);
-      } else if (corners_.is_full() || !grow(nearest, point)) {
-        best_.has_ended = false;
-        return best_;
+      if (!grow_or_lift(nearest, point)) return best_;
+    }
+  }
+
+  // Calls use(normal) for the directions in which there may be less depth than the search found.
+  template <class Use>
+  void for_each_open_way(const Use& use) const {
+    for (size_t face = 0; face < faces_.size(); ++face) {
+      if (height_[face] < -best_.gap - same_) use(-faces_[face].normal);
+    }
+  }
+
+  // For round cores: ends at a face that is as near as the difference in the direction of that very
+  // face, so that its corners tell where the cores meet.
+  WayOut run_round(const NearestWay& known) {
+    for (size_t i = 0; i < known.corners.size(); ++i) {
+      add_if_beside({known.corners[i], known.of_a[i]});
+    }
+    if (!complete_tetrahedron()) return best_;
+    make_faces();
+    while (true) {
+      const size_t nearest = nearest_face();
+      const CoreVector normal = faces_[nearest].normal;
+      const DifferencePoint point = try_way(normal);
+      const double over = dot(normal, point.point) - height_[nearest];
+      if (over <= same_) {
+        WayOut out;
+        const double aside = find_out(nearest, point, out);
+        if (aside <= kRoundAside || over <= kFlatDifference) return out;
       }
+      if (!grow_or_lift(nearest, point)) return best_;
     }
   }
 
@@ -84,10 +112,48 @@ class WayOutSearch {
     return unit(cross(u, least));
   }
 
+  // Adds the point that is furthest along the normal of a face. False if the search has to end.
+  bool grow_or_lift(size_t nearest, const DifferencePoint& point) {
+    if (is_corner(point.point)) {
+      // Rounding had put the face too low.
+      height_[nearest] = dot(faces_[nearest].normal, point.point);
+      return true;
+    }
+    best_.has_ended = !corners_.is_full() && grow(nearest, point);
+    return best_.has_ended;
+  }
+
+  // The way out through a face, beyond which no point is further than `point`. Zero need not project
+  // onto that face: where the difference is flat, several faces share a plane. One of them holds the
+  // polytope's nearest point. Returns how far beside zero's projection that is.
+  double find_out(size_t nearest, const DifferencePoint& point, WayOut& out) const {
+    const CoreVector& normal = faces_[nearest].normal;
+    out = {.normal = -normal, .gap = -dot(normal, point.point), .has_point = true};
+    double least = HUGE_VAL, aside = HUGE_VAL;
+    for (size_t face = 0; face < faces_.size(); ++face) {
+      if (!(height_[face] <= height_[nearest] + same_)) continue;
+      for (size_t last = 0; last < 3; ++last) {  // a corner that spans the point comes last
+        NearestPoint::Corners corners, of_a;
+        for (size_t i = 1; i <= 3; ++i) {
+          const uint16_t corner = faces_[face].corner[(last + i) % 3];
+          corners.push_back(corners_[corner]);
+          of_a.push_back(of_a_[corner]);
+        }
+        const NearestPoint found(corners);
+        const bool is_in_plane = dot(normal, found.point()) >= height_[nearest] - same_;
+        if (!is_in_plane || !(found.squared() < least)) continue;
+        least = found.squared();
+        aside = length(found.point() - normal * dot(normal, found.point()));
+        out.of_a = spanned_of_a(found.corners(), found.point(), spanning(found, of_a));
+      }
+    }
+    return aside;
+  }
+
   // The point of B - A that is furthest along n. Keeps the gap along -n if it is the best.
-  CoreVector try_way(const CoreVector& n) {
-    const CoreVector point = difference_point(a_, b_, -n, furthest_);
-    const double gap = -dot(n, point);
+  DifferencePoint try_way(const CoreVector& n) {
+    const DifferencePoint point = find_difference_point(a_, b_, -n, furthest_);
+    const double gap = -dot(n, point.point);
     if (gap > best_.gap) {
       best_.normal = -n;
       best_.gap = gap;
@@ -96,7 +162,7 @@ class WayOutSearch {
   }
 
   // B - A has no face nearer to zero than the nearest face of the polytope inside it.
-  bool is_shortest(size_t nearest) const { return -best_.gap - height_[nearest] <= kSameWayOut; }
+  bool is_shortest(size_t nearest) const { return -best_.gap - height_[nearest] <= same_; }
 
   bool is_corner(const CoreVector& point) const {
     return std::any_of(corners_.begin(), corners_.end(), [&](const CoreVector& corner) {
@@ -109,10 +175,15 @@ class WayOutSearch {
   CoreVector edge(size_t i) const { return corners_[i] - corners_[0]; }
 
   // Adds the point unless it lies in the point, line or plane of the present corners.
-  bool add_if_beside(const CoreVector& point) {
-    if (distance_from_corners(point) <= kFlatDifference) return false;
-    corners_.push_back(point);
+  bool add_if_beside(const DifferencePoint& point) {
+    if (distance_from_corners(point.point) <= kFlatDifference) return false;
+    add_corner(point);
     return true;
+  }
+
+  void add_corner(const DifferencePoint& point) {
+    corners_.push_back(point.point);
+    of_a_.push_back(point.of_a);
   }
 
   double distance_from_corners(const CoreVector& point) const {
@@ -155,7 +226,10 @@ class WayOutSearch {
 
   void make_faces() {
     // The fourth corner lies behind the first three.
-    if (dot(cross(edge(1), edge(2)), edge(3)) > 0) std::swap(corners_[0], corners_[1]);
+    if (dot(cross(edge(1), edge(2)), edge(3)) > 0) {
+      std::swap(corners_[0], corners_[1]);
+      std::swap(of_a_[0], of_a_[1]);
+    }
     static constexpr std::array<std::array<uint16_t, 3>, 4> kFaces = {
         {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
     for (const auto& corners : kFaces) set_face(new_face(), corners);
@@ -187,11 +261,11 @@ class WayOutSearch {
 
   // Replaces all faces that the point sees, `first` among them. False if there is no room, or if
   // rounding made the horizon something other than one ring.
-  bool grow(size_t first, const CoreVector& point) {
+  bool grow(size_t first, const DifferencePoint& point) {
     seen_.clear();
     horizon_.clear();
     see(static_cast<uint16_t>(first));
-    for (const Side& beyond : faces_[first].across) look_across(beyond, point);
+    for (const Side& beyond : faces_[first].across) look_across(beyond, point.point);
     return !horizon_.is_full() && close_horizon(point);
   }
 
@@ -215,9 +289,9 @@ class WayOutSearch {
 
   // Adds a face from every side of the horizon to the point. The seen faces are reused; there are
   // always two more new faces than those.
-  bool close_horizon(const CoreVector& point) {
+  bool close_horizon(const DifferencePoint& point) {
     const auto apex = static_cast<uint16_t>(corners_.size());
-    corners_.push_back(point);
+    add_corner(point);
     ring_.clear();
     for (const Side& beyond : horizon_) {
       if (ring_.size() >= seen_.size() && faces_.is_full()) return false;
@@ -250,8 +324,9 @@ class WayOutSearch {
   const Core& a_;
   const Core& b_;
   const FurthestPoint furthest_;
+  const double same_;
   WayOut best_;
-  FewOf<CoreVector, kMostCorners> corners_;  // points of B - A
+  FewOf<CoreVector, kMostCorners> corners_, of_a_;  // points of B - A, and of A
   FewOf<Face, kMostFaces> faces_;
   FewOf<double, kMostFaces> height_;  // of each face's plane over zero
   FewOf<uint16_t, kMostFaces> seen_, ring_;

@@ -9,10 +9,21 @@
 
 namespace carom {
 
-// A point of the difference B - A of two cores.
+// A point of the difference B - A of two cores, and of A.
+struct DifferencePoint {
+  CoreVector point, of_a;
+};
+
+// The one that is furthest along -way.
+inline DifferencePoint find_difference_point(const Core& a, const Core& b, const CoreVector& way,
+                                             FurthestPoint furthest) {
+  const CoreVector of_a = support_point(a, way, furthest);
+  return {support_point(b, -way, furthest) - of_a, of_a};
+}
+
 inline CoreVector difference_point(const Core& a, const Core& b, const CoreVector& way,
                                    FurthestPoint furthest) {
-  return b.point(furthest(b, -way)) - a.point(furthest(a, way));
+  return support_point(b, -way, furthest) - support_point(a, way, furthest);
 }
 
 namespace scalar {

@@ -1,6 +1,6 @@
 #include <variant>
 
-#include "narrowphase/manifolds/manifold_scalar.h"
+#include "narrowphase/manifolds/round_manifold_scalar.h"
 #include "narrowphase/pairs/any_pair.h"
 
 namespace carom::scalar {

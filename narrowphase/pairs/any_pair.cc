@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "narrowphase/pairs/all_pairs.h"
+#include "narrowphase/pairs/round/round_scalar.h"
 #include "narrowphase/scalar/scaled.h"
 
 namespace carom::scalar {

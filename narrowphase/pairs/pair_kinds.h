@@ -25,12 +25,51 @@ struct PairKind {
   bool has_manifold_pass() const { return more != MorePasses::none; }
 };
 
-inline constexpr std::array kPairKinds = {
+inline constexpr std::array kListedPairKinds = {
 #define CAROM_PAIR(name, kind_a, kind_b, passes) \
   PairKind{ShapeKind::kind_a, ShapeKind::kind_b, run_##name, MorePasses::passes},
 #include "narrowphase/pairs/pair_list.inc"
 #undef CAROM_PAIR
 };
+
+// Round shapes with all convex ones.
+template <ShapeKind kA, ShapeKind kB>
+void run_round(const Batch& batch) {
+  run_round_pair(batch, kA, kB);
+}
+template <ShapeKind kA, ShapeKind kB>
+inline constexpr PairKind kRoundPairKind{
+    kA, kB, &run_round<kA, kB>,
+    kA == ShapeKind::sphere ? MorePasses::none : MorePasses::manifold};
+template <ShapeKind kRound>
+inline constexpr std::array kRoundPairKinds = {
+    kRoundPairKind<ShapeKind::sphere, kRound>,    kRoundPairKind<ShapeKind::capsule, kRound>,
+    kRoundPairKind<ShapeKind::aabb, kRound>,      kRoundPairKind<ShapeKind::box, kRound>,
+    kRoundPairKind<ShapeKind::dop, kRound>,       kRoundPairKind<ShapeKind::hull, kRound>,
+    kRoundPairKind<ShapeKind::halfspace, kRound>, kRoundPairKind<kRound, ShapeKind::triangle>};
+
+inline constexpr auto kPairKinds = [] {
+  constexpr auto kCylinders = kRoundPairKinds<ShapeKind::cylinder>;
+  constexpr auto kCones = kRoundPairKinds<ShapeKind::cone>;
+  constexpr auto kEllipsoids = kRoundPairKinds<ShapeKind::ellipsoid>;
+  constexpr std::array kBothRound = {kRoundPairKind<ShapeKind::cylinder, ShapeKind::cylinder>,
+                                     kRoundPairKind<ShapeKind::cylinder, ShapeKind::cone>,
+                                     kRoundPairKind<ShapeKind::cylinder, ShapeKind::ellipsoid>,
+                                     kRoundPairKind<ShapeKind::cone, ShapeKind::cone>,
+                                     kRoundPairKind<ShapeKind::cone, ShapeKind::ellipsoid>,
+                                     kRoundPairKind<ShapeKind::ellipsoid, ShapeKind::ellipsoid>};
+  std::array<PairKind, kListedPairKinds.size() + 3 * kCylinders.size() + kBothRound.size()> all{};
+  auto* next = all.data();
+  const auto add = [&next](const auto& list) {
+    for (const PairKind& kind : list) *next++ = kind;
+  };
+  add(kListedPairKinds);
+  add(kCylinders);
+  add(kCones);
+  add(kEllipsoids);
+  add(kBothRound);
+  return all;
+}();
 
 // The kernel that tests a against b. `flipped`: with the sides exchanged, since kernels exist for
 // one order only.

@@ -67,6 +67,10 @@ struct CoreMaker {
   void operator()(const Hull& hull) const {
     for (const Eigen::Vector3f& p : hull.geometry->points()) body.points.push_back(exact(p));
   }
+  // Round shapes are not decided exactly.
+  void operator()(const Cylinder&) const {}
+  void operator()(const Cone&) const {}
+  void operator()(const Ellipsoid&) const {}
   // The parts of meshes and compounds are decided one by one.
   void operator()(const Mesh&) const {}
   void operator()(const Compound&) const {}

@@ -101,6 +101,10 @@ struct BodyMaker {
     return body;
   }
   ProofBody operator()(const Halfspace&) const { return {}; }
+  // Round shapes have no proof.
+  ProofBody operator()(const Cylinder&) const { return nothing(); }
+  ProofBody operator()(const Cone&) const { return nothing(); }
+  ProofBody operator()(const Ellipsoid&) const { return nothing(); }
   ProofBody operator()(const Mesh&) const { return nothing(); }
   ProofBody operator()(const Compound&) const { return nothing(); }
 

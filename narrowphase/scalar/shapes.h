@@ -46,6 +46,44 @@ struct BoxShape {
   BoxShape scaled(Real s) const { return {half * s}; }
 };
 
+// Cylinders and cones: the rim is this far from the axis, and so far from the middle.
+template <class Real>
+struct CylinderShape {
+  Real radius, half_length;
+
+  Real size() const { return max(radius, half_length); }
+  CylinderShape scaled(Real s) const { return {radius * s, half_length * s}; }
+};
+
+template <class Real>
+struct ConeShape {
+  Real radius, half_length;
+
+  Real size() const { return max(radius, half_length); }
+  ConeShape scaled(Real s) const { return {radius * s, half_length * s}; }
+};
+
+template <class Real>
+struct EllipsoidShape {
+  Vector3<Real> semi_axes;
+
+  Real size() const { return largest_component(semi_axes); }
+  EllipsoidShape scaled(Real s) const { return {semi_axes * s}; }
+};
+
+// Shapes that are not the hull of a few points, grown by a radius.
+template <class S>
+inline constexpr bool kIsRound = false;
+template <class Real>
+inline constexpr bool kIsRound<CylinderShape<Real>> = true;
+template <class Real>
+inline constexpr bool kIsRound<ConeShape<Real>> = true;
+template <class Real>
+inline constexpr bool kIsRound<EllipsoidShape<Real>> = true;
+
+template <class S>
+concept RoundShape = kIsRound<S>;
+
 // Slabs are double for either Real: finding the corners needs it.
 template <class Real>
 struct DopShape {
@@ -132,6 +170,18 @@ AabbShape<Real> shape_as(const Aabb& box) {
 template <class Real>
 BoxShape<Real> shape_as(const carom::Box& box) {
   return {box.half.cast<Real>()};
+}
+template <class Real>
+CylinderShape<Real> shape_as(const Cylinder& c) {
+  return {c.radius, c.half_length};
+}
+template <class Real>
+ConeShape<Real> shape_as(const Cone& c) {
+  return {c.radius, c.half_length};
+}
+template <class Real>
+EllipsoidShape<Real> shape_as(const Ellipsoid& e) {
+  return {e.semi_axes.cast<Real>()};
 }
 template <class Real>
 DopShape<Real> shape_as(const Dop& dop) {

@@ -26,7 +26,7 @@ constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule,  ShapeKind::box,
 Bodies make_kind(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,
                  uint64_t seed = 1) {
   const KindPair kinds{ShapeKind::sphere, kind};
-  const size_t few = fewer_polytopes(kinds, count / 2 + 1);
+  const size_t few = fewer_if_slow(kinds, count / 2 + 1);
   const std::vector<TestPair> pairs = make_kind_pairs(family, kinds, positions, few, seed);
   const std::vector<TestPair> nonsense = make_kind_nonsense(kinds, few, seed);
   Bodies bodies;

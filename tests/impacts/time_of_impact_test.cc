@@ -15,7 +15,7 @@ namespace {
 size_t motion_count(const KindPair& kinds, uint32_t usual) {
   const char* asked = std::getenv("CAROM_MOTIONS");
   const size_t count = asked ? std::strtoull(asked, nullptr, 10) : rounds(usual);
-  return std::max<size_t>(has_polytope(kinds) ? count / 2 : count, 1);
+  return std::max<size_t>(is_slow(kinds) ? count / 2 : count, 1);
 }
 
 // Counts of the results.

@@ -300,7 +300,7 @@ class ConvexOracleFamilies : public testing::TestWithParam<ConvexFamily> {
     for (const KindPair& kinds : convex_kind_pairs()) {
       SCOPED_TRACE(name(kinds));
       for (const ConvexPair& pair :
-           make_convex_pairs(GetParam(), kinds, positions, fewer_polytopes(kinds, count))) {
+           make_convex_pairs(GetParam(), kinds, positions, fewer_if_slow(kinds, count))) {
         check(pair);
         if (HasFailure()) return;
       }

@@ -46,7 +46,7 @@ TEST_P(KindsReferenceBounds, ContainTheShapeAndAreTight) {
     const KindPair kinds{ShapeKind::sphere, kind};
     for (const PositionType positions : kPositionTypes) {
       for (const ConvexPair& pair :
-           make_convex_pairs(GetParam(), kinds, positions, fewer_polytopes(kinds, 60))) {
+           make_convex_pairs(GetParam(), kinds, positions, fewer_if_slow(kinds, 60))) {
         expect_bounds_of_support({pair.shape_b, pair.pose_b.position, pair.pose_b.orientation},
                                  positions);
         if (HasFailure()) return;

@@ -19,6 +19,8 @@ using namespace oracle;
 
 // All supported pairs of kinds, in both orders.
 std::vector<KindPair> supported_kind_pairs();
+// Those of them that ConvexOracle solves: no round shapes.
+std::vector<KindPair> solved_kind_pairs();
 
 // The name of a family in GoogleTest.
 std::string family_name(const testing::TestParamInfo<ConvexFamily>& info);
@@ -71,6 +73,9 @@ class Spoiler {
   void spoil_shape(Aabb& box);
   void spoil_shape(Capsule& capsule);
   void spoil_shape(Box& box);
+  void spoil_shape(Cylinder& cylinder);
+  void spoil_shape(Cone& cone);
+  void spoil_shape(Ellipsoid& ellipsoid);
   void spoil_shape(Triangle& triangle);
   void spoil_shape(Halfspace& halfspace);
   void spoil_shape(Dop& dop);

@@ -18,6 +18,16 @@ std::string show(const Capsule& capsule) {
 
 std::string show(const Box& box) { return "half " + hex3(box.half); }
 
+std::string show(const Cylinder& cylinder) {
+  return "r " + hex(cylinder.radius) + " h " + hex(cylinder.half_length);
+}
+
+std::string show(const Cone& cone) {
+  return "r " + hex(cone.radius) + " h " + hex(cone.half_length);
+}
+
+std::string show(const Ellipsoid& ellipsoid) { return "axes " + hex3(ellipsoid.semi_axes); }
+
 std::string show(const Triangle& triangle) {
   std::string text;
   for (const Eigen::Vector3f& corner : triangle.corners) text += "(" + hex3(corner) + ") ";

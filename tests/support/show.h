@@ -30,6 +30,9 @@ std::string show(const Halfspace& halfspace);
 
 std::string show(const Dop& dop);
 
+std::string show(const Cylinder& cylinder);
+std::string show(const Cone& cone);
+std::string show(const Ellipsoid& ellipsoid);
 std::string show(const Hull& hull);
 
 // Meshes and compounds are too long to print: tests that use them print how to make them.

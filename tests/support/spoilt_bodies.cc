@@ -43,6 +43,13 @@ void SpoiltBodies::add_shapes(const Box& box) {
   }
 }
 
+void SpoiltBodies::add_shapes(const Ellipsoid& ellipsoid) {
+  add_vectors(ellipsoid, &Ellipsoid::semi_axes);
+  for (int i = 0; i < 3; ++i) {
+    add_shape(ellipsoid, [&](Ellipsoid& e) { e.semi_axes[i] = -1e-45f; });
+  }
+}
+
 void SpoiltBodies::add_shapes(const Triangle& triangle) {
   for (size_t corner = 0; corner < 3; ++corner) {
     for (const float bad : kBad) {

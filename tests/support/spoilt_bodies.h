@@ -51,6 +51,15 @@ class SpoiltBodies {
   void add_shapes(const Aabb& box);
   void add_shapes(const Capsule& capsule);
   void add_shapes(const Box& box);
+  void add_shapes(const Cylinder& cylinder) {
+    add_size(cylinder, &Cylinder::radius);
+    add_size(cylinder, &Cylinder::half_length);
+  }
+  void add_shapes(const Cone& cone) {
+    add_size(cone, &Cone::radius);
+    add_size(cone, &Cone::half_length);
+  }
+  void add_shapes(const Ellipsoid& ellipsoid);
   void add_shapes(const Triangle& triangle);
   void add_shapes(const Halfspace& halfspace);
 

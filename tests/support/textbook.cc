@@ -30,6 +30,16 @@ double bounding_radius(const Capsule& c) {
 
 double bounding_radius(const Box& box) { return box.half.cast<double>().stableNorm(); }
 
+double bounding_radius(const Cylinder& cylinder) {
+  return std::hypot(double{cylinder.radius}, double{cylinder.half_length});
+}
+
+double bounding_radius(const Cone& cone) {
+  return std::hypot(double{cone.radius}, double{cone.half_length});
+}
+
+double bounding_radius(const Ellipsoid& ellipsoid) { return ellipsoid.semi_axes.maxCoeff(); }
+
 double bounding_radius(const Triangle& triangle) {
   double radius = 0;
   for (const Eigen::Vector3f& corner : triangle.corners) {

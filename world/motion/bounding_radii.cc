@@ -60,7 +60,11 @@ double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
     case ShapeKind::capsule:
       return std::max(corner(0), corner(1)) + rows[0][3];
     case ShapeKind::box:
+    case ShapeKind::cylinder:  // the rim
+    case ShapeKind::cone:
       return corner(0);
+    case ShapeKind::ellipsoid:
+      return std::max({rows[0][0], rows[0][1], rows[0][2]});
     case ShapeKind::triangle:
       return std::max({corner(0), corner(1), corner(2)}) + rows[0][3];
     case ShapeKind::hull:

@@ -37,6 +37,12 @@ double hull_diameter(const HullGeometry& hull) {
   return hull.features() ? 2 * double{hull.features()->inner_radius()} : 0;
 }
 
+// The ball touches the base and the side.
+double cone_diameter(double radius, double half_length) {
+  const double length = 2 * half_length, side = std::sqrt(radius * radius + length * length);
+  return radius > 0 ? 2 * radius * length / (radius + side) : 0;
+}
+
 double compound_diameter(const CompoundGeometry& compound);
 
 // `rows` are valid rows of a kind that has rows.
@@ -45,7 +51,12 @@ double diameter(ShapeKind kind, const Row* rows) {
     case ShapeKind::capsule:
       return 2 * double{rows[0][3]};
     case ShapeKind::box:
+    case ShapeKind::ellipsoid:
       return 2 * double{std::min({rows[0][0], rows[0][1], rows[0][2]})};
+    case ShapeKind::cylinder:
+      return 2 * double{std::min(rows[0][0], rows[0][1])};
+    case ShapeKind::cone:
+      return cone_diameter(rows[0][0], rows[0][1]);
     case ShapeKind::dop:
       return dop_diameter(std::get<Dop>(shape_from_rows(kind, rows)));
     case ShapeKind::hull:

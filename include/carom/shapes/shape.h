@@ -18,20 +18,23 @@ namespace carom {
 /// The kinds of shapes. The values are the codes of the file format, except for `triangle`, which
 /// the format stores as a mesh of one triangle.
 enum class ShapeKind : uint8_t {
-  sphere = 0,     ///< Sphere
-  capsule = 1,    ///< Capsule
-  aabb = 2,       ///< Aabb
-  box = 3,        ///< Box
-  dop = 4,        ///< Dop
-  hull = 5,       ///< Hull
-  mesh = 6,       ///< Mesh
-  compound = 7,   ///< Compound
-  halfspace = 8,  ///< Halfspace
-  triangle = 9,   ///< Triangle
+  sphere = 0,      ///< Sphere
+  capsule = 1,     ///< Capsule
+  aabb = 2,        ///< Aabb
+  box = 3,         ///< Box
+  dop = 4,         ///< Dop
+  hull = 5,        ///< Hull
+  mesh = 6,        ///< Mesh
+  compound = 7,    ///< Compound
+  halfspace = 8,   ///< Halfspace
+  cylinder = 9,    ///< Cylinder
+  cone = 10,       ///< Cone
+  ellipsoid = 11,  ///< Ellipsoid
+  triangle = 12,   ///< Triangle
 };
 
 /// How many kinds there are.
-inline constexpr int kShapeKindCount = 10;
+inline constexpr int kShapeKindCount = 13;
 
 /// "sphere", "capsule", ...; "unknown" for a value that is not a kind.
 CAROM_EXPORT const char* name(ShapeKind kind);
@@ -63,6 +66,26 @@ struct Box {
   Eigen::Vector3f half = Eigen::Vector3f::Zero();  ///< half extents, metres, >= 0
 };
 
+/// All points of the body's frame with x^2 + y^2 <= radius^2 and |z| <= half_length. Without length
+/// a disc, without radius a segment.
+struct Cylinder {
+  float radius = 0;       ///< metres, >= 0
+  float half_length = 0;  ///< metres, >= 0
+};
+
+/// A cone about the z axis of the body's frame: its tip is at z = half_length, its base, a disc of
+/// this radius, at z = -half_length.
+struct Cone {
+  float radius = 0;       ///< metres, >= 0
+  float half_length = 0;  ///< metres, >= 0
+};
+
+/// An ellipsoid about the body's position: (x / a)^2 + (y / b)^2 + (z / c)^2 <= 1 for the semi-axes
+/// a, b, c. An axis of length zero makes it flat.
+struct Ellipsoid {
+  Eigen::Vector3f semi_axes = Eigen::Vector3f::Zero();  ///< metres, >= 0
+};
+
 /// One triangle. Its front is the side from which the corners run counter-clockwise. A triangle
 /// without area is a segment or a point.
 struct Triangle {
@@ -88,8 +111,8 @@ struct Halfspace {
 
 /// Any shape. A Dop (carom/shapes/dop.h) turns with its body, as a box does; its slabs must have a
 /// point in common.
-using Shape =
-    std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh, Compound>;
+using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh,
+                           Compound, Cylinder, Cone, Ellipsoid>;
 
 /// The kind of a shape.
 CAROM_EXPORT ShapeKind kind_of(const Shape& shape);

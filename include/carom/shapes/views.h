@@ -62,6 +62,8 @@ struct OrientationView {
 /// Parameters of all kinds but spheres and aabbs: rows of four floats, as many as row_count() says.
 /// - capsule: ax ay az radius | bx by bz 0
 /// - box: hx hy hz 0
+/// - cylinder, cone: radius half_length 0 0
+/// - ellipsoid: a b c 0
 /// - dop: 13 lower ends of slabs, 13 upper ones (any finite numbers behind the last slab),
 ///   k (6, 14, 18 or 26), 0
 /// - halfspace: nx ny nz offset
@@ -82,6 +84,9 @@ inline constexpr size_t kMostRows = 7;
 constexpr uint32_t row_count(ShapeKind kind) {
   switch (kind) {
     case ShapeKind::box:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::ellipsoid:
     case ShapeKind::halfspace:
     case ShapeKind::hull:
     case ShapeKind::mesh:

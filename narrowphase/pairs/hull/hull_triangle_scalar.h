@@ -1,7 +1,7 @@
 // Hull (A) against triangle (B), as cores.
 #pragma once
 
-#include "narrowphase/doubles/ruled_hull.h"
+#include "narrowphase/doubles/ruled_core.h"
 #include "narrowphase/hulls/hull_separation.h"
 
 namespace carom::scalar {

@@ -41,7 +41,7 @@ TEST_P(MeasuredPairs, HaveTheBitsOfAll) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
     std::vector<TestPair> pairs =
-        make_kind_pairs(GetParam(), kinds, PositionType::float32, fewer_polytopes(kinds, 70));
+        make_kind_pairs(GetParam(), kinds, PositionType::float32, fewer_if_slow(kinds, 70));
     vary_triangles(pairs);
     const std::vector<TestPair> nonsense = make_kind_nonsense(kinds, 20);
     pairs.insert(pairs.end(), nonsense.begin(), nonsense.end());

@@ -44,7 +44,7 @@ TEST_P(KindsBits, EqualReference) {
     for (const PositionType positions : kPositionTypes) {
       SCOPED_TRACE(name(kinds) + ", " + name(positions));
       std::vector<TestPair> pairs =
-          make_kind_pairs(GetParam(), kinds, positions, fewer_polytopes(kinds, 70));
+          make_kind_pairs(GetParam(), kinds, positions, fewer_if_slow(kinds, 70));
       vary_triangles(pairs);
       expect_reference_bits(pairs, call_with(positions));
     }
@@ -66,7 +66,7 @@ TEST(KindsBits, EqualReferenceForAnyInput) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
     const std::vector<TestPair> pairs =
-        make_kind_nonsense(kinds, fewer_polytopes(kinds, rounds(1500)));
+        make_kind_nonsense(kinds, fewer_if_slow(kinds, rounds(1500)));
     for (const PositionType positions : kPositionTypes) {
       expect_reference_bits(pairs, call_with(positions));
     }
@@ -164,7 +164,7 @@ TEST(KindsBits, EqualReferenceForDistantFloat64Positions) {
                                 .largest = 1e-3 * distance,
                                 .distance = distance};
       expect_reference_bits(make_kind_pairs(family, kinds, PositionType::float64,
-                                            fewer_polytopes(kinds, rounds_of_pairs(40))),
+                                            fewer_if_slow(kinds, rounds_of_pairs(40))),
                             call_with(PositionType::float64));
     }
   }
@@ -178,7 +178,7 @@ TEST(KindsBits, CountsAroundLanes) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
     const std::vector<TestPair> pairs = make_kind_pairs({.name = ""}, kinds, PositionType::float32,
-                                                        fewer_polytopes(kinds, rounds(1025, 65)));
+                                                        fewer_if_slow(kinds, rounds(1025, 65)));
     const std::vector<Row> expected = expected_rows(pairs, PositionType::float32, Detail::manifold);
     for_each_isa([&] {
       for (const size_t count : counts) {
@@ -212,7 +212,7 @@ TEST(KindsBits, Layouts) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       std::vector<TestPair> pairs =
-          make_kind_pairs({.name = ""}, kinds, positions, fewer_polytopes(kinds, rounds(69, 17)));
+          make_kind_pairs({.name = ""}, kinds, positions, fewer_if_slow(kinds, rounds(69, 17)));
       for (size_t i = 1; i < pairs.size(); i += 3) {  // some bodies share their shapes
         pairs[i].a.shape = pairs[0].a.shape;
         pairs[i].b.shape = pairs[0].b.shape;
@@ -309,7 +309,7 @@ TEST(KindsBits, DoNotDependOnTheFloatModeOfTheCaller) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     SCOPED_TRACE(name(kinds));
     const std::vector<TestPair> pairs =
-        make_pairs_of_families(kinds, PositionType::float32, fewer_polytopes(kinds, 5));
+        make_pairs_of_families(kinds, PositionType::float32, fewer_if_slow(kinds, 5));
     Call call;
     call.detail = Detail::manifold;
     call.frame = WitnessFrame::body;

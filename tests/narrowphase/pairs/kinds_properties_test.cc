@@ -45,7 +45,7 @@ void for_each_pair(size_t count_each, const Check& check) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     for (const PositionType positions : kPositionTypes) {
       std::vector<TestPair> pairs =
-          make_pairs_of_families(kinds, positions, fewer_polytopes(kinds, count_each));
+          make_pairs_of_families(kinds, positions, fewer_if_slow(kinds, count_each));
       vary_triangles(pairs);
       for (const TestPair& pair : pairs) {
         const ShownIfFailed shown([&] { return show(pair) + "\n" + name(positions); });
@@ -101,7 +101,7 @@ TEST(KindsProperties, TheOtherOrderIsTheOtherSide) {
 TEST(KindsProperties, OverlapIsTheDecisionOfContactAndManifold) {
   for (const KindPair& kinds : supported_kind_pairs()) {
     const std::vector<TestPair> pairs =
-        make_pairs_of_families(kinds, PositionType::float32, fewer_polytopes(kinds, 25));
+        make_pairs_of_families(kinds, PositionType::float32, fewer_if_slow(kinds, 25));
     for_each_isa([&] {
       const auto rows_at = [&](Detail detail) {
         Call call;
@@ -179,6 +179,9 @@ struct Scaled {
   void operator()(Aabb& box) const { box.lower *= factor, box.upper *= factor; }
   void operator()(Capsule& c) const { c.a *= factor, c.b *= factor, c.radius *= factor; }
   void operator()(Box& box) const { box.half *= factor; }
+  void operator()(Cylinder& c) const { c.radius *= factor, c.half_length *= factor; }
+  void operator()(Cone& c) const { c.radius *= factor, c.half_length *= factor; }
+  void operator()(Ellipsoid& e) const { e.semi_axes *= factor; }
   void operator()(Triangle& triangle) const {
     for (Eigen::Vector3f& corner : triangle.corners) corner *= factor;
     triangle.thickness *= factor;
@@ -227,7 +230,7 @@ TEST(KindsProperties, ScalingByAPowerOfTwoScalesTheResult) {
     for (const ConvexFamily& family : convex_families()) {
       if (family.smallest < 0.1 || family.largest > 10) continue;
       std::vector<TestPair> pairs =
-          make_kind_pairs(family, kinds, PositionType::float32, fewer_polytopes(kinds, 15));
+          make_kind_pairs(family, kinds, PositionType::float32, fewer_if_slow(kinds, 15));
       vary_triangles(pairs);
       for (const TestPair& pair : pairs) {
         if (!is_ordinary(pair.a) || !is_ordinary(pair.b)) continue;
@@ -267,7 +270,7 @@ TEST(KindsProperties, AQuarterTurnOfBothTurnsTheResult) {
       if (std::string(family.name) != which) continue;
       for (const KindPair& kinds : supported_kind_pairs()) {
         for (const TestPair& pair :
-             make_kind_pairs(family, kinds, PositionType::float64, fewer_polytopes(kinds, 60))) {
+             make_kind_pairs(family, kinds, PositionType::float64, fewer_if_slow(kinds, 60))) {
           const ShownIfFailed shown([&] { return show(pair); });
           const TestPair turned{quarter_turned(pair.a), quarter_turned(pair.b)};
           expect_close(pair, reference_result(pair, PositionType::float64),
@@ -312,7 +315,7 @@ TEST(KindsProperties, ACapsuleWithoutLengthIsASphere) {
     if (!supports(ShapeKind::capsule, kind) || !supports(ShapeKind::sphere, kind)) continue;
     const KindPair kinds{ShapeKind::sphere, kind};
     for (TestPair pair :
-         make_pairs_of_families(kinds, PositionType::float32, fewer_polytopes(kinds, 10))) {
+         make_pairs_of_families(kinds, PositionType::float32, fewer_if_slow(kinds, 10))) {
       const ShownIfFailed shown([&] { return show(pair); });
       const Result result = reference_result(pair, PositionType::float32);
       const float radius = std::get<Sphere>(pair.a.shape).radius;

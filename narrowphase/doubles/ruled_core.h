@@ -1,9 +1,12 @@
-// Hulls against special triangles: thick, one-sided or inside a mesh (special_triangle.h has the
-// rules). Double precision, one pair at a time, because such pairs are rare.
+// Hulls and round shapes against special triangles: thick, one-sided or inside a mesh
+// (special_triangle.h has the rules). Double precision, one pair at a time, because such pairs are rare.
 #pragma once
+
+#include <array>
 
 #include "narrowphase/doubles/convex.h"
 #include "narrowphase/doubles/core_separation.h"
+#include "narrowphase/scalar/rim.h"
 
 namespace carom::scalar {
 
@@ -31,7 +34,7 @@ class OpenWays {
     // Any point of A bounds the gap. That of the best direction so far rules most others out.
     if (of_b - dot(n, on_a_) <= best_.size + kTieOfGaps) return;
     if (!allows(rules_, -eigen_vector(n))) return;
-    const CoreVector on_a = a_.point(furthest_(a_, n));
+    const CoreVector on_a = support_point(a_, n, furthest_);
     const double gap = of_b - dot(n, on_a);
     if (!(gap > best_.size + kTieOfGaps)) return;
     best_ = {.size = gap, .normal = n};
@@ -86,8 +89,65 @@ inline void try_faces_and_edges(const HullShape<double>& hull, const Rotation<do
   }
 }
 
-inline SeparationAs<double> ruled_hull(const HullShape<double>& a, const TriangleShape<double>& b,
-                                       const PairPose<double>& pose, const CoreTest& test) {
+// Rims and curved sides touch an edge of the triangle along any direction across it. So the best of
+// these is found: first among a few, then around the best by halving steps.
+class EdgeWays {
+ public:
+  EdgeWays(const Vector3d& edge, const Core& a, const Core& b, FurthestPoint furthest)
+      : u_(any_perpendicular(edge)), v_(cross(edge, u_)), a_(a), b_(b), furthest_(furthest) {}
+
+  void try_best(OpenWays& ways) const {
+    std::array<double, kRimCorners> gap;
+    for (size_t k = 0; k < kRimCorners; ++k) gap[k] = gap_along(way(k));
+    for (size_t k = 0; k < kRimCorners; ++k) {
+      const size_t last = (k + kRimCorners - 1) % kRimCorners, next = (k + 1) % kRimCorners;
+      if (gap[k] >= gap[last] && gap[k] >= gap[next]) ways.try_both_ways(best_between(last, k, next));
+    }
+  }
+
+ private:
+  Vector3d way(size_t k) const { return u_ * rim_cosine(k) + v_ * rim_sine(k); }
+
+  double gap_along(const Vector3d& way) const {
+    const CoreVector n = core_vector(way);
+    return dot(n, support_point(b_, -n, furthest_)) - dot(n, support_point(a_, n, furthest_));
+  }
+
+  // Around a direction that is better than those on both sides of it.
+  Vector3d best_between(size_t last, size_t here, size_t next) const {
+    constexpr int kHalvings = 26;
+    Vector3d left = way(last), middle = way(here), right = way(next);
+    double best = gap_along(middle);
+    for (int i = 0; i < kHalvings; ++i) {
+      const Vector3d to_left = unit_or_zero(left + middle), to_right = unit_or_zero(middle + right);
+      const double of_left = gap_along(to_left), of_right = gap_along(to_right);
+      if (of_left > best && of_left >= of_right) {
+        right = middle;
+        middle = to_left;
+        best = of_left;
+      } else if (of_right > best) {
+        left = middle;
+        middle = to_right;
+        best = of_right;
+      } else {
+        left = to_left;
+        right = to_right;
+      }
+    }
+    return middle;
+  }
+
+  const Vector3d u_, v_;
+  const Core& a_;
+  const Core& b_;
+  const FurthestPoint furthest_;
+};
+
+// `try_ways` tries directions of A and the triangle, which is a core and a polytope.
+template <class A, class TryWays>
+SeparationAs<double> ruled_core(const A& a, const TriangleShape<double>& b,
+                                const PairPose<double>& pose, const CoreTest& test,
+                                const TryWays& try_ways) {
   Polytope triangle = polytope_of(b, pose.b);
   triangle.move(pose.d);
   CorePair& cores = core_pair_of_thread();
@@ -98,12 +158,33 @@ inline SeparationAs<double> ruled_hull(const HullShape<double>& a, const Triangl
   if (triangle.rules.close_ways() && gap.size <= 0) {
     OpenWays ways(cores.a, cores.b, triangle.rules, test.furthest);
     ways.try_both_ways(eigen_vector(gap.normal));
-    try_faces_and_edges(a, rotation_of(pose.a), triangle, ways);
+    try_ways(cores, triangle, ways);
     const double greatest = gap.size;
     gap = ways.best_or(gap);
     gap.size = min(gap.size, greatest);
   }
   return core_separation(cores.a, cores.b, gap, pose.d, test);
+}
+
+inline SeparationAs<double> ruled_hull(const HullShape<double>& a, const TriangleShape<double>& b,
+                                       const PairPose<double>& pose, const CoreTest& test) {
+  return ruled_core(a, b, pose, test,
+                    [&](const CorePair&, const Polytope& triangle, OpenWays& ways) {
+                      try_faces_and_edges(a, rotation_of(pose.a), triangle, ways);
+                    });
+}
+
+template <RoundShape A>
+SeparationAs<double> ruled_round(const A& a, const TriangleShape<double>& b,
+                                 const PairPose<double>& pose, const CoreTest& test) {
+  return ruled_core(a, b, pose, test,
+                    [&](const CorePair& cores, const Polytope& triangle, OpenWays& ways) {
+                      for (const Vector3d& n : triangle.normals) ways.try_both_ways(n);
+                      for (const Vector3d& u : triangle.directions) {
+                        if (u.isZero(0)) continue;
+                        EdgeWays(u, cores.a, cores.b, test.furthest).try_best(ways);
+                      }
+                    });
 }
 
 }  // namespace carom::scalar

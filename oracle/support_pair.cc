@@ -1,0 +1,196 @@
+#include "oracle/support_pair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "oracle/convex_oracle.h"
+
+namespace carom::oracle {
+namespace {
+
+using Vec = Vec3<long double>;
+
+// Support points in the body's frame.
+Vec own_support(const Cylinder& c, const Vec& way) {
+  const Vec rim = normalized(Vec{way.x, way.y, 0}) * c.radius;
+  return {rim.x, rim.y, way.z > 0 ? c.half_length : -c.half_length};
+}
+Vec own_support(const Cone& c, const Vec& way) {
+  const Vec rim = normalized(Vec{way.x, way.y, 0}) * c.radius;
+  const Vec base{rim.x, rim.y, -c.half_length}, tip{0, 0, c.half_length};
+  return dot(way, tip) > dot(way, base) ? tip : base;
+}
+Vec own_support(const Ellipsoid& e, const Vec& way) {
+  const Vec s = vec3_as<long double>(e.semi_axes);
+  const Vec unit = normalized(Vec{s.x * way.x, s.y * way.y, s.z * way.z});
+  return {s.x * unit.x, s.y * unit.y, s.z * unit.z};
+}
+
+// How far a point of the body's frame is from the surface: negative inside.
+long double own_distance(const Cylinder& c, const Vec& p) {
+  const long double side = std::hypot(p.x, p.y) - c.radius, cap = std::fabs(p.z) - c.half_length;
+  if (side <= 0 && cap <= 0) return std::max(side, cap);
+  return std::hypot(std::max(side, 0.0L), std::max(cap, 0.0L));
+}
+
+// Of a point in the plane from the segment from (ax, az) to (bx, bz).
+long double distance_in_plane(long double x, long double z, long double ax, long double az,
+                              long double bx, long double bz) {
+  const long double ux = bx - ax, uz = bz - az, squared = ux * ux + uz * uz;
+  const long double t = squared > 0 ? ((x - ax) * ux + (z - az) * uz) / squared : 0;
+  const long double share = std::clamp(t, 0.0L, 1.0L);
+  return std::hypot(x - ax - ux * share, z - az - uz * share);
+}
+
+long double own_distance(const Cone& c, const Vec& p) {
+  const long double r = c.radius, h = c.half_length, x = std::hypot(p.x, p.y);
+  const long double base = distance_in_plane(x, p.z, 0, -h, r, -h);
+  const long double side = distance_in_plane(x, p.z, r, -h, 0, h);
+  const bool is_inside = p.z >= -h && 2 * h * x + r * (p.z - h) <= 0;
+  return is_inside ? -std::min(base, side) : std::min(base, side);
+}
+
+// The nearest point is (s_i^2 x_i / (t + s_i^2)) for the t that puts it on the surface (D. Eberly,
+// "Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid", 2013), found by
+// bisection. The square of the least axis bounds t from below.
+long double own_distance(const Ellipsoid& e, const Vec& p) {
+  const Vec s = vec3_as<long double>(e.semi_axes);
+  const std::array<long double, 3> axis{s.x, s.y, s.z};
+  std::array<long double, 3> x{std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
+  const long double least = std::min({s.x, s.y, s.z});
+  // A point in the plane across the least axis may have its nearest point above or below.
+  for (size_t i = 0; i < 3; ++i) x[i] = axis[i] == least ? std::max(x[i], 1e-18L * least) : x[i];
+  const auto ratio = [&](long double t, size_t i) {
+    const long double over = t + axis[i] * axis[i];
+    return over > 0 ? axis[i] * x[i] / over : (axis[i] * x[i] > 0 ? HUGE_VALL : 0.0L);
+  };
+  const auto is_beyond = [&](long double t) {
+    return std::hypot(ratio(t, 0), ratio(t, 1), ratio(t, 2)) > 1;
+  };
+  const bool is_inside = !is_beyond(0);
+  long double low = is_inside ? -least * least : 0;
+  long double high = is_inside ? 0 : std::hypot(axis[0] * x[0], axis[1] * x[1], axis[2] * x[2]);
+  for (int k = 0; k < 300; ++k) {
+    const long double middle = (low + high) / 2;
+    (is_beyond(middle) ? low : high) = middle;
+  }
+  long double squared = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const long double way = x[i] - axis[i] * ratio(high, i);
+    squared += way * way;
+  }
+  return is_inside ? -std::sqrt(squared) : std::sqrt(squared);
+}
+
+template <class Round>
+SupportShape round_support(const Round& shape, const Pose& pose, const Vec& at) {
+  const Rotation<long double> turn(pose.orientation);
+  return {[turn, at, shape](const Vec& way) { return turn(own_support(shape, turn.back(way))) + at; },
+          0};
+}
+
+template <class Round>
+std::function<long double(const Vec&)> round_distance(const Round& shape, const Pose& pose,
+                                                      const Vec& at) {
+  const Rotation<long double> turn(pose.orientation);
+  return [turn, at, shape](const Vec& point) { return own_distance(shape, turn.back(point - at)); };
+}
+
+double reach_of(const Cylinder& c) { return std::hypot(c.radius, c.half_length); }
+double reach_of(const Cone& c) { return std::hypot(c.radius, c.half_length); }
+double reach_of(const Ellipsoid& e) { return e.semi_axes.maxCoeff(); }
+
+}  // namespace
+
+SupportShape support_shape(const Shape& shape, const Pose& pose,
+                           const Eigen::Vector3d& relative_to) {
+  const Vec at = vec3_as<long double>(pose.position) - vec3_as<long double>(relative_to);
+  if (const auto* c = std::get_if<Cylinder>(&shape)) return round_support(*c, pose, at);
+  if (const auto* c = std::get_if<Cone>(&shape)) return round_support(*c, pose, at);
+  if (const auto* e = std::get_if<Ellipsoid>(&shape)) return round_support(*e, pose, at);
+  const auto solved = std::make_shared<ConvexShape<>>(shape, pose, relative_to);
+  const auto furthest = [solved](const Vec& way) {
+    Vec best = solved->points.front();
+    for (const Vec& p : solved->points) best = dot(way, p) > dot(way, best) ? p : best;
+    return best;
+  };
+  return {furthest, solved->radius};
+}
+
+SupportPair::Side SupportPair::side_of(const Shape& shape, const Pose& pose,
+                                       const Eigen::Vector3d& relative_to) {
+  const auto solved = [&] { return ConvexShape<>(shape, pose, relative_to); };
+  if (std::holds_alternative<Halfspace>(shape)) {
+    const ConvexShape<> plane = solved();
+    const auto distance = [plane](const Vec& p) { return dot(plane.normal, p) - plane.offset; };
+    return {{}, distance, Plane{plane.normal, plane.offset}, plane.bounding_radius};
+  }
+  const SupportShape support = support_shape(shape, pose, relative_to);
+  const Vec at = vec3_as<long double>(pose.position) - vec3_as<long double>(relative_to);
+  const auto round = [&](const auto& own) -> Side {
+    return {support, round_distance(own, pose, at), {}, reach_of(own)};
+  };
+  if (const auto* c = std::get_if<Cylinder>(&shape)) return round(*c);
+  if (const auto* c = std::get_if<Cone>(&shape)) return round(*c);
+  if (const auto* e = std::get_if<Ellipsoid>(&shape)) return round(*e);
+  const auto distance = [whole = std::make_shared<ConvexShape<>>(solved())](const Vec& p) {
+    return signed_distance(*whole, p);
+  };
+  return {support, distance, {}, ConvexShape<>(shape).bounding_radius};
+}
+
+SupportPair::SupportPair(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
+                         const Pose& pose_b)
+    : a_(side_of(shape_a, pose_a, pose_a.position)),
+      b_(side_of(shape_b, pose_b, pose_a.position)) {}
+
+long double SupportPair::gap_over(const Plane& plane, const SupportShape& shape) {
+  return (dot(plane.normal, shape.furthest(-plane.normal)) - shape.radius) - plane.offset;
+}
+
+SeparationBounds SupportPair::separation(long double tolerance, size_t most_triangles) const {
+  if (!has_halfspace()) {
+    return separation_by_supports(a_.shape, b_.shape, tolerance, most_triangles);
+  }
+  const long double gap = a_.plane ? gap_over(*a_.plane, b_.shape) : gap_over(*b_.plane, a_.shape);
+  return {gap, gap, a_.plane ? a_.plane->normal : -b_.plane->normal};
+}
+
+void SupportPair::climb(SeparationBounds& found) const {
+  if (has_halfspace()) return;
+  for (long double step = 0x1p-3L; step > 0x1p-40L; step /= 2) {
+    const Vec n = found.normal;
+    const Vec u = normalized(cross(n, std::fabs(n.x) < 0.5L ? Vec{1, 0, 0} : Vec{0, 1, 0}));
+    const Vec v = cross(n, u);
+    for (int k = 0; k < 8; ++k) {
+      const long double angle = k * std::numbers::pi_v<long double> / 4;
+      const Vec way = normalized(n + (u * std::cos(angle) + v * std::sin(angle)) * step);
+      const long double gap = gap_along(way);
+      if (!(gap > found.low)) continue;
+      found.low = gap;
+      found.normal = way;
+    }
+  }
+}
+
+long double SupportPair::gap_along(const Vec& n) const {
+  if (!has_halfspace()) {
+    const long double of_b = dot(n, b_.shape.furthest(-n)) - b_.shape.radius;
+    return of_b - (dot(n, a_.shape.furthest(n)) + a_.shape.radius);
+  }
+  const SeparationBounds true_one = separation(0);
+  const long double share = dot(n, true_one.normal);
+  if (!(share > 0)) return -std::numeric_limits<long double>::infinity();
+  return true_one.low > 0 ? true_one.low * share : true_one.low / share;
+}
+
+long double SupportPair::plane_distance() const {
+  if (a_.plane) return a_.bounding_radius;
+  return b_.plane ? b_.bounding_radius : 0;
+}
+
+}  // namespace carom::oracle
