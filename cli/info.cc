@@ -40,6 +40,7 @@ Result<int> info(const Console& console) {
   table.add({"libzip", build_info::kLibzipVersion});
   table.add({"Qhull", build_info::kQhullVersion});
   table.add({"assimp", build_info::kAssimpVersion});
+  table.add({"tinyxml2", build_info::kTinyxml2Version});
   table.add({"CLI11", cli11_version()});
   table.add({"nlohmann-json", json_library_version()});
   table.print(console.out);

@@ -25,6 +25,7 @@ add_custom_target(carom_build_info_header
     -D LIBZIP_VERSION=${libzip_VERSION}
     -D QHULL_VERSION=${qhull_VERSION}
     -D ASSIMP_VERSION=${assimp_VERSION}
+    -D TINYXML2_VERSION=${tinyxml2_VERSION}
     -P ${PROJECT_SOURCE_DIR}/cmake/write_build_info.cmake
   BYPRODUCTS ${build_info_dir}/carom_build_info.h
   COMMENT "Looking at the build information"

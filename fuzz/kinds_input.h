@@ -10,20 +10,20 @@
 
 #include "carom/shapes/views.h"
 #include "fuzz/random_shape.h"
+#include "narrowphase/pairs/pair_kinds.h"
 
 namespace carom::fuzz {
 
 struct KindPair {
-  const char* name;
   ShapeKind a, b;
 };
 
 // Every pair of kinds that has a kernel.
-inline constexpr KindPair kPairs[] = {
-#define CAROM_PAIR(name, a, b, passes) {#name, ShapeKind::a, ShapeKind::b},
-#include "narrowphase/pairs/pair_list.inc"
-#undef CAROM_PAIR
-};
+inline constexpr auto kPairs = [] {
+  std::array<KindPair, kPairKinds.size()> pairs{};
+  for (size_t i = 0; i < pairs.size(); ++i) pairs[i] = {kPairKinds[i].a, kPairKinds[i].b};
+  return pairs;
+}();
 
 enum Flag : uint8_t { kExchanged = 1, kFloat64 = 2 };
 

@@ -18,16 +18,16 @@ namespace {
 
 using namespace carom::io;
 
-// A sphere, a hull, a mesh and a compound of the first two.
+// A sphere, a hull, a mesh, a compound of the first two and round shapes.
 SceneShapes all_arrays() {
   SceneShapes shapes;
-  shapes.kind = {0, 5, 6, 7};
-  shapes.params = {{1}, {}, {}, {}};
-  shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}, {0, 0}};
+  shapes.kind = {0, 5, 6, 7, 9, 10, 11};
+  shapes.params = {{1}, {}, {}, {}, {1, 2}, {1, 2}, {1, 2, 3}};
+  shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   shapes.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}, {0, 0}};
+  shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   shapes.triangles = {{0, 1, 2}};
-  shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}};
+  shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}, {0, 0}, {0, 0}, {0, 0}};
   shapes.child_shape = {0, 1};
   shapes.child_position = {{1, 0, 0}, {0, 1, 0}};
   shapes.child_orientation = {{0, 0, 0, 1}, {0, 0, 0, 1}};
@@ -113,6 +113,15 @@ carom::fuzz::Body ordinary_body(carom::ShapeKind kind) {
     case ShapeKind::halfspace:
       write(Halfspace{{0, 0.6f, 0.8f}, 0});
       break;
+    case ShapeKind::cylinder:
+      write(Cylinder{0.7f, 1});
+      break;
+    case ShapeKind::cone:
+      write(Cone{0.8f, 1});
+      break;
+    case ShapeKind::ellipsoid:
+      write(Ellipsoid{{1, 0.7f, 0.4f}});
+      break;
     case ShapeKind::hull:
       break;
     default:
@@ -145,7 +154,9 @@ void write_kinds(std::ofstream& file, uint8_t pair, uint8_t flags,
 template <class Write>
 bool write_all_kinds(const std::string& folder, const Write& write) {
   for (uint8_t pair = 0; pair < std::size(carom::fuzz::kPairs); ++pair) {
-    std::ofstream file(folder + carom::fuzz::kPairs[pair].name, std::ios::binary);
+    const auto& kinds = carom::fuzz::kPairs[pair];
+    const std::string file_name = std::string(carom::name(kinds.a)) + "_" + carom::name(kinds.b);
+    std::ofstream file(folder + file_name, std::ios::binary);
     write(file, pair);
     if (!file.flush()) return false;
   }

@@ -9,8 +9,17 @@
 
 namespace carom::fuzz {
 
-// `form` gives the style, the data the seed.
+inline float take_length(double size, uint8_t form, Data& data) {
+  const bool is_flat = (form & 1) != 0 && take<uint8_t>(data) % 4 == 0;
+  return is_flat ? 0 : static_cast<float>(size * std::abs(take_unit(data)));
+}
+
+// `form` gives the style, the data the seed; of round shapes the sizes.
 inline Shape take_random_shape(ShapeKind kind, uint8_t form, double size, Data& data) {
+  const auto length = [&] { return take_length(size, form, data); };
+  if (kind == ShapeKind::cylinder) return Cylinder{length(), length()};
+  if (kind == ShapeKind::cone) return Cone{length(), length()};
+  if (kind == ShapeKind::ellipsoid) return Ellipsoid{{length(), length(), length()}};
   oracle::Random random(take<uint64_t>(data));
   oracle::ConvexRandom shapes({.aspect = std::pow(10.0, form >> 4 & 7),
                                .degenerate = (form & 1) != 0,

@@ -70,6 +70,11 @@ PartBox box_of(const Part& part) {
       return box_around(rows[0], rows[1], rows[0][3]);
     case ShapeKind::box:
       return {{}, {rows[0][0], rows[0][1], rows[0][2]}};
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+      return {{}, {rows[0][0], rows[0][0], rows[0][1]}};
+    case ShapeKind::ellipsoid:
+      return {{}, {rows[0][0], rows[0][1], rows[0][2]}};
     case ShapeKind::dop:
       return dop_box(part);
     case ShapeKind::hull:
@@ -108,6 +113,11 @@ PartBall ball_of(const Part& part) {
       }
       return {middle, radius};
     }
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+      return {{}, length({rows[0][0], rows[0][1], 0})};
+    case ShapeKind::ellipsoid:
+      return {{}, std::max({rows[0][0], rows[0][1], rows[0][2]})};
     case ShapeKind::aabb:
     case ShapeKind::box:
     case ShapeKind::dop: {

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "io/models/read_model.h"
 #include "io/recording.h"
 #include "io/scene.h"
 
@@ -268,12 +269,14 @@ Result<std::unique_ptr<SceneReader>> open_scene(const std::string& path,
     return open_recording_scene(path);
   }
   if (has_extension(path, ".npz")) return open_npz_scene(path, wanted);
+  if (names_model(path)) return open_model(path, wanted);
   Result<bool> zip = is_zip(path);
   if (!zip) return zip.error();
   if (*zip) return open_npz_scene(path, wanted);
-  return file_error(path,
-                    "is of no known kind (a scene .npz, or a recording .aabb or .aabbs was "
-                    "expected)");
+  return file_error(
+      path,
+      "is of no known kind (a scene .npz, a recording .aabb or .aabbs, or a model .urdf "
+      "or .xml was expected)");
 }
 
 }  // namespace carom::io

@@ -9,7 +9,7 @@ namespace {
 using Range = std::array<uint32_t, 2>;
 
 // The largest kind in the file format. It has no triangle kind: a lone triangle is a mesh of one.
-constexpr uint8_t kLastKind = uint8_t(ShapeKind::halfspace);
+constexpr uint8_t kLastKind = uint8_t(ShapeKind::ellipsoid);
 
 bool needs_vertices(uint8_t kind) {
   return kind == uint8_t(ShapeKind::dop) || kind == uint8_t(ShapeKind::hull) ||
@@ -148,15 +148,31 @@ Result<void> check_sizes(const SceneShapes& shapes, const std::string& path) {
   });
 }
 
-// Members that make other shapes of the kinds that this version knows: to pass over them would be
-// to answer for other shapes.
-Result<void> refuse_unknown_members(const NpzReader& reader) {
-  for (const char* const name : {"shape_radius", "shape_scale"}) {
-    if (reader.has(name)) {
-      return member_error(reader.path(), name, "is not supported by this version of Carom");
-    }
+// A member that may hold nothing but `neutral`, which leaves every shape as it is.
+template <class T>
+Result<void> refuse_other_than(const NpzReader& reader, const std::string& name, const T& neutral,
+                               const std::string& expected) {
+  if (!reader.has(name)) return {};
+  Result<std::vector<uint8_t>> kind = reader.read<uint8_t>("shape_kind", {kAny});
+  if (!kind) return kind.error();
+  Result<std::vector<T>> values = reader.read<T>(name, {kind->size()});
+  if (!values) return values.error();
+  for (size_t i = 0; i < values->size(); ++i) {
+    if ((*values)[i] == neutral) continue;
+    return member_error(reader.path(), name,
+                        element(i) + "makes another shape, which this version of Carom does not " +
+                            "support (" + expected + " was expected)");
   }
   return {};
+}
+
+// Members that make other shapes of the kinds that this version knows: to pass over them would be
+// to answer for other shapes.
+Result<void> refuse_changed_shapes(const NpzReader& reader) {
+  Result<void> known = refuse_other_than(reader, "shape_radius", 0.0f, "0");
+  if (known)
+    known = refuse_other_than(reader, "shape_scale", std::array{1.0f, 1.0f, 1.0f}, "1 1 1");
+  return known;
 }
 
 }  // namespace
@@ -182,7 +198,7 @@ Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
 }
 
 Result<SceneShapes> read_shapes(const NpzReader& reader) {
-  if (Result<void> known = refuse_unknown_members(reader); !known) return known.error();
+  if (Result<void> known = refuse_changed_shapes(reader); !known) return known.error();
   SceneShapes shapes;
   Result<std::vector<uint8_t>> kind = reader.read<uint8_t>("shape_kind", {kAny});
   if (!kind) return kind.error();

@@ -10,10 +10,12 @@
 
 #include "base/parallel.h"
 #include "carom/results/result_arrays.h"
+#include "carom/shapes/compound_geometry.h"
 #include "midphase/collide_pairs.h"
 #include "midphase/contact_of_row.h"
 #include "midphase/mixed_block.h"
 #include "midphase/point_names.h"
+#include "narrowphase/batch/stated_body.h"
 #include "narrowphase/batch/world_point.h"
 #include "narrowphase/blocks/pair_block.h"
 #include "narrowphase/pairs/pair_kinds.h"
@@ -70,6 +72,19 @@ Result<void> check_kinds(const Collidables& a, const Collidables& b, size_t coun
     const ShapeKind kind_a = reader_a.kind(pair.a);
     const ShapeKind kind_b = reader_b.kind(pair.b);
     if (!supports(kind_a, kind_b)) return no_kernel(kind_a, kind_b);
+  }
+  return {};
+}
+
+// The first body that Tier::exact does not decide.
+Result<void> check_exact(const Collidables& bodies) {
+  const BodyReader reader{bodies};
+  for (size_t i = 0; i < bodies.count; ++i) {
+    const ShapeKind kind = reader.kind(i);
+    const bool is_open =
+        is_round(kind) || (kind == ShapeKind::compound && reader.is_valid(i) &&
+                           !is_decided_exactly(shape_of(reader, i)));
+    if (is_open) return Error{std::string("the exact tier does not decide a ") + name(kind)};
   }
   return {};
 }
@@ -230,6 +245,11 @@ void list_regions(const CollideCall& asked, ContactRegions& regions) {
 Result<void> run(CollideCall call) {
   call.composites = may_have_composites(call.a, call.b, call.pairs, call.count);
   if (Result<void> checked = check_lengths(call.options, call.count); !checked) return checked;
+  if (call.options.accuracy.tier == Tier::exact) {
+    for (const Collidables* bodies : {&call.a, &call.b}) {
+      if (Result<void> checked = check_exact(*bodies); !checked) return checked;
+    }
+  }
   if (call.detail == Detail::regions && call.options.regions) {
     list_regions(call, *call.options.regions);
   } else {
@@ -248,6 +268,14 @@ bool supports(ShapeKind a, ShapeKind b) {
   };
   const bool composites = is_composite(a) || is_composite(b);
   return composites ? is_shape(a) && is_shape(b) : find_pair_kind(a, b).exists();
+}
+
+bool is_decided_exactly(const Shape& shape) {
+  const auto* const compound = std::get_if<Compound>(&shape);
+  if (!compound || !compound->geometry) return !is_round(kind_of(shape));
+  const auto children = compound->geometry->children();
+  return std::ranges::all_of(
+      children, [](const CompoundChild& child) { return is_decided_exactly(child.shape); });
 }
 
 Result<void> check_pairs(const Collidables& a, const Collidables& b, std::span<const Pair> pairs) {

@@ -7,6 +7,15 @@ Eigen::Vector3d as_doubles(const Vec3<long double>& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
+// Relative to the body's position. Of round shapes and half-spaces that position itself.
+Eigen::Vector3d middle_of(const Shape& shape, const Orientation& turn) {
+  const ShapeKind kind = kind_of(shape);
+  if (is_round(kind) || kind == ShapeKind::halfspace) return Eigen::Vector3d::Zero();
+  const ConvexShape<double> solved(shape, {Eigen::Vector3d::Zero(), turn});
+  const Vec3<double> middle = solved.centroid();
+  return {middle.x, middle.y, middle.z};
+}
+
 }  // namespace
 
 std::vector<KindPair> convex_kind_pairs() {
@@ -128,6 +137,7 @@ ConvexPair ConvexPairMaker::next() {
 }
 
 void ConvexPairMaker::place_pair(ConvexPair& pair, double size) {
+  if (has_round(kinds_) && !pair.pose_a.position.allFinite()) return;
   if (family_.placement == ConvexPlacement::free) {
     const double factor = random_.uniform(0, 2);
     if (has_round(kinds_)) {
@@ -153,12 +163,14 @@ void ConvexPairMaker::place_pair(ConvexPair& pair, double size) {
   }
 }
 
-// The separation is a convex function of the distance moved. Eight steps of bisection find its root
+// The separation is a convex function of the distance moved. A few steps of bisection find its root
 // well enough for pairs of which half are to overlap.
 void ConvexPairMaker::place_round(ConvexPair& pair, double size, double factor) {
   const SupportPair start(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
   const auto scale = static_cast<double>(start.scale());
-  Eigen::Vector3d middle = pair.pose_a.position, way = random_.direction();
+  const Eigen::Vector3d between = middle_of(pair.shape_a, pair.pose_a.orientation) -
+                                  middle_of(pair.shape_b, pair.pose_b.orientation);
+  Eigen::Vector3d middle = pair.pose_a.position + between, way = random_.direction();
   if (start.has_halfspace()) {  // from below the plane to above it
     const SeparationBounds found = start.separation(0);
     const Eigen::Vector3d out = as_doubles(found.normal);
@@ -168,21 +180,24 @@ void ConvexPairMaker::place_round(ConvexPair& pair, double size, double factor) 
   const auto gap = [&](double reach) {
     const Pose there{middle + way * reach, pair.pose_b.orientation};
     const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, there);
-    return static_cast<double>(placed.separation(0.02L * scale).low);
+    SeparationBounds found = placed.separation(0.1L * scale, 2'000);
+    if (found.low < 0) placed.climb(found, 0x1p-14L);
+    return static_cast<double>(found.low);
   };
   double low = 0, high = 4 * scale;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 16; ++i) {
     const double middle_reach = (low + high) / 2;
     (gap(middle_reach) > 0 ? high : low) = middle_reach;
   }
   pair.pose_b.position = stored(middle + way * (high * factor));
 }
 
-void ConvexPairMaker::let_touch(ConvexPair& pair) const {
+void ConvexPairMaker::let_touch(ConvexPair& pair) {
   const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
-  SeparationBounds found = placed.separation(1e-3L * placed.scale());
-  placed.climb(found);
-  pair.pose_b.position = stored(pair.pose_b.position + as_doubles(found.normal * -found.low));
+  SeparationBounds found = placed.separation(1e-3L * placed.scale(), 100'000);
+  placed.climb(found, 0x1p-40L);
+  const long double by = found.low + 0x1p-22L * placed.scale() * shapes_.integer(-8, 8);
+  pair.pose_b.position = stored(pair.pose_b.position + as_doubles(found.normal * -by));
 }
 
 void ConvexPairMaker::orient(ConvexPair& pair) {

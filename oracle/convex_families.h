@@ -99,7 +99,7 @@ class ConvexPairMaker {
   // As place(), for pairs with a round shape: roughly at `factor` times the distance of touch or, if
   // they are to touch, exactly there.
   void place_round(ConvexPair& pair, double size, double factor);
-  void let_touch(ConvexPair& pair) const;
+  void let_touch(ConvexPair& pair);
 
   // Turns b from a by a small angle. A quaternion near identity stores the small angle; others lose
   // it in rounding.

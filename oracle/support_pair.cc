@@ -160,9 +160,9 @@ SeparationBounds SupportPair::separation(long double tolerance, size_t most_tria
   return {gap, gap, a_.plane ? a_.plane->normal : -b_.plane->normal};
 }
 
-void SupportPair::climb(SeparationBounds& found) const {
+void SupportPair::climb(SeparationBounds& found, long double least) const {
   if (has_halfspace()) return;
-  for (long double step = 0x1p-3L; step > 0x1p-40L; step /= 2) {
+  for (long double step = 0x1p-3L; step > least; step /= 2) {
     const Vec n = found.normal;
     const Vec u = normalized(cross(n, std::fabs(n.x) < 0.5L ? Vec{1, 0, 0} : Vec{0, 1, 0}));
     const Vec v = cross(n, u);

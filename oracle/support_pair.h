@@ -11,11 +11,6 @@
 
 namespace carom::oracle {
 
-// Whether a kind has support points, but no corners and faces.
-constexpr bool is_round(ShapeKind kind) {
-  return kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid;
-}
-
 // Coordinates are relative to a point that the caller chooses. Half-spaces have no support points.
 SupportShape support_shape(const Shape& shape, const Pose& pose,
                            const Eigen::Vector3d& relative_to = Eigen::Vector3d::Zero());
@@ -29,8 +24,9 @@ class SupportPair {
 
   // See separation_by_supports(). Exact with a half-space.
   SeparationBounds separation(long double tolerance, size_t most_triangles = 4'000'000) const;
-  // Raises `low` to the greatest gap near its normal: the separation of separate shapes.
-  void climb(SeparationBounds& found) const;
+  // Raises `low` to about the greatest gap near its normal, which is the separation of separate
+  // shapes, by steps down to `least`.
+  void climb(SeparationBounds& found, long double least) const;
   // The gap between the projections on a unit vector from A to B; with a half-space the separation,
   // projected as by gap_along() of convex_oracle.h.
   long double gap_along(const Vec& n) const;

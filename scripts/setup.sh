@@ -9,7 +9,7 @@ build_packages=(
   cmake ninja-build make g++ pkg-config git ccache python3
   libhwy-dev libtbb-dev libeigen3-dev libzip-dev libcli11-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libboost-dev
-  libqhull-dev libmeshoptimizer-dev libassimp-dev
+  libqhull-dev libmeshoptimizer-dev libassimp-dev libtinyxml2-dev
 )
 dev_packages=(clang clang-format clang-tidy libclang-rt-dev valgrind)
 peer_packages=(libcgal-dev libbullet-dev libfcl-dev libode-dev libccd-dev libembree-dev)

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/float_environment.h"
+#include "carom/narrowphase/collide.h"
 #include "world/world_state.h"
 
 namespace carom {
@@ -25,6 +26,12 @@ void check_tolerance(std::optional<float> metres) {
   if (!metres || (std::isfinite(*metres) && *metres >= 0)) return;
   throw std::invalid_argument("the tolerance " + std::to_string(*metres) +
                               " is not a finite number of metres from 0 on");
+}
+
+void check_shape(const WorldSettings& settings, const Shape& shape) {
+  if (settings.accuracy.tier != Tier::exact || is_decided_exactly(shape)) return;
+  throw std::invalid_argument(std::string("the exact tier does not decide a ") +
+                              name(kind_of(shape)));
 }
 
 const WorldSettings& checked(const WorldSettings& settings) {
@@ -47,12 +54,16 @@ const WorldSettings& World::settings() const { return state_->settings; }
 
 BodyId World::add(const BodyDesc& body) {
   check_tolerance(body.tolerance);
+  check_shape(state_->settings, body.shape);
   const FloatEnvironment environment;
   return state_->bodies.add(body);
 }
 
 void World::add(std::span<const BodyDesc> bodies, std::vector<BodyId>& ids) {
-  for (const BodyDesc& body : bodies) check_tolerance(body.tolerance);
+  for (const BodyDesc& body : bodies) {
+    check_tolerance(body.tolerance);
+    check_shape(state_->settings, body.shape);
+  }
   ids.reserve(ids.size() + bodies.size());
   for (const BodyDesc& body : bodies) ids.push_back(add(body));
 }
@@ -114,6 +125,7 @@ Shape World::shape(BodyId id) const {
 }
 
 void World::set_shape(BodyId id, const Shape& shape) {
+  check_shape(state_->settings, shape);
   const FloatEnvironment environment;
   assert(contains(id));
   state_->bodies.set_shape(id.index, shape);

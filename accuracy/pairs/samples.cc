@@ -32,8 +32,8 @@ class PairDrawer {
   // Two random shapes with random orientations, both at the origin.
   ConvexPair shapes() {
     ConvexPair pair;
-    pair.shape_a = shapes_.shape(kinds_.a, random_.log_uniform(0.5, 2));
-    pair.shape_b = shapes_.shape(kinds_.b, random_.log_uniform(0.5, 2));
+    pair.shape_a = shape(kinds_.a, random_.log_uniform(0.5, 2));
+    pair.shape_b = shape(kinds_.b, random_.log_uniform(0.5, 2));
     for (Shape* shape : {&pair.shape_a, &pair.shape_b}) make_plain(*shape);
     for (Pose* pose : {&pair.pose_a, &pair.pose_b}) {
       pose->orientation = shapes_.orientation().normalized();
@@ -73,6 +73,21 @@ class PairDrawer {
   }
 
  private:
+  // Round shapes are at most four times as long in one direction as in another.
+  Shape shape(ShapeKind kind, double size) {
+    const auto length = [&] { return static_cast<float>(size * random_.log_uniform(0.25, 1)); };
+    switch (kind) {
+      case ShapeKind::cylinder:
+        return Cylinder{length(), length()};
+      case ShapeKind::cone:
+        return Cone{length(), length()};
+      case ShapeKind::ellipsoid:
+        return Ellipsoid{{length(), length(), length()}};
+      default:
+        return shapes_.shape(kind, size);
+    }
+  }
+
   // Bounds relative to the body's position.
   static Eigen::AlignedBox3d bounds(const Shape& shape, const Pose& pose) {
     const Pose turned{Eigen::Vector3d::Zero(), pose.orientation};

@@ -1,5 +1,7 @@
 #include "accuracy/tiers/effort.h"
 
+#include "accuracy/pairs/round_pair.h"
+
 namespace carom::accuracy {
 
 Effort effort_for(const KindPair& kinds, bool is_long) {
@@ -31,6 +33,12 @@ Effort effort_for(const KindPair& kinds, bool is_long) {
                                      .angle = 100,
                                      .scene = 20'000,
                                      .rounds = 7};
+  // Random pairs alone; the oracle takes milliseconds for one.
+  constexpr Effort kShortRound = {
+      .stream = 60, .family = 0, .gap = 0, .distance = 0, .angle = 0, .scene = 0, .rounds = 5};
+  constexpr Effort kLongRound = {
+      .stream = 1'000, .family = 0, .gap = 0, .distance = 0, .angle = 0, .scene = 0, .rounds = 7};
+  if (has_round(kinds)) return is_long ? kLongRound : kShortRound;
   if (oracle::is_slow(kinds)) return is_long ? kLongPolytopes : kShortPolytopes;
   return is_long ? kLong : kShort;
 }

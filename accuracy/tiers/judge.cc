@@ -6,6 +6,7 @@
 
 #include "accuracy/pairs/describe.h"
 #include "accuracy/pairs/exact_pair.h"
+#include "accuracy/pairs/round_pair.h"
 #include "accuracy/tiers/flush_to_zero.h"
 
 namespace carom::accuracy {
@@ -23,7 +24,9 @@ class Judgement {
     attempt.contender->run(pairs, attempt.detail, answers_);
   }
 
-  void add(size_t i, const ExactPair& exact) {
+  // `exact`: an ExactPair or a RoundPair.
+  template <class Exact>
+  void add(size_t i, const Exact& exact) {
     row_ = i;
     ++tally_.pairs;
     const bool is_number = check_finite();
@@ -70,7 +73,8 @@ class Judgement {
     return false;
   }
 
-  void add_decision(const ExactPair& exact) {
+  template <class Exact>
+  void add_decision(const Exact& exact) {
     const uint8_t overlap = answers_.overlap[row_];
     if (overlap == kUndecided) {
       ++tally_.undecided;
@@ -95,7 +99,8 @@ class Judgement {
   }
 
   // A contender without a promise (Bullet) reports contacts of overlapping pairs only.
-  void add_contact(const ExactPair& exact) {
+  template <class Exact>
+  void add_contact(const Exact& exact) {
     const uint8_t overlap = answers_.overlap[row_];
     if (!promises(Promise::finite) && overlap != 1) return;
     const bool is_negative = answers_.separation[row_] <= 0;
@@ -115,7 +120,8 @@ class Judgement {
   }
 
   // A manifold point must not be deeper than the exact depth.
-  void add_manifold(const ExactPair& exact) {
+  template <class Exact>
+  void add_manifold(const Exact& exact) {
     const size_t count = answers_.manifold_count[row_];
     const bool is_overlap = answers_.overlap[row_] == 1;
     if ((count > 0) != is_overlap || count > 4) note_broken("not 1 to 4 points an overlap");
@@ -143,9 +149,16 @@ std::vector<Tally> judge(const PairSet& pairs, std::span<const Attempt> attempts
   std::vector<Judgement> judgements;
   judgements.reserve(attempts.size());
   for (const Attempt& attempt : attempts) judgements.emplace_back(attempt, pairs);
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    const ExactPair exact(pairs[i]);
+  const auto judge_all = [&](size_t i, const auto& exact) {
     for (Judgement& judgement : judgements) judgement.add(i, exact);
+  };
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const ConvexPair& pair = pairs[i];
+    if (has_round({kind_of(pair.shape_a), kind_of(pair.shape_b)})) {
+      judge_all(i, RoundPair(pair));
+    } else {
+      judge_all(i, ExactPair(pair));
+    }
   }
   std::vector<Tally> tallies;
   for (Judgement& judgement : judgements) tallies.push_back(judgement.take());

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "accuracy/pairs/round_pair.h"
 #include "accuracy/pairs/undecided.h"
 #include "accuracy/tiers/effort.h"
 #include "accuracy/tiers/failures.h"
@@ -36,6 +37,11 @@ Json document(const MeasureOptions& options) {
 void measure_kinds(const NamedKinds& kinds, const MeasureOptions& options, Json& json,
                    Failures& failures) {
   const Effort effort = effort_for(kinds.kinds, options.is_long);
+  if (has_round(kinds.kinds)) {
+    measure_round(kinds, effort, options.seed, {json["tradeoff"], json["matrix"], json["atlas"]},
+                  failures);
+    return;
+  }
   measure_tradeoff(kinds, effort, options.seed, {json["tradeoff"], json["matrix"], json["atlas"]},
                    failures);
   measure_gaps(kinds, effort, options.seed, json["by_gap"], failures);
@@ -49,7 +55,7 @@ Json measure(const MeasureOptions& options, const MeasureProgress& progress) {
   const auto begin = Clock::now();
   Json json = document(options);
   Failures failures;
-  const bool is_all = options.kinds.size() == std::size(kAllKinds);
+  const bool is_all = options.kinds.size() == std::size(kAllKinds) + round_kinds().size();
   const size_t steps = options.kinds.size() + (is_all ? 1 : 0);
   for (size_t i = 0; i < options.kinds.size(); ++i) {
     progress(i, steps);

@@ -80,4 +80,22 @@ void measure_tradeoff(const NamedKinds& kinds, const Effort& effort, uint64_t se
   }
 }
 
+void measure_round(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
+                   const TradeoffRows& rows, Failures& failures) {
+  Contenders contenders = contenders_for(kinds.kinds);
+  std::erase_if(contenders, [](const auto& c) { return c->promise() != Promise::standard; });
+  const PairSet stream(random_pairs(kinds.kinds, effort.stream, seed), PositionType::float32);
+  const std::vector<double> times = nanoseconds_a_pair(stream, contenders, effort.rounds);
+  std::vector<Attempt> attempts;
+  for (const auto& contender : contenders) attempts.push_back({.contender = contender.get()});
+  const std::vector<Tally> tallies = judge(stream, attempts);
+  for (size_t i = 0; i < contenders.size(); ++i) {
+    const std::string setting = contenders[i]->setting();
+    failures.note(std::string(kinds.name) + ", random pairs, " + setting, tallies[i]);
+    rows.tradeoff.push_back(
+        tradeoff_row(kinds, *contenders[i], stream.size(), times[i], tallies[i]));
+    if (setting == "standard") rows.matrix.push_back(matrix_row(kinds, tallies[i]));
+  }
+}
+
 }  // namespace carom::accuracy

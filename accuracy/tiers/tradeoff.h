@@ -19,4 +19,9 @@ struct TradeoffRows {
 void measure_tradeoff(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
                       const TradeoffRows& rows, Failures& failures);
 
+// The same of a pair of kinds with a round shape: random pairs alone, and the settings that promise
+// right answers up to rounding. The atlas stays as it is.
+void measure_round(const NamedKinds& kinds, const Effort& effort, uint64_t seed,
+                   const TradeoffRows& rows, Failures& failures);
+
 }  // namespace carom::accuracy

@@ -1,12 +1,14 @@
 // carom accuracy: what the tiers cost and what they give, measured against exact answers.
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "accuracy/page.h"
 #include "accuracy/pairs/decisions.h"
+#include "accuracy/pairs/round_pair.h"
 #include "accuracy/scenes/fidelity_json.h"
 #include "accuracy/tiers/measure.h"
 #include "cli/accuracy/scene_fidelity.h"
@@ -34,12 +36,18 @@ struct AccuracyOptions {
   std::string json;
 };
 
-Result<std::vector<accuracy::NamedKinds>> chosen_kinds(const std::vector<std::string>& names) {
+// `with_round`: also pairs with cylinders, cones and ellipsoids.
+Result<std::vector<accuracy::NamedKinds>> chosen_kinds(const std::vector<std::string>& names,
+                                                       bool with_round) {
   std::vector<accuracy::NamedKinds> chosen;
-  for (const accuracy::NamedKinds& kinds : accuracy::kAllKinds) {
+  const auto choose = [&](const accuracy::NamedKinds& kinds) {
     if (names.empty() || std::count(names.begin(), names.end(), kinds.name) > 0) {
       chosen.push_back(kinds);
     }
+  };
+  std::for_each(std::begin(accuracy::kAllKinds), std::end(accuracy::kAllKinds), choose);
+  if (with_round) {
+    std::for_each(accuracy::round_kinds().begin(), accuracy::round_kinds().end(), choose);
   }
   for (const std::string& name : names) {
     const bool is_known = std::any_of(chosen.begin(), chosen.end(),
@@ -155,7 +163,7 @@ Result<int> count_decisions(const AccuracyOptions& options,
 }
 
 Result<int> measure_accuracy(const AccuracyOptions& options, const Console& console) {
-  const auto kinds = chosen_kinds(options.pairs);
+  const auto kinds = chosen_kinds(options.pairs, options.decisions == 0);
   if (!kinds) return kinds.error();
   if (options.decisions > 0) return count_decisions(options, *kinds, console);
   Result<JsonOutput> output = JsonOutput::open(options.json);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "accuracy/pairs/round_pair.h"
 #include "carom/base/thread_arena.h"
 #include "cli/accuracy/tunnelling_output.h"
 #include "cli/commands.h"
@@ -55,6 +56,12 @@ Result<std::unique_ptr<LoadedScene>> load(const TunnellingCommand& command) {
   const io::SceneInfo& info = (*scene)->info();
   if (!info.has_linear_velocity && !info.has_angular_velocity) {
     return Error{command.scene + ": has no velocities, which say how bodies go on from a frame"};
+  }
+  // The oracle of motions knows polytopes with a radius alone.
+  for (const uint8_t kind : info.shapes.kind) {
+    if (!accuracy::is_round(static_cast<ShapeKind>(kind))) continue;
+    return Error{command.scene + ": has a " + name(static_cast<ShapeKind>(kind)) +
+                 ", of which meetings are not measured"};
   }
   const uint64_t frames = command.frames == 0 ? info.frames : command.frames;
   if (Result<void> read = (*scene)->load(frames); !read) return read.error();

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 
 namespace carom::cli {
 namespace {
@@ -33,9 +34,11 @@ std::string text(const char* format, double value) {
 
 // Whether shapes exist that may fill little of their bounding boxes.
 bool has_slanted_shapes(const SceneSurvey& survey) {
-  const auto is_there = [&](ShapeKind kind) { return survey.kinds[static_cast<size_t>(kind)] > 0; };
-  return is_there(ShapeKind::box) || is_there(ShapeKind::capsule) ||
-         is_there(ShapeKind::triangle) || is_there(ShapeKind::hull);
+  constexpr ShapeKind kSlanted[] = {ShapeKind::box,      ShapeKind::capsule,  ShapeKind::triangle,
+                                    ShapeKind::hull,     ShapeKind::cylinder, ShapeKind::cone,
+                                    ShapeKind::ellipsoid};
+  return std::any_of(std::begin(kSlanted), std::end(kSlanted),
+                     [&](ShapeKind kind) { return survey.kinds[static_cast<size_t>(kind)] > 0; });
 }
 
 bool moves(const SceneSurvey& survey) { return survey.frames > 1 && survey.moving_share > 0; }

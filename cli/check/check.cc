@@ -5,7 +5,6 @@
 
 #include "carom/reference/reference.h"
 #include "cli/check/check_report.h"
-#include "cli/check/mesh_file.h"
 #include "cli/commands.h"
 #include "cli/scenes/shapes.h"
 #include "cli/support/command_line.h"
@@ -13,6 +12,8 @@
 #include "cli/support/options.h"
 #include "cli/support/progress.h"
 #include "io/files/npz.h"
+#include "io/models/mesh_file.h"
+#include "io/models/read_model.h"
 
 namespace carom::cli {
 namespace {
@@ -79,7 +80,7 @@ ShapeReport report_of(const io::SceneShapes& shapes, size_t index) {
   return report;
 }
 
-ShapeReport report_of(MeshPart part, size_t index) {
+ShapeReport report_of(io::MeshPart part, size_t index) {
   ShapeReport report;
   report.index = index;
   report.name = std::move(part.name);
@@ -91,12 +92,26 @@ ShapeReport report_of(MeshPart part, size_t index) {
 }
 
 Result<void> check_mesh_file(const std::string& path, ReportSink& sink, const Console& console) {
-  Result<std::vector<MeshPart>> parts = read_mesh_file(path);
+  Result<std::vector<io::MeshPart>> parts = io::read_mesh_file(path);
   if (!parts) return parts.error();
   Progress progress(console, "mesh", parts->size());
   for (size_t i = 0; i < parts->size(); ++i) {
     progress.update(i);
     sink.add(report_of(std::move((*parts)[i]), i));
+  }
+  return {};
+}
+
+Result<void> check_model(const std::string& path, ReportSink& sink, const Console& console) {
+  Result<io::Model> model = io::read_model(path);
+  if (!model) return model.error();
+  const io::SceneShapes& shapes = model->info.shapes;
+  Progress progress(console, "shape", shapes.kind.size());
+  for (size_t i = 0; i < shapes.kind.size(); ++i) {
+    progress.update(i);
+    ShapeReport report = report_of(shapes, i);
+    report.name = model->shape_names[i];
+    sink.add(report);
   }
   return {};
 }
@@ -118,9 +133,10 @@ Result<int> check(const CheckOptions& options, const Console& console) {
   Result<JsonOutput> json = JsonOutput::open(options.json);
   if (!json) return json.error();
   ReportSink sink(*json, console);
-  const Result<void> done = names_mesh(options.input)
-                                ? check_mesh_file(options.input, sink, console)
-                                : check_archive(options.input, sink, console);
+  const auto check_file = io::names_mesh(options.input)    ? check_mesh_file
+                          : io::names_model(options.input) ? check_model
+                                                           : check_archive;
+  const Result<void> done = check_file(options.input, sink, console);
   if (!done) return done.error();
   const Result<void> written = sink.finish(options.input);
   return written ? Result<int>(0) : written.error();
@@ -134,7 +150,8 @@ void add_check_command(CommandLine& program) {
       program.add_command("check", "Say what is wrong with shapes: convex, watertight, ...");
   command
       .add_option("FILE", options->input,
-                  "A mesh (.obj, .stl, .gltf, .glb), a scene or pairs (.npz)")
+                  "A mesh (.obj, .stl, .gltf, .glb, .dae), a model (.urdf, .xml), a scene or pairs "
+                  "(.npz)")
       .required();
   add_json_option(command, options->json);
   command.run([options](const Console& console) { return check(*options, console); });

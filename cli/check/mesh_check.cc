@@ -6,7 +6,7 @@
 
 #include "base/tolerances.h"
 #include "cli/check/convexity.h"
-#include "cli/check/vertex_places.h"
+#include "io/models/vertex_places.h"
 
 namespace carom::cli {
 namespace {
@@ -60,7 +60,7 @@ class MeshChecker {
   }
 
   void find_places() {
-    place_ = first_at_place(vertices_);
+    place_ = io::first_at_place(vertices_);
     for (uint32_t i = 0; i < place_.size(); ++i) {
       if (place_[i] != i) report_.duplicate_vertices.add({i, place_[i]});
     }

@@ -9,6 +9,7 @@
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "carom/shapes/views.h"
+#include "cli/page/round_surface.h"
 #include "oracle/convex_oracle.h"
 
 namespace carom::cli {
@@ -63,6 +64,9 @@ class Surfaces {
     }
     if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return to_triangles(*mesh->geometry, point);
     if (is_too_large(shape)) return std::nullopt;
+    if (const auto distance_to_round = round_surface_distance(shape, point)) {
+      return static_cast<double>(*distance_to_round);
+    }
     return to_simple(shape, point);
   }
 

@@ -43,6 +43,12 @@ const char* object_type(const io::SceneInfo& info) {
       return "Meshes";
     case ShapeKind::compound:
       return "Compounds";
+    case ShapeKind::cylinder:
+      return "Cylinders";
+    case ShapeKind::cone:
+      return "Cones";
+    case ShapeKind::ellipsoid:
+      return "Ellipsoids";
     default:
       return "Cubes";
   }
@@ -72,8 +78,8 @@ Result<int> generate(const GenerateOptions& options, const Console& console) {
   Progress progress(console, "frame", scene->info().frames);
   bool recording =
       io::has_extension(options.output, ".aabb") || io::has_extension(options.output, ".aabbs");
-  if (recording && spec->kind == io::GeneratorKind::bullets) {
-    return Error{options.output + ": bullets are of several kinds: only a scene (.npz) holds them"};
+  if (recording && (spec->mixed || spec->kind == io::GeneratorKind::bullets)) {
+    return Error{options.output + ": bodies of several kinds: only a scene (.npz) holds them"};
   }
   Result<void> written = recording ? write_recording(*scene, options.output, progress)
                                    : write_scene(*scene, options.output, progress);

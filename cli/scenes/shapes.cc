@@ -102,8 +102,9 @@ Error shape_error(const std::string& source, size_t index, const Error& what) {
 }  // namespace
 
 bool is_its_parameters(uint8_t kind) {
-  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
-                                  ShapeKind::box, ShapeKind::halfspace};
+  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule,   ShapeKind::aabb,
+                                  ShapeKind::box,    ShapeKind::halfspace, ShapeKind::cylinder,
+                                  ShapeKind::cone,   ShapeKind::ellipsoid};
   return std::find(std::begin(kKinds), std::end(kKinds), static_cast<ShapeKind>(kind)) !=
          std::end(kKinds);
 }
@@ -126,6 +127,12 @@ Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) 
       return convert_mesh(shapes, index);
     case ShapeKind::halfspace:
       return Shape(Halfspace{vector(&params[0]), params[3]});
+    case ShapeKind::cylinder:
+      return Shape(Cylinder{params[0], params[1]});
+    case ShapeKind::cone:
+      return Shape(Cone{params[0], params[1]});
+    case ShapeKind::ellipsoid:
+      return Shape(Ellipsoid{vector(&params[0])});
     default:
       return Shape(Sphere{params[0]});
   }

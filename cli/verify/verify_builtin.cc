@@ -89,6 +89,12 @@ ShapeKind kind_in_turn(size_t i) {
   switch (i % 21) {
     case 1:
       return ShapeKind::dop;
+    case 3:
+      return ShapeKind::cylinder;
+    case 6:
+      return ShapeKind::cone;
+    case 11:
+      return ShapeKind::ellipsoid;
     case 8:
       return ShapeKind::hull;
     case 13:
@@ -114,6 +120,7 @@ void make_all_kinds(io::SceneShapes& shapes) {
     const std::array half = {params[0], params[1], params[2]};
     if (kind == ShapeKind::capsule) params = {-half[0], 0, half[2], half[0], 0, 0, half[1] / 2};
     if (kind == ShapeKind::halfspace) params = {half[0], -half[1], half[2], -1};
+    if (kind == ShapeKind::cylinder || kind == ShapeKind::cone) params = {half[0], half[2]};
     if (kind == ShapeKind::triangle) make_triangle(shapes, i, half);
     if (kind == ShapeKind::dop) make_dop(shapes, i, half);
     if (kind == ShapeKind::hull) add_vertices(shapes, i, half);

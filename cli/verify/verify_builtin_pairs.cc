@@ -14,17 +14,27 @@
 namespace carom::cli {
 namespace {
 
-constexpr std::array kKinds = {ShapeKind::sphere,   ShapeKind::capsule,  ShapeKind::aabb,
-                               ShapeKind::box,      ShapeKind::dop,      ShapeKind::hull,
-                               ShapeKind::mesh,     ShapeKind::compound, ShapeKind::triangle,
-                               ShapeKind::halfspace};
+constexpr std::array kKinds = {ShapeKind::sphere,    ShapeKind::capsule,  ShapeKind::aabb,
+                               ShapeKind::box,       ShapeKind::dop,      ShapeKind::hull,
+                               ShapeKind::mesh,      ShapeKind::compound, ShapeKind::triangle,
+                               ShapeKind::halfspace, ShapeKind::cylinder, ShapeKind::cone,
+                               ShapeKind::ellipsoid};
 
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
 
 // Kinds that are slow, because the library tests them one at a time or part by part.
-bool is_slow(ShapeKind a, ShapeKind b) {
-  return has_geometry(a) || has_geometry(b) || a == ShapeKind::dop || b == ShapeKind::dop;
+bool is_slow(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::dop:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::ellipsoid:
+      return true;
+    default:
+      return has_geometry(kind);
+  }
 }
+bool is_slow(ShapeKind a, ShapeKind b) { return is_slow(a) || is_slow(b); }
 
 // Random pairs of sizes over six decades; about half of them overlap.
 class RandomPairs {

@@ -62,6 +62,12 @@ Shape even_shape(ShapeKind kind, float size) {
       return Triangle{{x, y - x, -y - x}, size < 0 ? size : 0, false, 0};
     case ShapeKind::halfspace:
       return Halfspace{Eigen::Vector3f::Constant(size), size};
+    case ShapeKind::cylinder:
+      return Cylinder{size, size};
+    case ShapeKind::cone:
+      return Cone{size, size};
+    case ShapeKind::ellipsoid:
+      return Ellipsoid{Eigen::Vector3f::Constant(size)};
     case ShapeKind::dop:
       return even_dop(size);
     case ShapeKind::hull:
@@ -112,6 +118,16 @@ Shape RandomShapes::shape(ShapeKind kind, double size) {
       return triangle(size);
     case ShapeKind::halfspace:
       return halfspace(size);
+    case ShapeKind::cylinder: {
+      const Eigen::Vector3f half = half_extents(size);
+      return Cylinder{half.x(), half.z()};
+    }
+    case ShapeKind::cone: {
+      const Eigen::Vector3f half = half_extents(size);
+      return Cone{half.x(), half.z()};
+    }
+    case ShapeKind::ellipsoid:
+      return Ellipsoid{half_extents(size)};
     case ShapeKind::dop:
       return dop(size);
     case ShapeKind::hull:
@@ -167,9 +183,10 @@ Mesh RandomShapes::mesh(double size) {
 }
 
 Compound RandomShapes::compound(double size) {
-  constexpr std::array kParts = {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::aabb,
-                                 ShapeKind::box,    ShapeKind::dop,     ShapeKind::hull,
-                                 ShapeKind::mesh,   ShapeKind::triangle};
+  constexpr std::array kParts = {ShapeKind::sphere, ShapeKind::capsule,  ShapeKind::aabb,
+                                 ShapeKind::box,    ShapeKind::dop,      ShapeKind::hull,
+                                 ShapeKind::mesh,   ShapeKind::triangle, ShapeKind::cylinder,
+                                 ShapeKind::cone,   ShapeKind::ellipsoid};
   std::vector<CompoundChild> children(1 + random_.below(3));
   for (CompoundChild& child : children) {
     child.shape = shape(kParts[random_.below(kParts.size())], size / 2);

@@ -17,9 +17,19 @@ constexpr uint64_t kMadeShapesStream = 17;
 constexpr uint64_t kMadeShapes = 16;  // bodies of one size use them in turn
 
 std::array<float, 8> shape_params(ShapeKind shape, const Population& population, size_t body) {
-  if (shape == ShapeKind::capsule) {
-    auto quarter = static_cast<float>(population.edges[body][1] / 4);
-    return {0, -quarter, 0, 0, quarter, 0, quarter};
+  const auto share_of_edge = [&](double share) {
+    return static_cast<float>(population.edges[body][1] * share);
+  };
+  switch (shape) {
+    case ShapeKind::capsule:
+      return {0, -share_of_edge(0.25), 0, 0, share_of_edge(0.25), 0, share_of_edge(0.25)};
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+      return {share_of_edge(0.25), share_of_edge(0.5)};
+    case ShapeKind::ellipsoid:
+      return {share_of_edge(0.5), share_of_edge(0.375), share_of_edge(0.25)};
+    default:
+      break;
   }
   std::array<float, 8> params{};
   for (int axis = 0; axis < (shape == ShapeKind::sphere ? 1 : 3); ++axis) {
@@ -36,13 +46,18 @@ bool has_one_size(const GeneratorSpec& spec) {
 
 // The number of shapes; body i has shape i modulo this.
 uint64_t shape_count(const GeneratorSpec& spec) {
-  if (!has_one_size(spec) || spec.shape == ShapeKind::aabb) return spec.bodies;
+  if (!has_one_size(spec)) return spec.bodies;
+  if (spec.mixed) return std::min(kMadeShapes * kMixedShapes.size(), spec.bodies);
+  if (spec.shape == ShapeKind::aabb) return spec.bodies;
   return is_made(spec.shape) ? std::min(kMadeShapes, spec.bodies) : 1;
 }
 
+// Whether all shapes are their parameters, so that the arrays of ranges stay empty.
+bool needs_no_ranges(const GeneratorSpec& spec) { return !spec.mixed && !is_made(spec.shape); }
+
 void add_shapes(const GeneratorSpec& spec, const Population& population, SceneShapes& shapes) {
   const uint64_t count = shape_count(spec);
-  if (!is_made(spec.shape)) {
+  if (needs_no_ranges(spec)) {
     shapes.kind.assign(count, static_cast<uint8_t>(spec.shape));
     shapes.params.resize(count);
     for (size_t i = 0; i < count; ++i) {
@@ -53,7 +68,13 @@ void add_shapes(const GeneratorSpec& spec, const Population& population, SceneSh
   resize_shapes(spec.shape, count, shapes);
   Random random(spec.seed, kMadeShapesStream);
   for (size_t i = 0; i < count; ++i) {
-    make_shape(spec.shape, population.edges[i][0], random, i, shapes);
+    const ShapeKind shape = spec.shape_of(i);
+    shapes.kind[i] = static_cast<uint8_t>(shape);
+    if (is_made(shape)) {
+      make_shape(shape, population.edges[i][0], random, i, shapes);
+    } else {
+      shapes.params[i] = shape_params(shape, population, i);
+    }
   }
 }
 

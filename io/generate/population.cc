@@ -22,21 +22,45 @@ enum PopulationStream : uint64_t {
   kSpins = 5
 };
 
-double volume(const GeneratorSpec& spec, double edge) {
+double volume(ShapeKind shape, double edge) {
   double cube = edge * edge * edge;
-  if (spec.shape == ShapeKind::sphere || is_made(spec.shape)) return cube * (kPi / 6);
-  if (spec.shape == ShapeKind::capsule) return cube * (kPi * 5 / 96);
-  return cube;
+  switch (shape) {
+    case ShapeKind::aabb:
+    case ShapeKind::box:
+      return cube;
+    case ShapeKind::capsule:
+      return cube * (kPi * 5 / 96);
+    case ShapeKind::cylinder:
+    case ShapeKind::ellipsoid:
+      return cube * (kPi / 16);
+    case ShapeKind::cone:
+      return cube * (kPi / 48);
+    default:
+      return cube * (kPi / 6);
+  }
 }
 
-// A capsule is as long as the edge and half as wide. A made shape lies in a ball with the edge as
-// diameter.
+// A capsule, cylinder or cone is as long as the edge and half as wide. An ellipsoid is as long as
+// the edge along x, 3/4 of it along y, 1/2 along z. Of these three the box around them counts.
+// A ball and a made shape lie in a ball with the edge as diameter.
 Vec3 half_extents(ShapeKind shape, const Vec3& edges, const Quaternion& orientation) {
-  if (shape == ShapeKind::box) return half_extents_turned(edges, orientation);
-  if (is_made(shape)) return {edges[0] / 2, edges[1] / 2, edges[2] / 2};
-  Vec3 half = half_extents_turned({0, edges[1] / 2, 0}, orientation);
-  for (int axis = 0; axis < 3; ++axis) half[axis] += edges[axis] / 4;
-  return half;
+  const double edge = edges[1];
+  switch (shape) {
+    case ShapeKind::box:
+      return half_extents_turned(edges, orientation);
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+      return half_extents_turned({edge / 2, edge / 2, edge}, orientation);
+    case ShapeKind::ellipsoid:
+      return half_extents_turned({edge, edge * 0.75, edge / 2}, orientation);
+    case ShapeKind::capsule: {
+      Vec3 half = half_extents_turned({0, edge / 2, 0}, orientation);
+      for (int axis = 0; axis < 3; ++axis) half[axis] += edges[axis] / 4;
+      return half;
+    }
+    default:
+      return {edges[0] / 2, edges[1] / 2, edges[2] / 2};
+  }
 }
 
 // Draws a body with these edges and stores its half extents in `population.half`.
@@ -47,7 +71,7 @@ void draw_body(const GeneratorSpec& spec, const Vec3& edges, Random& random, uin
     Quaternion orientation = random.rotation();
     population.edges[body] = edges;
     population.orientation[body] = normalized(orientation);
-    half = half_extents(spec.shape, edges, orientation);
+    half = half_extents(spec.shape_of(body), edges, orientation);
   } else if (spec.shape == ShapeKind::sphere) {
     half = {edges[0] / 2, edges[1] / 2, edges[2] / 2};
   } else if (spec.kind == GeneratorKind::level) {
@@ -64,7 +88,7 @@ double draw_cubes(const GeneratorSpec& spec, Population& population) {
   double sum = 0;
   for (uint64_t i = 0; i < spec.bodies; ++i) {
     double edge = spec.kind == GeneratorKind::varied ? sizes.draw(random) : 1.0;
-    sum += volume(spec, edge);
+    sum += volume(spec.shape_of(i), edge);
     draw_body(spec, {edge, edge, edge}, random, i, population);
   }
   return sum;
@@ -115,9 +139,9 @@ void fill_cube(const GeneratorSpec& spec, Population& population) {
 void draw_boxes(const GeneratorSpec& spec, Population& population) {
   Random random(spec.seed, kShapes);
   LogUniform sizes(0.5, 4);
-  bool round =
-      spec.shape == ShapeKind::sphere || spec.shape == ShapeKind::capsule || is_made(spec.shape);
   for (uint64_t i = 0; i < spec.bodies; ++i) {
+    const ShapeKind shape = spec.shape_of(i);
+    const bool round = shape != ShapeKind::aabb && shape != ShapeKind::box;
     double x = sizes.draw(random);
     double y = round ? x : sizes.draw(random);
     double z = round ? x : sizes.draw(random);

@@ -12,6 +12,8 @@ namespace {
 
 constexpr uint64_t kMaxBodies = 100'000'000;
 constexpr uint64_t kMaxFrames = 1'000'000'000;
+constexpr char kTurningShapes[] =
+    "box, capsule, hull, mesh, compound, cylinder, cone, ellipsoid, mixed";
 
 Error spec_error(const GeneratorSpec& spec, const std::string& text) {
   return {"generator " + quoted_name(spec.text) + ": " + text};
@@ -34,6 +36,9 @@ std::optional<ShapeKind> shape_from_name(std::string_view name) {
   if (name == "hull") return ShapeKind::hull;
   if (name == "mesh") return ShapeKind::mesh;
   if (name == "compound") return ShapeKind::compound;
+  if (name == "cylinder") return ShapeKind::cylinder;
+  if (name == "cone") return ShapeKind::cone;
+  if (name == "ellipsoid") return ShapeKind::ellipsoid;
   return std::nullopt;
 }
 
@@ -78,7 +83,7 @@ class SpecParser {
   Result<void> check() const {
     if (!spec_.spin || spec_.has_orientation()) return {};
     return spec_error(spec_,
-                      "'spin' needs a shape that turns (box, capsule, hull, mesh, compound)");
+                      std::string("'spin' needs a shape that turns (") + kTurningShapes + ")");
   }
 
  private:
@@ -123,10 +128,12 @@ class SpecParser {
   }
 
   Result<void> shape() {
+    spec_.mixed = value_ == "mixed";
+    if (spec_.mixed) return {};
     std::optional<ShapeKind> kind = shape_from_name(value_);
-    if (!kind)
-      return spec_error(spec_,
-                        quoted() + " is none of cube, sphere, box, capsule, hull, mesh, compound");
+    if (!kind) {
+      return spec_error(spec_, quoted() + " is none of cube, sphere, " + kTurningShapes);
+    }
     spec_.shape = *kind;
     return {};
   }
@@ -169,8 +176,9 @@ const char kGeneratorHelp[] =
     "                    static 6, bullets 300, and the least is a sixth of it\n"
     "  dt=0.0333...      seconds between frames; bullets 1/60\n"
     "  shape=cube        bounds of cubes that keep a random orientation; or sphere; or\n"
-    "                    box, capsule, hull, mesh or compound, which start in random\n"
-    "                    orientations and turn as they move\n"
+    "                    box, capsule, hull, mesh, compound, cylinder, cone or ellipsoid, which\n"
+    "                    start in random orientations and turn as they move; or mixed: sphere and\n"
+    "                    these in turn\n"
     "  spin=1            of what turns: the greatest, radians a second; with speed=0: 0; bullets\n"
     "                    200\n"
     "  positions=float32 or float64\n"

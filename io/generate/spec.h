@@ -1,6 +1,7 @@
 // The specification of a generated scene, as written on the command line: KIND[:key=value,...].
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,12 @@ enum class GeneratorKind : uint8_t {
   bullets,   // small fast bodies of several kinds in a room of thin obstacles
 };
 
+// Their number has no factor in common with 10, the stride of bodies that move in `level`.
+inline constexpr std::array kMixedShapes = {
+    ShapeKind::sphere, ShapeKind::box,      ShapeKind::capsule,
+    ShapeKind::hull,   ShapeKind::cylinder, ShapeKind::mesh,
+    ShapeKind::cone,   ShapeKind::compound, ShapeKind::ellipsoid};
+
 struct GeneratorSpec {
   std::string text;  // as given
   GeneratorKind kind = GeneratorKind::brownian;
@@ -28,12 +35,18 @@ struct GeneratorSpec {
   std::optional<double> density;  // sum of volumes / world volume; static: bodies a square metre
   std::optional<double> speed;    // the greatest, metres a second
   double dt = 1.0 / 30.0;
-  ShapeKind shape = ShapeKind::aabb;  // or sphere, box, capsule, hull, mesh, compound
+  ShapeKind shape = ShapeKind::aabb;  // of all bodies, unless `mixed`
+  bool mixed = false;                 // bodies have the kinds of kMixedShapes in turn
   std::optional<double> spin;         // the greatest, radians a second; shapes that turn only
   bool float64_positions = false;
   bool mark_static = false;  // static: bodies that never move are static bodies
 
-  bool has_orientation() const { return kind == GeneratorKind::bullets || row_count(shape) > 0; }
+  bool has_orientation() const {
+    return kind == GeneratorKind::bullets || mixed || row_count(shape) > 0;
+  }
+  ShapeKind shape_of(uint64_t body) const {
+    return mixed ? kMixedShapes[body % kMixedShapes.size()] : shape;
+  }
 };
 
 // The kinds, "brownian, varied, static, still, bullets".

@@ -86,6 +86,11 @@ class Core {
     for (size_t i = count_; i < padded_; ++i) set(i, point(0));
   }
 
+  void move(const CoreVector& by) {
+    for (size_t i = 0; i < padded_; ++i) set(i, point(i) + by);
+    middle = middle + by;
+  }
+
   size_t size() const { return count_; }
   size_t padded_size() const { return padded_; }
   CoreVector point(size_t i) const {
@@ -106,7 +111,7 @@ class Core {
   }
 
   bool is_round_ = false;
-  CoreRoundness roundness_;
+  CoreRoundness roundness_{};
   std::vector<double> values_;  // never shrinks: cores are used again for the next pair
   size_t count_ = 0, padded_ = 0;
 };

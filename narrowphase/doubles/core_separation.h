@@ -124,6 +124,7 @@ inline CoreGap find_round_gap(const Core& a, const Core& b, const CoreTest& test
   if (!out.has_ended) {
     RingSearch ring(a, b, test.furthest, out);
     search.for_each_open_way([&](const CoreVector& normal) { ring.climb_from(normal); });
+    out.has_ended = true;
   }
   // For a difference without volume, the penetration search tries only one direction.
   if (distance > kTouchingRound && parted > out.gap) {

@@ -10,9 +10,12 @@
 #include "narrowphase/proof/proof.h"
 
 #include <cmath>
+#include <optional>
 #include <variant>
 
 #include "carom/results/tier.h"
+#include "narrowphase/doubles/furthest_scalar.h"
+#include "narrowphase/doubles/gjk.h"
 #include "narrowphase/doubles/make_core.h"
 #include "narrowphase/features/halfspace_scalar.h"
 #include "narrowphase/proof/overlap_search.h"
@@ -49,6 +52,7 @@ Vector vector_of(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 struct ProofBody {
   PointHull hull;
+  std::optional<Core> round;  // of a cylinder, cone or ellipsoid, which has no hull
   Vector3d middle = Vector3d::Zero();
   scalar::FrontRules rules;
   double rounding = kRounding;
@@ -62,8 +66,20 @@ struct ProofBody {
 
   void move(const Vector3d& by) {
     for (Vector& p : hull.points) p = p + vector_of(by);
+    if (round) round->move(scalar::core_vector(by));
     middle += by;
     rules.corner += by;
+  }
+
+  Core core() const {
+    if (round) return *round;
+    Core core;
+    core.resize(hull.points.size());
+    for (size_t i = 0; i < hull.points.size(); ++i) core.set(i, hull.points[i]);
+    core.pad();
+    core.radius = hull.radius;
+    core.middle = scalar::core_vector(middle);
+    return core;
   }
 };
 
@@ -101,12 +117,20 @@ struct BodyMaker {
     return body;
   }
   ProofBody operator()(const Halfspace&) const { return {}; }
-  // Round shapes have no proof.
-  ProofBody operator()(const Cylinder&) const { return nothing(); }
-  ProofBody operator()(const Cone&) const { return nothing(); }
-  ProofBody operator()(const Ellipsoid&) const { return nothing(); }
+  ProofBody operator()(const Cylinder& shape) const { return round(shape); }
+  ProofBody operator()(const Cone& shape) const { return round(shape); }
+  ProofBody operator()(const Ellipsoid& shape) const { return round(shape); }
   ProofBody operator()(const Mesh&) const { return nothing(); }
   ProofBody operator()(const Compound&) const { return nothing(); }
+
+  // Its support points err no more than other points.
+  template <class T>
+  ProofBody round(const T& shape) const {
+    ProofBody body;
+    scalar::make_core(scalar::shape_as<double>(shape).scaled(scale), turn, Vector3d::Zero(),
+                      body.round.emplace());
+    return body;
+  }
 
   // The parts of meshes and compounds are proven one by one.
   static ProofBody nothing() {
@@ -204,6 +228,18 @@ uint8_t prove_hulls(const PointHull& a, const PointHull& b, double rounding) {
   return nearest + 4 * rounding < a.radius + b.radius ? uint8_t{1} : kUndecided;
 }
 
+// The same reasons as for hulls, from the search of round cores.
+uint8_t prove_round(const Core& a, const Core& b, double rounding) {
+  const double radii = a.radius + b.radius;
+  const NearestWay nearest = nearest_round_way(a, b, &scalar::furthest_point);
+  if (nearest.corners.size() == 4) {
+    return holds_origin(nearest.corners, rounding) ? uint8_t{1} : kUndecided;
+  }
+  if (nearest.gap > length(nearest.way) * (radii + 4 * rounding)) return 0;
+  const double distance = length(nearest_by_weights(nearest.corners));
+  return distance + 4 * rounding < radii ? uint8_t{1} : kUndecided;
+}
+
 uint8_t prove_bodies(const ProofBody& a, ProofBody b, const Vector3d& way) {
   if (!a.is_known || !b.is_known) return kUndecided;
   b.move(way);
@@ -213,6 +249,7 @@ uint8_t prove_bodies(const ProofBody& a, ProofBody b, const Vector3d& way) {
     if (side == Side::unknown) return kUndecided;
     if (side == Side::behind) return 0;
   }
+  if (a.round || b.round) return prove_round(a.core(), b.core(), rounding);
   return prove_hulls(a.hull, b.hull, rounding);
 }
 
@@ -228,10 +265,9 @@ uint8_t prove_over_plane(const StatedBody& a, const ProofBody& b, const Vector3d
     if (std::fabs(towards) <= b.rounding) return kUndecided;
     if (towards > 0) return 0;
   }
-  double lowest = HUGE_VAL;
-  for (const Vector& p : b.hull.points) {
-    lowest = std::min(lowest, dot(vector_of(plane.normal), p));
-  }
+  const Vector n = vector_of(plane.normal);
+  double lowest = b.round ? dot(n, b.round->furthest_round(-n)) : HUGE_VAL;
+  for (const Vector& p : b.hull.points) lowest = std::min(lowest, dot(n, p));
   const double height = (lowest - plane.height) - b.hull.radius;
   if (!(std::fabs(height) > 4 * b.rounding)) return kUndecided;
   return height < 0;

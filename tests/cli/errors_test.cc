@@ -230,7 +230,8 @@ TEST_F(ErrorsTest, Generators) {
   fails("brownian:density=0", {"'density=0'"});
   fails("brownian:density=nan", {"'density=nan'"});
   fails("brownian:speed=-1", {"'speed=-1'"});
-  fails("brownian:shape=cone", {"'shape=cone'", "cube, sphere, box, capsule"});
+  fails("brownian:shape=prism",
+        {"'shape=prism'", "cube, sphere, box, capsule", "ellipsoid, mixed"});
   fails("brownian:shape=box,spin=-1", {"'spin=-1'", "from 0"});
   fails("brownian:spin=2", {"'spin' needs a shape that turns"});
   fails("varied:spin=2,shape=sphere", {"'spin' needs a shape that turns"});

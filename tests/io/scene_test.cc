@@ -14,19 +14,20 @@ using test::kNan;
 
 using ::testing::HasSubstr;
 
-// A sphere, a hull, a mesh and a compound of the first two; three bodies.
+// A sphere, a hull, a mesh, a compound of the first two, a cylinder, a cone and an ellipsoid; three
+// bodies.
 SceneInfo full_info() {
   SceneInfo info;
   info.bodies = 3;
   info.dt = 0.25;
   info.has_orientation = info.has_linear_velocity = info.has_angular_velocity = true;
-  info.shapes.kind = {0, 5, 6, 7};
-  info.shapes.params = {{1}, {}, {1, 0.5f}, {}};
-  info.shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}, {0, 0}};
+  info.shapes.kind = {0, 5, 6, 7, 9, 10, 11};
+  info.shapes.params = {{1}, {}, {1, 0.5f}, {}, {1, 2}, {3, 4}, {5, 6, 7}};
+  info.shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   info.shapes.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  info.shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}, {0, 0}};
+  info.shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
   info.shapes.triangles = {{0, 1, 2}};
-  info.shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}};
+  info.shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}, {0, 0}, {0, 0}, {0, 0}};
   info.shapes.child_shape = {0, 1};
   info.shapes.child_position = {{1, 0, 0}, {0, 1, 0}};
   info.shapes.child_orientation = {{0, 0, 0, 1}, {0, 0, 0, 1}};
@@ -260,9 +261,19 @@ TEST_F(SceneTest, WrongMembersAreNamed) {
 // They would make other shapes of the kinds that are known.
 TEST_F(SceneTest, MembersThatChangeAShapeAreNotPassedOver) {
   EXPECT_EQ(error_with(array<float>("shape_radius", "<f4", "(1,)", {0.1f})),
-            path("bad.npz") + ": member shape_radius: is not supported by this version of Carom");
-  EXPECT_THAT(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, 1, 2})),
-              HasSubstr("member shape_scale: is not supported"));
+            path("bad.npz") +
+                ": member shape_radius: element 0 makes another shape, which this "
+                "version of Carom does not support (0 was expected)");
+  EXPECT_THAT(error_with(array<float>("shape_radius", "<f4", "(1,)", {kNan})),
+              HasSubstr("member shape_radius: element 0 makes another shape"));
+  EXPECT_THAT(error_with(array<float>("shape_radius", "<f4", "(2,)", {0, 0})),
+              HasSubstr("member shape_radius: has shape (2,) (float32 (1,) was expected)"));
+  for (const float factor : {2.0f, -1.0f, 0.0f, kNan}) {
+    EXPECT_THAT(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, 1, factor})),
+                HasSubstr("member shape_scale: element 0 makes another shape"));
+  }
+  EXPECT_EQ(error_with(array<float>("shape_radius", "<f4", "(1,)", {-0.0f})), "");
+  EXPECT_EQ(error_with(array<float>("shape_scale", "<f4", "(1, 3)", {1, 1, 1})), "");
   EXPECT_EQ(error_with(array<float>("my_colours", "<f4", "(1,)", {1})), "");
 }
 
@@ -281,10 +292,10 @@ TEST_F(SceneTest, ArraysWithoutFiniteValuesAreErrors) {
 
 TEST_F(SceneTest, ChecksValuesAndIndices) {
   EXPECT_EQ(check_after([](SceneInfo&) {}), "");
-  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.kind[1] = 9; }),
-            "F: member shape_kind: element 1 is the unknown kind 9 (0 to 8 was expected)");
-  EXPECT_EQ(check_after([](SceneInfo& i) { i.body_shape[2] = 4; }),
-            "F: member body_shape: element 2 is 4 (at most 3 was expected)");
+  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.kind[1] = 12; }),
+            "F: member shape_kind: element 1 is the unknown kind 12 (0 to 11 was expected)");
+  EXPECT_EQ(check_after([](SceneInfo& i) { i.body_shape[2] = 7; }),
+            "F: member body_shape: element 2 is 7 (at most 6 was expected)");
   EXPECT_EQ(check_after([](SceneInfo& i) { i.body_motion[0] = 3; }),
             "F: member body_motion: element 0 is 3 (at most 2 was expected)");
   EXPECT_EQ(check_after([](SceneInfo& i) { i.sensor[0] = 2; }),
@@ -342,8 +353,8 @@ TEST_F(SceneTest, ChecksValuesAndIndices) {
   EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.child_shape[1] = 3; }),
             "F: member child_shape: element 1 is shape 3, a compound (any other kind was "
             "expected)");
-  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.child_shape[1] = 4; }),
-            "F: member child_shape: element 1 is shape 4 (there are 4)");
+  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.child_shape[1] = 7; }),
+            "F: member child_shape: element 1 is shape 7 (there are 7)");
   EXPECT_THAT(check_after([](SceneInfo& i) { i.shapes.child_position.pop_back(); }),
               HasSubstr("member child_position: holds 1 elements (2 were expected)"));
   EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.vertex_range.clear(); }),
@@ -399,10 +410,11 @@ TEST_F(SceneTest, FilesAreKnownByExtensionThenContent) {
   EXPECT_TRUE(succeeds(open_scene(path("scene.zip"))));
   std::filesystem::rename(path("scene.zip"), path("scene.aabb"));
   EXPECT_THAT(message_of(open_scene(path("scene.aabb"))), HasSubstr("scene.aabb: h"));
-  EXPECT_EQ(
-      message_of(open_scene(write_file("notes.txt", "text"))),
-      path("notes.txt") +
-          ": is of no known kind (a scene .npz, or a recording .aabb or .aabbs was expected)");
+  EXPECT_EQ(message_of(open_scene(write_file("notes.txt", "text"))),
+            path("notes.txt") +
+                ": is of no known kind (a scene .npz, a recording .aabb or .aabbs, or a model "
+                ".urdf or .xml was "
+                "expected)");
   EXPECT_THAT(message_of(open_scene(path("none"))), HasSubstr("cannot be opened"));
   EXPECT_THAT(message_of(open_scene(path(""))), HasSubstr("is a directory"));
   EXPECT_THAT(message_of(open_scene(write_file("empty.npz", ""))), HasSubstr("is empty"));

@@ -45,8 +45,8 @@ std::vector<TestPair> make_kind_pairs(const ConvexFamily& family, const KindPair
 }
 
 std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family, PositionType positions,
-                                            size_t count, uint64_t seed) {
-  std::vector<KindPair> kinds = supported_kind_pairs();
+                                            size_t count, uint64_t seed,
+                                            std::vector<KindPair> kinds) {
   std::erase_if(kinds, [](const KindPair& each) { return each.a == ShapeKind::halfspace; });
   Random random(seed);
   std::vector<TestPair> pairs;

@@ -35,7 +35,8 @@ std::vector<TestPair> make_kind_pairs(const ConvexFamily& family, const KindPair
 // Pairs of all kinds in turn, so that neighbours never share a kind. Half-spaces are only among the
 // second bodies, since two half-spaces have no test.
 std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family, PositionType positions,
-                                            size_t count, uint64_t seed = 1);
+                                            size_t count, uint64_t seed = 1,
+                                            std::vector<KindPair> kinds = supported_kind_pairs());
 
 // One pair of each family.
 std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,

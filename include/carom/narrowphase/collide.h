@@ -19,6 +19,10 @@ namespace carom {
 /// Whether a kernel exists for these two kinds, in either order.
 CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 
+/// Whether Tier::exact decides overlaps of this shape: not if it is a cylinder, a cone or an
+/// ellipsoid, or a compound with such a part.
+CAROM_EXPORT bool is_decided_exactly(const Shape& shape);
+
 /// What collide() and collide_rows() may be asked for beside their results.
 struct CollideOptions {
   WitnessFrame frame = WitnessFrame::world;     ///< of witness and manifold points
@@ -67,8 +71,9 @@ struct CollideOptions {
 /// compound whose normals are within an angle (RegionLimits) share a contact, the deepest of which
 /// gives the normal. A contact over an inner edge makes none of its own.
 ///
-/// Fails, and writes nothing, if no kernel exists for the kinds of a pair (supports()), or if a
-/// contact distance is not a finite number >= 0.
+/// Fails, and writes nothing, if no kernel exists for the kinds of a pair (supports()), if a contact
+/// distance is not a finite number >= 0, or if Tier::exact is asked for and one of the bodies has a
+/// shape that it does not decide (is_decided_exactly()).
 CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
                                   const ResultColumns& out, const CollideOptions& options = {});

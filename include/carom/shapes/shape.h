@@ -122,6 +122,12 @@ constexpr bool is_composite(ShapeKind kind) {
   return kind == ShapeKind::mesh || kind == ShapeKind::compound;
 }
 
+/// Whether shapes of this kind are curved in other ways than by a radius about points and segments.
+/// Tier::exact does not decide them.
+constexpr bool is_round(ShapeKind kind) {
+  return kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid;
+}
+
 /// Whether the numbers of this kind lie in a geometry that bodies may share.
 constexpr bool has_geometry(ShapeKind kind) {
   return kind == ShapeKind::hull || is_composite(kind);

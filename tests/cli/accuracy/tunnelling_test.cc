@@ -88,6 +88,7 @@ TEST_F(TunnellingTest, Errors) {
   expect_error({"tunnelling", kBullets, "--isa", "mmx"}, {"unknown ISA 'mmx'"});
   run_command({"generate", "brownian:n=5,frames=2", "-o", path("bounds.aabb")});
   expect_error({"tunnelling", path("bounds.aabb")}, {"bounds.aabb: has no velocities"});
+  expect_error({"tunnelling", "brownian:n=9,shape=cone"}, {"has a cone", "are not measured"});
   expect_error({"run", path("bounds.aabb"), "--detection", "swept"},
                {"bounds.aabb: has no velocities", "--detection swept"});
   expect_error({"run", kBullets, "--detection", "psychic"},

@@ -144,6 +144,25 @@ io::PairsFile archive() {
   return file;
 }
 
+TEST_F(CheckTest, RoundShapesOfEverySize) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  io::PairsFile file;
+  file.shapes.kind = {9, 9, 9, 10, 10, 11, 11, 11};
+  file.shapes.params = {{1, 2},  {1, -2},   {nan, 1},   {1, 0},
+                        {-1, 2}, {1, 2, 3}, {1, 2, -3}, {1, nan, 1}};
+  ASSERT_TRUE(io::write_pairs(path("pairs.npz"), file));
+  const auto shapes = checked(path("pairs.npz"));
+  const char* const kinds[] = {"cylinder", "cylinder",  "cylinder",  "cone",
+                               "cone",     "ellipsoid", "ellipsoid", "ellipsoid"};
+  const bool valid[] = {true, false, false, true, false, true, false, false};
+  ASSERT_EQ(shapes.size(), std::size(kinds));
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    EXPECT_EQ(shapes[i]["kind"], kinds[i]);
+    EXPECT_EQ(shapes[i]["valid"], valid[i]) << i;
+    EXPECT_EQ(shapes[i].contains("problem"), !valid[i]);
+  }
+}
+
 TEST_F(CheckTest, ArchiveOfAllKinds) {
   ASSERT_TRUE(io::write_pairs(path("pairs.npz"), archive()));
   const auto shapes = checked(path("pairs.npz"));

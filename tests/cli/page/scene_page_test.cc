@@ -80,7 +80,8 @@ TEST_F(ScenePageTest, HoldsEveryValidBodyAndEveryShapeOnce) {
   std::set<std::string> kinds;
   for (const size_t shape : data["body"]["shape"]) kinds.insert(data["shapes"][shape]["kind"]);
   EXPECT_EQ(kinds, (std::set<std::string>{"sphere", "capsule", "aabb", "box", "dop", "hull", "mesh",
-                                          "compound", "halfspace", "triangle"}));
+                                          "compound", "halfspace", "triangle", "cylinder", "cone",
+                                          "ellipsoid"}));
   EXPECT_EQ(page_of("brownian:n=50,frames=2,shape=box")["shapes"].size(), 1u);
 }
 
@@ -102,24 +103,26 @@ TEST_F(ScenePageTest, ShapesAreWhole) {
 }
 
 // Contacts of two meshes keep the normals of their faces, so the point on a triangle may lie beside
-// it.
+// it. A depth within its bound fixes the point on a rim less closely than one on a corner.
 TEST_F(ScenePageTest, ContactsLieOnTheSurfaces) {
   const std::string scene = "brownian:n=300,frames=2,density=0.5,speed=0.5,shape=";
-  for (const std::string shape : {"cube", "sphere", "box", "capsule", "hull", "mesh", "compound"}) {
+  for (const std::string shape : {"cube", "sphere", "box", "capsule", "hull", "mesh", "compound",
+                                  "cylinder", "cone", "ellipsoid"}) {
     const json data = page_of(scene + shape, {"--detail", "manifold"});
     const json &on = data["surface"]["on"], &across = data["surface"]["across"];
     const size_t contacts = data["contact"]["a"].size();
     const size_t points = data["contact"]["point_separation"].size();
-    EXPECT_GT(contacts, 50u);
+    EXPECT_GT(contacts, 20u) << shape;
     EXPECT_EQ(on["points"].get<size_t>(), 2 * contacts + points);
     EXPECT_EQ(across["points"].get<size_t>(), points);
     EXPECT_EQ(data["surface"]["left_out"], 0);
     EXPECT_LT(on["median"].get<double>(), 1e-7) << shape;
+    const bool has_flat_rims = shape == "cylinder" || shape == "cone";
     if (shape != "mesh") {
-      EXPECT_LT(on["greatest"].get<double>(), 1e-6) << shape;
+      EXPECT_LT(on["greatest"].get<double>(), has_flat_rims ? 2e-4 : 1e-6) << shape;
     }
     if (shape != "mesh" && shape != "compound") {
-      EXPECT_LT(across["greatest"].get<double>(), 2e-6) << shape;
+      EXPECT_LT(across["greatest"].get<double>(), has_flat_rims ? 2e-4 : 2e-6) << shape;
     }
     EXPECT_LT(on["furthest_contact"].get<size_t>(), contacts);
   }

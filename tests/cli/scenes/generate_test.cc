@@ -59,6 +59,14 @@ TEST_F(GenerateTest, ScenesNeverChange) {
   EXPECT_EQ(hash_of("bullets:n=100", 5), "b4df9e541f34af8e");
 }
 
+TEST_F(GenerateTest, RoundAndMixedScenesNeverChange) {
+  EXPECT_EQ(hash_of("brownian:n=1000,shape=cylinder", 5), "5bbed55ee24f3655");
+  EXPECT_EQ(hash_of("varied:n=1000,shape=cone", 5), "e92cc964aec30b65");
+  EXPECT_EQ(hash_of("static:n=1000,shape=ellipsoid", 5), "4a567585677a0af5");
+  EXPECT_EQ(hash_of("brownian:n=1000,shape=mixed", 5), "de27c7b99b4b69e8");
+  EXPECT_EQ(hash_of("static:n=1000,shape=mixed", 5), "dfb76bbd243f4c94");
+}
+
 TEST_F(GenerateTest, SeedsDiffer) {
   EXPECT_NE(hash_of("brownian:n=100,seed=1", 1), hash_of("brownian:n=100,seed=2", 1));
 }
@@ -79,7 +87,9 @@ TEST_F(GenerateTest, RoundTripThroughAFile) {
         "static:n=60,frames=4,positions=float64,motion=static", "still:n=60,frames=2",
         "static:n=60,frames=4,shape=box", "brownian:n=60,frames=4,shape=capsule",
         "brownian:n=60,frames=2,shape=hull", "varied:n=60,frames=2,shape=mesh",
-        "static:n=60,frames=2,shape=compound"}) {
+        "static:n=60,frames=2,shape=compound", "varied:n=60,frames=2,shape=cylinder",
+        "brownian:n=60,frames=2,shape=cone", "static:n=60,frames=2,shape=ellipsoid",
+        "brownian:n=200,frames=2,shape=mixed", "static:n=60,frames=2,shape=mixed"}) {
     const CommandResult result = run_command({"generate", spec, "-o", path("scene.npz")});
     ASSERT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.out + result.err, "");
@@ -114,7 +124,10 @@ TEST_F(GenerateTest, ARecordingHasThePairsOfItsScene) {
         "static:n=300,frames=3,shape=box,density=0.5",
         "brownian:n=300,frames=3,shape=capsule,density=0.5,positions=float64",
         "varied:n=100,frames=2,shape=hull,density=0.5", "still:n=100,frames=2,shape=mesh,density=1",
-        "brownian:n=100,frames=2,shape=compound,density=1"}) {
+        "brownian:n=100,frames=2,shape=compound,density=1",
+        "varied:n=200,frames=2,shape=cylinder,density=0.5",
+        "brownian:n=200,frames=2,shape=cone,density=0.5,positions=float64",
+        "static:n=300,frames=2,shape=ellipsoid,density=0.5"}) {
     ASSERT_EQ(run_command({"generate", spec, "-o", path("scene.aabb")}).code, 0);
     const auto of_scene = run_command({"run", spec, "--detail", "pairs", "--json", "-"}).json();
     const auto of_recording =
@@ -251,6 +264,37 @@ TEST_F(GenerateTest, CapsulesAreAsLongAsTheirEdge) {
   EXPECT_EQ(scene->info().shapes.params.front(), expected);
 }
 
+TEST_F(GenerateTest, RoundShapesAreAsLongAsTheirEdge) {
+  const auto first_params = [](const std::string& shape) {
+    return open("brownian:n=30,shape=" + shape)->info().shapes.params;
+  };
+  using Params = std::vector<std::array<float, 8>>;
+  EXPECT_EQ(first_params("cylinder"), (Params{{0.25f, 0.5f}}));
+  EXPECT_EQ(first_params("cone"), (Params{{0.25f, 0.5f}}));
+  EXPECT_EQ(first_params("ellipsoid"), (Params{{0.5f, 0.375f, 0.25f}}));
+}
+
+TEST_F(GenerateTest, MixedScenesHaveAllKindsThatTurnAndSpheres) {
+  const auto scene = open("static:n=900,shape=mixed");
+  const io::SceneInfo& info = scene->info();
+  std::array<int, kShapeKindCount> bodies{}, movers{};
+  for (size_t i = 0; i < info.bodies; ++i) {
+    const uint8_t kind = info.shapes.kind[info.body_shape[i]];
+    ++bodies[kind];
+    movers[kind] += i % 10 == 0;
+  }
+  for (const ShapeKind kind : io::kMixedShapes) {
+    EXPECT_EQ(bodies[static_cast<size_t>(kind)], 100) << name(kind);
+    EXPECT_EQ(movers[static_cast<size_t>(kind)], 10) << name(kind);
+  }
+  EXPECT_EQ(open("brownian:n=900,shape=mixed")->info().body_shape[145], 1u);
+  EXPECT_EQ(run_command({"run", "varied:n=90,frames=2,shape=mixed"}).err, "");
+  const CommandResult refused =
+      run_command({"generate", "brownian:n=9,shape=mixed", "-o", path("scene.aabb")});
+  EXPECT_NE(refused.code, 0);
+  EXPECT_NE(refused.err.find("bodies of several kinds"), std::string::npos) << refused.err;
+}
+
 // Made shapes, children included, stay inside the ball whose diameter is the edge.
 TEST_F(GenerateTest, MadeShapesKeepTheirSize) {
   for (const std::string shape : {"hull", "mesh", "compound"}) {
@@ -332,7 +376,8 @@ TEST_F(GenerateTest, WhatRestsDoesNotTurn) {
 
 // Without linear speed, rotation alone changes the overlaps from frame to frame.
 TEST_F(GenerateTest, RunsTurnTheBodies) {
-  for (const std::string shape : {"box", "capsule", "hull", "mesh", "compound"}) {
+  for (const std::string shape :
+       {"box", "capsule", "hull", "mesh", "compound", "cylinder", "cone", "ellipsoid", "mixed"}) {
     const std::string spec = "brownian:n=200,frames=3,density=0.5,shape=" + shape;
     const auto run = [](const std::string& scene) {
       const CommandResult result = run_command({"run", scene, "--json", "-"});

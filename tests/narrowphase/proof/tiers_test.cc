@@ -42,7 +42,7 @@ std::vector<bool> all_exact(std::span<const TestPair> pairs, PositionType positi
 class Tiers : public testing::TestWithParam<ConvexFamily> {
  protected:
   static std::vector<TestPair> pairs(PositionType positions) {
-    return make_mixed_kind_pairs(GetParam(), positions, rounds(1200), 7);
+    return make_mixed_kind_pairs(GetParam(), positions, rounds(1200), 7, solved_kind_pairs());
   }
 };
 
@@ -108,7 +108,7 @@ TEST_P(Tiers, CertifiedChangesNothingElse) {
 TEST_P(Tiers, SeparationsAreWithinTheirBounds) {
   for (const PositionType positions : kPositionTypes) {
     const std::vector<TestPair> some =
-        make_mixed_kind_pairs(GetParam(), positions, rounds(600), 11);
+        make_mixed_kind_pairs(GetParam(), positions, rounds(600), 11, solved_kind_pairs());
     Call call = call_with(positions);
     const LaidOut laid_a(side_a(some), call.layout_a), laid_b(side_b(some), call.layout_b);
     Columns columns(some.size());
@@ -134,7 +134,7 @@ TEST(Tiers, AreTheSameOnEveryInstructionSet) {
     for (const PositionType positions : kPositionTypes) {
       const auto pairs = make_mixed_kind_pairs(
           {.name = "touch", .distance = 0, .placement = ConvexPlacement::near_touch}, positions,
-          300, 5);
+          300, 5, solved_kind_pairs());
       Call call = call_with(positions);
       call.detail = Detail::manifold;
       call.accuracy = accuracy;
@@ -152,7 +152,7 @@ TEST(Tiers, AreTheSameOnEveryInstructionSet) {
 }
 
 TEST(Tiers, BoundsAndOverlapsDoNotNeedTheOtherColumns) {
-  const auto pairs = make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 100, 2);
+  const auto pairs = make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 100, 2, solved_kind_pairs());
   const LaidOut a(side_a(pairs), {}), b(side_b(pairs), {});
   std::vector<float> bound(pairs.size());
   std::vector<uint8_t> overlap(pairs.size());
@@ -213,7 +213,7 @@ TEST(FastTier, ErrsNearTouchAlone) {
   size_t wrong = 0;
   for (const ConvexFamily& family : convex_families()) {
     if (family.smallest < 1e-30) continue;  // floats have fewer digits there
-    const auto pairs = make_mixed_kind_pairs(family, PositionType::float32, rounds(800), 4);
+    const auto pairs = make_mixed_kind_pairs(family, PositionType::float32, rounds(800), 4, solved_kind_pairs());
     Call call = call_with(PositionType::float32);
     call.accuracy.tier = Tier::fast;
     const std::vector<Row> rows = run_rows(pairs, call);
@@ -231,7 +231,7 @@ TEST(FastTier, ErrsNearTouchAlone) {
 
 // Triangles and half-spaces are as in the standard tier.
 TEST(FastTier, LeavesOtherKindsAlone) {
-  auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 2000, 8);
+  auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 2000, 8, solved_kind_pairs());
   std::erase_if(pairs, [](const TestPair& pair) {
     const auto is_other = [](const PlacedShape& body) {
       const ShapeKind kind = kind_of(body.shape);

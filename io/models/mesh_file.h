@@ -1,4 +1,4 @@
-// Reads mesh files of other programs with assimp: OBJ, STL and glTF.
+// Reads mesh files of other programs with assimp: OBJ, STL, glTF and COLLADA.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 #include "carom/base/result.h"
 
-namespace carom::cli {
+namespace carom::io {
 
 struct MeshPart {
   std::string name;  // may be empty
@@ -17,12 +17,14 @@ struct MeshPart {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-// Whether the name ends in .obj, .stl, .gltf or .glb, ignoring case.
+// The extensions of mesh files, ".obj, .stl, ...".
+extern const char kMeshExtensions[];
+// Whether the name ends in one of them, ignoring case.
 bool names_mesh(const std::string& path);
 
 // The meshes of a file in the poses of its scene, once for each use there. Splits polygons into
 // triangles and drops points and lines. Merges vertices at one place, whatever their normals and
-// colours.
+// colours. The axes are those of the file: no axis is declared to be upwards and turned to another.
 Result<std::vector<MeshPart>> read_mesh_file(const std::string& path);
 
-}  // namespace carom::cli
+}  // namespace carom::io

@@ -1,10 +1,10 @@
-#include "cli/check/vertex_places.h"
+#include "io/models/vertex_places.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-namespace carom::cli {
+namespace carom::io {
 
 using Eigen::Vector3f;
 
@@ -30,4 +30,4 @@ std::vector<uint32_t> first_at_place(std::span<const Vector3f> vertices) {
   return first;
 }
 
-}  // namespace carom::cli
+}  // namespace carom::io

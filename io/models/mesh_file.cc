@@ -1,5 +1,6 @@
-#include "cli/check/mesh_file.h"
+#include "io/models/mesh_file.h"
 
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -8,10 +9,10 @@
 #include <assimp/Importer.hpp>
 #include <utility>
 
-#include "cli/check/vertex_places.h"
 #include "io/files/file.h"
+#include "io/models/vertex_places.h"
 
-namespace carom::cli {
+namespace carom::io {
 namespace {
 
 using Eigen::Vector3f;
@@ -85,25 +86,28 @@ std::vector<MeshPart> parts_of(const aiScene& scene) {
 
 }  // namespace
 
+const char kMeshExtensions[] = ".obj, .stl, .gltf, .glb, .dae";
+
 bool names_mesh(const std::string& path) {
-  constexpr std::array kExtensions = {".obj", ".stl", ".gltf", ".glb"};
+  constexpr std::array kExtensions = {".obj", ".stl", ".gltf", ".glb", ".dae"};
   return std::any_of(kExtensions.begin(), kExtensions.end(),
-                     [&](const char* extension) { return io::has_extension(path, extension); });
+                     [&](const char* extension) { return has_extension(path, extension); });
 }
 
 Result<std::vector<MeshPart>> read_mesh_file(const std::string& path) {
-  Result<io::File> file = io::File::open(path, "a mesh");
+  Result<File> file = File::open(path, "a mesh");
   if (!file) return file.error();
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     std::string reason = importer.GetErrorString();
     std::replace(reason.begin(), reason.end(), '\n', ' ');
-    return io::file_error(path, "cannot be read as a mesh: " + reason);
+    return file_error(path, "cannot be read as a mesh: " + reason);
   }
   std::vector<MeshPart> parts = parts_of(*scene);
-  if (parts.empty()) return io::file_error(path, "holds no triangle");
+  if (parts.empty()) return file_error(path, "holds no triangle");
   return parts;
 }
 
-}  // namespace carom::cli
+}  // namespace carom::io
