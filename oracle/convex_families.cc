@@ -180,11 +180,9 @@ void ConvexPairMaker::place_round(ConvexPair& pair, double size, double factor) 
   const auto gap = [&](double reach) {
     const Pose there{middle + way * reach, pair.pose_b.orientation};
     const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, there);
-    SeparationBounds found = placed.separation(0.1L * scale, 2'000);
-    if (found.low < 0) placed.climb(found, 0x1p-14L);
-    return static_cast<double>(found.low);
+    return static_cast<double>(placed.distance(1e-4L * size).low);
   };
-  double low = 0, high = 4 * scale;
+  double low = 0, high = (start.has_halfspace() ? 40 : 4) * scale;
   for (int i = 0; i < 16; ++i) {
     const double middle_reach = (low + high) / 2;
     (gap(middle_reach) > 0 ? high : low) = middle_reach;
@@ -194,8 +192,7 @@ void ConvexPairMaker::place_round(ConvexPair& pair, double size, double factor) 
 
 void ConvexPairMaker::let_touch(ConvexPair& pair) {
   const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
-  SeparationBounds found = placed.separation(1e-3L * placed.scale(), 100'000);
-  placed.climb(found, 0x1p-40L);
+  const SeparationBounds found = placed.distance(1e-12L * placed.scale());
   const long double by = found.low + 0x1p-22L * placed.scale() * shapes_.integer(-8, 8);
   pair.pose_b.position = stored(pair.pose_b.position + as_doubles(found.normal * -by));
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 
 #include "oracle/convex_oracle.h"
+#include "oracle/simplex_search.h"
 
 namespace carom::oracle {
 namespace {
@@ -160,21 +160,15 @@ SeparationBounds SupportPair::separation(long double tolerance, size_t most_tria
   return {gap, gap, a_.plane ? a_.plane->normal : -b_.plane->normal};
 }
 
-void SupportPair::climb(SeparationBounds& found, long double least) const {
-  if (has_halfspace()) return;
-  for (long double step = 0x1p-3L; step > least; step /= 2) {
-    const Vec n = found.normal;
-    const Vec u = normalized(cross(n, std::fabs(n.x) < 0.5L ? Vec{1, 0, 0} : Vec{0, 1, 0}));
-    const Vec v = cross(n, u);
-    for (int k = 0; k < 8; ++k) {
-      const long double angle = k * std::numbers::pi_v<long double> / 4;
-      const Vec way = normalized(n + (u * std::cos(angle) + v * std::sin(angle)) * step);
-      const long double gap = gap_along(way);
-      if (!(gap > found.low)) continue;
-      found.low = gap;
-      found.normal = way;
-    }
-  }
+SeparationBounds SupportPair::distance(long double tolerance) const {
+  if (has_halfspace()) return separation(0);
+  const auto difference = [this](const Vec& way) {
+    return b_.shape.furthest(way) - a_.shape.furthest(-way);
+  };
+  const auto enough = [&](long double) { return tolerance; };
+  const DistanceProof<long double> cores = distance_from_origin<long double>(difference, enough);
+  const long double radii = a_.shape.radius + b_.shape.radius;
+  return {cores.lower - radii, cores.upper - radii, cores.normal};
 }
 
 long double SupportPair::gap_along(const Vec& n) const {

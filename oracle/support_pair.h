@@ -24,9 +24,9 @@ class SupportPair {
 
   // See separation_by_supports(). Exact with a half-space.
   SeparationBounds separation(long double tolerance, size_t most_triangles = 4'000'000) const;
-  // Raises `low` to about the greatest gap near its normal, which is the separation of separate
-  // shapes, by steps down to `least`.
-  void climb(SeparationBounds& found, long double least) const;
+  // The separation of separate shapes, between bounds that are nearer than `tolerance`. Of others the
+  // upper bound is not positive.
+  SeparationBounds distance(long double tolerance) const;
   // The gap between the projections on a unit vector from A to B; with a half-space the separation,
   // projected as by gap_along() of convex_oracle.h.
   long double gap_along(const Vec& n) const;

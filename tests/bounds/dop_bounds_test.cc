@@ -45,6 +45,11 @@ Bodies make_nonsense(size_t count, uint64_t seed = 1) {
       bodies.push_back(pair.b);
     }
   }
+  for (const ShapeKind kind : kRoundKinds) {
+    for (const TestPair& pair : make_kind_nonsense({ShapeKind::sphere, kind}, count, seed)) {
+      bodies.push_back(pair.b);
+    }
+  }
   Random random(seed);
   for (size_t i = bodies.size(); i > 1; --i) std::swap(bodies[i - 1], bodies[random.below(i)]);
   return bodies;

@@ -41,6 +41,9 @@ Bodies make_mixed_bodies(PositionType positions, size_t count) {
   for (const ShapeKind kind : kConvexKinds) {
     kinds.push_back(make_kind({.name = ""}, kind, positions, count));
   }
+  for (const ShapeKind kind : kRoundKinds) {
+    kinds.push_back(make_kind({.name = ""}, kind, positions, count));
+  }
   Random random(7);
   Bodies bodies;
   for (size_t i = 0; i < count; ++i) bodies.push_back(kinds[random.below(kinds.size())][i]);
