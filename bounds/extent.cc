@@ -5,6 +5,7 @@
 #include "base/outward.h"
 #include "bounds/point_reach.h"
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/dop_geometry.h"
 #include "shapes/turn.h"
@@ -142,6 +143,8 @@ Extent turned_extent(const BodyReader& reader, size_t i) {
       return hull_extent(turn, *geometry_at<HullGeometry>(rows[0]));
     case ShapeKind::mesh:
       return parts_extent(turn, *geometry_at<MeshGeometry>(rows[0]));
+    case ShapeKind::height_field:
+      return parts_extent(turn, *geometry_at<HeightFieldGeometry>(rows[0]));
     case ShapeKind::compound:
       return parts_extent(turn, *geometry_at<CompoundGeometry>(rows[0]));
     default:

@@ -1,4 +1,4 @@
-// Where tests of the triangles of a mesh count their corners from.
+// Where tests of the triangles of a mesh or a height field count their corners from.
 #pragma once
 
 #include <array>

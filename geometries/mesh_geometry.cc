@@ -9,6 +9,7 @@
 #include "base/float_environment.h"
 #include "base/outward.h"
 #include "base/tolerances.h"
+#include "geometries/inner_edges.h"
 #include "geometries/part.h"
 #include "trees/tree.h"
 
@@ -48,26 +49,6 @@ struct Edge {
            std::tie(b.low, b.high, b.triangle, b.index);
   }
 };
-
-enum class Bend { outwards, inwards, flat, folded };  // as seen from the front of the triangle
-
-// How the surface bends at edge `index` of a triangle; `across` is the third corner of the
-// neighbour.
-Bend bend_at(const std::array<Double3, 3>& corners, size_t index, const Double3& across) {
-  const Double3& start = corners[index];
-  const Double3 edge = minus(corners[(index + 1) % 3], start);
-  const Double3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
-  const Double3 inwards = cross(normal, edge);
-  const Double3 way = minus(across, start);
-  const double height = dot(normal, way) / length(normal);
-  const double beside = dot(inwards, way) / length(inwards);
-  const double size = std::max(
-      {greatest(corners[0]), greatest(corners[1]), greatest(corners[2]), greatest(across)});
-  if (std::fabs(height) > kFlatEdge * std::fabs(beside) + kRoundedCorner * size) {
-    return height > 0 ? Bend::inwards : Bend::outwards;
-  }
-  return beside < 0 ? Bend::flat : Bend::folded;
-}
 
 }  // namespace
 
@@ -128,11 +109,11 @@ class MeshMaker {
 
   void join(const Edge& edge, const Edge& other) {
     const Double3 across = corner(*mesh_, other.triangle, (other.index + 2u) % 3);
-    const Bend bend = bend_at(corners(edge.triangle), edge.index, across);
+    const InnerSides inner = inner_sides(corners(edge.triangle), edge.index, across);
     const auto bit = static_cast<uint8_t>(1u << edge.index);
     MeshGeometry::Edges& edges = mesh_->edges_[edge.triangle];
-    if (bend == Bend::inwards || bend == Bend::flat) edges.inner_from_front |= bit;
-    if (bend == Bend::outwards || bend == Bend::flat) edges.inner_from_back |= bit;
+    if (inner.from_front) edges.inner_from_front |= bit;
+    if (inner.from_back) edges.inner_from_back |= bit;
   }
 
   void find_boxes() {

@@ -181,9 +181,49 @@ namespace carom {
 
 HWY_EXPORT(keep_near_points);
 
+namespace {
+
+// The triangles of a height field, for as long as they are looked at.
+struct WrittenTriangles {
+  std::array<float, 9 * BoxTree::kMostAtOnce + 1> vertices;
+  std::array<uint32_t, BoxTree::kMostAtOnce> numbers;
+
+  WrittenTriangles(const HeightFieldGeometry& field, std::span<const uint32_t> triangles) {
+    float* next = vertices.data();
+    for (uint32_t i = 0; i < triangles.size(); ++i) {
+      for (const Eigen::Vector3f& corner : field.corners(triangles[i])) {
+        for (int axis = 0; axis < 3; ++axis) *next++ = corner[axis];
+      }
+      numbers[i] = i;
+    }
+    *next = 0;
+  }
+
+  // Triangle i has the corners 3 i and the two that follow.
+  static constexpr auto kCorners = [] {
+    std::array<std::array<uint32_t, 3>, BoxTree::kMostAtOnce> corners{};
+    for (uint32_t i = 0; i < corners.size(); ++i) corners[i] = {3 * i, 3 * i + 1, 3 * i + 2};
+    return corners;
+  }();
+};
+
+}  // namespace
+
 void keep_near_points(const TriangleArrays& mesh, const SeenPoints& points, float most,
                       std::span<const uint32_t> triangles, NearPoints& near) {
   CAROM_DISPATCH(keep_near_points)(mesh, points, most, triangles, near);
+}
+
+void keep_near_points(const Surface& surface, const SeenPoints& points, float most,
+                      std::span<const uint32_t> triangles, NearPoints& near) {
+  if (surface.mesh()) {
+    return keep_near_points(arrays_of(*surface.mesh()), points, most, triangles, near);
+  }
+  const WrittenTriangles written(*surface.field(), triangles);
+  const TriangleArrays arrays = {written.vertices.data(), WrittenTriangles::kCorners.data(),
+                                 triangles.size()};
+  keep_near_points(arrays, points, most, std::span(written.numbers).first(triangles.size()), near);
+  for (size_t i = 0; i < near.count; ++i) near.triangle[i] = triangles[near.triangle[i]];
 }
 
 }  // namespace carom

@@ -8,6 +8,7 @@
 
 #include "geometries/near_triangles.h"
 #include "geometries/seen_points.h"
+#include "geometries/surface.h"
 
 namespace carom {
 
@@ -27,6 +28,8 @@ struct NearPoints {
 // order; in the units of the points. There are at most BoxTree::kMostAtOnce. The results are the
 // same on every ISA.
 void keep_near_points(const TriangleArrays& mesh, const SeenPoints& points, float most,
+                      std::span<const uint32_t> triangles, NearPoints& near);
+void keep_near_points(const Surface& surface, const SeenPoints& points, float most,
                       std::span<const uint32_t> triangles, NearPoints& near);
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "carom/shapes/mesh_geometry.h"
 #include "trees/pair_scale.h"
 #include "trees/tree.h"
 
@@ -17,6 +18,10 @@ struct TriangleArrays {
   const std::array<uint32_t, 3>* triangles;
   size_t count;
 };
+
+inline TriangleArrays arrays_of(const MeshGeometry& mesh) {
+  return {mesh.vertices().data()->data(), mesh.triangles().data(), mesh.triangles().size()};
+}
 
 // Moves the pairs of triangles that may be within `reach` to the front, in their order, and returns
 // how many they are. The others are further apart along the normal of one of the two triangles.

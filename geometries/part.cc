@@ -35,8 +35,6 @@ class GrowingBox {
   Double3 upper_ = {-kInfinity, -kInfinity, -kInfinity};
 };
 
-Double3 vector_of(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
-
 template <class Point>
 PartBox box_around(const Point& lower, const Point& upper, double radius = 0) {
   GrowingBox box;
@@ -53,7 +51,7 @@ PartBox dop_box(const Part& part) {
 
 PartBox hull_box(const HullGeometry& hull) {
   GrowingBox box;
-  for (const Eigen::Vector3f& point : hull.points()) box.add(vector_of(point));
+  for (const Eigen::Vector3f& point : hull.points()) box.add(wide(point));
   return box.box(0);
 }
 
@@ -79,9 +77,10 @@ PartBox box_of(const Part& part) {
       return dop_box(part);
     case ShapeKind::hull:
       return hull_box(*geometry_at<HullGeometry>(rows[0]));
-    case ShapeKind::mesh: {
-      const auto& mesh = *geometry_at<MeshGeometry>(rows[0]);
-      return box_around(mesh.lower(), mesh.upper());
+    case ShapeKind::mesh:
+    case ShapeKind::height_field: {
+      const Surface surface = surface_at(part.kind, rows[0]);
+      return box_around(surface.lower(), surface.upper());
     }
     case ShapeKind::triangle: {
       GrowingBox box;
@@ -100,7 +99,7 @@ PartBall ball_of(const Part& part) {
     case ShapeKind::sphere:
       return {{}, part.radius};
     case ShapeKind::capsule: {
-      const Double3 a = carom::vector_of(rows[0]), b = carom::vector_of(rows[1]);
+      const Double3 a = vector_of(rows[0]), b = vector_of(rows[1]);
       const Double3 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
       return {middle, length(minus(b, middle)) + rows[0][3]};
     }
@@ -109,7 +108,7 @@ PartBall ball_of(const Part& part) {
       const Double3 middle = {hull.middle().x(), hull.middle().y(), hull.middle().z()};
       double radius = 0;
       for (const Eigen::Vector3f& point : hull.points()) {
-        radius = std::max(radius, length(minus(vector_of(point), middle)));
+        radius = std::max(radius, length(minus(wide(point), middle)));
       }
       return {middle, radius};
     }

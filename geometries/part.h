@@ -1,4 +1,4 @@
-// Parts of bodies: simple shapes and meshes with a pose, in the numbers that the tests read.
+// Parts of bodies: simple shapes and surfaces with a pose, in the numbers that the tests read.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/tolerances.h"
-#include "carom/shapes/mesh_geometry.h"
+#include "geometries/surface.h"
 #include "shapes/body_reader.h"
 #include "shapes/turn.h"
 
@@ -50,7 +50,7 @@ struct Part {
   ShapeKind kind = ShapeKind::sphere;
   float radius = 0;                       // spheres only
   std::array<float, 3> lower{}, upper{};  // aabbs only
-  std::array<Row, kMostRows> rows{};      // all other kinds
+  std::array<Row, kMostRows> rows;        // all other kinds; those that the kind has are set
   const DopGeometry* dop = nullptr;       // of a k-DOP, if it is known
   Row orientation = {0, 0, 0, 1};
   Double3 position{};
@@ -67,7 +67,7 @@ struct PartBox {
 
 PartBox box_of(const Part& part);
 
-// None for meshes, half-spaces and triangles, which may have rules that make them deeper.
+// None for surfaces, half-spaces and triangles, which may have rules that make them deeper.
 PartBall ball_of(const Part& part);
 
 // q * p as x, y, z, w, scaled by a power of two and rounded to float32. The quaternions need not be
@@ -92,49 +92,57 @@ inline Double3 middle_of(const Part& part) {
   return plus(part.position, turned(part.turn(), box_of(part).middle));
 }
 
-// Writes the three rows of a triangle of a mesh, without inner edges; corners are counted from
-// `origin`. It writes straight to the destination: copying rows that were just stored as floats
-// would wait for those stores.
-inline void put_triangle_rows(const MeshGeometry& mesh, size_t triangle, Row* rows,
-                              const std::array<float, 3>& origin = {}) {
-  const float fourth[] = {mesh.rules().thickness, mesh.rules().one_sided ? 1.0f : 0.0f, 0.0f};
+// Writes the three rows of a triangle, without inner edges; corners are counted from `origin`. It
+// writes straight to the destination: copying rows that were just stored as floats would wait for
+// those stores.
+template <class Geometry>
+void put_triangle_rows(const Geometry& surface, size_t triangle, Row* rows,
+                       const std::array<float, 3>& origin = {}) {
+  const MeshRules rules = rules_of(surface);
+  const float fourth[] = {rules.thickness, rules.one_sided ? 1.0f : 0.0f, 0.0f};
+  const std::array<Eigen::Vector3f, 3> corners = corners_of(surface, triangle);
   for (size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3f& v = mesh.vertices()[mesh.triangles()[triangle][i]];
+    const Eigen::Vector3f& v = corners[i];
     rows[i] = {v.x() - origin[0], v.y() - origin[1], v.z() - origin[2], fourth[i]};
   }
 }
+inline void put_triangle_rows(const Surface& surface, size_t triangle, Row* rows,
+                              const std::array<float, 3>& origin = {}) {
+  surface.visit([&](const auto& geometry) { put_triangle_rows(geometry, triangle, rows, origin); });
+}
+
+inline Double3 wide(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 
 inline Double3 corner(const MeshGeometry& mesh, size_t triangle, size_t i) {
-  const Eigen::Vector3f& v = mesh.vertices()[mesh.triangles()[triangle][i]];
-  return {v.x(), v.y(), v.z()};
+  return wide(corner_of(mesh, triangle, i));
 }
 
-// A normal towards the front of a triangle, in the mesh's frame; not a unit vector.
-inline Double3 front_of(const MeshGeometry& mesh, size_t triangle) {
-  const Double3 a = corner(mesh, triangle, 0);
-  return cross(minus(corner(mesh, triangle, 1), a), minus(corner(mesh, triangle, 2), a));
+inline std::array<Double3, 3> wide_corners(const Surface& surface, size_t triangle) {
+  const auto [a, b, c] = surface.corners(triangle);
+  return {wide(a), wide(b), wide(c)};
 }
 
-// A triangle of a mesh, with the pose of the mesh.
+// A triangle of a surface, with the pose of the surface.
 struct PlacedTriangle {
-  const MeshGeometry& mesh;
+  Surface surface;
   size_t triangle;
   const Double3& position;
   Turn turn;
 
-  // The inner edges of the triangle for a shape whose middle is at `middle`, as bits.
-  uint8_t inner_edges_towards(const Double3& middle) const {
-    const Double3 in_mesh = turned_back(turn, minus(middle, position));
-    const Double3 way = minus(in_mesh, corner(mesh, triangle, 0));
-    return mesh.inner_edges(triangle, dot(front_of(mesh, triangle), way) >= 0);
+  // Whether a place is on the front side of the corners.
+  bool is_before(const std::array<Double3, 3>& its_corners, const Double3& place) const {
+    const auto& [a, b, c] = its_corners;
+    const Double3 front = cross(minus(b, a), minus(c, a));  // not a unit vector
+    const Double3 way = minus(turned_back(turn, minus(place, position)), a);
+    return dot(front, way) >= 0;
   }
 
   // The corners that are furthest along `way`, as bits.
-  unsigned corners_towards(const Double3& way) const {
-    const Double3 in_mesh = turned_back(turn, way);
-    const Double3 a = corner(mesh, triangle, 0);
-    const Double3 u = minus(corner(mesh, triangle, 1), a), v = minus(corner(mesh, triangle, 2), a);
-    const Double3 height = {0, dot(in_mesh, u), dot(in_mesh, v)};
+  unsigned corners_towards(const std::array<Double3, 3>& its_corners, const Double3& way) const {
+    const Double3 own_way = turned_back(turn, way);
+    const auto& [a, b, c] = its_corners;
+    const Double3 u = minus(b, a), v = minus(c, a);
+    const Double3 height = {0, dot(own_way, u), dot(own_way, v)};
     const double least =
         std::max({height[0], height[1], height[2]}) - kSameHeight * (greatest(u) + greatest(v));
     unsigned corners = 0;
@@ -146,16 +154,20 @@ struct PlacedTriangle {
   // cross an inner edge, or a corner between two of them; otherwise 0.
   template <class Middle>
   uint8_t edges_to_close(const Double3& way, const Middle& middle) const {
-    const unsigned corners = corners_towards(way);
+    const std::array<Double3, 3> its_corners = wide_corners(surface, triangle);
+    const unsigned corners = corners_towards(its_corners, way);
     if (corners == 0b111) return 0;
-    const uint8_t edges = inner_edges_towards(middle());
-    const auto is_inner = [&](unsigned edge) { return (edges >> edge % 3 & 1) != 0; };
+    const bool from_front = is_before(its_corners, middle());
+    const auto is_inner = [&](unsigned edge) {
+      return surface.is_inner_edge(triangle, edge % 3, from_front);
+    };
+    bool is_over_edge = false;
     for (unsigned i = 0; i < 3; ++i) {
       const unsigned first = 1u << i, second = 1u << (i + 1) % 3;
-      if (corners == (first | second) && is_inner(i)) return edges;
-      if (corners == first && is_inner(i) && is_inner(i + 2)) return edges;
+      is_over_edge |= corners == (first | second) && is_inner(i);
+      is_over_edge |= corners == first && is_inner(i) && is_inner(i + 2);
     }
-    return 0;
+    return is_over_edge ? surface.inner_edges(triangle, from_front) : uint8_t{0};
   }
 };
 

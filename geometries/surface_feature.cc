@@ -26,7 +26,6 @@ uint32_t mixed(uint32_t a, uint32_t b) {
   return static_cast<uint32_t>(x ^ x >> 33);
 }
 
-Double3 wide(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 double norm_of(const Double3& v) { return std::sqrt(dot(v, v)); }
 
 // The planes of a polytope on which the point lies. Two planes make an edge, more a vertex. A point
@@ -137,11 +136,9 @@ uint32_t triangle_feature(const std::array<Double3, 3>& corners,
   return name_of(Kind::face, own);
 }
 
-uint32_t mesh_feature(const MeshGeometry& mesh, uint32_t triangle, const Double3& point) {
-  const auto& index = mesh.triangles()[triangle];
-  return triangle_feature(
-      {corner(mesh, triangle, 0), corner(mesh, triangle, 1), corner(mesh, triangle, 2)},
-      {index[0], index[1], index[2]}, triangle, point);
+uint32_t feature_of_surface(const Surface& surface, uint32_t triangle, const Double3& point) {
+  return triangle_feature(wide_corners(surface, triangle), surface.corner_numbers(triangle),
+                          triangle, point);
 }
 
 }  // namespace
@@ -162,7 +159,8 @@ uint32_t surface_feature(const Part& part, uint32_t triangle, const Double3& poi
     case ShapeKind::hull:
       return hull_feature(*geometry_at<HullGeometry>(rows[0]), point);
     case ShapeKind::mesh:
-      return mesh_feature(*geometry_at<MeshGeometry>(rows[0]), triangle, point);
+    case ShapeKind::height_field:
+      return feature_of_surface(surface_at(part.kind, rows[0]), triangle, point);
     case ShapeKind::triangle:
       return triangle_feature({vector_of(rows[0]), vector_of(rows[1]), vector_of(rows[2])},
                               {0, 1, 2}, 0, point);

@@ -37,11 +37,11 @@ inline PlacedPart part_at(const PlacedPart& body, uint64_t order) {
   PlacedPart result = body;
   if (result.kind() == ShapeKind::compound)
     result = result.item(static_cast<uint32_t>(order >> 32));
-  if (result.kind() == ShapeKind::mesh) result = result.item(static_cast<uint32_t>(order));
+  if (is_surface(result.kind())) result = result.item(static_cast<uint32_t>(order));
   return result;
 }
 
-// The number by which results name a part: the child of a compound, or the triangle of a mesh.
+// The number by which results name a part: the child of a compound, or the triangle of a surface.
 inline uint32_t sub_shape(ShapeKind kind, uint64_t order) {
   return static_cast<uint32_t>(kind == ShapeKind::compound ? order >> 32 : order);
 }

@@ -51,12 +51,12 @@ class ImpactContacts {
   }
 
  private:
-  // Whether A is a point and B a mesh, and neither turns. Rays at meshes are common, and need less
-  // than other parts.
-  bool is_point_at_mesh(size_t row) const {
+  // Whether A is a point and B a surface, and neither turns. Rays at meshes are common, and need
+  // less than other parts.
+  bool is_point_at_surface(size_t row) const {
     const Pair pair = pairs_[row];
     return a_.body().kind(pair.a) == ShapeKind::sphere && a_.body().radius(pair.a) == 0 &&
-           b_.body().kind(pair.b) == ShapeKind::mesh && !a_.turns(pair.a) && !b_.turns(pair.b);
+           is_surface(b_.body().kind(pair.b)) && !a_.turns(pair.a) && !b_.turns(pair.b);
   }
 
   bool is_composite(size_t row) const {
@@ -103,7 +103,7 @@ class ImpactContacts {
   bool take_parts(size_t row) {
     prefetch(row);
     if (!(first_.time[row] <= 1)) return false;
-    if (is_point_at_mesh(row)) {
+    if (is_point_at_surface(row)) {
       take_triangle(row);
       return true;
     }
@@ -152,7 +152,7 @@ class ImpactContacts {
       last_turn_ = rotation_of(orientation);
     }
     scalar::Separation found;
-    find_point_contact({.mesh = mesh_of(row),
+    find_point_contact({.surface = surface_of(row),
                         .place = plus(between, {way[0] * t, way[1] * t, way[2] * t}),
                         .orientation = orientation,
                         .turn = last_turn_,
@@ -161,6 +161,10 @@ class ImpactContacts {
     write(row, found, {});
   }
 
+  Surface surface_of(size_t row) const {
+    const uint32_t body = pairs_[row].b;
+    return surface_at(b_.body().kind(body), b_.body().row(body, 0));
+  }
   const MeshGeometry& mesh_of(size_t row) const {
     return *geometry_at<MeshGeometry>(b_.body().row(pairs_[row].b, 0));
   }

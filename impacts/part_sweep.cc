@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "geometries/height_search.h"
 #include "impacts/slack.h"
 
 namespace carom {
@@ -20,13 +21,13 @@ PartBox box_around(const Parts& parts) {
   return {scaled(plus(lower, upper), 0.5), scaled(minus(upper, lower), 0.5)};
 }
 
-// A box in the part's own frame; for a triangle of a mesh, that of the triangle.
+// A box in the part's own frame; for a triangle of a surface, that of the triangle.
 PartBox own_box(const PlacedPart& placed) {
   if (placed.kind() == ShapeKind::compound) return box_around(placed.compound());
   if (placed.triangle == PlacedPart::kWhole) return box_of(*placed.part);
   Part triangle;
   triangle.kind = ShapeKind::triangle;
-  put_triangle_rows(placed.mesh(), placed.triangle, triangle.rows.data());
+  put_triangle_rows(placed.surface(), placed.triangle, triangle.rows.data());
   return box_of(triangle);
 }
 
@@ -38,7 +39,7 @@ struct SweptPart {
   Double3 pivot() const { return minus(placed.position, placed.arm); }
 };
 
-// The region that a part sweeps during the interval, as a box in the frame of another part, `tree`.
+// The region that a part sweeps during the interval, in the frame of another part, `tree`.
 class SweptRegion {
  public:
   SweptRegion(const SweptPart& tree, const SweptPart& part)
@@ -51,7 +52,26 @@ class SweptRegion {
     sweep();
   }
 
+  // A box around it.
   TreeBox box() const { return rounded_outwards(middle_, half_); }
+
+  // Whether the moving box of the part crosses a box; the region is long where that travels far.
+  bool crosses(const TreeBox& other) const {
+    double first = 0, last = 1;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double half = own_half_[axis] + slack_;
+      const double to_lower = other.lower[axis] - half - start_[axis];
+      const double to_upper = other.upper[axis] + half - start_[axis];
+      if (std::fabs(moves_[axis]) <= slack_) {  // hardly
+        if (to_lower > slack_ || to_upper < -slack_) return false;
+        continue;
+      }
+      const auto [entry, exit] = std::minmax({to_lower / moves_[axis], to_upper / moves_[axis]});
+      first = std::max(first, entry);
+      last = std::min(last, exit);
+    }
+    return first <= last;
+  }
 
  private:
   void see_box(const SweptPart& tree, const SweptPart& part) {
@@ -79,15 +99,19 @@ class SweptRegion {
   }
 
   void sweep() {
-    const Double3 way = turned_back(frame_, way_);
-    middle_ = plus(middle_, scaled(way, 0.5));
-    const double slack = kSearchSlack * (greatest(middle_) + greatest(half_) + greatest(way));
-    for (size_t k = 0; k < 3; ++k) half_[k] += std::fabs(way[k]) * 0.5 + slack;
+    moves_ = turned_back(frame_, way_);
+    start_ = middle_;
+    own_half_ = half_;
+    middle_ = plus(middle_, scaled(moves_, 0.5));
+    slack_ = kSearchSlack * (greatest(middle_) + greatest(half_) + greatest(moves_));
+    for (size_t k = 0; k < 3; ++k) half_[k] += std::fabs(moves_[k]) * 0.5 + slack_;
   }
 
   const Turn& frame_;
   const Double3 way_;
   Double3 middle_, half_;
+  Double3 start_, moves_, own_half_;  // of the part's box
+  double slack_;
 };
 
 // Calls use() for the items of a tree that a half-space may reach: those with a corner below a
@@ -106,7 +130,7 @@ void for_each_below(const SweptPart& tree, const SweptPart& halfspace, const Use
   double limit = (dot(normal, from) + std::max(dot(normal, way), 0.0)) + offset;
   limit += kSearchSlack * (lengths + greatest(own_box(tree.placed).half));
   if (tree.sweep.is_turning() || halfspace.sweep.is_turning()) limit = kEverything;
-  tree.placed.tree().find_below(turned_back(tree.placed.turn, normal), limit, use);
+  tree.placed.find_below(turned_back(tree.placed.turn, normal), limit, use);
 }
 
 class PartSweep {
@@ -127,7 +151,8 @@ class PartSweep {
   // Takes compounds apart before meshes, because meshes have many triangles; A first on a tie.
   static bool takes_apart(const SweptPart& a, const SweptPart& b) {
     if (!a.placed.has_parts()) return false;
-    return !b.placed.has_parts() || a.placed.kind() >= b.placed.kind();
+    return !b.placed.has_parts() || a.placed.kind() == b.placed.kind() ||
+           a.placed.kind() == ShapeKind::compound || (b.placed.kind() == ShapeKind::height_field);
   }
 
   template <class Use>
@@ -136,9 +161,16 @@ class PartSweep {
     if (other.placed.kind() == ShapeKind::halfspace) {
       for_each_below(tree, other, met);
     } else {
-      tree.placed.tree().find_touching(
-          {SweptRegion(tree, other).box()},
-          [&](std::span<const uint32_t> items) { std::for_each(items.begin(), items.end(), met); });
+      const SweptRegion region(tree, other);
+      const auto met_all = [&](std::span<const uint32_t> items) {
+        std::for_each(items.begin(), items.end(), met);
+      };
+      if (tree.placed.kind() == ShapeKind::height_field) {
+        find_admitted(
+            tree.placed.field(), [&](const TreeBox& box) { return region.crosses(box); }, met_all);
+      } else {
+        tree.placed.find_touching({region.box()}, met_all);
+      }
     }
   }
 

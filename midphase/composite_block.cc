@@ -118,7 +118,8 @@ class CompositeRun {
 
   void search(size_t k, double reach, Apart apart) {
     const BodyPair bodies(a_, b_, pair(k));
-    find_part_pairs(bodies.a, bodies.b, reach, apart, [&](const NearParts& parts) {
+    const PartsWanted wanted = {reach, apart, may_skip()};
+    find_part_pairs(bodies.a, bodies.b, wanted, [&](const NearParts& parts) {
       add(k, parts);
       return has_deep_face(k) && may_skip() ? outcomes_[k].separation - slack(k) : reach;
     });
@@ -134,6 +135,7 @@ class CompositeRun {
   }
 
   void add(size_t k, const NearParts& parts) {
+    outcomes_[k].holds_nearest |= parts.hold_nearest;
     if (!parts.triangles.empty()) return add_triangles(k, parts);
     if (!parts.pairs.empty()) return add_triangle_pairs(k, parts);
     if (!find_pair_kind(parts.a.kind(), parts.b.kind()).exists()) return;
@@ -194,9 +196,9 @@ class CompositeRun {
     constexpr size_t kTriesOfOne = 3;  // more would leave vectors empty
     test_and_merge();
     for (size_t tries = 0; batch_.has_waiting(); ++tries) {
-      const auto admits_all = [&](size_t k) { return tries == kTriesOfOne || has_deep_face(k); };
+      const auto admits_all = [&](size_t k) { return tries == kTriesOfOne || has_bound(k); };
       const auto may_be_best = [&](size_t k, float least_separation) {
-        return !has_deep_face(k) || least_separation <= outcomes_[k].separation - slack(k);
+        return !has_bound(k) || least_separation <= outcomes_[k].separation - slack(k);
       };
       batch_.admit_waiting(admits_all, may_be_best);
       test_and_merge();
@@ -207,6 +209,14 @@ class CompositeRun {
   // Whether pair k has a contact that only deeper ones replace.
   bool has_deep_face(size_t k) const {
     return outcomes_[k].overlap == 1 && !outcomes_[k].is_over_edge();
+  }
+
+  // Whether only parts that are deeper, or nearer, than those of pair k so far still matter. A
+  // proof may call parts undecided that are further apart.
+  bool has_bound(size_t k) const {
+    const Outcome& o = outcomes_[k];
+    const bool is_distance = o.holds_nearest && o.is_found && o.overlap == 0;
+    return has_deep_face(k) || (is_distance && !has_proofs(tests_.tier));
   }
 
   void test_and_merge() {
@@ -341,7 +351,8 @@ class CompositeRun {
     for (size_t k = 0; k < rows_.size(); ++k) {
       const Outcome& o = outcomes_[k];
       const bool is_known =
-          o.is_invalid() || (o.is_found && is_contact(k, o.overlap, o.separation));
+          o.is_invalid() ||
+          (o.is_found && (o.holds_nearest || is_contact(k, o.overlap, o.separation)));
       if (!is_known && o.overlap != 1) to_measure_[count++] = static_cast<uint16_t>(k);
     }
     const std::span<const uint16_t> to_measure = std::span(to_measure_).first(count);

@@ -38,6 +38,7 @@ struct Outcome : Finding {
 
   uint8_t status = static_cast<uint8_t>(Status::ok);
   bool is_found = false;
+  bool holds_nearest = false;  // the parts found hold the nearest ones
   std::array<float, 3> normal = {kNan, kNan, kNan};
   std::array<float, 3> arm_a = {kNan, kNan, kNan};
   std::array<float, 3> arm_b = {kNan, kNan, kNan};

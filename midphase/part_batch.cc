@@ -30,10 +30,8 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part,
   frame_[body] = frames_used_ - 1;
   triangle_[body] = part.triangle;
   first_row_[body] = rows_used_;
-  if (is_of_mesh(body)) {
-    put_triangle_rows(part.mesh(), part.triangle, rows_.data() + rows_used_,
-                      origin_of_rows(origin));
-    if (part.one_sided) rows_[rows_used_ + 1][3] = *part.one_sided ? 1.0f : 0.0f;
+  if (is_of_surface(body)) {
+    write_corners(body);
   } else {
     std::copy_n(part.part->rows.data(), row_count(kind_[body]), rows_.data() + rows_used_);
   }
@@ -48,32 +46,46 @@ uint32_t PartColumns::put(size_t owner, const PlacedPart& part,
 
 // What all triangles share is written column by column.
 template <class Triangle>
-uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& mesh,
-                                    const std::array<float, 3>& origin, size_t count,
-                                    const Triangle& triangle) {
+uint32_t PartColumns::put_triangles(size_t owner, const PlacedPart& surface,
+                                    const std::array<float, 3>& origin, bool they_wait,
+                                    size_t count, const Triangle& triangle) {
   const uint32_t first = count_, first_row = rows_used_;
-  if (!has_frame(owner, mesh, origin)) put_frame(owner, mesh, origin);
+  if (!has_frame(owner, surface, origin)) put_frame(owner, surface, origin);
   const Double3& p = frames_[frames_used_ - 1].position;
   std::fill_n(record_.begin() + first, count, Position{p[0], p[1], p[2], 0});
-  std::fill_n(orientation_.begin() + first, count, mesh.orientation);
+  std::fill_n(orientation_.begin() + first, count, surface.orientation);
   std::fill_n(kind_.begin() + first, count, ShapeKind::triangle);
   std::fill_n(frame_.begin() + first, count, frames_used_ - 1);
   std::fill_n(dops_.begin() + first, count, nullptr);
   are_mixed_ = are_mixed_ || kind_[0] != ShapeKind::triangle;
-  Row* const rows = rows_.data() + first_row;
-  const std::array<float, 3> from = origin_of_rows(origin);
   constexpr uint32_t kRows = row_count(ShapeKind::triangle);
   for (uint32_t i = 0; i < count; ++i) {
     triangle_[first + i] = triangle(i);
     first_row_[first + i] = first_row + kRows * i;
-    put_triangle_rows(mesh.mesh(), triangle(i), rows + kRows * i, from);
   }
-  for (size_t i = 0; mesh.one_sided && i < count; ++i) {
-    rows[kRows * i + 1][3] = *mesh.one_sided ? 1.0f : 0.0f;
+  if (!they_wait) {
+    Row* const rows = rows_.data() + first_row;
+    const std::array<float, 3> from = origin_of_rows(origin);
+    surface.surface().visit([&](const auto& geometry) {
+      for (uint32_t i = 0; i < count; ++i) {
+        put_triangle_rows(geometry, triangle(i), rows + kRows * i, from);
+      }
+    });
+    for (size_t i = 0; surface.one_sided && i < count; ++i) {
+      rows[kRows * i + 1][3] = *surface.one_sided ? 1.0f : 0.0f;
+    }
   }
   count_ += static_cast<uint32_t>(count);
   rows_used_ += kRows * static_cast<uint32_t>(count);
   return first;
+}
+
+void PartColumns::write_corners(uint32_t body) {
+  if (!is_of_surface(body)) return;
+  const Frame& frame = frames_[frame_[body]];
+  Row* const rows = rows_.data() + first_row_[body];
+  put_triangle_rows(*frame.surface, triangle_[body], rows, origin_of_rows(frame.origin));
+  if (frame.one_sided) rows[1][3] = *frame.one_sided ? 1.0f : 0.0f;
 }
 
 void PartColumns::put_frame(size_t owner, const PlacedPart& part,
@@ -84,12 +96,13 @@ void PartColumns::put_frame(size_t owner, const PlacedPart& part,
   frame.arm = part.arm;
   frame.origin = origin;
   frame.turn = part.turn;
-  frame.mesh = nullptr;
+  frame.surface.reset();
   frame.child = part.child;
   frame.owner = owner;
-  if (part.part->kind != ShapeKind::mesh) return;
-  frame.mesh = &part.mesh();
-  frame.position_of_mesh = part.position;
+  if (!is_surface(part.part->kind)) return;
+  frame.surface = part.surface();
+  frame.one_sided = part.one_sided;
+  frame.position_of_surface = part.position;
   const std::array<float, 3> from = origin_of_rows(origin);
   if (from == kMeshOrigin) return;
   const Double3 way = turned(part.turn, {from[0], from[1], from[2]});
@@ -136,7 +149,7 @@ Double3 PartColumns::middle(size_t body) const {
 
 PlacedTriangle PartColumns::triangle(size_t body) const {
   const Frame& frame = frames_[frame_[body]];
-  return {*frame.mesh, triangle_[body], frame.position_of_mesh, frame.turn};
+  return {*frame.surface, triangle_[body], frame.position_of_surface, frame.turn};
 }
 
 void PartBatch::begin(const PartTests& tests) {
@@ -154,9 +167,9 @@ void PartBatch::clear() {
 }
 
 std::array<float, 3> PartBatch::origin_of(const PlacedPart& part, const PlacedPart& other) const {
-  const bool is_moved = tests_.counts_near && part.part->kind == ShapeKind::mesh &&
-                        other.part->kind != ShapeKind::mesh &&
-                        may_count_near(part.mesh().rules(), part.one_sided);
+  const bool is_moved = tests_.counts_near && is_surface(part.part->kind) &&
+                        !is_surface(other.part->kind) &&
+                        may_count_near(part.surface().rules(), part.one_sided);
   if (!is_moved) return kMeshOrigin;
   return origin_near(part.turn, part.position, *other.part, other.position);
 }
@@ -182,23 +195,24 @@ void PartBatch::add_waiting(size_t owner, const PlacedPart& a, const PlacedPart&
 }
 
 void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach) {
-  const size_t mesh_side = parts.a.kind() == ShapeKind::mesh ? 0 : 1;
-  const PlacedPart& mesh = mesh_side == 0 ? parts.a : parts.b;
-  const PlacedPart& convex = mesh_side == 0 ? parts.b : parts.a;
-  const std::array<float, 3> origin = origin_of(mesh, convex);
+  const size_t surface_side = is_surface(parts.a.kind()) ? 0 : 1;
+  const PlacedPart& surface = surface_side == 0 ? parts.a : parts.b;
+  const PlacedPart& convex = surface_side == 0 ? parts.b : parts.a;
+  const std::array<float, 3> origin = origin_of(surface, convex);
+  const std::span<const float> least = parts.least_separations;
   uint32_t first, other;
   const auto put = [&](std::array<PartColumns, 2>& sides) {
-    first = sides[mesh_side].put_triangles(owner, mesh, origin, parts.triangles.size(),
-                                           [&](size_t i) { return parts.triangles[i]; });
-    other = sides[1 - mesh_side].put(owner, convex, {});
+    first = sides[surface_side].put_triangles(owner, surface, origin, !least.empty(),
+                                              parts.triangles.size(),
+                                              [&](size_t i) { return parts.triangles[i]; });
+    other = sides[1 - surface_side].put(owner, convex, {});
   };
   if (proves_) put(*as_made_);
   put(sides_);
   const auto pair = [&](size_t i) {
     const uint32_t triangle = first + static_cast<uint32_t>(i);
-    return mesh_side == 0 ? Pair{triangle, other} : Pair{other, triangle};
+    return surface_side == 0 ? Pair{triangle, other} : Pair{other, triangle};
   };
-  const std::span<const float> least = parts.least_separations;
   for (size_t i = 0; i < least.size(); ++i) put_waiting(pair(i), owner, reach, least[i]);
   if (!least.empty()) return;
   for (size_t i = 0; i < parts.triangles.size(); ++i) put_pair(pair(i), owner, reach);
@@ -207,16 +221,16 @@ void PartBatch::add_triangles(size_t owner, const NearParts& parts, float reach)
 void PartBatch::add_triangle_pairs(size_t owner, const NearParts& parts, float reach) {
   const std::span<const ItemPair> pairs = parts.pairs;
   const size_t count = pairs.size();
+  const std::span<const float> least = parts.least_separations;
   uint32_t first_a, first_b;
   const auto put = [&](std::array<PartColumns, 2>& sides) {
-    first_a =
-        sides[0].put_triangles(owner, parts.a, {}, count, [&](size_t i) { return pairs[i].a; });
-    first_b =
-        sides[1].put_triangles(owner, parts.b, {}, count, [&](size_t i) { return pairs[i].b; });
+    first_a = sides[0].put_triangles(owner, parts.a, {}, !least.empty(), count,
+                                     [&](size_t i) { return pairs[i].a; });
+    first_b = sides[1].put_triangles(owner, parts.b, {}, !least.empty(), count,
+                                     [&](size_t i) { return pairs[i].b; });
   };
   if (proves_) put(*as_made_);
   put(sides_);
-  const std::span<const float> least = parts.least_separations;
   for (uint32_t i = 0; i < least.size(); ++i) {
     put_waiting({first_a + i, first_b + i}, owner, reach, least[i]);
   }
@@ -284,6 +298,15 @@ void PartBatch::prove(const ResultColumns& tested) {
   }
 }
 
+void PartBatch::write_corners(Pair pair) {
+  const auto write = [pair](std::array<PartColumns, 2>& sides) {
+    sides[0].write_corners(pair.a);
+    sides[1].write_corners(pair.b);
+  };
+  if (proves_) write(*as_made_);
+  write(sides_);
+}
+
 // Half-spaces are skipped: they always push along their own normal.
 std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) const {
   std::array<uint8_t, 2> edges{};
@@ -293,7 +316,7 @@ std::array<uint8_t, 2> PartBatch::edges_to_close(size_t i) const {
     const PartColumns& own = sides_[side];
     const PartColumns& other = sides_[1 - side];
     const uint32_t facing = body[1 - side];
-    if (!own.is_of_mesh(body[side]) || other.kind(facing) == ShapeKind::halfspace) continue;
+    if (!own.is_of_surface(body[side]) || other.kind(facing) == ShapeKind::halfspace) continue;
     edges[side] =
         own.triangle(body[side]).edges_to_close(side == 0 ? normal : minus({}, normal), [&] {
           return other.middle(facing);

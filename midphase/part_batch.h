@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "carom/results/pair.h"
@@ -17,7 +18,7 @@ namespace carom {
 // The bodies of one side, dense, with float64 positions.
 class PartColumns {
  public:
-  // How corners of triangles of meshes are stored: counted from the origin that they are put with
+  // How corners of triangles of surfaces are stored: counted from the origin that they are put with
   // (geometries/local_origin.h), or as the mesh has them; whole bodies then lie where they are
   // stored.
   enum class Corners { near, as_made };
@@ -26,11 +27,15 @@ class PartColumns {
   // Adds a part, and returns the index of its body. A part that repeats the last one is not added
   // again.
   uint32_t put(size_t owner, const PlacedPart& part, const std::array<float, 3>& origin);
-  // Adds `count` triangles of a mesh, number i being triangle(i), and returns the index of the
-  // first one's body.
+  // Adds `count` triangles of a surface, number i being triangle(i), and returns the index of the
+  // first one's body. Those that wait have no corners until write_corners(): few of them are
+  // tested.
   template <class Triangle>
-  uint32_t put_triangles(size_t owner, const PlacedPart& mesh, const std::array<float, 3>& origin,
-                         size_t count, const Triangle& triangle);
+  uint32_t put_triangles(size_t owner, const PlacedPart& surface,
+                         const std::array<float, 3>& origin, bool they_wait, size_t count,
+                         const Triangle& triangle);
+  // For all but triangles of surfaces it does nothing.
+  void write_corners(uint32_t body);
 
   Collidables view() const;
   ShapeKind kind(size_t body) const { return kind_[body]; }
@@ -38,12 +43,12 @@ class PartColumns {
   const Double3& arm(size_t body) const { return frames_[frame_[body]].arm; }
   // See PlacedPart::order().
   uint64_t order(size_t body) const {
-    const uint32_t triangle = is_of_mesh(body) ? triangle_[body] : 0;
+    const uint32_t triangle = is_of_surface(body) ? triangle_[body] : 0;
     return uint64_t{frames_[frame_[body]].child} << 32 | triangle;
   }
 
-  // Whether the body is a triangle of a mesh; triangle() then gives it.
-  bool is_of_mesh(size_t body) const { return triangle_[body] != PlacedPart::kWhole; }
+  // Whether the body is a triangle of a surface; triangle() then gives it.
+  bool is_of_surface(size_t body) const { return triangle_[body] != PlacedPart::kWhole; }
   PlacedTriangle triangle(size_t body) const;
   // Sets the inner edges of a triangle.
   void set_inner_edges(size_t body, uint8_t edges) {
@@ -53,13 +58,14 @@ class PartColumns {
  private:
   Part part(size_t body) const;
 
-  // What the triangles of one mesh share.
+  // What the triangles of one surface share.
   struct Frame {
     Double3 position, arm;  // of the origin
     std::array<float, 3> origin;
-    Double3 position_of_mesh;
+    Double3 position_of_surface;
     Turn turn;
-    const MeshGeometry* mesh;  // nullptr: not a mesh
+    std::optional<Surface> surface;
+    std::optional<bool> one_sided;
     uint32_t child;
     size_t owner;
 
@@ -103,7 +109,7 @@ struct PartTests {
   bool manifolds = false;
   bool bounds = false;
   bool reach = false;       // pairs have contact distances
-  bool counts_near = true;  // corners of triangles of meshes, from a place near the other part
+  bool counts_near = true;  // corners of triangles of surfaces, from a place near the other part
   Measured measured = Measured::all;
   Tier tier = Tier::standard;
 };
@@ -123,12 +129,13 @@ class PartBatch {
   // The same of a pair whose separation is not less: it waits until it is admitted.
   void add_waiting(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
                    float least_separation);
-  // Adds the pairs of one part with each of some triangles of a mesh; there must be room for them.
-  // Those with a least separation wait until they are admitted.
+  // Adds the pairs of one part with each of some triangles of a surface; there must be room for
+  // them. Those with a least separation wait until they are admitted.
   void add_triangles(size_t owner, const NearParts& parts, float reach);
   // Adds pairs of triangles of two meshes; there must be room for them.
   void add_triangle_pairs(size_t owner, const NearParts& parts, float reach);
-  // Adds a pair, and sets the inner edges of triangles, whose corners are counted as the mesh does.
+  // Adds a pair, and sets the inner edges of triangles, whose corners are counted as the surface
+  // does.
   void add(size_t owner, const PlacedPart& a, const PlacedPart& b, float reach,
            const std::array<uint8_t, 2>& inner_edges);
 
@@ -179,6 +186,7 @@ class PartBatch {
   void run_from(const std::array<PartColumns, 2>& sides, const PartTests& tests, Detail detail,
                 const ResultColumns& out) const;
   void prove(const ResultColumns& tested);
+  void write_corners(Pair pair);
   std::array<float, 3> origin_of(const PlacedPart& part, const PlacedPart& other) const;
   // The pair with both parts, which are added.
   Pair put_parts(size_t owner, const PlacedPart& a, const PlacedPart& b, bool counts_near);
@@ -211,6 +219,7 @@ void PartBatch::admit_waiting(const IsKnown& is_known, const MayMatter& may_matt
     for (size_t i = begin; i < end; ++i) {
       const WaitingPair waiting = waiting_[i];
       if (all ? may_matter(owner, waiting.least_separation) : i == least) {
+        write_corners(waiting.pair);
         put_pair(waiting.pair, owner, waiting.reach);
       } else if (!all) {
         waiting_[kept++] = waiting;

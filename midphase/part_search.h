@@ -10,8 +10,8 @@
 
 namespace carom {
 
-// Two parts that have no parts themselves; or one and a mesh, of which each of these triangles is
-// meant; or two meshes, of which each of these pairs of triangles is meant.
+// Two parts that have no parts themselves; or one and a surface, of which each of these triangles
+// is meant; or two meshes, of which each of these pairs of triangles is meant.
 struct NearParts {
   const PlacedPart& a;
   const PlacedPart& b;
@@ -20,6 +20,8 @@ struct NearParts {
   // A lower bound of each separation that a test of `triangles` or `pairs` may find, metres; empty:
   // not known.
   std::span<const float> least_separations = {};
+  // Whether those that are found, now and later, hold the nearest parts of the two bodies.
+  bool hold_nearest = false;
 };
 
 // Receives some pairs of parts. Returns how far apart others may be that still matter, metres; less
@@ -30,10 +32,19 @@ using NearPartsFound = FunctionRef<double(const NearParts&)>;
 // meet. Pairs whose boxes touch are near, so that the nearest of them bounds a distance.
 enum class Apart { by_boxes, by_planes };
 
-// Finds all pairs of parts that are at most `reach` metres apart, and some that are further. Every
+// Which pairs of parts are searched for.
+struct PartsWanted {
+  double reach = 0;  // metres
+  Apart apart = Apart::by_boxes;
+  // Whether only the deepest contact matters, or the least distance: others that certainly are not
+  // it may be left out.
+  bool deepest_alone = false;
+};
+
+// Finds all pairs of parts that are at most the reach apart, and some that are further. Every
 // pair that a test may find to be that near is among them, despite all rounding. A half-space is
 // near everything that reaches below its plane.
-void find_part_pairs(const PlacedPart& a, const PlacedPart& b, double reach, Apart apart,
+void find_part_pairs(const PlacedPart& a, const PlacedPart& b, const PartsWanted& wanted,
                      NearPartsFound found);
 
 // A lower bound of the separation that a test of two parts may find, metres, by balls that hold

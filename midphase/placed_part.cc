@@ -1,10 +1,45 @@
 #include "midphase/placed_part.h"
 
+#include <algorithm>
+
+#include "geometries/height_search.h"
+
 namespace carom {
+
+bool PlacedPart::has_no_items() const {
+  return kind() == ShapeKind::height_field ? is_empty(field()) : tree().is_empty();
+}
+
+double PlacedPart::size() const {
+  const auto largest = [](const auto& parts) {
+    return std::max(parts.lower().cwiseAbs().maxCoeff(), parts.upper().cwiseAbs().maxCoeff());
+  };
+  return is_surface(kind()) ? largest(surface()) : largest(compound());
+}
+
+void PlacedPart::find_touching(const RoundedBox& box, ItemsFound found) const {
+  kind() == ShapeKind::height_field ? carom::find_touching(field(), box, found)
+                                    : tree().find_touching(box, found);
+}
+
+void PlacedPart::find_below(const Double3& normal, double limit,
+                            FunctionRef<void(uint32_t)> found) const {
+  kind() == ShapeKind::height_field ? carom::find_below(field(), normal, limit, found)
+                                    : tree().find_below(normal, limit, found);
+}
+
+uint32_t PlacedPart::near_item(const TreeBox& box) const {
+  return kind() == ShapeKind::height_field ? near_triangle(field(), box) : tree().near_item(box);
+}
+
+uint32_t PlacedPart::low_item(const Double3& normal) const {
+  return kind() == ShapeKind::height_field ? low_triangle(field(), normal)
+                                           : tree().low_item(normal);
+}
 
 PlacedPart PlacedPart::item(uint32_t index) const {
   PlacedPart result = *this;
-  if (kind() == ShapeKind::mesh) {
+  if (is_surface(kind())) {
     result.triangle = index;
     return result;
   }
@@ -22,7 +57,7 @@ PlacedPart PlacedPart::item(uint32_t index) const {
 PlacedPart part_at(const PlacedPart& body, uint64_t order) {
   PlacedPart result = body;
   if (result.kind() == ShapeKind::compound) result = result.item(uint32_t(order >> 32));
-  if (result.kind() == ShapeKind::mesh) result = result.item(uint32_t(order));
+  if (is_surface(result.kind())) result = result.item(uint32_t(order));
   return result;
 }
 

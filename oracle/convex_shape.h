@@ -133,6 +133,7 @@ struct ConvexShape {
   void add_polygon(const std::vector<size_t>& corners);
 
   void build(const Mesh& /*not convex*/) { std::abort(); }
+  void build(const HeightField& /*not convex*/) { std::abort(); }
   void build(const Compound& /*not convex*/) { std::abort(); }
 
   void build(const Halfspace& halfspace);

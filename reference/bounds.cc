@@ -72,6 +72,7 @@ bool is_valid_shape(const Dop& dop) {
 
 bool is_valid_shape(const Hull& hull) { return hull.geometry != nullptr; }
 bool is_valid_shape(const Mesh& mesh) { return mesh.geometry != nullptr; }
+bool is_valid_shape(const HeightField& field) { return field.geometry != nullptr; }
 bool is_valid_shape(const Compound& compound) { return compound.geometry != nullptr; }
 
 template <class Turned>

@@ -15,9 +15,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// A triangle of a mesh with its corners counted from a place near the other part.
+// A triangle of a surface with its corners counted from a place near the other part.
 Simple counted_near(const Simple& part, const Simple& other) {
-  if (!part.mesh || other.mesh || !may_count_near(part.mesh->rules(), std::nullopt) ||
+  if (!part.surface || other.surface || !may_count_near(part.surface->rules(), std::nullopt) ||
       std::get<Triangle>(part.shape).inner_edges != 0) {
     return part;
   }
@@ -34,10 +34,10 @@ Simple counted_near(const Simple& part, const Simple& other) {
   return result;
 }
 
-// The inner edges of a triangle of a mesh, if the other part is pushed out over one of them; else
-// 0.
+// The inner edges of a triangle of a surface, if the other part is pushed out over one of them;
+// else 0.
 uint8_t edges_to_close(const Simple& part, const Simple& other, const Double3& way) {
-  if (!part.mesh || std::holds_alternative<Halfspace>(other.shape)) return 0;
+  if (!part.surface || std::holds_alternative<Halfspace>(other.shape)) return 0;
   return part.placed_triangle().edges_to_close(way, [&] { return middle_of(other.placed); });
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "reference/vectors.h"
 #include "shapes/dop_geometry.h"
@@ -51,6 +52,9 @@ double reach(const Hull& hull) {
 double reach(const Mesh& mesh) {
   return reach_of_box(mesh.geometry->lower(), mesh.geometry->upper());
 }
+double reach(const HeightField& field) {
+  return reach_of_box(field.geometry->lower(), field.geometry->upper());
+}
 double reach(const Compound& compound) {
   return reach_of_box(compound.geometry->lower(), compound.geometry->upper());
 }
@@ -93,6 +97,7 @@ double diameter(const Hull& hull) {
   return features ? 2 * double{features->inner_radius()} : 0;
 }
 double diameter(const Mesh&) { return 0; }
+double diameter(const HeightField&) { return 0; }
 double diameter(const Compound& compound) {
   double least = kInfinity;
   for (const CompoundChild& child : compound.geometry->children()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 
 namespace carom::reference {
@@ -22,12 +23,18 @@ Part part_of(const Shape& shape, const Double3& position, const Row& orientation
   return part;
 }
 
-Triangle triangle_of(const MeshGeometry& mesh, size_t i) {
-  Triangle triangle;
-  for (size_t k = 0; k < 3; ++k) triangle.corners[k] = mesh.vertices()[mesh.triangles()[i][k]];
-  triangle.thickness = mesh.rules().thickness;
-  triangle.one_sided = mesh.rules().one_sided;
-  return triangle;
+Triangle triangle_of(const Surface& surface, size_t i) {
+  return {surface.corners(i), surface.rules().thickness, surface.rules().one_sided};
+}
+
+Simple triangle_part(const Simple& whole, const Surface& surface, size_t i) {
+  Simple part = whole;
+  part.shape = triangle_of(surface, i);
+  part.placed = part_of(part.shape, whole.placed.position, whole.placed.orientation);
+  part.order += i;
+  part.surface = surface;
+  part.triangle = i;
+  return part;
 }
 
 // Adds the parts of a body, or of a child of one. `whole` is its shape in its place.
@@ -35,13 +42,14 @@ void add_parts(const Simple& whole, std::vector<Simple>& parts) {
   if (const auto* mesh = std::get_if<Mesh>(&whole.shape)) {
     for (size_t i = 0; i < mesh->geometry->triangles().size(); ++i) {
       if (mesh->geometry->is_degenerate(i)) continue;
-      Simple part = whole;
-      part.shape = triangle_of(*mesh->geometry, i);
-      part.placed = part_of(part.shape, whole.placed.position, whole.placed.orientation);
-      part.order += i;
-      part.mesh = mesh->geometry.get();
-      part.triangle = i;
-      parts.push_back(part);
+      parts.push_back(triangle_part(whole, *mesh->geometry, i));
+    }
+  } else if (const auto* heights = std::get_if<HeightField>(&whole.shape)) {
+    const HeightFieldGeometry& field = *heights->geometry;
+    for (size_t i = 0; i < field.triangle_count(); ++i) {
+      const auto cell = static_cast<uint32_t>(i / 2);
+      if (field.is_hole(cell % field.cells_x(), cell / field.cells_x())) continue;
+      parts.push_back(triangle_part(whole, field, i));
     }
   } else if (const auto* compound = std::get_if<Compound>(&whole.shape)) {
     const Part& body = whole.placed;

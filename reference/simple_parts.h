@@ -1,6 +1,7 @@
 // Splits bodies into simple shapes in their places.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "carom/shapes/body.h"
@@ -11,11 +12,11 @@ namespace carom::reference {
 // A shape that has no parts.
 struct Simple {
   Shape shape;
-  Part placed;                         // the same shape with its pose, as numbers
-  Double3 arm{};                       // from the body's position to the part's
-  uint64_t order = 0;                  // the child, and the triangle of a mesh
-  uint32_t sub = 0;                    // the sub-shape that results report
-  const MeshGeometry* mesh = nullptr;  // mesh whose triangle it is; nullptr: none
+  Part placed;                     // the same shape with its pose, as numbers
+  Double3 arm{};                   // from the body's position to the part's
+  uint64_t order = 0;              // the child, and the triangle of a surface
+  uint32_t sub = 0;                // the sub-shape that results report
+  std::optional<Surface> surface;  // whose triangle it is
   size_t triangle = 0;
 
   Pose pose() const {
@@ -24,7 +25,7 @@ struct Simple {
             Eigen::Quaternionf(q[3], q[0], q[1], q[2])};
   }
   carom::PlacedTriangle placed_triangle() const {
-    return {*mesh, triangle, placed.position, rotation_of(placed.orientation)};
+    return {*surface, triangle, placed.position, rotation_of(placed.orientation)};
   }
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "reference/vectors.h"
 #include "shapes/dop_geometry.h"
@@ -217,6 +218,11 @@ Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation) {
 
 Aabb turned_extent(const Mesh& mesh, const Eigen::Quaternionf& orientation) {
   return extent_of_points(corners_of(mesh.geometry->lower(), mesh.geometry->upper()), orientation);
+}
+
+Aabb turned_extent(const HeightField& field, const Eigen::Quaternionf& orientation) {
+  return extent_of_points(corners_of(field.geometry->lower(), field.geometry->upper()),
+                          orientation);
 }
 
 Aabb turned_extent(const Compound& compound, const Eigen::Quaternionf& orientation) {

@@ -18,6 +18,7 @@ Aabb turned_extent(const Dop& dop, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation);
 // The extent of the turned box that holds all parts in the body's frame.
 Aabb turned_extent(const Mesh& mesh, const Eigen::Quaternionf& orientation);
+Aabb turned_extent(const HeightField& field, const Eigen::Quaternionf& orientation);
 Aabb turned_extent(const Compound& compound, const Eigen::Quaternionf& orientation);
 // Empty: half-spaces have no extent.
 Aabb turned_extent(const Halfspace& plane, const Eigen::Quaternionf& orientation);

@@ -158,7 +158,9 @@ struct BodyReader {
 
   // Checks orientation and rows, for a kind that has them.
   bool has_valid_parameters(size_t i) const {
-    return is_rotation(orientation(i)) && are_valid_rows(kind(i), rows(i).data(), dop_geometry(i));
+    if (!is_rotation(orientation(i))) return false;
+    if (has_geometry(kind(i))) return geometry_at<void>(row(i, 0)) != nullptr;
+    return are_valid_rows(kind(i), rows(i).data(), dop_geometry(i));
   }
 
   // What the view says about the k-DOP of body i; its slabs may have changed since.

@@ -6,8 +6,8 @@ namespace carom {
 
 const char* name(ShapeKind kind) {
   static constexpr std::array<const char*, kShapeKindCount> kNames = {
-      "sphere",   "capsule",   "aabb",     "box",  "dop",       "hull",    "mesh",
-      "compound", "halfspace", "cylinder", "cone", "ellipsoid", "triangle"};
+      "sphere",   "capsule",   "aabb",     "box",  "dop",       "hull",         "mesh",
+      "compound", "halfspace", "cylinder", "cone", "ellipsoid", "height_field", "triangle"};
   const auto code = static_cast<size_t>(kind);
   return code < kNames.size() ? kNames[code] : "unknown";
 }
@@ -15,10 +15,10 @@ const char* name(ShapeKind kind) {
 ShapeKind kind_of(const Shape& shape) {
   // In the order of the variant.
   static constexpr std::array<ShapeKind, std::variant_size_v<Shape>> kKinds = {
-      ShapeKind::sphere,   ShapeKind::aabb,      ShapeKind::capsule,  ShapeKind::box,
-      ShapeKind::triangle, ShapeKind::halfspace, ShapeKind::dop,      ShapeKind::hull,
-      ShapeKind::mesh,     ShapeKind::compound,  ShapeKind::cylinder, ShapeKind::cone,
-      ShapeKind::ellipsoid};
+      ShapeKind::sphere,    ShapeKind::aabb,        ShapeKind::capsule,  ShapeKind::box,
+      ShapeKind::triangle,  ShapeKind::halfspace,   ShapeKind::dop,      ShapeKind::hull,
+      ShapeKind::mesh,      ShapeKind::compound,    ShapeKind::cylinder, ShapeKind::cone,
+      ShapeKind::ellipsoid, ShapeKind::height_field};
   return kKinds[shape.index()];
 }
 

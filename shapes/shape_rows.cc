@@ -45,6 +45,7 @@ Rows rows_of(const Dop& dop) {
 
 Rows rows_of(const Hull& hull) { return {geometry_row(hull.geometry.get())}; }
 Rows rows_of(const Mesh& mesh) { return {geometry_row(mesh.geometry.get())}; }
+Rows rows_of(const HeightField& field) { return {geometry_row(field.geometry.get())}; }
 Rows rows_of(const Compound& compound) { return {geometry_row(compound.geometry.get())}; }
 
 template <class Geometry>
@@ -97,6 +98,8 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
       return Hull{not_owned<HullGeometry>(rows[0])};
     case ShapeKind::mesh:
       return Mesh{not_owned<MeshGeometry>(rows[0])};
+    case ShapeKind::height_field:
+      return HeightField{not_owned<HeightFieldGeometry>(rows[0])};
     case ShapeKind::compound:
       return Compound{not_owned<CompoundGeometry>(rows[0])};
     default:

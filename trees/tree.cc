@@ -397,6 +397,26 @@ void BoxTree::find_below(const Double3& normal, double limit,
   if (!is_empty()) carom::find_below(nodes_, 0, normal, limit, found);
 }
 
+void BoxTree::find_admitted(FunctionRef<bool(const TreeBox& box)> admits, ItemsFound found) const {
+  std::vector<uint32_t> waiting;
+  if (!is_empty()) waiting.push_back(0);
+  while (!waiting.empty()) {
+    const Node& node = nodes_[waiting.back()];
+    waiting.pop_back();
+    std::array<uint32_t, kChildren> items;
+    size_t count = 0;
+    for (size_t i = 0; i < kChildren; ++i) {
+      if (carom::is_empty(node.box(i)) || !admits(node.box(i))) continue;
+      if (is_item(node.child[i])) {
+        items[count++] = node.child[i] - kItem;
+      } else {
+        waiting.push_back(node.child[i]);
+      }
+    }
+    if (count > 0) found(std::span<const uint32_t>(items).first(count));
+  }
+}
+
 uint32_t BoxTree::near_item(const TreeBox& box) const {
   return best_item(nodes_, [&](const TreeBox& each) { return distance(each, box); });
 }

@@ -104,6 +104,10 @@ class BoxTree {
   void find_below(const Double3& normal, double limit,
                   FunctionRef<void(uint32_t item)> found) const;
 
+  // Calls `found` with the items whose boxes `admits` takes, some at a time. It must take every box
+  // that holds one that it takes.
+  void find_admitted(FunctionRef<bool(const TreeBox& box)> admits, ItemsFound found) const;
+
   // An item that is about the nearest to a box. The tree must not be empty.
   uint32_t near_item(const TreeBox& box) const;
 

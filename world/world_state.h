@@ -93,9 +93,7 @@ struct World::State {
   bool has_dops() const {
     return settings.dop_bounds && *settings.dop_bounds != DopKind::k6 && !has_distances();
   }
-  bool has_composites() const {
-    return bodies.has_kind(ShapeKind::mesh) || bodies.has_kind(ShapeKind::compound);
-  }
+  bool has_composites() const { return bodies.has_composites(); }
   // For the same reason.
   bool has_outer() const { return has_composites() && !has_distances(); }
   ContactDistances distances() const {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 
 namespace carom::accuracy {
@@ -58,6 +59,7 @@ struct Radius {
     return farthest;
   }
   double operator()(const Mesh& mesh) const { return of_box(*mesh.geometry); }
+  double operator()(const HeightField& field) const { return of_box(*field.geometry); }
   double operator()(const Compound& compound) const { return of_box(*compound.geometry); }
 
   template <class Geometry>
@@ -89,6 +91,7 @@ struct Aspect {
     return edge_ratio(box.sizes().cast<double>());
   }
   double operator()(const Mesh& mesh) const { return of_box(*mesh.geometry); }
+  double operator()(const HeightField& field) const { return of_box(*field.geometry); }
   double operator()(const Compound& compound) const { return of_box(*compound.geometry); }
 
   template <class Geometry>

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 
 namespace carom::accuracy {
@@ -44,6 +45,10 @@ std::string numbers(const Hull& hull) {
 }
 std::string numbers(const Mesh& mesh) {
   return std::to_string(mesh.geometry->triangles().size()) + " triangles";
+}
+std::string numbers(const HeightField& field) {
+  return std::to_string(field.geometry->nx()) + " x " + std::to_string(field.geometry->ny()) +
+         " samples";
 }
 std::string numbers(const Compound& compound) {
   return std::to_string(compound.geometry->children().size()) + " children";

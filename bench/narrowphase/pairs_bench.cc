@@ -182,15 +182,16 @@ void measure_on_terrain(benchmark::State& state, const MeshSpec& spec, Detail de
   report(state, "pair", spec.count, times, stream.reference_seconds());
 }
 
-// Bodies on a mesh of 10,000 triangles.
-void register_terrain(size_t count) {
+// Bodies on a terrain of 10,000 triangles.
+void register_terrain(size_t count, bool is_field) {
+  const std::string ground = is_field ? "_height_field/" : "_mesh/";
   for (const ShapeKind kind :
        {ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box, ShapeKind::hull}) {
     for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
       for (const Isa isa : usable_isas()) {
         const std::string title =
-            std::string(name(kind)) + "_mesh/" + name(detail) + "/f32/hit50/rows/" + name(isa);
-        const MeshSpec spec{.kind = kind, .count = count};
+            std::string(name(kind)) + ground + name(detail) + "/f32/hit50/rows/" + name(isa);
+        const MeshSpec spec{.kind = kind, .count = count, .is_field = is_field};
         benchmark::RegisterBenchmark(title.c_str(), [=](benchmark::State& state) {
           measure_on_terrain(state, spec, detail, isa);
         })->Unit(benchmark::kMicrosecond);
@@ -216,7 +217,7 @@ void register_narrowphase(const Options& options) {
       register_placed(kinds, Placing::parallel, options.pairs);
     }
   }
-  register_terrain(options.pairs / 10);
+  for (const bool is_field : {false, true}) register_terrain(options.pairs / 10, is_field);
 }
 
 }  // namespace carom::bench

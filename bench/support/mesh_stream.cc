@@ -6,6 +6,7 @@
 #include "bench/support/bodies.h"
 #include "bench/support/measure.h"
 #include "carom/narrowphase/collide.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 
 namespace carom::bench {
@@ -16,21 +17,36 @@ constexpr float kHalfTerrain = Terrain::kSide * Terrain::kSquares / 2;  // metre
 
 float height(float x, float y) { return std::sin(0.35f * x) * std::cos(0.25f * y); }
 
+HeightGrid grid_of(const std::vector<float>& heights) {
+  return {.nx = Terrain::kSquares + 1,
+          .ny = Terrain::kSquares + 1,
+          .dx = Terrain::kSide,
+          .dy = Terrain::kSide,
+          .samples = {.data = heights.data()}};
+}
+
 Terrain make_terrain() {
   constexpr uint32_t kRow = Terrain::kSquares + 1;
   Terrain terrain;
-  for (uint32_t i = 0; i < kRow; ++i) {
-    for (uint32_t j = 0; j < kRow; ++j) {
-      const float x = Terrain::kSide * static_cast<float>(i) - kHalfTerrain;
-      const float y = Terrain::kSide * static_cast<float>(j) - kHalfTerrain;
-      terrain.vertices.emplace_back(x, y, height(x, y));
-      if (i + 1 == kRow || j + 1 == kRow) continue;
-      const uint32_t corner = i * kRow + j;
-      terrain.triangles.push_back({corner, corner + kRow, corner + kRow + 1});
-      terrain.triangles.push_back({corner, corner + kRow + 1, corner + 1});
-    }
+  const auto place = [](uint32_t i) {
+    return static_cast<float>((i - Terrain::kSquares / 2.0) * double{Terrain::kSide});
+  };
+  for (uint32_t j = 0; j < kRow; ++j) {
+    for (uint32_t i = 0; i < kRow; ++i) terrain.heights.push_back(height(place(i), place(j)));
+  }
+  const auto field = *make_height_field(grid_of(terrain.heights));
+  for (uint32_t j = 0; j < kRow; ++j) {
+    for (uint32_t i = 0; i < kRow; ++i) terrain.vertices.push_back(field->point(i, j));
+  }
+  for (uint32_t triangle = 0; triangle < field->triangle_count(); ++triangle) {
+    terrain.triangles.push_back(field->corner_numbers(triangle));
   }
   return terrain;
+}
+
+Shape ground_of(const Terrain& terrain, bool is_field) {
+  if (is_field) return HeightField{*make_height_field(grid_of(terrain.heights))};
+  return Mesh{*make_mesh(terrain.vertices, terrain.triangles)};
 }
 
 // A body over the terrain, up to twice as high as it would touch on flat ground.
@@ -48,11 +64,11 @@ PlacedShape draw_above(const MeshSpec& spec, std::span<const Hull> hulls, oracle
 }  // namespace
 
 MeshStream::MeshStream(const MeshSpec& spec) : spec_(spec), terrain_(make_terrain()) {
-  ground_.shape = Mesh{*make_mesh(terrain_.vertices, terrain_.triangles)};
+  ground_.shape = ground_of(terrain_, spec.is_field);
   draw();
   a_ = std::make_unique<DenseBodies>(spec.kind, bodies_, Storage::f32);
   b_ = std::make_unique<DenseBodies>(
-      ShapeKind::mesh, std::vector<PlacedShape>(bodies_.size(), ground_), Storage::f32);
+      kind_of(ground_.shape), std::vector<PlacedShape>(bodies_.size(), ground_), Storage::f32);
   ResultArrays results(bodies_.size(), Detail::manifold);
   (void)run(Detail::contact, results.columns());
   separations_.assign(results.columns().separation, results.columns().separation + bodies_.size());
@@ -79,7 +95,7 @@ void MeshStream::draw() {
 
 std::vector<uint8_t> MeshStream::overlaps_of(const std::vector<PlacedShape>& bodies) const {
   const DenseBodies a(spec_.kind, bodies, Storage::f32);
-  const DenseBodies b(ShapeKind::mesh, std::vector<PlacedShape>(bodies.size(), ground_),
+  const DenseBodies b(kind_of(ground_.shape), std::vector<PlacedShape>(bodies.size(), ground_),
                       Storage::f32);
   std::vector<uint8_t> overlaps(bodies.size());
   ResultColumns out;

@@ -1,4 +1,5 @@
-// Streams of bodies on a terrain of 10,000 triangles, half of which touch it.
+// Streams of bodies on a terrain of 10,000 triangles, half of which touch it: a mesh, or a height
+// field of the same triangles.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,8 @@ namespace carom::bench {
 struct MeshSpec {
   ShapeKind kind;  // of the bodies
   size_t count = 0;
-  size_t vertices = 16;  // of hulls
+  size_t vertices = 16;   // of hulls
+  bool is_field = false;  // the terrain is a height field
 
   friend bool operator==(const MeshSpec&, const MeshSpec&) = default;
 };
@@ -25,7 +27,8 @@ struct Terrain {
   static constexpr float kSide = 1.8f;
 
   std::vector<Eigen::Vector3f> vertices;
-  std::vector<std::array<uint32_t, 3>> triangles;  // fronts face up
+  std::vector<std::array<uint32_t, 3>> triangles;  // fronts face up; as a height field has them
+  std::vector<float> heights;                      // row by row, along x
 };
 
 class MeshStream {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/dop_polytope.h"
 
@@ -195,6 +196,24 @@ struct Viewer {
       } else {
         faces.add_face(triangle);
       }
+    }
+    return std::move(faces).json();
+  }
+
+  // Without holes, and the triangles of all others.
+  Json operator()(const HeightField& field) const {
+    const HeightFieldGeometry& grid = *field.geometry;
+    Faces faces;
+    for (uint32_t j = 0; j < grid.ny(); ++j) {
+      for (uint32_t i = 0; i < grid.nx(); ++i) {
+        const Eigen::Vector3f point = grid.point(i, j);
+        faces.add_point(point.allFinite() ? point : Eigen::Vector3f(point.x(), point.y(), 0));
+      }
+    }
+    for (uint32_t triangle = 0; triangle < grid.triangle_count(); ++triangle) {
+      const uint32_t cell = triangle / 2;
+      if (grid.is_hole(cell % grid.cells_x(), cell / grid.cells_x())) continue;
+      faces.add_face(grid.corner_numbers(triangle));
     }
     return std::move(faces).json();
   }

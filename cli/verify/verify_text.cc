@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "carom/shapes/views.h"
 
@@ -85,6 +86,20 @@ std::string parameters(const Mesh& mesh) {
   }
   return text + (triangles.size() > kMost ? " ..." : "") + " thickness " +
          text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "");
+}
+
+std::string parameters(const HeightField& field) {
+  constexpr uint32_t kMost = 64;
+  if (!field.geometry) return "that is invalid";
+  const HeightFieldGeometry& grid = *field.geometry;
+  const uint64_t count = uint64_t{grid.nx()} * grid.ny();
+  std::string text = "of " + std::to_string(grid.nx()) + " x " + std::to_string(grid.ny()) +
+                     " samples, spacing " + text_of(grid.dx()) + ", " + text_of(grid.dy()) +
+                     ", heights";
+  for (uint32_t i = 0; i < std::min<uint64_t>(count, kMost); ++i) {
+    text += ' ' + text_of(grid.height(i % grid.nx(), i / grid.nx()));
+  }
+  return text + (count > kMost ? " ..." : "");
 }
 
 std::string list(const Orientation& q) {

@@ -14,10 +14,9 @@ constexpr double kClearOfEdges = 0x1p-20;
 
 // The contact with the inside of a face. False if the edges matter. C. Ericson, Real-Time Collision
 // Detection, 2005, section 5.1.5.
-bool find_face_contact(const SeenMesh& seen, uint32_t triangle, scalar::Separation& contact) {
-  const MeshGeometry& mesh = seen.mesh;
-  const Double3 a = corner(mesh, triangle, 0);
-  const Double3 u = minus(corner(mesh, triangle, 1), a), v = minus(corner(mesh, triangle, 2), a);
+bool find_face_contact(const SeenSurface& seen, uint32_t triangle, scalar::Separation& contact) {
+  const auto [a, b, c] = wide_corners(seen.surface, triangle);
+  const Double3 u = minus(b, a), v = minus(c, a);
   const Double3 from = minus(turned_back(seen.turn, minus({}, seen.place)), a);
   const Double3 front = cross(u, v);
   const double squared = dot(front, front);
@@ -30,7 +29,7 @@ bool find_face_contact(const SeenMesh& seen, uint32_t triangle, scalar::Separati
   const double per_length = 1 / std::sqrt(squared);
   const double height = dot(from, front) * per_length;
   // A one-sided triangle pushes what lies behind it to its front.
-  if (height <= 0 && seen.one_sided.value_or(mesh.rules().one_sided)) return false;
+  if (height <= 0 && seen.one_sided.value_or(seen.surface.rules().one_sided)) return false;
   const double to_unit = height >= 0 ? -per_length : per_length;
   const Double3 normal =
       turned(seen.turn, {front[0] * to_unit, front[1] * to_unit, front[2] * to_unit});
@@ -47,9 +46,9 @@ bool find_face_contact(const SeenMesh& seen, uint32_t triangle, scalar::Separati
   return true;
 }
 
-scalar::Separation general_contact(const SeenMesh& seen, uint32_t triangle) {
+scalar::Separation general_contact(const SeenSurface& seen, uint32_t triangle) {
   std::array<Row, row_count(ShapeKind::triangle)> rows;
-  put_triangle_rows(seen.mesh, triangle, rows.data());
+  put_triangle_rows(seen.surface, triangle, rows.data());
   if (seen.one_sided) rows[1][3] = *seen.one_sided ? 1.0f : 0.0f;
   const Row& q = seen.orientation;
   return scalar::rounded(
@@ -61,8 +60,8 @@ scalar::Separation general_contact(const SeenMesh& seen, uint32_t triangle) {
 
 }  // namespace
 
-void find_point_contact(const SeenMesh& seen, uint32_t triangle, scalar::Separation& contact) {
-  if (seen.mesh.rules().thickness == 0 && find_face_contact(seen, triangle, contact)) return;
+void find_point_contact(const SeenSurface& seen, uint32_t triangle, scalar::Separation& contact) {
+  if (seen.surface.rules().thickness == 0 && find_face_contact(seen, triangle, contact)) return;
   contact = general_contact(seen, triangle);
 }
 

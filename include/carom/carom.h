@@ -49,6 +49,7 @@
 #include "carom/shapes/body.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/dop.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "carom/shapes/orientation.h"
 #include "carom/shapes/shape.h"

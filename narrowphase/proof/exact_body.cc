@@ -71,8 +71,9 @@ struct CoreMaker {
   void operator()(const Cylinder&) const {}
   void operator()(const Cone&) const {}
   void operator()(const Ellipsoid&) const {}
-  // The parts of meshes and compounds are decided one by one.
+  // Parts are decided one by one.
   void operator()(const Mesh&) const {}
+  void operator()(const HeightField&) const {}
   void operator()(const Compound&) const {}
 
   void add_box(const Eigen::Vector3f& lower, const Eigen::Vector3f& upper) const {

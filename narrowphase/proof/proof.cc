@@ -121,6 +121,7 @@ struct BodyMaker {
   ProofBody operator()(const Cone& shape) const { return round(shape); }
   ProofBody operator()(const Ellipsoid& shape) const { return round(shape); }
   ProofBody operator()(const Mesh&) const { return nothing(); }
+  ProofBody operator()(const HeightField&) const { return nothing(); }
   ProofBody operator()(const Compound&) const { return nothing(); }
 
   // Its support points err no more than other points.
@@ -132,7 +133,7 @@ struct BodyMaker {
     return body;
   }
 
-  // The parts of meshes and compounds are proven one by one.
+  // Parts are proven one by one.
   static ProofBody nothing() {
     ProofBody body;
     body.is_known = false;

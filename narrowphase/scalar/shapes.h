@@ -198,6 +198,10 @@ CompositeShape<Real> shape_as(const Mesh&) {
   return {};
 }
 template <class Real>
+CompositeShape<Real> shape_as(const HeightField&) {
+  return {};
+}
+template <class Real>
 CompositeShape<Real> shape_as(const Compound&) {
   return {};
 }

@@ -40,6 +40,30 @@ Mesh Composites::mesh(double size, size_t most_triangles) {
   return mesh_of(vertices, triangles, rules);
 }
 
+HeightField Composites::height_field(double size) {
+  const auto nx = static_cast<uint32_t>(2 + random_.below(3));
+  const auto ny = static_cast<uint32_t>(2 + random_.below(3));
+  const double steps = random_.chance(0.3) ? 0 : 2000, holes = random_.chance(0.5) ? 0 : 0.15;
+  const bool is_int16 = random_.chance(0.3);
+  const auto scale = static_cast<float>(size / 10000);
+  std::vector<float> heights;
+  std::vector<int16_t> samples;
+  for (uint32_t i = 0; i < nx * ny; ++i) {
+    const auto sample = static_cast<int16_t>(random_.uniform(-steps, steps));
+    const bool is_hole = random_.chance(holes);
+    samples.push_back(is_hole ? kHoleSample : sample);
+    heights.push_back(is_hole ? std::numeric_limits<float>::quiet_NaN() : sample * scale);
+  }
+  HeightGrid grid{.nx = nx,
+                  .ny = ny,
+                  .dx = static_cast<float>(size * random_.uniform(0.7, 2) / (nx - 1)),
+                  .dy = static_cast<float>(size * random_.uniform(0.7, 2) / (ny - 1)),
+                  .samples = {.data = heights.data()},
+                  .scale = scale};
+  if (is_int16) grid.samples = {.data = samples.data(), .type = HeightType::int16};
+  return {*make_height_field(grid)};
+}
+
 Compound Composites::compound(double size, size_t most_children) {
   return compound_of_many(size, 1 + random_.below(most_children));
 }
@@ -56,6 +80,7 @@ Compound Composites::compound_of_many(double size, size_t count) {
 
 Shape Composites::shape(ShapeKind kind, double size) {
   if (kind == ShapeKind::mesh) return mesh(size);
+  if (kind == ShapeKind::height_field) return height_field(size);
   if (kind == ShapeKind::compound) return compound(size);
   return simple(kind, size);
 }

@@ -9,6 +9,7 @@
 
 #include "carom/narrowphase/collide.h"
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "oracle/convex_random.h"
 #include "tests/support/isas.h"
@@ -52,6 +53,9 @@ class Composites {
   // A random set of triangles, some without area, or a terrain; about `size` large.
   Mesh mesh(double size, size_t most_triangles = 24);
 
+  // A few cells of either type of sample, some of them holes; about `size` large.
+  HeightField height_field(double size);
+
   Compound compound(double size, size_t most_children = 6);
 
   Compound compound_of_many(double size, size_t count);
@@ -73,10 +77,10 @@ class Composites {
 };
 
 inline constexpr ShapeKind kEveryKind[] = {
-    ShapeKind::sphere,    ShapeKind::capsule, ShapeKind::aabb, ShapeKind::box,
-    ShapeKind::dop,       ShapeKind::hull,    ShapeKind::mesh, ShapeKind::compound,
-    ShapeKind::halfspace, ShapeKind::triangle, ShapeKind::cylinder, ShapeKind::cone,
-    ShapeKind::ellipsoid};
+    ShapeKind::sphere,    ShapeKind::capsule,  ShapeKind::aabb,        ShapeKind::box,
+    ShapeKind::dop,       ShapeKind::hull,     ShapeKind::mesh,        ShapeKind::compound,
+    ShapeKind::halfspace, ShapeKind::triangle, ShapeKind::height_field,
+    ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid};
 
 // All ordered pairs of kinds of which one is a mesh or a compound.
 std::vector<std::array<ShapeKind, 2>> composite_kind_pairs();

@@ -85,6 +85,7 @@ class Spoiler {
   // if they no longer fit: that must do no harm.
   void spoil_shape(Hull& hull);
   void spoil_shape(Mesh& /*tested by its parts*/) {}
+  void spoil_shape(HeightField& /*tested by its parts*/) {}
   void spoil_shape(Compound& /*tested by its parts*/) {}
 
   Random random_;

@@ -59,6 +59,12 @@ std::string show(const Mesh& mesh) {
   return std::to_string(mesh.geometry->triangles().size()) + " triangles";
 }
 
+std::string show(const HeightField& field) {
+  if (!field.geometry) return "without geometry";
+  return std::to_string(field.geometry->nx()) + " x " + std::to_string(field.geometry->ny()) +
+         " samples";
+}
+
 std::string show(const Compound& compound) {
   if (!compound.geometry) return "without geometry";
   return std::to_string(compound.geometry->children().size()) + " children";

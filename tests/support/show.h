@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "tests/support/pairs.h"
 
@@ -37,6 +38,7 @@ std::string show(const Hull& hull);
 
 // Meshes and compounds are too long to print: tests that use them print how to make them.
 std::string show(const Mesh& mesh);
+std::string show(const HeightField& field);
 std::string show(const Compound& compound);
 
 std::string show(const PlacedShape& body);

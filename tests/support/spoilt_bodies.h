@@ -68,6 +68,7 @@ class SpoiltBodies {
   // make_hull() checks the numbers of a hull, so they cannot be invalid.
   void add_shapes(const Hull& hull);
   void add_shapes(const Mesh& /*tested by its parts*/) {}
+  void add_shapes(const HeightField& /*tested by its parts*/) {}
   void add_shapes(const Compound& /*tested by its parts*/) {}
 
   PlacedShape body_;

@@ -69,6 +69,10 @@ double bounding_radius(const Mesh& mesh) {
   return bounding_radius(Aabb{mesh.geometry->lower(), mesh.geometry->upper()});
 }
 
+double bounding_radius(const HeightField& field) {
+  return bounding_radius(Aabb{field.geometry->lower(), field.geometry->upper()});
+}
+
 double bounding_radius(const Compound& compound) {
   return bounding_radius(Aabb{compound.geometry->lower(), compound.geometry->upper()});
 }

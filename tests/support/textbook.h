@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "tests/support/pairs.h"
 
@@ -36,6 +37,7 @@ double bounding_radius(const Dop& dop);
 double bounding_radius(const Hull& hull);
 double bounding_radius(const Halfspace&);
 double bounding_radius(const Mesh& mesh);
+double bounding_radius(const HeightField& field);
 double bounding_radius(const Compound& compound);
 double bounding_radius(const Shape& shape);
 

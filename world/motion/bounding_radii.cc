@@ -7,6 +7,7 @@
 
 #include "base/outward.h"
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "shapes/body_reader.h"
 #include "shapes/dop_geometry.h"
@@ -71,6 +72,8 @@ double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
       return hull_reach(*geometry_at<HullGeometry>(rows[0]));
     case ShapeKind::mesh:
       return parts_reach(*geometry_at<MeshGeometry>(rows[0]));
+    case ShapeKind::height_field:
+      return parts_reach(*geometry_at<HeightFieldGeometry>(rows[0]));
     case ShapeKind::compound:
       return parts_reach(*geometry_at<CompoundGeometry>(rows[0]));
     default:

@@ -30,10 +30,7 @@ struct LookAhead {
 
   bool has_sensor(Pair pair) const { return bodies.is_sensor(pair.a) || bodies.is_sensor(pair.b); }
 
-  bool has_parts() const {
-    const auto is_there = [this](ShapeKind kind) { return bodies.has_kind(kind); };
-    return is_there(ShapeKind::mesh) || is_there(ShapeKind::compound);
-  }
+  bool has_parts() const { return bodies.has_composites(); }
 };
 
 }  // namespace carom

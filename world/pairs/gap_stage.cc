@@ -29,7 +29,7 @@ void GapStage::measure(std::span<const Pair> pairs, const PairRange& range,
     if (results.overlap(row) != 0 || results.is_near(row)) continue;
     const Pair pair = pairs[row];
     const ShapeKind a = reader.kind(pair.a), b = reader.kind(pair.b);
-    if (a == ShapeKind::mesh && b == ShapeKind::mesh) continue;
+    if (is_surface(a) && is_surface(b)) continue;
     const bool has_parts = is_composite(a) || is_composite(b);
     any_composite |= has_parts;
     pairs_.push_back(pair);

@@ -100,7 +100,9 @@ void add_child(const Part& child, Slabs& slabs) {
   }
 }
 
+// Height fields change, and lie under all that is near them: a hull would leave out little.
 bool has_many_parts(ShapeKind kind, const Row& row) {
+  if (kind == ShapeKind::height_field) return false;
   return kind == ShapeKind::mesh
              ? geometry_at<MeshGeometry>(row)->triangles().size() >= kManyParts
              : geometry_at<CompoundGeometry>(row)->children().size() >= kManyParts;

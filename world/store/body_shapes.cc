@@ -11,6 +11,7 @@ namespace {
 std::shared_ptr<const void> geometry_of(const Shape& shape) {
   if (const Hull* hull = std::get_if<Hull>(&shape)) return hull->geometry;
   if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->geometry;
+  if (const HeightField* field = std::get_if<HeightField>(&shape)) return field->geometry;
   if (const Compound* compound = std::get_if<Compound>(&shape)) return compound->geometry;
   return {};
 }
@@ -26,6 +27,8 @@ Shape owning_shape(ShapeKind kind, const std::shared_ptr<const void>& geometry) 
       return Hull{geometry_as<HullGeometry>(geometry)};
     case ShapeKind::mesh:
       return Mesh{geometry_as<MeshGeometry>(geometry)};
+    case ShapeKind::height_field:
+      return HeightField{geometry_as<HeightFieldGeometry>(geometry)};
     default:
       return Compound{geometry_as<CompoundGeometry>(geometry)};
   }

@@ -139,6 +139,10 @@ class BodyStore {
   // Inputs of the stages.
   size_t count_of(ShapeKind kind) const { return bodies_of_kind_[static_cast<size_t>(kind)]; }
   bool has_kind(ShapeKind kind) const { return count_of(kind) > 0; }
+  bool has_composites() const {
+    return has_kind(ShapeKind::mesh) || has_kind(ShapeKind::height_field) ||
+           has_kind(ShapeKind::compound);
+  }
   Collidables view() const;
   // The columns of the filter; its other parts are those of a default one.
   PairFilter filter() const;

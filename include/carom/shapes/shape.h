@@ -10,6 +10,7 @@
 #include "carom/export.h"
 #include "carom/shapes/compound.h"
 #include "carom/shapes/dop.h"
+#include "carom/shapes/height_field.h"
 #include "carom/shapes/hull.h"
 #include "carom/shapes/mesh.h"
 
@@ -18,23 +19,24 @@ namespace carom {
 /// The kinds of shapes. The values are the codes of the file format, except for `triangle`, which
 /// the format stores as a mesh of one triangle.
 enum class ShapeKind : uint8_t {
-  sphere = 0,      ///< Sphere
-  capsule = 1,     ///< Capsule
-  aabb = 2,        ///< Aabb
-  box = 3,         ///< Box
-  dop = 4,         ///< Dop
-  hull = 5,        ///< Hull
-  mesh = 6,        ///< Mesh
-  compound = 7,    ///< Compound
-  halfspace = 8,   ///< Halfspace
-  cylinder = 9,    ///< Cylinder
-  cone = 10,       ///< Cone
-  ellipsoid = 11,  ///< Ellipsoid
-  triangle = 12,   ///< Triangle
+  sphere = 0,         ///< Sphere
+  capsule = 1,        ///< Capsule
+  aabb = 2,           ///< Aabb
+  box = 3,            ///< Box
+  dop = 4,            ///< Dop
+  hull = 5,           ///< Hull
+  mesh = 6,           ///< Mesh
+  compound = 7,       ///< Compound
+  halfspace = 8,      ///< Halfspace
+  cylinder = 9,       ///< Cylinder
+  cone = 10,          ///< Cone
+  ellipsoid = 11,     ///< Ellipsoid
+  height_field = 12,  ///< HeightField
+  triangle = 13,      ///< Triangle
 };
 
 /// How many kinds there are.
-inline constexpr int kShapeKindCount = 13;
+inline constexpr int kShapeKindCount = 14;
 
 /// "sphere", "capsule", ...; "unknown" for a value that is not a kind.
 CAROM_EXPORT const char* name(ShapeKind kind);
@@ -112,14 +114,19 @@ struct Halfspace {
 /// Any shape. A Dop (carom/shapes/dop.h) turns with its body, as a box does; its slabs must have a
 /// point in common.
 using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh,
-                           Compound, Cylinder, Cone, Ellipsoid>;
+                           Compound, Cylinder, Cone, Ellipsoid, HeightField>;
 
 /// The kind of a shape.
 CAROM_EXPORT ShapeKind kind_of(const Shape& shape);
 
+/// Whether shapes of this kind are surfaces of numbered triangles.
+constexpr bool is_surface(ShapeKind kind) {
+  return kind == ShapeKind::mesh || kind == ShapeKind::height_field;
+}
+
 /// Whether shapes of this kind consist of parts that are shapes themselves.
 constexpr bool is_composite(ShapeKind kind) {
-  return kind == ShapeKind::mesh || kind == ShapeKind::compound;
+  return is_surface(kind) || kind == ShapeKind::compound;
 }
 
 /// Whether shapes of this kind are curved in other ways than by a radius about points and segments.

@@ -69,8 +69,8 @@ struct OrientationView {
 /// - halfspace: nx ny nz offset
 /// - triangle: three corners, each with a fourth number: thickness, one_sided (0 or 1), inner_edges
 ///   (0 to 7)
-/// - hull, mesh, compound: the address of the geometry in the first bytes (shape_rows() writes it),
-///   then 0; the geometry must outlive the view
+/// - hull, mesh, height_field, compound: the address of the geometry in the first bytes
+///   (shape_rows() writes it), then 0; the geometry must outlive the view
 struct ShapeRows {
   const float* data = nullptr;  ///< dense rows
   /// The first row of each body, one entry a body; nullptr: body i starts at row i * row_count().
@@ -90,6 +90,7 @@ constexpr uint32_t row_count(ShapeKind kind) {
     case ShapeKind::halfspace:
     case ShapeKind::hull:
     case ShapeKind::mesh:
+    case ShapeKind::height_field:
     case ShapeKind::compound:
       return 1;
     case ShapeKind::capsule:

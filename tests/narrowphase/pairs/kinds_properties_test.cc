@@ -195,6 +195,7 @@ struct Scaled {
     hull = with_points(hull, [this](Eigen::Vector3f& point) { point *= factor; });
   }
   void operator()(Mesh& /*tested by its parts*/) const {}
+  void operator()(HeightField& /*tested by its parts*/) const {}
   void operator()(Compound& /*tested by its parts*/) const {}
 
   void operator()(PlacedShape& body) const {

@@ -84,6 +84,9 @@ Skeleton skeleton_of(const Shape& shape) {
   if (const auto* s = std::get_if<Triangle>(&shape)) return points_with(s->corners);
   if (const auto* s = std::get_if<Hull>(&shape)) return points_with(s->geometry->points());
   if (const auto* s = std::get_if<Mesh>(&shape)) return skeleton_of(*s->geometry);
+  if (const auto* s = std::get_if<HeightField>(&shape)) {
+    return corners_with(s->geometry->lower(), s->geometry->upper());
+  }
   if (const auto* s = std::get_if<Compound>(&shape)) return skeleton_of(*s);
   Skeleton skeleton;
   const DopPolytope polytope(DopSlabs(std::get<Dop>(shape)));

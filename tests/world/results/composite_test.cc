@@ -24,6 +24,7 @@ void add_bodies(History& history, Composites& composites, size_t count, double s
     const double kind = composites.random().uniform(0, 1);
     if (kind < 0.3) body.shape = composites.compound(0.6, 4);
     if (kind >= 0.3 && kind < 0.45) body.shape = composites.mesh(0.6, 8);
+    if (kind >= 0.4 && kind < 0.45) body.shape = composites.height_field(0.6);
     if (kind < 0.02) body.shape = Mesh{};
     if (kind < 0.45) body.orientation = composites.orientation();
     body.position.z() /= 2;
