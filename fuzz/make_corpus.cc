@@ -18,19 +18,25 @@ namespace {
 
 using namespace carom::io;
 
-// A sphere, a hull, a mesh, a compound of the first two and round shapes.
+// A sphere, a hull, a mesh, a compound of the first two, round shapes and a height field.
 SceneShapes all_arrays() {
   SceneShapes shapes;
-  shapes.kind = {0, 5, 6, 7, 9, 10, 11};
-  shapes.params = {{1}, {}, {}, {}, {1, 2}, {1, 2}, {1, 2, 3}};
-  shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  shapes.kind = {0, 5, 6, 7, 9, 10, 11, 12};
+  shapes.params = {{1}, {}, {}, {}, {1, 2}, {1, 2}, {1, 2, 3}, {2, 2, 1, 1}};
+  shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}};
+  shapes.vertex_range.resize(8);
   shapes.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}};
+  shapes.triangle_range.resize(8);
   shapes.triangles = {{0, 1, 2}};
-  shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}, {0, 0}, {0, 0}, {0, 0}};
+  shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}};
+  shapes.child_range.resize(8);
   shapes.child_shape = {0, 1};
   shapes.child_position = {{1, 0, 0}, {0, 1, 0}};
   shapes.child_orientation = {{0, 0, 0, 1}, {0, 0, 0, 1}};
+  shapes.height_range.resize(8);
+  shapes.height_range[7] = {0, 4};
+  shapes.heights = {0, 1, 2, 3};
   return shapes;
 }
 

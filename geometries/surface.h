@@ -28,6 +28,25 @@ inline std::array<Eigen::Vector3f, 3> corners_of(const HeightFieldGeometry& fiel
 inline MeshRules rules_of(const MeshGeometry& mesh) { return mesh.rules(); }
 inline MeshRules rules_of(const HeightFieldGeometry& /*field*/) { return {}; }
 
+// Calls use(its number) for every triangle that is part of the surface.
+template <class Use>
+void for_each_triangle(const MeshGeometry& mesh, const Use& use) {
+  for (size_t i = 0; i < mesh.triangles().size(); ++i) {
+    if (!mesh.is_degenerate(i)) use(i);
+  }
+}
+template <class Use>
+void for_each_triangle(const HeightFieldGeometry& field, const Use& use) {
+  size_t lower = 0;  // of the cell
+  for (uint32_t j = 0; j < field.cells_y(); ++j) {
+    for (uint32_t i = 0; i < field.cells_x(); ++i, lower += 2) {
+      if (field.is_hole(i, j)) continue;
+      use(lower);
+      use(lower + 1);
+    }
+  }
+}
+
 // Points at one of the two.
 class Surface {
  public:

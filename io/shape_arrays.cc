@@ -1,7 +1,10 @@
 #include "io/shape_arrays.h"
 
+#include <cstdio>
 #include <optional>
 #include <string>
+
+#include "carom/shapes/height_field_geometry.h"
 
 namespace carom::io {
 namespace {
@@ -9,7 +12,7 @@ namespace {
 using Range = std::array<uint32_t, 2>;
 
 // The largest kind in the file format. It has no triangle kind: a lone triangle is a mesh of one.
-constexpr uint8_t kLastKind = uint8_t(ShapeKind::ellipsoid);
+constexpr uint8_t kLastKind = uint8_t(ShapeKind::height_field);
 
 bool needs_vertices(uint8_t kind) {
   return kind == uint8_t(ShapeKind::dop) || kind == uint8_t(ShapeKind::hull) ||
@@ -17,6 +20,7 @@ bool needs_vertices(uint8_t kind) {
 }
 bool needs_triangles(uint8_t kind) { return kind == uint8_t(ShapeKind::mesh); }
 bool needs_children(uint8_t kind) { return kind == uint8_t(ShapeKind::compound); }
+bool needs_heights(uint8_t kind) { return kind == uint8_t(ShapeKind::height_field); }
 
 std::string element(size_t i) { return "element " + std::to_string(i) + " "; }
 
@@ -125,6 +129,36 @@ Result<void> check_children(const SceneShapes& shapes, const std::string& path) 
   return {};
 }
 
+// Whether a grid may have so many samples along one side.
+bool is_side(float samples) {
+  const bool is_in_range = samples >= 2 && samples <= float(kMostHeightSamples);
+  return is_in_range && samples == float(uint32_t(samples));
+}
+
+// Checks that grids have whole numbers of samples along their sides, and as many heights.
+Result<void> check_heights(const SceneShapes& shapes, const std::string& path) {
+  for (size_t i = 0; i < shapes.kind.size(); ++i) {
+    if (!needs_heights(shapes.kind[i])) continue;
+    const float nx = shapes.params[i][0], ny = shapes.params[i][1];
+    if (!is_side(nx) || !is_side(ny)) {
+      char sides[64];
+      std::snprintf(sides, sizeof sides, "%.9g x %.9g", double{nx}, double{ny});
+      return member_error(path, "shape_params",
+                          element(i) + "is a height field of " + sides +
+                              " samples (whole numbers from 2 to " +
+                              std::to_string(kMostHeightSamples) + " were expected)");
+    }
+    const uint64_t samples = uint64_t(nx) * uint64_t(ny);
+    if (shapes.height_range[i][1] == samples) continue;
+    return member_error(path, "shape_height_range",
+                        element(i) + "has count " + std::to_string(shapes.height_range[i][1]) +
+                            " (" + std::to_string(samples) + " for " +
+                            std::to_string(uint64_t(nx)) + " x " + std::to_string(uint64_t(ny)) +
+                            " samples was expected)");
+  }
+  return {};
+}
+
 // Checks that an array has `expected` elements, or none if it may be absent.
 template <class T>
 Result<void> check_size(const std::string& path, const std::string& name,
@@ -143,6 +177,7 @@ Result<void> check_sizes(const SceneShapes& shapes, const std::string& path) {
       check_size(path, "shape_vertex_range", shapes.vertex_range, count, true),
       check_size(path, "shape_triangle_range", shapes.triangle_range, count, true),
       check_size(path, "shape_child_range", shapes.child_range, count, true),
+      check_size(path, "shape_height_range", shapes.height_range, count, true),
       check_size(path, "child_position", shapes.child_position, children, false),
       check_size(path, "child_orientation", shapes.child_orientation, children, false),
   });
@@ -192,8 +227,13 @@ Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
     result = check_ranges(shapes, path, "shape_child_range", shapes.child_range,
                           shapes.child_shape.size(), needs_children);
   }
+  if (result) {
+    result = check_ranges(shapes, path, "shape_height_range", shapes.height_range,
+                          shapes.heights.size(), needs_heights);
+  }
   if (result) result = check_triangles(shapes, path);
   if (result) result = check_children(shapes, path);
+  if (result) result = check_heights(shapes, path);
   return result;
 }
 
@@ -216,6 +256,8 @@ Result<SceneShapes> read_shapes(const NpzReader& reader) {
       read_optional(reader, "triangles", {kAny}, shapes.triangles),
       read_optional(reader, "shape_child_range", {count}, shapes.child_range),
       read_optional(reader, "child_shape", {kAny}, shapes.child_shape),
+      read_optional(reader, "shape_height_range", {count}, shapes.height_range),
+      read_optional(reader, "heights", {kAny}, shapes.heights),
   });
   if (!read) return read.error();
   const uint64_t children = shapes.child_shape.size();
@@ -246,6 +288,8 @@ Result<void> write_shapes(const SceneShapes& shapes, NpzWriter& writer) {
       write_optional(writer, "child_shape", shapes.child_shape),
       write_optional(writer, "child_position", shapes.child_position),
       write_optional(writer, "child_orientation", shapes.child_orientation),
+      write_optional(writer, "shape_height_range", shapes.height_range),
+      write_optional(writer, "heights", shapes.heights),
   });
 }
 

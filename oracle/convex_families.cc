@@ -193,6 +193,7 @@ void ConvexPairMaker::place_round(ConvexPair& pair, double size, double factor) 
 void ConvexPairMaker::let_touch(ConvexPair& pair) {
   const SupportPair placed(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b);
   const SeparationBounds found = placed.distance(1e-12L * placed.scale());
+  if (!std::isfinite(found.low)) return;  // they meet in a point, and no direction is known
   const long double by = found.low + 0x1p-22L * placed.scale() * shapes_.integer(-8, 8);
   pair.pose_b.position = stored(pair.pose_b.position + as_doubles(found.normal * -by));
 }

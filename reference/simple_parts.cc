@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "carom/shapes/compound_geometry.h"
-#include "carom/shapes/height_field_geometry.h"
-#include "carom/shapes/mesh_geometry.h"
+#include "geometries/surface.h"
 
 namespace carom::reference {
 namespace {
@@ -37,20 +36,18 @@ Simple triangle_part(const Simple& whole, const Surface& surface, size_t i) {
   return part;
 }
 
+template <class Geometry>
+void add_triangles(const Simple& whole, const Geometry& geometry, std::vector<Simple>& parts) {
+  for_each_triangle(geometry,
+                    [&](size_t i) { parts.push_back(triangle_part(whole, geometry, i)); });
+}
+
 // Adds the parts of a body, or of a child of one. `whole` is its shape in its place.
 void add_parts(const Simple& whole, std::vector<Simple>& parts) {
   if (const auto* mesh = std::get_if<Mesh>(&whole.shape)) {
-    for (size_t i = 0; i < mesh->geometry->triangles().size(); ++i) {
-      if (mesh->geometry->is_degenerate(i)) continue;
-      parts.push_back(triangle_part(whole, *mesh->geometry, i));
-    }
-  } else if (const auto* heights = std::get_if<HeightField>(&whole.shape)) {
-    const HeightFieldGeometry& field = *heights->geometry;
-    for (size_t i = 0; i < field.triangle_count(); ++i) {
-      const auto cell = static_cast<uint32_t>(i / 2);
-      if (field.is_hole(cell % field.cells_x(), cell / field.cells_x())) continue;
-      parts.push_back(triangle_part(whole, field, i));
-    }
+    add_triangles(whole, *mesh->geometry, parts);
+  } else if (const auto* field = std::get_if<HeightField>(&whole.shape)) {
+    add_triangles(whole, *field->geometry, parts);
   } else if (const auto* compound = std::get_if<Compound>(&whole.shape)) {
     const Part& body = whole.placed;
     for (uint32_t i = 0; i < compound->geometry->parts().size(); ++i) {

@@ -59,7 +59,7 @@ Result<std::unique_ptr<LoadedScene>> load(const TunnellingCommand& command) {
   }
   // The oracle of motions knows polytopes with a radius alone.
   for (const uint8_t kind : info.shapes.kind) {
-    if (!accuracy::is_round(static_cast<ShapeKind>(kind))) continue;
+    if (!is_round(static_cast<ShapeKind>(kind))) continue;
     return Error{command.scene + ": has a " + name(static_cast<ShapeKind>(kind)) +
                  ", of which meetings are not measured"};
   }

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "carom/shapes/compound_geometry.h"
-#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "geometries/surface.h"
 #include "shapes/dop_polytope.h"
 
 namespace carom::cli {
@@ -200,7 +200,7 @@ struct Viewer {
     return std::move(faces).json();
   }
 
-  // Without holes, and the triangles of all others.
+  // Holes have points, but no faces.
   Json operator()(const HeightField& field) const {
     const HeightFieldGeometry& grid = *field.geometry;
     Faces faces;
@@ -210,11 +210,7 @@ struct Viewer {
         faces.add_point(point.allFinite() ? point : Eigen::Vector3f(point.x(), point.y(), 0));
       }
     }
-    for (uint32_t triangle = 0; triangle < grid.triangle_count(); ++triangle) {
-      const uint32_t cell = triangle / 2;
-      if (grid.is_hole(cell % grid.cells_x(), cell / grid.cells_x())) continue;
-      faces.add_face(grid.corner_numbers(triangle));
-    }
+    for_each_triangle(grid, [&](size_t i) { faces.add_face(grid.corner_numbers(i)); });
     return std::move(faces).json();
   }
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "carom/shapes/compound_geometry.h"
-#include "carom/shapes/mesh_geometry.h"
 #include "carom/shapes/views.h"
 #include "cli/page/round_surface.h"
+#include "geometries/surface.h"
 #include "oracle/convex_oracle.h"
 
 namespace carom::cli {
@@ -26,13 +26,8 @@ Vec turned_back(const Vec& v, const Eigen::Quaternionf& q) {
   return oracle::Rotation<long double>(q.conjugate())(v);
 }
 
-Shape triangle_of(const MeshGeometry& mesh, size_t index) {
-  Triangle triangle;
-  for (size_t i = 0; i < 3; ++i) {
-    triangle.corners[i] = mesh.vertices()[mesh.triangles()[index][i]];
-  }
-  triangle.thickness = mesh.rules().thickness;
-  return triangle;
+Shape triangle_of(const Surface& surface, size_t index) {
+  return Triangle{surface.corners(index), surface.rules().thickness};
 }
 
 bool is_too_large(const Shape& shape) {
@@ -42,16 +37,13 @@ bool is_too_large(const Shape& shape) {
 
 // Distance of the point from the box around a triangle: a lower bound of its distance from the
 // triangle.
-double distance_to_box(const MeshGeometry& mesh, size_t index, const Vec& point) {
-  const auto& [i, j, k] = mesh.triangles()[index];
-  const auto vertices = mesh.vertices();
+double distance_to_box(const Surface& surface, size_t index, const Vec& point) {
+  const auto [a, b, c] = surface.corners(index);
   const Eigen::Vector3d p(double(point.x), double(point.y), double(point.z));
-  const Eigen::Vector3d lower =
-      vertices[i].cwiseMin(vertices[j]).cwiseMin(vertices[k]).cast<double>();
-  const Eigen::Vector3d upper =
-      vertices[i].cwiseMax(vertices[j]).cwiseMax(vertices[k]).cast<double>();
+  const Eigen::Vector3d lower = a.cwiseMin(b).cwiseMin(c).cast<double>();
+  const Eigen::Vector3d upper = a.cwiseMax(b).cwiseMax(c).cast<double>();
   const Eigen::Vector3d beyond = (lower - p).cwiseMax(p - upper).cwiseMax(0);
-  return beyond.norm() - mesh.rules().thickness;
+  return beyond.norm() - surface.rules().thickness;
 }
 
 // Distances of points from surfaces, in the frame of the shape. Caches hulls.
@@ -63,6 +55,9 @@ class Surfaces {
       return to_children(*compound->geometry, point);
     }
     if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return to_triangles(*mesh->geometry, point);
+    if (const HeightField* field = std::get_if<HeightField>(&shape)) {
+      return to_triangles(*field->geometry, point);
+    }
     if (is_too_large(shape)) return std::nullopt;
     if (const auto distance_to_round = round_surface_distance(shape, point)) {
       return static_cast<double>(*distance_to_round);
@@ -83,12 +78,13 @@ class Surfaces {
     return nearest;
   }
 
-  double to_triangles(const MeshGeometry& mesh, const Vec& point) {
+  template <class Geometry>
+  double to_triangles(const Geometry& surface, const Vec& point) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < mesh.triangles().size(); ++i) {
-      if (mesh.is_degenerate(i) || distance_to_box(mesh, i, point) >= nearest) continue;
-      nearest = std::min(nearest, to_simple(triangle_of(mesh, i), point));
-    }
+    for_each_triangle(surface, [&](size_t i) {
+      if (distance_to_box(surface, i, point) >= nearest) return;
+      nearest = std::min(nearest, to_simple(triangle_of(surface, i), point));
+    });
     return nearest;
   }
 

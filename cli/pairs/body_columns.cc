@@ -9,6 +9,7 @@ namespace {
 std::shared_ptr<const void> geometry_of(const Shape& shape) {
   if (const Hull* hull = std::get_if<Hull>(&shape)) return hull->geometry;
   if (const Mesh* mesh = std::get_if<Mesh>(&shape)) return mesh->geometry;
+  if (const HeightField* field = std::get_if<HeightField>(&shape)) return field->geometry;
   if (const Compound* compound = std::get_if<Compound>(&shape)) return compound->geometry;
   return nullptr;
 }

@@ -8,6 +8,7 @@
 
 #include "carom/hulls/build_hull.h"
 #include "carom/shapes/compound_geometry.h"
+#include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
 #include "io/files/file.h"
 
@@ -71,6 +72,19 @@ Result<Shape> convert_dop(const io::SceneShapes& shapes, size_t index) {
   return Error{std::string("a dop of k = ") + number + " (6, 14, 18 or 26 was expected)"};
 }
 
+// The file has as many heights as the grid has samples.
+Result<Shape> convert_height_field(const io::SceneShapes& shapes, size_t index) {
+  const std::array<float, 8>& params = shapes.params[index];
+  Result<std::shared_ptr<HeightFieldGeometry>> field =
+      make_height_field({.nx = static_cast<uint32_t>(params[0]),
+                         .ny = static_cast<uint32_t>(params[1]),
+                         .dx = params[2],
+                         .dy = params[3],
+                         .samples = {.data = &shapes.heights[shapes.height_range[index][0]]}});
+  if (!field) return Error{"not valid: " + field.error().message};
+  return Shape(HeightField{std::move(*field)});
+}
+
 // `converted` holds all shapes except compounds.
 Result<Shape> convert_compound(const io::SceneShapes& shapes, size_t index,
                                const std::vector<Shape>& converted) {
@@ -125,6 +139,8 @@ Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) 
       return convert_hull(shapes, index);
     case ShapeKind::mesh:
       return convert_mesh(shapes, index);
+    case ShapeKind::height_field:
+      return convert_height_field(shapes, index);
     case ShapeKind::halfspace:
       return Shape(Halfspace{vector(&params[0]), params[3]});
     case ShapeKind::cylinder:

@@ -14,7 +14,8 @@ namespace carom::cli {
 // of its vertices, a hull the result of build_hull(). Sizes are not checked, because the
 // kernels report invalid shapes; a geometry that cannot be built from invalid numbers is null.
 // Fails for empty shapes (a hull without vertices, a mesh without triangles, a compound without
-// children), unknown dops, and compounds with half-spaces.
+// children), unknown dops, height fields that make_height_field() refuses, and compounds with
+// half-spaces.
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes, const std::string& source);
 
 // Whether the parameters of a shape of this kind say all of it, so that converting it is cheap and

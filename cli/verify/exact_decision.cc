@@ -7,8 +7,8 @@
 
 #include "carom/results/tier.h"
 #include "carom/shapes/compound_geometry.h"
-#include "carom/shapes/mesh_geometry.h"
 #include "geometries/part.h"
+#include "geometries/surface.h"
 #include "narrowphase/proof/exact_overlap.h"
 #include "narrowphase/proof/proof.h"
 
@@ -18,15 +18,15 @@ namespace {
 Double3 numbers(const Position<double>& p) { return {p.x, p.y, p.z}; }
 Position<double> position(const Double3& p) { return {p[0], p[1], p[2]}; }
 
-void add_triangles(const MeshGeometry& mesh, const StatedBody& body,
+template <class Geometry>
+void add_triangles(const Geometry& surface, const StatedBody& body,
                    std::vector<StatedBody>& parts) {
-  for (size_t i = 0; i < mesh.triangles().size(); ++i) {
-    if (mesh.is_degenerate(i)) continue;
+  for_each_triangle(surface, [&](size_t i) {
     std::array<Row, 3> rows;
-    put_triangle_rows(mesh, i, rows.data());
+    put_triangle_rows(surface, i, rows.data());
     parts.push_back(
         {shape_from_rows(ShapeKind::triangle, rows.data()), body.position, body.orientation});
-  }
+  });
 }
 
 Shape shape_of(const Part& child) {
@@ -37,6 +37,8 @@ Shape shape_of(const Part& child) {
 void add_parts(const StatedBody& body, std::vector<StatedBody>& parts) {
   if (const Mesh* mesh = std::get_if<Mesh>(&body.shape)) {
     add_triangles(*mesh->geometry, body, parts);
+  } else if (const HeightField* field = std::get_if<HeightField>(&body.shape)) {
+    add_triangles(*field->geometry, body, parts);
   } else if (const Compound* compound = std::get_if<Compound>(&body.shape)) {
     for (const Part& child : compound->geometry->parts()) {
       const PlacedChild at =

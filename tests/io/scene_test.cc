@@ -14,23 +14,29 @@ using test::kNan;
 
 using ::testing::HasSubstr;
 
-// A sphere, a hull, a mesh, a compound of the first two, a cylinder, a cone and an ellipsoid; three
-// bodies.
+// A sphere, a hull, a mesh, a compound of the first two, a cylinder, a cone, an ellipsoid and a
+// height field; three bodies.
 SceneInfo full_info() {
   SceneInfo info;
   info.bodies = 3;
   info.dt = 0.25;
   info.has_orientation = info.has_linear_velocity = info.has_angular_velocity = true;
-  info.shapes.kind = {0, 5, 6, 7, 9, 10, 11};
-  info.shapes.params = {{1}, {}, {1, 0.5f}, {}, {1, 2}, {3, 4}, {5, 6, 7}};
-  info.shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  info.shapes.kind = {0, 5, 6, 7, 9, 10, 11, 12};
+  info.shapes.params = {{1}, {}, {1, 0.5f}, {}, {1, 2}, {3, 4}, {5, 6, 7}, {3, 2, 0.5f, 1}};
+  info.shapes.vertex_range = {{0, 0}, {0, 4}, {1, 3}};
+  info.shapes.vertex_range.resize(8);
   info.shapes.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  info.shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+  info.shapes.triangle_range = {{0, 0}, {0, 0}, {0, 1}};
+  info.shapes.triangle_range.resize(8);
   info.shapes.triangles = {{0, 1, 2}};
-  info.shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}, {0, 0}, {0, 0}, {0, 0}};
+  info.shapes.child_range = {{0, 0}, {0, 0}, {0, 0}, {0, 2}};
+  info.shapes.child_range.resize(8);
   info.shapes.child_shape = {0, 1};
   info.shapes.child_position = {{1, 0, 0}, {0, 1, 0}};
   info.shapes.child_orientation = {{0, 0, 0, 1}, {0, 0, 0, 1}};
+  info.shapes.height_range.resize(8);
+  info.shapes.height_range[7] = {1, 6};
+  info.shapes.heights = {9, 1, 2, 3, 4, 5, 6};
   info.body_shape = {0, 3, 2};
   info.body_motion = {0, 1, 2};
   info.layer = {1, 2, 3};
@@ -140,6 +146,8 @@ TEST_F(SceneTest, ReadsWhatItWritesAndWrapsAround) {
     EXPECT_EQ(read.shapes.child_shape, info.shapes.child_shape);
     EXPECT_EQ(read.shapes.child_position, info.shapes.child_position);
     EXPECT_EQ(read.shapes.child_orientation, info.shapes.child_orientation);
+    EXPECT_EQ(read.shapes.height_range, info.shapes.height_range);
+    EXPECT_EQ(read.shapes.heights, info.shapes.heights);
     EXPECT_EQ(read.body_shape, info.body_shape);
     EXPECT_EQ(read.body_motion, info.body_motion);
     EXPECT_EQ(read.layer, info.layer);
@@ -292,10 +300,10 @@ TEST_F(SceneTest, ArraysWithoutFiniteValuesAreErrors) {
 
 TEST_F(SceneTest, ChecksValuesAndIndices) {
   EXPECT_EQ(check_after([](SceneInfo&) {}), "");
-  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.kind[1] = 12; }),
-            "F: member shape_kind: element 1 is the unknown kind 12 (0 to 11 was expected)");
-  EXPECT_EQ(check_after([](SceneInfo& i) { i.body_shape[2] = 7; }),
-            "F: member body_shape: element 2 is 7 (at most 6 was expected)");
+  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.kind[1] = 13; }),
+            "F: member shape_kind: element 1 is the unknown kind 13 (0 to 12 was expected)");
+  EXPECT_EQ(check_after([](SceneInfo& i) { i.body_shape[2] = 8; }),
+            "F: member body_shape: element 2 is 8 (at most 7 was expected)");
   EXPECT_EQ(check_after([](SceneInfo& i) { i.body_motion[0] = 3; }),
             "F: member body_motion: element 0 is 3 (at most 2 was expected)");
   EXPECT_EQ(check_after([](SceneInfo& i) { i.sensor[0] = 2; }),
@@ -337,6 +345,7 @@ TEST_F(SceneTest, ChecksValuesAndIndices) {
               i.shapes.params.resize(200);
               i.shapes.triangle_range.resize(200);
               i.shapes.child_range.resize(200);
+              i.shapes.height_range.resize(200);
             }),
             "F: member shape_vertex_range: names 209715200 elements of 1048576 (at most 134217728 "
             "were expected)");
@@ -353,8 +362,8 @@ TEST_F(SceneTest, ChecksValuesAndIndices) {
   EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.child_shape[1] = 3; }),
             "F: member child_shape: element 1 is shape 3, a compound (any other kind was "
             "expected)");
-  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.child_shape[1] = 7; }),
-            "F: member child_shape: element 1 is shape 7 (there are 7)");
+  EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.child_shape[1] = 8; }),
+            "F: member child_shape: element 1 is shape 8 (there are 8)");
   EXPECT_THAT(check_after([](SceneInfo& i) { i.shapes.child_position.pop_back(); }),
               HasSubstr("member child_position: holds 1 elements (2 were expected)"));
   EXPECT_EQ(check_after([](SceneInfo& i) { i.shapes.vertex_range.clear(); }),

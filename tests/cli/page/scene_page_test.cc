@@ -128,6 +128,31 @@ TEST_F(ScenePageTest, ContactsLieOnTheSurfaces) {
   }
 }
 
+// A ball on level ground with a hole at one corner.
+TEST_F(ScenePageTest, HoldsHeightFields) {
+  io::SceneInfo info;
+  info.bodies = 2;
+  info.shapes.kind = {0, 12};
+  info.shapes.params = {{1}, {3, 3, 1, 1}};
+  info.shapes.height_range = {{0, 0}, {0, 9}};
+  info.shapes.heights.assign(9, 0.5f);
+  info.shapes.heights[0] = std::numeric_limits<float>::quiet_NaN();
+  info.body_shape = {0, 1};
+  auto writer = io::SceneWriter::create(path("scene.npz"), info);
+  ASSERT_TRUE(writer) << writer.error().message;
+  io::SceneFrame frame;
+  frame.position32 = {0.25f, 0.5f, 1.25f, 0, 0, 0};
+  ASSERT_TRUE(writer->write_frame(frame));
+  ASSERT_TRUE(writer->finish());
+  const json data = page_of(path("scene.npz"));
+  const json& field = data["shapes"][data["body"]["shape"][1].get<size_t>()];
+  EXPECT_EQ(field["kind"], "height_field");
+  EXPECT_EQ(field["points"].size(), 3u * 9);
+  EXPECT_EQ(field["faces"].size(), 2u * 3);
+  EXPECT_EQ(data["surface"]["on"]["points"], 2);
+  EXPECT_LT(data["surface"]["on"]["greatest"].get<double>(), 1e-6);
+}
+
 // A ball on a hull of points along a spiral.
 TEST_F(ScenePageTest, HullsTooLargeForTheOracleAreNotMeasured) {
   io::SceneInfo info;

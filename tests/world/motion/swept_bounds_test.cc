@@ -6,6 +6,7 @@
 
 #include "carom/bounds/bounds.h"
 #include "shapes/dop_polytope.h"
+#include "oracle/support_pair.h"
 #include "tests/support/composites.h"
 #include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
@@ -74,7 +75,21 @@ Skeleton skeleton_of(const Compound& compound) {
   return all;
 }
 
+// Points of a round shape's surface.
+Skeleton round_skeleton(const Shape& shape) {
+  const oracle::SupportShape round = oracle::support_shape(shape, {});
+  Random random(1);
+  Skeleton skeleton;
+  for (int i = 0; i < 100; ++i) {
+    const auto p = round.furthest(oracle::vec3_as<long double>(random.direction()));
+    skeleton.points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y),
+                                 static_cast<double>(p.z));
+  }
+  return skeleton;
+}
+
 Skeleton skeleton_of(const Shape& shape) {
+  if (is_round(kind_of(shape))) return round_skeleton(shape);
   if (const auto* s = std::get_if<Sphere>(&shape)) return {{Vector3d::Zero()}, s->radius};
   if (const auto* s = std::get_if<Aabb>(&shape)) return corners_with(s->lower, s->upper);
   if (const auto* s = std::get_if<Capsule>(&shape)) {
