@@ -81,9 +81,8 @@ Result<void> check_exact(const Collidables& bodies) {
   const BodyReader reader{bodies};
   for (size_t i = 0; i < bodies.count; ++i) {
     const ShapeKind kind = reader.kind(i);
-    const bool is_open =
-        is_round(kind) || (kind == ShapeKind::compound && reader.is_valid(i) &&
-                           !is_decided_exactly(shape_of(reader, i)));
+    const bool is_open = is_round(kind) || (kind == ShapeKind::compound && reader.is_valid(i) &&
+                                            !is_decided_exactly(shape_of(reader, i)));
     if (is_open) return Error{std::string("the exact tier does not decide a ") + name(kind)};
   }
   return {};

@@ -96,8 +96,8 @@ class ConvexPairMaker {
   void orient(ConvexPair& pair);
   void place_pair(ConvexPair& pair, double size);
 
-  // As place(), for pairs with a round shape: roughly at `factor` times the distance of touch or, if
-  // they are to touch, exactly there.
+  // As place(), for pairs with a round shape: roughly at `factor` times the distance of touch or,
+  // if they are to touch, exactly there.
   void place_round(ConvexPair& pair, double size, double factor);
   void let_touch(ConvexPair& pair);
 

@@ -89,8 +89,9 @@ long double own_distance(const Ellipsoid& e, const Vec& p) {
 template <class Round>
 SupportShape round_support(const Round& shape, const Pose& pose, const Vec& at) {
   const Rotation<long double> turn(pose.orientation);
-  return {[turn, at, shape](const Vec& way) { return turn(own_support(shape, turn.back(way))) + at; },
-          0};
+  return {
+      [turn, at, shape](const Vec& way) { return turn(own_support(shape, turn.back(way))) + at; },
+      0};
 }
 
 template <class Round>

@@ -1,5 +1,5 @@
-// The separation of any two placed convex shapes, round ones too, by support functions; a half-space
-// may be one of them.
+// The separation of any two placed convex shapes, round ones too, by support functions; a
+// half-space may be one of them.
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ class SupportPair {
 
   // See separation_by_supports(). Exact with a half-space.
   SeparationBounds separation(long double tolerance, size_t most_triangles = 4'000'000) const;
-  // The separation of separate shapes, between bounds that are nearer than `tolerance`. Of others the
-  // upper bound is not positive.
+  // The separation of separate shapes, between bounds that are nearer than `tolerance`. Of others
+  // the upper bound is not positive.
   SeparationBounds distance(long double tolerance) const;
   // The gap between the projections on a unit vector from A to B; with a half-space the separation,
   // projected as by gap_along() of convex_oracle.h.

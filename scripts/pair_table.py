@@ -20,6 +20,11 @@ Every pair of kinds that has a kernel in lanes; meshes and compounds are tested 
 |---|---|---|---|---|
 """
 
+TAIL = """
+Cylinders, cones and ellipsoids meet every convex kind, each other and half-spaces by one way, a pair at a time and in
+double precision: [round shapes](design/round_shapes.md). They have manifolds, but of spheres.
+"""
+
 
 def first_sentence(path):
     """Of the comment at the head of a file."""
@@ -54,7 +59,7 @@ def main():
         (ROOT / "narrowphase" / "pairs" / "pair_list.inc").read_text(),
         re.MULTILINE,
     )
-    text = HEAD + "".join(row(*pair) for pair in pairs)
+    text = HEAD + "".join(row(*pair) for pair in pairs) + TAIL
     if sys.argv[1:] != ["--check"]:
         DOCUMENT.write_text(text)
     elif DOCUMENT.read_text() != text:

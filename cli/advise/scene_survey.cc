@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "accuracy/pairs/body_size.h"
+#include "carom/narrowphase/collide.h"
 #include "cli/advise/pair_survey.h"
 #include "io/recording.h"
 
@@ -24,6 +25,7 @@ void survey_bodies(const LoadedScene& scene, SceneSurvey& survey, std::vector<do
   std::vector<double> finite, aspects;
   for (size_t i = 0; i < info.bodies; ++i) {
     const Shape shape = scene.player().body(scene.frame(0), i).shape;
+    survey.all_decided_exactly = survey.all_decided_exactly && is_decided_exactly(shape);
     radius.push_back(accuracy::bounding_radius(shape));
     if (!std::isfinite(radius.back())) continue;
     finite.push_back(radius.back());

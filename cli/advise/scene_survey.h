@@ -44,8 +44,9 @@ struct SceneSurvey {
   uint64_t sensors = 0;
   bool has_filters = false;  // layers, masks, owners, spaces or excluded pairs
   bool has_velocities = false;
-  bool has_orientation = false;  // the scene gives orientations that some body's kind reads
-  bool all_unturned = false;     // no body whose kind reads orientations is ever turned
+  bool has_orientation = false;     // the scene gives orientations that some body's kind reads
+  bool all_decided_exactly = true;  // no shape that the exact tier refuses
+  bool all_unturned = false;        // no body whose kind reads orientations is ever turned
 
   double farthest = 0;       // greatest coordinate of a position
   bool float64 = false;      // positions

@@ -103,7 +103,7 @@ std::vector<Candidate> tier_candidates(const SceneSurvey& survey, double toleran
          }});
   }
   candidates.push_back(tier("certified", Tier::certified));
-  candidates.push_back(tier("exact", Tier::exact));
+  if (survey.all_decided_exactly) candidates.push_back(tier("exact", Tier::exact));
   return candidates;
 }
 

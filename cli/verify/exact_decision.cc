@@ -56,9 +56,10 @@ std::vector<StatedBody> parts_of(const StatedBody& body) {
   return parts;
 }
 
-bool simple_decision(const StatedBody& a, const StatedBody& b) {
+uint8_t simple_decision(const StatedBody& a, const StatedBody& b) {
   const uint8_t proven = prove_overlap(a, b);
-  return proven == kUndecided ? exact_overlap(a, b) : proven == 1;
+  const bool has_round = is_round(kind_of(a.shape)) || is_round(kind_of(b.shape));
+  return proven == kUndecided && !has_round ? exact_overlap(a, b) : proven;
 }
 
 bool is_compound(const StatedBody& body) { return kind_of(body.shape) == ShapeKind::compound; }
@@ -77,10 +78,15 @@ uint8_t exact_decision(const StatedBody& a, const StatedBody& b) {
   }
   const std::vector<StatedBody> parts_a = parts_of(near_a);
   const std::vector<StatedBody> parts_b = parts_of(near_b);
-  return std::any_of(parts_a.begin(), parts_a.end(), [&](const StatedBody& part_a) {
-    return std::any_of(parts_b.begin(), parts_b.end(),
-                       [&](const StatedBody& part_b) { return simple_decision(part_a, part_b); });
-  });
+  uint8_t decision = 0;
+  for (const StatedBody& part_a : parts_a) {
+    for (const StatedBody& part_b : parts_b) {
+      const uint8_t of_parts = simple_decision(part_a, part_b);
+      if (of_parts == 1) return 1;
+      decision = std::max(decision, of_parts);
+    }
+  }
+  return decision;
 }
 
 }  // namespace carom::cli

@@ -39,8 +39,8 @@ inline bool is_plain_face(const NearestPoint::Corners& corners) {
 }
 
 // Where a depth is the least, or nearly, in a whole ring of directions, the polytope becomes full
-// before it is near enough. From each direction that may still be better, this climbs to the greatest
-// gap along the arc of its gradient, which leads across the ring.
+// before it is near enough. From each direction that may still be better, this climbs to the
+// greatest gap along the arc of its gradient, which leads across the ring.
 class RingSearch {
  public:
   RingSearch(const Core& a, const Core& b, FurthestPoint furthest, WayOut& best)

@@ -187,8 +187,8 @@ inline NearestWay nearest_round_way(const Core& a, const Core& b, FurthestPoint 
     }
     const DifferencePoint next = find_difference_point(a, b, way, furthest);
     const double gap = dot(way, next.point), squared = nearest.squared();
-    // How far the surface may be before the corners, times the distance: a share of the cores' size,
-    // but less than what turns the way noticeably, and more than rounding.
+    // How far the surface may be before the corners, times the distance: a share of the cores'
+    // size, but less than what turns the way noticeably, and more than rounding.
     const double of_size = kSameRoundGap * size * std::sqrt(squared);
     const double slack = std::clamp(of_size, 0x1p-50 * squared, kSameRoundWay / 4 * squared);
     const bool has_ended = gap >= squared - slack || holds(nearest.corners(), next.point);

@@ -25,8 +25,8 @@ namespace carom {
 struct WayOut {
   CoreVector normal{1, 0, 0};
   double gap = -HUGE_VAL;
-  bool is_flat = false;   // B - A has no volume: -normal is as good
-  bool has_ended = true;  // false: there may be a direction with less depth
+  bool is_flat = false;    // B - A has no volume: -normal is as good
+  bool has_ended = true;   // false: there may be a direction with less depth
   bool has_point = false;  // of A, where it meets B: of round cores
   CoreVector of_a{};
 };
@@ -123,9 +123,9 @@ class WayOutSearch {
     return best_.has_ended;
   }
 
-  // The way out through a face, beyond which no point is further than `point`. Zero need not project
-  // onto that face: where the difference is flat, several faces share a plane. One of them holds the
-  // polytope's nearest point. Returns how far beside zero's projection that is.
+  // The way out through a face, beyond which no point is further than `point`. Zero need not
+  // project onto that face: where the difference is flat, several faces share a plane. One of them
+  // holds the polytope's nearest point. Returns how far beside zero's projection that is.
   double find_out(size_t nearest, const DifferencePoint& point, WayOut& out) const {
     const CoreVector& normal = faces_[nearest].normal;
     out = {.normal = -normal, .gap = -dot(normal, point.point), .has_point = true};

@@ -1,5 +1,6 @@
 // Hulls and round shapes against special triangles: thick, one-sided or inside a mesh
-// (special_triangle.h has the rules). Double precision, one pair at a time, because such pairs are rare.
+// (special_triangle.h has the rules). Double precision, one pair at a time, because such pairs are
+// rare.
 #pragma once
 
 #include <array>
@@ -101,7 +102,8 @@ class EdgeWays {
     for (size_t k = 0; k < kRimCorners; ++k) gap[k] = gap_along(way(k));
     for (size_t k = 0; k < kRimCorners; ++k) {
       const size_t last = (k + kRimCorners - 1) % kRimCorners, next = (k + 1) % kRimCorners;
-      if (gap[k] >= gap[last] && gap[k] >= gap[next]) ways.try_both_ways(best_between(last, k, next));
+      if (gap[k] >= gap[last] && gap[k] >= gap[next])
+        ways.try_both_ways(best_between(last, k, next));
     }
   }
 

@@ -44,8 +44,8 @@ inline FacingSide side_towards(const Vector3f& m, float, const CapsuleShape<floa
 }
 
 // Two edges, seen along the normal. They have two points if they are nearly parallel. Of edges with
-// a radius, a point beside the other edge is above it by half the square of the distance, divided by
-// the radius.
+// a radius, a point beside the other edge is above it by half the square of the distance, divided
+// by the radius.
 inline ContactPoints touch_edges(const FaceCorners& edge_a, const FaceCorners& edge_b, float radius,
                                  const ScaledContact& contact) {
   const Vector3f along = edge_a[1] - edge_a[0], other = edge_b[1] - edge_b[0];
@@ -87,8 +87,8 @@ concept HasSide = requires(Vector3f m, S shape, Placed placed) {
 };
 
 template <HasSide A, HasSide B>
-requires(RoundShape<A> || RoundShape<B>)
-ContactPoints manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
+requires(RoundShape<A> || RoundShape<B>) ContactPoints
+    manifold(const A& a, const B& b, const PlacedPair& placed, const ScaledContact& contact) {
   const float depth = -contact.separation;
   return touch_sides(side_towards(contact.normal, depth, a, placed.a),
                      side_towards(-contact.normal, depth, b, placed.b),

@@ -39,8 +39,7 @@ void run_round(const Batch& batch) {
 }
 template <ShapeKind kA, ShapeKind kB>
 inline constexpr PairKind kRoundPairKind{
-    kA, kB, &run_round<kA, kB>,
-    kA == ShapeKind::sphere ? MorePasses::none : MorePasses::manifold};
+    kA, kB, &run_round<kA, kB>, kA == ShapeKind::sphere ? MorePasses::none : MorePasses::manifold};
 template <ShapeKind kRound>
 inline constexpr std::array kRoundPairKinds = {
     kRoundPairKind<ShapeKind::sphere, kRound>,    kRoundPairKind<ShapeKind::capsule, kRound>,

@@ -84,8 +84,7 @@ TEST(RoundImpacts, AreTheFirstContacts) {
       if (HasFailure()) return;
     }
     const auto expected = expected_impacts(pairs, call);
-    for_each_isa(
-        [&] { EXPECT_TRUE(same_impacts(expected, run_impacts(pairs, call), pairs)); });
+    for_each_isa([&] { EXPECT_TRUE(same_impacts(expected, run_impacts(pairs, call), pairs)); });
   }
   EXPECT_GT(impacts, all / 4);
   EXPECT_LT(impacts, all * 9 / 10);

@@ -7,10 +7,10 @@
 namespace carom::test {
 namespace {
 
-constexpr ShapeKind kSimpleKinds[] = {ShapeKind::sphere,    ShapeKind::capsule, ShapeKind::aabb,
-                                      ShapeKind::box,       ShapeKind::dop,     ShapeKind::hull,
-                                      ShapeKind::halfspace, ShapeKind::triangle, ShapeKind::cylinder,
-                                      ShapeKind::cone,      ShapeKind::ellipsoid};
+constexpr ShapeKind kSimpleKinds[] = {
+    ShapeKind::sphere,   ShapeKind::capsule, ShapeKind::aabb,      ShapeKind::box,
+    ShapeKind::dop,      ShapeKind::hull,    ShapeKind::halfspace, ShapeKind::triangle,
+    ShapeKind::cylinder, ShapeKind::cone,    ShapeKind::ellipsoid};
 constexpr ShapeKind kKindsOfParts[] = {ShapeKind::mesh, ShapeKind::compound,
                                        ShapeKind::height_field};
 
@@ -129,6 +129,7 @@ TEST_P(HeightFieldKinds, EqualMeshInAllTiers) {
     const auto pairs =
         pairs_on(ground, GetParam(), PositionType::float64, rounds(6), 1.5, true, ++seed);
     for (const Tier tier : {Tier::certified, Tier::exact}) {
+      if (tier == Tier::exact && is_round(GetParam())) continue;
       Call call = call_with(PositionType::float64);
       call.accuracy.tier = tier;
       expect_like_mesh(pairs, ground, call);

@@ -15,7 +15,8 @@ namespace {
 struct ManyBodies {
   std::vector<PlacedShape> shapes = make_bodies({.count = 120, .side = 9}, 3);
   Sweeps sweeps = make_sweeps(120, 6, true, 4);
-  std::vector<PlacedShape> other_shapes = make_bodies({.count = 120, .side = 9}, 5);
+  std::vector<PlacedShape> other_shapes =
+      make_bodies({.count = 120, .side = 9, .halfspaces = 0}, 5);
   LaidOut laid_out = LaidOut(shapes, {});
   LaidOut others_laid_out = LaidOut(other_shapes, {});
   std::vector<Pair> pairs;

@@ -71,9 +71,9 @@ struct CollideOptions {
 /// compound whose normals are within an angle (RegionLimits) share a contact, the deepest of which
 /// gives the normal. A contact over an inner edge makes none of its own.
 ///
-/// Fails, and writes nothing, if no kernel exists for the kinds of a pair (supports()), if a contact
-/// distance is not a finite number >= 0, or if Tier::exact is asked for and one of the bodies has a
-/// shape that it does not decide (is_decided_exactly()).
+/// Fails, and writes nothing, if no kernel exists for the kinds of a pair (supports()), if a
+/// contact distance is not a finite number >= 0, or if Tier::exact is asked for and one of the
+/// bodies has a shape that it does not decide (is_decided_exactly()).
 CAROM_EXPORT Result<void> collide(const Collidables& a, const Collidables& b,
                                   std::span<const Pair> pairs, Detail detail,
                                   const ResultColumns& out, const CollideOptions& options = {});

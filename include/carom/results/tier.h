@@ -15,7 +15,9 @@ enum class Tier : uint8_t {
   fast,
   standard,   ///< float32, and float64 where that is unsure; equal bits on every instruction set
   certified,  ///< the standard results; overlaps of 1 and 0 are proven, all others are kUndecided
-  exact       ///< as certified, but exact arithmetic decides the rest: always right
+  /// As certified, but exact arithmetic decides the rest: always right. Not for cylinders, cones
+  /// and ellipsoids (is_decided_exactly()): calls for pairs fail, World::add() throws.
+  exact
 };
 
 /// Whether this tier proves its decisions.

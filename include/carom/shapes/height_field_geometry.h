@@ -39,13 +39,13 @@ struct HeightSamples {
 /// What a height field is made from. Sample (i, j) lies at ((i - (nx - 1) / 2) dx,
 /// (j - (ny - 1) / 2) dy, height) in the body's frame.
 struct HeightGrid {
-  uint32_t nx = 0;  ///< samples along x, 2 to kMostHeightSamples
-  uint32_t ny = 0;  ///< samples along y, 2 to kMostHeightSamples
-  float dx = 0;     ///< metres from sample to sample along x, > 0
-  float dy = 0;     ///< metres from sample to sample along y, > 0
-  HeightSamples samples;
-  float scale = 1;   ///< int16 only: metres in a step, > 0
-  float offset = 0;  ///< int16 only: height of sample 0, metres
+  uint32_t nx = 0;        ///< samples along x, 2 to kMostHeightSamples
+  uint32_t ny = 0;        ///< samples along y, 2 to kMostHeightSamples
+  float dx = 0;           ///< metres from sample to sample along x, > 0
+  float dy = 0;           ///< metres from sample to sample along y, > 0
+  HeightSamples samples;  ///< nx x ny of them
+  float scale = 1;        ///< int16 only: metres in a step, > 0
+  float offset = 0;       ///< int16 only: height of sample 0, metres
   /// Whether the samples stay in the caller's memory. It must then outlive the geometry, and may
   /// change only as HeightFieldGeometry::update() says. Otherwise they are copied.
   bool borrow = false;

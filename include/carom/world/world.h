@@ -201,8 +201,8 @@ class CAROM_EXPORT World {
   void set_orientation(BodyId id, const Orientation& orientation);
   /// The shape; it shares the geometry of the body.
   Shape shape(BodyId id) const;
-  /// Replaces the shape. Throws std::invalid_argument at Tier::exact if it does not decide the shape
-  /// (is_decided_exactly()), as add() does.
+  /// Replaces the shape. Throws std::invalid_argument at Tier::exact if it does not decide the
+  /// shape (is_decided_exactly()), as add() does.
   void set_shape(BodyId id, const Shape& shape);
   /// World frame, metres a second.
   Eigen::Vector3f linear_velocity(BodyId id) const;

@@ -31,8 +31,8 @@ requires(HasCore<A>&& HasCore<B>) {
 
 // The lowest point of the round shape. Of a disc or a side that lies flat, its middle.
 template <RoundShape B>
-SeparationAs<double> separation(const HalfspaceShape<double>& halfspace,
-                                                     const B& b, const PairPose<double>& pose) {
+SeparationAs<double> separation(const HalfspaceShape<double>& halfspace, const B& b,
+                                const PairPose<double>& pose) {
   const Vector3d d = -pose.d;
   const Plane<double> plane = plane_of(halfspace, pose.a, d);
   Core core;

@@ -98,7 +98,7 @@ std::map<size_t, Features> features_of_a(const KindPair& kinds) {
 TEST(KindsCoverage, ContactsOccurAtEveryFeature) {
   for (const KindPair& kinds : solved_kind_pairs()) {
     if (has_halfspace(kinds)) continue;  // half-spaces only meet corners
-    if (is_slow(kinds)) continue;   // too many features, and slow
+    if (is_slow(kinds)) continue;        // too many features, and slow
     SCOPED_TRACE(name(kinds));
     for (const auto& [corners, features] : features_of_a(kinds)) {
       ConvexShape<long double> shape{Vec3<long double>{}};

@@ -152,7 +152,8 @@ TEST(Tiers, AreTheSameOnEveryInstructionSet) {
 }
 
 TEST(Tiers, BoundsAndOverlapsDoNotNeedTheOtherColumns) {
-  const auto pairs = make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 100, 2, solved_kind_pairs());
+  const auto pairs =
+      make_mixed_kind_pairs({.name = "plain"}, PositionType::float32, 100, 2, solved_kind_pairs());
   const LaidOut a(side_a(pairs), {}), b(side_b(pairs), {});
   std::vector<float> bound(pairs.size());
   std::vector<uint8_t> overlap(pairs.size());
@@ -213,7 +214,8 @@ TEST(FastTier, ErrsNearTouchAlone) {
   size_t wrong = 0;
   for (const ConvexFamily& family : convex_families()) {
     if (family.smallest < 1e-30) continue;  // floats have fewer digits there
-    const auto pairs = make_mixed_kind_pairs(family, PositionType::float32, rounds(800), 4, solved_kind_pairs());
+    const auto pairs =
+        make_mixed_kind_pairs(family, PositionType::float32, rounds(800), 4, solved_kind_pairs());
     Call call = call_with(PositionType::float32);
     call.accuracy.tier = Tier::fast;
     const std::vector<Row> rows = run_rows(pairs, call);
@@ -231,7 +233,8 @@ TEST(FastTier, ErrsNearTouchAlone) {
 
 // Triangles and half-spaces are as in the standard tier.
 TEST(FastTier, LeavesOtherKindsAlone) {
-  auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 2000, 8, solved_kind_pairs());
+  auto pairs = make_mixed_kind_pairs(convex_families()[6], PositionType::float32, 2000, 8,
+                                     solved_kind_pairs());
   std::erase_if(pairs, [](const TestPair& pair) {
     const auto is_other = [](const PlacedShape& body) {
       const ShapeKind kind = kind_of(body.shape);

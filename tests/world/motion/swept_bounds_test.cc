@@ -5,8 +5,8 @@
 #include <cfloat>
 
 #include "carom/bounds/bounds.h"
-#include "shapes/dop_polytope.h"
 #include "oracle/support_pair.h"
+#include "shapes/dop_polytope.h"
 #include "tests/support/composites.h"
 #include "tests/support/rounds.h"
 #include "tests/world/crowds.h"
