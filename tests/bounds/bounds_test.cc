@@ -14,7 +14,7 @@
 #include "bounds/bounds_columns.h"
 #include "bounds/some_bounds.h"
 #include "carom/base/thread_arena.h"
-#include "tests/support/bounds_memory.h"
+#include "tests/bounds/bounds_memory.h"
 #include "tests/support/families.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"

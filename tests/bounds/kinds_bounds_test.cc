@@ -5,7 +5,7 @@
 
 #include "carom/base/thread_arena.h"
 #include "carom/bounds/bounds.h"
-#include "tests/support/bounds_memory.h"
+#include "tests/bounds/bounds_memory.h"
 #include "tests/support/float_modes.h"
 #include "tests/support/isas.h"
 #include "tests/support/kind_pairs.h"

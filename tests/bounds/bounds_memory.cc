@@ -1,4 +1,4 @@
-#include "tests/support/bounds_memory.h"
+#include "tests/bounds/bounds_memory.h"
 
 namespace carom::test {
 
