@@ -87,9 +87,11 @@ PartBox box_of(const Part& part) {
       for (size_t i = 0; i < 3; ++i) box.add({rows[i][0], rows[i][1], rows[i][2]});
       return box.box(rows[0][3]);
     }
-    default:
-      return {};
+    case ShapeKind::compound:
+    case ShapeKind::halfspace:
+      break;
   }
+  return {};
 }
 
 PartBall ball_of(const Part& part) {
@@ -123,9 +125,14 @@ PartBall ball_of(const Part& part) {
       const PartBox box = box_of(part);
       return {box.middle, length(box.half)};
     }
-    default:
-      return {};
+    case ShapeKind::mesh:
+    case ShapeKind::height_field:
+    case ShapeKind::triangle:
+    case ShapeKind::compound:
+    case ShapeKind::halfspace:
+      break;
   }
+  return {};
 }
 
 // Hamilton's product, scaled so that the squares of its numbers neither underflow nor overflow.
