@@ -7,6 +7,7 @@
 #include "narrowphase/doubles/make_core.h"
 #include "narrowphase/doubles/penetration_search.h"
 #include "narrowphase/doubles/plain_gap.h"
+#include "narrowphase/doubles/round_gap.h"
 #include "narrowphase/features/contact_location.h"
 #include "narrowphase/scalar/rim.h"
 #include "narrowphase/scalar/separation.h"
@@ -38,113 +39,8 @@ inline bool is_plain_face(const NearestPoint::Corners& corners) {
   return !is_of_sliver(cross(u, v), u, v);
 }
 
-// Where a depth is the least, or nearly, in a whole ring of directions, the polytope becomes full
-// before it is near enough. From each direction that may still be better, this climbs to the
-// greatest gap along the arc of its gradient, which leads across the ring.
-class RingSearch {
- public:
-  RingSearch(const Core& a, const Core& b, FurthestPoint furthest, WayOut& best)
-      : a_(a), b_(b), furthest_(furthest), best_(best) {}
-
-  void climb_from(const CoreVector& normal) {
-    constexpr int kArcs = 3;
-    CoreVector n = normal;
-    for (int arc = 0; arc < kArcs; ++arc) {
-      const CoreVector point = difference_point(a_, b_, n, furthest_);
-      const CoreVector aside = point - n * dot(n, point);
-      const double length = std::sqrt(dot(aside, aside));
-      if (!(length > kSameRoundWayOut)) return;
-      n = best_on_arc(n, aside * (1 / length));
-    }
-  }
-
- private:
-  double gap_along(const CoreVector& n) const {
-    return dot(n, difference_point(a_, b_, n, furthest_));
-  }
-
-  // Directions n + s * aside, by golden section in s (J. Kiefer, "Sequential Minimax Search for a
-  // Maximum", Proc. AMS 4(3), 1953).
-  CoreVector best_on_arc(const CoreVector& n, const CoreVector& aside) {
-    constexpr double kGolden = 0x1.3c6ef372fe95p-1;
-    constexpr int kRounds = 32;
-    const auto way = [&](double s) {
-      const CoreVector v = n + aside * s;
-      return v * (1 / std::sqrt(dot(v, v)));
-    };
-    double low = 0, high = 0x1p-4;
-    double inner = high - kGolden * high, outer = kGolden * high;
-    double of_inner = gap_along(way(inner)), of_outer = gap_along(way(outer));
-    for (int i = 0; i < kRounds; ++i) {
-      if (of_inner > of_outer) {
-        high = outer;
-        outer = inner;
-        of_outer = of_inner;
-        inner = high - kGolden * (high - low);
-        of_inner = gap_along(way(inner));
-      } else {
-        low = inner;
-        inner = outer;
-        of_inner = of_outer;
-        outer = low + kGolden * (high - low);
-        of_outer = gap_along(way(outer));
-      }
-    }
-    const CoreVector found = way((low + high) / 2);
-    const double gap = gap_along(found);
-    if (gap > best_.gap) {
-      best_.gap = gap;
-      best_.normal = found;
-    }
-    return found;
-  }
-
-  const Core& a_;
-  const Core& b_;
-  const FurthestPoint furthest_;
-  WayOut& best_;
-};
-
-// Of cores of which one is round.
-inline CoreGap find_round_gap(const Core& a, const Core& b, const CoreTest& test) {
-  const NearestWay nearest = nearest_round_way(a, b, test.furthest);
-  const double distance = std::sqrt(dot(nearest.way, nearest.way));
-  const double parted = distance > kTouchingCores ? nearest.gap / distance : -HUGE_VAL;
-  // Rounding may have ended GJK too early, at corners of nearly flat shapes.
-  const double slack = min(kSameRoundWayOut, kSameRoundWay * distance);
-  if (distance > kTouchingRound && distance - parted <= slack) {
-    return {.size = distance,
-            .normal = nearest.way * (1 / distance),
-            .is_proven = true,
-            .has_point = true,
-            .of_a = spanned_of_a(nearest.corners, nearest.way, nearest.of_a)};
-  }
-  WayOutSearch search(a, b, test.furthest);
-  WayOut out = search.run_round(nearest);
-  if (!out.has_ended) {
-    RingSearch ring(a, b, test.furthest, out);
-    search.for_each_open_way([&](const CoreVector& normal) { ring.climb_from(normal); });
-    out.has_ended = true;
-  }
-  // For a difference without volume, the penetration search tries only one direction.
-  if (distance > kTouchingRound && parted > out.gap) {
-    out = {.normal = nearest.way * (1 / distance), .gap = parted};
-  }
-  if (!out.has_point && nearest.corners.size() < 4 && distance - out.gap <= kTouchingWay) {
-    out.has_point = true;
-    out.of_a = spanned_of_a(nearest.corners, nearest.way, nearest.of_a);
-  }
-  return {.size = out.gap,
-          .normal = out.normal,
-          .is_flat = out.is_flat,
-          .is_proven = std::fabs(out.gap) > kSameRoundWayOut,
-          .has_ended = out.has_ended,
-          .has_point = out.has_point,
-          .of_a = out.of_a};
-}
-
 inline CoreGap find_gap(const Core& a, const Core& b, const CoreTest& test) {
-  if (a.is_round() || b.is_round()) return find_round_gap(a, b, test);
+  if (a.is_round() || b.is_round()) return find_round_gap(a, b, test.furthest);
   const FurthestPoint furthest = test.furthest;
   const PlainGjk plain(a, b, furthest);
   if (CoreGap gap; find_plain_gap(a, b, plain, furthest, test.decides_only, gap)) return gap;
