@@ -1,12 +1,11 @@
 #include "oracle/support_pair.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 
 #include "oracle/convex_oracle.h"
+#include "oracle/round_surface.h"
 #include "oracle/simplex_search.h"
 
 namespace carom::oracle {
@@ -30,75 +29,12 @@ Vec own_support(const Ellipsoid& e, const Vec& way) {
   return {s.x * unit.x, s.y * unit.y, s.z * unit.z};
 }
 
-// How far a point of the body's frame is from the surface: negative inside.
-long double own_distance(const Cylinder& c, const Vec& p) {
-  const long double side = std::hypot(p.x, p.y) - c.radius, cap = std::fabs(p.z) - c.half_length;
-  if (side <= 0 && cap <= 0) return std::max(side, cap);
-  return std::hypot(std::max(side, 0.0L), std::max(cap, 0.0L));
-}
-
-// Of a point in the plane from the segment from (ax, az) to (bx, bz).
-long double distance_in_plane(long double x, long double z, long double ax, long double az,
-                              long double bx, long double bz) {
-  const long double ux = bx - ax, uz = bz - az, squared = ux * ux + uz * uz;
-  const long double t = squared > 0 ? ((x - ax) * ux + (z - az) * uz) / squared : 0;
-  const long double share = std::clamp(t, 0.0L, 1.0L);
-  return std::hypot(x - ax - ux * share, z - az - uz * share);
-}
-
-long double own_distance(const Cone& c, const Vec& p) {
-  const long double r = c.radius, h = c.half_length, x = std::hypot(p.x, p.y);
-  const long double base = distance_in_plane(x, p.z, 0, -h, r, -h);
-  const long double side = distance_in_plane(x, p.z, r, -h, 0, h);
-  const bool is_inside = p.z >= -h && 2 * h * x + r * (p.z - h) <= 0;
-  return is_inside ? -std::min(base, side) : std::min(base, side);
-}
-
-// The nearest point is (s_i^2 x_i / (t + s_i^2)) for the t that puts it on the surface (D. Eberly,
-// "Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid", 2013), found by
-// bisection. The square of the least axis bounds t from below.
-long double own_distance(const Ellipsoid& e, const Vec& p) {
-  const Vec s = vec3_as<long double>(e.semi_axes);
-  const std::array<long double, 3> axis{s.x, s.y, s.z};
-  std::array<long double, 3> x{std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
-  const long double least = std::min({s.x, s.y, s.z});
-  // A point in the plane across the least axis may have its nearest point above or below.
-  for (size_t i = 0; i < 3; ++i) x[i] = axis[i] == least ? std::max(x[i], 1e-18L * least) : x[i];
-  const auto ratio = [&](long double t, size_t i) {
-    const long double over = t + axis[i] * axis[i];
-    return over > 0 ? axis[i] * x[i] / over : (axis[i] * x[i] > 0 ? HUGE_VALL : 0.0L);
-  };
-  const auto is_beyond = [&](long double t) {
-    return std::hypot(ratio(t, 0), ratio(t, 1), ratio(t, 2)) > 1;
-  };
-  const bool is_inside = !is_beyond(0);
-  long double low = is_inside ? -least * least : 0;
-  long double high = is_inside ? 0 : std::hypot(axis[0] * x[0], axis[1] * x[1], axis[2] * x[2]);
-  for (int k = 0; k < 300; ++k) {
-    const long double middle = (low + high) / 2;
-    (is_beyond(middle) ? low : high) = middle;
-  }
-  long double squared = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    const long double way = x[i] - axis[i] * ratio(high, i);
-    squared += way * way;
-  }
-  return is_inside ? -std::sqrt(squared) : std::sqrt(squared);
-}
-
 template <class Round>
 SupportShape round_support(const Round& shape, const Pose& pose, const Vec& at) {
   const Rotation<long double> turn(pose.orientation);
   return {
       [turn, at, shape](const Vec& way) { return turn(own_support(shape, turn.back(way))) + at; },
       0};
-}
-
-template <class Round>
-std::function<long double(const Vec&)> round_distance(const Round& shape, const Pose& pose,
-                                                      const Vec& at) {
-  const Rotation<long double> turn(pose.orientation);
-  return [turn, at, shape](const Vec& point) { return own_distance(shape, turn.back(point - at)); };
 }
 
 double reach_of(const Cylinder& c) { return std::hypot(c.radius, c.half_length); }
@@ -127,19 +63,24 @@ SupportPair::Side SupportPair::side_of(const Shape& shape, const Pose& pose,
   const auto solved = [&] { return ConvexShape<>(shape, pose, relative_to); };
   if (std::holds_alternative<Halfspace>(shape)) {
     const ConvexShape<> plane = solved();
-    const auto distance = [plane](const Vec& p) { return dot(plane.normal, p) - plane.offset; };
+    const auto distance = [plane](const Vec& p) {
+      return std::fabs(dot(plane.normal, p) - plane.offset);
+    };
     return {{}, distance, Plane{plane.normal, plane.offset}, plane.bounding_radius};
   }
   const SupportShape support = support_shape(shape, pose, relative_to);
   const Vec at = vec3_as<long double>(pose.position) - vec3_as<long double>(relative_to);
   const auto round = [&](const auto& own) -> Side {
-    return {support, round_distance(own, pose, at), {}, reach_of(own)};
+    const auto distance = [turn = Rotation<long double>(pose.orientation), at, own](const Vec& p) {
+      return *round_surface_distance(own, turn.back(p - at));
+    };
+    return {support, distance, {}, reach_of(own)};
   };
   if (const auto* c = std::get_if<Cylinder>(&shape)) return round(*c);
   if (const auto* c = std::get_if<Cone>(&shape)) return round(*c);
   if (const auto* e = std::get_if<Ellipsoid>(&shape)) return round(*e);
   const auto distance = [whole = std::make_shared<ConvexShape<>>(solved())](const Vec& p) {
-    return signed_distance(*whole, p);
+    return std::fabs(signed_distance(*whole, p));
   };
   return {support, distance, {}, ConvexShape<>(shape).bounding_radius};
 }

@@ -30,7 +30,7 @@ class SupportPair {
   // The gap between the projections on a unit vector from A to B; with a half-space the separation,
   // projected as by gap_along() of convex_oracle.h.
   long double gap_along(const Vec& n) const;
-  // How far a point is from the surface: negative inside.
+  // How far a point is from the surface, inside or outside.
   long double distance_from_a(const Vec& point) const { return a_.distance(point); }
   long double distance_from_b(const Vec& point) const { return b_.distance(point); }
   // Mean of the bounding radii about the bodies' positions; of a half-space, the distance of its
@@ -53,7 +53,7 @@ class SupportPair {
   };
 
   static Side side_of(const Shape& shape, const Pose& pose, const Eigen::Vector3d& relative_to);
-  // Of a shape over the plane, with the normal out of the half-space.
+  // The gap from the half-space up to the shape, along the plane's normal.
   static long double gap_over(const Plane& plane, const SupportShape& shape);
 
   Side a_, b_;

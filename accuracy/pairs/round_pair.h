@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "accuracy/pairs/exact_pair.h"
-#include "oracle/support_oracle.h"
+#include "oracle/support_pair.h"
 
 namespace carom::accuracy {
 
@@ -30,9 +30,9 @@ class RoundPair {
   double allowance() const;
 
  private:
-  oracle::SupportShape a_, b_;
-  oracle::SeparationBounds bounds_;
+  oracle::SupportPair shapes_;
   long double scale_;
+  oracle::SeparationBounds bounds_;
 };
 
 }  // namespace carom::accuracy

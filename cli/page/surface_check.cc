@@ -8,7 +8,6 @@
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/views.h"
-#include "cli/page/round_surface.h"
 #include "geometries/surface.h"
 #include "oracle/convex_oracle.h"
 
@@ -59,7 +58,7 @@ class Surfaces {
       return to_triangles(*field->geometry, point);
     }
     if (is_too_large(shape)) return std::nullopt;
-    if (const auto distance_to_round = round_surface_distance(shape, point)) {
+    if (const auto distance_to_round = oracle::round_surface_distance(shape, point)) {
       return static_cast<double>(*distance_to_round);
     }
     return to_simple(shape, point);

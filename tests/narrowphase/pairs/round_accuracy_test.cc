@@ -72,10 +72,10 @@ class RoundCheck {
   }
 
   void is_on_surface_of_a(const Vec& point) const {
-    EXPECT_LE(std::fabs(shapes_.distance_from_a(point)), tolerance(kStatedOfPoints) + arms_);
+    EXPECT_LE(shapes_.distance_from_a(point), tolerance(kStatedOfPoints) + arms_);
   }
   void is_on_surface_of_b(const Vec& point) const {
-    EXPECT_LE(std::fabs(shapes_.distance_from_b(point)), tolerance(kStatedOfPoints) + arms_);
+    EXPECT_LE(shapes_.distance_from_b(point), tolerance(kStatedOfPoints) + arms_);
   }
 
   void witnesses() const {

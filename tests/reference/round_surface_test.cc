@@ -1,5 +1,5 @@
 // Distances from surfaces of round shapes, beside points of the surface all around.
-#include "cli/page/round_surface.h"
+#include "oracle/round_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "oracle/random.h"
 
-namespace carom::cli {
+namespace carom::oracle {
 namespace {
 
-using Vec = oracle::Vec3<long double>;
+using Vec = Vec3<long double>;
 
 double distance(const Shape& shape, const Vec& p) {
   return static_cast<double>(*round_surface_distance(shape, p));
@@ -48,7 +48,7 @@ TEST(RoundSurface, EllipsoidsWithoutRoundness) {
 // No point of a fine grid is nearer, and some are hardly further.
 TEST(RoundSurface, NoPointOfAnEllipsoidIsNearer) {
   constexpr int kSteps = 240;
-  oracle::Random random(7);
+  Random random(7);
   for (int round = 0; round < 40; ++round) {
     Ellipsoid e;
     for (float& axis : e.semi_axes) axis = static_cast<float>(random.uniform(0.2, 2));
@@ -74,4 +74,4 @@ TEST(RoundSurface, NoPointOfAnEllipsoidIsNearer) {
 }
 
 }  // namespace
-}  // namespace carom::cli
+}  // namespace carom::oracle

@@ -1,14 +1,14 @@
-#include "cli/page/round_surface.h"
+#include "oracle/round_surface.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
 
-namespace carom::cli {
+namespace carom::oracle {
 namespace {
 
-using Vec = oracle::Vec3<long double>;
+using Vec = Vec3<long double>;
 
 // A point of the half plane through the axis: its distance from the axis and its height.
 struct AxialPoint {
@@ -53,8 +53,8 @@ class EllipsoidSurface {
   }
 
  private:
-  // What the ellipsoid's equation gives for the point of t; an axis whose denominator is 0 counts
-  // only if the point is off its plane.
+  // The left side of the ellipsoid's equation at the point of t; an axis whose denominator is 0
+  // counts only if the point is off its plane.
   long double place(long double t) const {
     long double sum = 0;
     for (size_t i = 0; i < 3; ++i) {
@@ -122,4 +122,4 @@ std::optional<long double> round_surface_distance(const Shape& shape, const Vec&
   return std::nullopt;
 }
 
-}  // namespace carom::cli
+}  // namespace carom::oracle
