@@ -59,7 +59,7 @@ class ColumnRanges {
     }
   }
 
-  // Of some columns; false if one of their samples is no number.
+  // Finds the least and the greatest sample of some columns; false if one of them is no number.
   bool find(uint32_t first, uint32_t count, Sample& low, Sample& high) const {
     low = low_[first];
     high = high_[first];

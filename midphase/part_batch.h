@@ -58,7 +58,7 @@ class PartColumns {
  private:
   Part part(size_t body) const;
 
-  // What the triangles of one surface share.
+  // The triangles of one surface share these numbers.
   struct Frame {
     Double3 position, arm;  // of the origin
     std::array<float, 3> origin;

@@ -34,7 +34,7 @@ struct PlacedPart {
   ShapeKind kind() const { return triangle == kWhole ? part->kind : ShapeKind::triangle; }
   bool has_parts() const { return is_composite(kind()); }
 
-  // Of a surface, or of a triangle of one.
+  // The part must be a surface, or a triangle of one.
   Surface surface() const { return surface_at(part->kind, part->rows[0]); }
   MeshRules rules() const {
     MeshRules rules = surface().rules();

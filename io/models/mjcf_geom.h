@@ -22,7 +22,7 @@ struct MjcfGeom {
   std::string mesh;                           // name of an asset
 };
 
-// What a class of defaults says of geoms and meshes.
+// A class of defaults for geoms and meshes.
 struct MjcfClass {
   MjcfGeom geom;
   Eigen::Vector3d mesh_scale = Eigen::Vector3d::Ones();

@@ -1,4 +1,5 @@
-// What the compiler section of an MJCF model says of angles and files, and the poses it governs.
+// The compiler section of an MJCF model: units of angles, folders of files, and the poses they
+// govern.
 #pragma once
 
 #include <filesystem>

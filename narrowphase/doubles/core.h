@@ -38,7 +38,7 @@ class Core {
     if (values_.size() < 3 * padded_) values_.resize(3 * padded_);
     is_round_ = false;
   }
-  // Of a core of one or two points.
+  // The core has one or two points.
   void make_round(const CoreRoundness& roundness) {
     roundness_ = roundness;
     is_round_ = true;

@@ -36,8 +36,8 @@ struct HeightSamples {
   HeightType type = HeightType::float32;  ///< the type of the samples
 };
 
-/// What a height field is made from. Sample (i, j) lies at ((i - (nx - 1) / 2) dx,
-/// (j - (ny - 1) / 2) dy, height) in the body's frame.
+/// A grid of heights, from which make_height_field() makes a height field. Sample (i, j) lies at
+/// ((i - (nx - 1) / 2) dx, (j - (ny - 1) / 2) dy, height) in the body's frame.
 struct HeightGrid {
   uint32_t nx = 0;        ///< samples along x, 2 to kMostHeightSamples
   uint32_t ny = 0;        ///< samples along y, 2 to kMostHeightSamples

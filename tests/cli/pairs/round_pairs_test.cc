@@ -16,7 +16,7 @@ struct KnownPair {
   float separation;
 };
 
-// Of the shapes below; all normals are towards B.
+// Pairs of the shapes below, with their separations; all normals are towards B.
 constexpr KnownPair kKnown[] = {
     {0, 3, {4, 0, 0}, 2.5f},                                     // beside a cylinder
     {0, 3, {0, 0, 2.25f}, -0.25f},                               // on its top
