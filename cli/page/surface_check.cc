@@ -10,6 +10,7 @@
 #include "carom/shapes/views.h"
 #include "geometries/surface.h"
 #include "oracle/convex_oracle.h"
+#include "oracle/round_surface.h"
 
 namespace carom::cli {
 namespace {
