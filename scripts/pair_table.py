@@ -22,7 +22,7 @@ Every pair of kinds that has a kernel in lanes; meshes and compounds are tested 
 
 TAIL = """
 Cylinders, cones and ellipsoids meet every convex kind, each other and half-spaces by one way, a pair at a time and in
-double precision: [round shapes](design/round_shapes.md). They have manifolds, but of spheres.
+double precision: [round shapes](design/round_shapes.md). Those of spheres have one point, the others manifolds.
 """
 
 
