@@ -68,8 +68,9 @@ class EllipsoidSurface {
   }
 
   long double root_above(long double least) const {
-    long double low = least, high = 1;
-    while (place(high) > 1) high *= 2;
+    // No root is greater: at this t the sum is at most one.
+    long double low = least,
+                high = std::hypot(axis_[0] * point_[0], axis_[1] * point_[1], axis_[2] * point_[2]);
     for (int i = 0; i < 200; ++i) {
       const long double middle = low + (high - low) / 2;
       (place(middle) > 1 ? low : high) = middle;

@@ -45,6 +45,17 @@ TEST(RoundSurface, EllipsoidsWithoutRoundness) {
   EXPECT_DOUBLE_EQ(distance(Ellipsoid{{0, 0, 0}}, {3, 4, 0}), 5);
 }
 
+// Found by RoundAccuracy: a search that began at one metre ended too early for the smallest.
+TEST(RoundSurface, EllipsoidsOfAllSizes) {
+  const Vec p{0.3L, 1.2L, -0.4L};
+  const double expected = distance(Ellipsoid{{0.5f, 0.75f, 0.25f}}, p);
+  for (const int power : {-130, -100, -20, 20, 60}) {
+    const float size = std::ldexp(1.0f, power);
+    const Ellipsoid scaled{{0.5f * size, 0.75f * size, 0.25f * size}};
+    EXPECT_NEAR(distance(scaled, p * size) / size, expected, 1e-15) << power;
+  }
+}
+
 // No point of a fine grid is nearer, and some are hardly further.
 TEST(RoundSurface, NoPointOfAnEllipsoidIsNearer) {
   constexpr int kSteps = 240;
