@@ -8,14 +8,14 @@
 namespace carom::oracle {
 namespace {
 
-using Vec = Vec3<long double>;
+using LongVec = Vec3<long double>;
 
 // A point of the half plane through the axis: its distance from the axis and its height.
 struct AxialPoint {
   long double out, up;
 };
 
-AxialPoint axial(const Vec& p) { return {std::hypot(p.x, p.y), p.z}; }
+AxialPoint axial(const LongVec& p) { return {std::hypot(p.x, p.y), p.z}; }
 
 long double distance_to_segment(const AxialPoint& p, const AxialPoint& a, const AxialPoint& b) {
   const AxialPoint way{b.out - a.out, b.up - a.up}, to{p.out - a.out, p.up - a.up};
@@ -39,7 +39,7 @@ long double distance_to_turned(const AxialPoint& p, std::initializer_list<AxialP
 // Hyperellipsoid, 2013. By symmetry all coordinates are positive.
 class EllipsoidSurface {
  public:
-  EllipsoidSurface(const Ellipsoid& e, const Vec& p)
+  EllipsoidSurface(const Ellipsoid& e, const LongVec& p)
       : axis_{e.semi_axes.x(), e.semi_axes.y(), e.semi_axes.z()},
         point_{std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)} {
     shortest_ = static_cast<size_t>(std::min_element(axis_.begin(), axis_.end()) - axis_.begin());
@@ -108,7 +108,7 @@ class EllipsoidSurface {
 
 }  // namespace
 
-std::optional<long double> round_surface_distance(const Shape& shape, const Vec& point) {
+std::optional<long double> round_surface_distance(const Shape& shape, const LongVec& point) {
   if (const auto* c = std::get_if<Cylinder>(&shape)) {
     const long double r = c->radius, h = c->half_length;
     return distance_to_turned(axial(point), {{0, h}, {r, h}, {r, -h}, {0, -h}});
