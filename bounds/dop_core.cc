@@ -41,8 +41,9 @@ DopCore capsule_core(const Turn& turn, const std::array<Row, kMostRows>& rows) {
   return core;
 }
 
-DopCore box_core(const Turn& turn, const Row& half) {
+DopCore box_core(const Turn& turn, const Row& half, double rounding = 0) {
   DopCore core;
+  core.radius = rounding;
   for (size_t axis = 0; axis < 3; ++axis) {
     core.edges[axis] = {turn[0][axis] * half[axis], turn[1][axis] * half[axis],
                         turn[2][axis] * half[axis]};
@@ -72,6 +73,8 @@ DopCore turned_core(const BodyReader& reader, size_t i) {
       return capsule_core(turn, rows);
     case ShapeKind::box:
       return box_core(turn, rows[0]);
+    case ShapeKind::rounded_box:
+      return box_core(turn, rows[0], rows[0][3]);
     default:
       return triangle_core(turn, rows);
   }
@@ -85,6 +88,7 @@ DopCore dop_core(const BodyReader& reader, size_t i) {
       return sphere_core(reader.radius(i));
     case ShapeKind::capsule:
     case ShapeKind::box:
+    case ShapeKind::rounded_box:
     case ShapeKind::triangle: {
       DopCore core = turned_core(reader, i);
       core.size = greatest_of(reader.rows(i));

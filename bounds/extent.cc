@@ -117,8 +117,10 @@ Extent dop_extent(const std::array<Double3, 3>& turn, const BodyReader& reader, 
 }
 
 // The extent of the turned points.
-Extent hull_extent(const std::array<Double3, 3>& turn, const HullGeometry& hull) {
-  return outward(point_reach(turn, hull), 0, kTurnRounding * hull.size());
+Extent hull_extent(const std::array<Double3, 3>& turn, const HullGeometry& hull,
+                   double rounding = 0) {
+  return outward(point_reach(turn, hull), rounding,
+                 kTurnRounding * std::max(double{hull.size()}, rounding));
 }
 
 // The extent of the turned box that holds all parts in the body's frame.
@@ -141,6 +143,8 @@ Extent turned_extent(const BodyReader& reader, size_t i) {
   switch (kind) {
     case ShapeKind::hull:
       return hull_extent(turn, *geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::rounded_hull:
+      return hull_extent(turn, *geometry_at<HullGeometry>(rows[0]), rows[0][3]);
     case ShapeKind::mesh:
       return parts_extent(turn, *geometry_at<MeshGeometry>(rows[0]));
     case ShapeKind::height_field:
@@ -157,12 +161,14 @@ Extent turned_extent(const BodyReader& reader, size_t i) {
                      rows[0][3], slack);
     case ShapeKind::box:
       return outward(box_intervals(turn, rows[0]), 0, slack);
+    case ShapeKind::rounded_box:
+      return outward(box_intervals(turn, rows[0]), rows[0][3], slack);
     case ShapeKind::cylinder:
-      return outward(cylinder_intervals(turn, rows[0]), 0, slack);
+      return outward(cylinder_intervals(turn, rows[0]), rows[0][3], slack);
     case ShapeKind::cone:
-      return outward(cone_intervals(turn, rows[0]), 0, slack);
+      return outward(cone_intervals(turn, rows[0]), rows[0][3], slack);
     case ShapeKind::ellipsoid:
-      return outward(ellipsoid_intervals(turn, rows[0]), 0, slack);
+      return outward(ellipsoid_intervals(turn, rows[0]), rows[0][3], slack);
     case ShapeKind::triangle:
       return outward(triangle_intervals(turn, rows.data()), 0, slack);
     case ShapeKind::dop:

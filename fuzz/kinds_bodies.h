@@ -79,18 +79,23 @@ class View {
 
 // Replaces the rows of a hull, which must be an address and not arbitrary bytes.
 inline Body with_hull(ShapeKind kind, Body body, const Hull& hull) {
-  if (kind == ShapeKind::hull) body.rows = shape_rows(hull);
+  if (core_kind(kind) != ShapeKind::hull) return body;
+  Hull rounded = hull;
+  if (is_rounded(kind)) rounded.rounding = body.rows[0][3];
+  body.rows = shape_rows(rounded);
   return body;
 }
 
 // Removes numbers that no shape has, such as a flag of 0.3.
 inline Body without_excess(ShapeKind kind, Body body) {
   if (row_count(kind) > 0) body.rows = shape_rows(shape_of(kind, body));
+  // Without a rounding the shape would have another kind.
+  if (is_rounded(kind) && body.rows[0][3] == 0) body.rows[0][3] = 1;
   return body;
 }
 
 inline Hull take_hull_of(ShapeKind kind, Data& data) {
-  return kind == ShapeKind::hull ? take_hull(data) : Hull{};
+  return core_kind(kind) == ShapeKind::hull ? take_hull(data) : Hull{};
 }
 
 // Two bodies, and a neighbour of the same kind beside each.

@@ -18,7 +18,8 @@ namespace {
 
 using namespace carom::io;
 
-// A sphere, a hull, a mesh, a compound of the first two, round shapes and a height field.
+// A sphere, a hull, a mesh, a compound of the first two, round shapes and a height field; some
+// have a rounding.
 SceneShapes all_arrays() {
   SceneShapes shapes;
   shapes.kind = {0, 5, 6, 7, 9, 10, 11, 12};
@@ -37,6 +38,7 @@ SceneShapes all_arrays() {
   shapes.height_range.resize(8);
   shapes.height_range[7] = {0, 4};
   shapes.heights = {0, 1, 2, 3};
+  shapes.rounding = {0, 0.1f, 0, 0, 0.1f, 0.1f, 0, 0};
   return shapes;
 }
 
@@ -113,6 +115,9 @@ carom::fuzz::Body ordinary_body(carom::ShapeKind kind) {
     case ShapeKind::box:
       write(Box{{1, 0.7f, 0.4f}});
       break;
+    case ShapeKind::rounded_box:
+      write(Box{{1, 0.7f, 0.4f}, 0.2f});
+      break;
     case ShapeKind::dop:
       write(Dop::of_points(points, DopKind::k14));
       break;
@@ -129,6 +134,9 @@ carom::fuzz::Body ordinary_body(carom::ShapeKind kind) {
       write(Ellipsoid{{1, 0.7f, 0.4f}});
       break;
     case ShapeKind::hull:
+      break;
+    case ShapeKind::rounded_hull:
+      body.rows[0][3] = 0.2f;
       break;
     default:
       write(Triangle{{points[0], points[1], points[2]}, 0.1f, true, 5});
@@ -152,7 +160,10 @@ void write_kinds(std::ofstream& file, uint8_t pair, uint8_t flags,
   bodies[1].position = way;
   file.put(static_cast<char>(pair)).put(static_cast<char>(flags));
   file.write(reinterpret_cast<const char*>(bodies.data()), sizeof bodies);
-  const bool has_hull = kinds.a == carom::ShapeKind::hull || kinds.b == carom::ShapeKind::hull;
+  const auto is_hull = [](carom::ShapeKind kind) {
+    return carom::core_kind(kind) == carom::ShapeKind::hull;
+  };
+  const bool has_hull = is_hull(kinds.a) || is_hull(kinds.b);
   if (has_hull) write_hulls(file);
 }
 

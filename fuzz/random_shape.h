@@ -17,9 +17,12 @@ inline float take_length(double size, uint8_t form, Data& data) {
 // `form` gives the style, the data the seed; of round shapes the sizes.
 inline Shape take_random_shape(ShapeKind kind, uint8_t form, double size, Data& data) {
   const auto length = [&] { return take_length(size, form, data); };
-  if (kind == ShapeKind::cylinder) return Cylinder{length(), length()};
-  if (kind == ShapeKind::cone) return Cone{length(), length()};
-  if (kind == ShapeKind::ellipsoid) return Ellipsoid{{length(), length(), length()}};
+  const auto rounding = [&] { return (form & 8) != 0 ? length() : 0; };
+  if (kind == ShapeKind::cylinder) return Cylinder{length(), length(), rounding()};
+  if (kind == ShapeKind::cone) return Cone{length(), length(), rounding()};
+  if (kind == ShapeKind::ellipsoid) {
+    return Ellipsoid{{length(), length(), length()}, rounding()};
+  }
   oracle::Random random(take<uint64_t>(data));
   oracle::ConvexRandom shapes({.aspect = std::pow(10.0, form >> 4 & 7),
                                .degenerate = (form & 1) != 0,

@@ -49,10 +49,15 @@ PartBox dop_box(const Part& part) {
   return box_around(slabs.lower, slabs.upper);
 }
 
-PartBox hull_box(const HullGeometry& hull) {
+PartBox hull_box(const HullGeometry& hull, double rounding = 0) {
   GrowingBox box;
   for (const Eigen::Vector3f& point : hull.points()) box.add(wide(point));
-  return box.box(0);
+  return box.box(rounding);
+}
+
+// A box about the part's own position.
+PartBox box_about_position(double x, double y, double z, double rounding = 0) {
+  return {{}, {x + rounding, y + rounding, z + rounding}};
 }
 
 }  // namespace
@@ -67,16 +72,19 @@ PartBox box_of(const Part& part) {
     case ShapeKind::capsule:
       return box_around(rows[0], rows[1], rows[0][3]);
     case ShapeKind::box:
-      return {{}, {rows[0][0], rows[0][1], rows[0][2]}};
+      return box_about_position(rows[0][0], rows[0][1], rows[0][2]);
     case ShapeKind::cylinder:
     case ShapeKind::cone:
-      return {{}, {rows[0][0], rows[0][0], rows[0][1]}};
+      return box_about_position(rows[0][0], rows[0][0], rows[0][1], rows[0][3]);
+    case ShapeKind::rounded_box:
     case ShapeKind::ellipsoid:
-      return {{}, {rows[0][0], rows[0][1], rows[0][2]}};
+      return box_about_position(rows[0][0], rows[0][1], rows[0][2], rows[0][3]);
     case ShapeKind::dop:
       return dop_box(part);
     case ShapeKind::hull:
       return hull_box(*geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::rounded_hull:
+      return hull_box(*geometry_at<HullGeometry>(rows[0]), rows[0][3]);
     case ShapeKind::mesh:
     case ShapeKind::height_field: {
       const Surface surface = surface_at(part.kind, rows[0]);
@@ -105,20 +113,23 @@ PartBall ball_of(const Part& part) {
       const Double3 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
       return {middle, length(minus(b, middle)) + rows[0][3]};
     }
-    case ShapeKind::hull: {
+    case ShapeKind::hull:
+    case ShapeKind::rounded_hull: {
       const auto& hull = *geometry_at<HullGeometry>(rows[0]);
       const Double3 middle = {hull.middle().x(), hull.middle().y(), hull.middle().z()};
       double radius = 0;
       for (const Eigen::Vector3f& point : hull.points()) {
         radius = std::max(radius, length(minus(wide(point), middle)));
       }
-      return {middle, radius};
+      return {middle, radius + (part.kind == ShapeKind::hull ? 0 : rows[0][3])};
     }
     case ShapeKind::cylinder:
     case ShapeKind::cone:
-      return {{}, length({rows[0][0], rows[0][1], 0})};
+      return {{}, length({rows[0][0], rows[0][1], 0}) + rows[0][3]};
     case ShapeKind::ellipsoid:
-      return {{}, std::max({rows[0][0], rows[0][1], rows[0][2]})};
+      return {{}, double{std::max({rows[0][0], rows[0][1], rows[0][2]})} + rows[0][3]};
+    case ShapeKind::rounded_box:
+      return {{}, length(vector_of(rows[0])) + rows[0][3]};
     case ShapeKind::aabb:
     case ShapeKind::box:
     case ShapeKind::dop: {

@@ -150,6 +150,7 @@ uint32_t surface_feature(const Part& part, uint32_t triangle, const Double3& poi
     case ShapeKind::aabb:
       return box_feature(corner_of(part.lower), corner_of(part.upper), point);
     case ShapeKind::box:
+    case ShapeKind::rounded_box:
       return box_feature({-rows[0][0], -rows[0][1], -rows[0][2]},
                          {rows[0][0], rows[0][1], rows[0][2]}, point);
     case ShapeKind::capsule:
@@ -157,6 +158,7 @@ uint32_t surface_feature(const Part& part, uint32_t triangle, const Double3& poi
     case ShapeKind::dop:
       return dop_feature(part, point);
     case ShapeKind::hull:
+    case ShapeKind::rounded_hull:
       return hull_feature(*geometry_at<HullGeometry>(rows[0]), point);
     case ShapeKind::mesh:
     case ShapeKind::height_field:

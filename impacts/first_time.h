@@ -27,7 +27,7 @@ inline bool moves_in_a_line(const MovingShape& moving) {
 }
 
 // The shapes as the closed forms take them: an aabb becomes a box about its middle. linear_time()
-// rules out thick triangles.
+// rules out thick triangles and rounded boxes.
 struct NotLinear {};
 inline SphereShape<double> linear_shape(const Sphere& s) { return shape_as<double>(s); }
 inline CapsuleShape<double> linear_shape(const Capsule& c) { return shape_as<double>(c); }
@@ -42,9 +42,9 @@ NotLinear linear_shape(const Other&) {
   return {};
 }
 
-inline bool is_thick(const Shape& shape) {
+inline bool has_linear_form(const Shape& shape) {
   const auto* triangle = std::get_if<Triangle>(&shape);
-  return triangle && triangle->thickness > 0;
+  return !(triangle && triangle->thickness > 0) && !is_rounded(kind_of(shape));
 }
 
 // From the body's position to the middle of the linear shape.
@@ -81,7 +81,8 @@ concept HasLinearTime = requires(A a, B b, LinearPose pose) {
 // The time of impact by a closed form, or kNoClosedForm.
 inline double linear_time(const MovingShape& a, const MovingShape& b, const Vector3d& from,
                           const Vector3d& way) {
-  if (!moves_in_a_line(a) || !moves_in_a_line(b) || is_thick(a.shape) || is_thick(b.shape)) {
+  if (!moves_in_a_line(a) || !moves_in_a_line(b) || !has_linear_form(a.shape) ||
+      !has_linear_form(b.shape)) {
     return kNoClosedForm;
   }
   const Vector3d between = (from + linear_offset(b.shape)) - linear_offset(a.shape);

@@ -1,5 +1,6 @@
 #include "io/shape_arrays.h"
 
+#include <cfloat>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -159,6 +160,22 @@ Result<void> check_heights(const SceneShapes& shapes, const std::string& path) {
   return {};
 }
 
+Result<void> check_roundings(const SceneShapes& shapes, const std::string& path) {
+  for (size_t i = 0; i < shapes.rounding.size(); ++i) {
+    const float rounding = shapes.rounding[i];
+    const bool is_radius = rounding >= 0 && rounding <= FLT_MAX;
+    if (is_radius && (rounding == 0 || takes_rounding(shapes.kind[i]))) continue;
+    char number[32];
+    std::snprintf(number, sizeof number, "%.9g", double{rounding});
+    return member_error(path, "shape_radius",
+                        element(i) + "is " + number +
+                            (is_radius ? " for a shape of kind " + std::to_string(shapes.kind[i]) +
+                                             " (0 was expected)"
+                                       : " (a number >= 0 was expected)"));
+  }
+  return {};
+}
+
 // Checks that an array has `expected` elements, or none if it may be absent.
 template <class T>
 Result<void> check_size(const std::string& path, const std::string& name,
@@ -178,6 +195,7 @@ Result<void> check_sizes(const SceneShapes& shapes, const std::string& path) {
       check_size(path, "shape_triangle_range", shapes.triangle_range, count, true),
       check_size(path, "shape_child_range", shapes.child_range, count, true),
       check_size(path, "shape_height_range", shapes.height_range, count, true),
+      check_size(path, "shape_radius", shapes.rounding, count, true),
       check_size(path, "child_position", shapes.child_position, children, false),
       check_size(path, "child_orientation", shapes.child_orientation, children, false),
   });
@@ -204,13 +222,23 @@ Result<void> refuse_other_than(const NpzReader& reader, const std::string& name,
 // Members that make other shapes of the kinds that this version knows: to pass over them would be
 // to answer for other shapes.
 Result<void> refuse_changed_shapes(const NpzReader& reader) {
-  Result<void> known = refuse_other_than(reader, "shape_radius", 0.0f, "0");
-  if (known)
-    known = refuse_other_than(reader, "shape_scale", std::array{1.0f, 1.0f, 1.0f}, "1 1 1");
-  return known;
+  return refuse_other_than(reader, "shape_scale", std::array{1.0f, 1.0f, 1.0f}, "1 1 1");
 }
 
 }  // namespace
+
+bool takes_rounding(uint8_t kind) {
+  switch (static_cast<ShapeKind>(kind)) {
+    case ShapeKind::box:
+    case ShapeKind::hull:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
+    case ShapeKind::ellipsoid:
+      return true;
+    default:
+      return false;
+  }
+}
 
 Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
   Result<void> result = check_sizes(shapes, path);
@@ -234,6 +262,7 @@ Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
   if (result) result = check_triangles(shapes, path);
   if (result) result = check_children(shapes, path);
   if (result) result = check_heights(shapes, path);
+  if (result) result = check_roundings(shapes, path);
   return result;
 }
 
@@ -258,6 +287,7 @@ Result<SceneShapes> read_shapes(const NpzReader& reader) {
       read_optional(reader, "child_shape", {kAny}, shapes.child_shape),
       read_optional(reader, "shape_height_range", {count}, shapes.height_range),
       read_optional(reader, "heights", {kAny}, shapes.heights),
+      read_optional(reader, "shape_radius", {count}, shapes.rounding),
   });
   if (!read) return read.error();
   const uint64_t children = shapes.child_shape.size();
@@ -290,6 +320,7 @@ Result<void> write_shapes(const SceneShapes& shapes, NpzWriter& writer) {
       write_optional(writer, "child_orientation", shapes.child_orientation),
       write_optional(writer, "shape_height_range", shapes.height_range),
       write_optional(writer, "heights", shapes.heights),
+      write_optional(writer, "shape_radius", shapes.rounding),
   });
 }
 

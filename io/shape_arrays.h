@@ -25,14 +25,18 @@ struct SceneShapes {
   std::vector<std::array<float, 4>> child_orientation;
   std::vector<std::array<uint32_t, 2>> height_range;
   std::vector<float> heights;  // metres, NaN makes holes
+  std::vector<float> rounding;  // shape_radius, metres; empty: all are 0
 };
 
 // Reads the shapes. Checks that kinds are known, ranges and indices lie inside their arrays,
-// children are not compounds, height fields have as many heights as their grids have samples, and
-// each kind has the arrays it needs. Other parameters are not checked.
+// children are not compounds, height fields have as many heights as their grids have samples,
+// roundings are not negative and are 0 for kinds that have none, and each kind has the arrays it
+// needs. Other parameters are not checked.
 Result<SceneShapes> read_shapes(const NpzReader& reader);
 // The checks alone; `path` is for the message.
 Result<void> check_shapes(const SceneShapes& shapes, const std::string& path);
+// Whether shapes of this kind may have a rounding.
+bool takes_rounding(uint8_t kind);
 // Adds shape_kind and shape_params, and every other array that is not empty.
 Result<void> write_shapes(const SceneShapes& shapes, NpzWriter& writer);
 

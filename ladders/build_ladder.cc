@@ -97,7 +97,7 @@ Model model_of(const CompoundGeometry& compound, double most) {
   for (CompoundChild& child : children) {
     const auto* hull = std::get_if<Hull>(&child.shape);
     const auto* mesh = std::get_if<Mesh>(&child.shape);
-    if (!hull && !mesh) continue;
+    if ((!hull && !mesh) || is_rounded(kind_of(child.shape))) continue;
     const void* const geometry =
         hull ? static_cast<const void*>(hull->geometry.get()) : mesh->geometry.get();
     auto [place, is_new] = known.try_emplace(geometry);
@@ -135,6 +135,7 @@ Model model_of(const Shape& shape, double most) {
 }
 
 Model simplest_of(const Shape& shape, Owner owner, double most) {
+  if (is_rounded(kind_of(shape))) return refused("shapes with a rounding have no simpler model");
   std::optional<Rung> capsule = capsule_model(shape);
   if (capsule && capsule->error <= most) return {std::move(capsule), 1, {}};
   if (const auto* hull = std::get_if<Hull>(&shape)) {

@@ -48,6 +48,8 @@ class SeenPart {
       see_points(std::array{vector_of(rows[0]), vector_of(rows[1])}, rows[0][3]);
     } else if (part.kind() == ShapeKind::hull) {
       see_points_of(*geometry_at<HullGeometry>(part.part->rows[0]), *part.part);
+    } else if (part.kind() == ShapeKind::rounded_box || part.kind() == ShapeKind::rounded_hull) {
+      see_rounded(*part.part);
     } else {
       see_box(box_of(*part.part));
     }
@@ -87,6 +89,18 @@ class SeenPart {
       const Surface surface = part.surface();
       see_points(wide_corners(surface, part.triangle), surface.rules().thickness);
     }
+  }
+
+  // The core, with a radius about it.
+  void see_rounded(const Part& part) {
+    Part core = part;
+    core.kind = core_kind(part.kind);
+    if (core.kind == ShapeKind::hull) {
+      see_points_of(*geometry_at<HullGeometry>(core.rows[0]), core);
+    } else {
+      see_box(box_of(core));
+    }
+    radius_ = part.rows[0][3];
   }
 
   // A box around the turned points has half the faces of a box around the turned box.

@@ -26,7 +26,8 @@ inline constexpr ShapeKind kConvexKinds[] = {
 
 // Shapes that only support_pair.h knows.
 inline constexpr ShapeKind kRoundKinds[] = {ShapeKind::cylinder, ShapeKind::cone,
-                                            ShapeKind::ellipsoid};
+                                            ShapeKind::ellipsoid, ShapeKind::rounded_box,
+                                            ShapeKind::rounded_hull};
 
 // All ordered pairs of convex kinds except two half-spaces.
 std::vector<KindPair> convex_kind_pairs();

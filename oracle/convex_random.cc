@@ -21,11 +21,18 @@ Shape ConvexRandom::shape(ShapeKind kind, double size) {
     case ShapeKind::hull:
       return hull(size);
     case ShapeKind::cylinder:
-      return Cylinder{length(size), length(size)};
+      return Cylinder{length(size), length(size), rounding_or_none(size)};
     case ShapeKind::cone:
-      return Cone{length(size), length(size)};
+      return Cone{length(size), length(size), rounding_or_none(size)};
     case ShapeKind::ellipsoid:
-      return Ellipsoid{half(size)};
+      return Ellipsoid{half(size), rounding_or_none(size)};
+    case ShapeKind::rounded_box:
+      return Box{half(size), rounding(size)};
+    case ShapeKind::rounded_hull: {
+      Hull rounded = hull(size);
+      rounded.rounding = rounding(std::min(size, FLT_MAX / 4.0));
+      return rounded;
+    }
     default:
       return halfspace(size);
   }
@@ -63,6 +70,13 @@ double ConvexRandom::extent(double size) {
   if (style_.degenerate && random_.chance(0.4)) return 0;
   if (style_.lattice) return size * integer(0, 2);
   return size * random_.log_uniform(1 / style_.aspect, 1);
+}
+
+float ConvexRandom::rounding(double size) {
+  const float some = length(size);
+  if (some > 0) return some;
+  const double small = size * (style_.lattice ? 0.5 : random_.log_uniform(1e-7, 1e-2));
+  return std::max(static_cast<float>(small), FLT_TRUE_MIN);
 }
 
 Eigen::Vector3d ConvexRandom::extents(double size) {

@@ -47,6 +47,11 @@ class ConvexRandom {
   Eigen::Vector3f half(double size) { return extents(size).cast<float>(); }
   float length(double size) { return static_cast<float>(extent(size)); }
 
+  // Above 0; in the degenerate style often small.
+  float rounding(double size);
+  // Most round shapes have none.
+  float rounding_or_none(double size) { return random_.chance(0.25) ? rounding(size) : 0; }
+
   // Offset of the shape's centre from the body's origin.
   Eigen::Vector3d shift(double size);
 

@@ -103,7 +103,10 @@ struct ConvexShape {
   void build(const Capsule& capsule);
 
   void build(const Aabb& box) { build_box(vec3_as<R>(box.lower), vec3_as<R>(box.upper)); }
-  void build(const carom::Box& box) { build_box(-vec3_as<R>(box.half), vec3_as<R>(box.half)); }
+  void build(const carom::Box& box) {
+    build_box(-vec3_as<R>(box.half), vec3_as<R>(box.half));
+    radius = box.rounding;
+  }
 
   // Point i is at the upper end of axis k if bit k of i is set.
   void build_box(const Vec& lower, const Vec& upper);

@@ -201,6 +201,7 @@ void ConvexShape<R>::build(const Hull& hull) {
     place[corner] = points.size();
     points.push_back(vec3_as<R>(all[corner]));
   }
+  radius = hull.rounding;
   is_solid = found.dimension() == 3;
   if (found.dimension() == 1) add_outline({0, 1});
   for (const HullFaces::Outline& outline : found.faces()) {

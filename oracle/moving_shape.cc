@@ -7,6 +7,7 @@ MovingShape<R>::MovingShape(const carom::Shape& shape, const Pose& pose, const S
     : shape_(shape), pose_{Eigen::Vector3d::Zero(), pose.orientation} {
   if (const auto* hull = std::get_if<Hull>(&shape)) {
     place_points(hull->geometry->points());
+    radius_ = R(hull->rounding);
   } else {
     place(all());
   }

@@ -106,20 +106,48 @@ class EllipsoidSurface {
   size_t shortest_;
 };
 
+// Whether a point, in the body's frame, lies in the shape without its rounding.
+bool holds(const Cylinder& c, const LongVec& p) {
+  return std::hypot(p.x, p.y) <= c.radius && std::fabs(p.z) <= c.half_length;
+}
+bool holds(const Cone& c, const LongVec& p) {
+  if (!(std::fabs(p.z) <= c.half_length)) return false;
+  return std::hypot(p.x, p.y) * (2 * c.half_length) <= c.radius * (c.half_length - p.z);
+}
+bool holds(const Ellipsoid& e, const LongVec& p) {
+  long double sum = 0;
+  const long double of_p[] = {p.x, p.y, p.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const long double semi_axis = e.semi_axes[axis];
+    if (of_p[axis] != 0) sum += (of_p[axis] / semi_axis) * (of_p[axis] / semi_axis);
+  }
+  return sum <= 1;
+}
+
+long double core_distance(const Cylinder& c, const LongVec& point) {
+  const long double r = c.radius, h = c.half_length;
+  return distance_to_turned(axial(point), {{0, h}, {r, h}, {r, -h}, {0, -h}});
+}
+long double core_distance(const Cone& c, const LongVec& point) {
+  const long double r = c.radius, h = c.half_length;
+  return distance_to_turned(axial(point), {{0, h}, {r, -h}, {0, -h}});
+}
+long double core_distance(const Ellipsoid& e, const LongVec& point) {
+  return EllipsoidSurface(e, point).distance();
+}
+
+template <class Round>
+long double grown_distance(const Round& shape, const LongVec& p) {
+  const long double of_core = core_distance(shape, p);
+  return holds(shape, p) ? of_core + shape.rounding : std::fabs(of_core - shape.rounding);
+}
+
 }  // namespace
 
 std::optional<long double> round_surface_distance(const Shape& shape, const LongVec& point) {
-  if (const auto* c = std::get_if<Cylinder>(&shape)) {
-    const long double r = c->radius, h = c->half_length;
-    return distance_to_turned(axial(point), {{0, h}, {r, h}, {r, -h}, {0, -h}});
-  }
-  if (const auto* c = std::get_if<Cone>(&shape)) {
-    const long double r = c->radius, h = c->half_length;
-    return distance_to_turned(axial(point), {{0, h}, {r, -h}, {0, -h}});
-  }
-  if (const auto* e = std::get_if<Ellipsoid>(&shape)) {
-    return EllipsoidSurface(*e, point).distance();
-  }
+  if (const auto* c = std::get_if<Cylinder>(&shape)) return grown_distance(*c, point);
+  if (const auto* c = std::get_if<Cone>(&shape)) return grown_distance(*c, point);
+  if (const auto* e = std::get_if<Ellipsoid>(&shape)) return grown_distance(*e, point);
   return std::nullopt;
 }
 

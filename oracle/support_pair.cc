@@ -34,12 +34,12 @@ SupportShape round_support(const Round& shape, const Pose& pose, const Vec& at) 
   const Rotation<long double> turn(pose.orientation);
   return {
       [turn, at, shape](const Vec& way) { return turn(own_support(shape, turn.back(way))) + at; },
-      0};
+      shape.rounding};
 }
 
-double reach_of(const Cylinder& c) { return std::hypot(c.radius, c.half_length); }
-double reach_of(const Cone& c) { return std::hypot(c.radius, c.half_length); }
-double reach_of(const Ellipsoid& e) { return e.semi_axes.maxCoeff(); }
+double reach_of(const Cylinder& c) { return std::hypot(c.radius, c.half_length) + c.rounding; }
+double reach_of(const Cone& c) { return std::hypot(c.radius, c.half_length) + c.rounding; }
+double reach_of(const Ellipsoid& e) { return double{e.semi_axes.maxCoeff()} + e.rounding; }
 
 }  // namespace
 

@@ -47,12 +47,16 @@ bool is_valid_shape(const Capsule& c) {
   return c.a.allFinite() && c.b.allFinite() && is_size(c.radius);
 }
 bool is_valid_shape(const carom::Box& box) {
-  return box.half.allFinite() && (box.half.array() >= 0).all();
+  return box.half.allFinite() && (box.half.array() >= 0).all() && is_size(box.rounding);
 }
-bool is_valid_shape(const Cylinder& c) { return is_size(c.radius) && is_size(c.half_length); }
-bool is_valid_shape(const Cone& c) { return is_size(c.radius) && is_size(c.half_length); }
+bool is_valid_shape(const Cylinder& c) {
+  return is_size(c.radius) && is_size(c.half_length) && is_size(c.rounding);
+}
+bool is_valid_shape(const Cone& c) {
+  return is_size(c.radius) && is_size(c.half_length) && is_size(c.rounding);
+}
 bool is_valid_shape(const Ellipsoid& e) {
-  return e.semi_axes.allFinite() && (e.semi_axes.array() >= 0).all();
+  return e.semi_axes.allFinite() && (e.semi_axes.array() >= 0).all() && is_size(e.rounding);
 }
 bool is_valid_shape(const Triangle& t) {
   return t.corners[0].allFinite() && t.corners[1].allFinite() && t.corners[2].allFinite() &&
@@ -70,7 +74,9 @@ bool is_valid_shape(const Dop& dop) {
   return known_geometry(dop) || has_points(DopSlabs(dop));
 }
 
-bool is_valid_shape(const Hull& hull) { return hull.geometry != nullptr; }
+bool is_valid_shape(const Hull& hull) {
+  return hull.geometry != nullptr && is_size(hull.rounding);
+}
 bool is_valid_shape(const Mesh& mesh) { return mesh.geometry != nullptr; }
 bool is_valid_shape(const HeightField& field) { return field.geometry != nullptr; }
 bool is_valid_shape(const Compound& compound) { return compound.geometry != nullptr; }

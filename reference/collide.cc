@@ -6,6 +6,7 @@
 #include "carom/reference/reference.h"
 #include "narrowphase/pairs/aabb/aabb_aabb_scalar.h"
 #include "narrowphase/pairs/any_pair.h"
+#include "narrowphase/pairs/rounded/rounded_scalar.h"
 #include "narrowphase/pairs/sphere/sphere_aabb_scalar.h"
 #include "narrowphase/pairs/sphere/sphere_sphere_scalar.h"
 #include "narrowphase/scalar/near_touch.h"
@@ -54,8 +55,21 @@ Separation test(const Aabb& a, const Aabb& b, const Poses& poses) {
   return aabb_aabb(a.lower, a.upper, b.lower, b.upper, poses.rounded.d);
 }
 
+Separation test(const Shape& a, const Shape& b, const Poses& poses);
+
+// In the order of all tests.
+Separation test_rounded(const Shape& a, const Shape& b, const Poses& poses) {
+  if (comes_after(kind_of(a), kind_of(b))) return flipped(test_rounded(b, a, flipped(poses)));
+  const auto of_cores = [&](const Shape& core_a, const Shape& core_b) {
+    return test(core_a, core_b, poses);
+  };
+  const auto exact = [&] { return rounded(separation_of<double>(a, b, poses.exact)); };
+  return scalar::rounded_answer(a, b, poses.rounded.d, of_cores, exact);
+}
+
 // All others: in float32, and again in double precision if the result is unsure.
 Separation test(const Shape& a, const Shape& b, const Poses& poses) {
+  if (scalar::is_rounded_pair(a, b)) return test_rounded(a, b, poses);
   const Separation result = separation_of<float>(a, b, poses.rounded);
   return result.is_unsure ? rounded(separation_of<double>(a, b, poses.exact)) : result;
 }

@@ -25,10 +25,12 @@ double reach_of_box(const Vector3f& lower, const Vector3f& upper) {
 double reach(const Sphere& sphere) { return sphere.radius; }
 double reach(const Aabb& box) { return reach_of_box(box.lower, box.upper); }
 double reach(const Capsule& c) { return std::max(norm(c.a), norm(c.b)) + c.radius; }
-double reach(const carom::Box& box) { return norm(box.half); }
-double reach(const Cylinder& c) { return norm(Vector3f(c.radius, c.half_length, 0)); }
-double reach(const Cone& c) { return norm(Vector3f(c.radius, c.half_length, 0)); }
-double reach(const Ellipsoid& e) { return e.semi_axes.maxCoeff(); }
+double reach(const carom::Box& box) { return norm(box.half) + box.rounding; }
+double reach(const Cylinder& c) {
+  return norm(Vector3f(c.radius, c.half_length, 0)) + c.rounding;
+}
+double reach(const Cone& c) { return norm(Vector3f(c.radius, c.half_length, 0)) + c.rounding; }
+double reach(const Ellipsoid& e) { return double{e.semi_axes.maxCoeff()} + e.rounding; }
 double reach(const Triangle& t) {
   const auto& c = t.corners;
   return std::max({norm(c[0]), norm(c[1]), norm(c[2])}) + t.thickness;
@@ -47,7 +49,7 @@ double reach(const Dop& dop) {
 double reach(const Hull& hull) {
   double furthest = 0;
   for (const Vector3f& p : hull.geometry->points()) furthest = std::max(furthest, norm(p));
-  return furthest;
+  return furthest + hull.rounding;
 }
 double reach(const Mesh& mesh) {
   return reach_of_box(mesh.geometry->lower(), mesh.geometry->upper());
@@ -64,15 +66,20 @@ double diameter(const Aabb& box) {
   return (box.upper.cast<double>() - box.lower.cast<double>()).minCoeff();
 }
 double diameter(const Capsule& capsule) { return 2 * double{capsule.radius}; }
-double diameter(const carom::Box& box) { return 2 * double{box.half.minCoeff()}; }
-double diameter(const Cylinder& c) { return 2 * double{std::min(c.radius, c.half_length)}; }
+double diameter(const carom::Box& box) {
+  return 2 * (double{box.half.minCoeff()} + box.rounding);
+}
+double diameter(const Cylinder& c) {
+  return 2 * (double{std::min(c.radius, c.half_length)} + c.rounding);
+}
 // The ball touches the base and the side.
 double diameter(const Cone& c) {
   const double radius = c.radius, length = 2 * double{c.half_length};
   const double side = std::sqrt(radius * radius + length * length);
-  return radius > 0 ? 2 * radius * length / (radius + side) : 0;
+  const double of_cone = radius > 0 ? 2 * radius * length / (radius + side) : 0;
+  return of_cone + 2 * double{c.rounding};
 }
-double diameter(const Ellipsoid& e) { return 2 * double{e.semi_axes.minCoeff()}; }
+double diameter(const Ellipsoid& e) { return 2 * (double{e.semi_axes.minCoeff()} + e.rounding); }
 double diameter(const Triangle&) { return 0; }
 double diameter(const Halfspace&) { return kInfinity; }
 // The diameter of the largest ball around the middle of the first three slabs that stays within all
@@ -94,7 +101,8 @@ double diameter(const Dop& dop) {
 }
 double diameter(const Hull& hull) {
   const HullFeatures* features = hull.geometry->features();
-  return features ? 2 * double{features->inner_radius()} : 0;
+  const double of_core = features ? 2 * double{features->inner_radius()} : 0;
+  return of_core + 2 * double{hull.rounding};
 }
 double diameter(const Mesh&) { return 0; }
 double diameter(const HeightField&) { return 0; }

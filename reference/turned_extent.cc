@@ -84,12 +84,14 @@ Vector3d way_back(const std::vector<Vector3d>& corners, double thickness) {
   return {-n.x() / length * thickness, -n.y() / length * thickness, -n.z() / length * thickness};
 }
 
-Aabb extent_of_points(const std::vector<Vector3d>& points, const Eigen::Quaternionf& orientation) {
+Aabb extent_of_points(const std::vector<Vector3d>& points, const Eigen::Quaternionf& orientation,
+                      double radius = 0) {
   const Turn turn(orientation);
+  const double slack = kTurnRounding * greatest(points, radius);
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const Interval of_points(turn.row(axis), points);
-    set_axis(extent, axis, of_points.lower, of_points.upper, kTurnRounding * greatest(points, 0));
+    set_axis(extent, axis, of_points.lower - radius, of_points.upper + radius, slack);
   }
   return extent;
 }
@@ -138,10 +140,12 @@ Aabb turned_extent(const Capsule& capsule, const Eigen::Quaternionf& orientation
 Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation) {
   const Turn turn(orientation);
   const Vector3d half = box.half.cast<double>();
+  const double rounding = box.rounding;
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const double reach = inner_product(turn.row(axis).cwiseAbs(), half);
-    set_axis(extent, axis, -reach, reach, kTurnRounding * greatest(half));
+    set_axis(extent, axis, -reach - rounding, reach + rounding,
+             kTurnRounding * std::fmax(greatest(half), rounding));
   }
   return extent;
 }
@@ -149,24 +153,27 @@ Aabb turned_extent(const carom::Box& box, const Eigen::Quaternionf& orientation)
 Aabb turned_extent(const Cylinder& cylinder, const Eigen::Quaternionf& orientation) {
   const Turn turn(orientation);
   const double radius = cylinder.radius, half_length = cylinder.half_length;
+  const double rounding = cylinder.rounding;
+  const double slack = kTurnRounding * std::fmax(std::fmax(radius, half_length), rounding);
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d& r = turn.row(axis);
     const double reach = radius * across(r) + half_length * std::fabs(r.z());
-    set_axis(extent, axis, -reach, reach, kTurnRounding * std::fmax(radius, half_length));
+    set_axis(extent, axis, -reach - rounding, reach + rounding, slack);
   }
   return extent;
 }
 
 Aabb turned_extent(const Cone& cone, const Eigen::Quaternionf& orientation) {
   const Turn turn(orientation);
-  const double radius = cone.radius, half_length = cone.half_length;
+  const double radius = cone.radius, half_length = cone.half_length, rounding = cone.rounding;
+  const double slack = kTurnRounding * std::fmax(std::fmax(radius, half_length), rounding);
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d& r = turn.row(axis);
     const double base = radius * across(r), tip = half_length * r.z();
-    set_axis(extent, axis, std::fmin(tip, -tip - base), std::fmax(tip, base - tip),
-             kTurnRounding * std::fmax(radius, half_length));
+    set_axis(extent, axis, std::fmin(tip, -tip - base) - rounding,
+             std::fmax(tip, base - tip) + rounding, slack);
   }
   return extent;
 }
@@ -174,11 +181,13 @@ Aabb turned_extent(const Cone& cone, const Eigen::Quaternionf& orientation) {
 Aabb turned_extent(const Ellipsoid& ellipsoid, const Eigen::Quaternionf& orientation) {
   const Turn turn(orientation);
   const Vector3d semi_axes = ellipsoid.semi_axes.cast<double>();
+  const double rounding = ellipsoid.rounding;
   Aabb extent;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d scaled = turn.row(axis).cwiseProduct(semi_axes);
     const double reach = std::sqrt(inner_product(scaled, scaled));
-    set_axis(extent, axis, -reach, reach, kTurnRounding * greatest(semi_axes));
+    set_axis(extent, axis, -reach - rounding, reach + rounding,
+             kTurnRounding * std::fmax(greatest(semi_axes), rounding));
   }
   return extent;
 }
@@ -213,7 +222,7 @@ Aabb turned_extent(const Hull& hull, const Eigen::Quaternionf& orientation) {
   std::vector<Vector3d> points;
   points.reserve(hull.geometry->points().size());
   for (const Eigen::Vector3f& p : hull.geometry->points()) points.push_back(p.cast<double>());
-  return extent_of_points(points, orientation);
+  return extent_of_points(points, orientation, hull.rounding);
 }
 
 Aabb turned_extent(const Mesh& mesh, const Eigen::Quaternionf& orientation) {

@@ -23,6 +23,9 @@ Every pair of kinds that has a kernel in lanes; meshes and compounds are tested 
 TAIL = """
 Cylinders, cones and ellipsoids meet every convex kind, each other and half-spaces by one way, a pair at a time and in
 double precision: [round shapes](design/round_shapes.md). Those of spheres have one point, the others manifolds.
+
+Boxes and hulls with a rounding (`rounded_box`, `rounded_hull`) meet the same kinds, and each other, by the tests of their
+cores: [rounded boxes and hulls](design/round_shapes.md#rounded-boxes-and-hulls).
 """
 
 

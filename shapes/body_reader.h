@@ -59,7 +59,10 @@ bool are_valid_dop_rows(const Row* rows, const DopGeometry* geometry);
 // address is not null.
 inline bool are_valid_rows(ShapeKind kind, const Row* rows,
                            const DopGeometry* geometry_of_dop = nullptr) {
-  if (has_geometry(kind)) return geometry_at<void>(rows[0]) != nullptr;
+  if (has_geometry(kind)) {
+    return geometry_at<void>(rows[0]) != nullptr &&
+           (kind != ShapeKind::rounded_hull || is_valid_radius(rows[0][3]));
+  }
   if (kind == ShapeKind::dop) return are_valid_dop_rows(rows, geometry_of_dop);
   for (uint32_t i = 0; i < row_count(kind); ++i) {
     if (!is_finite(rows[i])) return false;
@@ -70,10 +73,12 @@ inline bool are_valid_rows(ShapeKind kind, const Row* rows,
     case ShapeKind::triangle:  // thickness and the bits of the inner edges
       return rows[0][3] >= 0 && rows[2][3] >= 0 && rows[2][3] <= 7;
     case ShapeKind::box:
+      return rows[0][0] >= 0 && rows[0][1] >= 0 && rows[0][2] >= 0;
+    case ShapeKind::rounded_box:
     case ShapeKind::cylinder:
     case ShapeKind::cone:
     case ShapeKind::ellipsoid:
-      return rows[0][0] >= 0 && rows[0][1] >= 0 && rows[0][2] >= 0;
+      return rows[0][0] >= 0 && rows[0][1] >= 0 && rows[0][2] >= 0 && rows[0][3] >= 0;
     case ShapeKind::halfspace:
       return is_direction(rows[0][0], rows[0][1], rows[0][2]);
     default:
@@ -159,7 +164,10 @@ struct BodyReader {
   // Checks orientation and rows, for a kind that has them.
   bool has_valid_parameters(size_t i) const {
     if (!is_rotation(orientation(i))) return false;
-    if (has_geometry(kind(i))) return geometry_at<void>(row(i, 0)) != nullptr;
+    if (has_geometry(kind(i))) {
+      const Row only = row(i, 0);
+      return are_valid_rows(kind(i), &only);
+    }
     return are_valid_rows(kind(i), rows(i).data(), dop_geometry(i));
   }
 

@@ -1,4 +1,5 @@
-// Stores the address of a geometry in a row of shape parameters, and reads it back.
+// Stores the address of a geometry in a row of shape parameters, and reads it back. The fourth
+// number of the row is free: it is the rounding of a hull.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@ namespace carom {
 // A nullptr gives a row of zeros.
 inline std::array<float, 4> geometry_row(const void* geometry) {
   std::array<float, 4> row{};
-  static_assert(sizeof geometry <= sizeof row);
+  static_assert(sizeof geometry <= 3 * sizeof(float));
   std::memcpy(row.data(), &geometry, sizeof geometry);
   return row;
 }

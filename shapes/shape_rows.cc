@@ -18,10 +18,10 @@ Vector3f vector(const Row& row) { return {row[0], row[1], row[2]}; }
 Rows rows_of(const Sphere&) { return {}; }
 Rows rows_of(const Aabb&) { return {}; }
 Rows rows_of(const Capsule& c) { return {row(c.a, c.radius), row(c.b, 0)}; }
-Rows rows_of(const Box& box) { return {row(box.half, 0)}; }
-Rows rows_of(const Cylinder& c) { return {Row{c.radius, c.half_length, 0, 0}}; }
-Rows rows_of(const Cone& c) { return {Row{c.radius, c.half_length, 0, 0}}; }
-Rows rows_of(const Ellipsoid& e) { return {row(e.semi_axes, 0)}; }
+Rows rows_of(const Box& box) { return {row(box.half, box.rounding)}; }
+Rows rows_of(const Cylinder& c) { return {Row{c.radius, c.half_length, 0, c.rounding}}; }
+Rows rows_of(const Cone& c) { return {Row{c.radius, c.half_length, 0, c.rounding}}; }
+Rows rows_of(const Ellipsoid& e) { return {row(e.semi_axes, e.rounding)}; }
 Rows rows_of(const Halfspace& h) { return {row(h.normal, h.offset)}; }
 Rows rows_of(const Triangle& t) {
   return {row(t.corners[0], t.thickness), row(t.corners[1], t.one_sided ? 1.0f : 0.0f),
@@ -43,7 +43,11 @@ Rows rows_of(const Dop& dop) {
   return rows;
 }
 
-Rows rows_of(const Hull& hull) { return {geometry_row(hull.geometry.get())}; }
+Rows rows_of(const Hull& hull) {
+  Row row = geometry_row(hull.geometry.get());
+  row[3] = hull.rounding;
+  return {row};
+}
 Rows rows_of(const Mesh& mesh) { return {geometry_row(mesh.geometry.get())}; }
 Rows rows_of(const HeightField& field) { return {geometry_row(field.geometry.get())}; }
 Rows rows_of(const Compound& compound) { return {geometry_row(compound.geometry.get())}; }
@@ -84,18 +88,22 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
       return Capsule{vector(rows[0]), vector(rows[1]), rows[0][3]};
     case ShapeKind::box:
       return Box{vector(rows[0])};
+    case ShapeKind::rounded_box:
+      return Box{vector(rows[0]), rows[0][3]};
     case ShapeKind::cylinder:
-      return Cylinder{rows[0][0], rows[0][1]};
+      return Cylinder{rows[0][0], rows[0][1], rows[0][3]};
     case ShapeKind::cone:
-      return Cone{rows[0][0], rows[0][1]};
+      return Cone{rows[0][0], rows[0][1], rows[0][3]};
     case ShapeKind::ellipsoid:
-      return Ellipsoid{vector(rows[0])};
+      return Ellipsoid{vector(rows[0]), rows[0][3]};
     case ShapeKind::halfspace:
       return Halfspace{vector(rows[0]), rows[0][3]};
     case ShapeKind::dop:
       return dop_from(rows);
     case ShapeKind::hull:
       return Hull{not_owned<HullGeometry>(rows[0])};
+    case ShapeKind::rounded_hull:
+      return Hull{not_owned<HullGeometry>(rows[0]), nullptr, rows[0][3]};
     case ShapeKind::mesh:
       return Mesh{not_owned<MeshGeometry>(rows[0])};
     case ShapeKind::height_field:
@@ -111,7 +119,9 @@ Shape shape_from_rows(ShapeKind kind, const Row* rows) {
 }
 
 LadderPtr ladder_of(const Shape& shape) {
-  if (const auto* hull = std::get_if<Hull>(&shape)) return hull->ladder;
+  if (const auto* hull = std::get_if<Hull>(&shape)) {
+    return hull->rounding == 0 ? hull->ladder : nullptr;
+  }
   if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->ladder;
   const auto* compound = std::get_if<Compound>(&shape);
   return compound ? compound->ladder : nullptr;

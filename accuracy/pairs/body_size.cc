@@ -36,10 +36,14 @@ struct Radius {
     return std::max(capsule.a.cast<double>().norm(), capsule.b.cast<double>().norm()) +
            capsule.radius;
   }
-  double operator()(const Box& box) const { return box.half.cast<double>().norm(); }
-  double operator()(const Cylinder& c) const { return std::hypot(c.radius, c.half_length); }
-  double operator()(const Cone& c) const { return std::hypot(c.radius, c.half_length); }
-  double operator()(const Ellipsoid& e) const { return e.semi_axes.maxCoeff(); }
+  double operator()(const Box& box) const { return box.half.cast<double>().norm() + box.rounding; }
+  double operator()(const Cylinder& c) const {
+    return std::hypot(c.radius, c.half_length) + c.rounding;
+  }
+  double operator()(const Cone& c) const {
+    return std::hypot(c.radius, c.half_length) + c.rounding;
+  }
+  double operator()(const Ellipsoid& e) const { return e.semi_axes.maxCoeff() + e.rounding; }
   double operator()(const Triangle& triangle) const {
     double farthest = 0;
     for (const Eigen::Vector3f& corner : triangle.corners) {
@@ -56,7 +60,7 @@ struct Radius {
     for (const Eigen::Vector3f& point : hull.geometry->points()) {
       farthest = std::max(farthest, point.cast<double>().norm());
     }
-    return farthest;
+    return farthest + hull.rounding;
   }
   double operator()(const Mesh& mesh) const { return of_box(*mesh.geometry); }
   double operator()(const HeightField& field) const { return of_box(*field.geometry); }

@@ -21,10 +21,16 @@ std::string list(const Vector& v) {
 std::string numbers(const Sphere& sphere) { return text("%a", sphere.radius); }
 std::string numbers(const Capsule& c) { return list(c.a) + list(c.b) + text(" %a", c.radius); }
 std::string numbers(const Aabb& box) { return list(box.lower) + list(box.upper); }
-std::string numbers(const Box& box) { return list(box.half); }
-std::string numbers(const Cylinder& c) { return text("%a", c.radius) + text(" %a", c.half_length); }
-std::string numbers(const Cone& c) { return text("%a", c.radius) + text(" %a", c.half_length); }
-std::string numbers(const Ellipsoid& e) { return list(e.semi_axes); }
+std::string numbers(const Box& box) { return list(box.half) + text(" %a", box.rounding); }
+std::string numbers(const Cylinder& c) {
+  return text("%a", c.radius) + text(" %a", c.half_length) + text(" %a", c.rounding);
+}
+std::string numbers(const Cone& c) {
+  return text("%a", c.radius) + text(" %a", c.half_length) + text(" %a", c.rounding);
+}
+std::string numbers(const Ellipsoid& e) {
+  return list(e.semi_axes) + text(" %a", e.rounding);
+}
 std::string numbers(const Halfspace& h) { return list(h.normal) + text(" %a", h.offset); }
 std::string numbers(const Triangle& triangle) {
   std::string all;
@@ -41,7 +47,7 @@ std::string numbers(const Dop& dop) {
 std::string numbers(const Hull& hull) {
   std::string all;
   for (const Eigen::Vector3f& point : hull.geometry->points()) all += list(point);
-  return all;
+  return all + text(" %a", hull.rounding);
 }
 std::string numbers(const Mesh& mesh) {
   return std::to_string(mesh.geometry->triangles().size()) + " triangles";

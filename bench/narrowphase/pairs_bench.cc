@@ -116,7 +116,9 @@ void register_streams(const KindPair& kinds, Storage storage, int hit_percent, s
 // Fewer pairs for slow kinds: k-DOPs and hulls take long to draw. Those of k-DOPs, which have a
 // geometry each, are still more than the caches hold.
 size_t pair_count(const KindPair& kinds, const Options& options) {
-  const auto has = [&](ShapeKind kind) { return kinds.a == kind || kinds.b == kind; };
+  const auto has = [&](ShapeKind kind) {
+    return core_kind(kinds.a) == kind || core_kind(kinds.b) == kind;
+  };
   if (has(ShapeKind::dop)) return options.pairs / 5;
   return has(ShapeKind::hull) ? options.pairs / 4 : options.pairs;
 }

@@ -60,12 +60,21 @@ Shape draw_shape(ShapeKind kind, oracle::Random& random, std::span<const Hull> h
       return draw_capsule(random);
     case ShapeKind::box:
       return Box{draw_half(random)};
+    case ShapeKind::rounded_box: {
+      const Eigen::Vector3f half = draw_half(random);
+      return Box{half, draw_size(random) / 10};
+    }
     case ShapeKind::triangle:
       return draw_triangle(random);
     case ShapeKind::dop:
       return draw_dop(random);
     case ShapeKind::hull:
       return hulls[random.below(hulls.size())];
+    case ShapeKind::rounded_hull: {
+      Hull hull = hulls[random.below(hulls.size())];
+      hull.rounding = draw_size(random) / 10;
+      return hull;
+    }
     case ShapeKind::halfspace:
       return Halfspace{random.direction().cast<float>(), draw_size(random)};
     default:

@@ -9,7 +9,7 @@ const kindOf = row => shapes[body.shape[row]].kind;
 const colours = {
   sphere: '#9db8d2', capsule: '#a9c8b4', aabb: '#c9bfa5', box: '#cdb79b', dop: '#b9b3d3', hull: '#c2a9bd',
   mesh: '#b4b9a9', compound: '#a8c3c6', halfspace: '#b3b7bb', triangle: '#c6a9a0',
-  cylinder: '#a3bfb9', cone: '#d0b8ae', ellipsoid: '#a7b1d0'};
+  cylinder: '#a3bfb9', cone: '#d0b8ae', ellipsoid: '#a7b1d0', rounded_box: '#cdb79b', rounded_hull: '#c2a9bd'};
 const fixedColour = '#b3b7bb', colourOfA = '#f0901e', colourOfB = '#2f7fd0';
 
 // The reach of a shape from its own origin.

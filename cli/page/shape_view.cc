@@ -2,8 +2,11 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
@@ -76,10 +79,67 @@ class Faces {
     add_face(std::move(outline));
   }
 
+  // Moves every face outwards by the rounding, and closes the gaps along edges and at corners with
+  // flat faces: a picture of all points within the rounding. Nothing without faces.
+  void grow(double rounding) {
+    if (!(rounding > 0) || faces_.empty()) return;
+    const auto old_points = std::exchange(points_, Json::array());
+    const auto old_faces = std::exchange(faces_, Json::array());
+    const auto old_point = [&](size_t i) -> Eigen::Vector3d {
+      return {old_points[3 * i], old_points[3 * i + 1], old_points[3 * i + 2]};
+    };
+    // By the old numbers of its ends, the new ones of an edge.
+    std::map<std::pair<size_t, size_t>, std::pair<size_t, size_t>> edges;
+    for (const Json& face : old_faces) {
+      const auto corners = face.get<std::vector<size_t>>();
+      Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+      for (size_t k = 0; k < corners.size(); ++k) {
+        const size_t next = (k + 1) % corners.size();
+        normal += old_point(corners[k]).cross(old_point(corners[next]));
+      }
+      if (!(normal.norm() > 0)) continue;
+      Json outline = Json::array();
+      for (const size_t corner : corners) {
+        const Eigen::Vector3d p = old_point(corner) + normal.normalized() * rounding;
+        outline.push_back(add_point(p.x(), p.y(), p.z()));
+      }
+      for (size_t k = 0; k < corners.size(); ++k) {
+        const size_t next = (k + 1) % corners.size();
+        edges[{corners[k], corners[next]}] = {outline[k], outline[next]};
+      }
+      add_face(std::move(outline));
+    }
+    // The new points of a corner, from each to the next one around it.
+    std::map<size_t, std::map<size_t, size_t>> around;
+    for (const auto& [old_ends, ends] : edges) {
+      const auto other = edges.find({old_ends.second, old_ends.first});
+      if (other == edges.end()) continue;
+      const auto [to_end, to_start] = other->second;
+      if (old_ends.first < old_ends.second) {
+        add_face({ends.second, ends.first, to_start, to_end});
+      }
+      around[old_ends.first][ends.first] = to_start;
+    }
+    for (const auto& [corner, next] : around) close_corner(next);
+  }
+
   Json json() && { return {{"points", std::move(points_)}, {"faces", std::move(faces_)}}; }
 
  private:
   static constexpr size_t kOfRing = 24;
+
+  // Adds the face whose points follow one another like this, if they come back to the first.
+  void close_corner(const std::map<size_t, size_t>& next) {
+    Json outline = Json::array();
+    size_t at = next.begin()->first;
+    do {
+      outline.insert(outline.begin(), at);
+      const auto step = next.find(at);
+      if (step == next.end()) return;
+      at = step->second;
+    } while (at != next.begin()->first && outline.size() <= next.size());
+    if (outline.size() > 2) add_face(std::move(outline));
+  }
 
   static Eigen::Vector3d front_normal(const std::array<Eigen::Vector3f, 3>& corners) {
     const Eigen::Vector3d a = corners[0].cast<double>();
@@ -106,7 +166,28 @@ struct Viewer {
   }
 
   Json operator()(const Box& box) const {
-    return {{"lower", numbers(-box.half)}, {"upper", numbers(box.half)}};
+    if (box.rounding == 0) return {{"lower", numbers(-box.half)}, {"upper", numbers(box.half)}};
+    Faces faces;
+    for (int i = 0; i < 8; ++i) {  // bit k of i: at the upper end of axis k
+      const auto end = [&](int axis) {
+        return i >> axis & 1 ? shortest(box.half[axis]) : -shortest(box.half[axis]);
+      };
+      faces.add_point(end(0), end(1), end(2));
+    }
+    for (const auto& face : {std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}, std::array{0, 1, 5, 4},
+                             std::array{2, 6, 7, 3}, std::array{0, 2, 3, 1},
+                             std::array{4, 5, 7, 6}}) {
+      faces.add_face(face);
+    }
+    return grown(std::move(faces), box.rounding);
+  }
+
+  // With the rounding itself, since the picture's edges are flat.
+  static Json grown(Faces faces, float rounding) {
+    faces.grow(rounding);
+    Json view = std::move(faces).json();
+    if (rounding > 0) view["rounding"] = shortest(rounding);
+    return view;
   }
 
   Json operator()(const Halfspace& halfspace) const {
@@ -145,7 +226,7 @@ struct Viewer {
     faces.join_rings(lower, upper);
     faces.close_ring(lower, false);
     faces.close_ring(upper, true);
-    return std::move(faces).json();
+    return grown(std::move(faces), c.rounding);
   }
 
   // The ring at the tip has no radius.
@@ -154,7 +235,7 @@ struct Viewer {
     const size_t base = faces.add_ring(c.radius, c.radius, -c.half_length);
     faces.join_rings(base, faces.add_ring(0, 0, c.half_length));
     faces.close_ring(base, false);
-    return std::move(faces).json();
+    return grown(std::move(faces), c.rounding);
   }
 
   Json operator()(const Ellipsoid& e) const {
@@ -169,7 +250,7 @@ struct Viewer {
       if (i > 0) faces.join_rings(below, ring);
       below = ring;
     }
-    return std::move(faces).json();
+    return grown(std::move(faces), e.rounding);
   }
 
   Json operator()(const Hull& hull) const {
@@ -179,7 +260,7 @@ struct Viewer {
       const auto corners = hull.geometry->corners(face);
       faces.add_face(Json(std::vector<uint32_t>(corners.begin(), corners.end())));
     }
-    return std::move(faces).json();
+    return grown(std::move(faces), hull.rounding);
   }
 
   Json operator()(const Mesh& mesh) const {

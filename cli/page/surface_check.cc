@@ -95,10 +95,11 @@ class Surfaces {
   const oracle::ConvexShape<>& convex(const Shape& shape) {
     const Hull* hull = std::get_if<Hull>(&shape);
     if (hull == nullptr) return other_.emplace(shape, Pose{});
-    return hulls_.try_emplace(hull->geometry.get(), shape, Pose{}).first->second;
+    const std::pair key(hull->geometry.get(), hull->rounding);
+    return hulls_.try_emplace(key, shape, Pose{}).first->second;
   }
 
-  std::map<const HullGeometry*, oracle::ConvexShape<>> hulls_;
+  std::map<std::pair<const HullGeometry*, float>, oracle::ConvexShape<>> hulls_;
   std::optional<oracle::ConvexShape<>> other_;
 };
 

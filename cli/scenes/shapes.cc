@@ -108,22 +108,8 @@ bool is_compound(const io::SceneShapes& shapes, size_t index) {
   return shapes.kind[index] == static_cast<uint8_t>(ShapeKind::compound);
 }
 
-Error shape_error(const std::string& source, size_t index, const Error& what) {
-  return io::file_error(source,
-                        "shape_kind: shape " + std::to_string(index) + " is " + what.message);
-}
-
-}  // namespace
-
-bool is_its_parameters(uint8_t kind) {
-  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule,   ShapeKind::aabb,
-                                  ShapeKind::box,    ShapeKind::halfspace, ShapeKind::cylinder,
-                                  ShapeKind::cone,   ShapeKind::ellipsoid};
-  return std::find(std::begin(kKinds), std::end(kKinds), static_cast<ShapeKind>(kind)) !=
-         std::end(kKinds);
-}
-
-Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) {
+// The shape without its rounding. Not a compound.
+Result<Shape> convert_core(const io::SceneShapes& shapes, size_t index) {
   const std::array<float, 8>& params = shapes.params[index];
   auto kind = static_cast<ShapeKind>(shapes.kind[index]);
   switch (kind) {
@@ -152,6 +138,32 @@ Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) 
     default:
       return Shape(Sphere{params[0]});
   }
+}
+
+Error shape_error(const std::string& source, size_t index, const Error& what) {
+  return io::file_error(source,
+                        "shape_kind: shape " + std::to_string(index) + " is " + what.message);
+}
+
+}  // namespace
+
+bool is_its_parameters(uint8_t kind) {
+  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule,   ShapeKind::aabb,
+                                  ShapeKind::box,    ShapeKind::halfspace, ShapeKind::cylinder,
+                                  ShapeKind::cone,   ShapeKind::ellipsoid};
+  return std::find(std::begin(kKinds), std::end(kKinds), static_cast<ShapeKind>(kind)) !=
+         std::end(kKinds);
+}
+
+Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) {
+  Result<Shape> shape = convert_core(shapes, index);
+  if (shapes.rounding.empty() || !shape) return shape;
+  std::visit(
+      [&](auto& s) {
+        if constexpr (requires { s.rounding; }) s.rounding = shapes.rounding[index];
+      },
+      *shape);
+  return shape;
 }
 
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes,

@@ -127,6 +127,10 @@ void make_all_kinds(io::SceneShapes& shapes) {
     if (kind == ShapeKind::mesh) make_mesh(shapes, i, half);
     if (kind == ShapeKind::compound) make_compound(shapes, i, half);
   }
+  shapes.rounding.resize(shapes.kind.size());
+  for (size_t i = 0; i < count; ++i) {
+    if (i % 2 == 0 && io::takes_rounding(shapes.kind[i])) shapes.rounding[i] = 0.1f;
+  }
   shapes.params[16][6] = -1;      // the radius of a capsule
   shapes.vertices[5][1] = kNan;   // of a k-DOP
   shapes.vertices[8][1] = kNan;   // of a triangle

@@ -18,7 +18,8 @@ constexpr std::array kKinds = {ShapeKind::sphere,    ShapeKind::capsule,  ShapeK
                                ShapeKind::box,       ShapeKind::dop,      ShapeKind::hull,
                                ShapeKind::mesh,      ShapeKind::compound, ShapeKind::triangle,
                                ShapeKind::halfspace, ShapeKind::cylinder, ShapeKind::cone,
-                               ShapeKind::ellipsoid};
+                               ShapeKind::ellipsoid, ShapeKind::rounded_box,
+                               ShapeKind::rounded_hull};
 
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
 

@@ -46,6 +46,11 @@ Hull even_hull(float size) {
   return hull_of(corners);
 }
 
+Hull rounded(Hull hull, float rounding) {
+  hull.rounding = rounding;
+  return hull;
+}
+
 }  // namespace
 
 Shape even_shape(ShapeKind kind, float size) {
@@ -58,6 +63,8 @@ Shape even_shape(ShapeKind kind, float size) {
       return Aabb::from_half_extents(Eigen::Vector3f::Constant(size));
     case ShapeKind::box:
       return Box{Eigen::Vector3f::Constant(size)};
+    case ShapeKind::rounded_box:
+      return Box{Eigen::Vector3f::Constant(size), size};
     case ShapeKind::triangle:
       return Triangle{{x, y - x, -y - x}, size < 0 ? size : 0, false, 0};
     case ShapeKind::halfspace:
@@ -72,6 +79,8 @@ Shape even_shape(ShapeKind kind, float size) {
       return even_dop(size);
     case ShapeKind::hull:
       return even_hull(size);
+    case ShapeKind::rounded_hull:
+      return rounded(even_hull(size), size);
     case ShapeKind::mesh:
       return mesh_of({x, y, -x, -y}, {{0, 1, 2}, {2, 3, 0}},
                      {.one_sided = false, .thickness = size < 0 ? size : 0});
@@ -114,24 +123,32 @@ Shape RandomShapes::shape(ShapeKind kind, double size) {
     }
     case ShapeKind::box:
       return Box{half_extents(size)};
+    case ShapeKind::rounded_box: {
+      const Eigen::Vector3f half = half_extents(size);
+      return Box{half, some_rounding(size)};
+    }
     case ShapeKind::triangle:
       return triangle(size);
     case ShapeKind::halfspace:
       return halfspace(size);
     case ShapeKind::cylinder: {
       const Eigen::Vector3f half = half_extents(size);
-      return Cylinder{half.x(), half.z()};
+      return Cylinder{half.x(), half.z(), rounding(size)};
     }
     case ShapeKind::cone: {
       const Eigen::Vector3f half = half_extents(size);
-      return Cone{half.x(), half.z()};
+      return Cone{half.x(), half.z(), rounding(size)};
     }
-    case ShapeKind::ellipsoid:
-      return Ellipsoid{half_extents(size)};
+    case ShapeKind::ellipsoid: {
+      const Eigen::Vector3f half = half_extents(size);
+      return Ellipsoid{half, rounding(size)};
+    }
     case ShapeKind::dop:
       return dop(size);
     case ShapeKind::hull:
       return hull(size);
+    case ShapeKind::rounded_hull:
+      return rounded(hull(size), some_rounding(size));
     case ShapeKind::mesh:
       return mesh(size);
     case ShapeKind::compound:
@@ -186,7 +203,8 @@ Compound RandomShapes::compound(double size) {
   constexpr std::array kParts = {ShapeKind::sphere, ShapeKind::capsule,  ShapeKind::aabb,
                                  ShapeKind::box,    ShapeKind::dop,      ShapeKind::hull,
                                  ShapeKind::mesh,   ShapeKind::triangle, ShapeKind::cylinder,
-                                 ShapeKind::cone,   ShapeKind::ellipsoid};
+                                 ShapeKind::cone,   ShapeKind::ellipsoid,
+                                 ShapeKind::rounded_box, ShapeKind::rounded_hull};
   std::vector<CompoundChild> children(1 + random_.below(3));
   for (CompoundChild& child : children) {
     child.shape = shape(kParts[random_.below(kParts.size())], size / 2);

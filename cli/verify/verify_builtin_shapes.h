@@ -26,6 +26,10 @@ class RandomShapes {
 
  private:
   Eigen::Vector3f point(double radius) { return in_ball(radius).cast<float>(); }
+  // Above 0.
+  float some_rounding(double size) { return static_cast<float>(size * random_.between(0.01, 0.5)); }
+  // Most shapes have none.
+  float rounding(double size) { return one_of(4) ? some_rounding(size) : 0; }
   float up_to(double limit) { return static_cast<float>(random_.between(0, limit)); }
   std::vector<Eigen::Vector3f> some_points(size_t count, double size);
   Eigen::Vector3f half_extents(double size);

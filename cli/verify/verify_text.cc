@@ -30,7 +30,13 @@ std::string parameters(const Capsule& capsule) {
   return "a " + list(capsule.a) + " b " + list(capsule.b) + " radius " + text_of(capsule.radius);
 }
 
-std::string parameters(const Box& box) { return "half " + list(box.half); }
+std::string with_rounding(std::string text, float rounding) {
+  return rounding == 0 ? text : text + " rounding " + text_of(rounding);
+}
+
+std::string parameters(const Box& box) {
+  return with_rounding("half " + list(box.half), box.rounding);
+}
 
 std::string parameters(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
@@ -40,14 +46,18 @@ std::string parameters(const Triangle& triangle) {
 }
 
 std::string parameters(const Cylinder& c) {
-  return "radius " + text_of(c.radius) + " half length " + text_of(c.half_length);
+  return with_rounding("radius " + text_of(c.radius) + " half length " + text_of(c.half_length),
+                       c.rounding);
 }
 
 std::string parameters(const Cone& c) {
-  return "radius " + text_of(c.radius) + " half length " + text_of(c.half_length);
+  return with_rounding("radius " + text_of(c.radius) + " half length " + text_of(c.half_length),
+                       c.rounding);
 }
 
-std::string parameters(const Ellipsoid& e) { return "semi-axes " + list(e.semi_axes); }
+std::string parameters(const Ellipsoid& e) {
+  return with_rounding("semi-axes " + list(e.semi_axes), e.rounding);
+}
 
 std::string parameters(const Halfspace& halfspace) {
   return "normal " + list(halfspace.normal) + " offset " + text_of(halfspace.offset);
@@ -70,7 +80,8 @@ std::string list(std::span<const Eigen::Vector3f> points) {
 }
 
 std::string parameters(const Hull& hull) {
-  return hull.geometry ? "of " + list(hull.geometry->points()) : "that is invalid";
+  if (!hull.geometry) return "that is invalid";
+  return with_rounding("of " + list(hull.geometry->points()), hull.rounding);
 }
 
 std::string parameters(const Mesh& mesh) {

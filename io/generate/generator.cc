@@ -55,7 +55,7 @@ uint64_t shape_count(const GeneratorSpec& spec) {
 // Whether all shapes are their parameters, so that the arrays of ranges stay empty.
 bool needs_no_ranges(const GeneratorSpec& spec) { return !spec.mixed && !is_made(spec.shape); }
 
-void add_shapes(const GeneratorSpec& spec, const Population& population, SceneShapes& shapes) {
+void add_cores(const GeneratorSpec& spec, const Population& population, SceneShapes& shapes) {
   const uint64_t count = shape_count(spec);
   if (needs_no_ranges(spec)) {
     shapes.kind.assign(count, static_cast<uint8_t>(spec.shape));
@@ -75,6 +75,15 @@ void add_shapes(const GeneratorSpec& spec, const Population& population, SceneSh
     } else {
       shapes.params[i] = shape_params(shape, population, i);
     }
+  }
+}
+
+void add_shapes(const GeneratorSpec& spec, const Population& population, SceneShapes& shapes) {
+  add_cores(spec, population, shapes);
+  if (!(spec.rounding > 0)) return;
+  shapes.rounding.resize(shapes.kind.size());
+  for (size_t i = 0; i < shapes.kind.size(); ++i) {
+    if (takes_rounding(shapes.kind[i])) shapes.rounding[i] = static_cast<float>(spec.rounding);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/printable.h"
+#include "io/shape_arrays.h"
 
 namespace carom::io {
 namespace {
@@ -45,13 +46,13 @@ std::optional<ShapeKind> shape_from_name(std::string_view name) {
 const char* keys_of(GeneratorKind kind) {
   switch (kind) {
     case GeneratorKind::level:
-      return "n, frames, seed, density, speed, dt, shape, spin, positions, motion";
+      return "n, frames, seed, density, speed, dt, shape, rounding, spin, positions, motion";
     case GeneratorKind::still:
-      return "n, frames, seed, density, dt, shape, positions";
+      return "n, frames, seed, density, dt, shape, rounding, positions";
     case GeneratorKind::bullets:
       return "n, frames, seed, speed, dt, spin, positions";
     default:
-      return "n, frames, seed, density, speed, dt, shape, spin, positions";
+      return "n, frames, seed, density, speed, dt, shape, rounding, spin, positions";
   }
 }
 
@@ -81,6 +82,12 @@ class SpecParser {
 
   // Checks conditions on more than one key.
   Result<void> check() const {
+    const bool is_rounded = spec_.mixed || takes_rounding(static_cast<uint8_t>(spec_.shape));
+    if (spec_.rounding > 0 && !is_rounded) {
+      return spec_error(spec_,
+                        "'rounding' needs a shape that has one (box, hull, cylinder, cone, ellipsoid, "
+                        "mixed)");
+    }
     if (!spec_.spin || spec_.has_orientation()) return {};
     return spec_error(spec_,
                       std::string("'spin' needs a shape that turns (") + kTurningShapes + ")");
@@ -97,6 +104,7 @@ class SpecParser {
     if (key_ == "speed" && moves) return real(0, 1e9, spec_.speed.emplace());
     if (key_ == "dt") return real(1e-9, 1e6, spec_.dt);
     if (key_ == "shape" && !mixed) return shape();
+    if (key_ == "rounding" && !mixed) return real(0, 1e9, spec_.rounding);
     if (key_ == "spin" && moves) return real(0, 1e6, spec_.spin.emplace());
     if (key_ == "positions") return choice("float32", "float64", spec_.float64_positions);
     if (key_ == "motion" && spec_.kind == GeneratorKind::level) {
@@ -179,6 +187,7 @@ const char kGeneratorHelp[] =
     "                    box, capsule, hull, mesh, compound, cylinder, cone or ellipsoid, which\n"
     "                    start in random orientations and turn as they move; or mixed: sphere and\n"
     "                    these in turn\n"
+    "  rounding=0        metres around boxes, hulls, cylinders, cones and ellipsoids\n"
     "  spin=1            of what turns: the greatest, radians a second; with speed=0: 0; bullets\n"
     "                    200\n"
     "  positions=float32 or float64\n"

@@ -38,6 +38,7 @@ struct GeneratorSpec {
   ShapeKind shape = ShapeKind::aabb;  // of all bodies, unless `mixed`
   bool mixed = false;                 // bodies have the kinds of kMixedShapes in turn
   std::optional<double> spin;         // the greatest, radians a second; shapes that turn only
+  double rounding = 0;                // metres, of shapes that may have one
   bool float64_positions = false;
   bool mark_static = false;  // static: bodies that never move are static bodies
 

@@ -105,6 +105,9 @@ inline bool is_plain_decision(const Batch& batch) {
 // Tests pairs with a cylinder, a cone or an ellipsoid.
 void run_round_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
 
+// Tests pairs with a box or a hull that has a rounding.
+void run_rounded_pair(const Batch& batch, ShapeKind kind_a, ShapeKind kind_b);
+
 // run_NAME(batch) for every pair kind, on the ISA in use.
 #define CAROM_PAIR(name, kind_a, kind_b, passes) void run_##name(const Batch& batch);
 #include "narrowphase/pairs/pair_list.inc"

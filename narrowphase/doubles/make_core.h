@@ -34,7 +34,7 @@ inline void make_core(const CapsuleShape<double>& capsule, const Quaternion<doub
 // The axes of the body are half axes of the ellipsoids, in these lengths.
 inline void make_round_core(const Vector3d& lengths, double half_length,
                             const std::array<double, 2>& shares, const Rotation<double>& turn,
-                            const Vector3d& offset, Core& core) {
+                            const Vector3d& offset, double rounding, Core& core) {
   const auto turned = [&](const Vector3d& v) { return rotate(turn, v); };
   const Vector3d top(0, 0, half_length);
   core.resize(half_length > 0 ? 2 : 1);
@@ -45,25 +45,25 @@ inline void make_round_core(const Vector3d& lengths, double half_length,
                     core_vector(turned(Vector3d(0, lengths.y(), 0))),
                     core_vector(turned(Vector3d(0, 0, lengths.z())))},
                    shares});
-  core.radius = 0;
+  core.radius = rounding;
   core.middle = core_vector(offset);
 }
 
 inline void make_core(const CylinderShape<double>& cylinder, const Quaternion<double>& q,
                       const Vector3d& offset, Core& core) {
   make_round_core({cylinder.radius, cylinder.radius, 0}, cylinder.half_length, {1, 1},
-                  rotation_of(q), offset, core);
+                  rotation_of(q), offset, cylinder.rounding, core);
 }
 
 inline void make_core(const ConeShape<double>& cone, const Quaternion<double>& q,
                       const Vector3d& offset, Core& core) {
   make_round_core({cone.radius, cone.radius, 0}, cone.half_length, {1, 0}, rotation_of(q), offset,
-                  core);
+                  cone.rounding, core);
 }
 
 inline void make_core(const EllipsoidShape<double>& ellipsoid, const Quaternion<double>& q,
                       const Vector3d& offset, Core& core) {
-  make_round_core(ellipsoid.semi_axes, 0, {1, 1}, rotation_of(q), offset, core);
+  make_round_core(ellipsoid.semi_axes, 0, {1, 1}, rotation_of(q), offset, ellipsoid.rounding, core);
 }
 
 inline void make_core_of_box(const Vector3d& lower, const Vector3d& upper,
@@ -87,6 +87,7 @@ inline void make_core(const AabbShape<double>& box, const Quaternion<double>&,
 inline void make_core(const BoxShape<double>& box, const Quaternion<double>& q,
                       const Vector3d& offset, Core& core) {
   make_core_of_box(-box.half, box.half, rotation_of(q), offset, core);
+  core.radius = box.rounding;
 }
 
 template <class Points>
@@ -146,7 +147,7 @@ inline void make_core(const HullShape<double>& hull, const Quaternion<double>& q
     to_y[i] = p.y;
     to_z[i] = p.z;
   }
-  core.radius = 0;
+  core.radius = hull.rounding;
   const Eigen::Vector3d& middle = geometry.middle();
   core.middle = placed(middle.x() * s, middle.y() * s, middle.z() * s);
 }

@@ -157,7 +157,7 @@ SeparationAs<double> ruled_core(const A& a, const TriangleShape<double>& b,
   make_core_of_points(triangle.points, Vector3d::Zero(), cores.b);
   if (comes_from_behind(triangle.rules, eigen_vector(cores.a.middle))) return convex::never();
   CoreGap gap = find_gap(cores.a, cores.b, test);
-  if (triangle.rules.close_ways() && gap.size <= 0) {
+  if (triangle.rules.close_ways() && gap.size - cores.a.radius <= 0) {
     OpenWays ways(cores.a, cores.b, triangle.rules, test.furthest);
     ways.try_both_ways(eigen_vector(gap.normal));
     try_ways(cores, triangle, ways);

@@ -6,6 +6,7 @@
 
 #include "carom/shapes/shape.h"
 #include "narrowphase/batch/batch.h"
+#include "shapes/rounding.h"
 
 namespace carom {
 
@@ -15,9 +16,9 @@ struct PairKind {
   void (*run)(const Batch& batch);
   MorePasses more;
 
-  bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
+  constexpr bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
   // Whether the distance pass replaces the test: it fills every row (GJK kinds).
-  bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
+  constexpr bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
   // Where the test takes longer than looking for the direction of the last step.
   bool has_direction_pass() const { return measures_at_once(); }
   bool has_shell_pass() const { return a == ShapeKind::hull && b == ShapeKind::hull; }
@@ -47,7 +48,7 @@ inline constexpr std::array kRoundPairKinds = {
     kRoundPairKind<ShapeKind::dop, kRound>,       kRoundPairKind<ShapeKind::hull, kRound>,
     kRoundPairKind<ShapeKind::halfspace, kRound>, kRoundPairKind<kRound, ShapeKind::triangle>};
 
-inline constexpr auto kPairKinds = [] {
+inline constexpr auto kCorePairKinds = [] {
   constexpr auto kCylinders = kRoundPairKinds<ShapeKind::cylinder>;
   constexpr auto kCones = kRoundPairKinds<ShapeKind::cone>;
   constexpr auto kEllipsoids = kRoundPairKinds<ShapeKind::ellipsoid>;
@@ -67,6 +68,55 @@ inline constexpr auto kPairKinds = [] {
   add(kCones);
   add(kEllipsoids);
   add(kBothRound);
+  return all;
+}();
+
+// Boxes and hulls with a rounding, by the tests of their cores: where those measure at once, or in
+// one pass, so do these.
+template <ShapeKind kA, ShapeKind kB>
+void run_rounded(const Batch& batch) {
+  run_rounded_pair(batch, kA, kB);
+}
+
+constexpr MorePasses passes_of_rounded(ShapeKind a, ShapeKind b) {
+  for (const PairKind& core : kCorePairKinds) {
+    if (core.a != core_kind(a) || core.b != core_kind(b)) continue;
+    return core.measures_at_once() ? MorePasses::manifold : core.more;
+  }
+  return MorePasses::none;
+}
+
+template <ShapeKind kA, ShapeKind kB>
+inline constexpr PairKind kRoundedPairKind = [] {
+  constexpr ShapeKind kFirst = comes_after(kA, kB) ? kB : kA;
+  constexpr ShapeKind kSecond = comes_after(kA, kB) ? kA : kB;
+  return PairKind{kFirst, kSecond, &run_rounded<kFirst, kSecond>,
+                  passes_of_rounded(kFirst, kSecond)};
+}();
+template <ShapeKind kRounded>
+inline constexpr std::array kRoundedPairKinds = {
+    kRoundedPairKind<ShapeKind::sphere, kRounded>,
+    kRoundedPairKind<ShapeKind::capsule, kRounded>,
+    kRoundedPairKind<ShapeKind::aabb, kRounded>,
+    kRoundedPairKind<ShapeKind::box, kRounded>,
+    kRoundedPairKind<ShapeKind::dop, kRounded>,
+    kRoundedPairKind<ShapeKind::hull, kRounded>,
+    kRoundedPairKind<ShapeKind::halfspace, kRounded>,
+    kRoundedPairKind<ShapeKind::triangle, kRounded>,
+    kRoundedPairKind<ShapeKind::cylinder, kRounded>,
+    kRoundedPairKind<ShapeKind::cone, kRounded>,
+    kRoundedPairKind<ShapeKind::ellipsoid, kRounded>,
+    kRoundedPairKind<ShapeKind::rounded_box, kRounded>};
+
+inline constexpr auto kPairKinds = [] {
+  constexpr auto kBoxes = kRoundedPairKinds<ShapeKind::rounded_box>;
+  constexpr auto kHulls = kRoundedPairKinds<ShapeKind::rounded_hull>;
+  std::array<PairKind, kCorePairKinds.size() + kBoxes.size() + kHulls.size() + 1> all{};
+  auto* next = all.data();
+  for (const PairKind& kind : kCorePairKinds) *next++ = kind;
+  for (const PairKind& kind : kBoxes) *next++ = kind;
+  for (const PairKind& kind : kHulls) *next++ = kind;
+  *next = kRoundedPairKind<ShapeKind::rounded_hull, ShapeKind::rounded_hull>;
   return all;
 }();
 

@@ -96,6 +96,7 @@ struct BodyMaker {
     scalar::make_core(scalar::shape_as<double>(shape).scaled(scale), turn, Vector3d::Zero(), core);
     ProofBody body;
     for (size_t i = 0; i < core.size(); ++i) body.hull.points.push_back(core.point(i));
+    body.hull.radius = core.radius;
     body.middle = scalar::eigen_vector(core.middle);
     return body;
   }
@@ -269,7 +270,8 @@ uint8_t prove_over_plane(const StatedBody& a, const ProofBody& b, const Vector3d
   const Vector n = vector_of(plane.normal);
   double lowest = b.round ? dot(n, b.round->furthest_round(-n)) : HUGE_VAL;
   for (const Vector& p : b.hull.points) lowest = std::min(lowest, dot(n, p));
-  const double height = (lowest - plane.height) - b.hull.radius;
+  const double radius = b.round ? b.round->radius : b.hull.radius;
+  const double height = (lowest - plane.height) - radius;
   if (!(std::fabs(height) > 4 * b.rounding)) return kUndecided;
   return height < 0;
 }

@@ -98,7 +98,9 @@ inline Polytope polytope_of(const AabbShape<double>& box, const Quaternion<doubl
 }
 
 inline Polytope polytope_of(const BoxShape<double>& box, const Quaternion<double>& q) {
-  return polytope_of_box(-box.half, box.half, rotation_of(q));
+  Polytope p = polytope_of_box(-box.half, box.half, rotation_of(q));
+  p.radius = box.rounding;
+  return p;
 }
 
 // The unit normal on the side from which the corners run counter-clockwise; zero if the area may be

@@ -38,37 +38,41 @@ struct AabbShape {
   AabbShape scaled(Real s) const { return {lower * s, upper * s}; }
 };
 
+// Tests of boxes and hulls in float32 are of those without a rounding
+// (narrowphase/pairs/rounded/).
 template <class Real>
 struct BoxShape {
   Vector3<Real> half;
+  Real rounding = 0;
 
-  Real size() const { return largest_component(half); }
-  BoxShape scaled(Real s) const { return {half * s}; }
+  Real size() const { return max(largest_component(half), rounding); }
+  BoxShape scaled(Real s) const { return {half * s, rounding * s}; }
 };
 
 // Cylinders and cones: the rim is this far from the axis, and so far from the middle.
 template <class Real>
 struct CylinderShape {
-  Real radius, half_length;
+  Real radius, half_length, rounding;
 
-  Real size() const { return max(radius, half_length); }
-  CylinderShape scaled(Real s) const { return {radius * s, half_length * s}; }
+  Real size() const { return max(max(radius, half_length), rounding); }
+  CylinderShape scaled(Real s) const { return {radius * s, half_length * s, rounding * s}; }
 };
 
 template <class Real>
 struct ConeShape {
-  Real radius, half_length;
+  Real radius, half_length, rounding;
 
-  Real size() const { return max(radius, half_length); }
-  ConeShape scaled(Real s) const { return {radius * s, half_length * s}; }
+  Real size() const { return max(max(radius, half_length), rounding); }
+  ConeShape scaled(Real s) const { return {radius * s, half_length * s, rounding * s}; }
 };
 
 template <class Real>
 struct EllipsoidShape {
   Vector3<Real> semi_axes;
+  Real rounding;
 
-  Real size() const { return largest_component(semi_axes); }
-  EllipsoidShape scaled(Real s) const { return {semi_axes * s}; }
+  Real size() const { return max(largest_component(semi_axes), rounding); }
+  EllipsoidShape scaled(Real s) const { return {semi_axes * s, rounding * s}; }
 };
 
 // Shapes that are not the hull of a few points, grown by a radius.
@@ -108,9 +112,10 @@ template <class Real>
 struct HullShape {
   const HullGeometry* geometry;
   double scale;
+  Real rounding = 0;
 
-  Real size() const { return static_cast<Real>(geometry->size() * scale); }
-  HullShape scaled(Real s) const { return {geometry, scale * s}; }
+  Real size() const { return max(static_cast<Real>(geometry->size() * scale), rounding); }
+  HullShape scaled(Real s) const { return {geometry, scale * s, rounding * s}; }
 };
 
 // Meshes and compounds. The library tests them part by part, so there is no test of the whole.
@@ -169,19 +174,19 @@ AabbShape<Real> shape_as(const Aabb& box) {
 }
 template <class Real>
 BoxShape<Real> shape_as(const carom::Box& box) {
-  return {box.half.cast<Real>()};
+  return {box.half.cast<Real>(), box.rounding};
 }
 template <class Real>
 CylinderShape<Real> shape_as(const Cylinder& c) {
-  return {c.radius, c.half_length};
+  return {c.radius, c.half_length, c.rounding};
 }
 template <class Real>
 ConeShape<Real> shape_as(const Cone& c) {
-  return {c.radius, c.half_length};
+  return {c.radius, c.half_length, c.rounding};
 }
 template <class Real>
 EllipsoidShape<Real> shape_as(const Ellipsoid& e) {
-  return {e.semi_axes.cast<Real>()};
+  return {e.semi_axes.cast<Real>(), e.rounding};
 }
 template <class Real>
 DopShape<Real> shape_as(const Dop& dop) {
@@ -191,7 +196,7 @@ DopShape<Real> shape_as(const Dop& dop) {
 }
 template <class Real>
 HullShape<Real> shape_as(const Hull& hull) {
-  return {hull.geometry.get(), 1};
+  return {hull.geometry.get(), 1, hull.rounding};
 }
 template <class Real>
 CompositeShape<Real> shape_as(const Mesh&) {

@@ -112,7 +112,7 @@ Real three_floats(float x) { return 3 * (std::nextafter(std::fabs(x), kInfinity)
 // and hulls have the slabs of their box.
 bool is_tight(const PlacedShape& body, const ConvexFamily& family) {
   const ShapeKind kind = kind_of(body.shape);
-  if (kind == ShapeKind::dop || kind == ShapeKind::hull) return false;
+  if (kind == ShapeKind::dop || core_kind(kind) == ShapeKind::hull) return false;
   const auto* triangle = std::get_if<Triangle>(&body.shape);
   return triangle == nullptr || triangle->thickness == 0 ||
          (!family.degenerate && family.aspect < 100 &&
@@ -144,6 +144,19 @@ TEST(DopBounds, HoldTheShapeAndLittleMore) {
       for (const PositionType positions : kPositionTypes) {
         const Bodies bodies = make_solids(family, kind, positions, 20);
         expect_slabs_hold(bodies, DopKind::k18, family, positions);
+        expect_slabs_hold(bodies, DopKind::k26, family, positions);
+        if (HasFatalFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(DopBounds, HoldRoundedShapes) {
+  for (const ConvexFamily& family : convex_families()) {
+    SCOPED_TRACE(family.name);
+    for (const ShapeKind kind : {ShapeKind::rounded_box, ShapeKind::rounded_hull}) {
+      for (const PositionType positions : kPositionTypes) {
+        const Bodies bodies = make_solids(family, kind, positions, 20);
         expect_slabs_hold(bodies, DopKind::k26, family, positions);
         if (HasFatalFailure()) return;
       }

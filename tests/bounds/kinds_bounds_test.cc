@@ -1,4 +1,4 @@
-// World bounds of capsules, boxes, k-DOPs, hulls, triangles and half-spaces: they have the bits of
+// World bounds of all kinds that turn and have no parts: they have the bits of
 // the reference on every ISA, alone and mixed with spheres and aabbs. tests/reference tests the
 // reference itself.
 #include <gtest/gtest.h>
@@ -20,7 +20,10 @@ using Bodies = std::vector<PlacedShape>;
 
 constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule,  ShapeKind::box,
                                        ShapeKind::dop,      ShapeKind::hull,
-                                       ShapeKind::triangle, ShapeKind::halfspace};
+                                       ShapeKind::triangle, ShapeKind::halfspace,
+                                       ShapeKind::cylinder, ShapeKind::cone,
+                                       ShapeKind::ellipsoid, ShapeKind::rounded_box,
+                                       ShapeKind::rounded_hull};
 
 // Half of the bodies come from the family, the others have random bits.
 Bodies make_kind(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,

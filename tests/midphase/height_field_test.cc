@@ -10,7 +10,8 @@ namespace {
 constexpr ShapeKind kSimpleKinds[] = {
     ShapeKind::sphere,   ShapeKind::capsule, ShapeKind::aabb,      ShapeKind::box,
     ShapeKind::dop,      ShapeKind::hull,    ShapeKind::halfspace, ShapeKind::triangle,
-    ShapeKind::cylinder, ShapeKind::cone,    ShapeKind::ellipsoid};
+    ShapeKind::cylinder, ShapeKind::cone,    ShapeKind::ellipsoid,
+    ShapeKind::rounded_box, ShapeKind::rounded_hull};
 constexpr ShapeKind kKindsOfParts[] = {ShapeKind::mesh, ShapeKind::compound,
                                        ShapeKind::height_field};
 

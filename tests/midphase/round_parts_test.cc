@@ -1,4 +1,4 @@
-// Compounds of cylinders, cones and ellipsoids, few and many, equal to the reference to the bit.
+// Compounds of cylinders, cones, ellipsoids, rounded boxes and rounded hulls, few and many, equal to the reference to the bit.
 // Many parts are left out by their balls, searched by their boxes.
 #include <gtest/gtest.h>
 
@@ -8,13 +8,14 @@
 namespace carom::test {
 namespace {
 
-constexpr ShapeKind kRoundParts[] = {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid};
+constexpr ShapeKind kRoundParts[] = {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::ellipsoid,
+                                     ShapeKind::rounded_box, ShapeKind::rounded_hull};
 
 Compound round_compound(Composites& shapes, size_t count) {
   std::vector<CompoundChild> children(count);
   for (CompoundChild& child : children) {
     oracle::Random& random = shapes.random();
-    child.shape = shapes.simple(kRoundParts[random.below(3)], random.uniform(0.2, 0.6));
+    child.shape = shapes.simple(kRoundParts[random.below(std::size(kRoundParts))], random.uniform(0.2, 0.6));
     child.position = (random.direction() * random.uniform(0, 1)).cast<float>();
     child.orientation = shapes.orientation();
   }

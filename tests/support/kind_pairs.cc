@@ -96,6 +96,13 @@ void Spoiler::spoil_size(float& x) {
   if (random_.chance(0.9)) x = std::fabs(x);
 }
 
+void Spoiler::spoil_rounding(float& x) {
+  if (x == 0) return;
+  const float before = x;
+  spoil_size(x);
+  if (x == 0) x = before;
+}
+
 void Spoiler::spoil_shape(Aabb& box) {
   spoil(box.lower);
   spoil(box.upper);
@@ -112,20 +119,24 @@ void Spoiler::spoil_shape(Capsule& capsule) {
 
 void Spoiler::spoil_shape(Box& box) {
   for (int i = 0; i < 3; ++i) spoil_size(box.half[i]);
+  spoil_rounding(box.rounding);
 }
 
 void Spoiler::spoil_shape(Cylinder& cylinder) {
   spoil_size(cylinder.radius);
   spoil_size(cylinder.half_length);
+  spoil_rounding(cylinder.rounding);
 }
 
 void Spoiler::spoil_shape(Cone& cone) {
   spoil_size(cone.radius);
   spoil_size(cone.half_length);
+  spoil_rounding(cone.rounding);
 }
 
 void Spoiler::spoil_shape(Ellipsoid& ellipsoid) {
   for (int i = 0; i < 3; ++i) spoil_size(ellipsoid.semi_axes[i]);
+  spoil_rounding(ellipsoid.rounding);
 }
 
 void Spoiler::spoil_shape(Triangle& triangle) {
@@ -154,13 +165,16 @@ void Spoiler::spoil_shape(Dop& dop) {
 }
 
 void Spoiler::spoil_shape(Hull& hull) {
+  spoil_rounding(hull.rounding);
   if (random_.chance(0.02)) hull.geometry = nullptr;
   if (!hull.geometry || random_.chance(0.5)) return;
+  const float rounding = hull.rounding;
   hull = with_points(hull, [this](Eigen::Vector3f& point) {
     const Eigen::Vector3f before = point;
     spoil(point);
     if (!point.allFinite()) point = before;
   });
+  hull.rounding = rounding;
 }
 
 std::vector<TestPair> make_kind_nonsense(const KindPair& kinds, size_t count, uint64_t seed) {

@@ -69,6 +69,8 @@ class Spoiler {
   void spoil(float& x);
   void spoil(Eigen::Vector3f& v);
   void spoil_size(float& x);
+  // A shape without a rounding keeps none: with one it would be of another kind.
+  void spoil_rounding(float& x);
 
   void spoil_shape(Sphere& sphere) { spoil_size(sphere.radius); }
   void spoil_shape(Aabb& box);

@@ -16,17 +16,24 @@ std::string show(const Capsule& capsule) {
   return hex3(capsule.a) + " .. " + hex3(capsule.b) + " r " + hex(capsule.radius);
 }
 
-std::string show(const Box& box) { return "half " + hex3(box.half); }
+std::string with_rounding(std::string text, float rounding) {
+  return rounding == 0 ? text : text + " rounding " + hex(rounding);
+}
+
+std::string show(const Box& box) { return with_rounding("half " + hex3(box.half), box.rounding); }
 
 std::string show(const Cylinder& cylinder) {
-  return "r " + hex(cylinder.radius) + " h " + hex(cylinder.half_length);
+  return with_rounding("r " + hex(cylinder.radius) + " h " + hex(cylinder.half_length),
+                       cylinder.rounding);
 }
 
 std::string show(const Cone& cone) {
-  return "r " + hex(cone.radius) + " h " + hex(cone.half_length);
+  return with_rounding("r " + hex(cone.radius) + " h " + hex(cone.half_length), cone.rounding);
 }
 
-std::string show(const Ellipsoid& ellipsoid) { return "axes " + hex3(ellipsoid.semi_axes); }
+std::string show(const Ellipsoid& ellipsoid) {
+  return with_rounding("axes " + hex3(ellipsoid.semi_axes), ellipsoid.rounding);
+}
 
 std::string show(const Triangle& triangle) {
   std::string text;
@@ -51,7 +58,7 @@ std::string show(const Hull& hull) {
   if (!hull.geometry) return "without geometry";
   std::string text = std::to_string(hull.geometry->faces().size()) + " faces";
   for (const Eigen::Vector3f& point : hull.geometry->points()) text += " (" + hex3(point) + ")";
-  return text;
+  return with_rounding(text, hull.rounding);
 }
 
 std::string show(const Mesh& mesh) {

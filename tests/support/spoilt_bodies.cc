@@ -36,7 +36,9 @@ void SpoiltBodies::add_shapes(const Capsule& capsule) {
   add_size(capsule, &Capsule::radius);
 }
 
+// A rounding changes the kind of a box or a hull.
 void SpoiltBodies::add_shapes(const Box& box) {
+  if (box.rounding != 0) add_size(box, &Box::rounding);
   add_vectors(box, &Box::half);
   for (int i = 0; i < 3; ++i) {
     add_shape(box, [&](Box& b) { b.half[i] = -1e-45f; });
@@ -44,6 +46,7 @@ void SpoiltBodies::add_shapes(const Box& box) {
 }
 
 void SpoiltBodies::add_shapes(const Ellipsoid& ellipsoid) {
+  add_size(ellipsoid, &Ellipsoid::rounding);
   add_vectors(ellipsoid, &Ellipsoid::semi_axes);
   for (int i = 0; i < 3; ++i) {
     add_shape(ellipsoid, [&](Ellipsoid& e) { e.semi_axes[i] = -1e-45f; });
@@ -87,6 +90,7 @@ void SpoiltBodies::add_shapes(const Dop& dop) {
 }
 
 void SpoiltBodies::add_shapes(const Hull& hull) {
+  if (hull.rounding != 0) add_size(hull, &Hull::rounding);
   add_shape(hull, [](Hull& h) { h.geometry = nullptr; });
 }
 

@@ -52,10 +52,12 @@ class SpoiltBodies {
   void add_shapes(const Capsule& capsule);
   void add_shapes(const Box& box);
   void add_shapes(const Cylinder& cylinder) {
+    add_size(cylinder, &Cylinder::rounding);
     add_size(cylinder, &Cylinder::radius);
     add_size(cylinder, &Cylinder::half_length);
   }
   void add_shapes(const Cone& cone) {
+    add_size(cone, &Cone::rounding);
     add_size(cone, &Cone::radius);
     add_size(cone, &Cone::half_length);
   }
@@ -65,7 +67,7 @@ class SpoiltBodies {
 
   void add_shapes(const Dop& dop);
 
-  // make_hull() checks the numbers of a hull, so they cannot be invalid.
+  // make_hull() checks the points of a hull, so they cannot be invalid.
   void add_shapes(const Hull& hull);
   void add_shapes(const Mesh& /*tested by its parts*/) {}
   void add_shapes(const HeightField& /*tested by its parts*/) {}

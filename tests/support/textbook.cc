@@ -28,17 +28,21 @@ double bounding_radius(const Capsule& c) {
   return std::max(c.a.cast<double>().stableNorm(), c.b.cast<double>().stableNorm()) + c.radius;
 }
 
-double bounding_radius(const Box& box) { return box.half.cast<double>().stableNorm(); }
+double bounding_radius(const Box& box) {
+  return box.half.cast<double>().stableNorm() + box.rounding;
+}
 
 double bounding_radius(const Cylinder& cylinder) {
-  return std::hypot(double{cylinder.radius}, double{cylinder.half_length});
+  return std::hypot(double{cylinder.radius}, double{cylinder.half_length}) + cylinder.rounding;
 }
 
 double bounding_radius(const Cone& cone) {
-  return std::hypot(double{cone.radius}, double{cone.half_length});
+  return std::hypot(double{cone.radius}, double{cone.half_length}) + cone.rounding;
 }
 
-double bounding_radius(const Ellipsoid& ellipsoid) { return ellipsoid.semi_axes.maxCoeff(); }
+double bounding_radius(const Ellipsoid& ellipsoid) {
+  return double{ellipsoid.semi_axes.maxCoeff()} + ellipsoid.rounding;
+}
 
 double bounding_radius(const Triangle& triangle) {
   double radius = 0;
@@ -60,7 +64,7 @@ double bounding_radius(const Hull& hull) {
   for (const Eigen::Vector3f& point : hull.geometry->points()) {
     radius = std::max(radius, point.cast<double>().stableNorm());
   }
-  return radius;
+  return radius + hull.rounding;
 }
 
 double bounding_radius(const Halfspace&) { return 0; }

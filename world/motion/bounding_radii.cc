@@ -61,15 +61,19 @@ double rows_reach(ShapeKind kind, const std::array<Row, kMostRows>& rows) {
     case ShapeKind::capsule:
       return std::max(corner(0), corner(1)) + rows[0][3];
     case ShapeKind::box:
+      return corner(0);
+    case ShapeKind::rounded_box:
     case ShapeKind::cylinder:  // the rim
     case ShapeKind::cone:
-      return corner(0);
+      return corner(0) + rows[0][3];
     case ShapeKind::ellipsoid:
-      return std::max({rows[0][0], rows[0][1], rows[0][2]});
+      return double{std::max({rows[0][0], rows[0][1], rows[0][2]})} + rows[0][3];
     case ShapeKind::triangle:
       return std::max({corner(0), corner(1), corner(2)}) + rows[0][3];
     case ShapeKind::hull:
       return hull_reach(*geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::rounded_hull:
+      return hull_reach(*geometry_at<HullGeometry>(rows[0])) + rows[0][3];
     case ShapeKind::mesh:
       return parts_reach(*geometry_at<MeshGeometry>(rows[0]));
     case ShapeKind::height_field:

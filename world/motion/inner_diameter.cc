@@ -51,16 +51,20 @@ double diameter(ShapeKind kind, const Row* rows) {
     case ShapeKind::capsule:
       return 2 * double{rows[0][3]};
     case ShapeKind::box:
-    case ShapeKind::ellipsoid:
       return 2 * double{std::min({rows[0][0], rows[0][1], rows[0][2]})};
+    case ShapeKind::rounded_box:
+    case ShapeKind::ellipsoid:
+      return 2 * (double{std::min({rows[0][0], rows[0][1], rows[0][2]})} + rows[0][3]);
     case ShapeKind::cylinder:
-      return 2 * double{std::min(rows[0][0], rows[0][1])};
+      return 2 * (double{std::min(rows[0][0], rows[0][1])} + rows[0][3]);
     case ShapeKind::cone:
-      return cone_diameter(rows[0][0], rows[0][1]);
+      return cone_diameter(rows[0][0], rows[0][1]) + 2 * double{rows[0][3]};
     case ShapeKind::dop:
       return dop_diameter(std::get<Dop>(shape_from_rows(kind, rows)));
     case ShapeKind::hull:
       return hull_diameter(*geometry_at<HullGeometry>(rows[0]));
+    case ShapeKind::rounded_hull:
+      return hull_diameter(*geometry_at<HullGeometry>(rows[0])) + 2 * double{rows[0][3]};
     case ShapeKind::compound:
       return compound_diameter(*geometry_at<CompoundGeometry>(rows[0]));
     case ShapeKind::halfspace:

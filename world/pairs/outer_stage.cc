@@ -84,9 +84,10 @@ void add_child(const Part& child, Slabs& slabs) {
     add(vector_of(child.rows[0]), child.rows[0][3]);
     return add(vector_of(child.rows[1]), child.rows[0][3]);
   }
-  if (child.kind == ShapeKind::hull) {
+  if (core_kind(child.kind) == ShapeKind::hull) {
+    const double rounding = child.kind == ShapeKind::hull ? 0 : child.rows[0][3];
     for (const Eigen::Vector3f& p : geometry_at<HullGeometry>(child.rows[0])->points()) {
-      add({p.x(), p.y(), p.z()}, 0);
+      add({p.x(), p.y(), p.z()}, rounding);
     }
     return;
   }

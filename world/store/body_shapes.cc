@@ -21,10 +21,12 @@ std::shared_ptr<const Geometry> geometry_as(const std::shared_ptr<const void>& g
   return std::static_pointer_cast<const Geometry>(geometry);
 }
 
-Shape owning_shape(ShapeKind kind, const std::shared_ptr<const void>& geometry) {
+Shape owning_shape(ShapeKind kind, const std::shared_ptr<const void>& geometry, float rounding) {
   switch (kind) {
     case ShapeKind::hull:
       return Hull{geometry_as<HullGeometry>(geometry)};
+    case ShapeKind::rounded_hull:
+      return Hull{geometry_as<HullGeometry>(geometry), nullptr, rounding};
     case ShapeKind::mesh:
       return Mesh{geometry_as<MeshGeometry>(geometry)};
     case ShapeKind::height_field:
@@ -44,7 +46,9 @@ Shape BodyStore::shape(uint32_t index) const {
 Shape BodyStore::tested_shape(uint32_t index) const {
   const ShapeKind kind = kind_[index];
   if (kind == ShapeKind::sphere) return Sphere{radius(index)};
-  if (has_geometry(kind)) return owning_shape(kind, geometry_[index]);
+  if (has_geometry(kind)) {
+    return owning_shape(kind, geometry_[index], rows_[first_row_[index]][3]);
+  }
   if (kind == ShapeKind::dop) return owning_dop(index);
   if (kind != ShapeKind::aabb) return shape_from_rows(kind, &rows_[first_row_[index]]);
   const BoxRecord& box = boxes_[box_slot_[index]];

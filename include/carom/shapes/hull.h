@@ -95,10 +95,13 @@ class CAROM_EXPORT HullGeometry {
 CAROM_EXPORT Result<std::shared_ptr<const HullGeometry>> make_hull(
     std::span<const Eigen::Vector3f> points, std::span<const std::vector<uint32_t>> faces);
 
-/// A convex hull, which turns with its body. Without geometry it is not valid.
+/// A convex hull, which turns with its body, with all points within `rounding` of it. Without
+/// geometry it is not valid.
 struct Hull {
   std::shared_ptr<const HullGeometry> geometry;  ///< made by make_hull(); may be shared
-  LadderPtr ladder = nullptr;  ///< simpler models of it, for bodies with a tolerance
+  LadderPtr ladder = nullptr;  ///< simpler models of it, for bodies with a tolerance; not used if
+                               ///< the rounding is not 0
+  float rounding = 0;          ///< metres, >= 0
 };
 
 }  // namespace carom

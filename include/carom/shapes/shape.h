@@ -17,7 +17,8 @@
 namespace carom {
 
 /// The kinds of shapes. The values are the codes of the file format, except for `triangle`, which
-/// the format stores as a mesh of one triangle.
+/// the format stores as a mesh of one triangle, and for rounded boxes and hulls, which it stores as
+/// boxes and hulls with a rounding.
 enum class ShapeKind : uint8_t {
   sphere = 0,         ///< Sphere
   capsule = 1,        ///< Capsule
@@ -33,10 +34,12 @@ enum class ShapeKind : uint8_t {
   ellipsoid = 11,     ///< Ellipsoid
   height_field = 12,  ///< HeightField
   triangle = 13,      ///< Triangle
+  rounded_box = 14,   ///< Box with a rounding above 0
+  rounded_hull = 15,  ///< Hull with a rounding above 0
 };
 
 /// How many kinds there are.
-inline constexpr int kShapeKindCount = 14;
+inline constexpr int kShapeKindCount = 16;
 
 /// "sphere", "capsule", ...; "unknown" for a value that is not a kind.
 CAROM_EXPORT const char* name(ShapeKind kind);
@@ -63,29 +66,35 @@ struct Capsule {
   float radius = 0;                             ///< metres, >= 0
 };
 
-/// An oriented box about the body's position: |x_i| <= half_i in the body's frame.
+/// An oriented box about the body's position: all points within `rounding` of those with
+/// |x_i| <= half_i in the body's frame.
 struct Box {
   Eigen::Vector3f half = Eigen::Vector3f::Zero();  ///< half extents, metres, >= 0
+  float rounding = 0;                              ///< metres, >= 0
 };
 
-/// All points of the body's frame with x^2 + y^2 <= radius^2 and |z| <= half_length. Without length
-/// a disc, without radius a segment.
+/// All points within `rounding` of those of the body's frame with x^2 + y^2 <= radius^2 and
+/// |z| <= half_length. Without length these are a disc, without radius a segment.
 struct Cylinder {
   float radius = 0;       ///< metres, >= 0
   float half_length = 0;  ///< metres, >= 0
+  float rounding = 0;     ///< metres, >= 0
 };
 
-/// A cone about the z axis of the body's frame: its tip is at z = half_length, its base, a disc of
-/// this radius, at z = -half_length.
+/// All points within `rounding` of a cone about the z axis of the body's frame: its tip is at
+/// z = half_length, its base, a disc of this radius, at z = -half_length.
 struct Cone {
   float radius = 0;       ///< metres, >= 0
   float half_length = 0;  ///< metres, >= 0
+  float rounding = 0;     ///< metres, >= 0
 };
 
-/// An ellipsoid about the body's position: (x / a)^2 + (y / b)^2 + (z / c)^2 <= 1 for the semi-axes
-/// a, b, c. An axis of length zero makes it flat.
+/// All points within `rounding` of an ellipsoid about the body's position:
+/// (x / a)^2 + (y / b)^2 + (z / c)^2 <= 1 for the semi-axes a, b, c. An axis of length zero makes it
+/// flat.
 struct Ellipsoid {
   Eigen::Vector3f semi_axes = Eigen::Vector3f::Zero();  ///< metres, >= 0
+  float rounding = 0;                                   ///< metres, >= 0
 };
 
 /// One triangle. Its front is the side from which the corners run counter-clockwise. A triangle
@@ -116,7 +125,7 @@ struct Halfspace {
 using Shape = std::variant<Sphere, Aabb, Capsule, Box, Triangle, Halfspace, Dop, Hull, Mesh,
                            Compound, Cylinder, Cone, Ellipsoid, HeightField>;
 
-/// The kind of a shape.
+/// The kind of a shape. A box or hull whose rounding is not 0 has a kind of its own.
 CAROM_EXPORT ShapeKind kind_of(const Shape& shape);
 
 /// Whether shapes of this kind are surfaces of numbered triangles.
@@ -129,15 +138,27 @@ constexpr bool is_composite(ShapeKind kind) {
   return is_surface(kind) || kind == ShapeKind::compound;
 }
 
+/// Whether shapes of this kind are boxes or hulls with a rounding.
+constexpr bool is_rounded(ShapeKind kind) {
+  return kind == ShapeKind::rounded_box || kind == ShapeKind::rounded_hull;
+}
+
+/// The kind of a shape of this kind without its rounding.
+constexpr ShapeKind core_kind(ShapeKind kind) {
+  if (kind == ShapeKind::rounded_box) return ShapeKind::box;
+  return kind == ShapeKind::rounded_hull ? ShapeKind::hull : kind;
+}
+
 /// Whether shapes of this kind are curved in other ways than by a radius about points and segments.
 /// Tier::exact does not decide them.
 constexpr bool is_round(ShapeKind kind) {
-  return kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid;
+  return kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid ||
+         is_rounded(kind);
 }
 
 /// Whether the numbers of this kind lie in a geometry that bodies may share.
 constexpr bool has_geometry(ShapeKind kind) {
-  return kind == ShapeKind::hull || is_composite(kind);
+  return core_kind(kind) == ShapeKind::hull || is_composite(kind);
 }
 
 }  // namespace carom

@@ -61,9 +61,9 @@ struct OrientationView {
 
 /// Parameters of all kinds but spheres and aabbs: rows of four floats, as many as row_count() says.
 /// - capsule: ax ay az radius | bx by bz 0
-/// - box: hx hy hz 0
-/// - cylinder, cone: radius half_length 0 0
-/// - ellipsoid: a b c 0
+/// - box: hx hy hz 0; rounded_box: hx hy hz rounding
+/// - cylinder, cone: radius half_length 0 rounding
+/// - ellipsoid: a b c rounding
 /// - dop: 13 lower ends of slabs, 13 upper ones (any finite numbers behind the last slab),
 ///   k (6, 14, 18 or 26), 0
 /// - halfspace: nx ny nz offset
@@ -71,6 +71,7 @@ struct OrientationView {
 ///   (0 to 7)
 /// - hull, mesh, height_field, compound: the address of the geometry in the first bytes
 ///   (shape_rows() writes it), then 0; the geometry must outlive the view
+/// - rounded_hull: as hull; the fourth number is the rounding
 struct ShapeRows {
   const float* data = nullptr;  ///< dense rows
   /// The first row of each body, one entry a body; nullptr: body i starts at row i * row_count().
@@ -84,11 +85,13 @@ inline constexpr size_t kMostRows = 7;
 constexpr uint32_t row_count(ShapeKind kind) {
   switch (kind) {
     case ShapeKind::box:
+    case ShapeKind::rounded_box:
     case ShapeKind::cylinder:
     case ShapeKind::cone:
     case ShapeKind::ellipsoid:
     case ShapeKind::halfspace:
     case ShapeKind::hull:
+    case ShapeKind::rounded_hull:
     case ShapeKind::mesh:
     case ShapeKind::height_field:
     case ShapeKind::compound:

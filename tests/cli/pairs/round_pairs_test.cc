@@ -1,4 +1,4 @@
-// carom pairs with cylinders, cones and ellipsoids: answers that are known without computing much.
+// carom pairs with cylinders, cones, ellipsoids and rounded shapes: answers that are known without computing much.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -27,13 +27,19 @@ constexpr KnownPair kKnown[] = {
     {2, 3, {0, 0, 3.25f}, -0.25f}, {0, 0, {0, 0, 3.5f}, -0.5f},  // a cylinder on another
     {2, 2, {3, 0, 0}, 1},          {0, 4, {0, 0, -3}, 1},        // over a half-space
     {2, 4, {0, 0, -2.5f}, -0.5f},
+    {3, 5, {0, 0, 3}, 1.25f},                                    // a ball over a rounded box
+    {5, 5, {2, 0, 0}, -0.5f},                                    // two of them
+    {5, 5, {5, 0, 6}, 4.5f},                                     // edge to edge, 3 and 4 away
+    {5, 6, {0, 0, 3}, 0.25f},                                    // on a rounded cylinder
 };
 
 class RoundPairsTest : public CliTest {
  protected:
   RoundPairsTest() {
-    file_.shapes.kind = {9, 10, 11, 0, 8};
-    file_.shapes.params = {{1, 2}, {1, 2}, {1, 2, 3}, {0.5f}, {0, 0, 1, 0}};
+    file_.shapes.kind = {9, 10, 11, 0, 8, 3, 9};
+    file_.shapes.params = {{1, 2},       {1, 2},  {1, 2, 3}, {0.5f},
+                           {0, 0, 1, 0}, {1, 1, 1}, {1, 1}};
+    file_.shapes.rounding = {0, 0, 0, 0, 0, 0.25f, 0.5f};
     for (const KnownPair& known : kKnown) {
       ++file_.pairs;
       file_.a.shape.push_back(known.a);
@@ -89,6 +95,7 @@ TEST_F(RoundPairsTest, WrongSizesAreInvalid) {
   file_.shapes.params[0][1] = -2;
   file_.shapes.params[1][0] = test::kNan;
   file_.shapes.params[2][2] = test::kInfinity;
+  file_.shapes.params[5][0] = -1;
   const PairResultsFile found = find("contact");
   for (size_t i = 0; i < std::size(kKnown); ++i) EXPECT_EQ(found.status[i], 3) << i;
 }

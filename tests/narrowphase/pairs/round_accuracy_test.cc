@@ -1,8 +1,12 @@
-// Cylinders, cones and ellipsoids with every kind, beside an oracle that knows support points
+// Cylinders, cones, ellipsoids, rounded boxes and rounded hulls with every kind, beside an oracle that knows support points
 // alone, within the bounds that the library states.
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <utility>
+
 #include "oracle/support_pair.h"
+#include "shapes/rounding.h"
 #include "tests/support/kind_pairs.h"
 #include "tests/support/rounds.h"
 #include "tests/support/show.h"
@@ -33,6 +37,14 @@ class RoundCheck {
         scale_(shapes_.has_halfspace() ? 2 * shapes_.scale() - shapes_.plane_distance()
                                        : shapes_.scale()),
         exact_(shapes_.separation(kStated * scale_, kMostTriangles)) {
+    const auto core_of = [positions](const PlacedShape& body) {
+      return std::pair(without_rounding(body.shape), stored_pose(body, positions));
+    };
+    const auto [core_a, pose_a] = core_of(pair.a);
+    const auto [core_b, pose_b] = core_of(pair.b);
+    cores_.emplace(core_a, pose_a, core_b, pose_b);
+    rounding_a_ = rounding_of(pair.a.shape);
+    rounding_b_ = rounding_of(pair.b.shape);
     gap_ = std::max(std::fabs(exact_.low), std::fabs(exact_.high));
     const Number reach = shapes_.has_halfspace() ? length(origin_b_) + shapes_.plane_distance() : 0;
     arms_ = (reach + gap_) * 0x1p-22L;
@@ -71,11 +83,9 @@ class RoundCheck {
     EXPECT_GE(shapes_.gap_along(normalized(n)), exact_.low - tolerance(kStatedOfPoints));
   }
 
-  void is_on_surface_of_a(const Vec& point) const {
-    EXPECT_LE(shapes_.distance_from_a(point), tolerance(kStatedOfPoints) + arms_);
-  }
-  void is_on_surface_of_b(const Vec& point) const {
-    EXPECT_LE(shapes_.distance_from_b(point), tolerance(kStatedOfPoints) + arms_);
+  void is_on_surface(const SupportPair& shapes, const Vec& on_a, const Vec& on_b) const {
+    EXPECT_LE(shapes.distance_from_a(on_a), tolerance(kStatedOfPoints) + arms_);
+    EXPECT_LE(shapes.distance_from_b(on_b), tolerance(kStatedOfPoints) + arms_);
   }
 
   void witnesses() const {
@@ -83,10 +93,10 @@ class RoundCheck {
     const Vec way = b - a - vec3_as<Number>(result_.normal) * Number(result_.separation);
     EXPECT_LE(length(way), tolerance(kStatedOfPoints) + arms_) << "from witness to witness";
     SCOPED_TRACE("witness points");
-    is_on_surface_of_a(a);
-    is_on_surface_of_b(b);
+    is_on_surface(shapes_, a, b);
   }
 
+  // The points of the cores, moved along the normal.
   void manifold() const {
     EXPECT_EQ(result_.manifold_count > 0, result_.overlap);
     EXPECT_LE(result_.manifold_count, 4u);
@@ -95,12 +105,14 @@ class RoundCheck {
       const Number separation = result_.manifold.separation[i];
       const Vec point = vec3_as<Number>(result_.manifold.point[i]);
       EXPECT_GE(separation, exact_.low - tolerance(kStated));
-      is_on_surface_of_a(point);
-      is_on_surface_of_b(point + vec3_as<Number>(result_.normal) * separation);
+      const Vec n = vec3_as<Number>(result_.normal);
+      is_on_surface(*cores_, point - n * rounding_a_, point + n * (separation + rounding_b_));
     }
   }
 
   SupportPair shapes_;
+  std::optional<SupportPair> cores_;  // without roundings
+  Number rounding_a_, rounding_b_;
   Vec origin_b_;
   Result result_;
   Number scale_;
