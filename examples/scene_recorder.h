@@ -129,6 +129,7 @@ class SceneRecorder {
     archive.write("dt", "<f8", "(1,)", std::vector<double>{dt});
     archive.write("shape_kind", "|u1", "(" + bodies + ",)", kind_);
     archive.write("shape_params", "<f4", rows(params_.size(), 8), params_);
+    archive.write("shape_radius", "<f4", "(" + bodies + ",)", radius_);
     archive.write("shape_vertex_range", "<u4", rows(vertex_range_.size(), 2), vertex_range_);
     archive.write("vertices", "<f4", rows(vertices_.size(), 3), vertices_);
     archive.write("shape_triangle_range", "<u4", rows(triangle_range_.size(), 2), triangle_range_);
@@ -170,7 +171,13 @@ class SceneRecorder {
         triangles_.insert(triangles_.end(), triangle.begin(), triangle.end());
       }
     }
-    kind_.push_back(static_cast<uint8_t>(carom::kind_of(shape)));
+    // Files have a rounding beside the kind.
+    kind_.push_back(static_cast<uint8_t>(carom::core_kind(carom::kind_of(shape))));
+    const auto* rounded_box = std::get_if<carom::Box>(&shape);
+    const auto* rounded_hull = std::get_if<carom::Hull>(&shape);
+    radius_.push_back(rounded_box    ? rounded_box->rounding
+                      : rounded_hull ? rounded_hull->rounding
+                                     : 0);
     params_.insert(params_.end(), params.begin(), params.end());
     add_range(vertex_range_, first_vertex, vertices_.size() / 3);
     add_range(triangle_range_, first_triangle, triangles_.size() / 3);
@@ -190,7 +197,7 @@ class SceneRecorder {
 
   const carom::World& world_;
   std::vector<uint8_t> kind_, motion_;
-  std::vector<float> params_, vertices_, position_, orientation_;
+  std::vector<float> params_, radius_, vertices_, position_, orientation_;
   std::vector<uint32_t> excluded_;
   std::vector<uint32_t> vertex_range_, triangle_range_, triangles_, body_shape_;
   size_t frames_ = 0;

@@ -40,7 +40,10 @@ std::vector<KindPair> round_kind_pairs() {
   return all;
 }
 
-bool has_round(const KindPair& kinds) { return is_round(kinds.a) || is_round(kinds.b); }
+bool has_round(const KindPair& kinds) {
+  const auto is_one = [](ShapeKind kind) { return is_round(kind) || is_rounded(kind); };
+  return is_one(kinds.a) || is_one(kinds.b);
+}
 
 std::string name(const KindPair& kinds) {
   return std::string(carom::name(kinds.a)) + "_" + carom::name(kinds.b);

@@ -46,7 +46,10 @@ struct CoreMaker {
     body.radius = capsule.radius;
   }
   void operator()(const Aabb& box) const { add_box(box.lower, box.upper); }
-  void operator()(const Box& box) const { add_box(-box.half, box.half); }
+  void operator()(const Box& box) const {
+    add_box(-box.half, box.half);
+    body.radius = box.rounding;
+  }
   void operator()(const Triangle& triangle) const {
     for (const Eigen::Vector3f& corner : triangle.corners) body.points.push_back(exact(corner));
     body.front = cross(body.points[1] - body.points[0], body.points[2] - body.points[0]);
@@ -66,6 +69,7 @@ struct CoreMaker {
 
   void operator()(const Hull& hull) const {
     for (const Eigen::Vector3f& p : hull.geometry->points()) body.points.push_back(exact(p));
+    body.radius = hull.rounding;
   }
   // Round shapes are not decided exactly.
   void operator()(const Cylinder&) const {}

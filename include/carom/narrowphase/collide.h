@@ -19,8 +19,8 @@ namespace carom {
 /// Whether a kernel exists for these two kinds, in either order.
 CAROM_EXPORT bool supports(ShapeKind a, ShapeKind b);
 
-/// Whether Tier::exact decides overlaps of this shape: not if it is a cylinder, a cone, an
-/// ellipsoid or a rounded box or hull, or a compound with such a part.
+/// Whether Tier::exact decides overlaps of this shape: not if it is a cylinder, a cone or an
+/// ellipsoid, or a compound with such a part.
 CAROM_EXPORT bool is_decided_exactly(const Shape& shape);
 
 /// What collide() and collide_rows() may be asked for beside their results.

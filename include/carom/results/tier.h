@@ -15,8 +15,8 @@ enum class Tier : uint8_t {
   fast,
   standard,   ///< float32, and float64 where that is unsure; equal bits on every instruction set
   certified,  ///< the standard results; overlaps of 1 and 0 are proven, all others are kUndecided
-  /// As certified, but exact arithmetic decides the rest: always right. Not for cylinders, cones,
-  /// ellipsoids and roundings (is_decided_exactly()): calls for pairs fail, World::add() throws.
+  /// As certified, but exact arithmetic decides the rest: always right. Not for cylinders, cones
+  /// and ellipsoids (is_decided_exactly()): calls for pairs fail, World::add() throws.
   exact
 };
 

@@ -149,11 +149,10 @@ constexpr ShapeKind core_kind(ShapeKind kind) {
   return kind == ShapeKind::rounded_hull ? ShapeKind::hull : kind;
 }
 
-/// Whether shapes of this kind are curved in other ways than by a radius about points and segments.
+/// Whether shapes of this kind are curved in other ways than by a radius about the hull of points.
 /// Tier::exact does not decide them.
 constexpr bool is_round(ShapeKind kind) {
-  return kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid ||
-         is_rounded(kind);
+  return kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::ellipsoid;
 }
 
 /// Whether the numbers of this kind lie in a geometry that bodies may share.

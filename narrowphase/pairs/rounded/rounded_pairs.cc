@@ -9,13 +9,15 @@
 #include "narrowphase/batch/row_store.h"
 #include "narrowphase/batch/single_pair.h"
 #include "narrowphase/batch/world_point.h"
-#include "narrowphase/batch/world_points.h"
 #include "narrowphase/pairs/pair_kinds.h"
+#include "narrowphase/pairs/rounded/grow_boxes.h"
 #include "narrowphase/pairs/rounded/growth.h"
 #include "narrowphase/scalar/length.h"
 
 namespace carom {
 namespace {
+
+bool is_box(ShapeKind kind) { return core_kind(kind) == ShapeKind::box; }
 
 // One side of a batch, read body by body.
 class GrownSide {
@@ -63,16 +65,14 @@ class RoundedBatch {
     cores.detail = Detail::contact;
     cores.pass = core_.measures_at_once() ? Pass::distance : batch_.pass;
     core_.run(cores);
-    const bool is_bound = cores.pass == Pass::test && core_.has_distance_pass();
-    grow_rows(cores.out, is_bound);
-    if (near_count_ > 0) measure_near(cores);
-    find_unsure(cores);
-    if (!has_contacts(batch_.detail)) {
-      std::copy_n(cores.out.overlap, batch_.count, batch_.out.overlap);
-      std::copy_n(cores.out.status, batch_.count, batch_.out.status);
-    } else if (batch_.frame == WitnessFrame::world) {
-      move_to_world(batch_);
-    }
+    is_bound_ = cores.pass == Pass::test && core_.has_distance_pass();
+    out_ = cores.out;
+    grow_rows();
+    measure_near(cores);
+    find_open();
+    if (has_contacts(batch_.detail)) return;
+    std::copy_n(out_.overlap, batch_.count, batch_.out.overlap);
+    std::copy_n(out_.status, batch_.count, batch_.out.status);
   }
 
   // The contacts shrink, and the points that the cores have for them grow.
@@ -150,81 +150,124 @@ class RoundedBatch {
                                      Eigen::Vector3<T>(b.x, b.y, b.z));
   }
 
-  // `is_bound`: of separate cores the separation is only a bound, which leaves the nearest rows to
-  // measure_near().
-  void grow_rows(const ResultColumns& out, bool is_bound) {
-    for (size_t row = 0; row < batch_.count; ++row) {
-      if (out.status[row] == static_cast<uint8_t>(Status::invalid)) continue;
-      const Pair pair = batch_.pairs[row];
-      if (!is_valid_radius(a_.rounding(pair.a)) || !is_valid_radius(b_.rounding(pair.b))) {
-        invalid_[invalid_count_++] = static_cast<uint32_t>(row);
-        continue;
-      }
-      const Growth growth = growth_of(row);
-      const bool is_measured = !is_bound || out.overlap[row];
-      if (!is_measured && !(out.separation[row] - growth.both() > growth.near)) {
-        near_[near_count_++] = static_cast<uint32_t>(row);
-      } else {
-        grow(out, row, growth);
-      }
+  void grow_rows() {
+    size_t row = 0;
+    if (is_box(kind_a_) && is_box(kind_b_)) {
+      row = grow_boxes({batch_, out_, is_rounded(kind_a_), is_rounded(kind_b_), is_bound_},
+                       state_.data());
     }
+    for (; row < batch_.count; ++row) state_[row] = static_cast<uint8_t>(state_after(row));
   }
 
-  void grow(const ResultColumns& out, size_t row, const Growth& growth) {
-    if (growth.both() == 0) return keep(out, row, growth);
-    const float separation = out.separation[row] - growth.both();
-    out.separation[row] = separation;
-    out.overlap[row] = separation <= 0;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const float n = out.normal[axis][row];
-      out.point_a[axis][row] += n * growth.a;
-      out.point_b[axis][row] -= n * growth.b;
-    }
+  // The same for one row, of any kinds.
+  GrownState state_after(size_t row) const {
+    if (out_.status[row] == static_cast<uint8_t>(Status::invalid)) return GrownState::done;
     const Pair pair = batch_.pairs[row];
-    if (!growth.is_sure(separation) || a_.is_special_triangle(pair.a) ||
+    if (!is_valid_radius(a_.rounding(pair.a)) || !is_valid_radius(b_.rounding(pair.b))) {
+      return GrownState::invalid;
+    }
+    const Growth growth = growth_of(row);
+    const bool is_near = is_bound_ && out_.separation[row] > 0 &&
+                         !(out_.separation[row] - growth.both() > growth.near);
+    return is_near ? GrownState::near : grow(row, growth);
+  }
+
+  GrownState grow(size_t row, const Growth& growth) const {
+    const float separation = out_.separation[row] - growth.both();
+    const Pair pair = batch_.pairs[row];
+    if (growth.both() == 0 || !growth.is_sure(separation) || a_.is_special_triangle(pair.a) ||
         b_.is_special_triangle(pair.b)) {
-      unsure_[unsure_count_++] = static_cast<uint32_t>(row);
+      return GrownState::left;
+    }
+    out_.separation[row] = separation;
+    out_.overlap[row] = separation <= 0;
+    std::array<float, 3> arm_a, arm_b;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float n = out_.normal[axis][row];
+      arm_a[axis] = out_.point_a[axis][row] + n * growth.a;
+      arm_b[axis] = out_.point_b[axis][row] - n * growth.b;
+    }
+    put_points(row, arm_a, arm_b);
+    return GrownState::done;
+  }
+
+  void put_points(size_t row, std::array<float, 3> arm_a, std::array<float, 3> arm_b) const {
+    if (batch_.frame == WitnessFrame::world) {
+      arm_a = world_point(a_.reader(), batch_.pairs[row].a, arm_a);
+      arm_b = world_point(b_.reader(), batch_.pairs[row].b, arm_b);
+    }
+    for (size_t axis = 0; axis < 3; ++axis) {
+      out_.point_a[axis][row] = arm_a[axis];
+      out_.point_b[axis][row] = arm_b[axis];
     }
   }
 
-  // Without roundings the answer is that of the cores.
-  void keep(const ResultColumns& out, size_t row, const Growth& growth) const {
-    if (batch_.unsure && !growth.is_sure(out.separation[row])) batch_.unsure[row] = 1;
-  }
-
-  // Separate cores that are not sure to be further apart than the roundings reach.
+  // Measures separate cores that are not sure to be further apart than the roundings reach.
   void measure_near(const Batch& cores) {
+    std::array<uint32_t, kPairsPerBlock> rows;
+    size_t count = 0;
+    for (size_t row = 0; row < batch_.count; ++row) {
+      rows[count] = static_cast<uint32_t>(row);
+      count += state_[row] == static_cast<uint8_t>(GrownState::near);
+    }
+    if (count == 0) return;
     RowSelection near(cores);
-    near.select(near_.data(), near_count_);
+    near.select(rows.data(), count);
     TestColumns memory;
     Batch distances = near.batch(Pass::distance);
     distances.out = memory.columns();
     core_.run(distances);
-    near.scatter(distances.out, cores.out, Detail::contact);
-    for (size_t i = 0; i < near_count_; ++i) grow(cores.out, near_[i], growth_of(near_[i]));
+    near.scatter(distances.out, out_, Detail::contact);
+    for (size_t i = 0; i < count; ++i) {
+      state_[rows[i]] = static_cast<uint8_t>(grow(rows[i], growth_of(rows[i])));
+    }
   }
 
-  void find_unsure(const Batch& cores) const {
-    const RowStore store(cores, kind_a_, kind_b_);
-    for (size_t i = 0; i < unsure_count_; ++i) {
-      const std::array<float, 11> found = exact_answer(batch_, kind_a_, kind_b_, unsure_[i]);
-      std::array<float, 10> answer;
+  // Answers the rows that are left, and those that are not valid.
+  void find_open() const {
+    Batch answers = batch_;
+    answers.out = out_;
+    answers.detail = Detail::contact;
+    const RowStore store(answers, kind_a_, kind_b_);
+    std::array<float, 10> answer;
+    for (size_t row = 0; row < batch_.count; ++row) {
+      const auto state = static_cast<GrownState>(state_[row]);
+      if (state == GrownState::done) continue;
+      if (state == GrownState::invalid) {
+        answer.fill(std::numeric_limits<float>::quiet_NaN());
+        store.put(row, Status::invalid, answer);
+        continue;
+      }
+      const Growth growth = growth_of(row);
+      const bool is_unsure = growth.both() != 0 || !growth.is_sure(out_.separation[row]);
+      if (batch_.unsure && is_unsure) batch_.unsure[row] = 1;
+      if (growth.both() == 0) {
+        keep_cores(row);
+        continue;
+      }
+      const std::array<float, 11> found = exact_answer(batch_, kind_a_, kind_b_, row);
       std::copy_n(found.begin(), answer.size(), answer.begin());
-      store.put(unsure_[i], found[10] != 0 ? Status::degenerate : Status::ok, answer);
-      if (batch_.unsure) batch_.unsure[unsure_[i]] = 1;
+      store.put(row, found[10] != 0 ? Status::degenerate : Status::ok, answer);
     }
-    std::array<float, 10> none;
-    none.fill(std::numeric_limits<float>::quiet_NaN());
-    for (size_t i = 0; i < invalid_count_; ++i) store.put(invalid_[i], Status::invalid, none);
+  }
+
+  // Without roundings the answer is that of the cores.
+  void keep_cores(size_t row) const {
+    const auto point = [row](const std::array<float*, 3>& columns) -> std::array<float, 3> {
+      return {columns[0][row], columns[1][row], columns[2][row]};
+    };
+    out_.overlap[row] = out_.separation[row] <= 0;
+    put_points(row, point(out_.point_a), point(out_.point_b));
   }
 
   const Batch& batch_;
   const ShapeKind kind_a_, kind_b_;
   const PairKind& core_;
   const GrownSide a_, b_;
+  bool is_bound_ = false;  // the separation of separate cores is only a bound
+  ResultColumns out_;      // of the cores, then of the rounded shapes
   TestColumns memory_;
-  size_t near_count_ = 0, unsure_count_ = 0, invalid_count_ = 0;
-  std::array<uint32_t, kPairsPerBlock> near_, unsure_, invalid_;
+  std::array<uint8_t, kPairsPerBlock> state_;
 };
 
 }  // namespace

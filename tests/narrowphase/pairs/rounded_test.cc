@@ -157,11 +157,26 @@ TEST(Rounded, SmallRoundingsCount) {
   }
 }
 
-TEST(Rounded, TheExactTierRefusesThem) {
-  EXPECT_FALSE(is_decided_exactly(box(1, 0.5f)));
-  EXPECT_FALSE(is_decided_exactly(cube(1, 0.5f)));
-  EXPECT_TRUE(is_decided_exactly(box(1, 0)));
-  EXPECT_TRUE(is_decided_exactly(cube(1, 0)));
+// The cores are 5 apart, and the roundings reach that far exactly, or not by the last bit.
+TEST(Rounded, TheExactTierDecidesThem) {
+  for (const float last : {3.0f, std::nextafter(3.0f, 0.0f)}) {
+    std::vector<TestPair> pairs;
+    for (const Shape& a : {Shape(box(1, 2)), Shape(cube(1, 2))}) {
+      for (const Shape& b : {Shape(box(1, last)), Shape(cube(1, last)), Shape(Sphere{last})}) {
+        const double half = std::holds_alternative<Sphere>(b) ? 0 : 1;
+        pairs.push_back({{a, {0, 0, 0}}, {b, {4 + half, 0, 5 + half}}});
+      }
+    }
+    for_each_isa([&] {
+      Call call = call_with(PositionType::float64);
+      call.accuracy.tier = Tier::exact;
+      for (const Row& row : run_rows(pairs, call)) EXPECT_EQ(row.overlap, last == 3 ? 1 : 0);
+      call.accuracy.tier = Tier::certified;
+      for (const Row& row : run_rows(pairs, call)) {
+        EXPECT_TRUE(row.overlap == kUndecided || row.overlap == (last == 3 ? 1 : 0));
+      }
+    });
+  }
 }
 
 }  // namespace
