@@ -21,11 +21,11 @@ Shape ConvexRandom::shape(ShapeKind kind, double size) {
     case ShapeKind::hull:
       return hull(size);
     case ShapeKind::cylinder:
-      return Cylinder{length(size), length(size), rounding_or_none(size)};
+      return Cylinder{length(size), length(size)};
     case ShapeKind::cone:
-      return Cone{length(size), length(size), rounding_or_none(size)};
+      return Cone{length(size), length(size)};
     case ShapeKind::ellipsoid:
-      return Ellipsoid{half(size), rounding_or_none(size)};
+      return Ellipsoid{half(size)};
     case ShapeKind::rounded_box:
       return Box{half(size), rounding(size)};
     case ShapeKind::rounded_hull: {

@@ -49,8 +49,6 @@ class ConvexRandom {
 
   // Above 0; in the degenerate style often small.
   float rounding(double size);
-  // Most round shapes have none.
-  float rounding_or_none(double size) { return random_.chance(0.25) ? rounding(size) : 0; }
 
   // Offset of the shape's centre from the body's origin.
   Eigen::Vector3d shift(double size);

@@ -74,9 +74,7 @@ bool is_valid_shape(const Dop& dop) {
   return known_geometry(dop) || has_points(DopSlabs(dop));
 }
 
-bool is_valid_shape(const Hull& hull) {
-  return hull.geometry != nullptr && is_size(hull.rounding);
-}
+bool is_valid_shape(const Hull& hull) { return hull.geometry != nullptr && is_size(hull.rounding); }
 bool is_valid_shape(const Mesh& mesh) { return mesh.geometry != nullptr; }
 bool is_valid_shape(const HeightField& field) { return field.geometry != nullptr; }
 bool is_valid_shape(const Compound& compound) { return compound.geometry != nullptr; }

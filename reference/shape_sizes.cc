@@ -26,9 +26,7 @@ double reach(const Sphere& sphere) { return sphere.radius; }
 double reach(const Aabb& box) { return reach_of_box(box.lower, box.upper); }
 double reach(const Capsule& c) { return std::max(norm(c.a), norm(c.b)) + c.radius; }
 double reach(const carom::Box& box) { return norm(box.half) + box.rounding; }
-double reach(const Cylinder& c) {
-  return norm(Vector3f(c.radius, c.half_length, 0)) + c.rounding;
-}
+double reach(const Cylinder& c) { return norm(Vector3f(c.radius, c.half_length, 0)) + c.rounding; }
 double reach(const Cone& c) { return norm(Vector3f(c.radius, c.half_length, 0)) + c.rounding; }
 double reach(const Ellipsoid& e) { return double{e.semi_axes.maxCoeff()} + e.rounding; }
 double reach(const Triangle& t) {
@@ -66,9 +64,7 @@ double diameter(const Aabb& box) {
   return (box.upper.cast<double>() - box.lower.cast<double>()).minCoeff();
 }
 double diameter(const Capsule& capsule) { return 2 * double{capsule.radius}; }
-double diameter(const carom::Box& box) {
-  return 2 * (double{box.half.minCoeff()} + box.rounding);
-}
+double diameter(const carom::Box& box) { return 2 * (double{box.half.minCoeff()} + box.rounding); }
 double diameter(const Cylinder& c) {
   return 2 * (double{std::min(c.radius, c.half_length)} + c.rounding);
 }

@@ -6,9 +6,9 @@ namespace carom {
 
 const char* name(ShapeKind kind) {
   static constexpr std::array<const char*, kShapeKindCount> kNames = {
-      "sphere",   "capsule",   "aabb",     "box",  "dop",       "hull",         "mesh",
-      "compound", "halfspace", "cylinder", "cone", "ellipsoid", "height_field", "triangle",
-      "rounded_box", "rounded_hull"};
+      "sphere",       "capsule",  "aabb",        "box",         "dop",  "hull",
+      "mesh",         "compound", "halfspace",   "cylinder",    "cone", "ellipsoid",
+      "height_field", "triangle", "rounded_box", "rounded_hull"};
   const auto code = static_cast<size_t>(kind);
   return code < kNames.size() ? kNames[code] : "unknown";
 }

@@ -28,9 +28,7 @@ std::string numbers(const Cylinder& c) {
 std::string numbers(const Cone& c) {
   return text("%a", c.radius) + text(" %a", c.half_length) + text(" %a", c.rounding);
 }
-std::string numbers(const Ellipsoid& e) {
-  return list(e.semi_axes) + text(" %a", e.rounding);
-}
+std::string numbers(const Ellipsoid& e) { return list(e.semi_axes) + text(" %a", e.rounding); }
 std::string numbers(const Halfspace& h) { return list(h.normal) + text(" %a", h.offset); }
 std::string numbers(const Triangle& triangle) {
   std::string all;

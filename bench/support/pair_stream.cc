@@ -207,8 +207,8 @@ void PairStream::draw() {
   std::iota(places.begin(), places.end(), 0);
   if (spec_.access == Access::pairs) places = shuffled(spec_.count, random);
   bodies_b_.resize(spec_.count);
-  const bool has_hull = core_kind(spec_.kind_a) == ShapeKind::hull ||
-                        core_kind(spec_.kind_b) == ShapeKind::hull;
+  const bool has_hull =
+      core_kind(spec_.kind_a) == ShapeKind::hull || core_kind(spec_.kind_b) == ShapeKind::hull;
   const std::vector<Hull> hulls = draw_hulls(has_hull ? kHulls : 0, spec_.vertices, random);
   // Exactly `hits` pairs overlap, at random places.
   const size_t hits = spec_.count * static_cast<size_t>(spec_.hit_percent) / 100;

@@ -174,9 +174,9 @@ struct Viewer {
       };
       faces.add_point(end(0), end(1), end(2));
     }
-    for (const auto& face : {std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}, std::array{0, 1, 5, 4},
-                             std::array{2, 6, 7, 3}, std::array{0, 2, 3, 1},
-                             std::array{4, 5, 7, 6}}) {
+    for (const auto& face :
+         {std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}, std::array{0, 1, 5, 4},
+          std::array{2, 6, 7, 3}, std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}}) {
       faces.add_face(face);
     }
     return grown(std::move(faces), box.rounding);

@@ -14,12 +14,11 @@
 namespace carom::cli {
 namespace {
 
-constexpr std::array kKinds = {ShapeKind::sphere,    ShapeKind::capsule,  ShapeKind::aabb,
-                               ShapeKind::box,       ShapeKind::dop,      ShapeKind::hull,
-                               ShapeKind::mesh,      ShapeKind::compound, ShapeKind::triangle,
-                               ShapeKind::halfspace, ShapeKind::cylinder, ShapeKind::cone,
-                               ShapeKind::ellipsoid, ShapeKind::rounded_box,
-                               ShapeKind::rounded_hull};
+constexpr std::array kKinds = {
+    ShapeKind::sphere,    ShapeKind::capsule,     ShapeKind::aabb,        ShapeKind::box,
+    ShapeKind::dop,       ShapeKind::hull,        ShapeKind::mesh,        ShapeKind::compound,
+    ShapeKind::triangle,  ShapeKind::halfspace,   ShapeKind::cylinder,    ShapeKind::cone,
+    ShapeKind::ellipsoid, ShapeKind::rounded_box, ShapeKind::rounded_hull};
 
 constexpr float kDenormal = std::numeric_limits<float>::denorm_min();
 

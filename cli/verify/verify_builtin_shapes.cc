@@ -200,11 +200,11 @@ Mesh RandomShapes::mesh(double size) {
 }
 
 Compound RandomShapes::compound(double size) {
-  constexpr std::array kParts = {ShapeKind::sphere, ShapeKind::capsule,  ShapeKind::aabb,
-                                 ShapeKind::box,    ShapeKind::dop,      ShapeKind::hull,
-                                 ShapeKind::mesh,   ShapeKind::triangle, ShapeKind::cylinder,
-                                 ShapeKind::cone,   ShapeKind::ellipsoid,
-                                 ShapeKind::rounded_box, ShapeKind::rounded_hull};
+  constexpr std::array kParts = {
+      ShapeKind::sphere,      ShapeKind::capsule, ShapeKind::aabb,      ShapeKind::box,
+      ShapeKind::dop,         ShapeKind::hull,    ShapeKind::mesh,      ShapeKind::triangle,
+      ShapeKind::cylinder,    ShapeKind::cone,    ShapeKind::ellipsoid, ShapeKind::rounded_box,
+      ShapeKind::rounded_hull};
   std::vector<CompoundChild> children(1 + random_.below(3));
   for (CompoundChild& child : children) {
     child.shape = shape(kParts[random_.below(kParts.size())], size / 2);

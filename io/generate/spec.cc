@@ -84,9 +84,10 @@ class SpecParser {
   Result<void> check() const {
     const bool is_rounded = spec_.mixed || takes_rounding(static_cast<uint8_t>(spec_.shape));
     if (spec_.rounding > 0 && !is_rounded) {
-      return spec_error(spec_,
-                        "'rounding' needs a shape that has one (box, hull, cylinder, cone, ellipsoid, "
-                        "mixed)");
+      return spec_error(
+          spec_,
+          "'rounding' needs a shape that has one (box, hull, cylinder, cone, ellipsoid, "
+          "mixed)");
     }
     if (!spec_.spin || spec_.has_orientation()) return {};
     return spec_error(spec_,

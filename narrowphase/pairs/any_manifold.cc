@@ -13,13 +13,16 @@ Manifold manifold_of(const Shape& shape_a, const Shape& shape_b, const PairPose<
     const Separation other = flipped(contact);
     return flipped(manifold_of(shape_b, shape_a, flipped(pose), other, reach), pose.d, other);
   }
-  if (is_rounded_pair(shape_a, shape_b)) {
+  // The one point of a sphere is the witness point.
+  const bool has_sphere = std::holds_alternative<Sphere>(shape_a);
+  if (!has_sphere && is_rounded_pair(shape_a, shape_b)) {
     const auto of_cores = [&](const Separation& core, float core_reach) {
       return manifold_of(core_of(shape_a), core_of(shape_b), pose, core, core_reach);
     };
     return rounded_manifold(growth_of(shape_a), growth_of(shape_b), contact, reach, of_cores);
   }
-  if (const float a = rounding_of(shape_a), b = rounding_of(shape_b); a != 0 || b != 0) {
+  if (const float a = rounding_of(shape_a), b = rounding_of(shape_b);
+      !has_sphere && (a != 0 || b != 0)) {
     const auto of_cores = [&](const Separation& core, float core_reach) {
       return manifold_of(without_rounding(shape_a), without_rounding(shape_b), pose, core,
                          core_reach);

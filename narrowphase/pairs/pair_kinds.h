@@ -18,7 +18,9 @@ struct PairKind {
 
   constexpr bool has_recall_pass() const { return more == MorePasses::recall_and_clearance; }
   // Whether the distance pass replaces the test: it fills every row (GJK kinds).
-  constexpr bool measures_at_once() const { return more == MorePasses::clearance || has_recall_pass(); }
+  constexpr bool measures_at_once() const {
+    return more == MorePasses::clearance || has_recall_pass();
+  }
   // Where the test takes longer than looking for the direction of the last step.
   bool has_direction_pass() const { return measures_at_once(); }
   bool has_shell_pass() const { return a == ShapeKind::hull && b == ShapeKind::hull; }

@@ -18,12 +18,10 @@ namespace {
 
 using Bodies = std::vector<PlacedShape>;
 
-constexpr ShapeKind kTurningKinds[] = {ShapeKind::capsule,  ShapeKind::box,
-                                       ShapeKind::dop,      ShapeKind::hull,
-                                       ShapeKind::triangle, ShapeKind::halfspace,
-                                       ShapeKind::cylinder, ShapeKind::cone,
-                                       ShapeKind::ellipsoid, ShapeKind::rounded_box,
-                                       ShapeKind::rounded_hull};
+constexpr ShapeKind kTurningKinds[] = {
+    ShapeKind::capsule,   ShapeKind::box,         ShapeKind::dop,         ShapeKind::hull,
+    ShapeKind::triangle,  ShapeKind::halfspace,   ShapeKind::cylinder,    ShapeKind::cone,
+    ShapeKind::ellipsoid, ShapeKind::rounded_box, ShapeKind::rounded_hull};
 
 // Half of the bodies come from the family, the others have random bits.
 Bodies make_kind(const ConvexFamily& family, ShapeKind kind, PositionType positions, size_t count,

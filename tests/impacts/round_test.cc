@@ -1,5 +1,5 @@
-// Times of impact of cylinders, cones and ellipsoids: the bits of the reference, and separations
-// before and at those times by an oracle that knows support points alone.
+// Times of impact of cylinders, cones, ellipsoids and rounded shapes: the bits of the reference,
+// and separations before and at those times by an oracle that knows support points alone.
 #include <gtest/gtest.h>
 
 #include "oracle/support_pair.h"
@@ -19,8 +19,10 @@ std::vector<MovedPair> make_round_motions(const KindPair& kinds, size_t count, u
     return (random.direction() * random.uniform(0, size)).cast<float>();
   };
   std::vector<MovedPair> pairs;
-  for (TestPair pair :
-       make_kind_pairs({.name = "", .distance = 0}, kinds, PositionType::float64, count, seed)) {
+  std::vector<TestPair> at_rest =
+      make_kind_pairs({.name = "", .distance = 0}, kinds, PositionType::float64, count, seed);
+  round_some(at_rest, seed);
+  for (TestPair pair : at_rest) {
     const bool turns = random.chance(0.7);
     Sweep sweep_a{vector(1), turns ? vector(2) : Eigen::Vector3f::Zero()};
     Sweep sweep_b{vector(1), turns ? vector(2) : Eigen::Vector3f::Zero()};

@@ -8,10 +8,10 @@ namespace carom::test {
 namespace {
 
 constexpr ShapeKind kSimpleKinds[] = {
-    ShapeKind::sphere,   ShapeKind::capsule, ShapeKind::aabb,      ShapeKind::box,
-    ShapeKind::dop,      ShapeKind::hull,    ShapeKind::halfspace, ShapeKind::triangle,
-    ShapeKind::cylinder, ShapeKind::cone,    ShapeKind::ellipsoid,
-    ShapeKind::rounded_box, ShapeKind::rounded_hull};
+    ShapeKind::sphere,      ShapeKind::capsule, ShapeKind::aabb,      ShapeKind::box,
+    ShapeKind::dop,         ShapeKind::hull,    ShapeKind::halfspace, ShapeKind::triangle,
+    ShapeKind::cylinder,    ShapeKind::cone,    ShapeKind::ellipsoid, ShapeKind::rounded_box,
+    ShapeKind::rounded_hull};
 constexpr ShapeKind kKindsOfParts[] = {ShapeKind::mesh, ShapeKind::compound,
                                        ShapeKind::height_field};
 

@@ -77,10 +77,10 @@ class Composites {
 };
 
 inline constexpr ShapeKind kEveryKind[] = {
-    ShapeKind::sphere,    ShapeKind::capsule,  ShapeKind::aabb,         ShapeKind::box,
-    ShapeKind::dop,       ShapeKind::hull,     ShapeKind::mesh,         ShapeKind::compound,
-    ShapeKind::halfspace, ShapeKind::triangle, ShapeKind::height_field, ShapeKind::cylinder,
-    ShapeKind::cone,      ShapeKind::ellipsoid, ShapeKind::rounded_box, ShapeKind::rounded_hull};
+    ShapeKind::sphere,    ShapeKind::capsule,   ShapeKind::aabb,         ShapeKind::box,
+    ShapeKind::dop,       ShapeKind::hull,      ShapeKind::mesh,         ShapeKind::compound,
+    ShapeKind::halfspace, ShapeKind::triangle,  ShapeKind::height_field, ShapeKind::cylinder,
+    ShapeKind::cone,      ShapeKind::ellipsoid, ShapeKind::rounded_box,  ShapeKind::rounded_hull};
 
 // All ordered pairs of kinds of which one is a mesh or a compound.
 std::vector<std::array<ShapeKind, 2>> composite_kind_pairs();

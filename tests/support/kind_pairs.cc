@@ -1,5 +1,7 @@
 #include "tests/support/kind_pairs.h"
 
+#include "tests/support/textbook.h"
+
 namespace carom::test {
 
 std::vector<KindPair> supported_kind_pairs() {
@@ -57,6 +59,23 @@ std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family, Position
     pairs.push_back(make_kind_pairs(family, some, positions, 1, random.bits())[0]);
   }
   return pairs;
+}
+
+void round_some(std::vector<TestPair>& pairs, uint64_t seed) {
+  Random random(seed);
+  for (TestPair& pair : pairs) {
+    for (PlacedShape* body : {&pair.a, &pair.b}) {
+      if (!is_round(kind_of(body->shape)) || !random.chance(0.25)) continue;
+      std::visit(
+          [&](auto& shape) {
+            if constexpr (requires { shape.rounding; }) {
+              const double size = bounding_radius(Shape(shape));
+              shape.rounding = static_cast<float>(size * random.log_uniform(1e-3, 1));
+            }
+          },
+          body->shape);
+    }
+  }
 }
 
 std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,

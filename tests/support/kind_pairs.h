@@ -38,6 +38,9 @@ std::vector<TestPair> make_mixed_kind_pairs(const ConvexFamily& family, Position
                                             size_t count, uint64_t seed = 1,
                                             std::vector<KindPair> kinds = supported_kind_pairs());
 
+// Gives a quarter of all cylinders, cones and ellipsoids a rounding.
+void round_some(std::vector<TestPair>& pairs, uint64_t seed = 1);
+
 // One pair of each family.
 std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,
                                              size_t count_each = 1, uint64_t seed = 1);

@@ -90,8 +90,8 @@ struct Cone {
 };
 
 /// All points within `rounding` of an ellipsoid about the body's position:
-/// (x / a)^2 + (y / b)^2 + (z / c)^2 <= 1 for the semi-axes a, b, c. An axis of length zero makes it
-/// flat.
+/// (x / a)^2 + (y / b)^2 + (z / c)^2 <= 1 for the semi-axes a, b, c. An axis of length zero makes
+/// it flat.
 struct Ellipsoid {
   Eigen::Vector3f semi_axes = Eigen::Vector3f::Zero();  ///< metres, >= 0
   float rounding = 0;                                   ///< metres, >= 0

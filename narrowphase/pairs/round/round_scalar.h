@@ -29,7 +29,8 @@ requires(HasCore<A>&& HasCore<B>) {
   return core_separation(a, b, pose, CoreTest{});
 }
 
-// The lowest point of the round shape. Of a disc or a side that lies flat, its middle.
+// The lowest point of the round shape. Of a disc or a side that lies flat, its middle. The plane is
+// as far from the core as without a rounding.
 template <RoundShape B>
 SeparationAs<double> separation(const HalfspaceShape<double>& halfspace, const B& b,
                                 const PairPose<double>& pose) {
@@ -42,8 +43,11 @@ SeparationAs<double> separation(const HalfspaceShape<double>& halfspace, const B
   const Meeting::Points lowest = furthest_round_points(core, down, kLyingFlat * b.size());
   Vector3d sum = Vector3d::Zero();
   for (const Vector3d& p : lowest) sum += p;
-  return flipped(over_plane<double>(plane, least - plane.height,
-                                    sum * (1.0 / static_cast<double>(lowest.size())), b.size(), d));
+  SeparationAs<double> result = flipped(over_plane<double>(
+      plane, least - plane.height, sum * (1.0 / static_cast<double>(lowest.size())), b.size(), d));
+  result.separation -= core.radius;
+  result.arm_b -= result.normal * core.radius;
+  return result;
 }
 
 template <class A, class B>

@@ -27,8 +27,7 @@ HWY_INLINE GrownBoxes load_boxes(const BatchSide& side, const Listed& bodies, bo
   GrownBoxes boxes;
   load_row<kRole, 1>(side, bodies, 0, half, boxes.rounding);
   if (!is_rounded) boxes.rounding = splat(0);
-  boxes.size =
-      hn::Add(hn::Add(hn::Abs(half.x), hn::Abs(half.y)), hn::Abs(half.z));
+  boxes.size = hn::Add(hn::Add(hn::Abs(half.x), hn::Abs(half.y)), hn::Abs(half.z));
   return boxes;
 }
 
@@ -82,7 +81,7 @@ size_t grow_rows(const BoxesToGrow& boxes, uint8_t* state) {
                           hn::Set(IntTag(), static_cast<int32_t>(GrownState::near)), code);
     code = hn::IfThenElse(hn::RebindMask(IntTag(), hn::AndNot(is_valid, is_open)),
                           hn::Set(IntTag(), static_cast<int32_t>(GrownState::invalid)), code);
-    store_bytes(code, state + row);
+    store_bytes(code, state, row);
     if (is_world) {
       arm_a = positions.a + (positions.a_low + arm_a);
       arm_b = positions.b + (positions.b_low + arm_b);

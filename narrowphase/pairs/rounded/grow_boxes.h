@@ -24,8 +24,8 @@ struct BoxesToGrow {
 };
 
 // Grows rows as class Growth says, writes points in the frame of the batch, and the state of each
-// row. Rows that are not done keep what they have, but for `overlap`. Returns the number of rows that it took: whole
-// vectors.
+// row. Rows that are not done keep what they have, but for `overlap`. Returns the number of rows
+// that it took: whole vectors.
 size_t grow_boxes(const BoxesToGrow& boxes, uint8_t* state);
 
 }  // namespace carom

@@ -56,8 +56,7 @@ inline float core_size_of_aabb(const std::array<float, 3>& lower,
 // Whether a test of the triangle needs to know the roundings: its rules depend on whether the
 // rounded shapes overlap.
 inline bool is_special_triangle(ShapeKind kind, const Row* rows) {
-  return kind == ShapeKind::triangle &&
-         (rows[0][3] != 0 || rows[1][3] != 0 || rows[2][3] != 0);
+  return kind == ShapeKind::triangle && (rows[0][3] != 0 || rows[1][3] != 0 || rows[2][3] != 0);
 }
 
 // How a pair grows.
@@ -83,13 +82,15 @@ float distance_along_axes(const Vector& d) {
 }
 
 // Manifold points of the cores, on the surface of A's core, become those of the rounded shapes.
+// None is deeper than the contact, whatever rounding did to it on the way to the cores and back.
 template <class Vector>
-void grow_points(ManifoldPoints& points, size_t count, const Vector& normal, float a, float b) {
+void grow_points(ManifoldPoints& points, size_t count, const Vector& normal, float a, float b,
+                 float separation) {
   for (size_t k = 0; k < count; ++k) {
     for (size_t axis = 0; axis < 3; ++axis) {
       points.point[k][axis] = points.point[k][axis] + normal[axis] * a;
     }
-    points.separation[k] = points.separation[k] - (a + b);
+    points.separation[k] = std::fmax(points.separation[k] - (a + b), separation);
   }
 }
 

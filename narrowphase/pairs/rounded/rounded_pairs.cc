@@ -101,8 +101,8 @@ class RoundedBatch {
       ManifoldPoints& points = batch_.out.manifold[to];
       const uint8_t count = batch_.out.manifold_count[to];
       const Pair pair = batch_.pairs[row];
-      grow_points(points, count, std::array{n[0][row], n[1][row], n[2][row]},
-                  a_.rounding(pair.a), b_.rounding(pair.b));
+      grow_points(points, count, std::array{n[0][row], n[1][row], n[2][row]}, a_.rounding(pair.a),
+                  b_.rounding(pair.b), batch_.tested.separation[row]);
       for (size_t k = 0; batch_.frame == WitnessFrame::world && k < count; ++k) {
         points.point[k] = world_point(a_.reader(), pair.a, points.point[k]);
       }
@@ -113,8 +113,8 @@ class RoundedBatch {
   // Kernels of cores may read whole vectors of these.
   void pad(const Batch& cores) const {
     const size_t last = batch_.count - 1;
-    const size_t end = std::min((batch_.count + kMostLanes - 1) / kMostLanes * kMostLanes,
-                                size_t{kPairsPerBlock});
+    const size_t end =
+        std::min((batch_.count + kMostLanes - 1) / kMostLanes * kMostLanes, size_t{kPairsPerBlock});
     const auto repeat = [&](float* column) {
       std::fill(column + batch_.count, column + end, column[last]);
     };
@@ -137,10 +137,10 @@ class RoundedBatch {
 
   Growth growth_of(size_t row) const {
     const Pair pair = batch_.pairs[row];
-    const Eigen::Vector3f d = a_.reader().is_float64() ? relative_position<double>(pair)
-                                            : relative_position<float>(pair);
-    return {a_.rounding(pair.a), b_.rounding(pair.b), distance_along_axes(d),
-            a_.core_size(pair.a), b_.core_size(pair.b)};
+    const Eigen::Vector3f d =
+        a_.reader().is_float64() ? relative_position<double>(pair) : relative_position<float>(pair);
+    return {a_.rounding(pair.a), b_.rounding(pair.b), distance_along_axes(d), a_.core_size(pair.a),
+            b_.core_size(pair.b)};
   }
 
   template <class T>

@@ -62,8 +62,7 @@ Separation rounded_answer(const Shape& a, const Shape& b, const Vector3f& d, con
                           const Exact& exact) {
   if (is_special_triangle(a) || is_special_triangle(b)) return exact();
   const Growth growth = growth_of(a, b, d);
-  const Separation result =
-      grown<float>(answer(core_of(a), core_of(b)), growth.a, growth.b);
+  const Separation result = grown<float>(answer(core_of(a), core_of(b)), growth.a, growth.b);
   return growth.is_sure(result.separation) ? result : exact();
 }
 
@@ -76,7 +75,7 @@ Manifold rounded_manifold(float a, float b, const Separation& contact, float rea
   of_cores.arm_a -= contact.normal * a;
   of_cores.arm_b += contact.normal * b;
   Manifold manifold = core(of_cores, reach + (a + b));
-  grow_points(manifold.points, manifold.count, contact.normal, a, b);
+  grow_points(manifold.points, manifold.count, contact.normal, a, b, contact.separation);
   return manifold;
 }
 

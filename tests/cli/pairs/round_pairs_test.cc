@@ -1,4 +1,5 @@
-// carom pairs with cylinders, cones, ellipsoids and rounded shapes: answers that are known without computing much.
+// carom pairs with cylinders, cones, ellipsoids and rounded shapes: answers that are known without
+// computing much.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -26,8 +27,7 @@ constexpr KnownPair kKnown[] = {
     {2, 3, {0, 5, 0}, 2.5f},                                     // beside an ellipsoid
     {2, 3, {0, 0, 3.25f}, -0.25f}, {0, 0, {0, 0, 3.5f}, -0.5f},  // a cylinder on another
     {2, 2, {3, 0, 0}, 1},          {0, 4, {0, 0, -3}, 1},        // over a half-space
-    {2, 4, {0, 0, -2.5f}, -0.5f},
-    {3, 5, {0, 0, 3}, 1.25f},                                    // a ball over a rounded box
+    {2, 4, {0, 0, -2.5f}, -0.5f},  {3, 5, {0, 0, 3}, 1.25f},     // a ball over a rounded box
     {5, 5, {2, 0, 0}, -0.5f},                                    // two of them
     {5, 5, {5, 0, 6}, 4.5f},                                     // edge to edge, 3 and 4 away
     {5, 6, {0, 0, 3}, 0.25f},                                    // on a rounded cylinder
@@ -37,8 +37,7 @@ class RoundPairsTest : public CliTest {
  protected:
   RoundPairsTest() {
     file_.shapes.kind = {9, 10, 11, 0, 8, 3, 9};
-    file_.shapes.params = {{1, 2},       {1, 2},  {1, 2, 3}, {0.5f},
-                           {0, 0, 1, 0}, {1, 1, 1}, {1, 1}};
+    file_.shapes.params = {{1, 2}, {1, 2}, {1, 2, 3}, {0.5f}, {0, 0, 1, 0}, {1, 1, 1}, {1, 1}};
     file_.shapes.rounding = {0, 0, 0, 0, 0, 0.25f, 0.5f};
     for (const KnownPair& known : kKnown) {
       ++file_.pairs;

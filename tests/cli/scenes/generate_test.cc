@@ -274,6 +274,24 @@ TEST_F(GenerateTest, RoundShapesAreAsLongAsTheirEdge) {
   EXPECT_EQ(first_params("ellipsoid"), (Params{{0.5f, 0.375f, 0.25f}}));
 }
 
+TEST_F(GenerateTest, RoundingsAreOfShapesThatHaveThem) {
+  EXPECT_EQ(open("brownian:n=30,shape=box,rounding=0.25")->info().shapes.rounding,
+            std::vector<float>{0.25f});
+  EXPECT_TRUE(open("brownian:n=30,shape=box")->info().shapes.rounding.empty());
+  const auto mixed = open("brownian:n=90,shape=mixed,rounding=0.25");
+  const io::SceneShapes& shapes = mixed->info().shapes;
+  ASSERT_EQ(shapes.rounding.size(), shapes.kind.size());
+  for (size_t i = 0; i < shapes.kind.size(); ++i) {
+    EXPECT_EQ(shapes.rounding[i], io::takes_rounding(shapes.kind[i]) ? 0.25f : 0.0f);
+  }
+  EXPECT_EQ(run_command({"run", "brownian:n=90,frames=2,shape=mixed,rounding=0.1"}).err, "");
+  for (const std::string shape : {"cube", "sphere", "capsule", "mesh"}) {
+    const CommandResult refused =
+        run_command({"run", "brownian:n=9,shape=" + shape + ",rounding=0.1"});
+    EXPECT_NE(refused.err.find("'rounding' needs a shape that has one"), std::string::npos);
+  }
+}
+
 TEST_F(GenerateTest, MixedScenesHaveAllKindsThatTurnAndSpheres) {
   const auto scene = open("static:n=900,shape=mixed");
   const io::SceneInfo& info = scene->info();

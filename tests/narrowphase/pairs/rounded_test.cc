@@ -1,6 +1,6 @@
-// Boxes and hulls with a rounding: answers that are known, the kinds of bodies with and without one,
-// and rules of triangles that depend on it. Other tests compare them with the reference on every
-// ISA, and the reference with an oracle.
+// Boxes and hulls with a rounding: answers that are known, the kinds of bodies with and without
+// one, and rules of triangles that depend on it. Other tests compare them with the reference on
+// every ISA, and the reference with an oracle.
 #include <gtest/gtest.h>
 
 #include "oracle/hull_faces.h"
@@ -130,7 +130,8 @@ TEST(Rounded, WithoutRoundingAnswersAreThoseOfPlainKinds) {
 // The cores are in front of the triangle and do not touch it, but the rounded shapes do.
 TEST(Rounded, TrianglesKeepTheirRules) {
   Triangle triangle{{Eigen::Vector3f(-4, -4, 0), {4, -4, 0}, {0, 4, 0}}, 0, true, 7};
-  for (const Shape& shape : {Shape(box(1, 0.5f)), Shape(cube(1, 0.5f)), Shape(Cylinder{1, 1, 0.5f})}) {
+  for (const Shape& shape :
+       {Shape(box(1, 0.5f)), Shape(cube(1, 0.5f)), Shape(Cylinder{1, 1, 0.5f})}) {
     const auto above = answer(shape, triangle, {0, 0, -1.25});
     EXPECT_TRUE(above.overlap);
     EXPECT_NEAR(above.separation, -0.25, 1e-6);
@@ -151,8 +152,8 @@ TEST(Rounded, SmallRoundingsCount) {
     const double apart = 2 + 2.5 * double{rounding};
     if (rounding < 1e-14f) continue;
     EXPECT_FALSE(answer(box(1, rounding), box(1, rounding), {apart, 0, 0}).overlap) << rounding;
-    EXPECT_TRUE(answer(box(1, rounding), box(1, rounding),
-                       {2 + 1.5 * double{rounding}, 0, 0}).overlap)
+    EXPECT_TRUE(
+        answer(box(1, rounding), box(1, rounding), {2 + 1.5 * double{rounding}, 0, 0}).overlap)
         << rounding;
   }
 }
