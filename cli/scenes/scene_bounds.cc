@@ -31,7 +31,13 @@ void SceneBounds::add_rows() {
   }
 }
 
-ShapeKind SceneBounds::kind() const { return static_cast<ShapeKind>(info_.shapes.kind.front()); }
+ShapeKind SceneBounds::kind() const {
+  const auto kind = static_cast<ShapeKind>(info_.shapes.kind.front());
+  if (info_.shapes.rounding.empty()) return kind;
+  return kind == ShapeKind::box    ? ShapeKind::rounded_box
+         : kind == ShapeKind::hull ? ShapeKind::rounded_hull
+                                   : kind;
+}
 
 const std::vector<float>& SceneBounds::boxes(const io::SceneFrame& frame) {
   BoundsColumns columns;

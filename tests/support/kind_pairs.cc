@@ -187,13 +187,11 @@ void Spoiler::spoil_shape(Hull& hull) {
   spoil_rounding(hull.rounding);
   if (random_.chance(0.02)) hull.geometry = nullptr;
   if (!hull.geometry || random_.chance(0.5)) return;
-  const float rounding = hull.rounding;
   hull = with_points(hull, [this](Eigen::Vector3f& point) {
     const Eigen::Vector3f before = point;
     spoil(point);
     if (!point.allFinite()) point = before;
   });
-  hull.rounding = rounding;
 }
 
 std::vector<TestPair> make_kind_nonsense(const KindPair& kinds, size_t count, uint64_t seed) {

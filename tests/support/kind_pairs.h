@@ -45,7 +45,7 @@ void round_some(std::vector<TestPair>& pairs, uint64_t seed = 1);
 std::vector<TestPair> make_pairs_of_families(const KindPair& kinds, PositionType positions,
                                              size_t count_each = 1, uint64_t seed = 1);
 
-// A hull with every point changed on its own, and the same faces.
+// A hull with every point changed on its own, and the same faces and rounding.
 template <class Change>
 Hull with_points(const Hull& hull, const Change& change) {
   std::vector<Eigen::Vector3f> points(hull.geometry->points().begin(),
@@ -56,7 +56,7 @@ Hull with_points(const Hull& hull, const Change& change) {
     const auto corners = hull.geometry->corners(face);
     faces.emplace_back(corners.begin(), corners.end());
   }
-  return {*make_hull(points, faces)};
+  return {*make_hull(points, faces), nullptr, hull.rounding};
 }
 
 // Replaces numbers of a body by floats with random bits; most bodies stay valid.

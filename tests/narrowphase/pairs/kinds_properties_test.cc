@@ -201,6 +201,11 @@ struct Scaled {
   void operator()(PlacedShape& body) const {
     body.position *= factor;
     std::visit(*this, body.shape);
+    std::visit(
+        [this](auto& shape) {
+          if constexpr (requires { shape.rounding; }) shape.rounding *= factor;
+        },
+        body.shape);
   }
 };
 
