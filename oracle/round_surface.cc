@@ -112,7 +112,8 @@ bool holds(const Cylinder& c, const LongVec& p) {
 }
 bool holds(const Cone& c, const LongVec& p) {
   if (!(std::fabs(p.z) <= c.half_length)) return false;
-  return std::hypot(p.x, p.y) * (2 * c.half_length) <= c.radius * (c.half_length - p.z);
+  const long double out = std::hypot(p.x, p.y), height = 2 * c.half_length;
+  return out <= c.radius && out * height <= c.radius * (c.half_length - p.z);
 }
 bool holds(const Ellipsoid& e, const LongVec& p) {
   long double sum = 0;

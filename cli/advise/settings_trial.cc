@@ -34,9 +34,10 @@ std::string text(const char* format, double value) {
 
 // Whether shapes exist that may fill little of their bounding boxes.
 bool has_slanted_shapes(const SceneSurvey& survey) {
-  constexpr ShapeKind kSlanted[] = {ShapeKind::box,      ShapeKind::capsule,  ShapeKind::triangle,
-                                    ShapeKind::hull,     ShapeKind::cylinder, ShapeKind::cone,
-                                    ShapeKind::ellipsoid, ShapeKind::rounded_box, ShapeKind::rounded_hull};
+  constexpr ShapeKind kSlanted[] = {
+      ShapeKind::box,       ShapeKind::capsule,     ShapeKind::triangle,
+      ShapeKind::hull,      ShapeKind::cylinder,    ShapeKind::cone,
+      ShapeKind::ellipsoid, ShapeKind::rounded_box, ShapeKind::rounded_hull};
   return std::any_of(std::begin(kSlanted), std::end(kSlanted),
                      [&](ShapeKind kind) { return survey.kinds[static_cast<size_t>(kind)] > 0; });
 }

@@ -87,6 +87,9 @@ struct Batch {
   // Each row's, or nullptr: Pass::shell uses those that there are, the test makes new ones
   // (hulls/shell.h). nullptr: no row is to have one.
   Shell* const* shells = nullptr;
+  // Whether separate rows need their contact columns, too. Tests of rounded shapes measure those
+  // that they have to in any case, and then measure the others with them.
+  bool measures = false;
   const float* reach = nullptr;  // contact distance by row, metres; nullptr: 0
   // Pass::manifold only.
   ResultColumns tested;                    // separation, normal and point_a, relative to A

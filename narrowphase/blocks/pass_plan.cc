@@ -30,12 +30,14 @@ PassPlan plan_passes(const PairKind& kind, const Batch& batch, Measured wanted, 
   }
 
   plan.search_detail = batch.detail;
-  if (at_once) {
+  if (kind.measures_in_test()) {
+    plan.measures_in_test = measures;
+  } else if (at_once) {
     plan.search = measured == Measured::separate ? Pass::clearance : Pass::distance;
   } else if (measures && measured == Measured::separate) {
     plan.search_detail = Detail::overlap;
   }
-  plan.measures_separate = measures && !at_once;
+  plan.measures_separate = measures && !at_once && !plan.measures_in_test;
   plan.measures_invalid = measured == Measured::separate;
 
   plan.points = points_of(kind, batch.detail, measured);

@@ -17,6 +17,7 @@ struct PassPlan {
   Known known = Known::nothing;
   Pass search = Pass::test;        // of the pairs that are left: test, distance or clearance
   Detail search_detail;            // a search may decide alone where a later pass measures
+  bool measures_in_test = false;   // the test measures separate pairs
   bool measures_separate = false;  // the distance pass runs over separate pairs afterwards
   bool measures_invalid = false;   // and writes the columns of invalid pairs, too
   bool proves = false;             // unsure rows get proofs or exact decisions

@@ -250,6 +250,7 @@ void run_search(const PairKind& kind, const Batch& batch, const PassPlan& plan,
   Batch search = batch;
   search.pass = plan.search;
   search.detail = plan.search_detail;
+  search.measures = plan.measures_in_test;
   if (memory.direction && plan.known == PassPlan::Known::directions) {
     const bool has_shells = memory.shells && batch.slack > 0 && kind.has_shell_pass();
     return run_test(kind, batch, {memory.direction, has_shells ? memory.shells : nullptr});

@@ -21,6 +21,8 @@ struct PairKind {
   constexpr bool measures_at_once() const {
     return more == MorePasses::clearance || has_recall_pass();
   }
+  // Whether the test measures separate rows, if the batch says that they are to be.
+  bool measures_in_test() const { return is_rounded(a) || is_rounded(b); }
   // Where the test takes longer than looking for the direction of the last step.
   bool has_direction_pass() const { return measures_at_once(); }
   bool has_shell_pass() const { return a == ShapeKind::hull && b == ShapeKind::hull; }

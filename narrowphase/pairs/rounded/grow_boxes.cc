@@ -43,9 +43,10 @@ HWY_INLINE Mask is_radius(F radius) {
 
 // Writes whole vectors and returns how many rows these are.
 size_t grow_rows(const BoxesToGrow& boxes, uint8_t* state) {
-  const Batch& batch = boxes.batch;
-  const ResultColumns out = boxes.out;
-  const bool is_world = batch.frame == WitnessFrame::world;
+  const Batch& batch = boxes.cores;
+  const ResultColumns out = batch.out;
+  const bool is_world = boxes.frame == WitnessFrame::world;
+  const Mask measures_all = batch.measures ? hn::Not(no_lanes()) : no_lanes();
   const size_t whole = batch.count - batch.count % kLanes;
   for (size_t row = 0; row < whole; row += kLanes) {
     const Listed bodies{batch.pairs + row};
@@ -70,7 +71,8 @@ size_t grow_rows(const BoxesToGrow& boxes, uint8_t* state) {
     is_done = hn::And(is_done, hn::Gt(both, splat(0)));
     Mask is_near = no_lanes();
     if (boxes.is_bound) {
-      is_near = hn::AndNot(hn::Gt(separation, near), hn::Gt(of_cores, splat(0)));
+      is_near = hn::And(hn::Gt(of_cores, splat(0)),
+                        hn::Or(measures_all, hn::Not(hn::Gt(separation, near))));
       is_done = hn::AndNot(is_near, is_done);
     }
     // Rows without an answer keep it.

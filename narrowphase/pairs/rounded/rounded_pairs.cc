@@ -63,11 +63,10 @@ class RoundedBatch {
     Batch cores = core_batch(batch_);
     cores.out = has_contacts(batch_.detail) ? batch_.out : memory_.columns();
     cores.detail = Detail::contact;
-    cores.pass = core_.measures_at_once() ? Pass::distance : batch_.pass;
+    if (core_.measures_at_once()) cores.pass = Pass::distance;
     core_.run(cores);
-    is_bound_ = cores.pass == Pass::test && core_.has_distance_pass();
     out_ = cores.out;
-    grow_rows();
+    grow_rows(cores, cores.pass == Pass::test && core_.has_distance_pass(), state_.data());
     measure_near(cores);
     find_open();
     if (has_contacts(batch_.detail)) return;
@@ -78,54 +77,49 @@ class RoundedBatch {
   // The contacts shrink, and the points that the cores have for them grow.
   void run_manifolds() const {
     TestColumns memory;
-    std::array<float, kPairsPerBlock> reach;
+    std::array<float, kPairsPerBlock> reach, rounding_a, rounding_b;
+    const size_t count = batch_.count;
+    for (size_t row = 0; row < count; ++row) {
+      rounding_a[row] = a_.rounding(batch_.pairs[row].a);
+      rounding_b[row] = b_.rounding(batch_.pairs[row].b);
+    }
     Batch cores = core_batch(batch_);
-    cores.tested = memory.columns();
+    const ResultColumns shrunk = memory.columns();
+    cores.tested.separation = shrunk.separation;
+    cores.tested.point_a = shrunk.point_a;
     cores.reach = reach.data();
-    for (size_t row = 0; row < batch_.count; ++row) {
-      const Pair pair = batch_.pairs[row];
-      const float rounding_a = a_.rounding(pair.a), both = rounding_a + b_.rounding(pair.b);
-      cores.tested.separation[row] = batch_.tested.separation[row] + both;
-      for (size_t axis = 0; axis < 3; ++axis) {
-        const float n = batch_.tested.normal[axis][row];
-        cores.tested.normal[axis][row] = n;
-        cores.tested.point_a[axis][row] = batch_.tested.point_a[axis][row] - n * rounding_a;
-      }
+    for (size_t row = 0; row < count; ++row) {
+      const float both = rounding_a[row] + rounding_b[row];
+      shrunk.separation[row] = batch_.tested.separation[row] + both;
       reach[row] = (batch_.reach ? batch_.reach[row] : 0) + both;
     }
-    pad(cores);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const float* const n = batch_.tested.normal[axis];
+      const float* const p = batch_.tested.point_a[axis];
+      float* const to = shrunk.point_a[axis];
+      for (size_t row = 0; row < count; ++row) to[row] = p[row] - n[row] * rounding_a[row];
+    }
+    // Kernels of cores may read whole vectors of these.
+    const size_t end = (count + kMostLanes - 1) / kMostLanes * kMostLanes;
+    for (float* const column : {shrunk.separation, shrunk.point_a[0], shrunk.point_a[1],
+                                shrunk.point_a[2], reach.data()}) {
+      std::fill(column + count, column + end, column[count - 1]);
+    }
     core_.run(cores);
-    for (size_t row = 0; row < batch_.count; ++row) {
+    const auto& n = batch_.tested.normal;
+    for (size_t row = 0; row < count; ++row) {
       const size_t to = batch_.manifold_row[row];
-      const auto& n = batch_.tested.normal;
       ManifoldPoints& points = batch_.out.manifold[to];
-      const uint8_t count = batch_.out.manifold_count[to];
-      const Pair pair = batch_.pairs[row];
-      grow_points(points, count, std::array{n[0][row], n[1][row], n[2][row]}, a_.rounding(pair.a),
-                  b_.rounding(pair.b), batch_.tested.separation[row]);
-      for (size_t k = 0; batch_.frame == WitnessFrame::world && k < count; ++k) {
-        points.point[k] = world_point(a_.reader(), pair.a, points.point[k]);
+      const uint8_t of_row = batch_.out.manifold_count[to];
+      grow_points(points, of_row, std::array{n[0][row], n[1][row], n[2][row]}, rounding_a[row],
+                  rounding_b[row], batch_.tested.separation[row]);
+      for (size_t k = 0; batch_.frame == WitnessFrame::world && k < of_row; ++k) {
+        points.point[k] = world_point(a_.reader(), batch_.pairs[row].a, points.point[k]);
       }
     }
   }
 
  private:
-  // Kernels of cores may read whole vectors of these.
-  void pad(const Batch& cores) const {
-    const size_t last = batch_.count - 1;
-    const size_t end =
-        std::min((batch_.count + kMostLanes - 1) / kMostLanes * kMostLanes, size_t{kPairsPerBlock});
-    const auto repeat = [&](float* column) {
-      std::fill(column + batch_.count, column + end, column[last]);
-    };
-    repeat(cores.tested.separation);
-    for (size_t axis = 0; axis < 3; ++axis) {
-      repeat(cores.tested.normal[axis]);
-      repeat(cores.tested.point_a[axis]);
-    }
-    repeat(const_cast<float*>(cores.reach));
-  }
-
   static Batch core_batch(const Batch& batch) {
     Batch cores = batch;
     cores.frame = WitnessFrame::body;
@@ -135,8 +129,7 @@ class RoundedBatch {
     return cores;
   }
 
-  Growth growth_of(size_t row) const {
-    const Pair pair = batch_.pairs[row];
+  Growth growth_of(Pair pair) const {
     const Eigen::Vector3f d =
         a_.reader().is_float64() ? relative_position<double>(pair) : relative_position<float>(pair);
     return {a_.rounding(pair.a), b_.rounding(pair.b), distance_along_axes(d), a_.core_size(pair.a),
@@ -150,77 +143,78 @@ class RoundedBatch {
                                      Eigen::Vector3<T>(b.x, b.y, b.z));
   }
 
-  void grow_rows() {
+  // Grows rows of the cores in their columns, and writes the state of each. `is_bound`: of separate
+  // cores the separation is only a bound.
+  void grow_rows(const Batch& cores, bool is_bound, uint8_t* state) const {
     size_t row = 0;
     if (is_box(kind_a_) && is_box(kind_b_)) {
-      row = grow_boxes({batch_, out_, is_rounded(kind_a_), is_rounded(kind_b_), is_bound_},
-                       state_.data());
+      row = grow_boxes({.cores = cores,
+                        .frame = batch_.frame,
+                        .is_rounded_a = is_rounded(kind_a_),
+                        .is_rounded_b = is_rounded(kind_b_),
+                        .is_bound = is_bound},
+                       state);
     }
-    for (; row < batch_.count; ++row) state_[row] = static_cast<uint8_t>(state_after(row));
+    for (; row < cores.count; ++row) {
+      state[row] = static_cast<uint8_t>(grow(cores, row, is_bound));
+    }
   }
 
   // The same for one row, of any kinds.
-  GrownState state_after(size_t row) const {
-    if (out_.status[row] == static_cast<uint8_t>(Status::invalid)) return GrownState::done;
-    const Pair pair = batch_.pairs[row];
+  GrownState grow(const Batch& cores, size_t row, bool is_bound) const {
+    const ResultColumns& out = cores.out;
+    if (out.status[row] == static_cast<uint8_t>(Status::invalid)) return GrownState::done;
+    const Pair pair = cores.pairs[row];
     if (!is_valid_radius(a_.rounding(pair.a)) || !is_valid_radius(b_.rounding(pair.b))) {
       return GrownState::invalid;
     }
-    const Growth growth = growth_of(row);
-    const bool is_near = is_bound_ && out_.separation[row] > 0 &&
-                         !(out_.separation[row] - growth.both() > growth.near);
-    return is_near ? GrownState::near : grow(row, growth);
-  }
-
-  GrownState grow(size_t row, const Growth& growth) const {
-    const float separation = out_.separation[row] - growth.both();
-    const Pair pair = batch_.pairs[row];
+    const Growth growth = growth_of(pair);
+    const float separation = out.separation[row] - growth.both();
+    if (is_bound && out.separation[row] > 0 && (cores.measures || !(separation > growth.near))) {
+      return GrownState::near;
+    }
     if (growth.both() == 0 || !growth.is_sure(separation) || a_.is_special_triangle(pair.a) ||
         b_.is_special_triangle(pair.b)) {
       return GrownState::left;
     }
-    out_.separation[row] = separation;
-    out_.overlap[row] = separation <= 0;
+    out.separation[row] = separation;
+    out.overlap[row] = separation <= 0;
     std::array<float, 3> arm_a, arm_b;
     for (size_t axis = 0; axis < 3; ++axis) {
-      const float n = out_.normal[axis][row];
-      arm_a[axis] = out_.point_a[axis][row] + n * growth.a;
-      arm_b[axis] = out_.point_b[axis][row] - n * growth.b;
+      const float n = out.normal[axis][row];
+      arm_a[axis] = out.point_a[axis][row] + n * growth.a;
+      arm_b[axis] = out.point_b[axis][row] - n * growth.b;
     }
-    put_points(row, arm_a, arm_b);
+    put_points(out, row, pair, arm_a, arm_b);
     return GrownState::done;
   }
 
-  void put_points(size_t row, std::array<float, 3> arm_a, std::array<float, 3> arm_b) const {
+  void put_points(const ResultColumns& out, size_t row, Pair pair, std::array<float, 3> arm_a,
+                  std::array<float, 3> arm_b) const {
     if (batch_.frame == WitnessFrame::world) {
-      arm_a = world_point(a_.reader(), batch_.pairs[row].a, arm_a);
-      arm_b = world_point(b_.reader(), batch_.pairs[row].b, arm_b);
+      arm_a = world_point(a_.reader(), pair.a, arm_a);
+      arm_b = world_point(b_.reader(), pair.b, arm_b);
     }
     for (size_t axis = 0; axis < 3; ++axis) {
-      out_.point_a[axis][row] = arm_a[axis];
-      out_.point_b[axis][row] = arm_b[axis];
+      out.point_a[axis][row] = arm_a[axis];
+      out.point_b[axis][row] = arm_b[axis];
     }
   }
 
-  // Measures separate cores that are not sure to be further apart than the roundings reach.
+  // Measures separate cores that are not sure to be further apart than the roundings reach, or all
+  // of them.
   void measure_near(const Batch& cores) {
-    std::array<uint32_t, kPairsPerBlock> rows;
-    size_t count = 0;
-    for (size_t row = 0; row < batch_.count; ++row) {
-      rows[count] = static_cast<uint32_t>(row);
-      count += state_[row] == static_cast<uint8_t>(GrownState::near);
-    }
-    if (count == 0) return;
     RowSelection near(cores);
-    near.select(rows.data(), count);
+    near.select([&](size_t row) { return state_[row] == static_cast<uint8_t>(GrownState::near); });
+    if (near.count() == 0) return;
     TestColumns memory;
+    std::array<uint8_t, kPairsPerBlock> state;
     Batch distances = near.batch(Pass::distance);
     distances.out = memory.columns();
     core_.run(distances);
+    grow_rows(distances, false, state.data());
     near.scatter(distances.out, out_, Detail::contact);
-    for (size_t i = 0; i < count; ++i) {
-      state_[rows[i]] = static_cast<uint8_t>(grow(rows[i], growth_of(rows[i])));
-    }
+    near.scatter(state.data(), state_.data());
   }
 
   // Answers the rows that are left, and those that are not valid.
@@ -238,7 +232,7 @@ class RoundedBatch {
         store.put(row, Status::invalid, answer);
         continue;
       }
-      const Growth growth = growth_of(row);
+      const Growth growth = growth_of(batch_.pairs[row]);
       const bool is_unsure = growth.both() != 0 || !growth.is_sure(out_.separation[row]);
       if (batch_.unsure && is_unsure) batch_.unsure[row] = 1;
       if (growth.both() == 0) {
@@ -257,15 +251,14 @@ class RoundedBatch {
       return {columns[0][row], columns[1][row], columns[2][row]};
     };
     out_.overlap[row] = out_.separation[row] <= 0;
-    put_points(row, point(out_.point_a), point(out_.point_b));
+    put_points(out_, row, batch_.pairs[row], point(out_.point_a), point(out_.point_b));
   }
 
   const Batch& batch_;
   const ShapeKind kind_a_, kind_b_;
   const PairKind& core_;
   const GrownSide a_, b_;
-  bool is_bound_ = false;  // the separation of separate cores is only a bound
-  ResultColumns out_;      // of the cores, then of the rounded shapes
+  ResultColumns out_;  // of the cores, then of the rounded shapes
   TestColumns memory_;
   std::array<uint8_t, kPairsPerBlock> state_;
 };

@@ -71,6 +71,7 @@ TEST(PassPlan, WhatNobodyAskedForIsNotComputed) {
     EXPECT_EQ(plan.bounds, asked.bound);
     if (!contacts || asked.measured == Measured::overlapping) {
       EXPECT_FALSE(plan.measures_separate);
+      EXPECT_FALSE(plan.measures_in_test);
       EXPECT_EQ(plan.search, Pass::test);
     }
     if (!contacts) {
@@ -89,7 +90,9 @@ TEST(PassPlan, SeparatePairsAreMeasuredOnceIfAskedFor) {
   for_everything([](const Asked& asked, const PassPlan& plan) {
     if (!has_contacts(asked.detail) || !asked.kind.has_distance_pass()) return;
     if (asked.measured == Measured::overlapping) return;
-    EXPECT_NE(plan.measures_separate, asked.kind.measures_at_once());
+    const bool in_search = asked.kind.measures_at_once() || asked.kind.measures_in_test();
+    EXPECT_NE(plan.measures_separate, in_search);
+    EXPECT_EQ(plan.measures_in_test, asked.kind.measures_in_test());
     EXPECT_EQ(plan.search != Pass::test, asked.kind.measures_at_once());
   });
 }
