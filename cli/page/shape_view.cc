@@ -1,5 +1,7 @@
 #include "cli/page/shape_view.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -86,19 +88,24 @@ class Faces {
     const auto old_points = std::exchange(points_, Json::array());
     const auto old_faces = std::exchange(faces_, Json::array());
     const auto old_point = [&](size_t i) -> Eigen::Vector3d {
-      return {old_points[3 * i], old_points[3 * i + 1], old_points[3 * i + 2]};
+      const auto at = [&](size_t k) { return old_points[3 * i + k].get<double>(); };
+      return {at(0), at(1), at(2)};
     };
+    const std::vector<size_t> same = first_of_same_points(old_points);
     // By the old numbers of its ends, the new ones of an edge.
     std::map<std::pair<size_t, size_t>, std::pair<size_t, size_t>> edges;
     for (const Json& face : old_faces) {
-      const auto corners = face.get<std::vector<size_t>>();
+      std::vector<size_t> corners;
+      for (const Json& corner : face) corners.push_back(same[corner.get<size_t>()]);
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+      if (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
       Eigen::Vector3d normal = Eigen::Vector3d::Zero();
       for (size_t k = 0; k < corners.size(); ++k) {
         const size_t next = (k + 1) % corners.size();
         normal += old_point(corners[k]).cross(old_point(corners[next]));
       }
       if (!(normal.norm() > 0)) continue;
-      Json outline = Json::array();
+      std::vector<size_t> outline;
       for (const size_t corner : corners) {
         const Eigen::Vector3d p = old_point(corner) + normal.normalized() * rounding;
         outline.push_back(add_point(p.x(), p.y(), p.z()));
@@ -107,7 +114,7 @@ class Faces {
         const size_t next = (k + 1) % corners.size();
         edges[{corners[k], corners[next]}] = {outline[k], outline[next]};
       }
-      add_face(std::move(outline));
+      add_face(outline);
     }
     // The new points of a corner, from each to the next one around it.
     std::map<size_t, std::map<size_t, size_t>> around;
@@ -127,6 +134,23 @@ class Faces {
 
  private:
   static constexpr size_t kOfRing = 24;
+
+  // Rings of radius 0 are one point.
+  static std::vector<size_t> first_of_same_points(const Json& points) {
+    constexpr double kParts = 0x1p30;
+    double greatest = 0;
+    for (const Json& x : points) greatest = std::max(greatest, std::fabs(x.get<double>()));
+    std::map<std::array<long long, 3>, size_t> known;
+    std::vector<size_t> first(points.size() / 3);
+    for (size_t i = 0; i < first.size(); ++i) {
+      std::array<long long, 3> place{};
+      for (size_t k = 0; k < 3 && greatest > 0; ++k) {
+        place[k] = std::llround(points[3 * i + k].get<double>() / greatest * kParts);
+      }
+      first[i] = known.try_emplace(place, i).first->second;
+    }
+    return first;
+  }
 
   // Adds the face whose points follow one another like this, if they come back to the first.
   void close_corner(const std::map<size_t, size_t>& next) {

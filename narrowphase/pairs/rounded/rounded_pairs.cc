@@ -107,19 +107,29 @@ class RoundedBatch {
     }
     core_.run(cores);
     const auto& n = batch_.tested.normal;
+    const bool is_float64 = a_.reader().is_float64();
     for (size_t row = 0; row < count; ++row) {
       const size_t to = batch_.manifold_row[row];
       ManifoldPoints& points = batch_.out.manifold[to];
       const uint8_t of_row = batch_.out.manifold_count[to];
       grow_points(points, of_row, std::array{n[0][row], n[1][row], n[2][row]}, rounding_a[row],
                   rounding_b[row], batch_.tested.separation[row]);
-      for (size_t k = 0; batch_.frame == WitnessFrame::world && k < of_row; ++k) {
-        points.point[k] = world_point(a_.reader(), batch_.pairs[row].a, points.point[k]);
+      if (batch_.frame != WitnessFrame::world) continue;
+      const uint32_t body = batch_.pairs[row].a;
+      if (is_float64) {
+        move_to(a_.reader().position<double>(body), of_row, points);
+      } else {
+        move_to(a_.reader().position<float>(body), of_row, points);
       }
     }
   }
 
  private:
+  template <class T>
+  static void move_to(const Position<T>& position, size_t count, ManifoldPoints& points) {
+    for (size_t k = 0; k < count; ++k) points.point[k] = world_point(position, points.point[k]);
+  }
+
   static Batch core_batch(const Batch& batch) {
     Batch cores = batch;
     cores.frame = WitnessFrame::body;

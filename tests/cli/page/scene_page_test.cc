@@ -131,28 +131,28 @@ TEST_F(ScenePageTest, ContactsLieOnTheSurfaces) {
 // Faces move outwards, and flat ones close the gaps. Euler's formula counts them.
 TEST_F(ScenePageTest, HoldsRoundedShapes) {
   io::SceneInfo info;
-  info.bodies = 3;
-  info.shapes.kind = {3, 9, 3};
-  info.shapes.params = {{1, 2, 3}, {1, 2}, {1, 1, 1}};
-  info.shapes.rounding = {0.5f, 0.25f, 0};
-  info.body_shape = {0, 1, 2};
+  info.bodies = 5;
+  info.shapes.kind = {3, 9, 10, 11, 3};
+  info.shapes.params = {{1, 2, 3}, {1, 2}, {1, 2}, {1, 2, 3}, {1, 1, 1}};
+  info.shapes.rounding = {0.5f, 0.25f, 0.25f, 0.25f, 0};
+  info.body_shape = {0, 1, 2, 3, 4};
   auto writer = io::SceneWriter::create(path("scene.npz"), info);
   ASSERT_TRUE(writer) << writer.error().message;
   io::SceneFrame frame;
-  frame.position32 = {0, 0, 0, 0, 0, 9, 9, 0, 0};
+  frame.position32 = {0, 0, 0, 0, 0, 9, 9, 0, 0, 0, 9, 0, 9, 9, 0};
   ASSERT_TRUE(writer->write_frame(frame));
   ASSERT_TRUE(writer->finish());
   const json shapes = page_of(path("scene.npz"))["shapes"];
-  ASSERT_EQ(shapes.size(), 3u);
+  ASSERT_EQ(shapes.size(), 5u);
   EXPECT_EQ(shapes[0]["kind"], "rounded_box");
   EXPECT_EQ(shapes[0]["points"].size(), 3u * 24);
   EXPECT_EQ(shapes[0]["faces"].size(), 6u + 12 + 8);
   EXPECT_EQ(shapes[0]["rounding"], 0.5);
   EXPECT_EQ(shapes[1]["kind"], "cylinder");
   EXPECT_EQ(shapes[1]["rounding"], 0.25);
-  EXPECT_EQ(shapes[2]["kind"], "box");
-  EXPECT_FALSE(shapes[2].contains("rounding"));
-  for (size_t i = 0; i < 2; ++i) {
+  EXPECT_EQ(shapes[4]["kind"], "box");
+  EXPECT_FALSE(shapes[4].contains("rounding"));
+  for (size_t i = 0; i < 4; ++i) {
     size_t corners = 0;
     for (const json& face : shapes[i]["faces"]) corners += face.size();
     EXPECT_EQ(shapes[i]["points"].size() / 3 + shapes[i]["faces"].size(), corners / 2 + 2);
