@@ -90,7 +90,9 @@ void grow_points(ManifoldPoints& points, size_t count, const Vector& normal, flo
     for (size_t axis = 0; axis < 3; ++axis) {
       points.point[k][axis] = points.point[k][axis] + normal[axis] * a;
     }
-    points.separation[k] = std::fmax(points.separation[k] - (a + b), separation);
+    // Not std::fmax(), which may return either of two zeros.
+    const float grown = points.separation[k] - (a + b);
+    points.separation[k] = grown < separation ? separation : grown;
   }
 }
 
