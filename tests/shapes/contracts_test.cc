@@ -17,9 +17,10 @@ namespace carom::test {
 namespace {
 
 TEST(ShapeKind, HasANameForEveryCode) {
-  const char* const names[] = {"sphere", "capsule",   "aabb",         "box",       "dop",
-                               "hull",   "mesh",      "compound",     "halfspace", "cylinder",
-                               "cone",   "ellipsoid", "height_field", "triangle"};
+  const char* const names[] = {"sphere",       "capsule",  "aabb",        "box",
+                               "dop",          "hull",     "mesh",        "compound",
+                               "halfspace",    "cylinder", "cone",        "ellipsoid",
+                               "height_field", "triangle", "rounded_box", "rounded_hull"};
   for (int code = 0; code < kShapeKindCount; ++code) {
     EXPECT_STREQ(carom::name(static_cast<ShapeKind>(code)), names[code]);
   }
