@@ -235,7 +235,7 @@ TEST_F(ErrorsTest, Generators) {
   fails("brownian:shape=box,spin=-1", {"'spin=-1'", "from 0"});
   fails("brownian:spin=2", {"'spin' needs a shape that turns"});
   fails("varied:spin=2,shape=sphere", {"'spin' needs a shape that turns"});
-  fails("still:shape=box,spin=2", {"unknown key 'spin'", "shape, positions"});
+  fails("still:shape=box,spin=2", {"unknown key 'spin'", "shape, rounding, positions"});
   fails("brownian:positions=float16", {"float32"});
   fails("bullets:shape=box", {"unknown key 'shape'", "n, frames, seed, speed, dt, spin"});
   fails("bullets:density=1", {"unknown key 'density'"});
