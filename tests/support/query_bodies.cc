@@ -25,8 +25,10 @@ std::vector<PlacedShape> make_bodies(const BodiesSpec& spec, uint64_t seed) {
     if (kind == ShapeKind::halfspace) kind = ShapeKind::box;
     if (!spec.composites && has_geometry(kind)) kind = ShapeKind::sphere;
     if (random.chance(spec.halfspaces)) kind = ShapeKind::halfspace;
+    // With a rounding as long as its edges a shape would be twice as large as others.
+    const double size = is_rounded(kind) ? spec.size / 2 : spec.size;
     PlacedShape body = {
-        shapes.shape(kind, spec.size * random.uniform(0.2, 1)), {}, shapes.orientation()};
+        shapes.shape(kind, size * random.uniform(0.2, 1)), {}, shapes.orientation()};
     for (int axis = 0; axis < 3; ++axis) {
       body.position[axis] = spec.distance + random.uniform(0, spec.side);
     }
