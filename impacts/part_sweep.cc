@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "geometries/height_search.h"
 #include "impacts/slack.h"
 
 namespace carom {
@@ -166,8 +165,7 @@ class PartSweep {
         std::for_each(items.begin(), items.end(), met);
       };
       if (tree.placed.kind() == ShapeKind::height_field) {
-        find_admitted(
-            tree.placed.field(), [&](const TreeBox& box) { return region.crosses(box); }, met_all);
+        tree.placed.find_admitted([&](const TreeBox& box) { return region.crosses(box); }, met_all);
       } else {
         tree.placed.find_touching({region.box()}, met_all);
       }

@@ -1,5 +1,6 @@
 #include "io/shape_arrays.h"
 
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -159,6 +160,20 @@ Result<void> check_heights(const SceneShapes& shapes, const std::string& path) {
   return {};
 }
 
+Result<void> check_scales(const SceneShapes& shapes, const std::string& path) {
+  for (size_t i = 0; i < shapes.scale.size(); ++i) {
+    const auto& [x, y, z] = shapes.scale[i];
+    const auto is_factor = [](float factor) { return std::isfinite(factor) && factor != 0; };
+    if (is_factor(x) && is_factor(y) && is_factor(z)) continue;
+    char factors[64];
+    std::snprintf(factors, sizeof factors, "(%.9g, %.9g, %.9g)", double{x}, double{y}, double{z});
+    return member_error(path, "shape_scale",
+                        element(i) + "is " + factors +
+                            " (finite factors other than 0 were expected)");
+  }
+  return {};
+}
+
 // Checks that an array has `expected` elements, or none if it may be absent.
 template <class T>
 Result<void> check_size(const std::string& path, const std::string& name,
@@ -178,6 +193,7 @@ Result<void> check_sizes(const SceneShapes& shapes, const std::string& path) {
       check_size(path, "shape_triangle_range", shapes.triangle_range, count, true),
       check_size(path, "shape_child_range", shapes.child_range, count, true),
       check_size(path, "shape_height_range", shapes.height_range, count, true),
+      check_size(path, "shape_scale", shapes.scale, count, true),
       check_size(path, "child_position", shapes.child_position, children, false),
       check_size(path, "child_orientation", shapes.child_orientation, children, false),
   });
@@ -201,13 +217,10 @@ Result<void> refuse_other_than(const NpzReader& reader, const std::string& name,
   return {};
 }
 
-// Members that make other shapes of the kinds that this version knows: to pass over them would be
+// A member that makes other shapes of the kinds that this version knows: to pass over it would be
 // to answer for other shapes.
 Result<void> refuse_changed_shapes(const NpzReader& reader) {
-  Result<void> known = refuse_other_than(reader, "shape_radius", 0.0f, "0");
-  if (known)
-    known = refuse_other_than(reader, "shape_scale", std::array{1.0f, 1.0f, 1.0f}, "1 1 1");
-  return known;
+  return refuse_other_than(reader, "shape_radius", 0.0f, "0");
 }
 
 }  // namespace
@@ -234,6 +247,7 @@ Result<void> check_shapes(const SceneShapes& shapes, const std::string& path) {
   if (result) result = check_triangles(shapes, path);
   if (result) result = check_children(shapes, path);
   if (result) result = check_heights(shapes, path);
+  if (result) result = check_scales(shapes, path);
   return result;
 }
 
@@ -258,6 +272,7 @@ Result<SceneShapes> read_shapes(const NpzReader& reader) {
       read_optional(reader, "child_shape", {kAny}, shapes.child_shape),
       read_optional(reader, "shape_height_range", {count}, shapes.height_range),
       read_optional(reader, "heights", {kAny}, shapes.heights),
+      read_optional(reader, "shape_scale", {count}, shapes.scale),
   });
   if (!read) return read.error();
   const uint64_t children = shapes.child_shape.size();
@@ -290,6 +305,7 @@ Result<void> write_shapes(const SceneShapes& shapes, NpzWriter& writer) {
       write_optional(writer, "child_orientation", shapes.child_orientation),
       write_optional(writer, "shape_height_range", shapes.height_range),
       write_optional(writer, "heights", shapes.heights),
+      write_optional(writer, "shape_scale", shapes.scale),
   });
 }
 

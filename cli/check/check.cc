@@ -23,10 +23,21 @@ struct CheckOptions {
   std::string json;
 };
 
+Eigen::Vector3f scale_of(const io::SceneShapes& shapes, size_t index) {
+  if (shapes.scale.empty()) return Eigen::Vector3f::Ones();
+  return Eigen::Map<const Eigen::Vector3f>(shapes.scale[index].data());
+}
+
+bool mirrors(const io::SceneShapes& shapes, size_t index) {
+  return (scale_of(shapes, index).array() < 0).count() % 2 != 0;
+}
+
 void add_vertices(const io::SceneShapes& shapes, ShapeReport& report) {
   const auto [first, count] = shapes.vertex_range[report.index];
+  const Eigen::Vector3f scale = scale_of(shapes, report.index);
   for (size_t i = first; i < size_t{first} + count; ++i) {
-    report.vertices.push_back(Eigen::Map<const Eigen::Vector3f>(shapes.vertices[i].data()));
+    const Eigen::Map<const Eigen::Vector3f> vertex(shapes.vertices[i].data());
+    report.vertices.push_back(vertex.cwiseProduct(scale));
   }
 }
 
@@ -75,6 +86,9 @@ ShapeReport report_of(const io::SceneShapes& shapes, size_t index) {
     const auto [first, count] = shapes.triangle_range[index];
     const auto begin = shapes.triangles.begin() + first;
     report.triangles.assign(begin, begin + count);
+    if (mirrors(shapes, index)) {
+      for (auto& [a, b, c] : report.triangles) std::swap(b, c);
+    }
     check_triangles(report);
   }
   return report;

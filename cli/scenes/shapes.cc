@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <iterator>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "carom/hulls/build_hull.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
+#include "carom/shapes/scaled.h"
 #include "io/files/file.h"
 
 namespace carom::cli {
@@ -104,26 +108,7 @@ Result<Shape> convert_compound(const io::SceneShapes& shapes, size_t index,
   return Shape(compound ? Compound{std::move(*compound)} : Compound{});
 }
 
-bool is_compound(const io::SceneShapes& shapes, size_t index) {
-  return shapes.kind[index] == static_cast<uint8_t>(ShapeKind::compound);
-}
-
-Error shape_error(const std::string& source, size_t index, const Error& what) {
-  return io::file_error(source,
-                        "shape_kind: shape " + std::to_string(index) + " is " + what.message);
-}
-
-}  // namespace
-
-bool is_its_parameters(uint8_t kind) {
-  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule,   ShapeKind::aabb,
-                                  ShapeKind::box,    ShapeKind::halfspace, ShapeKind::cylinder,
-                                  ShapeKind::cone,   ShapeKind::ellipsoid};
-  return std::find(std::begin(kKinds), std::end(kKinds), static_cast<ShapeKind>(kind)) !=
-         std::end(kKinds);
-}
-
-Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) {
+Result<Shape> convert_before_scale(const io::SceneShapes& shapes, size_t index) {
   const std::array<float, 8>& params = shapes.params[index];
   auto kind = static_cast<ShapeKind>(shapes.kind[index]);
   switch (kind) {
@@ -154,18 +139,88 @@ Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) 
   }
 }
 
+// The set of a shape under its scale, if it has one.
+Result<Shape> apply_scale(const io::SceneShapes& shapes, size_t index, Result<Shape> set) {
+  if (!set || shapes.scale.empty()) return set;
+  const Eigen::Vector3f scale = vector(shapes.scale[index].data());
+  if (scale == Eigen::Vector3f::Ones()) return set;
+  Result<Shape> result = scaled(*set, scale);
+  if (!result) return Error{"not valid with its scale: " + result.error().message};
+  return result;
+}
+
+// Converts shapes that differ in their scale alone once before it, so that they share a geometry.
+class Converter {
+ public:
+  explicit Converter(const io::SceneShapes& shapes) : shapes_(shapes) {}
+
+  Result<Shape> operator()(size_t index) {
+    if (shapes_.scale.empty() || is_its_parameters(shapes_.kind[index])) {
+      return convert_simple_shape(shapes_, index);
+    }
+    const auto range = [index](const auto& ranges) {
+      return ranges.empty() ? Range{} : ranges[index];
+    };
+    const Key key = {shapes_.kind[index], bits(shapes_.params[index]), range(shapes_.vertex_range),
+                     range(shapes_.triangle_range), range(shapes_.height_range)};
+    auto place = known_.find(key);
+    if (place == known_.end()) {
+      Result<Shape> set = convert_before_scale(shapes_, index);
+      if (!set) return set;
+      place = known_.emplace(key, std::move(*set)).first;
+    }
+    return apply_scale(shapes_, index, place->second);
+  }
+
+ private:
+  using Range = std::array<uint32_t, 2>;
+  using Key = std::tuple<uint8_t, std::array<uint32_t, 8>, Range, Range, Range>;
+
+  // Parameters may be NaN.
+  static std::array<uint32_t, 8> bits(const std::array<float, 8>& params) {
+    return std::bit_cast<std::array<uint32_t, 8>>(params);
+  }
+
+  const io::SceneShapes& shapes_;
+  std::map<Key, Shape> known_;
+};
+
+bool is_compound(const io::SceneShapes& shapes, size_t index) {
+  return shapes.kind[index] == static_cast<uint8_t>(ShapeKind::compound);
+}
+
+Error shape_error(const std::string& source, size_t index, const Error& what) {
+  return io::file_error(source,
+                        "shape_kind: shape " + std::to_string(index) + " is " + what.message);
+}
+
+}  // namespace
+
+bool is_its_parameters(uint8_t kind) {
+  constexpr ShapeKind kKinds[] = {ShapeKind::sphere, ShapeKind::capsule,   ShapeKind::aabb,
+                                  ShapeKind::box,    ShapeKind::halfspace, ShapeKind::cylinder,
+                                  ShapeKind::cone,   ShapeKind::ellipsoid};
+  return std::find(std::begin(kKinds), std::end(kKinds), static_cast<ShapeKind>(kind)) !=
+         std::end(kKinds);
+}
+
+Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) {
+  return apply_scale(shapes, index, convert_before_scale(shapes, index));
+}
+
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes,
                                           const std::string& source) {
   std::vector<Shape> converted(shapes.kind.size(), Compound{});
+  Converter convert(shapes);
   for (size_t i = 0; i < converted.size(); ++i) {
     if (is_compound(shapes, i)) continue;
-    Result<Shape> shape = convert_simple_shape(shapes, i);
+    Result<Shape> shape = convert(i);
     if (!shape) return shape_error(source, i, shape.error());
     converted[i] = std::move(*shape);
   }
   for (size_t i = 0; i < converted.size(); ++i) {
     if (!is_compound(shapes, i)) continue;
-    Result<Shape> shape = convert_compound(shapes, i, converted);
+    Result<Shape> shape = apply_scale(shapes, i, convert_compound(shapes, i, converted));
     if (!shape) return shape_error(source, i, shape.error());
     converted[i] = std::move(*shape);
   }

@@ -73,6 +73,11 @@ std::string parameters(const Hull& hull) {
   return hull.geometry ? "of " + list(hull.geometry->points()) : "that is invalid";
 }
 
+template <class Geometry>
+std::string scale_text(const Geometry& geometry) {
+  return geometry.is_scaled() ? " scale " + list(geometry.scale()) : "";
+}
+
 std::string parameters(const Mesh& mesh) {
   constexpr size_t kMost = 32;
   if (!mesh.geometry) return "that is invalid";
@@ -85,7 +90,8 @@ std::string parameters(const Mesh& mesh) {
     text += ' ' + std::to_string(a) + '-' + std::to_string(b) + '-' + std::to_string(c);
   }
   return text + (triangles.size() > kMost ? " ..." : "") + " thickness " +
-         text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "");
+         text_of(rules.thickness) + (rules.one_sided ? " one-sided" : "") +
+         scale_text(*mesh.geometry);
 }
 
 std::string parameters(const HeightField& field) {
@@ -99,7 +105,7 @@ std::string parameters(const HeightField& field) {
   for (uint32_t i = 0; i < std::min<uint64_t>(count, kMost); ++i) {
     text += ' ' + text_of(grid.height(i % grid.nx(), i / grid.nx()));
   }
-  return text + (count > kMost ? " ..." : "");
+  return text + (count > kMost ? " ..." : "") + scale_text(grid);
 }
 
 std::string list(const Orientation& q) {

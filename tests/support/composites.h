@@ -50,10 +50,15 @@ class Composites {
 
   oracle::Random& random() { return random_; }
 
-  // A random set of triangles, some without area, or a terrain; about `size` large.
+  // Factors of about 1, often of one magnitude; a third of them mirror.
+  Eigen::Vector3f scale();
+
+  // A random set of triangles, some without area, or a terrain; about `size` large. A quarter have
+  // a scale.
   Mesh mesh(double size, size_t most_triangles = 24);
 
-  // A few cells of either type of sample, some of them holes; about `size` large.
+  // A few cells of either type of sample, some of them holes; about `size` large. A quarter have a
+  // scale.
   HeightField height_field(double size);
 
   Compound compound(double size, size_t most_children = 6);
@@ -70,6 +75,8 @@ class Composites {
   TestPair pair(ShapeKind a, ShapeKind b, PositionType positions, double size, double distance);
 
  private:
+  Mesh mesh_without_scale(double size, size_t most_triangles);
+  HeightField field_without_scale(double size);
   Shape child_shape(double size);
 
   oracle::Random random_;
