@@ -279,8 +279,8 @@ std::array<Eigen::Vector3f, 3> HeightFieldGeometry::grid_corners(size_t triangle
 std::array<uint32_t, 3> HeightFieldGeometry::corner_numbers(size_t triangle) const {
   const auto cell = static_cast<uint32_t>(triangle / 2);
   const uint32_t first = cell + cell / cells_x(), last = first + nx_ + 1;
-  std::array<uint32_t, 3> numbers = triangle % 2 == 0 ? std::array{first, first + 1, last}
-                                                      : std::array{first, last, first + nx_};
+  std::array<uint32_t, 3> numbers =
+      triangle % 2 == 0 ? std::array{first, first + 1, last} : std::array{first, last, first + nx_};
   if (is_mirrored_) std::swap(numbers[1], numbers[2]);
   return numbers;
 }

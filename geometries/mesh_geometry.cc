@@ -108,9 +108,7 @@ size_t MeshGeometry::Storage::bytes() const {
          edges.capacity() * sizeof(Edges) + tree->bytes();
 }
 
-size_t MeshGeometry::bytes() const {
-  return sizeof *this + (is_scaled_ ? 0 : storage_->bytes());
-}
+size_t MeshGeometry::bytes() const { return sizeof *this + (is_scaled_ ? 0 : storage_->bytes()); }
 
 Result<std::shared_ptr<const MeshGeometry>> make_mesh(std::span<const Vector3f> vertices,
                                                       std::span<const Corners> triangles,

@@ -220,8 +220,8 @@ void keep_near_points(const Surface& surface, const SeenPoints& points, float mo
   if (const MeshGeometry* mesh = surface.plain_mesh()) {
     return keep_near_points(arrays_of(*mesh), points, most, triangles, near);
   }
-  const auto written = surface.visit(
-      [&](const auto& geometry) { return WrittenTriangles(geometry, triangles); });
+  const auto written =
+      surface.visit([&](const auto& geometry) { return WrittenTriangles(geometry, triangles); });
   const TriangleArrays arrays = {written.vertices.data(), WrittenTriangles::kCorners.data(),
                                  triangles.size()};
   keep_near_points(arrays, points, most, std::span(written.numbers).first(triangles.size()), near);

@@ -26,7 +26,8 @@ using Eigen::Vector3f;
 constexpr double kRightAngle = 0x1p-22;
 
 Matrix3d rotation_matrix(const Orientation& orientation) {
-  const Turn rows = rotation_of({orientation.x(), orientation.y(), orientation.z(), orientation.w()});
+  const Turn rows =
+      rotation_of({orientation.x(), orientation.y(), orientation.z(), orientation.w()});
   Matrix3d result;
   for (int i = 0; i < 3; ++i) result.row(i) = Vector3d(rows[i][0], rows[i][1], rows[i][2]);
   return result;
@@ -143,7 +144,8 @@ class Shearer {
   Vector3f at(const Vector3f& point) const { return (map_ * point.cast<double>()).cast<float>(); }
 
   Result<CompoundChild> sheared(const HullGeometry& hull) const {
-    auto made = mapped(hull, [this](const Vector3f& point) { return at(point); }, mirrors_);
+    auto made = mapped(
+        hull, [this](const Vector3f& point) { return at(point); }, mirrors_);
     if (!made) return made.error();
     return CompoundChild{Hull{std::move(*made)}};
   }
@@ -169,10 +171,10 @@ class ChildScaler {
         turns(child.shape) ? child.orientation : Orientation(Orientation::Identity());
     const std::optional<TurnedScale> turned_scale = after_turn(orientation, scale_);
     Result<CompoundChild> result =
-        turned_scale ? own_scale(child.shape, turned_scale->scale)
-                     : std::visit(Shearer(scale_.cast<double>().asDiagonal() *
-                                          rotation_matrix(orientation)),
-                                  child.shape);
+        turned_scale
+            ? own_scale(child.shape, turned_scale->scale)
+            : std::visit(Shearer(scale_.cast<double>().asDiagonal() * rotation_matrix(orientation)),
+                         child.shape);
     if (!result) return result;
     const Vector3f place = child.position.cwiseProduct(scale_);
     if (!turned_scale) {

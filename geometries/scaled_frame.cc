@@ -59,8 +59,8 @@ TreeBox ScaledFrame::multiplied(const TreeBox& box) const {
   for (size_t axis = 0; axis < 3; ++axis) {
     const Interval interval(box.lower[axis], box.upper[axis], 0, scale_[axis]);
     middle[axis] = interval.middle;
-    half[axis] = interval.half + thickness_ +
-                 rounding_at(std::fabs(interval.middle) + interval.half);
+    half[axis] =
+        interval.half + thickness_ + rounding_at(std::fabs(interval.middle) + interval.half);
   }
   return rounded_outwards(middle, half);
 }

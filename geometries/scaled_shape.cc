@@ -71,11 +71,11 @@ class Scaler {
     const Eigen::Vector3d divided = normal.cwiseQuotient(s);
     const double greatest = divided.cwiseAbs().maxCoeff();
     // Of about the length that it had.
-    const double length = is_uniform_          ? double{factors_.x()}
+    const double length = is_uniform_    ? double{factors_.x()}
                           : greatest > 0 ? normal.cwiseAbs().maxCoeff() / greatest
                                          : 1;
-    return child(Halfspace{(divided * length).cast<float>(),
-                           static_cast<float>(plane.offset * length)});
+    return child(
+        Halfspace{(divided * length).cast<float>(), static_cast<float>(plane.offset * length)});
   }
 
   Result<CompoundChild> operator()(const Dop& dop) const {
@@ -131,9 +131,7 @@ class Scaler {
     return child(ShapeOfGeometry{std::move(*made)});
   }
 
-  bool is_round_about_z(float radius) const {
-    return factors_.x() == factors_.y() || radius == 0;
-  }
+  bool is_round_about_z(float radius) const { return factors_.x() == factors_.y() || radius == 0; }
 
   Error no_shape(const std::string& what, const std::string& expected) const {
     return {what + " by the scale " + text_of_scale(scale_) + " is no shape (" + expected +
@@ -193,8 +191,8 @@ Result<Shape> scaled(const Shape& shape, const Eigen::Vector3f& scale) {
   if (Result<void> checked = check_scale(scale); !checked) return checked.error();
   Result<CompoundChild> placed = scaled_in_place(shape, scale);
   if (!placed) return placed.error();
-  const bool is_in_place =
-      placed->position.isZero(0) && placed->orientation.coeffs() == Orientation::Identity().coeffs();
+  const bool is_in_place = placed->position.isZero(0) &&
+                           placed->orientation.coeffs() == Orientation::Identity().coeffs();
   if (is_in_place) return std::move(placed->shape);
   auto compound = make_compound(std::span(&*placed, 1));
   if (!compound) return compound.error();

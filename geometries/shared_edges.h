@@ -16,7 +16,8 @@ struct TriangleEdge {
 
 // Calls use(edge, the same edge of the other triangle) for each side of every edge that exactly two
 // triangles with an area share. Vertices at one place count as one.
-void for_each_shared_edge(const MeshGeometry& mesh,
-                          FunctionRef<void(const TriangleEdge& own, const TriangleEdge& other)> use);
+void for_each_shared_edge(
+    const MeshGeometry& mesh,
+    FunctionRef<void(const TriangleEdge& own, const TriangleEdge& other)> use);
 
 }  // namespace carom

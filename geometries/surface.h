@@ -95,8 +95,12 @@ class Surface {
   const MeshGeometry* plain_mesh() const { return form_ == Form::mesh ? &its_mesh() : nullptr; }
 
   MeshRules rules() const { return is_mesh() ? its_mesh().rules() : MeshRules{}; }
-  const Eigen::Vector3f& lower() const { return is_mesh() ? its_mesh().lower() : its_field().lower(); }
-  const Eigen::Vector3f& upper() const { return is_mesh() ? its_mesh().upper() : its_field().upper(); }
+  const Eigen::Vector3f& lower() const {
+    return is_mesh() ? its_mesh().lower() : its_field().lower();
+  }
+  const Eigen::Vector3f& upper() const {
+    return is_mesh() ? its_mesh().upper() : its_field().upper();
+  }
   std::array<Eigen::Vector3f, 3> corners(size_t triangle) const {
     return visit([triangle](const auto& geometry) { return corners_of(geometry, triangle); });
   }

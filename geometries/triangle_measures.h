@@ -29,8 +29,7 @@ inline TreeBox box_of_triangle(const std::array<Double3, 3>& corners, double thi
   const double slack = thickness * (greatest(back) > 0 ? 0x1p-24 : 1);
   TreeBox box;
   for (size_t axis = 0; axis < 3; ++axis) {
-    const auto [lower, upper] =
-        std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
+    const auto [lower, upper] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
     box.lower[axis] = downwards(lower + std::min(back[axis], 0.0) - slack);
     box.upper[axis] = -downwards(-(upper + std::max(back[axis], 0.0) + slack));
   }

@@ -167,9 +167,9 @@ Result<void> check_scales(const SceneShapes& shapes, const std::string& path) {
     if (is_factor(x) && is_factor(y) && is_factor(z)) continue;
     char factors[64];
     std::snprintf(factors, sizeof factors, "(%.9g, %.9g, %.9g)", double{x}, double{y}, double{z});
-    return member_error(path, "shape_scale",
-                        element(i) + "is " + factors +
-                            " (finite factors other than 0 were expected)");
+    return member_error(
+        path, "shape_scale",
+        element(i) + "is " + factors + " (finite factors other than 0 were expected)");
   }
   return {};
 }

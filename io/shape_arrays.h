@@ -24,7 +24,7 @@ struct SceneShapes {
   std::vector<std::array<float, 3>> child_position;
   std::vector<std::array<float, 4>> child_orientation;
   std::vector<std::array<uint32_t, 2>> height_range;
-  std::vector<float> heights;  // metres, NaN makes holes
+  std::vector<float> heights;               // metres, NaN makes holes
   std::vector<std::array<float, 3>> scale;  // factors of the set that the other arrays describe
 };
 

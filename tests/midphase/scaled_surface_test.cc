@@ -35,9 +35,9 @@ struct Instance {
 };
 
 std::vector<Instance> instances() {
-  const Vector3f kScales[] = {{2, 2, 2},          {-1, 1, 1},       {0.3f, 0.7f, 1.9f},
-                              {1, -0.25f, -1.5f}, {-3, -0.4f, -1},  {1, 1, 5},
-                              {1e-6f, 1e-6f, 1e-6f}, {1e6f, 1e6f, -1e6f}};
+  const Vector3f kScales[] = {
+      {2, 2, 2},       {-1, 1, 1}, {0.3f, 0.7f, 1.9f},    {1, -0.25f, -1.5f},
+      {-3, -0.4f, -1}, {1, 1, 5},  {1e-6f, 1e-6f, 1e-6f}, {1e6f, 1e6f, -1e6f}};
   Composites composites(11);
   oracle::Random random(5);
   std::vector<Instance> all;
@@ -49,8 +49,8 @@ std::vector<Instance> instances() {
       all.emplace_back(*scaled(rough.geometry, scale));
     }
     all.emplace_back(*scaled(flat_grid(4, 1).geometry, scale));
-    all.emplace_back(*scaled(std::shared_ptr<const HeightFieldGeometry>(geometry_of(
-                                 random_heights(9, 7, 0.5, 0.1, random))),
+    all.emplace_back(*scaled(std::shared_ptr<const HeightFieldGeometry>(
+                                 geometry_of(random_heights(9, 7, 0.5, 0.1, random))),
                              scale));
   }
   return all;
@@ -111,8 +111,7 @@ TEST_P(ScaledSurfaceKinds, EqualOwnMeshes) {
     for (const bool first : {true, false}) {
       if (GetParam() == ShapeKind::halfspace && !first) continue;
       const auto positions = first ? PositionType::float32 : PositionType::float64;
-      const auto pairs =
-          pairs_on(instance, GetParam(), positions, rounds(8), first, ++seed);
+      const auto pairs = pairs_on(instance, GetParam(), positions, rounds(8), first, ++seed);
       for (const Detail detail : {Detail::overlap, Detail::contact, Detail::manifold}) {
         Call call = call_with(positions);
         call.detail = detail;

@@ -32,8 +32,9 @@ ScaledBodies make_scaled_bodies(size_t count, uint64_t seed) {
       result.scaled_ones.push_back(body);
       body.shape = mesh_like(*made);
     } else {
-      const auto& like = *mesh_like(*field).geometry;
-      const auto made = *scaled(*make_mesh(like.vertices(), like.triangles(), rules), scale);
+      const Mesh like = mesh_like(*field);
+      const auto made =
+          *scaled(*make_mesh(like.geometry->vertices(), like.geometry->triangles(), rules), scale);
       body.shape = Mesh{made};
       result.scaled_ones.push_back(body);
       body.shape = Mesh{*unshared(*made)};

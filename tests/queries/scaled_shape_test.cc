@@ -1,5 +1,5 @@
-// A ray at a shape and the scaled ray at the scaled shape hit after the same share of their way, for
-// all shapes that can be scaled.
+// A ray at a shape and the scaled ray at the scaled shape hit after the same share of their way,
+// for all shapes that can be scaled.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -102,18 +102,18 @@ size_t expect_same_hits(const Shape& shape, const Vector3f& scale, double size, 
   return hits;
 }
 
-constexpr ShapeKind kAnyScale[] = {ShapeKind::sphere,      ShapeKind::aabb,     ShapeKind::box,
-                                   ShapeKind::dop,         ShapeKind::hull,     ShapeKind::mesh,
-                                   ShapeKind::height_field, ShapeKind::triangle,
-                                   ShapeKind::ellipsoid,   ShapeKind::halfspace};
+constexpr ShapeKind kAnyScale[] = {
+    ShapeKind::sphere,    ShapeKind::aabb,     ShapeKind::box,          ShapeKind::dop,
+    ShapeKind::hull,      ShapeKind::mesh,     ShapeKind::height_field, ShapeKind::triangle,
+    ShapeKind::ellipsoid, ShapeKind::halfspace};
 
-const std::vector<Vector3f> kEvenScales = {{2, 2, 2},    {0.5f, -0.5f, 0.5f}, {-1, -1, -1},
-                                           {1, 1, -1},   {-3, -3, 3},         {1e-6f, 1e-6f, 1e-6f},
-                                           {1e6f, 1e6f, -1e6f}};
-const std::vector<Vector3f> kRoundScales = {{2, 2, 1}, {0.5f, -0.5f, -3}, {-1, -1, -0.4f},
-                                            {1, 1, 2}};
-const std::vector<Vector3f> kUnevenScales = {{1, 2, 3}, {-0.5f, 1, 2}, {0.3f, -1.5f, -1},
-                                             {-1, -0.7f, -2}};
+const std::vector<Vector3f> kEvenScales = {
+    {2, 2, 2},   {0.5f, -0.5f, 0.5f},   {-1, -1, -1},       {1, 1, -1},
+    {-3, -3, 3}, {1e-6f, 1e-6f, 1e-6f}, {1e6f, 1e6f, -1e6f}};
+const std::vector<Vector3f> kRoundScales = {
+    {2, 2, 1}, {0.5f, -0.5f, -3}, {-1, -1, -0.4f}, {1, 1, 2}};
+const std::vector<Vector3f> kUnevenScales = {
+    {1, 2, 3}, {-0.5f, 1, 2}, {0.3f, -1.5f, -1}, {-1, -0.7f, -2}};
 
 size_t expect_same_hits(ShapeKind kind, const std::vector<Vector3f>& scales, uint64_t seed) {
   Composites composites(seed);
@@ -149,9 +149,10 @@ TEST(ScaledShapes, AreHitByScaledRays) {
 TEST(ScaledShapes, OfCompoundsAreHitByScaledRays) {
   Composites composites(7);
   const float half = std::sqrt(0.5f);
-  const Orientation kQuarters[] = {Orientation(1, 0, 0, 0),       Orientation(half, half, 0, 0),
-                                   Orientation(half, 0, -half, 0), Orientation(half, 0, 0, half),
-                                   Orientation(0, 0, 1, 0),       Orientation(0.5f, 0.5f, 0.5f, 0.5f)};
+  const Orientation kQuarters[] = {
+      Orientation(1, 0, 0, 0),        Orientation(half, half, 0, 0),
+      Orientation(half, 0, -half, 0), Orientation(half, 0, 0, half),
+      Orientation(0, 0, 1, 0),        Orientation(0.5f, 0.5f, 0.5f, 0.5f)};
   constexpr ShapeKind kRoundKinds[] = {ShapeKind::cylinder, ShapeKind::cone, ShapeKind::capsule};
   size_t hits = 0;
   uint64_t seed = 300;

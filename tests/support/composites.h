@@ -46,7 +46,7 @@ Mesh flat_grid(int n, float side, const MeshRules& rules = {});
 
 class Composites {
  public:
-  explicit Composites(uint64_t seed) : random_(seed), shapes_({}, random_) {}
+  explicit Composites(uint64_t seed) : random_(seed), scales_(seed + 1000), shapes_({}, random_) {}
 
   oracle::Random& random() { return random_; }
 
@@ -61,6 +61,7 @@ class Composites {
   // scale.
   HeightField height_field(double size);
 
+  // A fifth have a scale.
   Compound compound(double size, size_t most_children = 6);
 
   Compound compound_of_many(double size, size_t count);
@@ -80,6 +81,7 @@ class Composites {
   Shape child_shape(double size);
 
   oracle::Random random_;
+  oracle::Random scales_;
   oracle::ConvexRandom shapes_;
 };
 

@@ -144,8 +144,8 @@ class CAROM_EXPORT HeightFieldGeometry {
   /// Upper corner of the same box.
   const Eigen::Vector3f& upper() const { return upper_; }
 
-  /// Memory of this geometry in bytes, without samples in the caller's memory, and of a field with a
-  /// scale without what it shares.
+  /// Memory of this geometry in bytes, without samples in the caller's memory, and of a field with
+  /// a scale without what it shares.
   size_t bytes() const;
 
   /// Changes the samples of a window. `samples` are those of the window, of the type of the field.

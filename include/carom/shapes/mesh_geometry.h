@@ -58,8 +58,8 @@ class CAROM_EXPORT MeshGeometry {
 
   /// Bit i: the edge from corner i to the next is shared with exactly one other triangle, and the
   /// surface is flat or bent inwards there, as seen from the front of the triangle or from its
-  /// back. A body that touches the mesh from that side cannot touch the edge alone. Corners are those
-  /// of corners().
+  /// back. A body that touches the mesh from that side cannot touch the edge alone. Corners are
+  /// those of corners().
   uint8_t inner_edges(size_t triangle, bool from_front) const {
     if (is_scaled_) return scaled_inner_edges(triangle, from_front);
     return from_front ? edges_[triangle].inner_from_front : edges_[triangle].inner_from_back;

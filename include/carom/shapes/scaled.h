@@ -30,12 +30,12 @@ CAROM_EXPORT Result<Shape> scaled(const Shape& shape, const Eigen::Vector3f& sca
 CAROM_EXPORT Result<std::shared_ptr<const HullGeometry>> scaled(
     const std::shared_ptr<const HullGeometry>& hull, const Eigen::Vector3f& scale);
 
-/// A mesh that shares the triangles, the vertices and the tree of another one, and keeps them alive:
-/// it takes some hundred bytes. Triangles keep their numbers and their thickness. It takes time in
-/// proportion to the triangles, and the first one of each mesh more, with 12 bytes a triangle. Tests
-/// of a mesh with a scale take longer than those of a mesh without. A scale so uneven that triangles
-/// lose their area makes a mesh that shares nothing. Where `mesh` has a scale already, the result
-/// has the product of both; a product of 1 is the mesh as it was made.
+/// A mesh that shares the triangles, the vertices and the tree of another one, and keeps them
+/// alive: it takes some hundred bytes. Triangles keep their numbers and their thickness. It takes
+/// time in proportion to the triangles, and the first one of each mesh more, with 12 bytes a
+/// triangle. Tests of a mesh with a scale take longer than those of a mesh without. A scale so
+/// uneven that triangles lose their area makes a mesh that shares nothing. Where `mesh` has a scale
+/// already, the result has the product of both; a product of 1 is the mesh as it was made.
 CAROM_EXPORT Result<std::shared_ptr<const MeshGeometry>> scaled(
     const std::shared_ptr<const MeshGeometry>& mesh, const Eigen::Vector3f& scale);
 
@@ -50,9 +50,9 @@ CAROM_EXPORT Result<std::shared_ptr<const HeightFieldGeometry>> scaled(
     const std::shared_ptr<const HeightFieldGeometry>& field, const Eigen::Vector3f& scale);
 
 /// A compound of the scaled children. A child that is turned against a scale whose factors differ
-/// is sheared: spheres and ellipsoids are ellipsoids then, boxes, k-DOPs and hulls become hulls, and
-/// meshes get vertices of their own. Capsules, cylinders, cones and height fields fail, unless their
-/// own axes stay at right angles.
+/// is sheared: spheres and ellipsoids are ellipsoids then, boxes, k-DOPs and hulls become hulls,
+/// and meshes get vertices of their own. Capsules, cylinders, cones and height fields fail, unless
+/// their own axes stay at right angles.
 CAROM_EXPORT Result<std::shared_ptr<const CompoundGeometry>> scaled(
     const std::shared_ptr<const CompoundGeometry>& compound, const Eigen::Vector3f& scale);
 
