@@ -164,7 +164,8 @@ class PartSweep {
       const auto met_all = [&](std::span<const uint32_t> items) {
         std::for_each(items.begin(), items.end(), met);
       };
-      if (tree.placed.kind() == ShapeKind::height_field) {
+      // Those that MeshPath does not serve.
+      if (tree.placed.kind() == ShapeKind::height_field || tree.placed.is_scaled()) {
         tree.placed.find_admitted([&](const TreeBox& box) { return region.crosses(box); }, met_all);
       } else {
         tree.placed.find_touching({region.box()}, met_all);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "carom/shapes/mesh_geometry.h"
 #include "cli/scenes/shapes.h"
 #include "io/pairs_file.h"
 #include "io/scene.h"
