@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "carom/shapes/height_field_geometry.h"
 #include "carom/shapes/mesh_geometry.h"
@@ -75,16 +76,9 @@ class Surface {
   // Returns use(the geometry): a MeshGeometry, a HeightFieldGeometry, or a Scaled one of these.
   template <class Use>
   decltype(auto) visit(const Use& use) const {
-    switch (form_) {
-      case Form::mesh:
-        return use(its_mesh());
-      case Form::field:
-        return use(its_field());
-      case Form::scaled_mesh:
-        return use(Scaled<MeshGeometry>{its_mesh()});
-      default:
-        return use(Scaled<HeightFieldGeometry>{its_field()});
-    }
+    if (form_ == Form::mesh) return use(its_mesh());
+    if (form_ == Form::field) return use(its_field());
+    return visit_scaled(use);
   }
 
   bool is_scaled() const { return form_ >= Form::scaled_mesh; }
@@ -120,6 +114,14 @@ class Surface {
 
  private:
   enum class Form : uint8_t { mesh, field, scaled_mesh, scaled_field };
+
+  // Apart, so that callers stay small.
+  template <class Use>
+  [[gnu::noinline, gnu::cold]] std::invoke_result_t<const Use&, const MeshGeometry&> visit_scaled(
+      const Use& use) const {
+    return form_ == Form::scaled_mesh ? use(Scaled<MeshGeometry>{its_mesh()})
+                                      : use(Scaled<HeightFieldGeometry>{its_field()});
+  }
 
   bool is_mesh() const { return form_ == Form::mesh || form_ == Form::scaled_mesh; }
   const MeshGeometry& its_mesh() const { return *static_cast<const MeshGeometry*>(geometry_); }

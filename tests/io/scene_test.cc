@@ -361,6 +361,7 @@ TEST_F(SceneTest, ChecksValuesAndIndices) {
               i.shapes.triangle_range.resize(200);
               i.shapes.child_range.resize(200);
               i.shapes.height_range.resize(200);
+              i.shapes.scale.resize(200, {1, 1, 1});
             }),
             "F: member shape_vertex_range: names 209715200 elements of 1048576 (at most 134217728 "
             "were expected)");

@@ -13,7 +13,8 @@ namespace {
 
 using Scale = std::array<float, 3>;
 
-constexpr uint32_t kBall = 0, kBox = 1, kMesh = 2, kScaled = 3, kPoints = 4;
+constexpr uint32_t kBallShape = 0, kBoxShape = 1, kMeshShape = 2, kScaledShape = 3,
+                   kShapeOfPoints = 4;
 
 // A ball, a box, a mesh, the same vertices and triangles with a scale, and a mesh of scaled points.
 io::SceneShapes shapes_with(const Scale& scale) {
@@ -55,7 +56,7 @@ class ScaledPairsTest : public CliTest {
       const auto turn = static_cast<float>(k);
       ++file.pairs;
       file.a.shape.push_back(ground);
-      file.b.shape.push_back(k % 2 ? kBox : kBall);
+      file.b.shape.push_back(k % 2 ? kBoxShape : kBallShape);
       file.a.position32.push_back({0, 0, 0});
       file.b.position32.push_back({2 * scale[0] * std::sin(turn), scale[1] * std::cos(1.3f * turn),
                                    0.25f + 0.5f * std::sin(2.1f * turn)});
@@ -77,8 +78,8 @@ class ScaledPairsTest : public CliTest {
 TEST_F(ScaledPairsTest, AnswersAreThoseOfScaledPoints) {
   for (const Scale& scale : {Scale{2, 2, 2}, Scale{0.5f, 1.5f, 1}, Scale{-1, 0.7f, 2}}) {
     for (const char* detail : {"overlap", "contact", "manifold", "distance"}) {
-      const PairResultsFile with_scale = found(pairs_on(kScaled, scale), detail);
-      const PairResultsFile of_points = found(pairs_on(kPoints, scale), detail);
+      const PairResultsFile with_scale = found(pairs_on(kScaledShape, scale), detail);
+      const PairResultsFile of_points = found(pairs_on(kShapeOfPoints, scale), detail);
       EXPECT_EQ(with_scale.overlap, of_points.overlap) << detail;
       EXPECT_EQ(with_scale.separation, of_points.separation) << detail;
       EXPECT_EQ(with_scale.normal, of_points.normal) << detail;
@@ -93,8 +94,8 @@ TEST_F(ScaledPairsTest, AnswersAreThoseOfScaledPoints) {
 TEST_F(ScaledPairsTest, ShapesThatDifferInTheirScaleShareAGeometry) {
   const auto shapes = convert_shapes(shapes_with({2, -1, 1}), "");
   ASSERT_TRUE(shapes);
-  const auto& mesh = *std::get<Mesh>((*shapes)[kMesh]).geometry;
-  const auto& with_scale = *std::get<Mesh>((*shapes)[kScaled]).geometry;
+  const auto& mesh = *std::get<Mesh>((*shapes)[kMeshShape]).geometry;
+  const auto& with_scale = *std::get<Mesh>((*shapes)[kScaledShape]).geometry;
   EXPECT_FALSE(mesh.is_scaled());
   EXPECT_TRUE(with_scale.is_scaled());
   EXPECT_EQ(mesh.vertices().data(), with_scale.vertices().data());
@@ -105,13 +106,13 @@ TEST_F(ScaledPairsTest, VerifyFindsTheSame) {
   const Scale scale = {-1, 0.7f, 2};
   io::SceneInfo info;
   info.shapes = shapes_with(scale);
-  info.shapes.scale[kBall] = {1, 0.5f, 2};
+  info.shapes.scale[kBallShape] = {1, 0.5f, 2};
   info.has_orientation = true;
   info.bodies = 25;
   io::SceneFrame frame;
-  const io::PairsFile pairs = pairs_on(kScaled, scale);
+  const io::PairsFile pairs = pairs_on(kScaledShape, scale);
   for (size_t i = 0; i < info.bodies; ++i) {
-    info.body_shape.push_back(i == 0 ? kScaled : pairs.b.shape[i]);
+    info.body_shape.push_back(i == 0 ? kScaledShape : pairs.b.shape[i]);
     info.body_motion.push_back(i == 0 ? 0 : 2);
     const auto& side = i == 0 ? pairs.a : pairs.b;
     frame.position32.insert(frame.position32.end(), side.position32[i].begin(),
@@ -132,9 +133,9 @@ TEST_F(ScaledPairsTest, VerifyFindsTheSame) {
 }
 
 TEST_F(ScaledPairsTest, ScalesThatMakeNoShapeAreNamed) {
-  io::PairsFile file = pairs_on(kMesh, {1, 1, 1});
-  file.shapes.kind[kBox] = 9;  // a cylinder
-  file.shapes.scale[kBox] = {1, 2, 1};
+  io::PairsFile file = pairs_on(kMeshShape, {1, 1, 1});
+  file.shapes.kind[kBoxShape] = 9;  // a cylinder
+  file.shapes.scale[kBoxShape] = {1, 2, 1};
   ASSERT_TRUE(io::write_pairs(path("bad.npz"), file));
   const std::string what =
       "not valid with its scale: a cylinder by the scale (1, 2, 1) is no shape";
