@@ -106,10 +106,15 @@ void put_visited_triangle(const Geometry& surface, size_t triangle, Row* rows,
     rows[i] = {v.x() - origin[0], v.y() - origin[1], v.z() - origin[2], fourth[i]};
   }
 }
+// The same for all surfaces but meshes without a scale.
+void put_triangle_of_others(const Surface& surface, size_t triangle, Row* rows,
+                            const std::array<float, 3>& origin);
 inline void put_triangle_rows(const Surface& surface, size_t triangle, Row* rows,
                               const std::array<float, 3>& origin = {}) {
-  surface.visit(
-      [&](const auto& geometry) { put_visited_triangle(geometry, triangle, rows, origin); });
+  if (const MeshGeometry* mesh = surface.plain_mesh()) {
+    return put_visited_triangle(*mesh, triangle, rows, origin);
+  }
+  put_triangle_of_others(surface, triangle, rows, origin);
 }
 
 inline Double3 wide(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }

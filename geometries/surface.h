@@ -96,7 +96,7 @@ class Surface {
     return is_mesh() ? its_mesh().upper() : its_field().upper();
   }
   std::array<Eigen::Vector3f, 3> corners(size_t triangle) const {
-    return visit([triangle](const auto& geometry) { return corners_of(geometry, triangle); });
+    return form_ == Form::mesh ? corners_of(its_mesh(), triangle) : corners_of_others(triangle);
   }
   uint8_t inner_edges(size_t triangle, bool from_front) const {
     return is_mesh() ? its_mesh().inner_edges(triangle, from_front)
@@ -115,9 +115,10 @@ class Surface {
  private:
   enum class Form : uint8_t { mesh, field, scaled_mesh, scaled_field };
 
-  // Apart, so that callers stay small.
+  // Apart, so that callers stay small: compilers inline less in files that grow.
+  std::array<Eigen::Vector3f, 3> corners_of_others(size_t triangle) const;
   template <class Use>
-  [[gnu::noinline, gnu::cold]] std::invoke_result_t<const Use&, const MeshGeometry&> visit_scaled(
+  [[gnu::noinline]] std::invoke_result_t<const Use&, const MeshGeometry&> visit_scaled(
       const Use& use) const {
     return form_ == Form::scaled_mesh ? use(Scaled<MeshGeometry>{its_mesh()})
                                       : use(Scaled<HeightFieldGeometry>{its_field()});

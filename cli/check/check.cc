@@ -59,6 +59,10 @@ void check_compound(const io::SceneShapes& shapes, ShapeReport& report) {
       report.problem = "child " + std::to_string(i - first) + " is a halfspace";
     }
   }
+  const bool is_scaled = scale_of(shapes, report.index) != Eigen::Vector3f::Ones();
+  if (!report.problem.empty() || !is_scaled) return;
+  const Result<Shape> shape = convert_shape(shapes, report.index);
+  if (!shape) report.problem = "it is " + shape.error().message;
 }
 
 // Why a shape (not a compound) is invalid; empty if it is valid.

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "carom/base/function_ref.h"
 #include "carom/hulls/build_hull.h"
 #include "carom/shapes/compound_geometry.h"
 #include "carom/shapes/height_field_geometry.h"
@@ -89,19 +90,20 @@ Result<Shape> convert_height_field(const io::SceneShapes& shapes, size_t index) 
   return Shape(HeightField{std::move(*field)});
 }
 
-// `converted` holds all shapes except compounds.
+// `child_of(i)` is shape i, which is no compound.
 Result<Shape> convert_compound(const io::SceneShapes& shapes, size_t index,
-                               const std::vector<Shape>& converted) {
+                               FunctionRef<Result<Shape>(uint32_t)> child_of) {
   const auto [first, count] = shapes.child_range[index];
   if (count == 0) return Error{"a compound without children"};
   std::vector<CompoundChild> children;
   children.reserve(count);
   for (size_t i = first; i < size_t{first} + count; ++i) {
-    const Shape& child = converted[shapes.child_shape[i]];
-    if (kind_of(child) == ShapeKind::halfspace) {
+    Result<Shape> child = child_of(shapes.child_shape[i]);
+    if (!child) return child.error();
+    if (kind_of(*child) == ShapeKind::halfspace) {
       return Error{"a compound with a halfspace as a child"};
     }
-    children.push_back({child, vector(shapes.child_position[i].data()),
+    children.push_back({std::move(*child), vector(shapes.child_position[i].data()),
                         Eigen::Quaternionf(shapes.child_orientation[i].data())});
   }
   Result<std::shared_ptr<const CompoundGeometry>> compound = make_compound(children);
@@ -208,6 +210,12 @@ Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index) 
   return apply_scale(shapes, index, convert_before_scale(shapes, index));
 }
 
+Result<Shape> convert_shape(const io::SceneShapes& shapes, size_t index) {
+  if (!is_compound(shapes, index)) return convert_simple_shape(shapes, index);
+  const auto child_of = [&](uint32_t child) { return convert_simple_shape(shapes, child); };
+  return apply_scale(shapes, index, convert_compound(shapes, index, child_of));
+}
+
 Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes,
                                           const std::string& source) {
   std::vector<Shape> converted(shapes.kind.size(), Compound{});
@@ -220,7 +228,8 @@ Result<std::vector<Shape>> convert_shapes(const io::SceneShapes& shapes,
   }
   for (size_t i = 0; i < converted.size(); ++i) {
     if (!is_compound(shapes, i)) continue;
-    Result<Shape> shape = apply_scale(shapes, i, convert_compound(shapes, i, converted));
+    const auto child_of = [&](uint32_t child) -> Result<Shape> { return converted[child]; };
+    Result<Shape> shape = apply_scale(shapes, i, convert_compound(shapes, i, child_of));
     if (!shape) return shape_error(source, i, shape.error());
     converted[i] = std::move(*shape);
   }

@@ -28,4 +28,7 @@ bool is_its_parameters(uint8_t kind);
 // vertices".
 Result<Shape> convert_simple_shape(const io::SceneShapes& shapes, size_t index);
 
+// The same for a shape of any kind, a compound with its children.
+Result<Shape> convert_shape(const io::SceneShapes& shapes, size_t index);
+
 }  // namespace carom::cli

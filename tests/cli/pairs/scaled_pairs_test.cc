@@ -146,5 +146,26 @@ TEST_F(ScaledPairsTest, ScalesThatMakeNoShapeAreNamed) {
   EXPECT_NE(checked.out.find("no: it is " + what), std::string::npos) << checked.out;
 }
 
+TEST_F(ScaledPairsTest, ScalesThatShearAChildAreNamed) {
+  io::PairsFile file;
+  file.shapes.kind = {9, 7};  // a cylinder in a compound
+  file.shapes.params = {{1, 2}, {}};
+  file.shapes.child_range = {{0, 0}, {0, 1}};
+  file.shapes.child_shape = {0};
+  file.shapes.child_position = {{0, 0, 1}};
+  file.shapes.child_orientation = {{0.3f, 0, 0, 1}};
+  file.shapes.scale = {{1, 1, 1}, {1, 1, 2}};
+  file.pairs = 1;
+  file.a.shape = file.b.shape = {1};
+  file.a.position32 = file.b.position32 = {{0, 0, 0}};
+  ASSERT_TRUE(io::write_pairs(path("bad.npz"), file));
+  const std::string what =
+      "not valid with its scale: child 0 of the compound: a cylinder would be sheared";
+  expect_error({"pairs", path("bad.npz"), "-o", path("out.npz")},
+               {"bad.npz: shape_kind: shape 1 is " + what});
+  const CommandResult checked = run_command({"check", path("bad.npz")});
+  EXPECT_NE(checked.out.find("no: it is " + what), std::string::npos) << checked.out;
+}
+
 }  // namespace
 }  // namespace carom::cli
