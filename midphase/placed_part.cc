@@ -39,8 +39,6 @@ double PlacedPart::size() const {
   return is_surface(kind()) ? largest(surface()) : largest(compound());
 }
 
-bool PlacedPart::is_scaled() const { return is_surface(kind()) && surface().is_scaled(); }
-
 void PlacedPart::find_touching(const RoundedBox& box, ItemsFound found) const {
   is_scaled() ? touching_without_scale(*this, ScaledFrame(surface()).divided(box), found)
               : touching_without_scale(*this, box, found);

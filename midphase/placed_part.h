@@ -49,7 +49,7 @@ struct PlacedPart {
 
   // Whether it is a surface with a scale: its searches go through the tree or the cells of the one
   // without, and code for whole trees and whole cells does not serve it.
-  bool is_scaled() const;
+  bool is_scaled() const { return is_surface(kind()) && surface().is_scaled(); }
 
   // Only for those that have parts: the parts by their numbers, and the searches of a BoxTree of
   // their boxes. Height fields have no tree, and search their cells.
